@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/report.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace cortex {
+
+// Setup-phase failure that the caller can act on; the message says what to do.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+// The model (ontology, morphology or system) is refused; the report lists every finding.
+class ModelError : public Error {
+public:
+    explicit ModelError(Report report);
+
+    const Report& report() const { return report_; }
+
+private:
+    Report report_;
+};
+
+}  // namespace cortex

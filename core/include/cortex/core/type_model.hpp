@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/report.hpp"
+#include "cortex/core/state.hpp"
+#include "cortex/core/value.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cortex {
+
+// Active simplexes have a task; descriptive ones hold data. An observation is the plant as it is, a
+// modification as we wish it. Descriptive: the instance decides (see Structure).
+enum class Role : std::uint8_t { Descriptive, Observation, Modification, Active };
+enum class Direction : std::uint8_t { Input, Output };
+enum class OnLoss : std::uint8_t { Propagate, Hold, Safe, Fault };
+enum class OnLimit : std::uint8_t { Clamp, Fault };
+enum class OnBusy : std::uint8_t { Reject, Replace };
+enum class OnSenderLost : std::uint8_t { Continue, Cancel };
+enum class OnLeaseLost : std::uint8_t { Continue, Hold, Shutdown };
+
+const char* name(Role role);  // each as written in XML
+const char* name(Direction direction);
+const char* name(OnLoss onLoss);
+const char* name(OnLimit onLimit);
+const char* name(OnBusy onBusy);
+const char* name(OnSenderLost onSenderLost);
+const char* name(OnLeaseLost onLeaseLost);
+
+// What a modification item is set to when no writer is Active: a value, the last value (hold), or
+// the item of the same name in the simplex that the writer's counterpart rule names (observed).
+struct Safe {
+    enum class Kind : std::uint8_t { None, Value, Hold, Observed };
+    Kind kind = Kind::None;
+    Value value;
+    bool operator==(const Safe&) const = default;
+};
+
+// One data item of a type, or one parameter of a command.
+struct DataItem {
+    std::string name;
+    Kind kind = Kind::Float;
+    std::uint32_t length = 1;     // elements; 1 is a scalar
+    std::uint32_t capacity = 64;  // octets of UTF-8 of a string element, without the terminator
+    std::string unit;             // UCUM text, canonical; empty: no dimension stated
+    std::optional<Number> min, max;
+    std::optional<double> rate;  // largest change of a demand, unit per second
+    Value initial;               // the XML attribute `default`
+    bool hasDefault = false;     // false: `initial` is zero, false or "" moved into the range
+    std::map<std::int64_t, std::string> labels;
+    std::string description;
+    Safe safe;
+    OnLimit onLimit = OnLimit::Clamp;
+    StateSet settable;
+    bool constant = false;
+    bool measured = false;
+    double resolution = 0, deadband = 0;
+    std::string format;
+    std::string definedBy;  // the type that last stated it
+    Place place;
+};
+
+struct Command {
+    std::string name;
+    std::string description;
+    std::vector<DataItem> request, response;  // in the order written
+    StateSet available = StateSet::of(State::Active);
+    bool isLong = false;
+    bool confirm = false;
+    double timeout = 0;  // s; 0: none
+    OnBusy onBusy = OnBusy::Reject;
+    OnSenderLost onSenderLost = OnSenderLost::Continue;
+    std::string definedBy;
+    Place place;
+};
+
+// How simplexes of the owner's type are joined to others.
+struct Rule {
+    static constexpr std::uint32_t many = std::numeric_limits<std::uint32_t>::max();
+
+    std::string name;
+    Direction direction = Direction::Input;
+    std::string target;  // type that the related simplex must be
+    std::uint32_t min = 0, max = many;
+    std::vector<std::string> create;  // types of related simplexes made up to min; last repeats
+    bool delayed = false;
+    std::string refines;      // inherited rule for which these relationships count too
+    std::string counterpart;  // on an output: the input rule that observes what it demands
+    OnLoss onLoss = OnLoss::Propagate;
+    double maxAge = 0.05;  // s
+    std::string description;
+    std::string definedBy;
+    Place place;
+};
+
+// A type as written in one file; its rules may come from several morphologies.
+struct TypeDeclaration {
+    std::string name;
+    std::string version;
+    std::string description;
+    std::vector<std::string> parents;
+    bool isAbstract = false;
+    std::optional<Role> role;  // none: inherited
+    std::vector<DataItem> data;
+    std::vector<Command> commands;
+    std::vector<Rule> rules;
+    // Attributes written explicitly, as "item.attribute"; what is absent is inherited.
+    std::set<std::string> stated;
+    std::optional<bool> manyWriters;
+    std::optional<OnLeaseLost> onLeaseLost;
+    std::optional<double> transitionTimeout;  // s that StartingUp, ShuttingDown may take
+    std::string icon, since, replaces;
+    Place place;
+};
+
+// A type with everything it inherits, each list sorted by name (parameters stay in order).
+struct Type {
+    std::string name;
+    std::string version;
+    std::string description;
+    std::vector<std::string> parents;
+    std::set<std::string, std::less<>> ancestors;  // transitive, without itself
+    bool isAbstract = false;
+    Role role = Role::Descriptive;
+    std::vector<DataItem> data;
+    std::vector<Command> commands;
+    std::vector<Rule> rules;
+    bool manyWriters = false;
+    OnLeaseLost onLeaseLost = OnLeaseLost::Continue;
+    double transitionTimeout = 10;
+    std::string icon, since, replaces;
+    Place place;
+
+    bool active() const { return role == Role::Active; }
+    bool isA(std::string_view base) const { return name == base || ancestors.contains(base); }
+    const DataItem* findData(std::string_view item) const;
+    const Command* findCommand(std::string_view command) const;
+    const Rule* findRule(std::string_view rule) const;
+};
+
+// The types of an ontology and the rules of its morphology, checked and closed under inheritance.
+// Immutable; any thread may read. A descriptive child fixes what its parents leave open: it may add
+// and narrow, never widen (docs/ontology.md).
+class TypeModel {
+public:
+    TypeModel() = default;
+
+    // Reads ontology and morphology files with what they include. Throws ModelError with every
+    // finding. Look-up order of files: as given, $CORTEX_PATH, the installed share/cortex.
+    static TypeModel load(std::span<const std::filesystem::path> files);
+    static TypeModel load(const std::filesystem::path& file);
+
+    // Resolves declarations; what is wrong goes to the report, and the types that can be resolved
+    // are in the model all the same.
+    static TypeModel build(std::vector<TypeDeclaration> declarations, Report& report);
+
+    const Type* find(std::string_view type) const;
+    const Type& at(std::string_view type) const;  // throws Error naming the nearest type names
+    bool isA(std::string_view type, std::string_view base) const;
+    const std::map<std::string, Type, std::less<>>& types() const { return types_; }
+    // Declarations as written, by name: for tools that show what a type itself states.
+    const std::map<std::string, TypeDeclaration, std::less<>>& declarations() const {
+        return declarations_;
+    }
+
+private:
+    std::map<std::string, Type, std::less<>> types_;
+    std::map<std::string, TypeDeclaration, std::less<>> declarations_;
+};
+
+// "nearest of: a, b, c" for an unknown name; at most three, by edit distance; "" if none is near.
+std::string nearestNames(std::string_view wrong, std::span<const std::string> valid);
+
+}  // namespace cortex
