@@ -39,7 +39,7 @@ const char* name(OnLeaseLost onLeaseLost);
 // What a modification item is set to when no writer is Active: a value, the last value (hold), or
 // the item of the same name in the simplex that the writer's counterpart rule names (observed).
 struct Safe {
-    enum class Kind : std::uint8_t { None, Value, Hold, Observed };
+    enum class Kind : std::uint8_t { None, Given, Hold, Observed };
     Kind kind = Kind::None;
     Value value;
     bool operator==(const Safe&) const = default;

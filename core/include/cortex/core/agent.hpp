@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/communication_interface.hpp"
+#include "cortex/core/event.hpp"
+#include "cortex/core/image.hpp"
+#include "cortex/core/mailbox.hpp"
+#include "cortex/core/simplex_tree.hpp"
+#include "cortex/core/tables.hpp"
+#include "cortex/core/tick.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cortex {
+
+class Router;
+class CommandPort;
+
+// Per loop thread: where a task posts events, what time its chunk started, what it counted.
+struct LoopThread {
+    EventRing* events = nullptr;
+    ChunkClock clock;
+    std::uint32_t sequence = 0;  // of events in this cycle
+    std::uint64_t commands = 0;  // executed, since start
+    std::uint64_t rejected = 0;
+    std::int64_t lastLatency = 0;  // ns, of the last executed command
+    std::vector<std::uint32_t> latencyCounts;  // histogram, ns, see latencyBucket()
+};
+std::uint32_t latencyBucket(std::int64_t nanoseconds) CORTEX_REALTIME;  // 16 per octave
+double latencyOfBucket(std::uint32_t bucket);                           // us, upper edge
+inline constexpr std::uint32_t latencyBuckets = 16 * 36;
+
+struct AgentOptions {
+    std::uint32_t imageReaders = 8;
+    std::uint32_t loopThreads = 1;       // threads that post events: workers and the loop
+    std::uint32_t eventCapacity = 4096;  // per loop thread
+    std::uint32_t outsideCommands = 256;  // on their way at once, of all senders
+    bool controlRequired = false;        // commands from outside need a lease
+    std::int64_t period = 1'000'000;     // ns, nominal
+};
+
+// One agent at run time: structure, tables, mailboxes, images, events and the two ends of a cycle.
+// ClusterCS wraps its schedule in beginCycle() and endCycle(); a gateway of descriptive simplexes
+// calls them itself. start() and stop() on the program's thread, cycles on the loop thread.
+class AgentRuntime {
+public:
+    // Creates related simplexes, validates and fixes the layout. Throws ModelError with everything.
+    // The tree must hold a simplex `/<name>` of type Agent or a child; it is added if missing.
+    AgentRuntime(std::string name, SimplexTree& tree, AgentOptions options);
+    ~AgentRuntime();
+    AgentRuntime(const AgentRuntime&) = delete;
+    AgentRuntime& operator=(const AgentRuntime&) = delete;
+
+    void addInterface(CommunicationInterface& interface);  // before start(); order is precedence
+
+    // Canonical order decides command merging and events; without it, path order. Before start().
+    void setCanonicalOrder(std::span<const std::uint32_t> order);
+    void start();  // after populate(): sizes lanes, announces to the interfaces, first image
+    void stop();   // last write(), closes interfaces, hands out the last events
+
+    // Latches, read, deliver; then the commands of simplexes without a task.
+    void beginCycle(const Tick& tick) CORTEX_REALTIME;
+    // Image, write. `wallClock`: UTC ns of the tick's nominal time.
+    void endCycle(const Tick& tick, std::int64_t wallClock) CORTEX_REALTIME;
+
+    const std::string& name() const { return name_; }
+    SimplexTree& tree() { return tree_; }
+    const Structure& structure() const { return *structure_; }
+    Tables& tables() { return *tables_; }
+    ImagePool& images() { return *images_; }
+    EventLog& events() { return *events_; }
+    LoopThread& thread(std::uint32_t worker) { return threads_[worker]; }
+    std::uint32_t threadCount() const { return static_cast<std::uint32_t>(threads_.size()); }
+    Simplex& simplex(std::uint32_t index) { return *simplexes_[index]; }
+    std::uint32_t rank(std::uint32_t simplex) const { return ranks_[simplex]; }
+    std::uint32_t agentSimplex() const { return agentSimplex_; }  // index of /<name>
+
+    // Step (1) of a task: answers to what it sent, commands of its lanes in canonical order, then
+    // from outside, then its long command. What a handler throws passes through.
+    void processCommands(std::uint32_t simplex, State state, const Tick& tick,
+                         LoopThread& thread) CORTEX_REALTIME;
+    bool hasCommandWork(std::uint32_t simplex) const CORTEX_REALTIME;
+    void cancelActivity(std::uint32_t simplex, LoopThread& thread) CORTEX_REALTIME;
+
+    // The pending life-cycle word: taken in step (1); `shutdown` outranks the others.
+    LifeCycle takeLifeCycle(std::uint32_t simplex) CORTEX_REALTIME;
+    // `later`: from the next cycle on (delayed relationships, and anything on the loop thread after
+    // the simplex ran).
+    void postLifeCycle(std::uint32_t simplex, LifeCycle command, bool later) CORTEX_REALTIME;
+
+    void post(LoopThread& thread, Severity severity, EventKind kind, std::uint32_t simplex,
+              const EventText& text) CORTEX_REALTIME;
+
+    // Setup, for Simplex and its handles.
+    void registerHandler(std::uint32_t simplex, std::string_view command, Handler handler);
+    CommandSender makeSender(std::uint32_t edge, std::string_view command, std::uint32_t capacity);
+    const CommandTable& commands(std::uint32_t simplex) const;
+
+private:
+    friend class Router;
+
+    std::string name_;
+    SimplexTree& tree_;
+    AgentOptions options_;
+    std::shared_ptr<Structure> structure_;
+    std::unique_ptr<Tables> tables_;
+    std::unique_ptr<ImagePool> images_;
+    std::unique_ptr<EventLog> events_;
+    std::unique_ptr<Router> router_;
+    std::vector<Simplex*> simplexes_;
+    std::vector<std::unique_ptr<CommandTable>> commandTables_;  // per type layout
+    std::vector<const CommandTable*> tableOf_;                  // per simplex
+    std::vector<std::unique_ptr<CommandPort>> ports_;           // per simplex that has commands
+    std::vector<std::unique_ptr<Lane>> lanes_;
+    std::vector<Lane*> delayedLanes_;
+    std::vector<CommunicationInterface*> interfaces_;
+    std::vector<LoopThread> threads_;
+    std::vector<std::uint32_t> ranks_;
+    std::unique_ptr<std::atomic<std::uint8_t>[]> lifeCycle_, lifeCycleLater_;
+    std::uint32_t agentSimplex_ = noSimplex;
+    bool started_ = false;
+};
+
+// Builds the structure of a validated tree; exposed for tools that show a model without running it.
+std::shared_ptr<Structure> makeStructure(const std::string& agent, const SimplexTree& tree);
+
+}  // namespace cortex

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/command.hpp"
+#include "cortex/core/image.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cortex {
+
+// Who sent a command from outside: an agent or a tool, and its start (UTC microseconds).
+struct Sender {
+    std::array<char, 64> name{};  // zero-terminated
+    std::array<char, 64> host{};
+    std::int64_t epoch = 0;
+
+    std::string_view nameText() const { return name.data(); }
+    bool operator==(const Sender&) const = default;
+};
+
+// Largest request or response record, octets; a type that needs more is refused when it is loaded.
+inline constexpr std::uint32_t maxRecord = 4096;
+
+// A command from outside as the loop sees it: fixed size, its record already laid out as the target's
+// CommandTable says. A transport decodes and checks shapes before it puts one into the Inbox.
+struct OutsideCommand {
+    Sender sender;
+    std::int64_t targetEpoch = 0;
+    std::uint64_t sequence = 0;      // per sender, from 1
+    std::uint64_t answeredBelow = 0;  // the sender has every answer below this sequence
+    std::int64_t notAfter = 0;       // cycle of the target's own counter
+    std::uint32_t simplex = noSimplex;
+    std::uint32_t command = CommandTable::none;
+    std::uint32_t size = 0;
+    const std::byte* request = nullptr;  // valid during the call only
+};
+
+struct OutsideAnswer {
+    Sender sender;
+    std::uint64_t sequence = 0;
+    std::uint32_t simplex = noSimplex;
+    std::uint32_t command = CommandTable::none;
+    Outcome outcome = Outcome::None;
+    Reason reason = Reason::None;
+    EventText why;
+    std::int64_t latencyCycles = 0, latency = 0;  // ns
+    std::uint32_t size = 0;
+    const std::byte* response = nullptr;  // valid during the call only
+};
+
+// Copies of a linked simplex's items from another agent's layout into ours: compiled once, off the
+// loop, by item name.
+struct LinkBinding {
+    struct Copy {
+        Kind kind;
+        std::uint32_t from, to, length;  // offsets as in ItemLayout
+    };
+    std::vector<Copy> copies;
+    bool usable = false;  // false: contradiction or wrong type; `findings` says why
+    Report findings;
+};
+LinkBinding compileLink(const TypeLayout& ours, const TypeLayout& theirs, const TypeModel& ourTypes,
+                        const TypeModel& theirTypes);
+
+// What read() fills. Implemented by core; every call is wait-free.
+class Inbox {
+public:
+    virtual ~Inbox() = default;
+    virtual std::int64_t cycle() const CORTEX_REALTIME = 0;
+    // `simplex` is the index of a remote simplex of our structure. `age`: ns since it was measured,
+    // on the receiver's clock.
+    virtual void link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
+                      std::int64_t age) CORTEX_REALTIME = 0;
+    virtual void linkLost(std::uint32_t simplex) CORTEX_REALTIME = 0;
+    virtual void command(const OutsideCommand& command) CORTEX_REALTIME = 0;
+    virtual void event(Severity severity, EventKind kind, std::uint32_t simplex,
+                       const EventText& text) CORTEX_REALTIME = 0;
+};
+
+// What write() hands to the transport: answers to commands that came through this interface.
+class Outbox {
+public:
+    virtual ~Outbox() = default;
+    virtual bool nextAnswer(OutsideAnswer& answer) CORTEX_REALTIME = 0;  // false: no more
+};
+
+// What an interface may use of the agent it serves, from any thread but the loop's.
+struct AgentAccess {
+    std::shared_ptr<const Structure> structure;
+    ImagePool* images = nullptr;
+    EventLog* events = nullptr;
+    std::int64_t period = 0;  // ns
+};
+
+// A transport. read() and write() run in the loop: wait-free and bounded; everything else off it.
+class CommunicationInterface {
+public:
+    virtual ~CommunicationInterface() = default;
+    virtual void announce(const AgentAccess& agent) = 0;  // start(): the structure is fixed
+    virtual void read(Inbox& inbox) CORTEX_REALTIME = 0;
+    virtual void write(std::int64_t cycle, Outbox& outbox) CORTEX_REALTIME = 0;
+    virtual void close() = 0;  // stop(): after the last write()
+};
+
+}  // namespace cortex

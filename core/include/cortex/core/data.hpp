@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/realtime.hpp"
+#include "cortex/core/value.hpp"
+
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <type_traits>
+
+namespace cortex {
+
+// Head of a string element in a table; `capacity` octets of UTF-8 follow it.
+struct StringCell {
+    std::uint16_t capacity;
+    std::uint16_t length;
+    std::uint32_t cuts;  // how often a text was too long
+
+    char* text() { return reinterpret_cast<char*>(this + 1); }
+    const char* text() const { return reinterpret_cast<const char*>(this + 1); }
+    std::string_view view() const { return {text(), length}; }
+    void assign(std::string_view value) CORTEX_REALTIME;  // cut at a character if too long
+
+    // Octets that a cell of this capacity takes in a table, a multiple of 8.
+    static constexpr std::uint32_t size(std::uint32_t capacity) {
+        return static_cast<std::uint32_t>(sizeof(StringCell) + capacity + 7U) / 8U * 8U;
+    }
+};
+
+template <class T>
+struct StorageOf {
+    using type = T;
+};
+template <>
+struct StorageOf<std::string_view> {
+    using type = StringCell;
+};
+template <class T>
+struct StorageOf<const T> {
+    using type = const typename StorageOf<T>::type;
+};
+
+template <class T>
+constexpr Kind kindFor() {
+    using Plain = std::remove_const_t<T>;
+    if constexpr (std::is_same_v<Plain, std::int64_t>) return Kind::Int;
+    else if constexpr (std::is_same_v<Plain, double>) return Kind::Float;
+    else if constexpr (std::is_same_v<Plain, bool>) return Kind::Bool;
+    else {
+        static_assert(std::is_same_v<Plain, std::string_view>,
+                      "data is std::int64_t, double, bool or std::string_view");
+        return Kind::String;
+    }
+}
+
+// Handle to one scalar item: a plain pointer into the tables, used like the value itself.
+// Data<const T> only reads. Got in populate(), used in ticks; unbound until then.
+template <class T>
+class Data {
+public:
+    using Storage = typename StorageOf<T>::type;
+    using Plain = std::remove_const_t<T>;
+
+    Data() = default;
+    explicit Data(Storage* cell) : cell_{cell} {}
+
+    operator Plain() const CORTEX_REALTIME { return get(); }
+    Plain get() const CORTEX_REALTIME {
+        if constexpr (std::is_same_v<Plain, std::string_view>) return cell_->view();
+        else return *cell_;
+    }
+    Data& operator=(Plain value) CORTEX_REALTIME
+        requires(!std::is_const_v<T>)
+    {
+        if constexpr (std::is_same_v<Plain, std::string_view>) cell_->assign(value);
+        else *cell_ = value;
+        return *this;
+    }
+    Data& operator+=(Plain value) CORTEX_REALTIME
+        requires(std::is_arithmetic_v<T> && !std::is_const_v<T>)
+    {
+        *cell_ += value;
+        return *this;
+    }
+    explicit operator bool() const
+        requires(!std::is_same_v<Plain, bool> && !std::is_arithmetic_v<Plain>)
+    = delete;
+
+    bool bound() const { return cell_ != nullptr; }
+
+private:
+    Storage* cell_ = nullptr;
+};
+
+}  // namespace cortex

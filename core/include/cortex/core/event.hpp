@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/quality.hpp"
+#include "cortex/core/realtime.hpp"
+#include "cortex/core/report.hpp"
+#include "cortex/core/structure.hpp"
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace cortex {
+
+enum class EventKind : std::uint8_t {
+    StateChange, Fault, Refusal, Overflow, Limit, Conflict, Agent, Command, Watchdog, Message
+};
+
+const char* name(EventKind kind);
+
+// Bounded text that is built without allocation; what does not fit is cut.
+class EventText {
+public:
+    EventText() = default;
+    EventText(std::string_view text) { *this << text; }                // NOLINT: reads as a text
+    EventText(const char* text) : EventText{std::string_view{text}} {}  // NOLINT
+
+    EventText& operator<<(std::string_view text) CORTEX_REALTIME;
+    EventText& operator<<(const char* text) CORTEX_REALTIME;
+    EventText& operator<<(std::int64_t number) CORTEX_REALTIME;
+    EventText& operator<<(double number) CORTEX_REALTIME;
+    std::string_view view() const { return {text_.data(), length_}; }
+
+private:
+    std::array<char, 150> text_{};
+    std::uint16_t length_ = 0;
+};
+
+// One thing that happened in a cycle. Fixed size; the number is given when it is merged.
+struct Event {
+    std::int64_t cycle = 0;
+    std::int64_t time = 0;        // nominal, ns since the cluster's start
+    std::uint64_t number = 0;     // per agent and epoch, from 1
+    std::uint32_t simplex = noSimplex;
+    std::uint32_t order = 0;      // canonical order of the simplex, then `sequence` decide the merge
+    std::uint32_t sequence = 0;   // per ring and cycle
+    Severity severity = Severity::Info;
+    EventKind kind = EventKind::Message;
+    EventText text;
+};
+
+// Single producer (a loop thread), single consumer (the event thread); full: counts the dropped.
+class EventRing {
+public:
+    explicit EventRing(std::uint32_t capacity);
+
+    void post(const Event& event) CORTEX_REALTIME;
+    std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
+    bool peek(Event& event) const;  // consumer
+    void pop();
+
+private:
+    std::vector<Event> events_;
+    alignas(64) std::atomic<std::uint64_t> head_{0};
+    alignas(64) std::atomic<std::uint64_t> tail_{0};
+    std::atomic<std::uint64_t> dropped_{0};
+};
+
+// Merges the rings of all loop threads by cycle, canonical order and sequence, numbers the events
+// and hands them to the sinks, on a thread of its own. Ring 0 is the loop thread's.
+class EventLog {
+public:
+    using Sink = std::function<void(const Event&, const Structure&)>;
+
+    EventLog(std::shared_ptr<const Structure> structure, std::uint32_t rings,
+             std::uint32_t capacity);
+    ~EventLog();
+
+    void addSink(Sink sink);  // setup only
+    void start();
+    void stop();  // hands out what is left, then ends the thread
+    EventRing& ring(std::uint32_t index) { return *rings_[index]; }
+    // Loop thread: all events of cycles up to this one are in the rings.
+    void complete(std::int64_t cycle) CORTEX_REALTIME;
+    // Any non-loop thread: an event outside the cycles (watchdog, refused real-time set-up).
+    void postOutside(Event event);
+    std::uint64_t dropped() const;
+    // Hands out all complete events now, on the calling thread; for tests and manual stepping.
+    void flush();
+
+private:
+    void run();
+
+    std::shared_ptr<const Structure> structure_;
+    std::vector<std::unique_ptr<EventRing>> rings_;
+    std::vector<Sink> sinks_;
+    std::vector<Event> outside_, batch_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::thread thread_;
+    std::uint64_t number_ = 0;
+    std::uint64_t reportedDrops_ = 0;
+    std::atomic<std::int64_t> complete_{-1};
+    bool stopping_ = false;
+};
+
+// "2026-11-20T10:00:00.123Z warning /arm/axis1 position clamped to 2.96 rad"
+std::string lineOf(const Event& event, const Structure& structure, std::int64_t wallClock);
+
+}  // namespace cortex

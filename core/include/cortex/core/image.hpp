@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/tables.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace cortex {
+
+class ImagePool;
+
+// One consistent copy of all tables after a cycle, pinned while this object lives.
+// Any thread; never delays the loop. Reading by path costs a hash look-up.
+class Image {
+public:
+    Image() = default;
+    Image(Image&& other) noexcept;
+    Image& operator=(Image&& other) noexcept;
+    ~Image();
+
+    explicit operator bool() const { return pool_ != nullptr; }
+    std::int64_t cycle() const;        // 0 before the first cycle
+    std::int64_t nominalTime() const;  // ns since the cluster's start
+    std::int64_t wallClock() const;    // UTC ns that belongs to nominalTime
+    const Structure& structure() const;
+
+    SlotState state(std::uint32_t simplex) const;
+    Quality quality(std::string_view path) const;
+
+    // Scalar by path and item; throws Error naming the nearest names if there is none.
+    template <class T>
+    T get(std::string_view path, std::string_view item) const {
+        return *Data<const T>{static_cast<typename StorageOf<const T>::type*>(
+                                  element(path, item, kindFor<T>()))};
+    }
+    Value value(std::uint32_t simplex, const ItemLayout& item) const;  // any kind, arrays too
+    Value value(std::string_view path, std::string_view item) const;
+
+private:
+    friend class ImagePool;
+    Image(ImagePool* pool, std::uint32_t slot) : pool_{pool}, slot_{slot} {}
+    const void* element(std::string_view path, std::string_view item, Kind kind) const;
+    void release();
+
+    ImagePool* pool_ = nullptr;
+    std::uint32_t slot_ = 0;
+};
+
+// Fixed pool of images: `readers` + 2 slots. The loop copies into any slot that is neither newest
+// nor pinned and never waits; a reader pins the newest.
+class ImagePool {
+public:
+    ImagePool(Tables& tables, std::uint32_t readers);
+
+    // Loop thread, once at the end of a cycle.
+    void publish(std::int64_t cycle, std::int64_t nominalTime,
+                 std::int64_t wallClock) CORTEX_REALTIME;
+
+    // Pins the newest image. Empty if `readers` images are already pinned.
+    Image newest() CORTEX_REALTIME;
+    std::int64_t newestCycle() const { return cycle_.load(std::memory_order_acquire); }
+
+private:
+    friend class Image;
+    struct alignas(64) Slot {
+        std::atomic<std::uint32_t> pins{0};
+        std::int64_t cycle = 0, nominalTime = 0, wallClock = 0;
+        std::byte* memory = nullptr;
+    };
+
+    Tables& tables_;
+    std::uint32_t readers_;
+    std::unique_ptr<std::byte[]> memory_;
+    std::unique_ptr<Slot[]> slots_;
+    std::uint32_t slotCount_;
+    std::atomic<std::uint32_t> newest_{0};
+    std::atomic<std::uint32_t> pinned_{0};
+    std::atomic<std::int64_t> cycle_{0};
+};
+
+}  // namespace cortex

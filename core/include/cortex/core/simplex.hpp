@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/command.hpp"
+#include "cortex/core/mailbox.hpp"
+#include "cortex/core/tables.hpp"
+#include "cortex/core/type_model.hpp"
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cortex {
+
+class Simplex;
+class AgentRuntime;
+
+// What a simplex may touch of one that it is related to; got in populate(). Through an input data is
+// read; through an output to a descriptive simplex it is written. Data of an active simplex is
+// written by its own task only: read it as data<const T>, act on it with a command.
+class RelatedSimplex {
+public:
+    RelatedSimplex(Simplex& owner, std::uint32_t edge) : owner_{&owner}, edge_{edge} {}
+
+    const std::string& path() const;
+    const Type& type() const;
+    const SlotState& state() const;  // as the owner sees it
+
+    bool has(std::string_view item) const;
+
+protected:
+    void* cell(std::string_view item, Kind kind, bool array, bool write, std::size_t& length) const;
+    CommandSender sender(std::string_view command, std::uint32_t capacity) const;
+
+    Simplex* owner_;
+    std::uint32_t edge_;
+};
+
+class InputSimplex : public RelatedSimplex {
+public:
+    using RelatedSimplex::RelatedSimplex;
+
+    template <class T>
+    Data<const T> data(std::string_view item) const {
+        std::size_t length = 1;
+        return Data<const T>{static_cast<typename StorageOf<const T>::type*>(
+            cell(item, kindFor<T>(), false, false, length))};
+    }
+    template <class T>  // not for strings
+    std::span<const T> array(std::string_view item) const {
+        std::size_t length = 0;
+        auto* first = static_cast<const T*>(cell(item, kindFor<T>(), true, false, length));
+        return {first, length};
+    }
+    // A command along this relationship; `capacity`: how many may be on their way at once.
+    CommandSender command(std::string_view name, std::uint32_t capacity = 16) const {
+        return sender(name, capacity);
+    }
+};
+
+class OutputSimplex : public RelatedSimplex {
+public:
+    using RelatedSimplex::RelatedSimplex;
+
+    template <class T>
+    Data<T> data(std::string_view item) const {
+        std::size_t length = 1;
+        return Data<T>{static_cast<typename StorageOf<T>::type*>(
+            cell(item, kindFor<T>(), false, !std::is_const_v<T>, length))};
+    }
+    template <class T>
+    std::span<T> array(std::string_view item) const {
+        std::size_t length = 0;
+        auto* first =
+            static_cast<T*>(cell(item, kindFor<T>(), true, !std::is_const_v<T>, length));
+        return {first, length};
+    }
+    CommandSender command(std::string_view name, std::uint32_t capacity = 16) const {
+        return sender(name, capacity);
+    }
+    // Overrides the quality that the framework gives to this output; in the tick, after inputs.
+    SlotState* slot() const;
+};
+
+// The building block: <type, id, data, relationships, commands, mailbox>. The tree creates it; its
+// data exists from start() on. A descriptive simplex needs no class of its own.
+class Simplex {
+public:
+    struct Identity {
+        std::string path;
+        const Type* type;
+    };
+    struct Setting {
+        std::string item;
+        Value value;
+        Place place;
+    };
+    struct Relation {
+        std::string rule;
+        std::string target;  // path
+        bool delayed = false;
+        bool remote = false;
+        Place place;
+    };
+
+    explicit Simplex(Identity identity);
+    virtual ~Simplex();
+    Simplex(const Simplex&) = delete;
+    Simplex& operator=(const Simplex&) = delete;
+
+    const std::string& path() const { return identity_.path; }
+    const Type& type() const { return *identity_.type; }
+    const std::vector<Relation>& relations() const { return relations_; }
+    const std::vector<Setting>& settings() const { return settings_; }
+    const Place& place() const { return place_; }
+    int every() const { return every_; }
+    int phase() const { return phase_; }
+    std::uint32_t index() const { return index_; }  // in the Structure, from start() on
+
+    // Setup, before start(): the value an item starts with. Wrong ones are findings of validate().
+    void set(std::string_view item, Value value, Place place = {});
+    void set(std::string_view item, double value) { set(item, Value{std::vector{value}}); }
+    void set(std::string_view item, std::int64_t value) { set(item, Value{std::vector{value}}); }
+    void set(std::string_view item, bool value) { set(item, Value{std::vector<bool>{value}}); }
+    void set(std::string_view item, std::string_view value) {
+        set(item, Value{std::vector{std::string{value}}});
+    }
+    void runEvery(int cycles, int phase = -1);
+
+    // Own data, from populate() on; of a descriptive simplex without writer also for the program,
+    // between cycles. Throws Error naming the nearest items if there is no such item.
+    template <class T>
+    Data<T> data(std::string_view item) {
+        std::size_t length = 1;
+        return Data<T>{static_cast<typename StorageOf<T>::type*>(
+            cell(item, kindFor<T>(), false, length))};
+    }
+    template <class T>
+    std::span<T> array(std::string_view item) {
+        std::size_t length = 0;
+        auto* first = static_cast<T*>(cell(item, kindFor<T>(), true, length));
+        return {first, length};
+    }
+    SlotState& slot();  // own quality and stamp
+
+protected:
+    // In populate(): what is related under a rule. input() and output() expect exactly one.
+    InputSimplex input(std::string_view rule);
+    OutputSimplex output(std::string_view rule);
+    std::vector<InputSimplex> inputs(std::string_view rule);
+    std::vector<OutputSimplex> outputs(std::string_view rule);
+
+    template <class T>
+    Argument<T> argument(std::string_view command, std::string_view parameter) const {
+        return {parameterOffset(command, parameter, kindFor<T>(), true)};
+    }
+    template <class T>
+    Result<T> result(std::string_view command, std::string_view parameter) const {
+        return {parameterOffset(command, parameter, kindFor<T>(), false)};
+    }
+    void handle(std::string_view command, Handler handler);  // throws if the type lacks it
+
+private:
+    friend class AgentRuntime;
+    friend class RelatedSimplex;
+    friend class OutputSimplex;
+    friend class SimplexTree;
+
+    void* cell(std::string_view item, Kind kind, bool array, std::size_t& length);
+    std::uint32_t parameterOffset(std::string_view command, std::string_view parameter, Kind kind,
+                                  bool request) const;
+    std::vector<std::uint32_t> edgesUnder(std::string_view rule, Direction direction) const;
+
+    Identity identity_;
+    Place place_;
+    std::vector<Relation> relations_;
+    std::vector<Setting> settings_;
+    int every_ = 1;
+    int phase_ = -1;
+    std::uint32_t index_ = noSimplex;
+    AgentRuntime* runtime_ = nullptr;
+};
+
+}  // namespace cortex

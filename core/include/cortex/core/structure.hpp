@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/quality.hpp"
+#include "cortex/core/type_model.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace cortex {
+
+// Elements per value kind; strings are counted in octets of their cells.
+struct BlockSizes {
+    std::uint32_t ints = 0, floats = 0, bools = 0, strings = 0;
+
+    BlockSizes& operator+=(const BlockSizes& other);
+};
+
+// Where an item lies in the slice of its simplex, in units of BlockSizes.
+struct ItemLayout {
+    const DataItem* item = nullptr;
+    std::uint32_t offset = 0;
+};
+
+// The slice of every simplex of one type. Constant items lie in a table of their own, which is not
+// copied into images.
+struct TypeLayout {
+    const Type* type = nullptr;
+    std::vector<ItemLayout> items;  // sorted by name
+    BlockSizes cyclic, constant;
+
+    const ItemLayout* find(std::string_view item) const;
+};
+
+// Parameters of a command as one flat record: octet offsets, each multiple of 8.
+struct RecordLayout {
+    std::vector<ItemLayout> items;  // in the order of the type
+    std::uint32_t size = 0;         // octets
+
+    const ItemLayout* find(std::string_view parameter) const;
+};
+
+RecordLayout recordLayout(const std::vector<DataItem>& parameters);
+
+// One relationship: the n-th under a rule of its owner.
+struct Edge {
+    std::uint32_t owner = noSimplex;
+    std::uint32_t target = noSimplex;
+    const Rule* rule = nullptr;
+    bool delayed = false;
+};
+
+struct SimplexInfo {
+    std::string path;
+    const TypeLayout* layout = nullptr;
+    Role role = Role::Descriptive;  // decided: Active, Observation or Modification
+    bool remote = false;            // belongs to another agent; a link
+    BlockSizes base, constantBase;  // start of its slices
+    std::uint32_t firstEdge = 0, edgeCount = 0;
+    std::uint32_t every = 1;
+    std::int32_t phase = -1;
+    std::vector<std::uint32_t> writers;  // active owners of output edges here, by path
+    bool delayedOutput = false;          // its writer's output is delayed: a device's observation
+};
+
+// What an agent consists of: simplexes by path, their types, relationships and table layout.
+// Immutable after start(); shared with images and interfaces; any thread may read.
+class Structure {
+public:
+    std::string agent;
+    std::int64_t epoch = 0;  // UTC microseconds at start
+    std::shared_ptr<const TypeModel> types;
+    std::vector<SimplexInfo> simplexes;  // sorted by path, then remote ones
+    std::vector<Edge> edges;             // by owner, then rule, in the order related
+    std::vector<std::unique_ptr<TypeLayout>> layouts;
+    BlockSizes cyclic, constant;  // totals
+    std::unordered_map<std::string_view, std::uint32_t> byPath;
+
+    std::uint32_t find(std::string_view path) const;  // noSimplex if there is none
+};
+
+}  // namespace cortex

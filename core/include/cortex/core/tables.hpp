@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/data.hpp"
+#include "cortex/core/structure.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace cortex {
+
+// One simplex's part of a table: live, latched for delayed readers, held, or a writer's candidate.
+struct Slice {
+    std::int64_t* ints = nullptr;
+    double* floats = nullptr;
+    bool* bools = nullptr;
+    std::byte* strings = nullptr;
+    SlotState* state = nullptr;
+
+    // First element of an item that lies at `offset` of its kind's block.
+    void* at(Kind kind, std::uint32_t offset) const CORTEX_REALTIME;
+};
+
+void copySlice(const BlockSizes& sizes, const Slice& from, const Slice& to) CORTEX_REALTIME;
+
+// All data of an agent: one contiguous block per kind and one of slot states, in one arena that is
+// copied whole into images; constants, latches, candidates and held copies lie outside it.
+// Built once at start(); the loop's threads write it, everybody else reads images.
+class Tables {
+public:
+    explicit Tables(std::shared_ptr<const Structure> structure);
+
+    const Structure& structure() const { return *structure_; }
+    std::shared_ptr<const Structure> sharedStructure() const { return structure_; }
+
+    Slice live(std::uint32_t simplex) const;
+    Slice constants(std::uint32_t simplex) const;  // state is null
+    // What the owner of edge `index` sees: live, latch, held copy, or its candidate to write to.
+    Slice edge(std::uint32_t index) const { return edges_[index]; }
+    // What that slice is filled from: for a held copy the live or latched source, else itself.
+    Slice edgeSource(std::uint32_t index) const { return sources_[index]; }
+
+    // Copies every simplex that has delayed readers; at the start of a cycle.
+    void latch() CORTEX_REALTIME;
+
+    std::span<std::byte> arena() { return {arena_.get(), arenaSize_}; }
+    std::span<const std::byte> constantArena() const { return {constants_.get(), constantSize_}; }
+
+    // The slice of a simplex in a copy of the arena (an image).
+    Slice sliceIn(std::byte* arena, std::uint32_t simplex) const;
+
+private:
+    struct Latch {
+        const BlockSizes* sizes;
+        Slice from, to;
+    };
+    struct AlignedDelete {
+        void operator()(std::byte* memory) const;
+    };
+    using Memory = std::unique_ptr<std::byte[], AlignedDelete>;
+
+    static Memory allocate(std::size_t octets);
+    Slice sliceOf(std::byte* arena, const BlockSizes& totals, const BlockSizes& base) const;
+    Slice extraSlice(const TypeLayout& layout);
+    void initialise(std::uint32_t simplex);
+
+    std::shared_ptr<const Structure> structure_;
+    Memory arena_, constants_;
+    std::size_t arenaSize_ = 0, constantSize_ = 0;
+    std::vector<Memory> extra_;  // latches, candidates, held copies
+    std::vector<Latch> latches_;
+    std::vector<Slice> edges_, sources_;
+};
+
+}  // namespace cortex

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace cortex {
+
+// What a task is told about time. Control laws use cycle, nominalTime and elapsed; lateness is
+// measured and differs from run to run.
+struct Tick {
+    std::int64_t cycle = 0;        // executed cycles, from 1
+    std::int64_t nominalTime = 0;  // ns since the cluster's start: the deadline, not the wake-up
+    std::int64_t elapsed = 0;      // ns of nominal time since this simplex last ran
+    std::int64_t lateness = 0;     // ns from the deadline to the wake-up
+
+    double seconds() const { return static_cast<double>(nominalTime) * 1e-9; }
+    double elapsedSeconds() const { return static_cast<double>(elapsed) * 1e-9; }
+};
+
+}  // namespace cortex

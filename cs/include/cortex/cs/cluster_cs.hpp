@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/agent.hpp"
+#include "cortex/core/program_interface.hpp"
+#include "cortex/core/registry.hpp"
+#include "cortex/core/simplex_tree.hpp"
+#include "cortex/cs/simplex_cs.hpp"
+#include "cortex/cs/trigger_source.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace cortex::cs {
+
+// Late: what happens to the ticks that a cycle ran over. Each missed one is counted and an event.
+enum class Overflow : std::uint8_t {
+    Skip,     // next tick on the original grid
+    CatchUp,  // at once, at most `catchUpCycles` cycles, then skip
+    Halt      // all Active simplexes go to Fault, the loop runs on with safe demands
+};
+
+struct ClusterOptions {
+    std::uint32_t threads = 1;       // loop thread included
+    int priority = 0;                // SCHED_FIFO 1 to 99; 0: none
+    bool lockMemory = true;          // asked for where priority is; refusal is reported
+    std::vector<int> cpus;           // to pin threads to; empty: all that the process may use
+    Overflow overflow = Overflow::Skip;
+    std::uint32_t catchUpCycles = 10;
+    double warnDuty = 0;             // duty cycle in % above which each cycle is an event; 0: none
+    double watchdogPeriods = 10;     // at least 100 ms
+    bool controlRequired = false;    // commands from outside need a control lease
+    std::uint32_t imageReaders = 8;
+    // For tests and measurements.
+    bool forceThreads = false;       // use `threads` even where one would do
+    std::uint32_t chunkSize = 0;     // tasks a chunk; 0: the schedule decides
+};
+
+// What heartbeat functions are told, after each cycle on the loop thread, and by the watchdog.
+struct Heartbeat {
+    std::int64_t cycle = 0;
+    bool alive = true;  // false: the cycle counter stands still (watchdog thread)
+    std::string_view hungPath, hungHook;
+};
+
+enum class Ended : std::uint8_t { NotStarted, Running, Stopped, Halted, Hung };
+
+// A cluster of simplexes that runs one loop cycle (the paper's ClusterCS): construct, add trees, set
+// the trigger, start(). Program's thread throughout; the loop has a thread of its own.
+class ClusterCS {
+public:
+    explicit ClusterCS(std::string name, ClusterOptions options = {});
+    ~ClusterCS();  // stop(), then orderly destruction
+    ClusterCS(const ClusterCS&) = delete;
+    ClusterCS& operator=(const ClusterCS&) = delete;
+
+    void addSimplexTree(SimplexTree& tree);
+    void useClasses(const ClassRegistry& registry);  // for related simplexes that rules create
+
+    template <class T, class... Arguments>
+    T& setTriggerSource(Arguments&&... arguments) {
+        auto source = std::make_unique<T>(std::forward<Arguments>(arguments)...);
+        T& reference = *source;
+        setTrigger(std::move(source));
+        return reference;
+    }
+    template <class T, class... Arguments>
+    T& addInterface(Arguments&&... arguments) {
+        auto owned = std::make_unique<T>(std::forward<Arguments>(arguments)...);
+        T& reference = *owned;
+        adoptInterface(std::move(owned));
+        return reference;
+    }
+    void adoptInterface(std::unique_ptr<CommunicationInterface> interface);
+    void addHeartbeat(std::function<void(const Heartbeat&)> function);
+    void addEventSink(EventLog::Sink sink);
+
+    // Creates related simplexes, validates (throws ModelError with everything), fixes the layout,
+    // populates, builds the schedule, announces, starts the loop.
+    void start();
+    // Shuts all simplexes down in order (2 s at most), safe demands, last write, ends the loop.
+    // False: a hook did not return; the caller ends the process (exit code 3).
+    bool stop();
+
+    bool running() const;
+    Ended ended() const;
+    AgentRuntime& agent();  // from start() on
+    Image image();          // the newest; throws Error when too many are held
+    // Commands from the program, as from outside.
+    std::uint64_t send(std::string_view path, std::string_view command,
+                       const ProgramInterface::Arguments& arguments = {});
+    CallResult call(std::string_view path, std::string_view command,
+                    const ProgramInterface::Arguments& arguments = {},
+                    std::chrono::milliseconds timeout = std::chrono::seconds{5});
+    ProgramInterface& program();
+
+    // What the system refused of priority, pinning, memory locking; one sentence each.
+    const std::vector<std::string>& realtimeReport() const;
+    std::uint32_t threadsInUse() const;
+
+private:
+    void setTrigger(std::unique_ptr<TriggerSource> source);
+
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+// Blocks until SIGINT or SIGTERM, or `seconds` have passed (0: no limit), or `done` returns true.
+// Call before start() makes threads: it blocks the signals in the calling thread.
+void blockStopSignals();
+bool waitForInterrupt(double seconds = 0, const std::function<bool()>& done = {});
+
+}  // namespace cortex::cs

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/agent.hpp"
+#include "cortex/core/simplex.hpp"
+#include "cortex/core/state.hpp"
+#include "cortex/core/tick.hpp"
+
+#include <cstdint>
+#include <string_view>
+
+namespace cortex::cs {
+
+class TaskRunner;
+
+// A simplex with a task and a state machine. Derive, get handles in populate(), override the hooks
+// you need. Hooks run in the tick, on the loop thread or a worker, one at a time per simplex:
+// commands, loopStart, the function of the current state, loopEnd. A hook that throws puts this
+// simplex into Fault; until clearFaults none of its hooks runs.
+class SimplexCS : public Simplex {
+public:
+    using Simplex::Simplex;
+
+    State state() const { return state_; }
+
+protected:
+    // Once, in start(), after validation: may allocate and throw. Relationships are complete.
+    virtual void populate() {}
+
+    virtual void loopStart(const Tick&) CORTEX_REALTIME {}
+    virtual void stateStandby(const Tick&) CORTEX_REALTIME {}
+    // Done (true) or not yet (false), within the type's transitionTimeout, else Fault.
+    virtual bool stateStartingUp(const Tick&) CORTEX_REALTIME { return true; }
+    virtual void stateActive(const Tick&) CORTEX_REALTIME {}
+    virtual bool stateShuttingDown(const Tick&) CORTEX_REALTIME { return true; }
+    // Done (true): clearFaults may be accepted from now on.
+    virtual bool stateFault(const Tick&) CORTEX_REALTIME { return true; }
+    virtual void loopEnd(const Tick&) CORTEX_REALTIME {}
+
+    // In a hook: enter Fault at the end of this hook. The first fault of a cycle is kept.
+    void fault(std::int64_t code, std::string_view text) CORTEX_REALTIME;
+    // In a hook: an event of this simplex.
+    void event(Severity severity, const EventText& text) CORTEX_REALTIME;
+    // In a hook: the life-cycle commands of a related simplex. Along an output relationship they
+    // are taken in the same cycle, along an input or a delayed one in the next.
+    class LifeCycleSender {
+    public:
+        LifeCycleSender() = default;
+        void startup() CORTEX_REALTIME { post(LifeCycle::Startup); }
+        void shutdown() CORTEX_REALTIME { post(LifeCycle::Shutdown); }
+        void clearFaults() CORTEX_REALTIME { post(LifeCycle::ClearFaults); }
+        State state() const CORTEX_REALTIME;  // as last seen: its data item `state`
+
+    private:
+        friend class SimplexCS;
+        void post(LifeCycle command) CORTEX_REALTIME;
+        AgentRuntime* runtime_ = nullptr;
+        std::uint32_t target_ = noSimplex;
+        bool later_ = false;
+        Data<const std::int64_t> state_;
+    };
+    // In populate(). `manage`: this simplex starts and stops the target from now on; group commands
+    // leave it to it.
+    LifeCycleSender lifeCycle(const RelatedSimplex& target, bool manage = false);
+
+    // In populate(): on<&Jog::zero>("zero"), with `Outcome zero(Call& call)`.
+    template <auto Method>
+    void on(std::string_view command) {
+        handle(command, {static_cast<SimplexCS*>(this), [](void* self, Call& call) { return invoke(Method, self, call); }});
+    }
+
+private:
+    friend class TaskRunner;
+    friend class ClusterCS;
+
+    template <class Self>
+    static Outcome invoke(Outcome (Self::*method)(Call&), void* self, Call& call) {
+        return (static_cast<Self*>(static_cast<SimplexCS*>(self))->*method)(call);
+    }
+
+    State state_ = State::Standby;
+    bool faultPending_ = false;
+    bool dead_ = false;  // a hook threw: no hooks until clearFaults
+    LoopThread* thread_ = nullptr;
+    std::int64_t stateSince_ = 0;  // nominal time
+    std::int64_t lastRun_ = 0;     // nominal time
+};
+
+}  // namespace cortex::cs

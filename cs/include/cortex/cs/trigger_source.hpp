@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/realtime.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+
+namespace cortex::cs {
+
+// What waitForTick() returns: the deadline that was waited for.
+struct Trigger {
+    std::int64_t nominalTime = 0;  // ns since the source's first tick; the first tick is at 0
+    std::int64_t lateness = 0;     // ns from the deadline to the wake-up
+    std::int64_t periods = 1;      // periods since the last tick; above 1: ticks were missed
+    bool stopped = false;          // no further tick: the loop ends
+};
+
+// Starts each cycle. One thread waits, any thread interrupts.
+class TriggerSource {
+public:
+    virtual ~TriggerSource() = default;
+    virtual void start() = 0;  // loop thread, before the first wait
+    virtual Trigger waitForTick() = 0;
+    virtual void interrupt() = 0;  // makes the present or next wait return `stopped`
+    virtual std::int64_t period() const = 0;  // nominal, ns
+    // Whether the next deadline has already passed, and by how many periods.
+    virtual std::int64_t missed() const { return 0; }
+    // After a late cycle: give up the missed deadlines (true) or return them at once (false).
+    virtual void skipMissed(bool) {}
+};
+
+// Absolute deadlines on the monotonic clock: start + k × period, no drift.
+class InternalClock final : public TriggerSource {
+public:
+    explicit InternalClock(std::chrono::nanoseconds period);
+
+    void start() override;
+    Trigger waitForTick() override;
+    void interrupt() override;
+    std::int64_t period() const override { return period_; }
+    std::int64_t missed() const override;
+    void skipMissed(bool skip) override { skip_ = skip; }
+
+private:
+    std::int64_t period_;
+    std::int64_t origin_ = 0;
+    std::int64_t next_ = 0;  // index of the next deadline
+    bool skip_ = true;
+    std::atomic<bool> interrupted_{false};
+};
+
+// One cycle for each step(): tests, stepping, faster than real time. step() returns when the cycle
+// has ended. `lateBy` plays an overload: the following tick counts so many missed periods.
+class ManualTrigger final : public TriggerSource {
+public:
+    explicit ManualTrigger(std::chrono::nanoseconds period);
+
+    void step(std::int64_t cycles = 1);
+    void lateBy(std::int64_t periods);
+
+    void start() override;
+    Trigger waitForTick() override;
+    void interrupt() override;
+    std::int64_t period() const override { return period_; }
+    std::int64_t missed() const override { return late_; }
+    void skipMissed(bool skip) override { skip_ = skip; }
+
+private:
+    std::int64_t period_;
+    std::int64_t tick_ = -1;
+    std::int64_t late_ = 0, requestedLate_ = 0;
+    bool skip_ = true;
+    std::int64_t requested_ = 0, started_ = 0, finished_ = 0;
+    bool interrupted_ = false;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+};
+
+// Ticks from elsewhere: another thread, a socket, a device. notify() is called once a tick; ticks
+// that come while a cycle runs are counted as missed.
+class ExternalTrigger final : public TriggerSource {
+public:
+    explicit ExternalTrigger(std::chrono::nanoseconds nominalPeriod);
+
+    void notify();  // any thread, signal-safe
+
+    void start() override;
+    Trigger waitForTick() override;
+    void interrupt() override;
+    std::int64_t period() const override { return period_; }
+    std::int64_t missed() const override;
+
+private:
+    std::int64_t period_;
+    std::int64_t seen_ = 0;
+    std::atomic<std::uint32_t> notified_{0};
+    std::atomic<bool> interrupted_{false};
+};
+
+}  // namespace cortex::cs
