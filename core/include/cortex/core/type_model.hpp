@@ -116,6 +116,7 @@ struct TypeDeclaration {
     // Attributes written explicitly, as "item.attribute"; what is absent is inherited.
     std::set<std::string> stated;
     std::optional<bool> manyWriters;
+    std::optional<bool> measures;  // a device: its outputs stay good in every state
     std::optional<OnLeaseLost> onLeaseLost;
     std::optional<double> transitionTimeout;  // s that StartingUp, ShuttingDown may take
     std::string icon, since, replaces;
@@ -135,6 +136,7 @@ struct Type {
     std::vector<Command> commands;
     std::vector<Rule> rules;
     bool manyWriters = false;
+    bool measures = false;
     OnLeaseLost onLeaseLost = OnLeaseLost::Continue;
     double transitionTimeout = 10;
     std::string icon, since, replaces;

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "realtime_thread.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cfenv>
+#include <system_error>
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
+namespace cortex::cs {
+namespace {
+
+constexpr std::size_t PrefaultedBytes = 256 * 1024;
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+std::string listed(const std::vector<int>& cpus) {
+    std::string text;
+    for (const int cpu : cpus) text += (text.empty() ? "" : ", ") + std::to_string(cpu);
+    return text;
+}
+
+std::vector<int> allowedCpus() {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    std::vector<int> cpus;
+    if (sched_getaffinity(0, sizeof set, &set) == 0) {
+        for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+            if (CPU_ISSET(static_cast<std::size_t>(cpu), &set)) cpus.push_back(cpu);
+        }
+    }
+    if (cpus.empty()) cpus.push_back(0);
+    return cpus;
+}
+
+/// Those of the wanted CPUs that are there; all that are, where none was wanted or is there.
+std::vector<int> chosenCpus(const std::vector<int>& wanted) {
+    std::vector<int> chosen;
+    for (const int cpu : usableCpus()) {
+        if (std::find(wanted.begin(), wanted.end(), cpu) != wanted.end()) chosen.push_back(cpu);
+    }
+    return chosen.empty() ? usableCpus() : chosen;
+}
+
+/// Sets all usable CPUs where none was wanted: a thread inherits the mask of the one that made it.
+void setAffinity(const ThreadOptions& options, std::vector<std::string>& report) {
+    const std::vector<int>& wanted = options.affinity.empty() ? usableCpus() : options.affinity;
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    for (const int cpu : wanted) {
+        if (cpu >= 0 && cpu < CPU_SETSIZE) CPU_SET(static_cast<std::size_t>(cpu), &set);
+    }
+    const int error = pthread_setaffinity_np(pthread_self(), sizeof set, &set);
+    const std::vector<int> got = allowedCpus();
+    const bool isComplete = std::all_of(wanted.begin(), wanted.end(), [&](int cpu) {
+        return std::find(got.begin(), got.end(), cpu) != got.end();
+    });
+    if (error == 0 && isComplete) return;
+    report.push_back("Thread '" + options.name + "' should run on CPU " + listed(wanted) +
+                     (error == 0 ? "" : " (" + reason(error) + ")") + " and runs on CPU " +
+                     listed(got) + ". This process may use CPU " + listed(usableCpus()) +
+                     "; name only these.");
+}
+
+void setPriority(const ThreadOptions& options, std::vector<std::string>& report) {
+    if (options.priority == 0) return;
+    sched_param parameter{};
+    parameter.sched_priority = options.priority;
+    const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter);
+    if (error == 0) return;
+    report.push_back("Thread '" + options.name + "' did not get priority " +
+                     std::to_string(options.priority) + " (" + reason(error) +
+                     "): its lateness is what the system's load makes it. Use 1 to 99; grant the "
+                     "program CAP_SYS_NICE, or its user 'rtprio " +
+                     std::to_string(std::clamp(options.priority, 1, 99)) +
+                     "' in /etc/security/limits.d.");
+}
+
+}  // namespace
+
+const std::vector<int>& usableCpus() {
+    static const std::vector<int> Cpus = allowedCpus();
+    return Cpus;
+}
+
+int cpuForThread(const std::vector<int>& affinity, std::uint32_t thread) {
+    const std::vector<int> cpus = chosenCpus(affinity);
+    return cpus[thread % cpus.size()];
+}
+
+std::uint32_t clampThreads(std::uint32_t wanted, int priority, const std::vector<int>& affinity,
+                           std::vector<std::string>& report) {
+    const std::vector<int> cpus = chosenCpus(affinity);
+    const auto most = static_cast<std::uint32_t>(cpus.size());
+    if (priority == 0 || wanted <= most) return wanted;
+    report.push_back("Only " + std::to_string(most) + " of " + std::to_string(wanted) +
+                     " real-time threads are used: each needs a CPU of its own, and CPU " +
+                     listed(cpus) + " is all there is. Name more CPUs or ask for fewer threads.");
+    return most;
+}
+
+std::vector<std::string> configureThisThread(const ThreadOptions& options) {
+    usableCpus();  // found before this thread is pinned
+    std::vector<std::string> report;
+    pthread_setname_np(pthread_self(), options.name.substr(0, 15).c_str());
+    setAffinity(options, report);
+    setPriority(options, report);
+    prctl(PR_SET_TIMERSLACK, 1UL);  // else sleeps of normal threads end up to 50 microseconds late
+    return report;
+}
+
+std::vector<std::string> lockMemory() {
+    rlimit limit{};
+    getrlimit(RLIMIT_MEMLOCK, &limit);
+    // Under a limit, locking later memory too would make later allocations fail instead.
+    const bool isLimited = limit.rlim_cur != RLIM_INFINITY && geteuid() != 0;
+    const int flags = isLimited ? MCL_CURRENT : MCL_CURRENT | MCL_FUTURE;
+    const std::string remedy =
+        "grant the program CAP_IPC_LOCK, or its user 'memlock unlimited' in "
+        "/etc/security/limits.d.";
+    if (mlockall(flags) != 0) {
+        return {"Memory was not locked (" + reason(errno) +
+                "): a page fault can delay a cycle. To lock it, " + remedy};
+    }
+    if (!isLimited) return {};
+    return {"Only the memory in use now was locked, because the process has a limit of " +
+            std::to_string(limit.rlim_cur / 1024) + " KiB. To lock all, " + remedy};
+}
+
+[[gnu::noinline]] void prefaultStack() noexcept {
+    std::array<volatile char, PrefaultedBytes> stack;
+    constexpr std::size_t SmallestPage = 4096;
+    for (std::size_t i = 0; i < stack.size(); i += SmallestPage) stack[i] = 0;
+}
+
+void setFloatingPointMode() noexcept {
+#if defined(__x86_64__)
+    constexpr unsigned TrapsMasked = 0x1F80;  // rounding bits and both flush bits are zero
+    _mm_setcsr(TrapsMasked);
+#else
+    std::fesetenv(FE_DFL_ENV);
+#endif
+}
+
+}  // namespace cortex::cs

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cortex::cs {
+
+// The only place with calls for scheduling and memory locking. Each asks the system, and returns in
+// sentences what the system refused and what helps; nothing here fails.
+
+struct ThreadOptions {
+    std::string name;           // the first 15 characters are shown by the system
+    int priority = 0;           // 1 to 99: SCHED_FIFO; 0: as the thread has it
+    std::vector<int> affinity;  // CPUs; empty: all that the process may use
+};
+
+/// The CPUs that the process may use, as found at the first call (before any thread was pinned).
+const std::vector<int>& usableCpus();
+
+/// Where the n-th real-time thread is pinned; thread 0 is the loop's own.
+int cpuForThread(const std::vector<int>& affinity, std::uint32_t thread);
+
+/// `wanted`, or for real-time threads at most one per CPU, with a line of report.
+std::uint32_t clampThreads(std::uint32_t wanted, int priority, const std::vector<int>& affinity,
+                           std::vector<std::string>& report);
+
+/// Sets name, CPUs and priority of the calling thread.
+std::vector<std::string> configureThisThread(const ThreadOptions& options);
+
+/// Keeps all memory of the process resident, what it obtains later included.
+std::vector<std::string> lockMemory();
+
+/// Touches the calling thread's stack, so that the loop meets no page fault on it.
+void prefaultStack() noexcept;
+
+/// Round to nearest, no flush to zero, no floating-point traps: results must not depend on the
+/// thread. Every thread of the loop calls it at the start of each cycle (a few nanoseconds).
+void setFloatingPointMode() noexcept;
+
+}  // namespace cortex::cs
