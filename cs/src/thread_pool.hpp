@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scheduler.hpp"
+#include "wake_word.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cortex::cs {
+
+struct PoolOptions {
+    std::uint32_t threads = 0;  // with the loop's own; 0: as the schedule says
+    int priority = 0;           // of the workers, see ThreadOptions; real-time ones are pinned
+    std::vector<int> affinity;  // CPUs for all threads, the loop's first; empty: all usable
+    std::uint32_t spinMicroseconds = 20;  // before a waiting thread sleeps
+    bool oversubscribe = false;           // tests: more real-time threads than CPUs
+
+    /// Runs in each worker thread before its first cycle; must not throw.
+    void (*onStart)(void* context, std::uint32_t worker) = nullptr;
+    void* onStartContext = nullptr;
+};
+
+/// Runs the chunks of a schedule once in each cycle(), on the calling (loop) thread as worker 0 and
+/// on workers of its own. Made and destroyed outside the loop; cycle() neither allocates nor locks.
+/// A waiting thread spins for a bounded time and then sleeps, because a spinning real-time thread
+/// may keep the one it waits for off the CPU.
+class ThreadPool {
+public:
+    /// Must not throw.
+    using ChunkFunction = void (*)(void* context, std::uint32_t chunk, std::uint32_t worker);
+
+    ThreadPool(const Schedule& schedule, ChunkFunction run, void* context, PoolOptions options);
+    ~ThreadPool();
+    ThreadPool(const ThreadPool&) = delete;
+    ThreadPool& operator=(const ThreadPool&) = delete;
+
+    void cycle() noexcept;
+
+    std::uint32_t threads() const noexcept { return static_cast<std::uint32_t>(workers_.size()); }
+
+    /// How often this worker slept within a cycle because what it waited for took too long.
+    std::uint64_t sleeps(std::uint32_t worker) const noexcept;
+
+    /// What the system refused to the workers, in sentences.
+    const std::vector<std::string>& report() const noexcept { return report_; }
+
+private:
+    struct alignas(64) DoneWord {
+        WakeWord word;
+    };
+    struct alignas(64) Worker {
+        std::atomic<std::uint64_t> sleeps{0};
+        std::atomic<bool> isConfigured{false};
+        std::vector<std::string> report;
+        std::thread thread;
+    };
+
+    void startWorkers();
+    void stopWorkers() noexcept;
+    void workerMain(std::uint32_t worker);
+    bool waitForCycle() noexcept;
+    void takeChunks(std::uint32_t worker) noexcept;
+    void waitForPredecessors(const Chunk& chunk, std::uint32_t epoch,
+                             std::uint32_t worker) noexcept;
+    void waitFor(WakeWord& word, std::uint32_t epoch, class Spin& spin,
+                 std::uint32_t worker) noexcept;
+
+    // Read-only in the loop.
+    const std::vector<Chunk> chunks_;
+    const std::vector<std::uint32_t> predecessors_;
+    std::vector<bool> isAwaited_;  // by chunk: some chunk names it
+    const ChunkFunction run_;
+    void* const context_;
+    const PoolOptions options_;
+    const std::chrono::nanoseconds spinTime_;
+    std::vector<std::string> report_;
+    std::vector<Worker> workers_;
+    std::unique_ptr<DoneWord[]> done_;  // by chunk: the epoch in which it last ran
+    std::uint32_t epoch_ = 0;           // even; loop thread only
+
+    alignas(64) std::atomic<std::uint64_t> ticket_;        // epoch << 32 | next chunk to take
+    alignas(64) std::atomic<std::uint32_t> remaining_{0};  // chunks not yet reported as done
+    alignas(64) WakeWord started_;   // epoch; workers sleep on it between cycles
+    alignas(64) WakeWord finished_;  // epoch; the loop thread sleeps on it at the cycle's end
+    std::atomic<bool> stopping_{false};
+};
+
+}  // namespace cortex::cs
