@@ -30,6 +30,9 @@ public:
     const SlotState& state() const;  // as the owner sees it
 
     bool has(std::string_view item) const;
+    // The object itself; throws Error if it belongs to another agent.
+    Simplex& simplex() const;
+    bool later() const;  // delayed: what is sent arrives in the next cycle
 
 protected:
     void* cell(std::string_view item, Kind kind, bool array, bool write, std::size_t& length) const;
@@ -42,6 +45,7 @@ protected:
 class InputSimplex : public RelatedSimplex {
 public:
     using RelatedSimplex::RelatedSimplex;
+    explicit InputSimplex(const RelatedSimplex& related) : RelatedSimplex{related} {}
 
     template <class T>
     Data<const T> data(std::string_view item) const {
@@ -162,6 +166,7 @@ protected:
         return {parameterOffset(command, parameter, kindFor<T>(), false)};
     }
     void handle(std::string_view command, Handler handler);  // throws if the type lacks it
+    AgentRuntime& runtime() const { return *runtime_; }  // from start() on
 
 private:
     friend class AgentRuntime;

@@ -12,6 +12,8 @@
 namespace cortex::cs {
 
 class TaskRunner;
+class GroupCommands;
+class ClusterCS;
 
 // A simplex with a task and a state machine. Derive, get handles in populate(), override the hooks
 // you need. Hooks run in the tick, on the loop thread or a worker, one at a time per simplex:
@@ -37,8 +39,11 @@ protected:
     virtual bool stateFault(const Tick&) CORTEX_REALTIME { return true; }
     virtual void loopEnd(const Tick&) CORTEX_REALTIME {}
 
-    // In a hook: enter Fault at the end of this hook. The first fault of a cycle is kept.
+    // In a hook: enter Fault when this task ends. The first fault of a cycle is kept.
     void fault(std::int64_t code, std::string_view text) CORTEX_REALTIME;
+    // In a hook: own quality and that of the outputs in this cycle, instead of what follows from the
+    // inputs; `measuredAt`: nominal time of the measurement, default this cycle.
+    void setQuality(Quality quality, std::int64_t measuredAt = -1) CORTEX_REALTIME;
     // In a hook: an event of this simplex.
     void event(Severity severity, const EventText& text) CORTEX_REALTIME;
     // In a hook: the life-cycle commands of a related simplex. Along an output relationship they
@@ -71,6 +76,9 @@ protected:
 
 private:
     friend class TaskRunner;
+class GroupCommands;
+class ClusterCS;
+    friend class GroupCommands;
     friend class ClusterCS;
 
     template <class Self>
@@ -81,9 +89,14 @@ private:
     State state_ = State::Standby;
     bool faultPending_ = false;
     bool dead_ = false;  // a hook threw: no hooks until clearFaults
+    bool qualitySet_ = false;
+    Quality quality_ = Quality::Good;
     LoopThread* thread_ = nullptr;
-    std::int64_t stateSince_ = 0;  // nominal time
-    std::int64_t lastRun_ = 0;     // nominal time
+    std::int64_t now_ = 0;  // nominal time of the cycle in which it last ran
+    std::int64_t measuredAt_ = 0;
+    std::int64_t faultCode_ = 0;
+    std::uint32_t manager_ = noSimplex;  // who starts and stops it instead of group commands
+    EventText text_;                     // of the pending fault, or why startup was refused
 };
 
 }  // namespace cortex::cs

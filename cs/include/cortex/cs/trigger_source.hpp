@@ -27,8 +27,8 @@ public:
     virtual Trigger waitForTick() = 0;
     virtual void interrupt() = 0;  // makes the present or next wait return `stopped`
     virtual std::int64_t period() const = 0;  // nominal, ns
-    // Whether the next deadline has already passed, and by how many periods.
-    virtual std::int64_t missed() const { return 0; }
+    // How many deadlines have passed that no cycle has begun for; the loop asks after each cycle.
+    virtual std::int64_t missed() { return 0; }
     // After a late cycle: give up the missed deadlines (true) or return them at once (false).
     virtual void skipMissed(bool) {}
 };
@@ -42,7 +42,7 @@ public:
     Trigger waitForTick() override;
     void interrupt() override;
     std::int64_t period() const override { return period_; }
-    std::int64_t missed() const override;
+    std::int64_t missed() override;
     void skipMissed(bool skip) override { skip_ = skip; }
 
 private:
@@ -66,7 +66,7 @@ public:
     Trigger waitForTick() override;
     void interrupt() override;
     std::int64_t period() const override { return period_; }
-    std::int64_t missed() const override { return late_; }
+    std::int64_t missed() override;
     void skipMissed(bool skip) override { skip_ = skip; }
 
 private:
@@ -92,7 +92,7 @@ public:
     Trigger waitForTick() override;
     void interrupt() override;
     std::int64_t period() const override { return period_; }
-    std::int64_t missed() const override;
+    std::int64_t missed() override;
 
 private:
     std::int64_t period_;
