@@ -4,12 +4,15 @@
 #include "cortex/core/realtime.hpp"
 #include "cortex/core/value.hpp"
 
+#include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string_view>
 #include <type_traits>
 
 namespace cortex {
+
+// Octets of `text` that fit into `capacity` without splitting a UTF-8 character.
+std::size_t fittingLength(std::string_view text, std::size_t capacity) CORTEX_REALTIME;
 
 // Head of a string element in a table; `capacity` octets of UTF-8 follow it.
 struct StringCell {

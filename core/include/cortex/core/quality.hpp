@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace cortex {
@@ -19,6 +20,7 @@ struct SlotState {
     std::int64_t time = 0;            // its nominal time, ns since the cluster's start
     std::uint32_t cause = noSimplex;  // index of the simplex that first made it not good
     Quality quality = Quality::Good;
+    std::array<std::uint8_t, 3> unused{};  // no padding: equal states are equal octets
 
     bool operator==(const SlotState&) const = default;
 };

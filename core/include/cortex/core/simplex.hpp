@@ -127,11 +127,13 @@ public:
     // Setup, before start(): the value an item starts with. Wrong ones are findings of validate().
     void set(std::string_view item, Value value, Place place = {});
     void set(std::string_view item, double value) { set(item, Value{std::vector{value}}); }
+    void set(std::string_view item, int value) { set(item, std::int64_t{value}); }
     void set(std::string_view item, std::int64_t value) { set(item, Value{std::vector{value}}); }
     void set(std::string_view item, bool value) { set(item, Value{std::vector<bool>{value}}); }
     void set(std::string_view item, std::string_view value) {
         set(item, Value{std::vector{std::string{value}}});
     }
+    void set(std::string_view item, const char* value) { set(item, std::string_view{value}); }
     void runEvery(int cycles, int phase = -1);
 
     // Own data, from populate() on; of a descriptive simplex without writer also for the program,
@@ -140,12 +142,13 @@ public:
     Data<T> data(std::string_view item) {
         std::size_t length = 1;
         return Data<T>{static_cast<typename StorageOf<T>::type*>(
-            cell(item, kindFor<T>(), false, length))};
+            cell(item, kindFor<T>(), false, !std::is_const_v<T>, length))};
     }
     template <class T>
     std::span<T> array(std::string_view item) {
         std::size_t length = 0;
-        auto* first = static_cast<T*>(cell(item, kindFor<T>(), true, length));
+        auto* first =
+            static_cast<T*>(cell(item, kindFor<T>(), true, !std::is_const_v<T>, length));
         return {first, length};
     }
     SlotState& slot();  // own quality and stamp
@@ -174,7 +177,8 @@ private:
     friend class OutputSimplex;
     friend class SimplexTree;
 
-    void* cell(std::string_view item, Kind kind, bool array, std::size_t& length);
+    AgentRuntime& startedRuntime() const;  // throws before start()
+    void* cell(std::string_view item, Kind kind, bool array, bool write, std::size_t& length);
     std::uint32_t parameterOffset(std::string_view command, std::string_view parameter, Kind kind,
                                   bool request) const;
     std::vector<std::uint32_t> edgesUnder(std::string_view rule, Direction direction) const;

@@ -67,6 +67,13 @@ struct SimplexInfo {
     bool delayedOutput = false;          // its writer's output is delayed: a device's observation
 };
 
+// What the tree sets over the default of a type's item.
+struct InitialValue {
+    std::uint32_t simplex = noSimplex;
+    const ItemLayout* item = nullptr;
+    Value value;
+};
+
 // What an agent consists of: simplexes by path, their types, relationships and table layout.
 // Immutable after start(); shared with images and interfaces; any thread may read.
 class Structure {
@@ -77,6 +84,7 @@ public:
     std::vector<SimplexInfo> simplexes;  // sorted by path, then remote ones
     std::vector<Edge> edges;             // by owner, then rule, in the order related
     std::vector<std::unique_ptr<TypeLayout>> layouts;
+    std::vector<InitialValue> initial;  // settings of the tree; a later one outranks
     BlockSizes cyclic, constant;  // totals
     std::unordered_map<std::string_view, std::uint32_t> byPath;
 

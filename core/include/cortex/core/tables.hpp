@@ -25,6 +25,11 @@ struct Slice {
 
 void copySlice(const BlockSizes& sizes, const Slice& from, const Slice& to) CORTEX_REALTIME;
 
+// Between values outside the tables and the cells of an item; storing sets strings' capacities. A
+// value shorter than the item repeats its last element.
+void storeValue(const DataItem& item, const Value& value, void* cells);
+Value loadValue(const DataItem& item, const void* cells);
+
 // All data of an agent: one contiguous block per kind and one of slot states, in one arena that is
 // copied whole into images; constants, latches, candidates and held copies lie outside it.
 // Built once at start(); the loop's threads write it, everybody else reads images.
@@ -61,10 +66,12 @@ private:
     };
     using Memory = std::unique_ptr<std::byte[], AlignedDelete>;
 
-    static Memory allocate(std::size_t octets);
-    Slice sliceOf(std::byte* arena, const BlockSizes& totals, const BlockSizes& base) const;
-    Slice extraSlice(const TypeLayout& layout);
-    void initialise(std::uint32_t simplex);
+    static Memory allocate(std::size_t octets);  // zeroed: every page is touched
+    Slice extraSlice(std::uint32_t simplex);     // starts as a copy of the live one
+    void* cell(std::uint32_t simplex, const ItemLayout& item) const;
+    void initialise();
+    std::vector<Slice> makeLatches();
+    void resolveEdges(const std::vector<Slice>& latches);
 
     std::shared_ptr<const Structure> structure_;
     Memory arena_, constants_;

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/data.hpp"
+
+#include <cstring>
+#include <limits>
+
+namespace cortex {
+
+std::size_t fittingLength(std::string_view text, std::size_t capacity) {
+    if (text.size() <= capacity) return text.size();
+    constexpr unsigned continuationMask = 0xc0U, continuation = 0x80U;
+    std::size_t length = capacity;
+    while (length > 0 &&
+           (static_cast<unsigned char>(text[length]) & continuationMask) == continuation) {
+        --length;
+    }
+    return length;
+}
+
+void StringCell::assign(std::string_view value) {
+    const std::size_t fitting = fittingLength(value, capacity);
+    if (fitting < value.size() && cuts < std::numeric_limits<std::uint32_t>::max()) ++cuts;
+    if (fitting > 0) std::memmove(text(), value.data(), fitting);
+    length = static_cast<std::uint16_t>(fitting);
+}
+
+}  // namespace cortex

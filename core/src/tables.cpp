@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/tables.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+namespace cortex {
+
+namespace {
+
+constexpr std::size_t alignment = 64;
+
+constexpr std::size_t aligned(std::size_t octets) {
+    return (octets + alignment - 1) / alignment * alignment;
+}
+
+// Where each block of an arena starts; floats come first.
+struct BlockOffsets {
+    std::size_t ints, strings, bools, states;
+
+    explicit BlockOffsets(const BlockSizes& totals)
+        : ints{aligned(totals.floats * sizeof(double))},
+          strings{aligned(ints + totals.ints * sizeof(std::int64_t))},
+          bools{aligned(strings + totals.strings)},
+          states{aligned(bools + totals.bools * sizeof(bool))} {}
+
+    std::size_t size(std::size_t stateCount) const {
+        return aligned(states + stateCount * sizeof(SlotState));
+    }
+};
+
+Slice sliceOf(std::byte* arena, const BlockSizes& totals, const BlockSizes& base,
+              std::size_t state) {
+    const BlockOffsets offsets{totals};
+    return {reinterpret_cast<std::int64_t*>(arena + offsets.ints) + base.ints,
+            reinterpret_cast<double*>(arena) + base.floats,
+            reinterpret_cast<bool*>(arena + offsets.bools) + base.bools,
+            arena + offsets.strings + base.strings,
+            reinterpret_cast<SlotState*>(arena + offsets.states) + state};
+}
+
+template <class T>
+void copyBlock(const T* from, T* to, std::size_t count) {
+    if (count > 0) std::memcpy(to, from, count * sizeof(T));
+}
+
+bool readsOnly(const Edge& edge, const Structure& structure) {
+    return edge.rule->direction == Direction::Input ||
+           structure.simplexes[edge.target].role == Role::Active;
+}
+
+// A delayed edge never touches live memory, except that a delayed writer writes it.
+bool readsLatch(const Edge& edge, const Structure& structure) {
+    return structure.simplexes[edge.owner].role == Role::Active && readsOnly(edge, structure) &&
+           (edge.delayed || structure.simplexes[edge.target].delayedOutput);
+}
+
+}  // namespace
+
+void* Slice::at(Kind kind, std::uint32_t offset) const {
+    switch (kind) {
+        case Kind::Int:
+            return ints + offset;
+        case Kind::Float:
+            return floats + offset;
+        case Kind::Bool:
+            return bools + offset;
+        case Kind::String:
+            break;
+    }
+    return strings + offset;
+}
+
+void copySlice(const BlockSizes& sizes, const Slice& from, const Slice& to) {
+    copyBlock(from.floats, to.floats, sizes.floats);
+    copyBlock(from.ints, to.ints, sizes.ints);
+    copyBlock(from.bools, to.bools, sizes.bools);
+    copyBlock(from.strings, to.strings, sizes.strings);
+    *to.state = *from.state;
+}
+
+void storeValue(const DataItem& item, const Value& value, void* cells) {
+    std::visit(
+        [&](const auto& elements) {
+            using Element = typename std::decay_t<decltype(elements)>::value_type;
+            for (std::size_t i = 0; i < item.length; ++i) {
+                const Element element =
+                    elements.empty() ? Element{} : elements[std::min(i, elements.size() - 1)];
+                if constexpr (std::is_same_v<Element, std::string>) {
+                    auto* cell = reinterpret_cast<StringCell*>(static_cast<std::byte*>(cells) +
+                                                               i * StringCell::size(item.capacity));
+                    *cell = {static_cast<std::uint16_t>(item.capacity), 0, 0};
+                    cell->assign(element);
+                } else {
+                    static_cast<Element*>(cells)[i] = element;
+                }
+            }
+        },
+        value);
+}
+
+Value loadValue(const DataItem& item, const void* cells) {
+    const auto elements = [&]<class T>(const T* first) {
+        return Value{std::vector<T>(first, first + item.length)};
+    };
+    switch (item.kind) {
+        case Kind::Int:
+            return elements(static_cast<const std::int64_t*>(cells));
+        case Kind::Float:
+            return elements(static_cast<const double*>(cells));
+        case Kind::Bool:
+            return elements(static_cast<const bool*>(cells));
+        case Kind::String:
+            break;
+    }
+    std::vector<std::string> texts;
+    const auto* cell = static_cast<const std::byte*>(cells);
+    for (std::uint32_t i = 0; i < item.length; ++i, cell += StringCell::size(item.capacity)) {
+        texts.emplace_back(reinterpret_cast<const StringCell*>(cell)->view());
+    }
+    return texts;
+}
+
+void Tables::AlignedDelete::operator()(std::byte* memory) const {
+    ::operator delete[](memory, std::align_val_t{alignment});
+}
+
+Tables::Memory Tables::allocate(std::size_t octets) {
+    Memory memory{new (std::align_val_t{alignment}) std::byte[octets]};
+    std::memset(memory.get(), 0, octets);
+    return memory;
+}
+
+Tables::Tables(std::shared_ptr<const Structure> structure)
+    : structure_{std::move(structure)},
+      arenaSize_{BlockOffsets{structure_->cyclic}.size(structure_->simplexes.size())},
+      constantSize_{BlockOffsets{structure_->constant}.size(0)} {
+    arena_ = allocate(arenaSize_);
+    constants_ = allocate(constantSize_);
+    initialise();
+    resolveEdges(makeLatches());
+}
+
+void Tables::initialise() {
+    const auto& simplexes = structure_->simplexes;
+    for (std::uint32_t i = 0; i < simplexes.size(); ++i) {
+        for (const ItemLayout& layout : simplexes[i].layout->items) {
+            storeValue(*layout.item, layout.item->initial, cell(i, layout));
+        }
+        *live(i).state = SlotState{};
+        if (simplexes[i].remote) {
+            live(i).state->quality = Quality::Lost;
+            live(i).state->cause = i;
+        }
+    }
+    for (const InitialValue& initial : structure_->initial) {
+        storeValue(*initial.item->item, initial.value, cell(initial.simplex, *initial.item));
+    }
+}
+
+std::vector<Slice> Tables::makeLatches() {
+    std::vector<Slice> latches(structure_->simplexes.size());
+    for (const Edge& edge : structure_->edges) {
+        Slice& latch = latches[edge.target];
+        if (latch.state != nullptr || !readsLatch(edge, *structure_)) continue;
+        latch = extraSlice(edge.target);
+        latches_.push_back(
+            {&structure_->simplexes[edge.target].layout->cyclic, live(edge.target), latch});
+    }
+    return latches;
+}
+
+void Tables::resolveEdges(const std::vector<Slice>& latches) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Slice> candidates;
+    for (const Edge& edge : structure_->edges) {
+        const SimplexInfo& target = structure_->simplexes[edge.target];
+        const bool ownerActs = structure_->simplexes[edge.owner].role == Role::Active;
+        Slice seen = readsLatch(edge, *structure_) ? latches[edge.target] : live(edge.target);
+        Slice source = seen;
+        if (ownerActs && !readsOnly(edge, *structure_) && target.writers.size() > 1) {
+            Slice& candidate = candidates[{edge.owner, edge.target}];
+            if (candidate.state == nullptr) candidate = extraSlice(edge.target);
+            seen = source = candidate;
+        } else if (ownerActs && edge.rule->direction == Direction::Input &&
+                   edge.rule->onLoss == OnLoss::Hold) {
+            seen = extraSlice(edge.target);
+        }
+        edges_.push_back(seen);
+        sources_.push_back(source);
+    }
+}
+
+Slice Tables::extraSlice(std::uint32_t simplex) {
+    const BlockSizes& sizes = structure_->simplexes[simplex].layout->cyclic;
+    extra_.push_back(allocate(BlockOffsets{sizes}.size(1)));
+    const Slice slice = sliceOf(extra_.back().get(), sizes, {}, 0);
+    copySlice(sizes, live(simplex), slice);
+    return slice;
+}
+
+void* Tables::cell(std::uint32_t simplex, const ItemLayout& item) const {
+    const Slice slice = item.item->constant ? constants(simplex) : live(simplex);
+    return slice.at(item.item->kind, item.offset);
+}
+
+Slice Tables::live(std::uint32_t simplex) const { return sliceIn(arena_.get(), simplex); }
+
+Slice Tables::constants(std::uint32_t simplex) const {
+    Slice slice = sliceOf(constants_.get(), structure_->constant,
+                          structure_->simplexes[simplex].constantBase, 0);
+    slice.state = nullptr;
+    return slice;
+}
+
+Slice Tables::sliceIn(std::byte* arena, std::uint32_t simplex) const {
+    return sliceOf(arena, structure_->cyclic, structure_->simplexes[simplex].base, simplex);
+}
+
+void Tables::latch() {
+    for (const Latch& latch : latches_) copySlice(*latch.sizes, latch.from, latch.to);
+}
+
+}  // namespace cortex
