@@ -64,6 +64,8 @@ private:
     Simplex& insert(std::unique_ptr<Simplex> simplex);
     std::unique_ptr<Simplex> make(std::string_view path, const Type& type,
                                   const ClassRegistry* registry) const;
+    Simplex* createOne(const Simplex& owner, const Rule& rule, std::uint32_t n,
+                       const ClassRegistry* registry);
 
     std::shared_ptr<const TypeModel> types_;
     std::map<std::string, std::unique_ptr<Simplex>, std::less<>> simplexes_;
