@@ -94,6 +94,10 @@ const std::vector<int>& usableCpus() {
     return Cpus;
 }
 
+std::uint32_t cpuCount(const std::vector<int>& affinity) {
+    return static_cast<std::uint32_t>(chosenCpus(affinity).size());
+}
+
 int cpuForThread(const std::vector<int>& affinity, std::uint32_t thread) {
     const std::vector<int> cpus = chosenCpus(affinity);
     return cpus[thread % cpus.size()];
@@ -101,12 +105,12 @@ int cpuForThread(const std::vector<int>& affinity, std::uint32_t thread) {
 
 std::uint32_t clampThreads(std::uint32_t wanted, int priority, const std::vector<int>& affinity,
                            std::vector<std::string>& report) {
-    const std::vector<int> cpus = chosenCpus(affinity);
-    const auto most = static_cast<std::uint32_t>(cpus.size());
+    const std::uint32_t most = cpuCount(affinity);
     if (priority == 0 || wanted <= most) return wanted;
     report.push_back("Only " + std::to_string(most) + " of " + std::to_string(wanted) +
                      " real-time threads are used: each needs a CPU of its own, and CPU " +
-                     listed(cpus) + " is all there is. Name more CPUs or ask for fewer threads.");
+                     listed(chosenCpus(affinity)) +
+                     " is all there is. Name more CPUs or ask for fewer threads.");
     return most;
 }
 

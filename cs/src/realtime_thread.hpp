@@ -20,7 +20,10 @@ struct ThreadOptions {
 /// The CPUs that the process may use, as found at the first call (before any thread was pinned).
 const std::vector<int>& usableCpus();
 
-/// Where the n-th real-time thread is pinned; thread 0 is the loop's own.
+/// How many of these CPUs the process may use; empty: all usable.
+std::uint32_t cpuCount(const std::vector<int>& affinity);
+
+/// Where the n-th real-time thread is pinned; 0 is the loop's own.
 int cpuForThread(const std::vector<int>& affinity, std::uint32_t thread);
 
 /// `wanted`, or for real-time threads at most one per CPU, with a line of report.

@@ -17,8 +17,7 @@ constexpr Index None = std::numeric_limits<Index>::max();
 constexpr double AssumedTaskMicroseconds = 0.1;
 constexpr double LeastTaskMicroseconds = 0.01;
 constexpr double ChunkMicroseconds = 4.0;  // a ticket costs 0.05 to 0.2
-constexpr double SmallestParallelMicroseconds = 20.0;
-constexpr double WakeMicroseconds = 5.0;   // until a sleeping worker has its first chunk
+constexpr double WakeMicroseconds = 20.0;  // what a sleeping worker costs before it helps
 constexpr double LevelMicroseconds = 0.5;  // waiting for the chunks of the level before
 constexpr std::size_t MostInlinedEdges = 64;
 constexpr std::size_t MostPruningSteps = 1024;
@@ -107,10 +106,12 @@ public:
 private:
     std::size_t nodeCount() const { return graph_.nodes.size(); }
     double cost(Index node) const;
+    double weight(Index node) const;
     std::vector<bool> leadingToTask(const Lists& successors) const;
     std::span<const Index> before(Index node) const;
     void cutLevel(std::span<const Index> chains);
     void openChunk();
+    void addToOpenChunk(Index chain);
     void prune(Index chunk, std::vector<Index>& named, std::vector<Index>& coveredFor) const;
 
     const TaskGraph& graph_;
@@ -124,24 +125,28 @@ private:
     // After mergeChains(): chains in the canonical order of their heads.
     std::vector<Index> chainOf_;  // by node, None where contracted
     Lists nodesOfChain_;
-    std::vector<double> chainCost_;
+    std::vector<double> chainCost_, chainWeight_;
     Lists chainsOfLevel_;
 
-    // While cutting: the open chunk is the last.
+    // While cutting; the open chunk is the last.
     std::vector<Index> chunkOfChain_;
-    double openCost_ = 0;
+    double openCost_ = 0, openWeight_ = 0;
     bool openHoldsWholeLevels_ = false;
     double serialCost_ = 0, parallelCost_ = 0;
     Index widestLevel_ = 0;
 };
 
-/// The unit is a microsecond, or one task where the caller fixed the chunk size.
+/// In microseconds.
 double Builder::cost(Index node) const {
     if (!graph_.nodes[node].hasTask) return 0;
-    if (options_.chunkSize != 0) return 1;
     const double full = options_.costMicroseconds.empty() ? AssumedTaskMicroseconds
                                                           : options_.costMicroseconds[node];
     return std::max(full / std::max(1U, graph_.nodes[node].every), LeastTaskMicroseconds);
+}
+
+/// What fills a chunk: cost, or the number of tasks where the caller fixed it.
+double Builder::weight(Index node) const {
+    return options_.chunkSize == 0 ? cost(node) : graph_.nodes[node].hasTask ? 1 : 0;
 }
 
 std::span<const Index> Builder::before(Index node) const {
@@ -211,9 +216,11 @@ void Builder::mergeChains() {
             chainOf_[node] = static_cast<Index>(levelOfChain.size());
             levelOfChain.push_back(level);
             chainCost_.push_back(0);
+            chainWeight_.push_back(0);
             levels = std::max(levels, level + 1);
         }
         chainCost_[chainOf_[node]] += cost(node);
+        chainWeight_[chainOf_[node]] += weight(node);
         members.push_back(node);
         chainOfMember.push_back(chainOf_[node]);
     }
@@ -224,42 +231,50 @@ void Builder::mergeChains() {
 
 void Builder::openChunk() {
     schedule_.chunks.push_back({static_cast<Index>(schedule_.tasks.size()), 0, 0, 0});
-    openCost_ = 0;
+    openCost_ = openWeight_ = 0;
 }
 
-/// Small levels share a chunk; a large one is cut into chunks of its own. A level's tasks are
-/// independent of each other, so no chunk waits for another that is not of an earlier level.
+void Builder::addToOpenChunk(Index chain) {
+    Chunk& chunk = schedule_.chunks.back();
+    for (const Index node : nodesOfChain_.of(chain)) {
+        if (!graph_.nodes[node].hasTask) continue;
+        schedule_.tasks.push_back(node);
+        ++chunk.count;
+    }
+    chunkOfChain_[chain] = static_cast<Index>(schedule_.chunks.size()) - 1;
+    openCost_ += chainCost_[chain];
+    openWeight_ += chainWeight_[chain];
+}
+
+/// Small levels share a chunk; a large one is cut into chunks of its own. The chains of a level are
+/// independent of each other, so a chunk waits only for chunks of earlier levels.
 void Builder::cutLevel(std::span<const Index> chains) {
     const double limit = options_.chunkSize != 0 ? options_.chunkSize : ChunkMicroseconds;
-    double levelCost = 0;
-    for (const Index chain : chains) levelCost += chainCost_[chain];
-    const bool joinsOpenChunk = openHoldsWholeLevels_ && openCost_ + levelCost <= limit;
-    if (!joinsOpenChunk) openChunk();
+    double levelCost = 0, levelWeight = 0;
+    for (const Index chain : chains) {
+        levelCost += chainCost_[chain];
+        levelWeight += chainWeight_[chain];
+    }
+    const bool sharesChunk = openHoldsWholeLevels_ && openWeight_ + levelWeight <= limit;
+    if (!sharesChunk) openChunk();
     const std::size_t firstChunk = schedule_.chunks.size() - 1;
     double largest = 0;
-    bool isEmpty = !joinsOpenChunk, afterJoin = false;
+    bool isEmpty = !sharesChunk, isAfterJoin = false;
     for (const Index chain : chains) {
-        const bool isJoin = chainCost_[chain] <= 0;
-        const bool isFull = openCost_ + chainCost_[chain] > limit;
-        if (!isEmpty && (isFull || isJoin || afterJoin)) openChunk();
-        for (const Index node : nodesOfChain_.of(chain)) {
-            if (!graph_.nodes[node].hasTask) continue;
-            schedule_.tasks.push_back(node);
-            ++schedule_.chunks.back().count;
-        }
-        chunkOfChain_[chain] = static_cast<Index>(schedule_.chunks.size()) - 1;
-        openCost_ += chainCost_[chain];
+        const bool isJoin = chainWeight_[chain] <= 0;
+        const bool isFull = openWeight_ + chainWeight_[chain] > limit;
+        if (!isEmpty && (isFull || isJoin || isAfterJoin)) openChunk();
+        addToOpenChunk(chain);
         largest = std::max(largest, openCost_);
         isEmpty = false;
-        afterJoin = isJoin;
+        isAfterJoin = isJoin;
     }
     const auto width = static_cast<Index>(schedule_.chunks.size() - firstChunk);
     openHoldsWholeLevels_ = width == 1;
     widestLevel_ = std::max(widestLevel_, width);
     serialCost_ += levelCost;
-    parallelCost_ += width == 1 ? levelCost
-                                : std::max(largest, levelCost / std::min(width, options_.threads)) +
-                                      LevelMicroseconds;
+    const double shared = levelCost / std::max(1U, std::min(width, options_.threads));
+    parallelCost_ += width == 1 ? levelCost : std::max(largest, shared) + LevelMicroseconds;
 }
 
 void Builder::cutChunks() {
@@ -308,10 +323,8 @@ void Builder::namePredecessors() {
 }
 
 Schedule Builder::finish() {
-    const bool byCost = options_.chunkSize == 0;
-    const bool tooSmall = byCost && serialCost_ < SmallestParallelMicroseconds;
-    const bool tooSlow = byCost && parallelCost_ + WakeMicroseconds >= serialCost_;
-    schedule_.threads = tooSmall || tooSlow ? 1 : std::min(options_.threads, widestLevel_);
+    const bool pays = parallelCost_ + WakeMicroseconds < serialCost_;
+    schedule_.threads = pays ? std::min(options_.threads, widestLevel_) : 1;
     if (options_.force) schedule_.threads = options_.threads;
     schedule_.threads = std::max<Index>(1, schedule_.threads);
     return std::move(schedule_);

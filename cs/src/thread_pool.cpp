@@ -21,7 +21,7 @@ void pauseBriefly() noexcept {
 }  // namespace
 
 /// A budget of time for busy waiting. Short waits never read the clock.
-class Spin {
+class ThreadPool::Spin {
 public:
     explicit Spin(std::chrono::nanoseconds limit) : limit_(limit) {}
 
@@ -72,6 +72,23 @@ ThreadPool::ThreadPool(const Schedule& schedule, ChunkFunction run, void* contex
 
 ThreadPool::~ThreadPool() { stopWorkers(); }
 
+/// Threads that share work are pinned, each to a CPU of its own: measured, the system otherwise
+/// wakes workers on the loop's own CPU, where they only slow it down.
+ThreadOptions ThreadPool::threadOptions(std::uint32_t worker) const {
+    ThreadOptions thread{options_.name + (worker == 0 ? "-loop" : "-" + std::to_string(worker)),
+                         options_.priority, options_.affinity};
+    const bool sharesWork = threads() > 1 && threads() <= cpuCount(options_.affinity);
+    if (thread.priority != 0 || sharesWork) {
+        thread.affinity = {cpuForThread(options_.affinity, worker)};
+    }
+    return thread;
+}
+
+std::vector<std::string> ThreadPool::configureLoopThread() const {
+    prefaultStack();
+    return configureThisThread(threadOptions(0));
+}
+
 void ThreadPool::startWorkers() {
     for (std::uint32_t worker = 1; worker < threads(); ++worker) {
         workers_[worker].thread = std::thread(&ThreadPool::workerMain, this, worker);
@@ -92,10 +109,7 @@ void ThreadPool::stopWorkers() noexcept {
 }
 
 void ThreadPool::workerMain(std::uint32_t worker) {
-    ThreadOptions thread{"cortex-worker" + std::to_string(worker), options_.priority,
-                         options_.affinity};
-    if (thread.priority != 0) thread.affinity = {cpuForThread(options_.affinity, worker)};
-    workers_[worker].report = configureThisThread(thread);
+    workers_[worker].report = configureThisThread(threadOptions(worker));
     prefaultStack();
     if (options_.onStart != nullptr) options_.onStart(options_.onStartContext, worker);
     workers_[worker].isConfigured.store(true);

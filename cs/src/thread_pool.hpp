@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "realtime_thread.hpp"
 #include "scheduler.hpp"
 #include "wake_word.hpp"
 
@@ -15,8 +16,9 @@
 namespace cortex::cs {
 
 struct PoolOptions {
+    std::string name = "cortex";
     std::uint32_t threads = 0;  // with the loop's own; 0: as the schedule says
-    int priority = 0;           // of the workers, see ThreadOptions; real-time ones are pinned
+    int priority = 0;           // see ThreadOptions
     std::vector<int> affinity;  // CPUs for all threads, the loop's first; empty: all usable
     std::uint32_t spinMicroseconds = 20;  // before a waiting thread sleeps
     bool oversubscribe = false;           // tests: more real-time threads than CPUs
@@ -40,6 +42,10 @@ public:
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
 
+    /// Called once by the thread that will call cycle(): pins it and sets its priority as the
+    /// workers'. Returns what the system refused.
+    std::vector<std::string> configureLoopThread() const;
+
     void cycle() noexcept;
 
     std::uint32_t threads() const noexcept { return static_cast<std::uint32_t>(workers_.size()); }
@@ -51,6 +57,7 @@ public:
     const std::vector<std::string>& report() const noexcept { return report_; }
 
 private:
+    class Spin;
     struct alignas(64) DoneWord {
         WakeWord word;
     };
@@ -61,6 +68,7 @@ private:
         std::thread thread;
     };
 
+    ThreadOptions threadOptions(std::uint32_t worker) const;
     void startWorkers();
     void stopWorkers() noexcept;
     void workerMain(std::uint32_t worker);
@@ -68,8 +76,7 @@ private:
     void takeChunks(std::uint32_t worker) noexcept;
     void waitForPredecessors(const Chunk& chunk, std::uint32_t epoch,
                              std::uint32_t worker) noexcept;
-    void waitFor(WakeWord& word, std::uint32_t epoch, class Spin& spin,
-                 std::uint32_t worker) noexcept;
+    void waitFor(WakeWord& word, std::uint32_t epoch, Spin& spin, std::uint32_t worker) noexcept;
 
     // Read-only in the loop.
     const std::vector<Chunk> chunks_;
