@@ -13,10 +13,13 @@ namespace {
 
 std::uint32_t sizeOf(const DataItem& item) {
     switch (item.kind) {
-        case Kind::Bool: return item.length;
-        case Kind::String: return item.length * StringCell::size(item.capacity);
+        case Kind::Bool:
+            return item.length;
+        case Kind::String:
+            return item.length * StringCell::size(item.capacity);
         case Kind::Int:
-        case Kind::Float: break;
+        case Kind::Float:
+            break;
     }
     return item.length * 8;
 }
@@ -70,8 +73,8 @@ DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, std::uin
     for (const ItemLayout& entry : layout.items) {
         const DataItem& item = *entry.item;
         if (item.constant) continue;
-        const bool limited = item.kind == Kind::Float ||
-                             (item.kind == Kind::Int && (item.min || item.max));
+        const bool limited =
+            item.kind == Kind::Float || (item.kind == Kind::Int && (item.min || item.max));
         items_.push_back({&item, cellOf(live, entry), next, sizeOf(item),
                           asDouble(item.min, -infinity), asDouble(item.max, infinity),
                           item.rate.value_or(infinity), limited, false});
@@ -87,6 +90,10 @@ const std::byte* DemandLimits::previous(const DataItem& item) const {
 
 void DemandLimits::setPrevious() {
     for (const Item& item : items_) std::memcpy(item.previous, item.live, item.size);
+}
+
+void DemandLimits::restorePrevious() {
+    for (const Item& item : items_) std::memcpy(item.live, item.previous, item.size);
 }
 
 LimitResult DemandLimits::apply(double elapsedSeconds) {
@@ -145,12 +152,9 @@ bool DemandLimits::applyInt(Item& item, LimitResult& result) {
         if (values[i] == written) continue;
         any = true;
         if (result.item == nullptr) {
-            result = {item.item,
-                      static_cast<double>(written),
-                      static_cast<double>(values[i]),
-                      false,
-                      item.item->onLimit == OnLimit::Fault,
-                      !item.inEpisode};
+            result = {
+                item.item, static_cast<double>(written),         static_cast<double>(values[i]),
+                false,     item.item->onLimit == OnLimit::Fault, !item.inEpisode};
         }
     }
     return any;

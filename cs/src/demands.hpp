@@ -27,11 +27,11 @@ public:
     DemandLimits(const TypeLayout& layout, const Slice& live, std::uint32_t simplex);
 
     std::uint32_t simplex() const { return simplex_; }
-    // `quietly`: ramps of safe demands are no event.
     LimitResult apply(double elapsedSeconds) CORTEX_REALTIME;
     // The value of an item as it last left apply(); null for items outside the cyclic table.
     const std::byte* previous(const DataItem& item) const;
     void setPrevious() CORTEX_REALTIME;  // takes the present values as the last ones
+    void restorePrevious() CORTEX_REALTIME;
     std::uint64_t count() const { return count_; }
 
 private:
@@ -56,8 +56,8 @@ private:
 // writer is not Active.
 class SafeDemands {
 public:
-    // `counterpart`: slice of the simplex that observes what is demanded, and its layout; null if the
-    // rule names none.
+    // `counterpart`: slice of the simplex that observes what is demanded, and its layout; null if
+    // the rule names none.
     SafeDemands(const TypeLayout& layout, const Slice& out, const DemandLimits& limits,
                 const TypeLayout* observedLayout, const Slice& observed);
 

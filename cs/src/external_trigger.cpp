@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cortex/cs/trigger_source.hpp"
-
 #include "cortex/core/error.hpp"
+#include "cortex/cs/trigger_source.hpp"
 
 namespace cortex::cs {
 

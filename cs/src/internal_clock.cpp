@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cortex/cs/trigger_source.hpp"
-
 #include "cortex/core/error.hpp"
+#include "cortex/cs/trigger_source.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -59,9 +58,7 @@ Trigger InternalClock::waitForTick() {
     return trigger;
 }
 
-void InternalClock::interrupt() {
-    interrupted_.store(true, std::memory_order_release);
-}
+void InternalClock::interrupt() { interrupted_.store(true, std::memory_order_release); }
 
 std::int64_t InternalClock::missed() {
     const std::int64_t late = monotonicNow() - (origin_ + next_ * period_);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cortex/cs/trigger_source.hpp"
-
 #include "cortex/core/error.hpp"
+#include "cortex/cs/trigger_source.hpp"
 
 namespace cortex::cs {
 
@@ -42,8 +41,10 @@ Trigger ManualTrigger::waitForTick() {
         return trigger;
     }
     ++tick_;
-    if (atOnce) --late_;
-    else ++started_;
+    if (atOnce)
+        --late_;
+    else
+        ++started_;
     trigger.nominalTime = tick_ * period_;
     return trigger;
 }

@@ -36,10 +36,13 @@ constexpr std::optional<State> next(State from, Move move) {
 
 constexpr Move moveOf(LifeCycle command) {
     switch (command) {
-        case LifeCycle::Startup: return Move::Startup;
-        case LifeCycle::ClearFaults: return Move::ClearFaults;
+        case LifeCycle::Startup:
+            return Move::Startup;
+        case LifeCycle::ClearFaults:
+            return Move::ClearFaults;
         case LifeCycle::Shutdown:
-        case LifeCycle::None: break;
+        case LifeCycle::None:
+            break;
     }
     return Move::Shutdown;
 }

@@ -94,6 +94,10 @@ public:
     // the simplex ran).
     void postLifeCycle(std::uint32_t simplex, LifeCycle command, bool later) CORTEX_REALTIME;
 
+    // The task of `simplex` did not follow its pending life-cycle command; whoever sent it from
+    // outside gets `why`.
+    void refuseLifeCycle(std::uint32_t simplex, const EventText& why) CORTEX_REALTIME;
+
     void post(LoopThread& thread, Severity severity, EventKind kind, std::uint32_t simplex,
               const EventText& text) CORTEX_REALTIME;
 

@@ -12,6 +12,7 @@
 namespace cortex::cs {
 
 class TaskRunner;
+struct TaskBuilder;
 class GroupCommands;
 class ClusterCS;
 
@@ -76,6 +77,7 @@ protected:
 
 private:
     friend class TaskRunner;
+    friend struct TaskBuilder;
 class GroupCommands;
 class ClusterCS;
     friend class GroupCommands;
@@ -88,6 +90,7 @@ class ClusterCS;
 
     State state_ = State::Standby;
     bool faultPending_ = false;
+    bool done_ = false;  // the transitional state's function has returned true
     bool dead_ = false;  // a hook threw: no hooks until clearFaults
     bool qualitySet_ = false;
     Quality quality_ = Quality::Good;

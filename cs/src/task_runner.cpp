@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "task_runner.hpp"
+
+#include "realtime_thread.hpp"
+#include "state_machine.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+
+namespace cortex::cs {
+
+namespace {
+
+std::int64_t monotonicNow() {
+    return std::chrono::steady_clock::now().time_since_epoch().count();
+}
+
+void at(Position& position, Hook hook) { position.hook.store(hook, std::memory_order_relaxed); }
+
+constexpr std::array hookOfState{Hook::Standby, Hook::StartingUp, Hook::Active,
+                                 Hook::ShuttingDown, Hook::Fault};
+
+}  // namespace
+
+const char* name(Hook hook) {
+    constexpr std::array names{"no hook",     "a command",         "loopStart",
+                               "stateStandby", "stateStartingUp",   "stateActive",
+                               "stateShuttingDown", "stateFault", "loopEnd"};
+    return names[static_cast<std::size_t>(hook)];
+}
+
+void TaskRunner::beginCycle(const Tick& tick) {
+    cycleElapsed_ = tick.elapsed;
+    tick_ = tick;
+    if (!chunks_.empty()) timedChunk_ = (timedChunk_ + 1) % static_cast<std::uint32_t>(chunks_.size());
+}
+
+void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
+    setFloatingPointMode();
+    LoopThread& thread = agent_.thread(worker);
+    thread.clock = {tick_.cycle, monotonicNow()};
+    const Chunk& work = chunks_[chunk];
+    for (std::uint32_t i = work.first; i < work.first + work.count; ++i) {
+        if (chunk == timedChunk_) runTimed(tasks_[i], worker, thread);
+        else runTask(tasks_[i], worker, thread);
+    }
+    positions_[worker].simplex.store(noSimplex, std::memory_order_relaxed);
+}
+
+void TaskRunner::runTimed(Task& task, std::uint32_t worker, LoopThread& thread) {
+    const std::int64_t start = monotonicNow();
+    runTask(task, worker, thread);
+    if (task.simplex != nullptr) {
+        task.taskTime = static_cast<double>(monotonicNow() - start) * 1e-3;
+    }
+}
+
+void TaskRunner::runTask(Task& task, std::uint32_t worker, LoopThread& thread) {
+    if (task.arbiter != nullptr) return arbitrate(task, workers_[worker], thread);
+    if (task.every != 1 &&
+        static_cast<std::uint64_t>(tick_.cycle - 1) % task.every != task.phase) {
+        return;
+    }
+    SimplexCS& simplex = *task.simplex;
+    const Tick tick{tick_.cycle, tick_.nominalTime, tick_.nominalTime - task.lastRun,
+                    tick_.lateness};
+    task.lastRun = tick.nominalTime;
+    simplex.now_ = tick.nominalTime;
+    simplex.thread_ = &thread;
+    simplex.qualitySet_ = false;
+    Position& position = positions_[worker];
+    position.simplex.store(task.index, std::memory_order_relaxed);
+    SlotState state{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
+    try {
+        transition(task, tick);
+        if (agent_.hasCommandWork(task.index)) {
+            at(position, Hook::Commands);
+            agent_.processCommands(task.index, simplex.state_, tick, thread);
+        }
+        if (task.inputCount != 0) state = readInputs(task, tick);
+        if (!simplex.faultPending_) runHooks(task, tick, position);
+    } catch (const std::exception& error) {
+        simplex.fault(HookThrew, error.what());
+        simplex.dead_ = true;
+    } catch (...) {
+        simplex.fault(HookThrew, "a hook threw something that is no std::exception");
+        simplex.dead_ = true;
+    }
+    at(position, Hook::None);
+    if (simplex.faultPending_) enterFault(task, tick);
+    finish(task, tick, state, workers_[worker]);
+}
+
+void TaskRunner::runHooks(Task& task, const Tick& tick, Position& position) {
+    SimplexCS& simplex = *task.simplex;
+    const State state = simplex.state_;
+    if (state == State::Standby || state == State::Fault) writeSafe(task);
+    if (simplex.dead_) return;
+    at(position, Hook::LoopStart);
+    simplex.loopStart(tick);
+    at(position, hookOfState[static_cast<std::size_t>(state)]);
+    switch (state) {
+        case State::Standby: simplex.stateStandby(tick); break;
+        case State::StartingUp: simplex.done_ = simplex.stateStartingUp(tick); break;
+        case State::Active:
+            if (task.safeByLoss) writeSafe(task);
+            else simplex.stateActive(tick);
+            break;
+        case State::ShuttingDown: simplex.done_ = simplex.stateShuttingDown(tick); break;
+        case State::Fault: simplex.done_ = simplex.stateFault(tick); break;
+    }
+    at(position, Hook::LoopEnd);
+    simplex.loopEnd(tick);
+    checkTimeout(task, tick);
+}
+
+void TaskRunner::checkTimeout(Task& task, const Tick& tick) {
+    SimplexCS& simplex = *task.simplex;
+    const bool passing =
+        simplex.state_ == State::StartingUp || simplex.state_ == State::ShuttingDown;
+    if (!passing || simplex.done_ || tick.nominalTime - task.stateSince < task.transitionTimeout) {
+        return;
+    }
+    EventText text{name(hookOfState[static_cast<std::size_t>(simplex.state_)])};
+    text << " was not done within " << static_cast<double>(task.transitionTimeout) * 1e-9 << " s";
+    simplex.fault(TransitionTimeout, text.view());
+}
+
+void TaskRunner::transition(Task& task, const Tick& tick) {
+    SimplexCS& simplex = *task.simplex;
+    for (std::uint32_t i = 0; i < task.outputCount; ++i) {
+        TaskOutput& output = outputs_[task.firstOutput + i];
+        if (output.refused == nullptr) continue;
+        EventText text{output.refused->name};
+        text << " of " << structure_.simplexes[output.target].path << " was not a number";
+        output.refused = nullptr;
+        simplex.fault(DemandNotFinite, text.view());
+    }
+    if (halted_ && simplex.state_ == State::Active) {
+        simplex.fault(ClusterHalted, "the loop overran its period and overflow is \"halt\"");
+    }
+    if (simplex.faultPending_) return enterFault(task, tick);
+    const bool resting = simplex.state_ == State::Standby || simplex.state_ == State::Fault;
+    if (forced_ && !resting) return enter(task, State::Standby, tick);
+    const LifeCycle command = agent_.takeLifeCycle(task.index);
+    if (command != LifeCycle::None) return lifeCycle(task, command, tick);
+    if (!simplex.done_) return;
+    if (const auto to = next(simplex.state_, Move::Done)) enter(task, *to, tick);
+}
+
+void TaskRunner::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
+    SimplexCS& simplex = *task.simplex;
+    const auto to = next(simplex.state_, moveOf(command));
+    simplex.text_ = EventText{};
+    if (!to) {
+        if (command == LifeCycle::Shutdown) return;  // not running: nothing to do
+        simplex.text_ << (command == LifeCycle::Startup ? "startup needs Standby, is "
+                                                        : "clearFaults needs Fault, is ")
+                      << name(simplex.state_);
+    } else if (command == LifeCycle::ClearFaults && !simplex.dead_ && !simplex.done_) {
+        simplex.text_ << "the fault is not over: stateFault has not returned true";
+    } else if (command == LifeCycle::Startup && !mayStart(task)) {
+        // mayStart has said why
+    } else {
+        return enter(task, *to, tick);
+    }
+    agent_.post(*simplex.thread_, Severity::Warning, EventKind::Refusal, task.index, simplex.text_);
+    agent_.refuseLifeCycle(task.index, simplex.text_);
+}
+
+bool TaskRunner::mayStart(Task& task) {
+    SimplexCS& simplex = *task.simplex;
+    for (std::uint32_t i = 0; i < task.inputCount; ++i) {
+        const TaskInput& input = inputs_[task.firstInput + i];
+        const SimplexInfo& target = structure_.simplexes[input.target];
+        if (target.remote && input.rule->min > 0 && input.state->quality == Quality::Lost) {
+            simplex.text_ << "startup needs " << input.rule->name << ", but " << target.path
+                          << " of another agent is not there";
+            return false;
+        }
+    }
+    for (std::uint32_t i = 0; i < task.outputCount; ++i) {
+        const TaskOutput& output = outputs_[task.firstOutput + i];
+        if (output.safe == nullptr || output.safe->observationIsGood()) continue;
+        simplex.text_ << "startup needs a good observation of what "
+                      << structure_.simplexes[output.target].path << " demands";
+        return false;
+    }
+    return true;
+}
+
+void TaskRunner::enter(Task& task, State to, const Tick& tick) {
+    SimplexCS& simplex = *task.simplex;
+    const State from = simplex.state_;
+    if (from == State::Active) agent_.cancelActivity(task.index, *simplex.thread_);
+    if (from == State::Active || to == State::StartingUp || to == State::Fault) {
+        latchSafe(task);
+        writeSafe(task);
+    }
+    if (from == State::Fault) {
+        simplex.dead_ = false;
+        task.faultCode = 0;
+        task.faultText = std::string_view{};
+    }
+    simplex.state_ = to;
+    simplex.done_ = false;
+    task.state = static_cast<std::int64_t>(to);
+    task.stateSince = tick.nominalTime;
+    if (to == State::Fault) return;  // has an event of its own
+    EventText text{name(from)};
+    text << " -> " << name(to);
+    agent_.post(*simplex.thread_, Severity::Info, EventKind::StateChange, task.index, text);
+}
+
+void TaskRunner::enterFault(Task& task, const Tick& tick) {
+    SimplexCS& simplex = *task.simplex;
+    simplex.faultPending_ = false;
+    if (simplex.state_ == State::Fault) return;
+    enter(task, State::Fault, tick);
+    task.faultCode = simplex.faultCode_;
+    task.faultText = simplex.text_.view();
+    EventText text{"fault "};
+    text << simplex.faultCode_ << ": " << simplex.text_.view();
+    agent_.post(*simplex.thread_, Severity::Error, EventKind::Fault, task.index, text);
+}
+
+void TaskRunner::latchSafe(Task& task) {
+    for (std::uint32_t i = 0; i < task.outputCount; ++i) {
+        const TaskOutput& output = outputs_[task.firstOutput + i];
+        if (output.safe != nullptr) output.safe->latch();
+    }
+}
+
+void TaskRunner::writeSafe(Task& task) {
+    for (std::uint32_t i = 0; i < task.outputCount; ++i) {
+        const TaskOutput& output = outputs_[task.firstOutput + i];
+        if (output.safe != nullptr) output.safe->write();
+    }
+}
+
+RunnerCounts TaskRunner::counts() const {
+    RunnerCounts sum;
+    for (const Worker& worker : workers_) {
+        sum.limits += worker.counts.limits;
+        sum.conflicts += worker.counts.conflicts;
+    }
+    return sum;
+}
+
+}  // namespace cortex::cs

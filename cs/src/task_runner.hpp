@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/cs/simplex_cs.hpp"
+#include "demands.hpp"
+#include "scheduler.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace cortex::cs {
+
+// Fault codes of the framework; a task's own are its business (docs/writing-a-simplex.md).
+enum FaultCode : std::int64_t {
+    HookThrew = -1,
+    InputLost = -2,
+    DemandNotFinite = -3,
+    DemandOutOfRange = -4,
+    ClusterHalted = -5,
+    TransitionTimeout = -6
+};
+
+enum class Hook : std::uint8_t {
+    None, Commands, LoopStart, Standby, StartingUp, Active, ShuttingDown, Fault, LoopEnd
+};
+const char* name(Hook hook);
+
+// One input relationship of a task.
+struct TaskInput {
+    const SlotState* state = nullptr;
+    const Rule* rule = nullptr;
+    std::uint32_t target = noSimplex;
+    std::int64_t maxAge = 0;  // ns
+    bool ages = false;        // something writes it
+    bool lost = false;
+    const BlockSizes* held = nullptr;  // onLoss="hold": sizes of the copy
+    Slice heldFrom, heldTo;
+};
+
+// One output relationship to a descriptive simplex.
+struct TaskOutput {
+    SlotState* state = nullptr;
+    SafeDemands* safe = nullptr;     // null: not a demand
+    DemandLimits* limits = nullptr;  // null: an arbiter applies them, or not a demand
+    std::uint32_t target = noSimplex;
+    const DataItem* refused = nullptr;  // set by the arbiter: this demand was not finite
+};
+
+// A simplex that several tasks write: takes the candidate of the one that is Active.
+struct Arbiter {
+    struct Candidate {
+        SimplexCS* writer;
+        Slice slice;
+        TaskOutput* output;
+    };
+    std::uint32_t target = noSimplex;
+    BlockSizes sizes;
+    Slice live;
+    DemandLimits* limits = nullptr;
+    std::vector<Candidate> candidates;  // canonical order of the writers
+    std::uint32_t selected = 0;
+    bool inConflict = false;
+};
+
+struct Task {
+    SimplexCS* simplex = nullptr;  // null: an arbiter
+    Arbiter* arbiter = nullptr;
+    SlotState* own = nullptr;
+    std::uint32_t index = noSimplex;
+    std::uint32_t every = 1, phase = 0;
+    std::uint32_t firstInput = 0, inputCount = 0;
+    std::uint32_t firstOutput = 0, outputCount = 0;
+    bool measures = false;
+    bool safeByLoss = false;  // an onLoss="safe" input is lost: safe demands stand
+    std::int64_t lastRun = 0, stateSince = 0;
+    std::int64_t transitionTimeout = 0;  // ns
+    Data<std::int64_t> state, faultCode;
+    Data<std::string_view> faultText;
+    Data<double> taskTime;
+};
+
+// What a loop thread is doing now, for the watchdog.
+struct alignas(64) Position {
+    std::atomic<std::uint32_t> simplex{noSimplex};
+    std::atomic<Hook> hook{Hook::None};
+};
+
+struct RunnerCounts {
+    std::uint64_t limits = 0, conflicts = 0;
+};
+
+// Executes tasks: commands, hooks, state machine, then quality, stamps, limits and safe demands.
+// Built once by start(); run() is called for each chunk of the schedule on the loop's threads.
+class TaskRunner {
+public:
+    TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64_t period);
+
+    // Loop thread, before the chunks of a cycle.
+    void beginCycle(const Tick& tick) CORTEX_REALTIME;
+    void run(std::uint32_t chunk, std::uint32_t worker) CORTEX_REALTIME;
+
+    // From the next cycle on: all that is Active faults (overflow="halt").
+    void halt() { halted_ = true; }
+    // In the next cycle: whatever is not in Standby or Fault goes to Standby, with safe demands.
+    void forceStandby() { forced_ = true; }
+    bool anyHalted() const { return halted_; }
+
+    std::uint32_t taskCount() const { return static_cast<std::uint32_t>(tasks_.size()); }
+    const Position& position(std::uint32_t worker) const { return positions_[worker]; }
+    RunnerCounts counts() const;
+
+private:
+    friend struct TaskBuilder;
+    struct alignas(64) Worker {
+        RunnerCounts counts;
+    };
+
+    void runTask(Task& task, std::uint32_t worker, LoopThread& thread) CORTEX_REALTIME;
+    void runTimed(Task& task, std::uint32_t worker, LoopThread& thread) CORTEX_REALTIME;
+    void runHooks(Task& task, const Tick& tick, Position& position) CORTEX_REALTIME;
+    void transition(Task& task, const Tick& tick) CORTEX_REALTIME;
+    void lifeCycle(Task& task, LifeCycle command, const Tick& tick) CORTEX_REALTIME;
+    void enter(Task& task, State to, const Tick& tick) CORTEX_REALTIME;
+    void enterFault(Task& task, const Tick& tick) CORTEX_REALTIME;
+    bool mayStart(Task& task) CORTEX_REALTIME;
+    SlotState readInputs(Task& task, const Tick& tick) CORTEX_REALTIME;
+    void inputLost(Task& task, TaskInput& input, const Tick& tick) CORTEX_REALTIME;
+    void finish(Task& task, const Tick& tick, SlotState state, Worker& worker) CORTEX_REALTIME;
+    void limit(Task& task, const Tick& tick, TaskOutput& output, Worker& worker) CORTEX_REALTIME;
+    void reportLimit(const LimitResult& result, std::uint32_t target, std::uint32_t writer,
+                     LoopThread& thread) CORTEX_REALTIME;
+    void arbitrate(Task& task, Worker& worker, LoopThread& thread) CORTEX_REALTIME;
+    void latchSafe(Task& task) CORTEX_REALTIME;
+    void writeSafe(Task& task) CORTEX_REALTIME;
+    void checkTimeout(Task& task, const Tick& tick) CORTEX_REALTIME;
+
+    AgentRuntime& agent_;
+    const Structure& structure_;
+    std::int64_t period_;
+    std::vector<Chunk> chunks_;
+    std::vector<Task> tasks_;  // in execution order
+    std::vector<TaskInput> inputs_;
+    std::vector<TaskOutput> outputs_;
+    std::vector<std::unique_ptr<SafeDemands>> safe_;
+    std::vector<std::unique_ptr<DemandLimits>> limits_;
+    std::vector<std::unique_ptr<Arbiter>> arbiters_;
+    std::vector<Worker> workers_;
+    std::unique_ptr<Position[]> positions_;
+    Tick tick_;
+    std::int64_t cycleElapsed_ = 0;  // ns of nominal time since the last cycle
+    std::uint32_t timedChunk_ = 0;
+    bool halted_ = false, forced_ = false;
+};
+
+}  // namespace cortex::cs
