@@ -58,6 +58,7 @@ struct Event {
 };
 
 // Single producer (a loop thread), single consumer (the event thread); full: counts the dropped.
+// Holds `capacity` events, rounded up to a power of two.
 class EventRing {
 public:
     explicit EventRing(std::uint32_t capacity);
@@ -86,32 +87,41 @@ public:
 
     void addSink(Sink sink);  // setup only
     void start();
-    void stop();  // hands out what is left, then ends the thread
+    void stop();  // ends the thread and hands out what is left; idempotent
     EventRing& ring(std::uint32_t index) { return *rings_[index]; }
     // Loop thread: all events of cycles up to this one are in the rings.
     void complete(std::int64_t cycle) CORTEX_REALTIME;
     // Any non-loop thread: an event outside the cycles (watchdog, refused real-time set-up).
     void postOutside(Event event);
     std::uint64_t dropped() const;
-    // Hands out all complete events now, on the calling thread; for tests and manual stepping.
+    // Hands out all complete events now, on the calling thread; for tests and manual stepping. Not
+    // from a sink.
     void flush();
 
 private:
     void run();
+    void handOut(std::int64_t upTo);
+    void addDrops();
 
     std::shared_ptr<const Structure> structure_;
     std::vector<std::unique_ptr<EventRing>> rings_;
     std::vector<Sink> sinks_;
-    std::vector<Event> outside_, batch_;
-    std::mutex mutex_;
-    std::condition_variable wake_;
+    std::atomic<std::int64_t> complete_{-1};
     std::thread thread_;
+
+    std::mutex mutex_;  // guards the next three
+    std::condition_variable wake_;
+    std::vector<Event> outside_;
+    bool stopping_ = false;
+
+    std::mutex merging_;  // guards the rest, and the rings' consumer end
+    std::vector<Event> batch_;
     std::uint64_t number_ = 0;
     std::uint64_t reportedDrops_ = 0;
-    std::atomic<std::int64_t> complete_{-1};
-    bool stopping_ = false;
+    std::int64_t lastCycle_ = 0, lastTime_ = 0;
 };
 
+// One line without its end; `wallClock`: UTC ns of the event. Control characters become '?'.
 // "2026-11-20T10:00:00.123Z warning /arm/axis1 position clamped to 2.96 rad"
 std::string lineOf(const Event& event, const Structure& structure, std::int64_t wallClock);
 

@@ -13,8 +13,8 @@ namespace cortex {
 
 class ImagePool;
 
-// One consistent copy of all tables after a cycle, pinned while this object lives.
-// Any thread; never delays the loop. Reading by path costs a hash look-up.
+// One consistent copy of all tables after a cycle, pinned while this object lives; constants too.
+// Any thread; never delays the loop. Reading by path costs a hash look-up. Throws Error if empty.
 class Image {
 public:
     Image() = default;
@@ -43,6 +43,8 @@ public:
 private:
     friend class ImagePool;
     Image(ImagePool* pool, std::uint32_t slot) : pool_{pool}, slot_{slot} {}
+    const ImagePool& pool() const;  // throws if this is empty
+    const void* cells(std::uint32_t simplex, const ItemLayout& item) const;
     const void* element(std::string_view path, std::string_view item, Kind kind) const;
     void release();
 

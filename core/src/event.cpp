@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/event.hpp"
+
+#include "cortex/core/data.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <chrono>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace cortex {
+
+namespace {
+
+constexpr auto pollInterval = std::chrono::milliseconds{10};
+
+std::string padded(unsigned number, std::size_t digits) {
+    const std::string text = std::to_string(number);
+    return std::string(digits - std::min(digits, text.size()), '0') + text;
+}
+
+std::string utcText(std::int64_t wallClock) {
+    using namespace std::chrono;
+    const sys_time<nanoseconds> time{nanoseconds{wallClock}};
+    const auto day = floor<days>(time);
+    const year_month_day date{day};
+    const hh_mm_ss clock{floor<milliseconds>(time - day)};
+    const auto two = [](auto number) { return padded(static_cast<unsigned>(number), 2); };
+    return padded(static_cast<unsigned>(static_cast<int>(date.year())), 4) + '-' +
+           two(static_cast<unsigned>(date.month())) + '-' + two(static_cast<unsigned>(date.day())) +
+           'T' + two(clock.hours().count()) + ':' + two(clock.minutes().count()) + ':' +
+           two(clock.seconds().count()) + '.' +
+           padded(static_cast<unsigned>(clock.subseconds().count()), 3) + 'Z';
+}
+
+auto mergeKey(const Event& event) {
+    return std::tie(event.cycle, event.order, event.sequence, event.number);
+}
+
+template <class Number>
+std::string_view numberText(Number number, std::array<char, 32>& buffer) {
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;
+    return {buffer.data(), static_cast<std::size_t>(end - buffer.data())};
+}
+
+}  // namespace
+
+const char* name(EventKind kind) {
+    static constexpr std::array names{"state change", "fault", "refusal", "overflow", "limit",
+                                      "conflict",     "agent", "command", "watchdog", "message"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+EventText& EventText::operator<<(std::string_view text) {
+    const std::size_t fitting = fittingLength(text, text_.size() - length_);
+    if (fitting > 0) std::memcpy(text_.data() + length_, text.data(), fitting);
+    length_ = static_cast<std::uint16_t>(length_ + fitting);
+    return *this;
+}
+
+EventText& EventText::operator<<(const char* text) { return *this << std::string_view{text}; }
+
+EventText& EventText::operator<<(std::int64_t number) {
+    std::array<char, 32> buffer;
+    return *this << numberText(number, buffer);
+}
+
+EventText& EventText::operator<<(double number) {
+    std::array<char, 32> buffer;
+    return *this << numberText(number, buffer);
+}
+
+EventRing::EventRing(std::uint32_t capacity)
+    : events_(std::bit_ceil(std::max<std::size_t>(capacity, 1))) {}
+
+void EventRing::post(const Event& event) {
+    const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
+    if (tail - head_.load(std::memory_order_acquire) == events_.size()) {
+        dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+        return;
+    }
+    events_[tail & (events_.size() - 1)] = event;
+    tail_.store(tail + 1, std::memory_order_release);
+}
+
+bool EventRing::peek(Event& event) const {
+    const std::uint64_t head = head_.load(std::memory_order_relaxed);
+    if (head == tail_.load(std::memory_order_acquire)) return false;
+    event = events_[head & (events_.size() - 1)];
+    return true;
+}
+
+void EventRing::pop() {
+    head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+}
+
+EventLog::EventLog(std::shared_ptr<const Structure> structure, std::uint32_t rings,
+                   std::uint32_t capacity)
+    : structure_{std::move(structure)} {
+    for (std::uint32_t i = 0; i < rings; ++i) {
+        rings_.push_back(std::make_unique<EventRing>(capacity));
+    }
+}
+
+EventLog::~EventLog() { stop(); }
+
+void EventLog::addSink(Sink sink) { sinks_.push_back(std::move(sink)); }
+
+void EventLog::start() {
+    stopping_ = false;
+    thread_ = std::thread{[this] { run(); }};
+}
+
+void EventLog::stop() {
+    if (thread_.joinable()) {
+        {
+            const std::lock_guard lock{mutex_};
+            stopping_ = true;
+        }
+        wake_.notify_one();
+        thread_.join();
+    }
+    handOut(std::numeric_limits<std::int64_t>::max());
+}
+
+void EventLog::run() {
+    std::unique_lock lock{mutex_};
+    while (!wake_.wait_for(lock, pollInterval, [this] { return stopping_; })) {
+        lock.unlock();
+        flush();
+        lock.lock();
+    }
+}
+
+void EventLog::complete(std::int64_t cycle) { complete_.store(cycle, std::memory_order_release); }
+
+void EventLog::postOutside(Event event) {
+    const std::lock_guard lock{mutex_};
+    outside_.push_back(event);
+}
+
+std::uint64_t EventLog::dropped() const {
+    std::uint64_t sum = 0;
+    for (const auto& ring : rings_) sum += ring->dropped();
+    return sum;
+}
+
+void EventLog::flush() { handOut(complete_.load(std::memory_order_acquire)); }
+
+void EventLog::handOut(std::int64_t upTo) {
+    const std::lock_guard lock{merging_};
+    Event event;
+    for (const auto& ring : rings_) {
+        for (; ring->peek(event) && event.cycle <= upTo; ring->pop()) {
+            event.number = batch_.size();  // for now: the order of the rings decides at last
+            batch_.push_back(event);
+        }
+    }
+    std::ranges::sort(batch_, {}, mergeKey);
+    addDrops();
+    {
+        const std::lock_guard outsideLock{mutex_};
+        std::ranges::move(outside_, std::back_inserter(batch_));
+        outside_.clear();
+    }
+    for (Event& each : batch_) {
+        each.number = ++number_;
+        for (const Sink& sink : sinks_) sink(each, *structure_);
+    }
+    batch_.clear();
+}
+
+void EventLog::addDrops() {
+    if (!batch_.empty()) {
+        lastCycle_ = batch_.back().cycle;
+        lastTime_ = batch_.back().time;
+    }
+    const std::uint64_t drops = dropped();
+    if (drops == reportedDrops_) return;
+    Event event;
+    event.cycle = lastCycle_;
+    event.time = lastTime_;
+    event.severity = Severity::Warning;
+    event.text << static_cast<std::int64_t>(drops - reportedDrops_)
+               << " events dropped: more were posted than their ring holds";
+    reportedDrops_ = drops;
+    batch_.push_back(event);
+}
+
+std::string lineOf(const Event& event, const Structure& structure, std::int64_t wallClock) {
+    const std::string path = event.simplex < structure.simplexes.size()
+                                 ? structure.simplexes[event.simplex].path
+                                 : "/" + structure.agent;
+    std::string line = utcText(wallClock) + ' ' + name(event.severity) + ' ' + path + ' ';
+    for (const char each : event.text.view()) {
+        const auto code = static_cast<unsigned char>(each);
+        line += code < 0x20 || code == 0x7f ? '?' : each;
+    }
+    return line;
+}
+
+}  // namespace cortex

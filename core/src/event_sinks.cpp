@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/event_sinks.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+namespace cortex {
+
+namespace {
+
+void writeLine(std::ostream& out, const Event& event, const Structure& structure) {
+    constexpr std::int64_t perMicrosecond = 1000;
+    out << lineOf(event, structure, structure.epoch * perMicrosecond + event.time) << '\n'
+        << std::flush;
+}
+
+}  // namespace
+
+EventLog::Sink printEvents(std::ostream& out) {
+    return [&out](const Event& event, const Structure& structure) {
+        writeLine(out, event, structure);
+    };
+}
+
+EventLog::Sink logEvents(const std::filesystem::path& file) {
+    auto out = std::make_shared<std::ofstream>(file, std::ios::app);
+    if (!*out) throw Error("cannot write the log file " + file.string() + ": give another --log");
+    return [out, file, failed = false](const Event& event, const Structure& structure) mutable {
+        writeLine(*out, event, structure);
+        if (*out || failed) return;
+        failed = true;
+        std::cerr << "cannot write the log file " << file.string() << ": its events are lost\n";
+    };
+}
+
+}  // namespace cortex
