@@ -3,6 +3,7 @@
 #include "cortex/core/simplex_tree.hpp"
 
 #include "remedies.hpp"
+#include "system_findings.hpp"
 #include "text.hpp"
 
 namespace cortex {
@@ -26,7 +27,7 @@ std::string mendedPath(std::string_view path) {
 bool checkPath(const SimplexTree& tree, const Entry& entry, Report& report) {
     if (const std::string wrong = SimplexTree::pathError(entry.path); !wrong.empty()) {
         const std::string mended = mendedPath(entry.path);
-        report.error(entry.path, "malformed-path", entry.place,
+        report.error(entry.path, finding::malformedPath, entry.place,
                      "path '" + entry.path + "': " + wrong,
                      mended.empty() ? "use at most 8 levels and 128 characters, as in /arm/lbr"
                                     : "write path=\"" + mended + "\"");
@@ -37,7 +38,7 @@ bool checkPath(const SimplexTree& tree, const Entry& entry, Report& report) {
     int n = 2;
     while (tree.find(entry.path + "-" + std::to_string(n)) != nullptr) ++n;
     const std::string where = first->place().text();
-    report.error(entry.path, "duplicate-path", entry.place,
+    report.error(entry.path, finding::duplicatePath, entry.place,
                  "there is a simplex with this path already" +
                      (where.empty() ? where : ", at " + where),
                  "remove one, or write path=\"" + entry.path + "-" + std::to_string(n) + "\"");
@@ -52,7 +53,7 @@ const Type* checkType(const TypeModel& types, const Entry& entry, Report& report
         if (!each.isAbstract) names.push_back(name);
     }
     const std::string nearest = nearestName(entry.type, names);
-    report.error(entry.path, "unknown-type", entry.place,
+    report.error(entry.path, finding::unknownType, entry.place,
                  "there is no type '" + entry.type + "' in the ontology",
                  nearest.empty() ? "add <ontology file=\"…\"/> with the file that defines it"
                                  : "write type=\"" + nearest + "\"");
@@ -62,10 +63,10 @@ const Type* checkType(const TypeModel& types, const Entry& entry, Report& report
 // What is wrong with text that is no value of its item: its count, its number, or its kind.
 const char* ruleOf(const DataItem& item, std::string text) {
     const std::size_t count = splitBlanks(text).size();
-    if (count != item.length && item.kind != Kind::String) return "setting-length";
+    if (count != item.length && item.kind != Kind::String) return finding::settingLength;
     for (char& c : text) c = static_cast<char>(c | 0x20);
     const bool special = text.find("nan") != text.npos || text.find("inf") != text.npos;
-    return special && item.kind == Kind::Float ? "setting-finite" : "setting-kind";
+    return special && item.kind == Kind::Float ? finding::settingFinite : finding::settingKind;
 }
 
 void addSetting(Simplex& simplex, const SystemDescription::Setting& setting, Report& report) {

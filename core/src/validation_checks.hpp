@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/report.hpp"
+#include "cortex/core/simplex_tree.hpp"
+#include "cortex/core/structure.hpp"
+
+#include <string>
+
+namespace cortex {
+
+// What the checks of validate() look at, and where they report. The structure holds what could be
+// resolved of the tree.
+struct Checked {
+    const SimplexTree& tree;
+    const Structure& structure;
+    Report& report;
+
+    const SimplexInfo& info(const Simplex& simplex) const {
+        return structure.simplexes[structure.find(simplex.path())];
+    }
+};
+
+void checkModel(const Checked& checked);
+void checkSimplex(const Checked& checked, const Simplex& simplex);
+void checkRelations(const Checked& checked, const Simplex& simplex);
+void checkCounts(const Checked& checked, const Simplex& simplex);
+void checkSettings(const Checked& checked, const Simplex& simplex);
+// Over all relationships: writers, demands without a safe value, loops.
+void checkFlow(const Checked& checked);
+
+// "rule 'axes' (robotics-morphology.xml:14)"; without the place where the finding itself has it.
+std::string ruleText(const Simplex& owner, const Rule& rule);
+Place placeFor(const Simplex& owner, const Rule& rule);
+// Simplexes that could be related under the rule and are not yet, the nearest in the tree first.
+std::vector<std::string> fitting(const Checked& checked, const Simplex& owner, const Rule& rule);
+
+}  // namespace cortex

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "relationship_order.hpp"
+#include "remedies.hpp"
+#include "resolved_relations.hpp"
+#include "system_findings.hpp"
+#include "validation_checks.hpp"
+
+#include <algorithm>
+
+namespace cortex {
+namespace {
+
+// The edges of a structure with the relations that they come from, and the simplexes by index.
+class Flow {
+public:
+    explicit Flow(const Checked& checked) : checked_{checked} {
+        for (const auto& [path, simplex] : checked.tree.simplexes()) {
+            simplexes_.push_back(simplex.get());
+            for (const auto& resolved : resolveRelations(checked.tree, *simplex)) {
+                const auto target = checked.structure.find(resolved.relation->target);
+                if (target != noSimplex) relations_.push_back(resolved.relation);
+            }
+        }
+    }
+
+    void checkWriters();
+    void checkRemoteTypes();
+    void checkDemands();
+    void checkLoops();
+
+private:
+    const Edge& edge(std::uint32_t index) const { return checked_.structure.edges[index]; }
+    const SimplexInfo& info(std::uint32_t index) const {
+        return checked_.structure.simplexes[index];
+    }
+    const Simplex& owner(const Edge& each) const { return *simplexes_[each.owner]; }
+    bool writes(const Edge& each) const {
+        return each.rule->direction == Direction::Output &&
+               info(each.owner).role == Role::Active && info(each.target).role != Role::Active &&
+               !info(each.target).remote;
+    }
+    std::string relateOf(std::uint32_t index, bool delayed) const {
+        return relateText(relations_[index]->rule, relations_[index]->target,
+                          delayed ? "delayed=\"true\"" : "");
+    }
+
+    void checkSecondWriter(std::uint32_t index);
+    void checkMixed(const std::vector<std::uint32_t>& outputs);
+    void checkSafe(const SimplexInfo& demand, const Simplex& simplex);
+    void checkObserved(std::uint32_t index);
+    std::string observationError(std::uint32_t index, const DataItem& item) const;
+    std::string counterpartRemedy(const Edge& output, const DataItem& item) const;
+    void reportLoop(const Loop& loop);
+
+    const Checked& checked_;
+    std::vector<const Simplex*> simplexes_;
+    std::vector<const Simplex::Relation*> relations_;  // by edge
+};
+
+void Flow::checkWriters() {
+    std::vector<std::vector<std::uint32_t>> outputs(checked_.structure.simplexes.size());
+    for (std::uint32_t index = 0; index < relations_.size(); ++index) {
+        if (writes(edge(index))) outputs[edge(index).target].push_back(index);
+    }
+    for (const auto& edges : outputs) {
+        if (edges.empty()) continue;
+        checkMixed(edges);
+        std::uint32_t last = edge(edges.front()).owner;
+        for (const std::uint32_t index : edges) {
+            if (std::exchange(last, edge(index).owner) != edge(index).owner) {
+                checkSecondWriter(index);
+            }
+        }
+    }
+}
+
+void Flow::checkSecondWriter(std::uint32_t index) {
+    const SimplexInfo& target = info(edge(index).target);
+    const Type& type = *target.layout->type;
+    if (type.manyWriters) return;
+    checked_.report.error(target.path, finding::severalWriters, relations_[index]->place,
+                          owner(edge(index)).path() + " writes it by " +
+                              ruleText(owner(edge(index)), *edge(index).rule) + ", and so does " +
+                              info(target.writers.front()).path,
+                          "remove this <relate>, or write writers=\"many\" for type " + type.name +
+                              " (" + type.place.text() + ")");
+}
+
+// Either all writers of a simplex are delayed or none: an observation, or a demand.
+void Flow::checkMixed(const std::vector<std::uint32_t>& outputs) {
+    const auto delayed = [&](std::uint32_t index) { return edge(index).delayed; };
+    if (std::ranges::all_of(outputs, delayed) || std::ranges::none_of(outputs, delayed)) return;
+    const auto alone = std::ranges::find_if(outputs, [&](std::uint32_t index) {
+        return delayed(index) && !edge(index).rule->delayed;
+    });
+    const bool undo = alone != outputs.end();  // delayed by its <relate> only: undo that
+    const std::uint32_t odd = undo ? *alone : *std::ranges::find_if_not(outputs, delayed);
+    checked_.report.error(info(edge(odd).target).path, finding::delayedMixed,
+                          relations_[odd]->place,
+                          ruleText(owner(edge(odd)), *edge(odd).rule) + " of " +
+                              owner(edge(odd)).path() + " writes it " +
+                              (undo ? "delayed, others not" : "at once, others delayed"),
+                          "write " + relateOf(odd, !undo));
+}
+
+// Rules that name one remote path must agree on what can be there.
+void Flow::checkRemoteTypes() {
+    for (std::uint32_t index = 0; index < relations_.size(); ++index) {
+        const SimplexInfo& target = info(edge(index).target);
+        const std::string& wanted = edge(index).rule->target;
+        if (!target.remote || target.layout->type->isA(wanted)) continue;
+        checked_.report.error(owner(edge(index)).path(), finding::remoteTypes,
+                              relations_[index]->place,
+                              ruleText(owner(edge(index)), *edge(index).rule) + " takes " + wanted +
+                                  "; as another rule has it, " + target.path + " is " +
+                                  target.layout->type->name,
+                              "remove this <relate>, or relate a simplex that is both");
+    }
+}
+
+void Flow::checkDemands() {
+    for (std::uint32_t index = 0; index < simplexes_.size(); ++index) {
+        if (info(index).role == Role::Modification) checkSafe(info(index), *simplexes_[index]);
+    }
+    for (std::uint32_t index = 0; index < relations_.size(); ++index) {
+        const Edge& each = edge(index);
+        const bool demand = writes(each) && info(each.target).role == Role::Modification;
+        if (demand && !each.delayed) checkObserved(index);
+        if (!demand || !each.delayed) continue;
+        checked_.report.warning(owner(each).path(), finding::delayedDemand,
+                                relations_[index]->place,
+                                ruleText(owner(each), *each.rule) + " delays a demand: " +
+                                    info(each.target).path + " is a modification",
+                                "write " + relateOf(index, false));
+    }
+}
+
+void Flow::checkSafe(const SimplexInfo& demand, const Simplex& simplex) {
+    const Type& type = simplex.type();
+    std::vector<std::string> names;
+    const DataItem* first = nullptr;
+    for (const DataItem& item : type.data) {
+        if (item.safe.kind != Safe::Kind::None || item.constant || item.measured) continue;
+        if (first == nullptr) first = &item;
+        names.push_back("'" + item.name + "'");
+    }
+    if (names.empty()) return;
+    const std::string writer =
+        demand.writers.empty() ? "" : " that " + info(demand.writers.front()).path + " writes";
+    checked_.report.error(demand.path, finding::safeNeeded, simplex.place(),
+                          "it is a modification" + writer + ", but " + listText(names) +
+                              " of type " + type.name + " (" + first->place.text() +
+                              ") has no safe value",
+                          "write safe=\"" + valueText(first->initial) +
+                              "\", or \"hold\", or \"observed\"");
+}
+
+// "" if the item is found where the writer observes what it demands here.
+std::string Flow::observationError(std::uint32_t index, const DataItem& item) const {
+    const Edge& output = edge(index);
+    const SimplexInfo& writer = info(output.owner);
+    if (output.rule->counterpart.empty()) return "states no counterpart";
+    std::vector<std::uint32_t> observing;
+    std::size_t position = 0;
+    for (std::uint32_t n = 0; n < writer.edgeCount; ++n) {
+        const std::uint32_t other = writer.firstEdge + n;
+        if (edge(other).rule->name == output.rule->counterpart) {
+            observing.push_back(edge(other).target);
+        }
+        if (edge(other).rule == output.rule && other < index) ++position;
+    }
+    const std::string rule = "rule '" + output.rule->counterpart + "'";
+    if (observing.size() == 1) position = 0;
+    if (position >= observing.size()) {
+        return "has its counterpart under " + rule + ", which has no simplex in place " +
+               std::to_string(position + 1);
+    }
+    const SimplexInfo& observed = info(observing[position]);
+    const DataItem* found = observed.layout->type->findData(item.name);
+    if (found == nullptr) return "observes " + observed.path + ", which has no '" + item.name + "'";
+    const bool same =
+        found->kind == item.kind && found->length == item.length && found->unit == item.unit;
+    return same ? "" : "observes " + observed.path + ", whose '" + item.name + "' is another value";
+}
+
+std::string Flow::counterpartRemedy(const Edge& output, const DataItem& item) const {
+    for (const Rule& rule : owner(output).type().rules) {
+        const Type* type = checked_.tree.types().find(rule.target);
+        if (rule.direction != Direction::Input || type == nullptr) continue;
+        if (type->findData(item.name) != nullptr && rule.name != output.rule->counterpart) {
+            return "write counterpart=\"" + rule.name + "\" for " + "rule '" + output.rule->name +
+                   "' (" + output.rule->place.text() + ")";
+        }
+    }
+    return "relate a simplex that has '" + item.name + "' under rule '" +
+           output.rule->counterpart + "'";
+}
+
+void Flow::checkObserved(std::uint32_t index) {
+    const Edge& output = edge(index);
+    for (const DataItem& item : info(output.target).layout->type->data) {
+        if (item.safe.kind != Safe::Kind::Observed) continue;
+        const std::string wrong = observationError(index, item);
+        if (wrong.empty()) continue;
+        checked_.report.error(owner(output).path(), finding::observedCounterpart,
+                              relations_[index]->place,
+                              "'" + item.name + "' of " + info(output.target).path +
+                                  " is safe=\"observed\", but " +
+                                  ruleText(owner(output), *output.rule) + " " + wrong,
+                              counterpartRemedy(output, item));
+        if (output.rule->counterpart.empty()) return;  // one item says it for all
+    }
+}
+
+void Flow::checkLoops() {
+    for (const Loop& loop : findLoops(checked_.structure)) reportLoop(loop);
+}
+
+// To be delayed: rather what is observed than what is ordered, and never a demand.
+void Flow::reportLoop(const Loop& loop) {
+    std::string text;
+    for (const std::uint32_t index : loop) text += info(orderOf(edge(index)).first).path + " -> ";
+    text += info(orderOf(edge(loop.front())).first).path;
+    const std::uint32_t best = *std::ranges::min_element(loop, {}, [&](std::uint32_t index) {
+        const bool input = edge(index).rule->direction == Direction::Input;
+        const bool demand = info(edge(index).target).role == Role::Modification;
+        return !input ? 2 : demand ? 1 : 0;
+    });
+    checked_.report.error(info(orderOf(edge(loop.front())).first).path, finding::loop,
+                          relations_[best]->place,
+                          "each of these waits for the one before: " + text,
+                          "write " + relateOf(best, true) + " in " + owner(edge(best)).path());
+}
+
+}  // namespace
+
+void checkFlow(const Checked& checked) {
+    Flow flow{checked};
+    flow.checkWriters();
+    flow.checkRemoteTypes();
+    flow.checkDemands();
+    flow.checkLoops();
+}
+
+}  // namespace cortex
