@@ -150,8 +150,11 @@ std::vector<std::string> lockMemory() {
 
 void setFloatingPointMode() noexcept {
 #if defined(__x86_64__)
-    constexpr unsigned TrapsMasked = 0x1F80;  // rounding bits and both flush bits are zero
-    _mm_setcsr(TrapsMasked);
+    // Traps masked; rounding and flush bits zero. The old unit still computes long double.
+    constexpr unsigned VectorUnit = 0x1F80;
+    constexpr std::uint16_t OldUnit = 0x037F;
+    _mm_setcsr(VectorUnit);
+    asm volatile("fldcw %0" : : "m"(OldUnit));
 #else
     std::fesetenv(FE_DFL_ENV);
 #endif

@@ -12,9 +12,9 @@ namespace cortex::cs {
 // sentences what the system refused and what helps; nothing here fails.
 
 struct ThreadOptions {
-    std::string name;           // the first 15 characters are shown by the system
-    int priority = 0;           // 1 to 99: SCHED_FIFO; 0: as the thread has it
-    std::vector<int> affinity;  // CPUs; empty: all that the process may use
+    std::string name;             // the first 15 characters are shown by the system
+    int priority = 0;             // 1 to 99: SCHED_FIFO; 0: as the thread has it
+    std::vector<int> affinity{};  // CPUs; empty: all that the process may use
 };
 
 /// The CPUs that the process may use, as found at the first call (before any thread was pinned).

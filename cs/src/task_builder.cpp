@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/error.hpp"
+
 #include "task_runner.hpp"
 
 #include <algorithm>
@@ -89,8 +90,10 @@ struct TaskBuilder {
         task.firstInput = static_cast<std::uint32_t>(runner.inputs_.size());
         task.firstOutput = static_cast<std::uint32_t>(runner.outputs_.size());
         for (const Edge& edge : edgesOf(index)) {
-            if (edge.rule->direction == Direction::Input) addInput(edge);
-            else if (!isActive(edge.target)) addOutput(edge, simplex);
+            if (edge.rule->direction == Direction::Input)
+                addInput(edge);
+            else if (!isActive(edge.target))
+                addOutput(edge, simplex);
         }
         task.inputCount = static_cast<std::uint32_t>(runner.inputs_.size()) - task.firstInput;
         task.outputCount = static_cast<std::uint32_t>(runner.outputs_.size()) - task.firstOutput;

@@ -30,20 +30,23 @@ SlotState TaskRunner::readInputs(Task& task, const Tick& tick) {
         TaskInput& input = inputs_[task.firstInput + i];
         const bool tooOld = input.ages && tick.nominalTime - input.state->time > input.maxAge;
         const bool lost = input.state->quality >= Quality::Bad || tooOld;
-        const bool faults = lost && input.rule->onLoss == OnLoss::Fault &&
-                            task.simplex->state_ == State::Active;
+        const bool faults =
+            lost && input.rule->onLoss == OnLoss::Fault && task.simplex->state_ == State::Active;
         if (lost != input.lost || faults) {
             input.lost = lost;
             inputLost(task, input, tick);
         }
         if (input.held != nullptr) {
-            if (!lost) copySlice(*input.held, input.heldFrom, input.heldTo);
-            else input.heldTo.state->quality = std::max(input.heldTo.state->quality, Quality::Stale);
+            if (!lost)
+                copySlice(*input.held, input.heldFrom, input.heldTo);
+            else
+                input.heldTo.state->quality = std::max(input.heldTo.state->quality, Quality::Stale);
             merge(sum, *input.heldTo.state, input.heldTo.state->quality, input.ages);
             continue;
         }
-        merge(sum, *input.state, tooOld ? std::max(input.state->quality, Quality::Stale)
-                                        : input.state->quality, input.ages);
+        merge(sum, *input.state,
+              tooOld ? std::max(input.state->quality, Quality::Stale) : input.state->quality,
+              input.ages);
         safe = safe || (lost && input.rule->onLoss == OnLoss::Safe);
     }
     if (safe && !task.safeByLoss) latchSafe(task);
@@ -85,7 +88,8 @@ void TaskRunner::finish(Task& task, const Tick& tick, SlotState state, Worker& w
         TaskOutput& output = outputs_[task.firstOutput + i];
         if (output.limits != nullptr) limit(task, tick, output, worker);
     }
-    if (task.measures) state = {tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
+    if (task.measures)
+        state = {tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     else if (simplex.state_ == State::Fault && state.quality < Quality::Bad) {
         state.quality = Quality::Bad;
         state.cause = task.index;
@@ -130,8 +134,10 @@ void TaskRunner::reportLimit(const LimitResult& result, std::uint32_t target, st
     if (!result.isNew) return;
     EventText text{result.item->name};
     text << " of " << structure_.simplexes[target].path;
-    if (result.notFinite) text << " was not a number";
-    else text << " limited from " << result.value << " to " << result.limit;
+    if (result.notFinite)
+        text << " was not a number";
+    else
+        text << " limited from " << result.value << " to " << result.limit;
     if (!result.item->unit.empty() && !result.notFinite) text << " " << result.item->unit;
     agent_.post(thread, Severity::Warning, EventKind::Limit, writer, text);
 }

@@ -12,28 +12,29 @@ namespace cortex::cs {
 
 namespace {
 
-std::int64_t monotonicNow() {
-    return std::chrono::steady_clock::now().time_since_epoch().count();
-}
+std::int64_t monotonicNow() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 
 void at(Position& position, Hook hook) { position.hook.store(hook, std::memory_order_relaxed); }
 
-constexpr std::array hookOfState{Hook::Standby, Hook::StartingUp, Hook::Active,
-                                 Hook::ShuttingDown, Hook::Fault};
+constexpr std::array hookOfState{Hook::Standby, Hook::StartingUp, Hook::Active, Hook::ShuttingDown,
+                                 Hook::Fault};
 
 }  // namespace
 
 const char* name(Hook hook) {
-    constexpr std::array names{"no hook",     "a command",         "loopStart",
-                               "stateStandby", "stateStartingUp",   "stateActive",
-                               "stateShuttingDown", "stateFault", "loopEnd"};
+    constexpr std::array names{"no hook",           "a command",       "loopStart",
+                               "stateStandby",      "stateStartingUp", "stateActive",
+                               "stateShuttingDown", "stateFault",      "loopEnd"};
     return names[static_cast<std::size_t>(hook)];
 }
 
 void TaskRunner::beginCycle(const Tick& tick) {
     cycleElapsed_ = tick.elapsed;
+    halted_ = haltNext_;
+    haltNext_ = false;
     tick_ = tick;
-    if (!chunks_.empty()) timedChunk_ = (timedChunk_ + 1) % static_cast<std::uint32_t>(chunks_.size());
+    if (!chunks_.empty())
+        timedChunk_ = (timedChunk_ + 1) % static_cast<std::uint32_t>(chunks_.size());
 }
 
 void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
@@ -42,8 +43,10 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
     thread.clock = {tick_.cycle, monotonicNow()};
     const Chunk& work = chunks_[chunk];
     for (std::uint32_t i = work.first; i < work.first + work.count; ++i) {
-        if (chunk == timedChunk_) runTimed(tasks_[i], worker, thread);
-        else runTask(tasks_[i], worker, thread);
+        if (chunk == timedChunk_)
+            runTimed(tasks_[i], worker, thread);
+        else
+            runTask(tasks_[i], worker, thread);
     }
     positions_[worker].simplex.store(noSimplex, std::memory_order_relaxed);
 }
@@ -58,7 +61,7 @@ void TaskRunner::runTimed(Task& task, std::uint32_t worker, LoopThread& thread) 
 
 void TaskRunner::runTask(Task& task, std::uint32_t worker, LoopThread& thread) {
     if (task.arbiter != nullptr) return arbitrate(task, workers_[worker], thread);
-    if (task.every != 1 &&
+    if (task.every != 1 && !halted_ && !forced_ &&
         static_cast<std::uint64_t>(tick_.cycle - 1) % task.every != task.phase) {
         return;
     }
@@ -101,14 +104,24 @@ void TaskRunner::runHooks(Task& task, const Tick& tick, Position& position) {
     simplex.loopStart(tick);
     at(position, hookOfState[static_cast<std::size_t>(state)]);
     switch (state) {
-        case State::Standby: simplex.stateStandby(tick); break;
-        case State::StartingUp: simplex.done_ = simplex.stateStartingUp(tick); break;
-        case State::Active:
-            if (task.safeByLoss) writeSafe(task);
-            else simplex.stateActive(tick);
+        case State::Standby:
+            simplex.stateStandby(tick);
             break;
-        case State::ShuttingDown: simplex.done_ = simplex.stateShuttingDown(tick); break;
-        case State::Fault: simplex.done_ = simplex.stateFault(tick); break;
+        case State::StartingUp:
+            simplex.done_ = simplex.stateStartingUp(tick);
+            break;
+        case State::Active:
+            if (task.safeByLoss)
+                writeSafe(task);
+            else
+                simplex.stateActive(tick);
+            break;
+        case State::ShuttingDown:
+            simplex.done_ = simplex.stateShuttingDown(tick);
+            break;
+        case State::Fault:
+            simplex.done_ = simplex.stateFault(tick);
+            break;
     }
     at(position, Hook::LoopEnd);
     simplex.loopEnd(tick);

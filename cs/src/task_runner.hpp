@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/cs/simplex_cs.hpp"
+
 #include "demands.hpp"
 #include "scheduler.hpp"
 
@@ -23,7 +24,15 @@ enum FaultCode : std::int64_t {
 };
 
 enum class Hook : std::uint8_t {
-    None, Commands, LoopStart, Standby, StartingUp, Active, ShuttingDown, Fault, LoopEnd
+    None,
+    Commands,
+    LoopStart,
+    Standby,
+    StartingUp,
+    Active,
+    ShuttingDown,
+    Fault,
+    LoopEnd
 };
 const char* name(Hook hook);
 
@@ -101,11 +110,10 @@ public:
     void beginCycle(const Tick& tick) CORTEX_REALTIME;
     void run(std::uint32_t chunk, std::uint32_t worker) CORTEX_REALTIME;
 
-    // From the next cycle on: all that is Active faults (overflow="halt").
-    void halt() { halted_ = true; }
+    // In the next cycle all that is Active faults (overflow="halt").
+    void halt() { haltNext_ = true; }
     // In the next cycle: whatever is not in Standby or Fault goes to Standby, with safe demands.
     void forceStandby() { forced_ = true; }
-    bool anyHalted() const { return halted_; }
 
     std::uint32_t taskCount() const { return static_cast<std::uint32_t>(tasks_.size()); }
     const Position& position(std::uint32_t worker) const { return positions_[worker]; }
@@ -151,7 +159,7 @@ private:
     Tick tick_;
     std::int64_t cycleElapsed_ = 0;  // ns of nominal time since the last cycle
     std::uint32_t timedChunk_ = 0;
-    bool halted_ = false, forced_ = false;
+    bool haltNext_ = false, halted_ = false, forced_ = false;
 };
 
 }  // namespace cortex::cs

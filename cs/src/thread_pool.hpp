@@ -17,9 +17,9 @@ namespace cortex::cs {
 
 struct PoolOptions {
     std::string name = "cortex";
-    std::uint32_t threads = 0;  // with the loop's own; 0: as the schedule says
-    int priority = 0;           // see ThreadOptions
-    std::vector<int> affinity;  // CPUs for all threads, the loop's first; empty: all usable
+    std::uint32_t threads = 0;    // with the loop's own; 0: as the schedule says
+    int priority = 0;             // see ThreadOptions
+    std::vector<int> affinity{};  // CPUs for all threads, the loop's first; empty: all usable
     std::uint32_t spinMicroseconds = 20;  // before a waiting thread sleeps
     bool oversubscribe = false;           // tests: more real-time threads than CPUs
 

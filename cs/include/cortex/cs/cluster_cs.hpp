@@ -26,19 +26,19 @@ enum class Overflow : std::uint8_t {
 };
 
 struct ClusterOptions {
-    std::uint32_t threads = 1;       // loop thread included
-    int priority = 0;                // SCHED_FIFO 1 to 99; 0: none
-    bool lockMemory = true;          // asked for where priority is; refusal is reported
-    std::vector<int> cpus;           // to pin threads to; empty: all that the process may use
+    std::uint32_t threads = 1;  // loop thread included
+    int priority = 0;           // SCHED_FIFO 1 to 99; 0: none
+    bool lockMemory = true;     // asked for where priority is; refusal is reported
+    std::vector<int> cpus;      // to pin threads to; empty: all that the process may use
     Overflow overflow = Overflow::Skip;
     std::uint32_t catchUpCycles = 10;
-    double warnDuty = 0;             // duty cycle in % above which each cycle is an event; 0: none
-    double watchdogPeriods = 10;     // at least 100 ms
-    bool controlRequired = false;    // commands from outside need a control lease
+    double warnDuty = 0;           // duty cycle in % above which each cycle is an event; 0: none
+    double watchdogPeriods = 10;   // at least 100 ms
+    bool controlRequired = false;  // commands from outside need a control lease
     std::uint32_t imageReaders = 8;
     // For tests and measurements.
-    bool forceThreads = false;       // use `threads` even where one would do
-    std::uint32_t chunkSize = 0;     // tasks a chunk; 0: the schedule decides
+    bool forceThreads = false;    // use `threads` even where one would do
+    std::uint32_t chunkSize = 0;  // tasks a chunk; 0: the schedule decides
 };
 
 // What heartbeat functions are told, after each cycle on the loop thread, and by the watchdog.
@@ -50,8 +50,8 @@ struct Heartbeat {
 
 enum class Ended : std::uint8_t { NotStarted, Running, Stopped, Halted, Hung };
 
-// A cluster of simplexes that runs one loop cycle (the paper's ClusterCS): construct, add trees, set
-// the trigger, start(). Program's thread throughout; the loop has a thread of its own.
+// A cluster of simplexes that runs one loop cycle (the paper's ClusterCS): construct, add trees,
+// set the trigger, start(). Program's thread throughout; the loop has a thread of its own.
 class ClusterCS {
 public:
     explicit ClusterCS(std::string name, ClusterOptions options = {});

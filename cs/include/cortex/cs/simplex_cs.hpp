@@ -42,8 +42,8 @@ protected:
 
     // In a hook: enter Fault when this task ends. The first fault of a cycle is kept.
     void fault(std::int64_t code, std::string_view text) CORTEX_REALTIME;
-    // In a hook: own quality and that of the outputs in this cycle, instead of what follows from the
-    // inputs; `measuredAt`: nominal time of the measurement, default this cycle.
+    // In a hook: own quality and that of the outputs in this cycle, instead of what follows from
+    // the inputs; `measuredAt`: nominal time of the measurement, default this cycle.
     void setQuality(Quality quality, std::int64_t measuredAt = -1) CORTEX_REALTIME;
     // In a hook: an event of this simplex.
     void event(Severity severity, const EventText& text) CORTEX_REALTIME;
@@ -72,14 +72,13 @@ protected:
     // In populate(): on<&Jog::zero>("zero"), with `Outcome zero(Call& call)`.
     template <auto Method>
     void on(std::string_view command) {
-        handle(command, {static_cast<SimplexCS*>(this), [](void* self, Call& call) { return invoke(Method, self, call); }});
+        handle(command, {static_cast<SimplexCS*>(this),
+                         [](void* self, Call& call) { return invoke(Method, self, call); }});
     }
 
 private:
     friend class TaskRunner;
     friend struct TaskBuilder;
-class GroupCommands;
-class ClusterCS;
     friend class GroupCommands;
     friend class ClusterCS;
 

@@ -25,12 +25,14 @@ public:
     virtual ~TriggerSource() = default;
     virtual void start() = 0;  // loop thread, before the first wait
     virtual Trigger waitForTick() = 0;
-    virtual void interrupt() = 0;  // makes the present or next wait return `stopped`
+    virtual void interrupt() = 0;             // makes the present or next wait return `stopped`
     virtual std::int64_t period() const = 0;  // nominal, ns
     // How many deadlines have passed that no cycle has begun for; the loop asks after each cycle.
     virtual std::int64_t missed() { return 0; }
     // After a late cycle: give up the missed deadlines (true) or return them at once (false).
     virtual void skipMissed(bool) {}
+    // Whether a period takes its time; false: cycles may follow at once (stepping).
+    virtual bool realTime() const { return true; }
 };
 
 // Absolute deadlines on the monotonic clock: start + k × period, no drift.
@@ -68,6 +70,7 @@ public:
     std::int64_t period() const override { return period_; }
     std::int64_t missed() override;
     void skipMissed(bool skip) override { skip_ = skip; }
+    bool realTime() const override { return false; }
 
 private:
     std::int64_t period_;

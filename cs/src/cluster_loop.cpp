@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cluster_loop.hpp"
+
+#include "realtime_thread.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace cortex::cs {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::int64_t stopBudget = 2'000'000'000;  // ns for an orderly end
+
+std::int64_t monotonicNow() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
+
+std::int64_t wallClockNow() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+}  // namespace
+
+ClusterLoop::ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const ClusterOptions& options,
+                         const Schedule& schedule, std::vector<SimplexCS*> simplexes,
+                         std::vector<std::function<void(const Heartbeat&)>> heartbeats,
+                         std::vector<std::string> realtimeReport)
+    : agent_{agent},
+      trigger_{trigger},
+      options_{options},
+      schedule_{schedule},
+      heartbeats_{std::move(heartbeats)},
+      realtimeReport_{std::move(realtimeReport)},
+      runner_{agent, schedule, trigger.period()},
+      group_{agent, std::move(simplexes)},
+      metrics_{agent, trigger.period(), schedule.threads} {}
+
+ClusterLoop::~ClusterLoop() { stop(); }
+
+void ClusterLoop::start() {
+    const auto limit = std::max<std::chrono::nanoseconds>(
+        100ms, std::chrono::nanoseconds{static_cast<std::int64_t>(
+                   options_.watchdogPeriods * static_cast<double>(trigger_.period()))});
+    watchdog_ = std::make_unique<Watchdog>(
+        runner_, agent_, limit,
+        [this](std::int64_t cycle, const HungHook& hook) { hung(cycle, hook); });
+    ended_.store(Ended::Running, std::memory_order_release);
+    thread_ = std::thread{[this] { run(); }};
+    ready_.wait(false);
+    for (const std::string& refusal : realtimeReport_) {
+        Event event;
+        event.severity = Severity::Warning;
+        event.simplex = agent_.agentSimplex();
+        event.text = EventText{refusal};
+        agent_.events().postOutside(event);
+    }
+}
+
+void ClusterLoop::prepareThread() {
+    ThreadOptions options{agent_.name(), options_.priority, {}};
+    if (options_.priority > 0)
+        options.affinity = {cpuForThread(options_.cpus, 0)};
+    else
+        options.affinity = options_.cpus;
+    const auto append = [this](const std::vector<std::string>& lines) {
+        realtimeReport_.insert(realtimeReport_.end(), lines.begin(), lines.end());
+    };
+    append(configureThisThread(options));
+    PoolOptions pool;
+    pool.threads = options_.forceThreads ? options_.threads : 0;
+    pool.priority = options_.priority;
+    pool.affinity = options_.cpus;
+    pool.oversubscribe = options_.forceThreads;
+    pool.onStart = [](void*, std::uint32_t) { prefaultStack(); };
+    pool_ = std::make_unique<ThreadPool>(
+        schedule_,
+        [](void* runner, std::uint32_t chunk, std::uint32_t worker) {
+            static_cast<TaskRunner*>(runner)->run(chunk, worker);
+        },
+        &runner_, pool);
+    append(pool_->report());
+    if (options_.priority > 0 && options_.lockMemory) append(lockMemory());
+    prefaultStack();
+}
+
+void ClusterLoop::run() {
+    prepareThread();
+    ready_.store(true);
+    ready_.notify_all();
+    trigger_.start();
+    Trigger last;
+    lastNominal_ = -trigger_.period();
+    for (;;) {
+        const Trigger trigger = trigger_.waitForTick();
+        if (trigger.stopped) break;
+        last = trigger;
+        cycle(trigger);
+        checkOverflow(trigger);
+    }
+    shutDown(last);
+    pool_.reset();
+    if (ended() == Ended::Running) ended_.store(Ended::Stopped, std::memory_order_release);
+    finished_.store(true, std::memory_order_release);
+}
+
+void ClusterLoop::cycle(const Trigger& trigger) {
+    const std::int64_t begin = monotonicNow();
+    setFloatingPointMode();
+    if (trigger.periods - 1 > counted_) countMissed(trigger.periods - 1 - counted_);
+    counted_ = trigger.periods > 1 ? 0 : std::max<std::int64_t>(counted_ - 1, 0);
+    const Tick tick{++cycle_, trigger.nominalTime, trigger.nominalTime - lastNominal_,
+                    trigger.lateness};
+    lastNominal_ = trigger.nominalTime;
+    watchdog_->cycleBegins(tick.cycle);
+    agent_.beginCycle(tick);
+    runner_.beginCycle(tick);
+    pool_->cycle();
+    metrics_.write(runner_.counts());
+    agent_.endCycle(tick, wallClockNow() - (monotonicNow() - begin) - trigger.lateness);
+    metrics_.cycleEnded(lastWakeUp_ == 0 ? 0 : begin - lastWakeUp_, trigger.lateness,
+                        monotonicNow() - begin);
+    lastWakeUp_ = begin;
+    warnDuty();
+    metrics_.hung(watchdog_->reported() == tick.cycle);
+    watchdog_->cycleEnds();
+    const Heartbeat beat{tick.cycle, true, {}, {}};
+    for (const auto& heartbeat : heartbeats_) heartbeat(beat);
+}
+
+void ClusterLoop::warnDuty() {
+    if (options_.warnDuty <= 0 || metrics_.lastDuty() <= options_.warnDuty) return;
+    EventText text{"duty cycle "};
+    text << metrics_.lastDuty() << " % is above " << options_.warnDuty << " %";
+    agent_.post(agent_.thread(0), Severity::Warning, EventKind::Overflow, agent_.agentSimplex(),
+                text);
+}
+
+void ClusterLoop::countMissed(std::int64_t missed) {
+    metrics_.overflow(missed);
+    EventText text{"missed "};
+    text << missed << (missed == 1 ? " tick" : " ticks") << ", " << metrics_.overflows()
+         << " since the start";
+    agent_.post(agent_.thread(0), Severity::Warning, EventKind::Overflow, agent_.agentSimplex(),
+                text);
+}
+
+// A job is never cut: this comes after it, and decides what becomes of the ticks it ran over.
+void ClusterLoop::checkOverflow(const Trigger&) {
+    const std::int64_t missed = trigger_.missed();
+    if (missed == 0) {
+        caughtUp_ = 0;
+        return;
+    }
+    if (missed > counted_) {
+        countMissed(missed - counted_);
+        if (options_.overflow == Overflow::Halt) {
+            runner_.halt();
+            ended_.store(Ended::Halted, std::memory_order_release);
+        }
+        counted_ = missed;
+    }
+    const bool catchUp = options_.overflow == Overflow::CatchUp &&
+                         caughtUp_ < static_cast<std::int64_t>(options_.catchUpCycles);
+    caughtUp_ = catchUp ? caughtUp_ + 1 : 0;
+    trigger_.skipMissed(!catchUp);
+}
+
+// After the last tick: everything to Standby in order, then by force; the last write is the last
+// cycle's.
+void ClusterLoop::shutDown(const Trigger& last) {
+    const std::int64_t period = trigger_.period();
+    const std::int64_t budget = std::max<std::int64_t>(stopBudget / period, 2);
+    Trigger trigger = last;
+    trigger.periods = 1;
+    trigger.lateness = 0;
+    const std::int64_t start = monotonicNow();
+    group_.begin(LifeCycle::Shutdown, "/");
+    for (std::int64_t i = 1; cycle_ > 0 && i <= budget && !group_.allResting(); ++i) {
+        trigger.nominalTime += period;
+        if (trigger_.realTime()) {
+            std::this_thread::sleep_until(std::chrono::steady_clock::time_point{
+                std::chrono::nanoseconds{start + i * period}});
+        }
+        group_.step();
+        if (i == budget || monotonicNow() - start > stopBudget) {
+            i = budget;
+            runner_.forceStandby();
+        }
+        cycle(trigger);
+    }
+}
+
+void ClusterLoop::hung(std::int64_t cycle, const HungHook& hook) {
+    Event event;
+    event.cycle = cycle;
+    event.simplex = agent_.structure().find(hook.path);
+    event.severity = Severity::Error;
+    event.kind = EventKind::Watchdog;
+    event.text = EventText{hook.text()};
+    agent_.events().postOutside(event);
+    const Heartbeat beat{cycle, false, hook.path, hook.hook};
+    for (const auto& heartbeat : heartbeats_) heartbeat(beat);
+}
+
+std::optional<HungHook> ClusterLoop::stop() {
+    if (!thread_.joinable()) return std::nullopt;
+    trigger_.interrupt();
+    // The loop ends by itself within its budget, unless one cycle does not end.
+    std::int64_t seen = -1;
+    auto since = std::chrono::steady_clock::now();
+    while (!finished_.load(std::memory_order_acquire)) {
+        std::this_thread::sleep_for(1ms);
+        const std::int64_t cycle = watchdog_->executing();
+        const auto now = std::chrono::steady_clock::now();
+        if (cycle != seen || cycle == 0) {
+            seen = cycle;
+            since = now;
+        } else if (now - since >= 2s) {
+            ended_.store(Ended::Hung, std::memory_order_release);
+            return findHungHook(runner_, agent_);
+        }
+    }
+    thread_.join();
+    watchdog_.reset();
+    return std::nullopt;
+}
+
+}  // namespace cortex::cs

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/cs/cluster_cs.hpp"
+
+#include "group_commands.hpp"
+#include "metrics.hpp"
+#include "task_runner.hpp"
+#include "thread_pool.hpp"
+#include "watchdog.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cortex::cs {
+
+// The loop of a cluster: waitForTick, beginCycle, tasks, endCycle, heartbeat, on a thread of its
+// own; its overflow policy, watchdog and orderly end. start() and stop() on the program's thread.
+class ClusterLoop {
+public:
+    ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const ClusterOptions& options,
+                const Schedule& schedule, std::vector<SimplexCS*> simplexes,
+                std::vector<std::function<void(const Heartbeat&)>> heartbeats,
+                std::vector<std::string> realtimeReport);
+    ~ClusterLoop();
+
+    void start();
+    bool joinable() const { return thread_.joinable(); }
+    // Shuts down and joins; the hook that prevents it if there is one.
+    std::optional<HungHook> stop();
+
+    Ended ended() const { return ended_.load(std::memory_order_acquire); }
+    const std::vector<std::string>& realtimeReport() const { return realtimeReport_; }
+    std::uint32_t threads() const { return pool_ ? pool_->threads() : 1; }
+
+private:
+    void run();
+    void prepareThread();
+    void cycle(const Trigger& trigger) CORTEX_REALTIME;
+    void checkOverflow(const Trigger& trigger) CORTEX_REALTIME;
+    void countMissed(std::int64_t missed) CORTEX_REALTIME;
+    void warnDuty() CORTEX_REALTIME;
+    void shutDown(const Trigger& last);
+    void hung(std::int64_t cycle, const HungHook& hook);
+
+    AgentRuntime& agent_;
+    TriggerSource& trigger_;
+    ClusterOptions options_;
+    Schedule schedule_;
+    std::vector<std::function<void(const Heartbeat&)>> heartbeats_;
+    std::vector<std::string> realtimeReport_;
+    TaskRunner runner_;
+    GroupCommands group_;
+    std::unique_ptr<ThreadPool> pool_;
+    ClusterMetrics metrics_;
+    std::unique_ptr<Watchdog> watchdog_;
+    std::thread thread_;
+    std::atomic<bool> ready_{false}, finished_{false};
+    std::atomic<Ended> ended_{Ended::NotStarted};
+
+    // Loop thread only.
+    std::int64_t cycle_ = 0;
+    std::int64_t lastNominal_ = 0;
+    std::int64_t lastWakeUp_ = 0;
+    std::int64_t counted_ = 0;   // missed ticks counted but not yet passed over or caught up
+    std::int64_t caughtUp_ = 0;  // in a row
+};
+
+}  // namespace cortex::cs

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "group_commands.hpp"
+
+namespace cortex::cs {
+
+GroupCommands::GroupCommands(AgentRuntime& agent, std::vector<SimplexCS*> order)
+    : agent_{agent}, order_{std::move(order)} {
+    registerHandler<LifeCycle::Startup>("startup");
+    registerHandler<LifeCycle::Shutdown>("shutdown");
+    registerHandler<LifeCycle::ClearFaults>("clearFaults");
+}
+
+template <LifeCycle command>
+void GroupCommands::registerHandler(std::string_view name) {
+    const CommandTable& table = agent_.commands(agent_.agentSimplex());
+    const auto& entry = table.entries[table.find(name)];
+    prefixes_[static_cast<std::size_t>(command)].offset = entry.request.find("prefix")->offset;
+    agent_.registerHandler(
+        agent_.agentSimplex(), name,
+        {this, [](void* self, Call& call) {
+             auto& group = *static_cast<GroupCommands*>(self);
+             return group.handle(command, call, group.prefixes_[static_cast<std::size_t>(command)]);
+         }});
+}
+
+Outcome GroupCommands::handle(LifeCycle command, Call& call, Argument<std::string_view> prefix) {
+    if (call.cancelling()) return Outcome::Cancelled;
+    if (call.first()) begin(command, call[prefix]);
+    if (step()) return Outcome::Running;
+    return anyFailed_ ? call.fail(failures_.view()) : Outcome::Done;
+}
+
+void GroupCommands::begin(LifeCycle command, std::string_view prefix) {
+    command_ = command;
+    while (prefix.ends_with('/')) prefix.remove_suffix(1);
+    prefix_ = EventText{prefix};
+    failures_ = EventText{};
+    at_ = 0;
+    posted_ = false;
+    anyFailed_ = false;
+}
+
+bool GroupCommands::step() {
+    while (at_ < order_.size()) {
+        SimplexCS& simplex = member(at_);
+        if (!belongs(simplex) || reached(simplex)) {
+            ++at_;
+            posted_ = false;
+            continue;
+        }
+        if (!posted_) {
+            posted_ = true;
+            postedAfter_ = simplex.now_;
+            agent_.postLifeCycle(simplex.index(), command_, false);
+            return true;
+        }
+        if (!failed(simplex)) return true;
+        addFailure(simplex);
+        posted_ = false;
+        // What comes after relies on it; a shutdown goes on all the same.
+        at_ = command_ == LifeCycle::Startup ? order_.size() : at_ + 1;
+    }
+    return false;
+}
+
+SimplexCS& GroupCommands::member(std::size_t at) const {
+    return *order_[command_ == LifeCycle::Shutdown ? order_.size() - 1 - at : at];
+}
+
+bool GroupCommands::belongs(const SimplexCS& simplex) const {
+    const std::string_view path = simplex.path();
+    const std::string_view prefix = prefix_.view();
+    const bool below =
+        path.starts_with(prefix) && (path.size() == prefix.size() || path[prefix.size()] == '/');
+    if (!below || command_ == LifeCycle::ClearFaults || simplex.manager_ == noSimplex) return below;
+    // A manager looks after its own while it works.
+    const auto& manager = static_cast<const SimplexCS&>(agent_.simplex(simplex.manager_));
+    const bool idle = manager.state_ == State::Standby || manager.state_ == State::Fault;
+    return command_ == LifeCycle::Shutdown && idle;
+}
+
+bool GroupCommands::reached(const SimplexCS& simplex) const {
+    switch (command_) {
+        case LifeCycle::Startup:
+            return simplex.state_ == State::Active;
+        case LifeCycle::Shutdown:
+            return simplex.state_ == State::Standby || simplex.state_ == State::Fault;
+        case LifeCycle::ClearFaults:
+            return simplex.state_ != State::Fault;
+        case LifeCycle::None:
+            break;
+    }
+    return true;
+}
+
+bool GroupCommands::failed(const SimplexCS& simplex) const {
+    const bool ran = simplex.now_ > postedAfter_;
+    switch (command_) {
+        case LifeCycle::Startup:
+            return simplex.state_ == State::Fault || (ran && simplex.state_ == State::Standby);
+        case LifeCycle::ClearFaults:
+            return ran && simplex.state_ == State::Fault;
+        case LifeCycle::Shutdown:
+        case LifeCycle::None:
+            break;
+    }
+    return false;
+}
+
+void GroupCommands::addFailure(const SimplexCS& simplex) {
+    if (anyFailed_) failures_ << "; ";
+    anyFailed_ = true;
+    failures_ << simplex.path() << " did not follow: "
+              << (simplex.text_.view().empty() ? name(simplex.state_) : simplex.text_.view());
+}
+
+bool GroupCommands::allResting() const {
+    for (const SimplexCS* simplex : order_) {
+        if (simplex->state_ != State::Standby && simplex->state_ != State::Fault) return false;
+    }
+    return true;
+}
+
+}  // namespace cortex::cs
