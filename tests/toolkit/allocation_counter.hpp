@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace cortex::toolkit::test {
+
+/// Allocations of this thread so far. Always 0 under a sanitizer, which brings its own malloc.
+std::uint64_t allocationCount();
+
+}  // namespace cortex::toolkit::test
