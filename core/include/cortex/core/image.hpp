@@ -34,8 +34,8 @@ public:
     // Scalar by path and item; throws Error naming the nearest names if there is none.
     template <class T>
     T get(std::string_view path, std::string_view item) const {
-        return *Data<const T>{static_cast<typename StorageOf<const T>::type*>(
-                                  element(path, item, kindFor<T>()))};
+        using Cell = typename StorageOf<const T>::type;
+        return Data<const T>{static_cast<Cell*>(element(path, item, kindFor<T>()))}.get();
     }
     Value value(std::uint32_t simplex, const ItemLayout& item) const;  // any kind, arrays too
     Value value(std::string_view path, std::string_view item) const;
