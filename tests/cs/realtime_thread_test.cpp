@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "realtime_thread.hpp"
+
+#include <cfenv>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
+namespace cortex::cs {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// Runs the function in a thread of its own, so that the test's thread keeps its settings.
+Lines inThread(const auto& function) {
+    Lines lines;
+    std::thread([&] { lines = function(); }).join();
+    return lines;
+}
+
+std::string joined(const Lines& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    return text;
+}
+
+/// Ends the (child) process with what an unprivileged user is told.
+[[noreturn]] void printAsUnprivileged(int resource, Lines (*function)()) {
+    const rlimit none{0, 0};
+    setrlimit(static_cast<__rlimit_resource_t>(resource), &none);
+    if (geteuid() == 0 && setuid(65534) != 0) std::exit(2);
+    std::fputs(joined(function()).c_str(), stderr);
+    std::exit(0);
+}
+
+TEST(RealtimeThread, FindsTheCpusThatTheProcessMayUse) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    ASSERT_EQ(sched_getaffinity(0, sizeof set, &set), 0);
+
+    EXPECT_EQ(usableCpus().size(), static_cast<std::size_t>(CPU_COUNT(&set)));
+    for (const int cpu : usableCpus()) EXPECT_TRUE(CPU_ISSET(static_cast<std::size_t>(cpu), &set));
+}
+
+TEST(RealtimeThread, DealsCpusInTurn) {
+    const auto& cpus = usableCpus();
+    const auto count = static_cast<std::uint32_t>(cpus.size());
+
+    EXPECT_EQ(cpuForThread({}, 0), cpus[0]);
+    EXPECT_EQ(cpuForThread({}, count - 1), cpus.back());
+    EXPECT_EQ(cpuForThread({}, count), cpus[0]);
+    EXPECT_EQ(cpuForThread({cpus.back()}, 5), cpus.back());
+    EXPECT_EQ(cpuForThread({100000}, 0), cpus[0]);
+}
+
+TEST(RealtimeThread, AllowsOneRealtimeThreadPerCpuAndSaysSo) {
+    const std::uint32_t cpus = cpuCount({});
+    Lines report;
+
+    EXPECT_EQ(clampThreads(cpus, 50, {}, report), cpus);
+    EXPECT_EQ(clampThreads(cpus + 3, 0, {}, report), cpus + 3);
+    EXPECT_TRUE(report.empty());
+
+    EXPECT_EQ(clampThreads(4, 50, {usableCpus()[0]}, report), 1U);
+    ASSERT_EQ(report.size(), 1U);
+    EXPECT_EQ(report[0].rfind("Only 1 of 4 real-time threads are used", 0), 0U) << report[0];
+}
+
+TEST(RealtimeThread, PinsAndNamesTheThread) {
+    const int cpu = usableCpus().back();
+    std::string name(16, ' ');
+    int ranOn = -1;
+
+    const Lines report = inThread([&] {
+        Lines lines = configureThisThread({"a-name-beyond-fifteen", 0, {cpu}});
+        pthread_getname_np(pthread_self(), name.data(), name.size());
+        ranOn = sched_getcpu();
+        return lines;
+    });
+
+    EXPECT_TRUE(report.empty()) << joined(report);
+    EXPECT_STREQ(name.c_str(), "a-name-beyond-f");
+    EXPECT_EQ(ranOn, cpu);
+}
+
+TEST(RealtimeThread, DoesNotInheritThePinOfTheThreadThatMadeIt) {
+    int allowed = 0;
+
+    inThread([&] {
+        configureThisThread({"pinned", 0, {usableCpus()[0]}});
+        return inThread([&] {
+            Lines lines = configureThisThread({"free", 0, {}});
+            cpu_set_t set;
+            sched_getaffinity(0, sizeof set, &set);
+            allowed = CPU_COUNT(&set);
+            return lines;
+        });
+    });
+
+    EXPECT_EQ(static_cast<std::size_t>(allowed), usableCpus().size());
+}
+
+TEST(RealtimeThread, ReportsACpuThatIsNotThereAndThoseThatAre) {
+    const Lines alone = inThread([] { return configureThisThread({"loop", 0, {1000}}); });
+    const Lines partly =
+        inThread([] { return configureThisThread({"loop", 0, {usableCpus()[0], 1000}}); });
+
+    for (const Lines& report : {alone, partly}) {
+        ASSERT_EQ(report.size(), 1U);
+        EXPECT_EQ(report[0].rfind("Thread 'loop' should run on CPU ", 0), 0U) << report[0];
+        EXPECT_NE(report[0].find("This process may use CPU " + std::to_string(usableCpus()[0])),
+                  std::string::npos)
+            << report[0];
+    }
+}
+
+TEST(RealtimeThread, GetsItsPriorityOrSaysHowTo) {
+    int policy = -1;
+    sched_param parameter{};
+
+    const Lines report = inThread([&] {
+        Lines lines = configureThisThread({"loop", 7, {}});
+        pthread_getschedparam(pthread_self(), &policy, &parameter);
+        return lines;
+    });
+
+    if (report.empty()) {
+        EXPECT_EQ(policy, SCHED_FIFO);
+        EXPECT_EQ(parameter.sched_priority, 7);
+    } else {
+        EXPECT_NE(joined(report).find("CAP_SYS_NICE"), std::string::npos) << joined(report);
+    }
+}
+
+TEST(RealtimeThread, ReportsAPriorityOutOfRange) {
+    const Lines report = inThread([] { return configureThisThread({"loop", 100, {}}); });
+
+    ASSERT_EQ(report.size(), 1U);
+    EXPECT_NE(report[0].find("Use 1 to 99"), std::string::npos) << report[0];
+}
+
+TEST(RealtimeThreadDeathTest, TellsAnUnprivilegedUserHowToGetAPriority) {
+    EXPECT_EXIT(
+        printAsUnprivileged(RLIMIT_RTPRIO, [] { return configureThisThread({"loop", 80, {}}); }),
+        ::testing::ExitedWithCode(0),
+        "Thread 'loop' did not get priority 80.*CAP_SYS_NICE.*'rtprio 80'");
+}
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define CORTEX_LOCKING_DOES_NOTHING  // the sanitizers see to that
+#endif
+#endif
+#if !defined(CORTEX_LOCKING_DOES_NOTHING)
+TEST(RealtimeThreadDeathTest, TellsAnUnprivilegedUserHowToLockMemory) {
+    EXPECT_EXIT(printAsUnprivileged(RLIMIT_MEMLOCK, [] { return lockMemory(); }),
+                ::testing::ExitedWithCode(0), "Memory was not locked.*'memlock unlimited'");
+}
+
+TEST(RealtimeThread, LocksMemoryOrSaysHowTo) {
+    const Lines report = lockMemory();
+
+    std::string line;
+    std::ifstream status("/proc/self/status");
+    while (std::getline(status, line) && line.rfind("VmLck:", 0) != 0) {
+    }
+    munlockall();
+    if (report.empty()) {
+        EXPECT_GT(std::stoul(line.substr(6)), 0U) << line;
+    } else {
+        EXPECT_NE(report[0].find("memlock unlimited"), std::string::npos) << report[0];
+    }
+}
+#endif
+
+TEST(RealtimeThread, RoundsToNearestWithoutFlushingToZero) {
+    volatile double one = 1.0, tiny = 1e-20, smallest = std::numeric_limits<double>::min();
+    std::fesetround(FE_UPWARD);
+    EXPECT_GT(one + tiny, 1.0);
+#if defined(__x86_64__)
+    _mm_setcsr(_mm_getcsr() | 0x8040);
+    EXPECT_EQ(smallest / 4, 0.0);
+#endif
+
+    setFloatingPointMode();
+
+    EXPECT_EQ(one + tiny, 1.0);
+    EXPECT_GT(smallest / 4, 0.0);
+    EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+}
+
+}  // namespace
+}  // namespace cortex::cs
