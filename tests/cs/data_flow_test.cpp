@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+// Order, quality, stamps, loss and arbitration between simplexes of one cluster.
+#include "support/probe.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+
+namespace {
+
+// A writes signal /s, B reads it.
+struct Chain {
+    ProbeCluster cluster;
+    Probe& writer = cluster.probe("/z-writer");
+    Probe& reader = cluster.probe("/a-reader");
+    Data<double> out;
+    Data<const double> in;
+
+    explicit Chain(const char* inputRule = "in", bool delayed = false) {
+        Simplex& signal = cluster.tree.add("/s", "Signal");
+        cluster.tree.relate(writer, "out", signal);
+        cluster.tree.relate(reader, inputRule, signal, delayed);
+        writer.onPopulate = [this](Probe& self) { out = self.output("out").data<double>("value"); };
+        reader.onPopulate = [this, inputRule](Probe& self) {
+            in = self.input(inputRule).data<double>("value");
+        };
+        writer.onActive = [this](Probe&, const Tick& tick) {
+            out = static_cast<double>(tick.cycle);
+        };
+    }
+};
+
+TEST(DataFlow, AWriterRunsBeforeItsReadersWhateverTheirPaths) {
+    Chain chain;
+    double seen = -1;
+    chain.reader.onActive = [&](Probe&, const Tick&) { seen = chain.in; };
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+    chain.cluster.startup(chain.reader);
+
+    chain.cluster.step();
+
+    EXPECT_EQ(seen, static_cast<double>(chain.cluster.cluster->image().cycle()));
+}
+
+TEST(DataFlow, ADelayedInputIsOnePeriodOld) {
+    Chain chain{"in", true};
+    double seen = -1;
+    chain.reader.onActive = [&](Probe&, const Tick&) { seen = chain.in; };
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+    chain.cluster.startup(chain.reader);
+
+    chain.cluster.step();
+
+    EXPECT_EQ(seen, static_cast<double>(chain.cluster.cluster->image().cycle() - 1));
+}
+
+TEST(DataFlow, QualityFollowsTheWritersState) {
+    Chain chain;
+    chain.cluster.start();
+    chain.cluster.step();
+    EXPECT_EQ(chain.cluster.quality("/s"), Quality::Stale);
+
+    chain.cluster.startup(chain.writer);
+    EXPECT_EQ(chain.cluster.quality("/s"), Quality::Good);
+
+    chain.writer.onActive = [](Probe& self, const Tick&) { self.fault(1, "broken"); };
+    chain.cluster.step();
+    EXPECT_EQ(chain.cluster.quality("/s"), Quality::Bad);
+}
+
+TEST(DataFlow, ATaskMayOverrideItsQuality) {
+    Chain chain;
+    chain.writer.onActive = [](Probe& self, const Tick&) { self.setQuality(Quality::Stale); };
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+
+    EXPECT_EQ(chain.cluster.quality("/s"), Quality::Stale);
+    EXPECT_EQ(chain.cluster.quality("/z-writer"), Quality::Stale);
+}
+
+TEST(DataFlow, ALossIsSeenByTheReaderWithItsFirstCause) {
+    Chain chain;
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+    chain.cluster.startup(chain.reader);
+    chain.writer.onActive = [](Probe& self, const Tick&) { self.fault(1, "broken"); };
+
+    chain.cluster.step();
+
+    EXPECT_EQ(chain.cluster.state("/a-reader"), State::Active);  // propagate: it runs on
+    EXPECT_EQ(chain.cluster.quality("/a-reader"), Quality::Bad);
+    EXPECT_TRUE(chain.cluster.hasEvent("/a-reader: in /s is bad, first cause /z-writer"));
+}
+
+TEST(DataFlow, OnLossHoldRunsOnWithTheLastValueAndReturns) {
+    Chain chain{"held"};
+    std::vector<double> seen;
+    bool broken = false;
+    chain.writer.onActive = [&](Probe& self, const Tick& tick) {
+        chain.out = static_cast<double>(tick.cycle);
+        if (broken) self.fault(1, "broken");
+    };
+    chain.reader.onActive = [&](Probe&, const Tick&) { seen.push_back(chain.in); };
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+    chain.cluster.startup(chain.reader);
+    seen.clear();
+    chain.cluster.step();
+    const double last = seen.back();
+    broken = true;
+
+    chain.cluster.step(3);
+
+    EXPECT_EQ(seen, (std::vector{last, last, last, last}));
+    EXPECT_EQ(chain.cluster.quality("/a-reader"), Quality::Stale);
+    broken = false;
+    chain.cluster.call("/z-writer", "clearFaults");
+    chain.cluster.startup(chain.writer);
+    chain.cluster.step();
+    EXPECT_EQ(seen.back(), static_cast<double>(chain.cluster.cluster->image().cycle()));
+}
+
+TEST(DataFlow, OnLossFaultEntersFaultAndNamesTheInput) {
+    Chain chain{"vital"};
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+    chain.cluster.startup(chain.reader);
+    chain.writer.onActive = [](Probe& self, const Tick&) { self.fault(1, "broken"); };
+
+    chain.cluster.step();
+
+    EXPECT_EQ(chain.cluster.state("/a-reader"), State::Fault);
+    EXPECT_EQ(chain.cluster.integer("/a-reader", "faultCode"), -2);
+    EXPECT_TRUE(chain.cluster.hasEvent("fault -2: vital /s is bad, first cause /z-writer"));
+}
+
+TEST(DataFlow, OnLossSafeSkipsTheStateFunctionWritesSafeDemandsAndResumes) {
+    Chain chain{"guarded"};
+    Simplex& target = chain.cluster.tree.add("/t", "Signal");
+    chain.cluster.tree.relate(chain.reader, "out", target);
+    Data<double> value;
+    int active = 0;
+    bool broken = false;
+    chain.writer.onActive = [&](Probe& self, const Tick&) {
+        if (broken) self.setQuality(Quality::Bad);
+    };
+    chain.reader.onPopulate = [&](Probe& self) {
+        value = self.output("out").data<double>("value");
+    };
+    chain.reader.onActive = [&](Probe&, const Tick&) {
+        ++active;
+        value = 5;
+    };
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+    chain.cluster.startup(chain.reader);
+    ASSERT_EQ(chain.cluster.number("/t", "value"), 5);
+    const int before = active;
+    broken = true;
+
+    chain.cluster.step(2);
+    EXPECT_EQ(active, before);
+    EXPECT_EQ(chain.cluster.number("/t", "value"), 0);
+    EXPECT_EQ(chain.cluster.state("/a-reader"), State::Active);
+
+    broken = false;
+    chain.cluster.step();
+    EXPECT_EQ(active, before + 1);
+    EXPECT_EQ(chain.cluster.number("/t", "value"), 5);
+}
+
+TEST(DataFlow, AMeasurementOlderThanMaxAgeIsALoss) {
+    Chain chain;  // maxAge 50 ms
+    chain.writer.onActive = [](Probe& self, const Tick&) { self.setQuality(Quality::Good, 0); };
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+    chain.cluster.step(40);
+    EXPECT_FALSE(chain.cluster.hasEvent("ms old"));
+
+    chain.cluster.step(20);
+    EXPECT_TRUE(chain.cluster.hasEvent("/a-reader: in /s is 51 ms old, allowed 50"));
+}
+
+TEST(DataFlow, AStampIsTheOldestOfTheInputs) {
+    Chain chain;
+    chain.writer.onActive = [](Probe& self, const Tick& tick) {
+        self.setQuality(Quality::Good, tick.nominalTime - 3'000'000);
+    };
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+    chain.cluster.startup(chain.reader);
+    chain.cluster.step();
+
+    const Image image = chain.cluster.cluster->image();
+    const SlotState state = image.state(image.structure().find("/a-reader"));
+    EXPECT_EQ(state.time, image.nominalTime() - 3'000'000);
+}
+
+// Two writers of one simplex.
+struct Shared {
+    ProbeCluster cluster;
+    Probe& first = cluster.probe("/w1");
+    Probe& second = cluster.probe("/w2");
+
+    Shared() {
+        Simplex& signal = cluster.tree.add("/s", "SharedSignal");
+        write(first, signal, 10);
+        write(second, signal, 20);
+        cluster.start();
+    }
+    void write(Probe& probe, Simplex& signal, double number) {
+        cluster.tree.relate(probe, "out", signal);
+        probe.onPopulate = [number](Probe& self) {
+            Data<double> out = self.output("out").data<double>("value");
+            self.onActive = [out, number](Probe&, const Tick&) mutable { out = number; };
+        };
+    }
+};
+
+TEST(Arbitration, TakesTheCandidateOfTheOneWriterThatIsActive) {
+    Shared shared;
+    shared.cluster.startup(shared.second);
+    EXPECT_EQ(shared.cluster.number("/s", "value"), 20);
+
+    shared.cluster.cluster->send("/w2", "shutdown");
+    shared.cluster.startup(shared.first);
+    EXPECT_EQ(shared.cluster.number("/s", "value"), 10);
+}
+
+TEST(Arbitration, SeveralActiveTakesTheFirstInCanonicalOrderCountedOnceAnEvent) {
+    Shared shared;
+    shared.cluster.startup(shared.second);
+    shared.cluster.startup(shared.first);
+    shared.cluster.step(2);
+
+    EXPECT_EQ(shared.cluster.number("/s", "value"), 10);
+    EXPECT_TRUE(shared.cluster.hasEvent("/s: several writers are Active; taken is /w1"));
+    shared.cluster.step(2);
+    EXPECT_GE(shared.cluster.integer("/test", "conflictCount"), 2);
+    int events = 0;
+    for (const std::string& event : shared.cluster.events()) {
+        if (event.find("several writers") != std::string::npos) ++events;
+    }
+    EXPECT_EQ(events, 1);
+}
+
+TEST(Arbitration, NoneActiveGivesSafeValues) {
+    Shared shared;
+    shared.cluster.startup(shared.second);
+    shared.cluster.cluster->send("/w2", "shutdown");
+    shared.cluster.step(3);
+
+    EXPECT_EQ(shared.cluster.number("/s", "value"), 0);
+    EXPECT_EQ(shared.cluster.quality("/s"), Quality::Stale);
+}
+
+}  // namespace
+
+}  // namespace cortex::test
