@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/cs/simplex_cs.hpp"
+#include "handles.hpp"
+
+#include <vector>
+
+namespace cortex::toolkit {
+
+// Keeps the axes where they were observed at startup.
+class HoldAxisController final : public cs::SimplexCS {
+public:
+    using SimplexCS::SimplexCS;
+
+private:
+    void populate() override;
+    bool stateStartingUp(const Tick& tick) override;
+    void stateActive(const Tick& tick) override;
+
+    std::vector<AxisInput> axes_;
+    std::vector<AxisOutput> demands_;
+    std::vector<double> held_;
+};
+
+// Passes targets on as demands.
+class FollowAxisController final : public cs::SimplexCS {
+public:
+    using SimplexCS::SimplexCS;
+
+private:
+    void populate() override;
+    void stateActive(const Tick& tick) override;
+
+    std::vector<AxisInput> targets_;
+    std::vector<AxisOutput> demands_;
+};
+
+}  // namespace cortex::toolkit

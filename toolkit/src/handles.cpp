@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "handles.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace cortex::toolkit {
+namespace {
+
+Eigen::Vector3d vector(std::span<const double> values) { return {values[0], values[1], values[2]}; }
+
+void copy(const Eigen::Vector3d& from, std::span<double> to) {
+    for (Eigen::Index i = 0; i < 3; ++i) to[static_cast<std::size_t>(i)] = from[i];
+}
+
+double valueOf(const std::optional<Number>& bound, double otherwise) {
+    if (!bound) return otherwise;
+    return std::visit([](auto number) { return static_cast<double>(number); }, *bound);
+}
+
+// For a chain, which wants finite limits: more than any mechanism moves.
+double finite(double value) { return std::clamp(value, -1e4, 1e4); }
+
+}  // namespace
+
+PoseInput::PoseInput(const InputSimplex& frame)
+    : position{frame.array<double>("position")},
+      rotation{frame.array<double>("rotation")},
+      linearVelocity{frame.array<double>("linearVelocity")},
+      angularVelocity{frame.array<double>("angularVelocity")},
+      state{&frame.state()} {}
+
+Pose PoseInput::pose() const {
+    Pose pose{vector(position), {rotation[3], rotation[0], rotation[1], rotation[2]}};
+    const double norm = pose.rotation.norm();
+    if (norm > 0.5) pose.rotation.coeffs() /= norm;
+    else pose.rotation.setIdentity();
+    return pose;
+}
+
+Twist PoseInput::velocity() const {
+    Twist twist;
+    twist << vector(linearVelocity), vector(angularVelocity);
+    return twist;
+}
+
+PoseOutput::PoseOutput(const OutputSimplex& frame)
+    : position{frame.array<double>("position")},
+      rotation{frame.array<double>("rotation")},
+      linearVelocity{frame.array<double>("linearVelocity")},
+      angularVelocity{frame.array<double>("angularVelocity")} {}
+
+void PoseOutput::write(const Pose& pose, const Twist& velocity) {
+    copy(pose.position, position);
+    copy(pose.rotation.vec(), rotation);
+    rotation[3] = pose.rotation.w();
+    copy(velocity.head<3>(), linearVelocity);
+    copy(velocity.tail<3>(), angularVelocity);
+}
+
+AxisInput::AxisInput(const InputSimplex& axis)
+    : position{axis.data<double>("position")}, velocity{axis.data<double>("velocity")} {}
+
+AxisOutput::AxisOutput(const OutputSimplex& axis)
+    : position{axis.data<double>("position")},
+      velocity{axis.data<double>("velocity")},
+      effort{axis.data<double>("effort")} {}
+
+void AxisOutput::write(double newPosition, double newVelocity) {
+    position = newPosition;
+    velocity = newVelocity;
+    effort = 0.0;
+}
+
+std::vector<AxisInput> axisInputs(const std::vector<InputSimplex>& axes) {
+    return {axes.begin(), axes.end()};
+}
+
+std::vector<AxisOutput> axisOutputs(const std::vector<OutputSimplex>& axes) {
+    return {axes.begin(), axes.end()};
+}
+
+AxisLimits::AxisLimits(const Type& axis) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const DataItem* position = axis.findData("position");
+    const DataItem* velocity = axis.findData("velocity");
+    min = position ? valueOf(position->min, -infinity) : -infinity;
+    max = position ? valueOf(position->max, infinity) : infinity;
+    speed = velocity ? valueOf(velocity->max, infinity) : infinity;
+}
+
+void requireSameCount(const Simplex& owner, std::size_t axes, std::size_t others,
+                      const char* otherRule) {
+    if (axes == others) return;
+    throw Error(owner.path() + ": rule 'axes' has " + std::to_string(axes) + ", rule '" +
+                otherRule + "' has " + std::to_string(others) +
+                ": relate one for each axis, in the same order");
+}
+
+SerialChain chainOf(const Simplex& owner, const std::vector<InputSimplex>& axes,
+                    std::span<const double> tipPosition, std::span<const double> tipRotation) {
+    std::vector<ChainJoint> joints;
+    for (const InputSimplex& axis : axes) {
+        const AxisLimits limits{axis.type()};
+        joints.push_back({vector(axis.array<double>("originPosition")),
+                          vector(axis.array<double>("originRotation")),
+                          vector(axis.array<double>("direction")),
+                          axis.type().isA("LinearAxisConcept") ? JointKind::Linear
+                                                               : JointKind::Rotary,
+                          finite(limits.min), finite(limits.max), finite(limits.speed)});
+    }
+    const Eigen::Vector3d angles = vector(tipRotation);
+    const Eigen::Quaterniond rotation = Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
+                                        Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
+                                        Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX());
+    try {
+        return SerialChain{joints, Pose{vector(tipPosition), rotation}};
+    } catch (const Error& error) {
+        throw Error(owner.path() + ": " + error.what());
+    }
+}
+
+}  // namespace cortex::toolkit

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kinematics.hpp"
+
+namespace cortex::toolkit {
+namespace {
+
+void resize(SerialChain::JointVector& joints, std::size_t size) {
+    joints = SerialChain::JointVector::Zero(static_cast<Eigen::Index>(size));
+}
+
+}  // namespace
+
+void ForwardKinematics::populate() {
+    const auto axes = inputs("axes");
+    chain_ = chainOf(*this, axes, array<double>("tipPosition"), array<double>("tipRotation"));
+    axes_ = axisInputs(axes);
+    tip_ = PoseOutput{output("tip")};
+    resize(positions_, axes.size());
+    resize(velocities_, axes.size());
+}
+
+void ForwardKinematics::stateActive(const Tick&) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        positions_[static_cast<Eigen::Index>(i)] = axes_[i].position;
+        velocities_[static_cast<Eigen::Index>(i)] = axes_[i].velocity;
+    }
+    const Pose pose = chain_->forward(positions_, jacobian_);
+    tip_.write(pose, jacobian_.lazyProduct(velocities_));
+}
+
+void InverseKinematics::populate() {
+    const auto axes = inputs("axes");
+    chain_ = chainOf(*this, axes, array<double>("tipPosition"), array<double>("tipRotation"));
+    axes_ = axisInputs(axes);
+    targets_ = axisOutputs(outputs("targets"));
+    requireSameCount(*this, axes_.size(), targets_.size(), "targets");
+    target_ = PoseInput{input("target")};
+    seedDistance_ = data<const double>("seedDistance");
+    positionError_ = data<double>("positionError");
+    rotationError_ = data<double>("rotationError");
+    reached_ = data<bool>("reached");
+    seedCount_ = data<std::int64_t>("seedCount");
+    for (auto* joints : {&observed_, &solution_, &posture_}) resize(*joints, axes.size());
+}
+
+void InverseKinematics::readObserved() {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        observed_[static_cast<Eigen::Index>(i)] = axes_[i].position;
+    }
+}
+
+void InverseKinematics::seed() {
+    solution_ = observed_;
+    posture_ = observed_;
+    seedCount_ += 1;
+}
+
+bool InverseKinematics::stateStartingUp(const Tick&) {
+    readObserved();
+    seed();
+    return true;
+}
+
+void InverseKinematics::stateActive(const Tick& tick) {
+    readObserved();
+    if ((observed_ - solution_).cwiseAbs().maxCoeff() > seedDistance_) seed();
+    const SerialChain::JointVector before = solution_;
+    SerialChain::InverseOptions options;
+    options.tolerance = 1e-8;
+    options.period = tick.elapsedSeconds();
+    reached_ = chain_->inverse(target_.pose(), solution_, posture_, options).converged;
+    const Twist error = difference(chain_->forward(solution_), target_.pose());
+    positionError_ = error.head<3>().norm();
+    rotationError_ = error.tail<3>().norm();
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+        const auto joint = static_cast<Eigen::Index>(i);
+        targets_[i].write(solution_[joint], (solution_[joint] - before[joint]) / options.period);
+    }
+}
+
+}  // namespace cortex::toolkit

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/cs/simplex_cs.hpp"
+#include "handles.hpp"
+
+#include <array>
+
+namespace cortex::toolkit {
+
+// Keeps one of two processors Active: the first while enabled and the hand moves, else the second.
+class ProcessorSelector final : public cs::SimplexCS {
+public:
+    using SimplexCS::SimplexCS;
+
+private:
+    enum Choice : std::int64_t { None, WhileMoving, Otherwise };
+    struct Managed {
+        LifeCycleSender sender;
+        std::int64_t askedAt = 0;  // ns; a startup that was refused is tried again later
+    };
+
+    void populate() override;
+    bool stateStartingUp(const Tick& tick) override;
+    void stateActive(const Tick& tick) override;
+    bool stateShuttingDown(const Tick& tick) override;
+    bool stateFault(const Tick& tick) override;
+
+    bool handMoves(const Tick& tick);
+    void select(Choice choice);
+    bool stopAll();
+
+    PoseInput hand_;
+    Data<const bool> enable_;
+    const SlotState* enableState_ = nullptr;
+    Data<const double> speedThreshold_, turnThreshold_, stillTime_;
+    Data<std::int64_t> selected_, switchCount_;
+    std::array<Managed, 2> choices_;  // WhileMoving, Otherwise
+    double stillFor_ = 0;             // s
+};
+
+}  // namespace cortex::toolkit

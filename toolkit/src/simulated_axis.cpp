@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulated_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cortex::toolkit {
+namespace {
+
+constexpr double SwitchOnTolerance = 0.01;  // rad or m between demand and joint
+constexpr double BrakeTime = 0.02;          // s, time constant
+constexpr double Standstill = 1e-4;         // rad/s or m/s
+
+}  // namespace
+
+void SimulatedAxis::populate() {
+    const OutputSimplex observation = output("observation");
+    demand_.emplace(input("demand"));
+    observation_.emplace(observation);
+    observedStatus_ = observation.data<std::int64_t>("status");
+    limits_.emplace(observation.type());
+    naturalFrequency_ = data<const double>("naturalFrequency");
+    dampingRatio_ = data<const double>("dampingRatio");
+    followingError_ = data<double>("followingError");
+    limitCount_ = data<std::int64_t>("limitCount");
+    position_ = std::clamp(data<double>("startPosition").get(), limits_->min, limits_->max);
+    observation_->write(position_, 0);
+    observedStatus_ = Ready;
+}
+
+// As drives do: it does not switch on while the demand is elsewhere.
+bool SimulatedAxis::stateStartingUp(const Tick&) {
+    return std::abs(demand_->position - position_) < SwitchOnTolerance &&
+           std::abs(velocity_) < Standstill;
+}
+
+// Distance to a demand that moves on at its velocity: e'' + 2 d w e' + w^2 e = 0, solved exactly
+// for the time since the last cycle.
+void SimulatedAxis::servo(double seconds) {
+    const double w = 2 * std::numbers::pi * naturalFrequency_;
+    const double damping = dampingRatio_ * w;
+    const double turn = w * std::sqrt(std::max(0.0, 1 - dampingRatio_ * dampingRatio_));
+    const double decay = std::exp(-damping * seconds);
+    const double cosine = std::cos(turn * seconds);
+    const double sine = turn * seconds < 1e-6 ? seconds : std::sin(turn * seconds) / turn;
+    const double error = position_ - demand_->position;
+    const double errorSpeed = velocity_ - demand_->velocity;
+    const double newError = decay * (error * cosine + (errorSpeed + damping * error) * sine);
+    const double newSpeed = decay * (errorSpeed * cosine - (damping * errorSpeed + w * w * error) * sine);
+    position_ = demand_->position + demand_->velocity * seconds + newError;
+    velocity_ = demand_->velocity + newSpeed;
+}
+
+void SimulatedAxis::brake(double seconds) {
+    const double decay = std::exp(-seconds / BrakeTime);
+    position_ += velocity_ * BrakeTime * (1 - decay);
+    velocity_ *= decay;
+}
+
+void SimulatedAxis::limit(double before, double seconds) {
+    const double reach = limits_->speed * seconds;
+    const double position =
+        std::clamp(std::clamp(position_, before - reach, before + reach), limits_->min, limits_->max);
+    const double velocity = position <= limits_->min || position >= limits_->max
+                                ? 0
+                                : std::clamp(velocity_, -limits_->speed, limits_->speed);
+    const bool limited = position != position_ || velocity != velocity_;
+    if (limited && !atLimit_) limitCount_ += 1;
+    atLimit_ = limited;
+    position_ = position;
+    velocity_ = velocity;
+}
+
+std::int64_t SimulatedAxis::status() const {
+    if (state() == State::Fault) return Faulty;
+    if (atLimit_) return AtLimit;
+    return std::abs(velocity_) < Standstill ? Ready : Moving;
+}
+
+void SimulatedAxis::loopEnd(const Tick& tick) {
+    const double before = position_;
+    const double seconds = tick.elapsedSeconds();
+    if (state() == State::Active) servo(seconds);
+    else brake(seconds);
+    limit(before, seconds);
+    observation_->write(position_, velocity_);
+    observedStatus_ = status();
+    followingError_ = demand_->position - position_;
+}
+
+}  // namespace cortex::toolkit
