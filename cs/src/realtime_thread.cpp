@@ -21,7 +21,7 @@
 namespace cortex::cs {
 namespace {
 
-constexpr std::size_t PrefaultedBytes = 256 * 1024;
+constexpr std::size_t PrefaultedBytes = 262144;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
