@@ -16,9 +16,12 @@ std::string mendedPath(std::string_view path) {
     std::string mended = "/";
     for (const char c : path) {
         const bool allowed = SimplexTree::pathError(std::string{"/"} + c).empty();
-        if (allowed) mended += c;
-        else if (c == '/' && mended.back() != '/') mended += '/';
-        else if (c != '/') mended += '-';
+        if (allowed)
+            mended += c;
+        else if (c == '/' && mended.back() != '/')
+            mended += '/';
+        else if (c != '/')
+            mended += '-';
     }
     while (mended.size() > 1 && mended.back() == '/') mended.pop_back();
     return SimplexTree::pathError(mended).empty() ? mended : "";
@@ -38,10 +41,10 @@ bool checkPath(const SimplexTree& tree, const Entry& entry, Report& report) {
     int n = 2;
     while (tree.find(entry.path + "-" + std::to_string(n)) != nullptr) ++n;
     const std::string where = first->place().text();
-    report.error(entry.path, finding::duplicatePath, entry.place,
-                 "there is a simplex with this path already" +
-                     (where.empty() ? where : ", at " + where),
-                 "remove one, or write path=\"" + entry.path + "-" + std::to_string(n) + "\"");
+    report.error(
+        entry.path, finding::duplicatePath, entry.place,
+        "there is a simplex with this path already" + (where.empty() ? where : ", at " + where),
+        "remove one, or write path=\"" + entry.path + "-" + std::to_string(n) + "\"");
     return false;
 }
 

@@ -35,8 +35,10 @@ Slots slotsOf(const Simplex& owner, const Rule& rule) {
     const std::size_t refining = all - named.size() - others.size();
     Slots slots(std::min<std::size_t>(rule.min - refining, maxSimplexes));
     for (auto& [n, relation] : named) {
-        if (n <= slots.size()) slots[n - 1] = relation;
-        else others.push_back(relation);
+        if (n <= slots.size())
+            slots[n - 1] = relation;
+        else
+            others.push_back(relation);
     }
     for (auto& slot : slots) {
         if (slot || others.empty()) continue;
@@ -72,7 +74,8 @@ void SimplexTree::createRelated(const ClassRegistry* registry) {
         for (const Rule& rule : owner.type().rules) {
             if (rule.create.empty() || relationsFor(owner, rule).size() >= rule.min) continue;
             const Slots slots = slotsOf(owner, rule);
-            std::erase_if(owner.relations_, [&](const auto& each) { return each.rule == rule.name; });
+            std::erase_if(owner.relations_,
+                          [&](const auto& each) { return each.rule == rule.name; });
             for (std::uint32_t n = 1; n <= slots.size(); ++n) {
                 if (const auto& slot = slots[n - 1]) {
                     owner.relations_.push_back(*slot);
@@ -82,7 +85,8 @@ void SimplexTree::createRelated(const ClassRegistry* registry) {
                 Simplex* related = createOne(owner, rule, n, registry);
                 if (related == nullptr) continue;
                 if (simplexes_.size() > before) waiting.push_back(related);
-                owner.relations_.push_back({rule.name, related->path(), false, false, owner.place()});
+                owner.relations_.push_back(
+                    {rule.name, related->path(), false, false, owner.place()});
             }
         }
     }

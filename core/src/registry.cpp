@@ -46,9 +46,10 @@ Library open(const std::filesystem::path& file, const std::string& who) {
         throw Error{who + "cannot be loaded: " + (why != nullptr ? why : "no reason given")};
     }
     if (after != before) {
-        throw Error{who + "changes the floating-point mode when it is loaded, and with it the "
-                          "results of every other simplex; build it without -ffast-math, "
-                          "-funsafe-math-optimizations and -mdaz-ftz"};
+        throw Error{who +
+                    "changes the floating-point mode when it is loaded, and with it the "
+                    "results of every other simplex; build it without -ffast-math, "
+                    "-funsafe-math-optimizations and -mdaz-ftz"};
     }
     return library;
 }

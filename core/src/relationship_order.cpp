@@ -65,9 +65,8 @@ private:
         for (auto step = start; step != path_.end(); ++step) {
             loop.push_back(leaving_[step->simplex][step->next - 1]);
         }
-        const auto first = std::ranges::min_element(loop, {}, [&](std::uint32_t edge) {
-            return orderOf(structure_.edges[edge]).first;
-        });
+        const auto first = std::ranges::min_element(
+            loop, {}, [&](std::uint32_t edge) { return orderOf(structure_.edges[edge]).first; });
         std::ranges::rotate(loop, first);
         loops_.push_back(std::move(loop));
     }

@@ -17,16 +17,16 @@ struct ResolvedRelation {
     bool delayed() const { return relation->delayed || rule->delayed; }
 };
 
-// By rule, then in the order related: the order of Structure::edges. Names that stand for nothing are
-// left out; validate() reports them.
+// By rule, then in the order related: the order of Structure::edges. Names that stand for nothing
+// are left out; validate() reports them.
 std::vector<ResolvedRelation> resolveRelations(const SimplexTree& tree, const Simplex& owner);
 
 // Whether relationships under `related` count for `rule`: the same rule, or one that refines it.
 bool countsFor(const Type& type, std::string_view related, std::string_view rule);
 std::vector<const Simplex::Relation*> relationsFor(const Simplex& owner, const Rule& rule);
 
-// Path and type of the n-th simplex (from 1) that a rule with `create` makes for its owner. The type
-// is null if the model lacks it.
+// Path and type of the n-th simplex (from 1) that a rule with `create` makes for its owner. The
+// type is null if the model lacks it.
 std::string createdPath(const Simplex& owner, const Rule& rule, std::uint32_t n);
 const Type* createdType(const TypeModel& types, const Rule& rule, std::uint32_t n);
 

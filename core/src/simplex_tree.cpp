@@ -13,8 +13,8 @@ constexpr std::size_t maxPathLength = 128;
 constexpr std::size_t maxPathLevels = 8;
 
 bool isPathCharacter(char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
-           c == '_' || c == '-';
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
 }
 
 std::string near(std::string_view wrong, const std::vector<std::string>& valid) {
@@ -106,8 +106,7 @@ Simplex* SimplexTree::find(std::string_view path) {
 
 Simplex& SimplexTree::at(std::string_view path) {
     if (Simplex* found = find(path)) return *found;
-    throw Error{"there is no simplex '" + std::string{path} + "'" +
-                near(path, keysOf(simplexes_))};
+    throw Error{"there is no simplex '" + std::string{path} + "'" + near(path, keysOf(simplexes_))};
 }
 
 }  // namespace cortex

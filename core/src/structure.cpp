@@ -14,10 +14,14 @@ namespace {
 
 std::uint32_t& countOf(BlockSizes& sizes, Kind kind) {
     switch (kind) {
-        case Kind::Int: return sizes.ints;
-        case Kind::Float: return sizes.floats;
-        case Kind::Bool: return sizes.bools;
-        case Kind::String: break;
+        case Kind::Int:
+            return sizes.ints;
+        case Kind::Float:
+            return sizes.floats;
+        case Kind::Bool:
+            return sizes.bools;
+        case Kind::String:
+            break;
     }
     return sizes.strings;
 }
@@ -152,7 +156,8 @@ BlockSizes& BlockSizes::operator+=(const BlockSizes& other) {
 
 const ItemLayout* TypeLayout::find(std::string_view item) const {
     const auto found = std::ranges::lower_bound(
-        items, item, {}, [](const ItemLayout& each) -> std::string_view { return each.item->name; });
+        items, item, {},
+        [](const ItemLayout& each) -> std::string_view { return each.item->name; });
     return found != items.end() && found->item->name == item ? &*found : nullptr;
 }
 

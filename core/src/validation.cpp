@@ -28,8 +28,8 @@ void checkLongCommands(const Checked& checked) {
         std::string parents;
         for (const auto& parent : type.parents) parents += parent + " ";
         checked.report.error(name, finding::longActivity, type.place,
-                             "command '" + command->name + "' is long (" +
-                                 command->place.text() + "), but the type is no Activity",
+                             "command '" + command->name + "' is long (" + command->place.text() +
+                                 "), but the type is no Activity",
                              "write extends=\"" + parents + "Activity\"");
     }
 }

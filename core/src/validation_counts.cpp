@@ -81,11 +81,10 @@ void checkMaximum(const Checked& checked, const Simplex& owner, const Rule& rule
                   const std::vector<const Simplex::Relation*>& counted) {
     for (std::size_t n = rule.max; n < counted.size(); ++n) {
         const auto& relation = *counted[n];
-        checked.report.error(
-            owner.path(), finding::aboveMax, relation.place,
-            ruleText(owner, rule) + " takes " + std::to_string(rule.max) + " " + rule.target +
-                ", has " + std::to_string(counted.size()),
-            "remove this <relate>: " + relateText(relation.rule, relation.target));
+        checked.report.error(owner.path(), finding::aboveMax, relation.place,
+                             ruleText(owner, rule) + " takes " + std::to_string(rule.max) + " " +
+                                 rule.target + ", has " + std::to_string(counted.size()),
+                             "remove this <relate>: " + relateText(relation.rule, relation.target));
     }
 }
 

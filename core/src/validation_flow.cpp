@@ -35,9 +35,8 @@ private:
     }
     const Simplex& owner(const Edge& each) const { return *simplexes_[each.owner]; }
     bool writes(const Edge& each) const {
-        return each.rule->direction == Direction::Output &&
-               info(each.owner).role == Role::Active && info(each.target).role != Role::Active &&
-               !info(each.target).remote;
+        return each.rule->direction == Direction::Output && info(each.owner).role == Role::Active &&
+               info(each.target).role != Role::Active && !info(each.target).remote;
     }
     std::string relateOf(std::uint32_t index, bool delayed) const {
         return relateText(relations_[index]->rule, relations_[index]->target,
@@ -48,7 +47,9 @@ private:
     void checkMixed(const std::vector<std::uint32_t>& outputs);
     void checkSafe(const SimplexInfo& demand, const Simplex& simplex);
     void checkObserved(std::uint32_t index);
-    std::string observationError(std::uint32_t index, const DataItem& item) const;
+    std::vector<std::uint32_t> targetsUnder(const Edge& output, std::string_view rule) const;
+    std::string observationError(const Edge& output, std::string_view rule,
+                                 const DataItem& item) const;
     std::string counterpartRemedy(const Edge& output, const DataItem& item) const;
     void reportLoop(const Loop& loop);
 
@@ -90,17 +91,15 @@ void Flow::checkSecondWriter(std::uint32_t index) {
 void Flow::checkMixed(const std::vector<std::uint32_t>& outputs) {
     const auto delayed = [&](std::uint32_t index) { return edge(index).delayed; };
     if (std::ranges::all_of(outputs, delayed) || std::ranges::none_of(outputs, delayed)) return;
-    const auto alone = std::ranges::find_if(outputs, [&](std::uint32_t index) {
-        return delayed(index) && !edge(index).rule->delayed;
-    });
+    const auto alone = std::ranges::find_if(
+        outputs, [&](std::uint32_t index) { return delayed(index) && !edge(index).rule->delayed; });
     const bool undo = alone != outputs.end();  // delayed by its <relate> only: undo that
     const std::uint32_t odd = undo ? *alone : *std::ranges::find_if_not(outputs, delayed);
-    checked_.report.error(info(edge(odd).target).path, finding::delayedMixed,
-                          relations_[odd]->place,
-                          ruleText(owner(edge(odd)), *edge(odd).rule) + " of " +
-                              owner(edge(odd)).path() + " writes it " +
-                              (undo ? "delayed, others not" : "at once, others delayed"),
-                          "write " + relateOf(odd, !undo));
+    checked_.report.error(
+        info(edge(odd).target).path, finding::delayedMixed, relations_[odd]->place,
+        ruleText(owner(edge(odd)), *edge(odd).rule) + " of " + owner(edge(odd)).path() +
+            " writes it " + (undo ? "delayed, others not" : "at once, others delayed"),
+        "write " + relateOf(odd, !undo));
 }
 
 // Rules that name one remote path must agree on what can be there.
@@ -109,12 +108,11 @@ void Flow::checkRemoteTypes() {
         const SimplexInfo& target = info(edge(index).target);
         const std::string& wanted = edge(index).rule->target;
         if (!target.remote || target.layout->type->isA(wanted)) continue;
-        checked_.report.error(owner(edge(index)).path(), finding::remoteTypes,
-                              relations_[index]->place,
-                              ruleText(owner(edge(index)), *edge(index).rule) + " takes " + wanted +
-                                  "; as another rule has it, " + target.path + " is " +
-                                  target.layout->type->name,
-                              "remove this <relate>, or relate a simplex that is both");
+        checked_.report.error(
+            owner(edge(index)).path(), finding::remoteTypes, relations_[index]->place,
+            ruleText(owner(edge(index)), *edge(index).rule) + " takes " + wanted +
+                "; as another rule has it, " + target.path + " is " + target.layout->type->name,
+            "remove this <relate>, or relate a simplex that is both");
     }
 }
 
@@ -127,11 +125,11 @@ void Flow::checkDemands() {
         const bool demand = writes(each) && info(each.target).role == Role::Modification;
         if (demand && !each.delayed) checkObserved(index);
         if (!demand || !each.delayed) continue;
-        checked_.report.warning(owner(each).path(), finding::delayedDemand,
-                                relations_[index]->place,
-                                ruleText(owner(each), *each.rule) + " delays a demand: " +
-                                    info(each.target).path + " is a modification",
-                                "write " + relateOf(index, false));
+        checked_.report.warning(
+            owner(each).path(), finding::delayedDemand, relations_[index]->place,
+            ruleText(owner(each), *each.rule) + " delays a demand: " + info(each.target).path +
+                " is a modification",
+            "write " + relateOf(index, false));
     }
 }
 
@@ -149,31 +147,30 @@ void Flow::checkSafe(const SimplexInfo& demand, const Simplex& simplex) {
         demand.writers.empty() ? "" : " that " + info(demand.writers.front()).path + " writes";
     checked_.report.error(demand.path, finding::safeNeeded, simplex.place(),
                           "it is a modification" + writer + ", but " + listText(names) +
-                              " of type " + type.name + " (" + first->place.text() +
-                              ") has no safe value",
-                          "write safe=\"" + valueText(first->initial) +
-                              "\", or \"hold\", or \"observed\"");
+                              " of type " + type.name + " has no safe value",
+                          "write safe=\"" + valueText(first->initial) + "\" for '" + first->name +
+                              "' (" + first->place.text() + "), or \"hold\", or \"observed\"");
 }
 
-// "" if the item is found where the writer observes what it demands here.
-std::string Flow::observationError(std::uint32_t index, const DataItem& item) const {
-    const Edge& output = edge(index);
+std::vector<std::uint32_t> Flow::targetsUnder(const Edge& output, std::string_view rule) const {
     const SimplexInfo& writer = info(output.owner);
-    if (output.rule->counterpart.empty()) return "states no counterpart";
-    std::vector<std::uint32_t> observing;
-    std::size_t position = 0;
-    for (std::uint32_t n = 0; n < writer.edgeCount; ++n) {
-        const std::uint32_t other = writer.firstEdge + n;
-        if (edge(other).rule->name == output.rule->counterpart) {
-            observing.push_back(edge(other).target);
-        }
-        if (edge(other).rule == output.rule && other < index) ++position;
+    std::vector<std::uint32_t> targets;
+    for (std::uint32_t n = writer.firstEdge; n < writer.firstEdge + writer.edgeCount; ++n) {
+        if (edge(n).rule->name == rule) targets.push_back(edge(n).target);
     }
-    const std::string rule = "rule '" + output.rule->counterpart + "'";
-    if (observing.size() == 1) position = 0;
+    return targets;
+}
+
+// "" if the n-th simplex under `rule`, or its only one, observes the item that is demanded n-th.
+std::string Flow::observationError(const Edge& output, std::string_view rule,
+                                   const DataItem& item) const {
+    const auto demanded = targetsUnder(output, output.rule->name);
+    const auto observing = targetsUnder(output, rule);
+    const auto place = std::ranges::find(demanded, output.target) - demanded.begin();
+    const auto position = observing.size() == 1 ? 0 : static_cast<std::size_t>(place);
     if (position >= observing.size()) {
-        return "has its counterpart under " + rule + ", which has no simplex in place " +
-               std::to_string(position + 1);
+        return "has its counterpart under rule '" + std::string{rule} +
+               "', which has no simplex in place " + std::to_string(position + 1);
     }
     const SimplexInfo& observed = info(observing[position]);
     const DataItem* found = observed.layout->type->findData(item.name);
@@ -185,30 +182,31 @@ std::string Flow::observationError(std::uint32_t index, const DataItem& item) co
 
 std::string Flow::counterpartRemedy(const Edge& output, const DataItem& item) const {
     for (const Rule& rule : owner(output).type().rules) {
-        const Type* type = checked_.tree.types().find(rule.target);
-        if (rule.direction != Direction::Input || type == nullptr) continue;
-        if (type->findData(item.name) != nullptr && rule.name != output.rule->counterpart) {
-            return "write counterpart=\"" + rule.name + "\" for " + "rule '" + output.rule->name +
-                   "' (" + output.rule->place.text() + ")";
-        }
+        if (rule.direction != Direction::Input) continue;
+        if (!observationError(output, rule.name, item).empty()) continue;
+        return "write counterpart=\"" + rule.name + "\" for rule '" + output.rule->name + "' (" +
+               output.rule->place.text() + ")";
     }
-    return "relate a simplex that has '" + item.name + "' under rule '" +
-           output.rule->counterpart + "'";
+    const std::string& rule = output.rule->counterpart;
+    return rule.empty() ? "add an input rule that observes it, and name it as counterpart"
+                        : "relate a simplex that has '" + item.name + "' with " +
+                              relateText(rule, "…") + ", in the order of the demands";
 }
 
 void Flow::checkObserved(std::uint32_t index) {
     const Edge& output = edge(index);
     for (const DataItem& item : info(output.target).layout->type->data) {
         if (item.safe.kind != Safe::Kind::Observed) continue;
-        const std::string wrong = observationError(index, item);
+        const std::string& rule = output.rule->counterpart;
+        const std::string wrong =
+            rule.empty() ? "states no counterpart" : observationError(output, rule, item);
         if (wrong.empty()) continue;
-        checked_.report.error(owner(output).path(), finding::observedCounterpart,
-                              relations_[index]->place,
-                              "'" + item.name + "' of " + info(output.target).path +
-                                  " is safe=\"observed\", but " +
-                                  ruleText(owner(output), *output.rule) + " " + wrong,
-                              counterpartRemedy(output, item));
-        if (output.rule->counterpart.empty()) return;  // one item says it for all
+        checked_.report.error(
+            owner(output).path(), finding::observedCounterpart, relations_[index]->place,
+            "'" + item.name + "' of " + info(output.target).path + " is safe=\"observed\", but " +
+                ruleText(owner(output), *output.rule) + " " + wrong,
+            counterpartRemedy(output, item));
+        if (rule.empty()) return;  // one item says it for all
     }
 }
 

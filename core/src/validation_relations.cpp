@@ -85,9 +85,10 @@ void checkRemote(const Checked& checked, const Simplex& owner, const Rule& rule,
                              text + " is an output; data of another agent is only read",
                              "remove this <relate>, and act on " + relation.target + " by command");
     } else if (checked.tree.find(relation.target) != nullptr) {
-        checked.report.error(owner.path(), finding::remoteLocal, relation.place,
-                             text + ": " + relation.target + " is remote, but stands in this system",
-                             "write " + relateText(rule.name, relation.target));
+        checked.report.error(
+            owner.path(), finding::remoteLocal, relation.place,
+            text + ": " + relation.target + " is remote, but stands in this system",
+            "write " + relateText(rule.name, relation.target));
     } else if (const auto wrong = SimplexTree::pathError(relation.target); !wrong.empty()) {
         checked.report.error(owner.path(), finding::malformedPath, relation.place,
                              text + ": path '" + relation.target + "': " + wrong,
@@ -105,10 +106,10 @@ void checkTwice(const Checked& checked, const Simplex& owner, const Rule& rule,
     const auto count = std::ranges::count(all, rule.name, &Relation::rule);
     const auto paths = fitting(checked, owner, rule);
     const bool enough = count > static_cast<std::ptrdiff_t>(rule.min);
-    checked.report.error(owner.path(), finding::targetTwice, relation.place,
-                         ruleText(owner, rule) + " relates " + relation.target + " twice",
-                         enough || paths.empty() ? "remove this <relate>"
-                                                 : writeOneOf(rule.name, paths));
+    checked.report.error(
+        owner.path(), finding::targetTwice, relation.place,
+        ruleText(owner, rule) + " relates " + relation.target + " twice",
+        enough || paths.empty() ? "remove this <relate>" : writeOneOf(rule.name, paths));
 }
 
 }  // namespace
@@ -149,9 +150,12 @@ void checkRelations(const Checked& checked, const Simplex& owner) {
         }
         checkTwice(checked, owner, *rule, relation);
         const Simplex* target = checked.tree.find(relation.target);
-        if (relation.remote) checkRemote(checked, owner, *rule, relation);
-        else if (target == nullptr) checkUnknownTarget(checked, owner, *rule, relation);
-        else checkTargetType(checked, owner, *rule, relation, *target);
+        if (relation.remote)
+            checkRemote(checked, owner, *rule, relation);
+        else if (target == nullptr)
+            checkUnknownTarget(checked, owner, *rule, relation);
+        else
+            checkTargetType(checked, owner, *rule, relation, *target);
     }
 }
 

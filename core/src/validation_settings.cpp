@@ -124,19 +124,19 @@ void checkStrings(const Case& each, std::vector<std::string> values) {
         while (cut > 0 && cut < value.size() && (value[cut] & 0xC0) == 0x80) --cut;
         value.resize(cut);
     }
-    each.error(finding::settingLength,
-               "takes " + std::to_string(each.item.capacity) + " octets, set are " +
-                   std::to_string(size),
-               values);
+    each.error(
+        finding::settingLength,
+        "takes " + std::to_string(each.item.capacity) + " octets, set are " + std::to_string(size),
+        values);
 }
 
 void checkValue(const Case& each) {
     const Value& value = each.setting.value;
     if (kindOf(value) != each.item.kind) {
-        each.error(finding::settingKind,
-                   std::string{"is a "} + name(each.item.kind) + ", set is a " +
-                       name(kindOf(value)),
-                   each.item.initial);
+        each.error(
+            finding::settingKind,
+            std::string{"is a "} + name(each.item.kind) + ", set is a " + name(kindOf(value)),
+            each.item.initial);
     } else if (lengthOf(value) != each.item.length) {
         each.error(finding::settingLength,
                    "has " + std::to_string(each.item.length) + " elements, set are " +

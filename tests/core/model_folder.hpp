@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/model_files.hpp"
+#include "cortex/core/simplex_tree.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace cortex::test {
+
+// A folder of its own for the model files of one test, removed at its end.
+class ModelFolder {
+public:
+    ModelFolder();
+    ~ModelFolder();
+    ModelFolder(const ModelFolder&) = delete;
+    ModelFolder& operator=(const ModelFolder&) = delete;
+
+    std::filesystem::path write(const std::string& name, const std::string& text) const;
+    std::string read(const std::string& name) const;
+    void copyOntology() const;  // every shipped file
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+std::string textOf(const std::filesystem::path& file);
+
+// What an agent or `cortex validate` makes of files: everything found, and the tree.
+struct CheckedModel {
+    Report report;
+    std::unique_ptr<SimplexTree> tree;
+
+    const Finding* find(const std::string& rule) const;  // the first of that rule
+    std::size_t count(const std::string& rule) const;
+};
+CheckedModel check(const std::filesystem::path& file);
+
+// A small ontology with one type or rule for each thing that validation looks at, and the model of
+// a system of it, given as the elements inside <system>.
+TypeModel smallTypes();
+CheckedModel checkSmall(const std::string& elements);
+
+}  // namespace cortex::test

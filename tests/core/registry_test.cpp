@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/registry.hpp"
+
+#include "cortex/core/agreement.hpp"
+#include "cortex/core/error.hpp"
+#include "cortex/core/simplex_tree.hpp"
+
+#include "core/model_folder.hpp"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace cortex {
+namespace {
+
+class Valve final : public Simplex {
+public:
+    using Simplex::Simplex;
+};
+
+TypeModel pumps() {
+    const test::ModelFolder folder;
+    return TypeModel::load(
+        folder.write("pumps.xml",
+                     "<ontology name=\"pumps\">\n"
+                     "<type name=\"Pump\" role=\"active\">"
+                     "<data name=\"flow\" kind=\"float\" unit=\"m3/s\"/></type>\n"
+                     "<type name=\"Valve\" role=\"active\"/>\n"
+                     "</ontology>\n"));
+}
+
+std::filesystem::path plugin(const std::string& name) {
+    return std::filesystem::path{CORTEX_BINARY_DIR} / "lib/plugins" / ("plugin-" + name + ".so");
+}
+
+// Why a plug-in is refused; "" if it is taken.
+std::string refusal(const std::filesystem::path& file, ClassRegistry& registry) {
+    try {
+        registry.loadPlugin(file, pumps());
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+std::string refusal(const std::string& name) {
+    ClassRegistry registry;
+    const std::string why = refusal(plugin(name), registry);
+    EXPECT_TRUE(registry.names().empty()) << "a refused plug-in left classes behind";
+    return why;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST(ClassRegistry, MakesObjectsByTypeName) {
+    ClassRegistry registry;
+    registry.add<Valve>("Valve");
+    const TypeModel types = pumps();
+
+    const auto valve = (*registry.find("Valve"))({"/valve", &types.at("Valve")});
+
+    EXPECT_NE(dynamic_cast<Valve*>(valve.get()), nullptr);
+    EXPECT_EQ(valve->path(), "/valve");
+    EXPECT_EQ(registry.find("Pump"), nullptr);
+    EXPECT_EQ(registry.names(), std::vector<std::string>{"Valve"});
+}
+
+TEST(ClassRegistry, TakesOneClassForAType) {
+    ClassRegistry registry;
+    registry.add<Valve>("Valve");
+
+    EXPECT_THROW(registry.add<Valve>("Valve"), Error);
+}
+
+TEST(ClassRegistry, LoadsAPluginAndItsClassesWork) {
+    ClassRegistry registry;
+    SimplexTree tree{pumps()};
+
+    registry.loadPlugin(plugin("good"), tree.types());
+
+    EXPECT_EQ(registry.names(), std::vector<std::string>{"Pump"});
+    const auto pump = (*registry.find("Pump"))({"/pump", tree.types().find("Pump")});
+    EXPECT_EQ(pump->type().name, "Pump");
+}
+
+TEST(ClassRegistry, StatesTheHashOfTheTypeThatThePluginWasMadeFor) {
+    const TypeModel types = pumps();
+
+    const std::string why = refusal("wrong-hash");
+
+    EXPECT_TRUE(contains(why, "type Pump with hash 00000000000000000000000000000000")) << why;
+    EXPECT_TRUE(contains(why, toHex(typeHash(types.at("Pump"))))) << why;
+    EXPECT_TRUE(contains(why, "pumps.xml:2")) << why;
+}
+
+TEST(ClassRegistry, RefusesAnotherAbiCompilerOrLibrary) {
+    EXPECT_TRUE(contains(refusal("wrong-abi"), "has plug-in ABI 999, this program has 1"));
+    EXPECT_TRUE(contains(refusal("wrong-compiler"), "built with compiler 'another compiler 1.0'"));
+    EXPECT_TRUE(contains(refusal("wrong-compiler"), compilerOfThisBuild()));
+    EXPECT_TRUE(contains(refusal("wrong-library"), "built with 'another library'"));
+    EXPECT_TRUE(contains(refusal("wrong-library"), standardLibraryOfThisBuild()));
+}
+
+TEST(ClassRegistry, RefusesWhatIsNoPlugin) {
+    EXPECT_TRUE(contains(refusal("silent"), "exports no cortexPlugin()"));
+    EXPECT_TRUE(contains(refusal("absent"), "cannot be loaded"));
+    ClassRegistry registry;
+    const test::ModelFolder folder;
+    EXPECT_TRUE(contains(refusal(folder.write("text.so", "no library"), registry), "text.so"));
+}
+
+TEST(ClassRegistry, RefusesClassesThatThePluginDoesNotState) {
+    EXPECT_TRUE(contains(refusal("unstated"), "registers a class for type Valve"));
+}
+
+TEST(ClassRegistry, RefusesASecondClassForAType) {
+    ClassRegistry registry;
+    registry.add<Valve>("Pump");
+
+    EXPECT_TRUE(contains(refusal(plugin("good"), registry), "second class for type Pump"));
+    EXPECT_EQ(registry.names().size(), 1U);
+}
+
+#if defined(__x86_64__)
+TEST(ClassRegistry, RefusesAPluginThatChangesTheFloatingPointModeAndRestoresIt) {
+    const unsigned before = _mm_getcsr() & 0xffc0U;
+
+    const std::string why = refusal("fast-math");
+
+    EXPECT_TRUE(contains(why, "changes the floating-point mode")) << why;
+    EXPECT_EQ(_mm_getcsr() & 0xffc0U, before);
+}
+#endif
+
+}  // namespace
+}  // namespace cortex

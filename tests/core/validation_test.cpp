@@ -1,0 +1,479 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/validation.hpp"
+
+#include "core/model_folder.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace cortex {
+namespace {
+
+using test::CheckedModel;
+using test::checkSmall;
+using test::smallTypes;
+
+// The only finding of a system, or one that says how many there are.
+Finding only(const CheckedModel& checked) {
+    if (checked.report.findings.size() == 1) return checked.report.findings.front();
+    return {Severity::Info, "", "", {}, checked.report.text(), ""};
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+std::string simplex(const std::string& path, const std::string& type,
+                    const std::string& inside = "", const std::string& attributes = "") {
+    return "<simplex path=\"" + path + "\" type=\"" + type + "\" " + attributes + ">\n" + inside +
+           "</simplex>\n";
+}
+
+std::string relate(const std::string& rule, const std::string& to, const std::string& more = "") {
+    return "<relate rule=\"" + rule + "\" to=\"" + to + "\" " + more + "/>\n";
+}
+
+std::string set(const std::string& item, const std::string& value) {
+    return "<set data=\"" + item + "\" value=\"" + value + "\"/>\n";
+}
+
+TEST(Validation, FindsNothingInAGoodSystem) {
+    const auto checked = checkSmall(
+        simplex("/observed", "Axis", set("note", "8 octets")) + simplex("/demanded", "Axis") +
+        simplex("/controller", "Controller",
+                relate("axes", "/observed") + relate("demands", "/demanded") + set("gain", "10")) +
+        simplex("/device", "Device",
+                relate("demand", "/demanded") + relate("observation", "/observed")) +
+        simplex("/arm", "Arm", relate("tool", "/hand")) + simplex("/hand", "TwoFinger") +
+        simplex("/three", "Three"));
+
+    EXPECT_EQ(checked.report.text(), "");
+}
+
+TEST(Validation, NamesRulePlaceAndRemedyOfWhatIsMissing) {
+    const auto checked = checkSmall(simplex("/arm", "Arm") + simplex("/hand", "Welder"));
+
+    const Finding finding = only(checked);
+
+    EXPECT_EQ(finding.severity, Severity::Error);
+    EXPECT_EQ(finding.rule, "below-min");
+    EXPECT_EQ(finding.path, "/arm");
+    EXPECT_EQ(finding.place.text(), "system.xml:3");
+    EXPECT_EQ(finding.message, "rule 'tool' (small-morphology.xml:21) needs 1 Tool, has 0");
+    EXPECT_EQ(finding.remedy, "relate one with <relate rule=\"tool\" to=\"/hand\"/>");
+}
+
+TEST(Validation, NamesTheRulesPlaceForATreeBuiltInCode) {
+    SimplexTree tree{smallTypes()};
+    tree.add("/arm", "Arm");
+
+    const Report report = validate(tree);
+
+    ASSERT_EQ(report.findings.size(), 1U) << report.text();
+    EXPECT_EQ(report.findings[0].place.text(), "small-morphology.xml:21");
+    EXPECT_EQ(report.findings[0].message, "rule 'tool' needs 1 Tool, has 0");
+    EXPECT_EQ(report.findings[0].remedy,
+              "add <simplex path=\"/arm/tool\" type=\"TwoFinger\"/> and relate one with "
+              "<relate rule=\"tool\" to=\"/arm/tool\"/>");
+}
+
+TEST(Validation, ReportsEveryFindingNotTheFirst) {
+    const auto checked =
+        checkSmall(simplex("/arm", "Arm") +
+                   simplex("/controller", "Controller", relate("axis", "/a") + set("gain", "11")) +
+                   simplex("/a", "Axsi") + simplex("/b", "Axis", set("position", "-4")));
+
+    EXPECT_EQ(checked.report.findings.size(), 5U) << checked.report.text();
+    for (const char* rule : {"below-min", "unknown-rule", "unknown-type"}) {
+        EXPECT_EQ(checked.count(rule), 1U) << rule;
+    }
+    EXPECT_EQ(checked.count("setting-range"), 2U);
+}
+
+TEST(Validation, DoesNotChangeTheTree) {
+    SimplexTree tree{smallTypes()};
+    tree.add("/three", "Three");
+
+    const Report report = validate(tree);
+
+    EXPECT_EQ(report.findings.size(), 2U) << report.text();
+    EXPECT_EQ(tree.simplexes().size(), 1U);
+}
+
+TEST(Validation, FindsAnUnknownRule) {
+    const auto near =
+        checkSmall(simplex("/c", "Controller", relate("axs", "/a")) + simplex("/a", "Axis"));
+    const auto far =
+        checkSmall(simplex("/c", "Controller", relate("zzzzz", "/a")) + simplex("/a", "Axis"));
+    const auto none =
+        checkSmall(simplex("/l", "Lamp", relate("axes", "/a")) + simplex("/a", "Axis"));
+
+    EXPECT_EQ(only(near).rule, "unknown-rule");
+    EXPECT_EQ(only(near).place.line, 4);
+    EXPECT_TRUE(contains(only(near).remedy, "write <relate rule=\"axes\" to=\"/a\"/>"));
+    EXPECT_TRUE(contains(only(far).remedy, "rules of Controller: axes, demands, first"));
+    EXPECT_EQ(only(none).remedy, "remove it: type Lamp has no rules");
+}
+
+TEST(Validation, FindsAnUnknownTarget) {
+    const auto input = only(checkSmall(simplex("/c", "Controller", relate("axes", "/axsi")) +
+                                       simplex("/axis", "Axis") + simplex("/other", "Axis")));
+    const auto output = only(
+        checkSmall(simplex("/s", "Switch", relate("lamps", "/lamp")) + simplex("/lamps", "Lamp")));
+
+    EXPECT_EQ(input.rule, "unknown-path");
+    EXPECT_EQ(input.place.line, 4);
+    EXPECT_EQ(input.remedy,
+              "write <relate rule=\"axes\" to=\"/axis\"/>; if another agent has it, "
+              "<relate rule=\"axes\" to=\"/axsi\" remote=\"true\"/>");
+    EXPECT_EQ(output.rule, "unknown-path");
+    EXPECT_EQ(output.remedy, "write <relate rule=\"lamps\" to=\"/lamps\"/>");
+}
+
+TEST(Validation, FindsATargetOfTheWrongType) {
+    const auto finding = only(checkSmall(simplex("/arm", "Arm", relate("tool", "/axis")) +
+                                         simplex("/axis", "Axis") + simplex("/w", "Welder")));
+
+    EXPECT_EQ(finding.rule, "target-type");
+    EXPECT_EQ(finding.place.line, 4);
+    EXPECT_TRUE(contains(finding.message, "takes a Tool; /axis is an Axis"));
+    EXPECT_EQ(finding.remedy, "write <relate rule=\"tool\" to=\"/w\"/>");
+}
+
+TEST(Validation, FindsATargetRelatedTwiceUnderOneRule) {
+    const auto twice =
+        checkSmall(simplex("/c", "Controller", relate("axes", "/a") + relate("axes", "/a")) +
+                   simplex("/a", "Axis"));
+    const auto underTwoRules =
+        checkSmall(simplex("/d", "Device", relate("demand", "/a") + relate("observation", "/a")) +
+                   simplex("/a", "Axis"));
+
+    EXPECT_EQ(only(twice).rule, "target-twice");
+    EXPECT_EQ(only(twice).place.line, 5);
+    EXPECT_EQ(only(twice).remedy, "remove this <relate>");
+    EXPECT_EQ(underTwoRules.count("target-twice"), 0U);
+}
+
+TEST(Validation, FindsMoreThanTheMaximum) {
+    const auto finding =
+        only(checkSmall(simplex("/arm", "Arm", relate("tool", "/w1") + relate("tool", "/w2")) +
+                        simplex("/w1", "Welder") + simplex("/w2", "Welder")));
+
+    EXPECT_EQ(finding.rule, "above-max");
+    EXPECT_EQ(finding.place.line, 5);
+    EXPECT_TRUE(contains(finding.message, "takes 1 Tool, has 2"));
+}
+
+TEST(Validation, CountsRelationsOfARefiningRuleForTheOneItRefines) {
+    const auto checked = checkSmall(
+        simplex("/c", "BlindController",
+                relate("demands", "/a1") + relate("demands", "/a2") + relate("third", "/a3")) +
+        simplex("/a1", "Axis") + simplex("/a2", "Axis") + simplex("/a3", "Axis"));
+
+    ASSERT_NE(checked.find("above-max"), nullptr) << checked.report.text();
+    EXPECT_EQ(checked.find("above-max")->place.line, 6);
+    EXPECT_TRUE(contains(checked.find("above-max")->message, "rule 'demands'"));
+}
+
+TEST(Validation, FindsAnInstanceOfAnAbstractType) {
+    const auto finding = only(checkSmall(simplex("/t", "Tool")));
+
+    EXPECT_EQ(finding.rule, "abstract-type");
+    EXPECT_EQ(finding.place.line, 3);
+    EXPECT_EQ(finding.remedy, "write type=\"TwoFinger\"; there are TwoFinger, Welder");
+}
+
+TEST(Validation, FindsAMalformedPathAndMendsIt) {
+    const auto finding = only(checkSmall(simplex("arm//l br/", "Axis")));
+
+    EXPECT_EQ(finding.rule, "malformed-path");
+    EXPECT_EQ(finding.place.line, 3);
+    EXPECT_EQ(finding.remedy, "write path=\"/arm/l-br\"");
+}
+
+TEST(Validation, RefusesOnePathForTwoSystemsOfATree) {
+    auto checked = checkSmall(simplex("/a", "Axis"));
+    Report report;
+
+    checked.tree->add(SystemDescription{checked.tree->description()}, nullptr, report);
+
+    ASSERT_EQ(report.findings.size(), 1U) << report.text();
+    EXPECT_EQ(report.findings[0].rule, "duplicate-path");
+    EXPECT_TRUE(contains(report.findings[0].remedy, "write path=\"/a-2\""));
+}
+
+struct SettingCase {
+    const char* item;
+    const char* value;
+    const char* rule;
+    const char* remedy;
+};
+
+class SettingOfAnAxis : public testing::TestWithParam<SettingCase> {};
+
+TEST_P(SettingOfAnAxis, IsChecked) {
+    const SettingCase& each = GetParam();
+
+    const Finding finding = only(checkSmall(simplex("/axis", "Axis", set(each.item, each.value))));
+
+    EXPECT_EQ(finding.rule, each.rule) << finding.message;
+    EXPECT_EQ(finding.path, "/axis");
+    EXPECT_EQ(finding.place.line, 4);
+    EXPECT_TRUE(contains(finding.remedy, each.remedy)) << finding.remedy;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Validation, SettingOfAnAxis,
+    testing::Values(
+        SettingCase{"positon", "1", "unknown-item", "write <set data=\"position\" value=\"1\"/>"},
+        SettingCase{"position", "far", "setting-kind",
+                    "write <set data=\"position\" value=\"0\"/>"},
+        SettingCase{"position", "nan", "setting-finite", "<set data=\"position\" value=\"0\"/>"},
+        SettingCase{"position", "-inf", "setting-finite", "<set data=\"position\" value=\"0\"/>"},
+        SettingCase{"position", "3.5", "setting-range", "<set data=\"position\" value=\"3\"/>"},
+        SettingCase{"position", "-3.5", "setting-range", "<set data=\"position\" value=\"-3\"/>"},
+        SettingCase{"position", "1 2", "setting-length", "<set data=\"position\" value=\"0\"/>"},
+        SettingCase{"mode", "1.5", "setting-kind", "<set data=\"mode\" value=\"0\"/>"},
+        SettingCase{"mode", "2", "setting-range", "<set data=\"mode\" value=\"0\"/>"},
+        SettingCase{"direction", "0 0", "setting-length", "value=\"0 0 1\"/>"},
+        SettingCase{"direction", "0 0 x", "setting-kind", "value=\"0 0 1\"/>"},
+        SettingCase{"direction", "0 2 -2", "setting-range", "value=\"0 1 -1\"/>"},
+        SettingCase{"note", "nine octs", "setting-length", "value=\"nine oct\"/>"}));
+
+TEST(Validation, CutsATextThatIsTooLongAtACharacter) {
+    const Finding finding = only(checkSmall(simplex("/a", "Axis", set("note", "1234567\u00e9"))));
+
+    EXPECT_EQ(finding.rule, "setting-length");
+    EXPECT_EQ(finding.remedy, "write <set data=\"note\" value=\"1234567\"/>");
+}
+
+TEST(Validation, RefusesToSetWhatTheFrameworkWrites) {
+    const auto checked =
+        checkSmall(simplex("/c", "Controller",
+                           set("state", "2") + set("faultCode", "1") + set("taskTime", "1")) +
+                   simplex("/a", "Agent", set("progress", "1")));
+
+    EXPECT_EQ(checked.count("setting-framework"), 4U) << checked.report.text();
+    EXPECT_EQ(checked.report.findings.size(), 4U);
+    EXPECT_EQ(checked.find("setting-framework")->remedy, "remove this <set>");
+}
+
+TEST(Validation, ChecksSettingsMadeInCode) {
+    SimplexTree tree{smallTypes()};
+    tree.add("/a", "Axis").set("position", true);
+    tree.add("/b", "Axis").set("position", std::numeric_limits<double>::quiet_NaN());
+    tree.add("/c", "Axis").set("direction", 1.0);
+
+    const Report report = validate(tree);
+
+    ASSERT_EQ(report.findings.size(), 3U) << report.text();
+    EXPECT_EQ(report.findings[0].rule, "setting-kind");
+    EXPECT_TRUE(contains(report.findings[0].message, "is a float, set is a bool"));
+    EXPECT_EQ(report.findings[1].rule, "setting-finite");
+    EXPECT_EQ(report.findings[2].rule, "setting-length");
+}
+
+TEST(Validation, PrintsAWholeLoopAndDelaysWhatIsObserved) {
+    const auto finding = only(
+        checkSmall(simplex("/a", "Controller", relate("axes", "/y") + relate("demands", "/x")) +
+                   simplex("/b", "Controller", relate("axes", "/x") + relate("demands", "/y")) +
+                   simplex("/x", "Axis") + simplex("/y", "Axis")));
+
+    EXPECT_EQ(finding.rule, "loop");
+    EXPECT_EQ(finding.path, "/a");
+    EXPECT_EQ(finding.place.line, 4);
+    EXPECT_TRUE(contains(finding.message, "/a -> /x -> /b -> /y -> /a")) << finding.message;
+    EXPECT_EQ(finding.remedy, "write <relate rule=\"axes\" to=\"/y\" delayed=\"true\"/> in /a");
+}
+
+TEST(Validation, FindsEveryLoop) {
+    const auto checked = checkSmall(simplex("/a", "Switch", relate("before", "/b")) +
+                                    simplex("/b", "Switch", relate("before", "/a")) +
+                                    simplex("/c", "Switch", relate("before", "/c")) +
+                                    simplex("/d", "Switch", relate("before", "/a")));
+
+    EXPECT_EQ(checked.count("loop"), 2U) << checked.report.text();
+    EXPECT_TRUE(contains(checked.report.text(), "/a -> /b -> /a"));
+    EXPECT_TRUE(contains(checked.report.text(), "/c -> /c"));
+}
+
+TEST(Validation, TakesALoopWithADelayedRelationship) {
+    const auto checked =
+        checkSmall(simplex("/a", "Switch", relate("before", "/b", "delayed=\"true\"")) +
+                   simplex("/b", "Switch", relate("before", "/a")));
+
+    EXPECT_TRUE(checked.report.ok()) << checked.report.text();
+}
+
+TEST(Validation, WantsASafeValueForEveryItemOfAModification) {
+    const auto demanded =
+        checkSmall(simplex("/s", "Switch", relate("lamps", "/l")) + simplex("/l", "Lamp"));
+    const auto observed = checkSmall(
+        simplex("/s", "Switch", relate("lamps", "/l", "delayed=\"true\"")) + simplex("/l", "Lamp"));
+
+    EXPECT_EQ(only(demanded).rule, "safe-needed");
+    EXPECT_EQ(only(demanded).path, "/l");
+    EXPECT_TRUE(contains(only(demanded).message, "'on' of type Lamp has no safe value"));
+    EXPECT_TRUE(contains(only(demanded).remedy, "write safe=\"false\" for 'on' (small.xml:"));
+    EXPECT_TRUE(observed.report.ok()) << observed.report.text();
+}
+
+TEST(Validation, WantsACounterpartForWhatIsSafeAsObserved) {
+    const auto without = only(checkSmall(simplex("/c", "BlindController", relate("demands", "/a")) +
+                                         simplex("/a", "Axis")));
+    const auto empty = only(
+        checkSmall(simplex("/c", "Controller", relate("demands", "/a")) + simplex("/a", "Axis")));
+
+    EXPECT_EQ(without.rule, "observed-counterpart");
+    EXPECT_EQ(without.path, "/c");
+    EXPECT_EQ(without.place.line, 4);
+    EXPECT_TRUE(contains(without.message, "states no counterpart")) << without.message;
+    EXPECT_TRUE(contains(without.remedy, "add an input rule that observes it")) << without.remedy;
+    EXPECT_EQ(empty.rule, "observed-counterpart");
+    EXPECT_TRUE(contains(empty.message, "no simplex in place 1")) << empty.message;
+}
+
+TEST(Validation, PairsTheNthDemandWithTheNthObservation) {
+    const std::string axes = simplex("/o1", "Axis") + simplex("/o2", "Axis") +
+                             simplex("/d1", "Axis") + simplex("/d2", "Axis") +
+                             simplex("/d3", "Axis");
+    const std::string three =
+        relate("demands", "/d1") + relate("demands", "/d2") + relate("demands", "/d3");
+
+    const auto two = checkSmall(
+        axes + simplex("/c", "Controller", relate("axes", "/o1") + relate("axes", "/o2") + three));
+    const auto one = checkSmall(axes + simplex("/c", "Controller", relate("axes", "/o1") + three));
+
+    ASSERT_EQ(two.count("observed-counterpart"), 1U) << two.report.text();
+    EXPECT_TRUE(contains(two.find("observed-counterpart")->message, "no simplex in place 3"));
+    EXPECT_TRUE(one.report.ok()) << one.report.text();  // one observation serves all
+}
+
+TEST(Validation, AllowsSeveralWritersOnlyWhereTheTypeDoes) {
+    const std::string writers =
+        simplex("/c1", "Controller", relate("axes", "/o") + relate("demands", "/d")) +
+        simplex("/c2", "Controller", relate("axes", "/o") + relate("demands", "/d")) +
+        simplex("/o", "Axis");
+
+    const auto one = only(checkSmall(writers + simplex("/d", "Axis")));
+    const auto many = checkSmall(writers + simplex("/d", "SharedAxis"));
+
+    EXPECT_EQ(one.rule, "several-writers");
+    EXPECT_EQ(one.path, "/d");
+    EXPECT_EQ(one.place.line, 9);
+    EXPECT_TRUE(contains(one.message, "/c2 writes it")) << one.message;
+    EXPECT_TRUE(contains(one.remedy, "writers=\"many\" for type Axis (small.xml:")) << one.remedy;
+    EXPECT_TRUE(many.report.ok()) << many.report.text();
+}
+
+TEST(Validation, FindsWritersOfWhomSomeAreDelayed) {
+    const auto byRelate = only(
+        checkSmall(simplex("/c1", "Controller",
+                           relate("axes", "/o") + relate("demands", "/d", "delayed=\"true\"")) +
+                   simplex("/c2", "Controller", relate("axes", "/o") + relate("demands", "/d")) +
+                   simplex("/o", "Axis") + simplex("/d", "SharedAxis")));
+    const auto byRule =
+        checkSmall(simplex("/c", "Controller", relate("axes", "/o") + relate("demands", "/d")) +
+                   simplex("/dev", "Device", relate("observation", "/d")) + simplex("/o", "Axis") +
+                   simplex("/d", "SharedAxis"));
+
+    EXPECT_EQ(byRelate.rule, "delayed-mixed");
+    EXPECT_EQ(byRelate.place.line, 5);
+    EXPECT_EQ(byRelate.remedy, "write <relate rule=\"demands\" to=\"/d\"/>");
+    ASSERT_NE(byRule.find("delayed-mixed"), nullptr) << byRule.report.text();
+    EXPECT_EQ(byRule.find("delayed-mixed")->remedy,
+              "write <relate rule=\"demands\" to=\"/d\" delayed=\"true\"/>");
+}
+
+TEST(Validation, TakesRemoteSimplexesAsInputsOnly) {
+    const auto output =
+        only(checkSmall(simplex("/s", "Switch", relate("lamps", "/far", "remote=\"true\""))));
+    const auto local =
+        only(checkSmall(simplex("/c", "Controller", relate("axes", "/a", "remote=\"true\"")) +
+                        simplex("/a", "Axis")));
+    const auto malformed =
+        only(checkSmall(simplex("/c", "Controller", relate("axes", "far", "remote=\"true\""))));
+    const auto differing =
+        only(checkSmall(simplex("/s", "Switch",
+                                relate("before", "/far", "remote=\"true\"") +
+                                    relate("watched", "/far", "remote=\"true\""))));
+
+    EXPECT_EQ(output.rule, "remote-output");
+    EXPECT_EQ(output.place.line, 4);
+    EXPECT_EQ(local.rule, "remote-local");
+    EXPECT_EQ(local.remedy, "write <relate rule=\"axes\" to=\"/a\"/>");
+    EXPECT_EQ(malformed.rule, "malformed-path");
+    EXPECT_EQ(differing.rule, "remote-types");
+}
+
+TEST(Validation, ChecksRatesGivenInCode) {
+    SimplexTree tree{smallTypes()};
+    tree.add("/a", "Switch").runEvery(0);
+    tree.add("/b", "Switch").runEvery(2, 2);
+    tree.add("/c", "Switch").runEvery(2, -2);
+    tree.add("/d", "Switch").runEvery(2, 1);
+
+    const Report report = validate(tree);
+
+    ASSERT_EQ(report.findings.size(), 3U) << report.text();
+    EXPECT_EQ(report.findings[0].rule, "every-range");
+    EXPECT_EQ(report.findings[1].rule, "phase-range");
+    EXPECT_EQ(report.findings[2].rule, "phase-range");
+}
+
+TEST(Validation, WantsTheTypeOfTheAgentItself) {
+    Report report;
+    TypeDeclaration type;
+    type.name = "Axis";
+    const SimplexTree tree{TypeModel::build({type}, report)};
+
+    report = validate(tree);
+
+    ASSERT_EQ(report.findings.size(), 1U) << report.text();
+    EXPECT_EQ(report.findings[0].rule, "agent-type");
+    EXPECT_TRUE(contains(report.findings[0].remedy, "base.xml"));
+}
+
+TEST(Validation, KeepsThePathOfTheClusterFree) {
+    const auto taken = only(checkSmall("<cluster name=\"robot\"/>\n" + simplex("/robot", "Axis")));
+    const auto own = checkSmall("<cluster name=\"robot\"/>\n" + simplex("/robot", "Agent"));
+
+    EXPECT_EQ(taken.rule, "cluster-path");
+    EXPECT_EQ(taken.place.line, 4);
+    EXPECT_TRUE(contains(taken.message, "system.xml:3")) << taken.message;
+    EXPECT_TRUE(own.report.ok()) << own.report.text();
+}
+
+TEST(Validation, FindsACreatedPathThatIsTaken) {
+    const auto finding = only(checkSmall(simplex("/t", "Three") + simplex("/t/axes/2", "Axis1")));
+
+    EXPECT_EQ(finding.rule, "created-path");
+    EXPECT_EQ(finding.path, "/t/axes/2");
+    EXPECT_EQ(finding.place.line, 5);
+    EXPECT_TRUE(contains(finding.remedy, "write type=\"Axis2\"")) << finding.remedy;
+}
+
+TEST(Validation, SaysWhyNothingMoreIsCreated) {
+    const auto finding = only(checkSmall(simplex("/n", "Nest")));
+
+    EXPECT_EQ(finding.rule, "below-min");
+    EXPECT_EQ(finding.path, "/n/inner/inner/inner/inner/inner/inner/inner");
+    EXPECT_EQ(finding.place.line, 3);  // of the simplex in the file that it was created for
+    EXPECT_TRUE(contains(finding.message, "at most 8 levels")) << finding.message;
+}
+
+TEST(Validation, EndsWithATreeOfManySimplexesInALine) {
+    SimplexTree tree{smallTypes()};
+    Simplex* before = &tree.add("/0", "Switch");
+    for (int n = 1; n < 20'000; ++n) {
+        Simplex& next = tree.add("/" + std::to_string(n), "Switch");
+        tree.relate(next, "before", *before);
+        before = &next;
+    }
+
+    EXPECT_TRUE(validate(tree).ok());
+}
+
+}  // namespace
+}  // namespace cortex
