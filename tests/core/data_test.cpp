@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/data.hpp"
+
+#include <array>
+#include <limits>
+#include <new>
+#include <string>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+namespace cortex {
+namespace {
+
+static_assert(std::is_assignable_v<Data<double>&, double>);
+static_assert(!std::is_assignable_v<Data<const double>&, double>);
+static_assert(!std::is_assignable_v<Data<const std::string_view>&, std::string_view>);
+static_assert(!std::is_assignable_v<Data<const bool>&, bool>);
+static_assert(!std::is_constructible_v<Data<double>, const double*>);
+static_assert(std::is_same_v<StorageOf<const std::string_view>::type, const StringCell>);
+static_assert(kindFor<const std::int64_t>() == Kind::Int && kindFor<double>() == Kind::Float &&
+              kindFor<bool>() == Kind::Bool && kindFor<std::string_view>() == Kind::String);
+
+// A cell with the room that a table gives it.
+struct Text {
+    explicit Text(std::uint16_t capacity) : cell{new(memory.data()) StringCell{capacity, 0, 0}} {
+        memory[StringCell::size(capacity)] = std::byte{0x7e};
+        end = &memory[StringCell::size(capacity)];
+    }
+    alignas(8) std::array<std::byte, 64> memory{};
+    StringCell* cell;
+    std::byte* end;
+};
+
+TEST(Data, IsUsedLikeTheValueItself) {
+    double cell = 2;
+    Data<double> position{&cell};
+    const Data<const double> seen{&cell};
+
+    position = seen * 2 + 1;
+    position += 0.5;
+
+    EXPECT_EQ(cell, 5.5);
+    EXPECT_EQ(seen.get(), 5.5);
+}
+
+TEST(Data, IsUnboundUntilItIsObtained) {
+    bool cell = false;
+    EXPECT_FALSE(Data<bool>{}.bound());
+    EXPECT_TRUE(Data<bool>{&cell}.bound());
+}
+
+TEST(Data, AssignsTextByValue) {
+    Text text{16};
+    Data<std::string_view> label{text.cell};
+
+    label = "gripper";
+
+    EXPECT_EQ(label.get(), "gripper");
+    EXPECT_EQ(text.cell->cuts, 0U);
+}
+
+TEST(StringCell, TakesWholeEightsInATable) {
+    EXPECT_EQ(StringCell::size(0), 8U);
+    EXPECT_EQ(StringCell::size(1), 16U);
+    EXPECT_EQ(StringCell::size(8), 16U);
+    EXPECT_EQ(StringCell::size(9), 24U);
+}
+
+TEST(StringCell, CutsAtACharacterAndCounts) {
+    Text text{5};
+    text.cell->assign("abcd\u00e9");  // the last character would need octets 5 and 6
+    EXPECT_EQ(text.cell->view(), "abcd");
+    text.cell->assign("ab\U0001F600");  // four octets from the third on
+    EXPECT_EQ(text.cell->view(), "ab");
+    text.cell->assign("abc\u00e9");
+    EXPECT_EQ(text.cell->view(), "abc\u00e9");
+
+    EXPECT_EQ(text.cell->cuts, 2U);
+    EXPECT_EQ(*text.end, std::byte{0x7e});
+}
+
+TEST(StringCell, KeepsACharacterThatEndsAtTheCapacity) {
+    Text text{4};
+    text.cell->assign("ab\u00e9z");
+    EXPECT_EQ(text.cell->view(), "ab\u00e9");
+}
+
+TEST(StringCell, CutsWhatIsNoUtf8AtMostToNothing) {
+    Text text{3};
+    text.cell->assign("\x80\x80\x80\x80\x80");
+    EXPECT_EQ(text.cell->view(), "");
+    EXPECT_EQ(text.cell->cuts, 1U);
+}
+
+TEST(StringCell, StopsCountingCutsInsteadOfStartingAgain) {
+    Text text{1};
+    text.cell->cuts = std::numeric_limits<std::uint32_t>::max();
+    text.cell->assign("ab");
+    EXPECT_EQ(text.cell->cuts, std::numeric_limits<std::uint32_t>::max());
+}
+
+TEST(StringCell, TakesAPartOfItself) {
+    Text text{8};
+    text.cell->assign("abcdef");
+    text.cell->assign(text.cell->view().substr(2));
+    EXPECT_EQ(text.cell->view(), "cdef");
+}
+
+TEST(StringCell, HoldsNothingWithoutCapacity) {
+    Text text{0};
+    text.cell->assign("a");
+    text.cell->assign("");
+    EXPECT_EQ(text.cell->view(), "");
+    EXPECT_EQ(text.cell->cuts, 1U);
+}
+
+}  // namespace
+}  // namespace cortex

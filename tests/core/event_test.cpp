@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/event.hpp"
+
+#include "cortex/core/error.hpp"
+#include "cortex/core/event_sinks.hpp"
+
+#include "support/small_structure.hpp"
+
+#include <clocale>
+#include <filesystem>
+#include <fstream>
+#include <locale>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace cortex {
+namespace {
+
+Event eventAt(std::int64_t cycle, std::uint32_t order, std::uint32_t sequence) {
+    Event event;
+    event.cycle = cycle;
+    event.time = cycle * 1'000'000;
+    event.order = order;
+    event.sequence = sequence;
+    event.text << cycle << "." << std::int64_t{order} << "." << std::int64_t{sequence};
+    return event;
+}
+
+class EventLogTest : public ::testing::Test {
+protected:
+    EventLogTest() {
+        log.addSink([this](const Event& event, const Structure&) {
+            if (!texts.empty()) texts += ' ';
+            texts += event.text.view();
+            numbers.push_back(event.number);
+        });
+    }
+
+    std::shared_ptr<const Structure> structure = test::makePlant().structure;
+    EventLog log{structure, 3, 4};
+    std::string texts;
+    std::vector<std::uint64_t> numbers;
+};
+
+TEST_F(EventLogTest, MergesByCycleOrderAndSequenceWhateverTheRing) {
+    log.ring(2).post(eventAt(1, 1, 0));
+    log.ring(2).post(eventAt(2, 0, 1));
+    log.ring(0).post(eventAt(1, 2, 0));
+    log.ring(1).post(eventAt(1, 0, 3));
+    log.ring(1).post(eventAt(1, 0, 2));
+    log.complete(2);
+    log.flush();
+
+    EXPECT_EQ(texts, "1.0.2 1.0.3 1.1.0 1.2.0 2.0.1");
+    EXPECT_EQ(numbers, (std::vector<std::uint64_t>{1, 2, 3, 4, 5}));
+}
+
+TEST_F(EventLogTest, LetsTheOrderOfTheRingsDecideAtLast) {
+    Event first = eventAt(1, 1, 0);
+    first.text = "loop";
+    Event second = eventAt(1, 1, 0);
+    second.text = "worker";
+    log.ring(1).post(second);
+    log.ring(0).post(first);
+    log.complete(1);
+    log.flush();
+
+    EXPECT_EQ(texts, "loop worker");
+}
+
+TEST_F(EventLogTest, WaitsUntilACycleIsComplete) {
+    log.ring(0).post(eventAt(1, 5, 0));
+    log.ring(0).post(eventAt(2, 0, 0));
+    log.flush();
+    EXPECT_EQ(texts, "");
+    log.complete(1);
+    log.flush();
+    EXPECT_EQ(texts, "1.5.0");
+    log.ring(1).post(eventAt(2, 1, 0));
+    log.complete(2);
+    log.flush();
+    EXPECT_EQ(texts, "1.5.0 2.0.0 2.1.0");
+}
+
+TEST_F(EventLogTest, HandsOutWhatIsLeftWhenItStops) {
+    log.start();
+    log.ring(0).post(eventAt(7, 0, 0));
+    log.stop();
+    EXPECT_EQ(texts, "7.0.0");
+    log.stop();
+    EXPECT_EQ(texts, "7.0.0");
+    log.start();
+    log.ring(0).post(eventAt(8, 0, 0));
+    log.stop();
+    EXPECT_EQ(texts, "7.0.0 8.0.0");
+}
+
+TEST_F(EventLogTest, CountsWhatAFullRingDroppedAndSaysSo) {
+    for (std::uint32_t i = 0; i < 6; ++i) log.ring(0).post(eventAt(1, 0, i));
+    log.ring(1).post(eventAt(1, 1, 0));
+    log.complete(1);
+    log.flush();
+
+    EXPECT_EQ(log.dropped(), 2U);
+    EXPECT_EQ(texts,
+              "1.0.0 1.0.1 1.0.2 1.0.3 1.1.0 "
+              "2 events dropped: more were posted than their ring holds");
+
+    texts.clear();
+    log.ring(0).post(eventAt(2, 0, 0));
+    log.complete(2);
+    log.flush();
+    EXPECT_EQ(texts, "2.0.0");
+}
+
+TEST_F(EventLogTest, NumbersEventsFromOutsideTheCyclesToo) {
+    log.ring(0).post(eventAt(1, 0, 0));
+    log.postOutside(eventAt(0, 9, 9));
+    log.complete(1);
+    log.flush();
+
+    EXPECT_EQ(texts, "1.0.0 0.9.9");
+    EXPECT_EQ(numbers, (std::vector<std::uint64_t>{1, 2}));
+}
+
+TEST_F(EventLogTest, LetsASinkPostFromOutside) {
+    log.addSink([this](const Event& event, const Structure&) {
+        if (event.cycle == 1) log.postOutside(eventAt(0, 0, 0));
+    });
+    log.ring(0).post(eventAt(1, 0, 0));
+    log.complete(1);
+    log.flush();
+    log.flush();
+
+    EXPECT_EQ(texts, "1.0.0 0.0.0");
+}
+
+// Two loop threads post, a third flushes by hand while the log's own thread polls.
+TEST(EventLogThreads, HandOutEachEventOnceAndInOrder) {
+    constexpr std::int64_t cycles = 2000;
+    std::vector<std::int64_t> keys;
+    EventLog log{test::makePlant().structure, 2, 2 * cycles};
+    log.addSink([&](const Event& event, const Structure&) {
+        keys.push_back(event.cycle * 2 + event.order);
+        if (event.order == 0 && event.cycle % 500 == 0) log.postOutside(Event{});
+    });
+    log.start();
+    std::atomic<std::int64_t> workerCycle{0}, loopCycle{0};
+    std::atomic<bool> done{false};
+
+    std::thread worker{[&] {
+        for (std::int64_t cycle = 1; cycle <= cycles; ++cycle) {
+            while (loopCycle.load() < cycle) std::this_thread::yield();
+            log.ring(1).post(eventAt(cycle, 0, 0));
+            workerCycle = cycle;
+        }
+    }};
+    std::thread flusher{[&] {
+        while (!done) {
+            log.flush();
+            std::this_thread::yield();
+        }
+    }};
+    for (std::int64_t cycle = 1; cycle <= cycles; ++cycle) {
+        loopCycle = cycle;
+        log.ring(0).post(eventAt(cycle, 1, 0));
+        while (workerCycle.load() < cycle) std::this_thread::yield();
+        log.complete(cycle);
+    }
+    worker.join();
+    done = true;
+    flusher.join();
+    log.stop();
+
+    std::erase(keys, 0);  // those from outside
+    ASSERT_EQ(keys.size(), 2U * cycles);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        ASSERT_EQ(keys[i], static_cast<std::int64_t>(i) + 2);
+    }
+    EXPECT_EQ(log.dropped(), 0U);
+}
+
+TEST(EventRing, HoldsAtLeastOne) {
+    EventRing ring{0};
+    Event event;
+    EXPECT_FALSE(ring.peek(event));
+    ring.post(eventAt(3, 0, 0));
+    ring.post(eventAt(4, 0, 0));
+    ASSERT_TRUE(ring.peek(event));
+    EXPECT_EQ(event.cycle, 3);
+    EXPECT_EQ(ring.dropped(), 1U);
+}
+
+TEST(EventText, IsBuiltFromWordsAndNumbers) {
+    EventText text{"clamped "};
+    const char* to = "to ";
+    text << to << 2.5 << std::string_view{" of "} << std::int64_t{-3};
+    EXPECT_EQ(text.view(), "clamped to 2.5 of -3");
+}
+
+TEST(EventText, IsCutAtACharacter) {
+    EventText text;
+    for (int i = 0; i < 149; ++i) text << "a";
+    text << "\u00e9";
+    EXPECT_EQ(text.view(), std::string(149, 'a'));
+    text << "bc";
+    EXPECT_EQ(text.view(), std::string(149, 'a') + "b");
+}
+
+TEST(EventKindName, IsInWords) {
+    EXPECT_STREQ(name(EventKind::StateChange), "state change");
+    EXPECT_STREQ(name(EventKind::Message), "message");
+}
+
+TEST(LineOf, HasTimeSeverityPathAndText) {
+    const test::Plant plant = test::makePlant();
+    Event event;
+    event.simplex = plant.axis;
+    event.severity = Severity::Warning;
+    event.text << "position clamped to " << 2.96 << " rad";
+
+    EXPECT_EQ(lineOf(event, *plant.structure, 1'795'168'800'123'456'789),
+              "2026-11-20T10:00:00.123Z warning /axis position clamped to 2.96 rad");
+}
+
+TEST(LineOf, NamesTheAgentWhereNoSimplexIsMeant) {
+    EXPECT_EQ(lineOf(Event{}, *test::makePlant().structure, 0),
+              "1970-01-01T00:00:00.000Z info /robot ");
+}
+
+TEST(LineOf, StaysOneLine) {
+    Event event;
+    event.text = "a\nb\tc\x7f";
+    EXPECT_EQ(lineOf(event, *test::makePlant().structure, 0),
+              "1970-01-01T00:00:00.000Z info /robot a?b?c?");
+}
+
+struct CommaNumbers : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(EventSinks, PrintTheSameInEveryLocale) {
+    const std::locale before =
+        std::locale::global(std::locale{std::locale::classic(), new CommaNumbers});
+    (void)std::setlocale(LC_ALL, "de_DE.UTF-8");
+    EventLog log{test::makePlant().structure, 1, 4};
+    std::ostringstream out;
+    log.addSink(printEvents(out));
+
+    Event event = eventAt(123456, 0, 0);
+    event.text = "at ";
+    event.text << 1234.5;
+    log.ring(0).post(event);
+    log.complete(123456);
+    log.flush();
+    (void)std::setlocale(LC_ALL, "C");
+    std::locale::global(before);
+
+    EXPECT_EQ(out.str(), "1970-01-01T00:02:03.456Z info /robot at 1234.5\n");
+}
+
+TEST(EventSinks, AppendToALogFile) {
+    const auto file = std::filesystem::path{::testing::TempDir()} / "cortex-event-test.log";
+    std::filesystem::remove(file);
+    for (std::int64_t cycle = 1; cycle <= 2; ++cycle) {
+        EventLog log{test::makePlant().structure, 1, 4};
+        log.addSink(logEvents(file));
+        log.ring(0).post(eventAt(cycle, 0, 0));
+    }
+
+    std::ifstream in{file};
+    std::stringstream text;
+    text << in.rdbuf();
+    std::filesystem::remove(file);
+    EXPECT_EQ(text.str(),
+              "1970-01-01T00:00:00.001Z info /robot 1.0.0\n"
+              "1970-01-01T00:00:00.002Z info /robot 2.0.0\n");
+}
+
+TEST(EventSinks, RefuseALogFileThatCannotBeWritten) {
+    EXPECT_THROW(logEvents(::testing::TempDir() + "no such folder/log"), Error);
+}
+
+TEST(EventSinks, SayOnceThatALogFileCannotBeWrittenAnyMore) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "/dev/full is missing";
+    EventLog log{test::makePlant().structure, 1, 4};
+    log.addSink(logEvents("/dev/full"));
+    ::testing::internal::CaptureStderr();
+
+    log.ring(0).post(eventAt(1, 0, 0));
+    log.ring(0).post(eventAt(1, 0, 1));
+    log.stop();
+
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(),
+              "cannot write the log file /dev/full: its events are lost\n");
+}
+
+}  // namespace
+}  // namespace cortex
