@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_cluster.hpp"
+
+namespace cortex::bench {
+
+std::chrono::nanoseconds BurstTrigger::burst(std::int64_t cycles) {
+    const std::int64_t target = executed_.load() + cycles;
+    wanted_.store(target);
+    wanted_.notify_all();
+    for (std::int64_t executed = executed_.load(); executed < target; executed = executed_.load()) {
+        executed_.wait(executed);
+    }
+    return end_ - begin_;
+}
+
+cs::Trigger BurstTrigger::waitForTick() {
+    if (cycle_ >= 0 && cycle_ + 1 == wanted_.load(std::memory_order_relaxed)) {
+        end_ = std::chrono::steady_clock::now();
+        executed_.store(cycle_ + 1);
+        executed_.notify_all();
+    }
+    while (cycle_ + 1 >= wanted_.load(std::memory_order_relaxed)) {
+        if (interrupted_.load()) return {.stopped = true};
+        wanted_.wait(cycle_ + 1);
+        begin_ = std::chrono::steady_clock::now();
+    }
+    ++cycle_;
+    return {.nominalTime = cycle_ * period(), .stopped = interrupted_.load()};
+}
+
+void BurstTrigger::interrupt() {
+    interrupted_.store(true);
+    wanted_.fetch_add(1);
+    wanted_.notify_all();
+}
+
+void Partner::populate() {
+    on<&Partner::ping>("ping");
+    asked_ = argument<std::int64_t>("ping", "number");
+    answered_ = result<std::int64_t>("ping", "number");
+    for (const char* rule : {"after", "late"}) {
+        for (OutputSimplex& partner : outputs(rule)) {
+            ping_ = partner.command("ping", 2 * commandsPerCycle);
+            number_ = ping_.argument<std::int64_t>("number");
+        }
+    }
+}
+
+void Partner::loopStart(const Tick& tick) {
+    number_ = tick.cycle;
+    for (std::uint32_t i = 0; i < commandsPerCycle; ++i) {
+        if (ping_.send() != Outcome::None) ++full;
+    }
+}
+
+Outcome Partner::ping(Call& call) {
+    call[answered_] = call[asked_];
+    ++executed;
+    return Outcome::Done;
+}
+
+BenchCluster::BenchCluster(SimplexTree&& simplexes, cs::ClusterOptions options)
+    : tree{std::move(simplexes)}, cluster{"bench", std::move(options)} {
+    cluster.addSimplexTree(tree);
+    trigger = &cluster.setTriggerSource<BurstTrigger>();
+    cluster.start();
+    trigger->burst(100);
+}
+
+TypeModel benchTypes() {
+    return TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/profiler/bench/bench-rules.xml");
+}
+
+SimplexTree emptySimplexes(int count, int chain) {
+    SimplexTree tree{benchTypes()};
+    Simplex* last = nullptr;
+    for (int i = 0; i < count; ++i) {
+        Simplex& simplex = tree.add<Empty>("/s" + std::to_string(i), "Empty");
+        if (i % chain != 0) tree.relate(simplex, "before", *last);
+        last = &simplex;
+    }
+    return tree;
+}
+
+SimplexTree partners(int count) {
+    SimplexTree tree{benchTypes()};
+    for (int i = 0; i + 1 < count; i += 2) {
+        Simplex& first = tree.add<Partner>("/p" + std::to_string(i), "Partner");
+        Simplex& second = tree.add<Partner>("/p" + std::to_string(i + 1), "Partner");
+        tree.relate(first, "after", second);
+        tree.relate(second, "late", first);
+    }
+    return tree;
+}
+
+}  // namespace cortex::bench
