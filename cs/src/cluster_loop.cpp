@@ -60,21 +60,15 @@ void ClusterLoop::start() {
 }
 
 void ClusterLoop::prepareThread() {
-    ThreadOptions options{agent_.name(), options_.priority, {}};
-    if (options_.priority > 0)
-        options.affinity = {cpuForThread(options_.cpus, 0)};
-    else
-        options.affinity = options_.cpus;
     const auto append = [this](const std::vector<std::string>& lines) {
         realtimeReport_.insert(realtimeReport_.end(), lines.begin(), lines.end());
     };
-    append(configureThisThread(options));
     PoolOptions pool;
+    pool.name = agent_.name();
     pool.threads = options_.forceThreads ? options_.threads : 0;
     pool.priority = options_.priority;
     pool.affinity = options_.cpus;
     pool.oversubscribe = options_.forceThreads;
-    pool.onStart = [](void*, std::uint32_t) { prefaultStack(); };
     pool_ = std::make_unique<ThreadPool>(
         schedule_,
         [](void* runner, std::uint32_t chunk, std::uint32_t worker) {
@@ -82,8 +76,8 @@ void ClusterLoop::prepareThread() {
         },
         &runner_, pool);
     append(pool_->report());
+    append(pool_->configureLoopThread());
     if (options_.priority > 0 && options_.lockMemory) append(lockMemory());
-    prefaultStack();
 }
 
 void ClusterLoop::run() {
