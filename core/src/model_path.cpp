@@ -10,11 +10,21 @@
 #include <string_view>
 #include <vector>
 
+#include <dlfcn.h>
+
 namespace cortex {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+// share/cortex beside the library that this code is in, wherever it was installed to.
+fs::path shareFolder() {
+    Dl_info library{};
+    if (dladdr(reinterpret_cast<const void*>(&findModelFile), &library) == 0) return {};
+    return (fs::path{library.dli_fname}.parent_path() / CORTEX_SHARE_FROM_LIBRARY)
+        .lexically_normal();
+}
 
 std::vector<fs::path> searchFolders() {
     std::vector<fs::path> folders;
@@ -25,7 +35,7 @@ std::vector<fs::path> searchFolders() {
         if (end > 0) folders.emplace_back(rest.substr(0, end));
         rest.remove_prefix(std::min(end + 1, rest.size()));
     }
-    folders.emplace_back(CORTEX_SHARE_DIR);
+    folders.push_back(shareFolder());
     return folders;
 }
 
