@@ -115,20 +115,6 @@ T implicitNumber(const DataItem& item) {
     return number;
 }
 
-Value implicitValue(const DataItem& item) {
-    switch (item.kind) {
-        case Kind::Int:
-            return std::vector<std::int64_t>(item.length, implicitNumber<std::int64_t>(item));
-        case Kind::Float:
-            return std::vector<double>(item.length, implicitNumber<double>(item));
-        case Kind::Bool:
-            return std::vector<bool>(item.length, false);
-        case Kind::String:
-            break;
-    }
-    return std::vector<std::string>(item.length);
-}
-
 void checkValues(DataItem& item, const DataItem* own, const ItemContext& context) {
     if (item.hasDefault) {
         const std::string error = valueError(item, item.initial);
@@ -213,6 +199,20 @@ void checkTexts(const DataItem& item, const ItemContext& context) {
 }
 
 }  // namespace
+
+Value implicitValue(const DataItem& item) {
+    switch (item.kind) {
+        case Kind::Int:
+            return std::vector<std::int64_t>(item.length, implicitNumber<std::int64_t>(item));
+        case Kind::Float:
+            return std::vector<double>(item.length, implicitNumber<double>(item));
+        case Kind::Bool:
+            return std::vector<bool>(item.length, false);
+        case Kind::String:
+            break;
+    }
+    return std::vector<std::string>(item.length);
+}
 
 void checkShape(DataItem& own, const Stated& stated, const ItemContext& context) {
     if (own.length < 1 || own.length > bounds::arrayLength) {

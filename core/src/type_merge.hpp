@@ -63,6 +63,9 @@ void checkShape(DataItem& own, const Stated& stated, const ItemContext& context)
 void fitData(DataItem& own, const DataItem& shape, const ItemContext& context);
 void checkData(DataItem& item, const DataItem* own, const ItemContext& context);
 
+// What an item without a default starts with: zero, false or "", moved into its range.
+Value implicitValue(const DataItem& item);
+
 // Octets of a request or response with these parameters.
 std::size_t recordSize(const std::vector<DataItem>& parameters);
 
