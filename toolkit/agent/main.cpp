@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// cortex-agent: runs any system file.
+#include "cortex/core/error.hpp"
+#include "cortex/core/event_sinks.hpp"
+#include "cortex/cs/cluster_cs.hpp"
+#include "cortex/toolkit/classes.hpp"
+#include "options.hpp"
+#include "summary.hpp"
+
+#include <array>
+#include <iostream>
+#include <string>
+#include <unistd.h>
+
+namespace cortex::toolkit {
+namespace {
+
+enum ExitCode { Ended = 0, Refused = 1, Usage = 2, Halted = 3 };
+
+class UsageError : public Error {
+public:
+    using Error::Error;
+};
+
+// PATH.ITEM=VALUE
+void applySetting(SimplexTree& tree, const std::string& text) {
+    const std::size_t equals = text.find('=');
+    const std::size_t dot = text.rfind('.', equals);
+    if (equals == std::string::npos || dot == std::string::npos || dot == 0) {
+        throw UsageError("--set " + text + ": write it as /path/of/simplex.item=value");
+    }
+    const std::string itemName = text.substr(dot + 1, equals - dot - 1);
+    Simplex& simplex = tree.at(text.substr(0, dot));
+    const DataItem* item = simplex.type().findData(itemName);
+    if (item == nullptr) {
+        std::vector<std::string> names;
+        for (const DataItem& each : simplex.type().data) names.push_back(each.name);
+        throw UsageError("--set " + text + ": " + simplex.path() + " (" + simplex.type().name +
+                         ") has no item '" + itemName + "'; " + nearestNames(itemName, names));
+    }
+    std::string why;
+    auto value = parseValue(item->kind, item->length, text.substr(equals + 1), why);
+    if (!value) throw UsageError("--set " + text + ": " + why);
+    simplex.set(itemName, std::move(*value), {"--set", 0});
+}
+
+SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry) {
+    Report report;
+    const std::array files{line.system};
+    ModelFiles model = readModelFiles(files, report);
+    if (!model.hasSystem && report.ok()) {
+        report.error("", "no-system", {line.system.string(), 1}, "the file has no <system>",
+                     "give a system file, or write one around it");
+    }
+    if (!report.ok()) throw ModelError(std::move(report));
+    for (const auto& plugin : line.plugins) registry.loadPlugin(plugin, model.types);
+    SimplexTree tree{std::move(model.types)};
+    tree.add(model.system, &registry, report);
+    if (!report.ok()) throw ModelError(std::move(report));
+    tree.createRelated(&registry);
+    try {
+        for (const std::string& setting : line.settings) applySetting(tree, setting);
+    } catch (const UsageError&) {
+        throw;
+    } catch (const Error& error) {
+        throw UsageError(std::string{"--set: "} + error.what());
+    }
+    return tree;
+}
+
+// Waits for the answer to the group command while it also minds signals. False: to be ended.
+bool startUp(cs::ClusterCS& cluster, const std::string& name) {
+    const std::uint64_t sent = cluster.send("/" + name, "startup",
+                                            {{"prefix", Value{std::vector<std::string>{"/"}}}});
+    CallResult answer;
+    const bool interrupted = cs::waitForInterrupt(
+        60, [&] { return cluster.program().poll(sent, answer) || !cluster.running(); });
+    if (interrupted) return false;
+    if (answer.done()) std::cout << "all active simplexes are started" << std::endl;
+    else std::cerr << "startup: " << answer.text() << std::endl;
+    return true;
+}
+
+void watch(cs::ClusterCS& cluster, const std::string& name, double seconds) {
+    const bool terminal = isatty(STDOUT_FILENO) != 0;
+    using Clock = std::chrono::steady_clock;
+    auto next = Clock::now();
+    cs::waitForInterrupt(seconds, [&] {
+        if (terminal && Clock::now() >= next) {
+            next += std::chrono::seconds{1};
+            std::cout << "\r\033[K" << statusLine(cluster.image(), name) << std::flush;
+        }
+        return !cluster.running();
+    });
+    if (terminal) std::cout << "\r\033[K" << std::flush;
+}
+
+int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTree& tree) {
+    const ClusterSettings settings = clusterSettings(tree.description(), line);
+    cs::blockStopSignals();
+    const auto began = std::chrono::steady_clock::now();
+    cs::ClusterCS cluster{settings.name, settings.options};
+    cluster.addSimplexTree(tree);
+    cluster.useClasses(registry);
+    cluster.setTriggerSource<cs::InternalClock>(settings.period);
+    cluster.addEventSink(line.log.empty() ? printEvents(std::cerr) : logEvents(line.log));
+    cluster.start();
+    for (const std::string& refused : cluster.realtimeReport()) {
+        std::cerr << "real time: " << refused << std::endl;
+    }
+    std::cout << line.system.string() << ": " << tree.simplexes().size() << " simplexes at "
+              << 1e9 / static_cast<double>(settings.period.count()) << " Hz as /" << settings.name
+              << std::endl;
+    if (!line.startup || startUp(cluster, settings.name)) {
+        const std::chrono::duration<double> used = std::chrono::steady_clock::now() - began;
+        watch(cluster, settings.name,
+              line.seconds > 0 ? std::max(1e-3, line.seconds - used.count()) : 0);
+    }
+    std::cout << metricsTable(cluster.image(), settings.name) << monitorTables(cluster.image())
+              << std::flush;
+    const bool halted = cluster.ended() == cs::Ended::Halted;
+    const bool stopped = cluster.stop();
+    return stopped && !halted ? Ended : Halted;
+}
+
+int run(int argc, char** argv) {
+    int exitCode = Ended;
+    const auto line = parseCommandLine(argc, argv, exitCode);
+    if (!line) return exitCode;
+    ClassRegistry registry;
+    addClasses(registry);
+    SimplexTree tree = readSystem(*line, registry);
+    return runCluster(*line, registry, tree);
+}
+
+}  // namespace
+}  // namespace cortex::toolkit
+
+int main(int argc, char** argv) {
+    using namespace cortex;
+    try {
+        return toolkit::run(argc, argv);
+    } catch (const ModelError& error) {
+        std::cerr << error.report().text();
+        return toolkit::Refused;
+    } catch (const toolkit::UsageError& error) {
+        std::cerr << error.what() << '\n';
+        return toolkit::Usage;
+    } catch (const std::exception& error) {
+        std::cerr << error.what() << '\n';
+        return toolkit::Refused;
+    }
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "options.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <map>
+
+namespace cortex::toolkit {
+namespace {
+
+constexpr int UsageError = 2;
+
+constexpr const char* Footer = R"(Exit codes: 0 ended; 1 model refused, the report was printed; 2 usage; 3 halted or hung.
+Settings of the loop stand in the system file, <cluster name="…" frequency="…" threads="…"
+priority="…" overflow="…"/>; options outrank them. Files are looked for beside the file that names
+them, in $CORTEX_PATH, and where CorteX is installed.)";
+
+using Attributes = std::map<std::string, std::string>;
+
+// The reader of system files has checked the forms already.
+double number(const Attributes& attributes, const char* name, double otherwise) {
+    const auto found = attributes.find(name);
+    return found == attributes.end() ? otherwise : toFloat(found->second).value_or(otherwise);
+}
+
+std::uint32_t count(const Attributes& attributes, const char* name, std::uint32_t otherwise) {
+    return static_cast<std::uint32_t>(number(attributes, name, otherwise));
+}
+
+std::string word(const Attributes& attributes, const char* name) {
+    const auto found = attributes.find(name);
+    return found == attributes.end() ? "" : found->second;
+}
+
+cs::Overflow overflowOf(const std::string& text) {
+    if (text == "catchUp") return cs::Overflow::CatchUp;
+    return text == "halt" ? cs::Overflow::Halt : cs::Overflow::Skip;
+}
+
+std::vector<int> cpusOf(const std::string& text) {
+    std::vector<int> cpus;
+    std::istringstream in{text};
+    for (int cpu = 0; in >> cpu;) cpus.push_back(cpu);
+    return cpus;
+}
+
+cs::ClusterOptions optionsOf(const Attributes& attributes, const CommandLine& line) {
+    cs::ClusterOptions options;
+    options.threads = line.threads.value_or(count(attributes, "threads", options.threads));
+    options.priority =
+        line.priority.value_or(static_cast<int>(number(attributes, "priority", options.priority)));
+    options.lockMemory = word(attributes, "lockMemory") != "false";
+    options.cpus = cpusOf(word(attributes, "cpus"));
+    options.overflow = overflowOf(word(attributes, "overflow"));
+    options.catchUpCycles = count(attributes, "catchUpCycles", options.catchUpCycles);
+    options.warnDuty = number(attributes, "warnDuty", options.warnDuty);
+    options.watchdogPeriods = number(attributes, "watchdogPeriods", options.watchdogPeriods);
+    options.controlRequired = word(attributes, "control") == "required";
+    options.imageReaders = count(attributes, "imageReaders", options.imageReaders);
+    return options;
+}
+
+}  // namespace
+
+std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode) {
+    CommandLine line;
+    CLI::App app{"Runs a system file with the toolkit's types and those of plug-ins."};
+    app.name("cortex-agent")->footer(Footer);
+    app.add_option("SYSTEM.xml", line.system, "the system file")->required();
+    app.add_option("--plugin", line.plugins, "shared object with classes of active types")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    app.add_option("--set", line.settings, "value that an item starts with")
+        ->type_name("PATH.ITEM=VALUE")
+        ->allow_extra_args(false);
+    app.add_option("--frequency", line.frequency, "cycles per second")
+        ->type_name("HZ")
+        ->check(CLI::Range(0.01, 1e5));
+    app.add_option("--threads", line.threads, "threads of the loop, its own included")
+        ->type_name("N")
+        ->check(CLI::Range(1, 256));
+    app.add_option("--priority", line.priority, "real-time priority (SCHED_FIFO); 0: none")
+        ->type_name("P")
+        ->check(CLI::Range(0, 99));
+    app.add_option("--seconds", line.seconds, "ends after this time; else with SIGINT or SIGTERM")
+        ->type_name("S")
+        ->check(CLI::Range(1e-3, 1e9));
+    app.add_flag("--startup", line.startup, "starts all active simplexes");
+    app.add_option("--log", line.log, "writes events to a file instead of the standard error")
+        ->type_name("FILE");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        exitCode = app.exit(error) == 0 ? 0 : UsageError;
+        return std::nullopt;
+    }
+    return line;
+}
+
+ClusterSettings clusterSettings(const SystemDescription& system, const CommandLine& line) {
+    if (system.clusters.size() != 1) {
+        throw Error(line.system.string() + ": has " + std::to_string(system.clusters.size()) +
+                    " clusters, an agent runs one: write one <cluster name=\"…\" "
+                    "frequency=\"1000\"/>");
+    }
+    const SystemDescription::ClusterEntry& entry = system.clusters.front();
+    const double frequency = line.frequency.value_or(number(entry.attributes, "frequency", 1000));
+    ClusterSettings settings;
+    settings.name = entry.name;
+    settings.period = std::chrono::nanoseconds{std::llround(1e9 / frequency)};
+    settings.options = optionsOf(entry.attributes, line);
+    return settings;
+}
+
+}  // namespace cortex::toolkit

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/model_files.hpp"
+#include "cortex/cs/cluster_cs.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cortex::toolkit {
+
+// What was asked for on the command line.
+struct CommandLine {
+    std::filesystem::path system;
+    std::vector<std::filesystem::path> plugins;
+    std::vector<std::string> settings;  // PATH.ITEM=VALUE
+    std::optional<double> frequency;
+    std::optional<std::uint32_t> threads;
+    std::optional<int> priority;
+    double seconds = 0;  // 0: until SIGINT or SIGTERM
+    bool startup = false;
+    std::filesystem::path log;
+};
+
+// Empty when the program is to end at once, with `exitCode`: help was shown, or usage was wrong.
+std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode);
+
+struct ClusterSettings {
+    std::string name;
+    std::chrono::nanoseconds period{};
+    cs::ClusterOptions options;
+};
+
+// The <cluster> of the system file, outranked by the command line. Throws Error.
+ClusterSettings clusterSettings(const SystemDescription& system, const CommandLine& line);
+
+}  // namespace cortex::toolkit

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/image.hpp"
+
+#include <string>
+
+namespace cortex::toolkit {
+
+// One line for a terminal: cycle, duty cycle, overflows, how many simplexes are in which state.
+std::string statusLine(const Image& image, const std::string& cluster);
+
+// A table of the loop's metrics.
+std::string metricsTable(const Image& image, const std::string& cluster);
+
+// Data of every simplex whose type is a Monitor.
+std::string monitorTables(const Image& image);
+
+}  // namespace cortex::toolkit
