@@ -134,7 +134,7 @@ void checkValues(DataItem& item, const DataItem* own, const ItemContext& context
     if (error.empty()) return;
     context.error(finding::safeRange,
                   "has the safe value " + inQuotes(toText(item.safe.value)) + ", which " + error,
-                  "write a safe value that is in range, hold or observed");
+                  "write safe=\"" + toText(implicitValue(item)) + "\", hold or observed");
     item.safe.value = implicitValue(item);
 }
 
@@ -217,13 +217,13 @@ Value implicitValue(const DataItem& item) {
 void checkShape(DataItem& own, const Stated& stated, const ItemContext& context) {
     if (own.length < 1 || own.length > bounds::arrayLength) {
         context.error(finding::lengthBounds, "has length=" + inQuotes(std::to_string(own.length)),
-                      "write a length from 1 to 65536");
+                      "write length=\"1\", or up to 65536");
         own.length = 1;
     }
     if (own.capacity < 1 || own.capacity > bounds::stringCapacity) {
         context.error(finding::capacityBounds,
                       "has capacity=" + inQuotes(std::to_string(own.capacity)),
-                      "write a capacity from 1 to 4096 octets");
+                      "write capacity=\"64\", or from 1 to 4096 octets");
         own.capacity = DataItem{}.capacity;
     }
     if (own.kind != Kind::String && stated("capacity", own.capacity != DataItem{}.capacity)) {
@@ -261,7 +261,7 @@ void fitData(DataItem& own, const DataItem& shape, const ItemContext& context) {
 void checkData(DataItem& item, const DataItem* own, const ItemContext& context) {
     if (item.min && item.max && *item.max < *item.min) {
         context.error(finding::rangeEmpty, "has the empty range " + rangeText(item),
-                      "write a min that is not above max");
+                      "write max=\"" + toText(*item.min) + "\" or more, or a smaller min");
         item.max = item.min;
     }
     if (!item.settable.empty() && item.constant) {

@@ -220,7 +220,7 @@ DataItem mergeData(const std::vector<FromParent<DataItem>>& parents, const DataI
                    const Stated& stated, const ItemContext& context) {
     if (parents.empty() && stated.complete() && !stated("kind", false)) {
         context.error(finding::kindMissing, "has no kind, and no parent has this name",
-                      "add kind=\"int\", \"float\", \"bool\" or \"string\", or correct the name");
+                      "write kind=\"float\", \"int\", \"bool\" or \"string\", or correct the name");
     }
     DataItem stating = own ? *own : DataItem{};
     canonicalUnit(stating, context);

@@ -132,11 +132,11 @@ void narrow(Rule& rule, const Rule& own, const Stated& stated, const ItemContext
 void checkNew(const Rule& own, const Stated& stated, const ItemContext& context) {
     if (stated.complete() && !stated("direction", false)) {
         context.error(finding::directionMissing, "has no direction, and no parent has this name",
-                      "add direction=\"input\" or \"output\", or correct the name");
+                      "write direction=\"input\" or \"output\", or correct the name");
     }
     if (own.target.empty()) {
         context.error(finding::targetMissing, "has no target, and no parent has this name",
-                      "add target=\"…\" with the type that related simplexes must be");
+                      "write target=\"…\" with the type that related simplexes must be");
     }
 }
 

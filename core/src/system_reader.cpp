@@ -74,9 +74,18 @@ struct ClusterAttribute {
 };
 
 bool anyText(std::string_view) { return true; }
+bool frequency(std::string_view text) {
+    const double hertz = toFloat(text).value_or(0);
+    return hertz >= 0.01 && hertz <= 1e5;
+}
 bool positive(std::string_view text) { return toFloat(text).value_or(0) > 0; }
 bool notNegative(std::string_view text) { return toFloat(text).value_or(-1) >= 0; }
-bool count(std::string_view text) { return toInt(text).value_or(-1) >= 0; }
+template <std::int64_t Least, std::int64_t Most>
+bool between(std::string_view text) {
+    const auto number = toInt(text);
+    return number && *number >= Least && *number <= Most;
+}
+constexpr auto count = between<0, 1'000'000>;
 bool truth(std::string_view text) { return toBool(text).has_value(); }
 bool overflow(std::string_view text) {
     return text == "skip" || text == "catchUp" || text == "halt";
@@ -89,17 +98,17 @@ bool counts(std::string_view text) {
 
 constexpr std::array clusterAttributes{
     ClusterAttribute{"name", anyText, ""},
-    ClusterAttribute{"frequency", positive, "a number of Hz greater than 0"},
-    ClusterAttribute{"threads", count, "a whole number from 0"},
-    ClusterAttribute{"priority", count, "a whole number from 0"},
+    ClusterAttribute{"frequency", frequency, "a number of Hz from 0.01 to 100000"},
+    ClusterAttribute{"threads", between<1, 256>, "a whole number from 1 to 256"},
+    ClusterAttribute{"priority", between<0, 99>, "a whole number from 0, for none, to 99"},
     ClusterAttribute{"cpus", counts, "CPU numbers separated by blanks"},
     ClusterAttribute{"lockMemory", truth, "true or false"},
     ClusterAttribute{"overflow", overflow, "skip, catchUp or halt"},
-    ClusterAttribute{"catchUpCycles", count, "a whole number from 0"},
+    ClusterAttribute{"catchUpCycles", count, "a whole number from 0 to 1000000"},
     ClusterAttribute{"warnDuty", notNegative, "a number of % from 0"},
     ClusterAttribute{"watchdogPeriods", positive, "a number greater than 0"},
     ClusterAttribute{"control", control, "open or required"},
-    ClusterAttribute{"imageReaders", count, "a whole number from 0"},
+    ClusterAttribute{"imageReaders", count, "a whole number from 0 to 1000000"},
 };
 
 template <int Index>
