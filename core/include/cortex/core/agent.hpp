@@ -21,12 +21,13 @@ namespace cortex {
 
 class Router;
 class CommandPort;
+class Lane;
 
 // Per loop thread: where a task posts events, what time its chunk started, what it counted.
-struct LoopThread {
+struct alignas(64) LoopThread {
     EventRing* events = nullptr;
     ChunkClock clock;
-    std::uint32_t sequence = 0;  // of events in this cycle
+    std::uint32_t sequence = 0;  // of events in this cycle; beginCycle() starts it anew
     std::uint64_t commands = 0;  // executed, since start
     std::uint64_t rejected = 0;
     std::int64_t lastLatency = 0;  // ns, of the last executed command
@@ -70,6 +71,9 @@ public:
     void endCycle(const Tick& tick, std::int64_t wallClock) CORTEX_REALTIME;
 
     const std::string& name() const { return name_; }
+    const AgentOptions& options() const { return options_; }
+    std::int64_t cycle() const { return cycle_; }              // of the present or last cycle
+    std::int64_t nominalTime() const { return nominalTime_; }  // likewise
     SimplexTree& tree() { return tree_; }
     const Structure& structure() const { return *structure_; }
     Tables& tables() { return *tables_; }
@@ -86,7 +90,10 @@ public:
     void processCommands(std::uint32_t simplex, State state, const Tick& tick,
                          LoopThread& thread) CORTEX_REALTIME;
     bool hasCommandWork(std::uint32_t simplex) const CORTEX_REALTIME;
-    void cancelActivity(std::uint32_t simplex, LoopThread& thread) CORTEX_REALTIME;
+    // Leaving Active: the last call of a long command, then the answer Cancelled. Without
+    // `callHandler` (a hook threw) only the answer. False: the handler threw; nothing passes through.
+    bool cancelActivity(std::uint32_t simplex, LoopThread& thread,
+                        bool callHandler = true) CORTEX_REALTIME;
 
     // The pending life-cycle word: taken in step (1); `shutdown` outranks the others.
     LifeCycle takeLifeCycle(std::uint32_t simplex) CORTEX_REALTIME;
@@ -94,8 +101,8 @@ public:
     // the simplex ran).
     void postLifeCycle(std::uint32_t simplex, LifeCycle command, bool later) CORTEX_REALTIME;
 
-    // The task of `simplex` did not follow its pending life-cycle command; whoever sent it from
-    // outside gets `why`.
+    // What a task may say when it does not follow a life-cycle command; goes to who sent it from
+    // outside.
     void refuseLifeCycle(std::uint32_t simplex, const EventText& why) CORTEX_REALTIME;
 
     void post(LoopThread& thread, Severity severity, EventKind kind, std::uint32_t simplex,
@@ -104,10 +111,19 @@ public:
     // Setup, for Simplex and its handles.
     void registerHandler(std::uint32_t simplex, std::string_view command, Handler handler);
     CommandSender makeSender(std::uint32_t edge, std::string_view command, std::uint32_t capacity);
-    const CommandTable& commands(std::uint32_t simplex) const;
+    const CommandTable& commands(std::uint32_t simplex) const { return *tableOf_[simplex]; }
 
 private:
     friend class Router;
+
+    void addAgentSimplex();
+    void checkModel();
+    void bindSimplexes();
+    CommandPort& portOf(std::uint32_t simplex);
+    void makeLanes();
+    void findTaskless();
+    void releaseLifeCycles() CORTEX_REALTIME;
+    void processTaskless(const Tick& tick) CORTEX_REALTIME;
 
     std::string name_;
     SimplexTree& tree_;
@@ -123,12 +139,16 @@ private:
     std::vector<std::unique_ptr<CommandPort>> ports_;           // per simplex that has commands
     std::vector<std::unique_ptr<Lane>> lanes_;
     std::vector<Lane*> delayedLanes_;
+    std::vector<std::shared_ptr<CommandSender::State>> senders_;
+    std::vector<std::uint32_t> taskless_;  // that lanes lead to, and the agent's own simplex
     std::vector<CommunicationInterface*> interfaces_;
     std::vector<LoopThread> threads_;
     std::vector<std::uint32_t> ranks_;
-    std::unique_ptr<std::atomic<std::uint8_t>[]> lifeCycle_, lifeCycleLater_;
+    std::unique_ptr<std::atomic<std::uint8_t>[]> lifeCycle_, lifeCycleLater_;  // bits
+    std::atomic<bool> anyLater_{false};
     std::uint32_t agentSimplex_ = noSimplex;
-    bool started_ = false;
+    std::int64_t cycle_ = 0, nominalTime_ = 0;
+    bool started_ = false, stopped_ = false;
 };
 
 // Builds the structure of a validated tree; exposed for tools that show a model without running it.

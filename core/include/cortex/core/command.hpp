@@ -7,11 +7,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 namespace cortex {
+
+struct Sender;
 
 enum class Outcome : std::uint8_t {
     None,         // not sent yet, or no answer yet
@@ -61,17 +63,25 @@ public:
     bool cancelling() const { return cancelling_; }  // last call of a long command that is cancelled
     // Why it failed, in words; returns Failed so that a handler can `return call.fail("…")`.
     Outcome fail(std::string_view why) CORTEX_REALTIME;
-    std::string_view why() const { return why_.view(); }
+    // Not executed: `return call.reject(Reason::State, "…")`.
+    Outcome reject(Reason reason, std::string_view why) CORTEX_REALTIME;
+    std::string_view why() const { return why_ ? why_->view() : std::string_view{}; }
+    Reason reason() const { return reason_; }
+    // Who sent it from outside; null along a relationship.
+    const Sender* sender() const { return sender_; }
 
     void setFirst(bool first) { first_ = first; }
     void setCancelling(bool cancelling) { cancelling_ = cancelling; }
+    void setSender(const Sender* sender) { sender_ = sender; }
 
 private:
     const std::byte* request_;
     std::byte* response_;
+    const Sender* sender_ = nullptr;
     bool first_ = true;
     bool cancelling_ = false;
-    EventText why_;
+    Reason reason_ = Reason::None;
+    std::optional<EventText> why_;
 };
 
 // A command handler bound to an object without std::function.
@@ -83,18 +93,33 @@ struct Handler {
     Outcome operator()(Call& call) const { return function(object, call); }
 };
 
-// The commands of one type as the runtime sees them. `set`, built in, is the last one where the type
-// has settable items: its request holds a presence flag per settable item, then the items.
+// What one parameter or settable item is checked against, compiled from its DataItem.
+struct ArgumentCheck {
+    const DataItem* item = nullptr;
+    std::uint32_t offset = 0;  // octets
+    std::uint32_t length = 1;
+    Kind kind = Kind::Float;
+    bool closed = false;  // only labelled numbers: an item with labels and no range
+    std::int64_t minInt = 0, maxInt = 0;
+    double minFloat = 0, maxFloat = 0;
+};
+
+// The commands of one type as the runtime sees them: those of the type, sorted; `cancel` where one
+// of them is long; last `set` where the type has settable items. The request of `set` holds a
+// presence flag (one octet) per settable item, then the items.
 struct CommandTable {
     struct Entry {
-        const Command* command = nullptr;  // null for `set`
+        const Command* command = nullptr;  // null for `cancel` and `set`
         std::string_view name;
         RecordLayout request, response;
         StateSet available;
+        std::vector<ArgumentCheck> checks;     // of the request
+        std::vector<std::byte> emptyResponse;  // initialised
     };
     std::vector<Entry> entries;
     std::vector<const DataItem*> settable;  // in the order of the flags
     std::uint32_t maxRequest = 0, maxResponse = 0;
+    bool hasLong = false;
 
     static constexpr std::uint32_t none = 0xffffffffU;
     std::uint32_t find(std::string_view command) const;
@@ -106,8 +131,12 @@ CommandTable commandTable(const Type& type);
 enum class LifeCycle : std::uint8_t { None, Startup, Shutdown, ClearFaults };
 LifeCycle lifeCycleCommand(std::string_view command);
 
-// Checks kinds' ranges (finite, min, max, enum labels where closed); "" if good, else the reason.
-EventText checkArguments(const RecordLayout& layout, const std::byte* record) CORTEX_REALTIME;
+std::vector<ArgumentCheck> compileChecks(const RecordLayout& layout);
+// Finite, in range, a label where only labels are valid, text that fits; else why not, in words.
+bool checkArgument(const ArgumentCheck& check, const std::byte* record,
+                   std::optional<EventText>& why) CORTEX_REALTIME;
+// The whole record; "" if good.
+EventText checkArguments(const RecordLayout& layout, const std::byte* record);
 void initialiseRecord(const RecordLayout& layout, std::byte* record);
 
 }  // namespace cortex

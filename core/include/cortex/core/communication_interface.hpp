@@ -27,6 +27,9 @@ struct Sender {
 // Largest request or response record, octets; a type that needs more is refused when it is loaded.
 inline constexpr std::uint32_t maxRecord = 4096;
 
+// How many commands after the last one that it has every answer below a sender may have sent.
+inline constexpr std::uint32_t senderWindow = 128;
+
 // A command from outside as the loop sees it: fixed size, its record already laid out as the target's
 // CommandTable says. A transport decodes and checks shapes before it puts one into the Inbox.
 struct OutsideCommand {
@@ -61,7 +64,7 @@ struct LinkBinding {
         Kind kind;
         std::uint32_t from, to, length;  // offsets as in ItemLayout
     };
-    std::vector<Copy> copies;
+    std::vector<Copy> copies, constants;
     bool usable = false;  // false: contradiction or wrong type; `findings` says why
     Report findings;
 };
@@ -77,8 +80,13 @@ public:
     // on the receiver's clock.
     virtual void link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
                       std::int64_t age) CORTEX_REALTIME = 0;
+    // Once, before the first link(): the constant items.
+    virtual void linkConstants(std::uint32_t simplex, const LinkBinding& binding,
+                               const Slice& from) CORTEX_REALTIME = 0;
     virtual void linkLost(std::uint32_t simplex) CORTEX_REALTIME = 0;
     virtual void command(const OutsideCommand& command) CORTEX_REALTIME = 0;
+    // An agent or a tool that sent commands is no longer heard.
+    virtual void senderLost(const Sender& sender) CORTEX_REALTIME = 0;
     virtual void event(Severity severity, EventKind kind, std::uint32_t simplex,
                        const EventText& text) CORTEX_REALTIME = 0;
 };

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/agent.hpp"
+#include "cortex/core/error.hpp"
+#include "cortex/core/validation.hpp"
+
+#include "command_port.hpp"
+#include "lane.hpp"
+#include "lookup.hpp"
+#include "router.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace cortex {
+namespace {
+
+std::int64_t utcMicroseconds() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+}
+
+std::vector<std::string> namesOf(const CommandTable& table) {
+    std::vector<std::string> names;
+    for (const auto& entry : table.entries) names.emplace_back(entry.name);
+    return names;
+}
+
+[[noreturn]] void refuse(Finding finding) {
+    Report report;
+    report.add(std::move(finding));
+    throw ModelError(std::move(report));
+}
+
+}  // namespace
+
+AgentRuntime::AgentRuntime(std::string name, SimplexTree& tree, AgentOptions options)
+    : name_{std::move(name)}, tree_{tree}, options_{options} {
+    addAgentSimplex();
+    tree_.createRelated();
+    checkModel();
+    structure_ = makeStructure(name_, tree_);
+    structure_->epoch = utcMicroseconds();
+    tables_ = std::make_unique<Tables>(structure_);
+    images_ = std::make_unique<ImagePool>(*tables_, options_.imageReaders);
+    threads_.resize(std::max(options_.loopThreads, 1U));
+    events_ = std::make_unique<EventLog>(structure_, threadCount(), options_.eventCapacity);
+    for (std::uint32_t i = 0; i < threadCount(); ++i) {
+        threads_[i].events = &events_->ring(i);
+        threads_[i].latencyCounts.resize(latencyBuckets);
+    }
+    bindSimplexes();
+}
+
+AgentRuntime::~AgentRuntime() {
+    stop();
+    for (Simplex* simplex : simplexes_) {
+        if (simplex != nullptr) simplex->runtime_ = nullptr;
+    }
+}
+
+void AgentRuntime::addAgentSimplex() {
+    const std::string path = "/" + name_;
+    const std::string wrong = SimplexTree::pathError(path);
+    if (!wrong.empty()) throw Error("agent name '" + name_ + "': " + wrong);
+    if (tree_.find(path) == nullptr) {
+        if (tree_.types().find("Agent") == nullptr) {
+            refuse({Severity::Error,
+                    path,
+                    "agent-type",
+                    {},
+                    "the ontology has no type Agent",
+                    "include base.xml"});
+        }
+        tree_.add(path, "Agent");
+    }
+    const Simplex& agent = tree_.at(path);
+    if (!agent.type().isA("Agent")) {
+        refuse({Severity::Error, path, "agent-type", agent.place(),
+                "this path is the agent's own, but its type is " + agent.type().name,
+                "give it the type Agent or Cluster, or give the agent another name"});
+    }
+}
+
+void AgentRuntime::checkModel() {
+    Report report = validate(tree_);
+    if (!report.ok()) throw ModelError(std::move(report));
+}
+
+void AgentRuntime::bindSimplexes() {
+    const auto count = static_cast<std::uint32_t>(structure_->simplexes.size());
+    std::map<const TypeLayout*, const CommandTable*> tables;
+    simplexes_.resize(count);
+    ports_.resize(count);
+    ranks_.resize(count);
+    lifeCycle_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
+    lifeCycleLater_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const SimplexInfo& info = structure_->simplexes[i];
+        ranks_[i] = i;
+        const CommandTable*& table = tables[info.layout];
+        if (table == nullptr) {
+            commandTables_.push_back(
+                std::make_unique<CommandTable>(commandTable(*info.layout->type)));
+            table = commandTables_.back().get();
+        }
+        tableOf_.push_back(table);
+        if (info.remote) continue;
+        simplexes_[i] = &tree_.at(info.path);
+        simplexes_[i]->index_ = i;
+        simplexes_[i]->runtime_ = this;
+        if (!table->entries.empty()) portOf(i);
+    }
+    agentSimplex_ = structure_->find("/" + name_);
+}
+
+CommandPort& AgentRuntime::portOf(std::uint32_t simplex) {
+    auto& port = ports_[simplex];
+    if (port == nullptr) port = std::make_unique<CommandPort>(*this, simplex, *tableOf_[simplex]);
+    return *port;
+}
+
+void AgentRuntime::addInterface(CommunicationInterface& interface) {
+    interfaces_.push_back(&interface);
+}
+
+void AgentRuntime::setCanonicalOrder(std::span<const std::uint32_t> order) {
+    auto rank = static_cast<std::uint32_t>(order.size());
+    for (std::uint32_t& each : ranks_) each = rank++;
+    for (std::uint32_t i = 0; i < order.size(); ++i) ranks_[order[i]] = i;
+}
+
+void AgentRuntime::registerHandler(std::uint32_t simplex, std::string_view command,
+                                   Handler handler) {
+    const CommandTable& table = commands(simplex);
+    const std::uint32_t index = table.find(command);
+    if (index == CommandTable::none || table.entries[index].command == nullptr) {
+        throwUnknown(structure_->simplexes[simplex].path + ": its type has no command '" +
+                         std::string{command} + "' to handle",
+                     command, namesOf(table));
+    }
+    portOf(simplex).setHandler(index, handler);
+}
+
+CommandSender AgentRuntime::makeSender(std::uint32_t edge, std::string_view command,
+                                       std::uint32_t capacity) {
+    const SimplexInfo& target = structure_->simplexes[structure_->edges[edge].target];
+    const CommandTable& table = commands(structure_->edges[edge].target);
+    const std::uint32_t index = table.find(command);
+    const std::string what = target.path + ": command '" + std::string{command} + "'";
+    if (started_) throw Error(what + ": get its sender in populate()");
+    if (index == CommandTable::none) throwUnknown(what + " is unknown", command, namesOf(table));
+    if (target.remote) {
+        throw Error(what + ": it belongs to another agent, which takes commands from outside only");
+    }
+    if (target.layout->type->active() && target.path != "/" + name_ &&
+        lifeCycleCommand(command) != LifeCycle::None) {
+        throw Error(what + " bypasses mailboxes: use lifeCycle()");
+    }
+    auto state = std::make_shared<CommandSender::State>(table, index, edge, std::max(capacity, 1U));
+    senders_.push_back(state);
+    return CommandSender{std::move(state)};
+}
+
+// One lane per relationship that commands go along, in canonical order of senders.
+void AgentRuntime::makeLanes() {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<CommandSender::State*>> lanes;
+    for (const auto& sender : senders_) {
+        lanes[{rank(structure_->edges[sender->edge].owner), sender->edge}].push_back(sender.get());
+    }
+    for (auto& [key, handles] : lanes) {
+        const Edge& edge = structure_->edges[key.second];
+        Lane::Shape shape{
+            edge.owner, edge.target, 0, 0, 0, edge.delayed, commands(edge.target).hasLong};
+        for (std::uint16_t i = 0; CommandSender::State * handle : handles) {
+            handle->handle = i++;
+            handle->sender = &portOf(edge.owner);
+            shape.capacity += handle->capacity;
+            shape.requestSize = std::max(shape.requestSize, handle->requestSize);
+            shape.responseSize = std::max(shape.responseSize, handle->responseSize);
+        }
+        Lane& lane = *lanes_.emplace_back(std::make_unique<Lane>(shape, handles));
+        for (CommandSender::State* handle : handles) handle->lane = &lane;
+        portOf(edge.owner).addSending(lane);
+        portOf(edge.target).addReceiving(lane);
+        if (edge.delayed) delayedLanes_.push_back(&lane);
+    }
+}
+
+// The commands of a simplex without a task are executed at the start of the cycle.
+void AgentRuntime::findTaskless() {
+    for (std::uint32_t i = 0; i < ports_.size(); ++i) {
+        if (ports_[i] == nullptr) continue;
+        const bool hasTask = structure_->simplexes[i].role == Role::Active && i != agentSimplex_;
+        if (!hasTask && (ports_[i]->hasLanes() || i == agentSimplex_)) taskless_.push_back(i);
+    }
+    std::ranges::sort(taskless_, {}, [this](std::uint32_t i) { return ranks_[i]; });
+}
+
+void AgentRuntime::start() {
+    if (started_) throw Error("agent " + name_ + " is started already");
+    makeLanes();
+    findTaskless();
+    router_ = std::make_unique<Router>(*this);
+    started_ = true;
+    const AgentAccess access{structure_, images_.get(), events_.get(), options_.period};
+    for (CommunicationInterface* interface : interfaces_) interface->announce(access);
+    images_->publish(0, 0, utcMicroseconds() * 1000);
+    events_->start();
+}
+
+}  // namespace cortex

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_port.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace cortex {
+namespace {
+
+void refuse(Verdict& verdict, Reason reason, const EventText& why) {
+    verdict = {Outcome::Rejected, reason, why};
+}
+
+}  // namespace
+
+EventText stateRefusal(std::string_view what, StateSet needs, State state) {
+    EventText text{what};
+    text << (needs.empty() ? " is never available" : " needs ");
+    bool first = true;
+    for (int i = 0; i < stateCount; ++i) {
+        if (!needs.has(static_cast<State>(i))) continue;
+        text << (first ? "" : " or ") << name(static_cast<State>(i));
+        first = false;
+    }
+    return text << ", is " << name(state);
+}
+
+CommandPort::CommandPort(AgentRuntime& runtime, std::uint32_t simplex, const CommandTable& table)
+    : thread_{&runtime.thread(0)},
+      table_{table},
+      handlers_(table.entries.size()),
+      stateless_{runtime.structure().simplexes[simplex].role != Role::Active},
+      runtime_{runtime},
+      simplex_{simplex} {
+    if (table.hasLong) activity_ = std::make_unique<Activity>(runtime, simplex, table);
+    const TypeLayout& layout = *runtime.structure().simplexes[simplex].layout;
+    for (std::size_t i = 0; i < table.settable.size(); ++i) {
+        const DataItem& item = *table.settable[i];
+        void* cell = runtime.tables().live(simplex).at(item.kind, layout.find(item.name)->offset);
+        targets_.push_back({&table.entries.back().checks[i], cell});
+    }
+}
+
+bool CommandPort::hasWork() const {
+    if (!sending_.empty() || outside_ != nullptr) return true;
+    if (activity_ != nullptr && activity_->running()) return true;
+    return std::ranges::any_of(receiving_, [](const Lane* lane) { return lane->pending(); });
+}
+
+void CommandPort::process(State state, const Tick& tick, LoopThread& thread) {
+    thread_ = &thread;
+    state_ = state;
+    nominalTime_ = tick.nominalTime;
+    startedNow_ = false;
+    for (Lane* lane : sending_) lane->takeAnswers();
+    for (Lane* lane : receiving_) {
+        if (lane->pending()) drain(*lane);
+    }
+    if (outside_ != nullptr) drainOutside();
+    if (activity_ != nullptr && activity_->running()) stepActivity();
+}
+
+void CommandPort::drain(Lane& lane) {
+    while (lane.pending()) {
+        const LaneSlot& head = lane.front();
+        const Origin origin{&lane, lane.number(), head.handle, nullptr, head.cycles, head.time};
+        Verdict verdict;
+        try {
+            execute(head.command, lane.request(), lane.response(), origin, verdict);
+        } catch (...) {
+            answer(lane, {Outcome::Failed, Reason::None, "its handler threw"});
+            throw;
+        }
+        answer(lane, verdict);
+    }
+}
+
+void CommandPort::answer(Lane& lane, const Verdict& verdict) {
+    const LaneSlot& head = lane.front();
+    lane.answer(verdict, thread_->clock);
+    count(verdict, head.time);
+    if (lane.startsRefusing(!verdict.good())) {
+        EventText text{table_.entries[head.command].name};
+        text << " from " << runtime_.structure().simplexes[lane.shape().sender].path << ": "
+             << name(verdict.outcome);
+        if (verdict.why) text << ", " << verdict.why->view();
+        runtime_.post(*thread_, Severity::Warning, EventKind::Refusal, simplex_, text);
+    }
+    lane.pop();
+}
+
+void CommandPort::drainOutside() {
+    while (outside_ != nullptr) {
+        OutsideEntry& entry = *outside_;
+        outside_ = entry.next;
+        const Origin origin{nullptr, 0, 0, &entry, entry.readCycle, entry.readTime};
+        Verdict verdict;
+        if (thread_->clock.cycle > entry.notAfter) {
+            verdict = {Outcome::Expired, Reason::None, "its time was over before its turn"};
+        } else {
+            try {
+                execute(entry.command, entry.request, entry.response, origin, verdict);
+            } catch (...) {
+                entry.settle({Outcome::Failed, Reason::None, "its handler threw"}, thread_->clock);
+                throw;
+            }
+        }
+        entry.settle(verdict, thread_->clock);
+        count(verdict, entry.answer.latency);
+    }
+}
+
+void CommandPort::execute(std::uint32_t command, const std::byte* request, std::byte* response,
+                          const Origin& origin, Verdict& verdict) {
+    const CommandTable::Entry& entry = table_.entries[command];
+    if (entry.command == nullptr) {
+        if (entry.name == "set")
+            set(request, verdict);
+        else
+            cancel(verdict);
+        return;
+    }
+    if (!accepted(entry, request, verdict)) return;
+    const Handler& handler = handlers_[command];
+    if (handler.function == nullptr) {
+        refuse(verdict, Reason::UnknownCommand, EventText{entry.name} << " has no handler");
+        return;
+    }
+    if (entry.command->isLong) {
+        startActivity(command, request, response, origin, verdict);
+        return;
+    }
+    copyRecord(response, entry.emptyResponse.data(), entry.response.size);
+    Call call{request, response};
+    if (origin.outside != nullptr) call.setSender(&origin.outside->sender);
+    verdict.outcome = handler(call);
+    if (verdict.outcome == Outcome::Done) return;
+    verdict = verdictOf(verdict.outcome, call);
+    if (verdict.outcome == Outcome::Running) {
+        verdict = {Outcome::Failed, Reason::None, "only a long command may go on running"};
+    }
+}
+
+bool CommandPort::accepted(const CommandTable::Entry& entry, const std::byte* request,
+                           Verdict& verdict) {
+    if (!entry.available.has(state_)) {
+        refuse(verdict, Reason::State, stateRefusal(entry.name, entry.available, state_));
+        return false;
+    }
+    for (const ArgumentCheck& check : entry.checks) {
+        if (checkArgument(check, request, verdict.why)) continue;
+        verdict.outcome = Outcome::Rejected;
+        verdict.reason = Reason::Range;
+        return false;
+    }
+    return true;
+}
+
+void CommandPort::startActivity(std::uint32_t command, const std::byte* request,
+                                std::byte* response, const Origin& origin, Verdict& verdict) {
+    const CommandTable::Entry& entry = table_.entries[command];
+    if (activity_->running()) {
+        if (entry.command->onBusy == OnBusy::Reject) {
+            refuse(verdict, Reason::Busy, EventText{activity_->command()} << " is running");
+            return;
+        }
+        activity_->cancel(thread_->clock, true, "replaced by a newer request");
+    }
+    startedNow_ = true;
+    cancelWhy_ = nullptr;
+    activity_->start(entry, handlers_[command], request, origin, nominalTime_, verdict);
+    copyRecord(response, activity_->response(), entry.response.size);
+}
+
+void CommandPort::cancel(Verdict& verdict) {
+    if (!activity_->running()) {
+        refuse(verdict, Reason::State, "no long command is running");
+        return;
+    }
+    activity_->cancel(thread_->clock, true, "cancelled by a command");
+}
+
+// All or nothing: everything is checked before anything is written.
+void CommandPort::set(const std::byte* request, Verdict& verdict) {
+    bool any = false;
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+        if (request[i] == std::byte{0}) continue;
+        if (!settable(targets_[i], request, verdict)) return;
+        any = true;
+    }
+    if (!any) {
+        refuse(verdict, Reason::Range, "set names no item");
+        return;
+    }
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+        if (request[i] != std::byte{0}) targets_[i].store(request);
+    }
+}
+
+bool CommandPort::settable(const Target& target, const std::byte* request, Verdict& verdict) const {
+    const DataItem& item = *target.check->item;
+    if (!stateless_ && !item.settable.has(state_)) {
+        refuse(verdict, Reason::State, stateRefusal(item.name, item.settable, state_));
+        return false;
+    }
+    if (checkArgument(*target.check, request, verdict.why)) return true;
+    verdict.outcome = Outcome::Rejected;
+    verdict.reason = Reason::Range;
+    return false;
+}
+
+void CommandPort::Target::store(const std::byte* record) const {
+    const std::byte* from = record + check->offset;
+    const std::uint32_t element = check->kind == Kind::Bool ? 1U : 8U;
+    if (check->kind != Kind::String) {
+        std::memcpy(cell, from, std::size_t{check->length} * element);
+        return;
+    }
+    const std::uint32_t stride = StringCell::size(check->item->capacity);
+    for (std::uint32_t i = 0; i < check->length; ++i) {
+        const auto& text = *reinterpret_cast<const StringCell*>(from + i * stride);
+        auto* to = reinterpret_cast<StringCell*>(static_cast<std::byte*>(cell) + i * stride);
+        to->assign(text.view());
+    }
+}
+
+void CommandPort::stepActivity() {
+    if (startedNow_) return;
+    if (cancelWhy_ != nullptr) {
+        activity_->cancel(thread_->clock, true, std::exchange(cancelWhy_, nullptr));
+        return;
+    }
+    activity_->step(thread_->clock, nominalTime_);
+}
+
+bool CommandPort::cancelActivity(LoopThread& thread, bool callHandler) {
+    if (activity_ == nullptr || !activity_->running()) return true;
+    try {
+        activity_->cancel(thread.clock, callHandler, "its simplex left Active");
+    } catch (...) {
+        runtime_.post(thread, Severity::Error, EventKind::Fault, simplex_,
+                      "the handler of its long command threw while it was cancelled");
+        return false;
+    }
+    return true;
+}
+
+void CommandPort::enqueue(OutsideEntry& entry) {
+    OutsideEntry** place = &outside_;
+    while (*place != nullptr && (*place)->before(entry)) place = &(*place)->next;
+    entry.next = *place;
+    *place = &entry;
+}
+
+const OutsideEntry* CommandPort::activityOrigin() const {
+    return activity_ != nullptr && activity_->running() ? activity_->origin().outside : nullptr;
+}
+
+void CommandPort::count(const Verdict& verdict, std::int64_t latency) {
+    if (verdict.outcome == Outcome::Rejected || verdict.outcome == Outcome::Expired) {
+        ++thread_->rejected;
+        return;
+    }
+    ++thread_->commands;
+    thread_->lastLatency = latency;
+    ++thread_->latencyCounts[latencyBucket(latency)];
+}
+
+Outcome CommandPort::mailboxFull(CommandSender::State& state) {
+    ++thread_->rejected;
+    state.answer.outcome = Outcome::MailboxFull;
+    if (!std::exchange(state.full, true)) {
+        const std::uint32_t receiver = state.lane->shape().receiver;
+        EventText text{state.table->entries[state.command].name};
+        text << " to " << runtime_.structure().simplexes[receiver].path
+             << ": the mailbox is full, not sent";
+        runtime_.post(*thread_, Severity::Warning, EventKind::Refusal, simplex_, text);
+    }
+    return Outcome::MailboxFull;
+}
+
+}  // namespace cortex

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/agent.hpp"
+
+#include "activity.hpp"
+#include "lane.hpp"
+#include "outside_command.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace cortex {
+
+// "zero needs Standby or Active, is Fault"
+EventText stateRefusal(std::string_view what, StateSet needs, State state) CORTEX_REALTIME;
+
+// Both ends of the commands of one simplex: lanes that it receives from in canonical order of
+// senders, the queue from outside, handlers, its long command, and the lanes that it sends on.
+// Set up in populate() and start(); afterwards its task's, and between cycles the loop thread's.
+class CommandPort {
+public:
+    CommandPort(AgentRuntime& runtime, std::uint32_t simplex, const CommandTable& table);
+
+    void setHandler(std::uint32_t command, Handler handler) { handlers_[command] = handler; }
+    void addReceiving(Lane& lane) { receiving_.push_back(&lane); }  // in canonical order
+    void addSending(Lane& lane) { sending_.push_back(&lane); }
+
+    const CommandTable& table() const { return table_; }
+    bool hasLanes() const { return !receiving_.empty(); }
+    bool hasWork() const CORTEX_REALTIME;
+    // Step (1). What a handler throws passes through, after its command was answered Failed.
+    void process(State state, const Tick& tick, LoopThread& thread) CORTEX_REALTIME;
+    // False: the handler threw on its last call.
+    bool cancelActivity(LoopThread& thread, bool callHandler);
+    void enqueue(OutsideEntry& entry) CORTEX_REALTIME;  // between cycles
+    // Between cycles: the long command is cancelled in the next step (1).
+    void requestCancel(const char* why) CORTEX_REALTIME { cancelWhy_ = why; }
+    const OutsideEntry* activityOrigin() const CORTEX_REALTIME;
+
+    LoopThread& thread() { return *thread_; }
+    Outcome mailboxFull(CommandSender::State& state) CORTEX_REALTIME;
+
+private:
+    struct Target {  // of `set`
+        const ArgumentCheck* check;
+        void* cell;
+
+        void store(const std::byte* record) const CORTEX_REALTIME;
+    };
+    void drain(Lane& lane);
+    void drainOutside();
+    void stepActivity();
+    void execute(std::uint32_t command, const std::byte* request, std::byte* response,
+                 const Origin& origin, Verdict& verdict);
+    bool accepted(const CommandTable::Entry& entry, const std::byte* request, Verdict& verdict);
+    void startActivity(std::uint32_t command, const std::byte* request, std::byte* response,
+                       const Origin& origin, Verdict& verdict);
+    void cancel(Verdict& verdict);
+    void set(const std::byte* request, Verdict& verdict);
+    void answer(Lane& lane, const Verdict& verdict);
+    void count(const Verdict& verdict, std::int64_t latency) CORTEX_REALTIME;
+    bool settable(const Target& target, const std::byte* request, Verdict& verdict) const;
+
+    LoopThread* thread_ = nullptr;
+    const CommandTable& table_;
+    std::vector<Lane*> receiving_, sending_;
+    OutsideEntry* outside_ = nullptr;
+    std::unique_ptr<Activity> activity_;
+    std::vector<Handler> handlers_;
+    State state_ = State::Standby;
+    bool stateless_;           // a descriptive simplex: always settable
+    bool startedNow_ = false;  // the activity had its call of this step
+    const char* cancelWhy_ = nullptr;
+    std::int64_t nominalTime_ = 0;
+    std::vector<Target> targets_;
+    AgentRuntime& runtime_;
+    std::uint32_t simplex_;
+};
+
+}  // namespace cortex

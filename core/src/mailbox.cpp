@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/mailbox.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "command_port.hpp"
+#include "lane.hpp"
+#include "lookup.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+#include <utility>
+
+namespace cortex {
+namespace {
+
+constexpr std::uint32_t lineSize = 64;
+
+const ItemLayout& parameterAt(const CommandSender::State* state, std::string_view name, Kind kind,
+                              bool request) {
+    if (state == nullptr) throw Error("this command sender is unbound: get it in populate()");
+    const CommandTable::Entry& entry = state->table->entries[state->command];
+    const RecordLayout& layout = request ? entry.request : entry.response;
+    const ItemLayout* item = layout.find(name);
+    const std::string what = std::string{"command '"} + std::string{entry.name} + "' has no " +
+                             (request ? "request" : "response") + " parameter '";
+    if (item == nullptr) {
+        std::vector<std::string> valid;
+        for (const ItemLayout& each : layout.items) valid.push_back(each.item->name);
+        throwUnknown(what + std::string{name} + "'", name, valid);
+    }
+    if (item->item->kind != kind || item->item->length != 1) {
+        throw Error(what + std::string{name} + "' as one " + cortex::name(kind) + ": it is " +
+                    shapeOf(*item->item));
+    }
+    return *item;
+}
+
+}  // namespace
+
+Verdict verdictOf(Outcome outcome, const Call& call) {
+    Verdict verdict{outcome, call.reason(), {}};
+    if (!call.why().empty()) verdict.why.emplace(call.why());
+    if (outcome == Outcome::None || outcome >= Outcome::MailboxFull) {
+        verdict.outcome = Outcome::Failed;
+    }
+    return verdict;
+}
+
+Lane::Lane(const Shape& shape, std::vector<CommandSender::State*> handles)
+    : mask_{std::bit_ceil(std::max(shape.capacity, 1U)) - 1U},
+      capacity_{shape.capacity},
+      delayed_{shape.delayed},
+      hasLong_{shape.hasLong},
+      shape_{shape},
+      handles_{std::move(handles)},
+      whys_(mask_ + 1U) {
+    const auto octets =
+        static_cast<std::uint32_t>(sizeof(LaneSlot)) + shape.requestSize + shape.responseSize;
+    const std::uint32_t lines = (octets + lineSize - 1U) / lineSize;
+    stride_ = lines * lineSize;
+    memory_.resize(std::size_t{lines} * (mask_ + 1U));
+    slots_ = memory_.front().octets;
+    for (std::uint64_t i = 0; i <= mask_; ++i) new (place(i)) LaneSlot;
+    if (!hasLong_) return;
+    finals_.resize(capacity_ + 1U);
+    finalResponses_ = std::make_unique<std::byte[]>(finals_.size() * shape.responseSize);
+}
+
+std::uint64_t Lane::post(std::uint16_t command, std::uint16_t handle, const std::byte* request,
+                         std::uint32_t size, const ChunkClock& clock) {
+    if (tail_ - taken_ >= capacity_) return 0;
+    if (tail_ == taken_) first_ = tail_;
+    LaneSlot& head = slot(tail_);
+    head.cycles = clock.cycle;
+    head.time = clock.nanoseconds;
+    head.command = command;
+    head.handle = handle;
+    copyRecord(record(tail_), request, size);
+    return ++tail_;
+}
+
+void Lane::answer(const Verdict& verdict, const ChunkClock& clock) {
+    LaneSlot& head = front();
+    head.cycles = clock.cycle - head.cycles;
+    head.time = std::max(clock.nanoseconds - head.time, std::int64_t{0});
+    head.outcome = verdict.outcome;
+    head.reason = verdict.reason;
+    head.worded = verdict.why.has_value();
+    if (head.worded) whys_[(head_ - first_) & mask_] = *verdict.why;
+}
+
+void Lane::finish(const AnswerHead& answer, std::uint16_t handle, const std::byte* response,
+                  std::uint32_t size) {
+    const std::size_t place = finalTail_ % finals_.size();
+    finals_[place] = {answer, handle};
+    copyRecord(&finalResponses_[place * shape_.responseSize], response, size);
+    ++finalTail_;
+}
+
+void Lane::takeAnswers() {
+    const std::uint64_t end = delayed_ ? latchedHead_ : head_;
+    while (taken_ != end) {
+        const LaneSlot& head = slot(taken_);
+        CommandSender::State& state = *handles_[head.handle];
+        AnswerHead& answer = state.answer;
+        answer.number = taken_ + 1;
+        answer.latencyCycles = head.cycles;
+        answer.latency = head.time;
+        answer.reason = head.reason;
+        answer.outcome = head.outcome;
+        if (head.worded)
+            answer.why = whys_[(taken_ - first_) & mask_];
+        else if (state.worded)
+            answer.why = {};
+        state.worded = head.worded;
+        copyRecord(state.response, record(taken_) + shape_.requestSize, state.responseSize);
+        ++state.answered;
+        ++taken_;
+    }
+    if (hasLong_) takeFinals();
+}
+
+void Lane::takeFinals() {
+    const std::uint64_t end = delayed_ ? latchedFinalTail_ : finalTail_;
+    for (; finalTaken_ != end; ++finalTaken_) {
+        const std::size_t place = finalTaken_ % finals_.size();
+        const Final& final = finals_[place];
+        handles_[final.handle]->storeFinal(final.answer,
+                                           &finalResponses_[place * shape_.responseSize]);
+    }
+}
+
+void Lane::latch() {
+    latchedTail_ = tail_;
+    latchedHead_ = head_;
+    latchedFinalTail_ = finalTail_;
+}
+
+bool Lane::startsRefusing(bool refused) { return !std::exchange(refusing_, refused) && refused; }
+
+CommandSender::State::State(const CommandTable& commands, std::uint32_t entry,
+                            std::uint32_t edgeIndex, std::uint32_t room)
+    : command{static_cast<std::uint16_t>(entry)},
+      requestSize{commands.entries[entry].request.size},
+      responseSize{commands.entries[entry].response.size},
+      table{&commands},
+      edge{edgeIndex},
+      capacity{room},
+      records((requestSize + responseSize) / 8U + 1U) {
+    request = reinterpret_cast<std::byte*>(records.data());
+    response = request + requestSize;
+    initialiseRecord(commands.entries[entry].request, request);
+    initialiseRecord(commands.entries[entry].response, response);
+}
+
+void CommandSender::State::storeFinal(const AnswerHead& head, const std::byte* record) {
+    answer = head;
+    worded = true;
+    copyRecord(response, record, responseSize);
+}
+
+Outcome CommandSender::send() {
+    State& state = *state_;
+    if (state.lane == nullptr) return Outcome::MailboxFull;  // before start()
+    state.answer.outcome = Outcome::None;
+    if (state.lane->post(state.command, state.handle, state.request, state.requestSize,
+                         state.sender->thread().clock) == 0) {
+        return state.sender->mailboxFull(state);
+    }
+    state.full = false;
+    ++state.sent;
+    return Outcome::None;
+}
+
+const AnswerHead& CommandSender::answer() const { return state_->answer; }
+std::uint64_t CommandSender::sent() const { return state_->sent; }
+std::uint64_t CommandSender::answered() const { return state_->answered; }
+
+void* CommandSender::argumentCell(std::string_view name, Kind kind) {
+    const ItemLayout& item = parameterAt(state_.get(), name, kind, true);
+    const CommandTable::Entry& entry = state_->table->entries[state_->command];
+    if (entry.command == nullptr) {  // `set`: the flag of this item
+        state_->request[&item - entry.request.items.data()] = std::byte{1};
+    }
+    return state_->request + item.offset;
+}
+
+const void* CommandSender::responseCell(std::string_view name, Kind kind) {
+    return state_->response + parameterAt(state_.get(), name, kind, false).offset;
+}
+
+}  // namespace cortex
