@@ -69,6 +69,12 @@ void ClusterLoop::prepareThread() {
     pool.priority = options_.priority;
     pool.affinity = options_.cpus;
     pool.oversubscribe = options_.forceThreads;
+    if (options_.onThreadStart) {
+        pool.onStart = [](void* options, std::uint32_t worker) {
+            static_cast<const ClusterOptions*>(options)->onThreadStart(worker);
+        };
+        pool.onStartContext = &options_;
+    }
     pool_ = std::make_unique<ThreadPool>(
         schedule_,
         [](void* runner, std::uint32_t chunk, std::uint32_t worker) {
@@ -78,6 +84,7 @@ void ClusterLoop::prepareThread() {
     append(pool_->report());
     append(pool_->configureLoopThread());
     if (options_.priority > 0 && options_.lockMemory) append(lockMemory());
+    if (options_.onThreadStart) options_.onThreadStart(0);
 }
 
 void ClusterLoop::run() {

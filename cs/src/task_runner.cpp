@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "task_runner.hpp"
 
-#include "realtime_thread.hpp"
 #include "state_machine.hpp"
 
 #include <algorithm>
@@ -38,7 +37,6 @@ void TaskRunner::beginCycle(const Tick& tick) {
 }
 
 void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
-    setFloatingPointMode();
     LoopThread& thread = agent_.thread(worker);
     thread.clock = {tick_.cycle, monotonicNow()};
     const Chunk& work = chunks_[chunk];

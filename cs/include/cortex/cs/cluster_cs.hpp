@@ -36,6 +36,8 @@ struct ClusterOptions {
     double watchdogPeriods = 10;   // at least 100 ms
     bool controlRequired = false;  // commands from outside need a control lease
     std::uint32_t imageReaders = 8;
+    // Runs on each of the loop's threads (0: the loop's own) before its first cycle.
+    std::function<void(std::uint32_t thread)> onThreadStart{};
     // For tests and measurements.
     bool forceThreads = false;    // use `threads` even where one would do
     std::uint32_t chunkSize = 0;  // tasks a chunk; 0: the schedule decides

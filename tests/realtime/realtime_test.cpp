@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tick is sacred: nothing on the loop's threads allocates, locks, calls the system or meets a new
+// page, while the whole case study runs with an observer, commands from outside and a fault.
+#include "cortex/core/registry.hpp"
+#include "cortex/toolkit/classes.hpp"
+#include "realtime/detectors.hpp"
+#include "support/probe.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace cortex::test {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+// The internal clock; a tick lasts from the return of waitForTick to its next call.
+class WatchedClock final : public cs::TriggerSource {
+public:
+    void start() override { clock_.start(); }
+    cs::Trigger waitForTick() override {
+        leaveTick();
+        const cs::Trigger trigger = clock_.waitForTick();
+        if (!trigger.stopped) enterTick();
+        return trigger;
+    }
+    void interrupt() override { clock_.interrupt(); }
+    std::int64_t period() const override { return clock_.period(); }
+    std::int64_t missed() override { return clock_.missed(); }
+    void skipMissed(bool skip) override { clock_.skipMissed(skip); }
+
+private:
+    cs::InternalClock clock_{1ms};
+};
+
+cs::ClusterOptions watched(std::uint32_t threads, int priority) {
+    cs::ClusterOptions options;
+    options.threads = threads;
+    options.forceThreads = threads > 1;
+    options.priority = priority;
+    options.onThreadStart = [](std::uint32_t thread) {
+        watchThisThread();
+        if (thread > 0) enterTick();  // a worker between cycles only waits
+    };
+    return options;
+}
+
+// Waits until the cluster has run so many cycles more.
+void runCycles(cs::ClusterCS& cluster, std::int64_t cycles) {
+    const std::int64_t last = cluster.image().cycle() + cycles;
+    while (cluster.image().cycle() < last) std::this_thread::sleep_for(1ms);
+}
+
+class CaseStudy : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(CaseStudy, RunsWithoutAllocationLockSystemCallOrPageFault) {
+    resetOffences();
+    const std::string root = CORTEX_SOURCE_DIR;
+    const std::vector<std::filesystem::path> files{
+        root + "/examples/lbr_teleop/lbr_teleop.xml", root + "/tests/data/cs-rules.xml"};
+    ClassRegistry registry;
+    toolkit::addClasses(registry);
+    SimplexTree tree = SimplexTree::load(files, &registry);
+    auto& probe = tree.add<Probe>("/probe", "Probe");
+    std::atomic<bool> broken{false};
+    probe.onActive = [&](Probe& self, const Tick&) {
+        if (broken.exchange(false)) self.fault(5, "asked for by the test");
+    };
+    cs::ClusterCS cluster{"teleop", watched(GetParam(), geteuid() == 0 ? 10 : 0)};
+    cluster.useClasses(registry);
+    cluster.addSimplexTree(tree);
+    cluster.setTriggerSource<WatchedClock>();
+    std::atomic<int> events{0};
+    cluster.addEventSink([&](const Event&, const Structure&) { ++events; });
+    cluster.start();
+    const CallResult started =
+        cluster.call("/teleop", "startup", {{"prefix", std::vector<std::string>{"/"}}}, 20s);
+    ASSERT_EQ(started.outcome, Outcome::Done) << started.text();
+    runCycles(cluster, 200);
+
+    const Offences before = offences();
+    const std::uint64_t faultsBefore = pageFaults();
+    std::atomic<bool> observing{true};
+    std::thread observer{[&] {
+        while (observing) {
+            const Image image = cluster.image();
+            ASSERT_EQ(image.structure().agent, "teleop");
+            std::this_thread::sleep_for(1ms);
+        }
+    }};
+    const int eventsBefore = events;
+    for (int round = 0; round < 3; ++round) {
+        EXPECT_EQ(cluster.call("/probe", "poke").outcome, Outcome::Done);
+        EXPECT_EQ(cluster.call("/probe", "set", {{"gain", std::vector{2.0}}}).outcome,
+                  Outcome::Done);
+        EXPECT_EQ(cluster.call("/probe", "set", {{"gain", std::vector{99.0}}}).outcome,
+                  Outcome::Rejected);
+        broken = true;
+        runCycles(cluster, 200);
+        EXPECT_EQ(cluster.image().get<std::int64_t>("/probe", "state"), 4);
+        EXPECT_EQ(cluster.call("/probe", "clearFaults").outcome, Outcome::Done);
+        EXPECT_EQ(cluster.call("/probe", "startup").outcome, Outcome::Done);
+        runCycles(cluster, 300);
+    }
+    observing = false;
+    observer.join();
+
+    const Offences after = offences();
+    EXPECT_EQ(after.allocations, before.allocations) << after.text();
+    EXPECT_EQ(after.locks, before.locks) << after.text();
+    EXPECT_EQ(after.systemCalls, before.systemCalls) << after.text();
+    EXPECT_EQ(pageFaults(), faultsBefore);
+    EXPECT_TRUE(before.none()) << "already in the first cycles: " << before.text();
+    EXPECT_GT(events, eventsBefore) << "the fault and its events are part of the test";
+    EXPECT_EQ(cluster.threadsInUse(), GetParam());
+    cluster.stop();
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, CaseStudy, testing::Values(1U, 2U, 4U));
+
+struct Misdeed {
+    const char* name;
+    void (*commit)();
+    bool (*seen)(const Offences&, std::uint64_t newFaults);
+};
+
+std::mutex someMutex;
+char* freshPage = nullptr;
+void* volatile kept = nullptr;
+
+class MisbehavingHook : public testing::TestWithParam<Misdeed> {};
+
+TEST_P(MisbehavingHook, IsSeen) {
+    resetOffences();
+    SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};
+    auto& probe = tree.add<Probe>("/probe", "Probe");
+    std::atomic<bool> armed{false}, done{false};
+    probe.onLoopStart = [&](Probe&, const Tick&) {
+        if (!armed.exchange(false)) return;
+        GetParam().commit();
+        done = true;
+    };
+    freshPage = static_cast<char*>(mmap(nullptr, 1 << 16, PROT_READ | PROT_WRITE,
+                                        MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+    cs::ClusterCS cluster{"watched", watched(1, 0)};
+    cluster.addSimplexTree(tree);
+    cluster.setTriggerSource<WatchedClock>();
+    cluster.start();
+    runCycles(cluster, 100);
+    ASSERT_TRUE(offences().none()) << offences().text();
+    const std::uint64_t faults = pageFaults();
+
+    armed = true;
+    while (!done) std::this_thread::sleep_for(1ms);
+    runCycles(cluster, 2);
+
+    EXPECT_TRUE(GetParam().seen(offences(), pageFaults() - faults)) << offences().text();
+    cluster.stop();
+    munmap(freshPage, 1 << 16);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Misdeeds, MisbehavingHook,
+    testing::Values(
+        Misdeed{"malloc",
+                [] {
+                    kept = std::malloc(24);
+                    std::free(kept);
+                },
+                [](const Offences& seen, std::uint64_t) { return seen.allocations >= 2; }},
+        Misdeed{"operatorNew", [] { delete new std::uint64_t{1}; },
+                [](const Offences& seen, std::uint64_t) { return seen.allocations >= 2; }},
+        Misdeed{"mutex", [] { const std::lock_guard lock{someMutex}; },
+                [](const Offences& seen, std::uint64_t) { return seen.locks >= 1; }},
+        Misdeed{"write",
+                [] {
+                    const auto written = write(STDERR_FILENO, "x", 1);
+                    (void)written;
+                },
+                [](const Offences& seen, std::uint64_t) {
+                    return seen.systemCalls == 1 && seen.firstSystemCall == 1;
+                }},
+        Misdeed{"newPage", [] { freshPage[1 << 15] = 1; },
+                [](const Offences&, std::uint64_t newFaults) { return newFaults >= 1; }}),
+    [](const auto& misdeed) { return std::string{misdeed.param.name}; });
+
+}  // namespace
+
+}  // namespace cortex::test
