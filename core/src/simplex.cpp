@@ -21,9 +21,6 @@ struct Access {
 void checkShape(const DataItem& item, const Access& access, const std::string& where) {
     const std::string asked = std::string{access.write ? "writing" : "reading"} + " one " +
                               (access.array ? "array of " : "") + name(access.kind);
-    if (access.array && access.kind == Kind::String) {
-        throw Error(where + ": array() is not for strings");
-    }
     if (item.kind != access.kind || (item.length > 1 && !access.array)) {
         throw Error(where + " is " + shapeOf(item) + ": " + asked +
                     " does not fit; take data<…>() or array<…>() of its kind");

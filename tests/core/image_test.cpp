@@ -105,7 +105,8 @@ TEST_F(ImageTest, ReleasesItsPinWhenItIsReplaced) {
     Image& same = image;
     image = std::move(same);
     EXPECT_TRUE(image);
-    other = std::move(image);
+    Image moved{std::move(image)};
+    other = std::move(moved);
     EXPECT_EQ(other.cycle(), 8);
     EXPECT_TRUE(pool.newest());
 }

@@ -57,6 +57,10 @@ constexpr Kind kindFor() {
     }
 }
 
+// What arrays consist of as spans; strings are read one by one, from images.
+template <class T>
+concept ArrayElement = !std::is_same_v<std::remove_const_t<T>, std::string_view>;
+
 // Handle to one scalar item: a plain pointer into the tables, used like the value itself.
 // Data<const T> only reads. Got in populate(), used in ticks; unbound until then.
 template <class T>

@@ -53,7 +53,7 @@ public:
         return Data<const T>{static_cast<typename StorageOf<const T>::type*>(
             cell(item, kindFor<T>(), false, false, length))};
     }
-    template <class T>  // not for strings
+    template <ArrayElement T>
     std::span<const T> array(std::string_view item) const {
         std::size_t length = 0;
         auto* first = static_cast<const T*>(cell(item, kindFor<T>(), true, false, length));
@@ -75,7 +75,7 @@ public:
         return Data<T>{static_cast<typename StorageOf<T>::type*>(
             cell(item, kindFor<T>(), false, !std::is_const_v<T>, length))};
     }
-    template <class T>
+    template <ArrayElement T>
     std::span<T> array(std::string_view item) const {
         std::size_t length = 0;
         auto* first =
@@ -144,7 +144,7 @@ public:
         return Data<T>{static_cast<typename StorageOf<T>::type*>(
             cell(item, kindFor<T>(), false, !std::is_const_v<T>, length))};
     }
-    template <class T>
+    template <ArrayElement T>
     std::span<T> array(std::string_view item) {
         std::size_t length = 0;
         auto* first =
