@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "axis_controllers.hpp"
 
+#include <cmath>
+#include <numbers>
+
 namespace cortex::toolkit {
 
 void HoldAxisController::populate() {
@@ -30,6 +33,23 @@ void FollowAxisController::stateActive(const Tick&) {
     for (std::size_t i = 0; i < demands_.size(); ++i) {
         demands_[i].write(targets_[i].position, targets_[i].velocity);
     }
+}
+
+void SineController::populate() {
+    axis_.emplace(output("axis"));
+    amplitude_ = data<const double>("amplitude");
+    frequency_ = data<const double>("frequency");
+}
+
+bool SineController::stateStartingUp(const Tick& tick) {
+    startedAt_ = tick.nominalTime;
+    return true;
+}
+
+void SineController::stateActive(const Tick& tick) {
+    const double turning = 2 * std::numbers::pi * frequency_;
+    const double angle = turning * static_cast<double>(tick.nominalTime - startedAt_) * 1e-9;
+    axis_->write(amplitude_ * std::sin(angle), amplitude_ * turning * std::cos(angle));
 }
 
 }  // namespace cortex::toolkit

@@ -4,6 +4,8 @@
 #include "cortex/cs/simplex_cs.hpp"
 #include "handles.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace cortex::toolkit {
@@ -34,6 +36,21 @@ private:
 
     std::vector<AxisInput> targets_;
     std::vector<AxisOutput> demands_;
+};
+
+// Moves one axis to and fro.
+class SineController final : public cs::SimplexCS {
+public:
+    using SimplexCS::SimplexCS;
+
+private:
+    void populate() override;
+    bool stateStartingUp(const Tick& tick) override;
+    void stateActive(const Tick& tick) override;
+
+    std::optional<AxisOutput> axis_;
+    Data<const double> amplitude_, frequency_;
+    std::int64_t startedAt_ = 0;
 };
 
 }  // namespace cortex::toolkit

@@ -16,6 +16,7 @@ void addClasses(ClassRegistry& registry) {
     registry.add<InverseKinematics>("InverseKinematics");
     registry.add<HoldAxisController>("HoldAxisController");
     registry.add<FollowAxisController>("FollowAxisController");
+    registry.add<SineController>("SineController");
     registry.add<CartesianFollowController>("CartesianFollowController");
     registry.add<ProcessorSelector>("ProcessorSelector");
     registry.add<SimulatedAxis>("SimulatedAxis");
