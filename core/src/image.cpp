@@ -51,9 +51,13 @@ std::int64_t Image::nominalTime() const { return pool().slots_[slot_].nominalTim
 std::int64_t Image::wallClock() const { return pool().slots_[slot_].wallClock; }
 const Structure& Image::structure() const { return pool().tables_.structure(); }
 
-SlotState Image::state(std::uint32_t simplex) const {
-    return *pool().tables_.sliceIn(pool().slots_[slot_].memory, simplex).state;
+Slice Image::slice(std::uint32_t simplex) const {
+    return pool().tables_.sliceIn(pool().slots_[slot_].memory, simplex);
 }
+
+Slice Image::constants(std::uint32_t simplex) const { return pool().tables_.constants(simplex); }
+
+SlotState Image::state(std::uint32_t simplex) const { return *slice(simplex).state; }
 
 Quality Image::quality(std::string_view path) const {
     return state(simplexAt(structure(), path)).quality;
@@ -61,9 +65,9 @@ Quality Image::quality(std::string_view path) const {
 
 const void* Image::cells(std::uint32_t simplex, const ItemLayout& item) const {
     const Tables& tables = pool().tables_;
-    const Slice slice = item.item->constant ? tables.constants(simplex)
-                                            : tables.sliceIn(pool().slots_[slot_].memory, simplex);
-    return slice.at(item.item->kind, item.offset);
+    const Slice from = item.item->constant ? tables.constants(simplex)
+                                           : tables.sliceIn(pool().slots_[slot_].memory, simplex);
+    return from.at(item.item->kind, item.offset);
 }
 
 const void* Image::element(std::string_view path, std::string_view item, Kind kind) const {

@@ -39,6 +39,9 @@ public:
     }
     Value value(std::uint32_t simplex, const ItemLayout& item) const;  // any kind, arrays too
     Value value(std::string_view path, std::string_view item) const;
+    // For transports: the slices of one simplex, to read from. Constants have no state.
+    Slice slice(std::uint32_t simplex) const CORTEX_REALTIME;
+    Slice constants(std::uint32_t simplex) const CORTEX_REALTIME;
 
 private:
     friend class ImagePool;

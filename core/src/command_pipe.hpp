@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/communication_interface.hpp"
+#include "cortex/core/program_interface.hpp"
+
+#include "spsc_ring.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cortex {
+
+// Commands from threads of this process into one agent's loop, and their answers back. Off the loop
+// one thread at a time (the owner's mutex); read() and write() in the loop.
+class CommandPipe {
+public:
+    CommandPipe(const AgentAccess& agent, std::uint32_t capacity);
+
+    const Structure& structure() const { return *agent_.structure; }
+    std::int64_t newestCycle() const { return agent_.images->newestCycle(); }
+    const CommandTable& table(std::uint32_t simplex) const { return *tables_[simplex]; }
+
+    // False: full. `record` is copied.
+    bool push(const OutsideCommand& command, const std::byte* record);
+    // The next answer, valid until popAnswer(); null: none.
+    const OutsideAnswer* answer() { return answers_.front(); }
+    void popAnswer() { answers_.pop(); }
+
+    void read(Inbox& inbox) CORTEX_REALTIME;
+    void write(Outbox& outbox) CORTEX_REALTIME;  // what finds no room waits for the next cycle
+
+private:
+    AgentAccess agent_;
+    std::map<const TypeLayout*, CommandTable> byLayout_;
+    std::vector<const CommandTable*> tables_;
+    SpscRing<OutsideCommand> commands_;
+    SpscRing<OutsideAnswer> answers_;
+    std::vector<std::byte> requests_, responses_;
+};
+
+// One sender's side of its commands to one agent: sequence numbers, what is unanswered, and answers
+// until they are fetched (the last thousand). Used under its owner's mutex.
+class CommandClient {
+public:
+    explicit CommandClient(Sender sender) : sender_{sender} {}
+
+    const Sender& sender() const { return sender_; }
+    // Throws Error as ProgramInterface::post(). Full pipes and windows answer MailboxFull.
+    std::uint64_t post(CommandPipe& pipe, std::string_view path, std::string_view command,
+                       const ProgramInterface::Arguments& arguments, std::int64_t notAfter);
+    void take(const OutsideAnswer& answer, const CommandPipe& pipe);
+    bool poll(std::uint64_t sequence, CallResult& result);
+    void abandon(std::uint64_t sequence);  // its answer will not be fetched
+    void loseAll(const std::string& why);  // no answer will come: Unknown
+
+private:
+    void finish(std::uint64_t sequence, CallResult result);
+
+    Sender sender_;
+    std::uint64_t next_ = 1;
+    std::map<std::uint64_t, bool> unanswered_;  // true: abandoned
+    std::map<std::uint64_t, CallResult> results_;
+};
+
+// Name cut to what fits, this host, and a start later than any other of this process.
+Sender makeSender(std::string_view name);
+
+}  // namespace cortex
