@@ -103,6 +103,17 @@ const SlotState& RelatedSimplex::state() const {
     return *owner_->runtime().tables().edge(edge_).state;
 }
 
+Simplex& RelatedSimplex::simplex() const {
+    AgentRuntime& runtime = owner_->runtime();
+    const std::uint32_t target = runtime.structure().edges[edge_].target;
+    if (runtime.structure().simplexes[target].remote) {
+        throw Error(owner_->path() + ": " + path() + " belongs to another agent; send it a command");
+    }
+    return runtime.simplex(target);
+}
+
+bool RelatedSimplex::later() const { return owner_->runtime().structure().edges[edge_].delayed; }
+
 bool RelatedSimplex::has(std::string_view item) const { return type().findData(item) != nullptr; }
 
 void* RelatedSimplex::cell(std::string_view item, Kind kind, bool array, bool write,
