@@ -5,6 +5,7 @@
 #include "remedies.hpp"
 #include "system_findings.hpp"
 #include "text.hpp"
+#include "validation_checks.hpp"
 
 namespace cortex {
 namespace {
@@ -55,7 +56,8 @@ const Type* checkType(const TypeModel& types, const Entry& entry, Report& report
     for (const auto& [name, each] : types.types()) {
         if (!each.isAbstract) names.push_back(name);
     }
-    const std::string nearest = nearestName(entry.type, names);
+    std::string nearest;
+    if (looksForNearest(report)) nearest = nearestName(entry.type, names);
     report.error(entry.path, finding::unknownType, entry.place,
                  "there is no type '" + entry.type + "' in the ontology",
                  nearest.empty() ? "add <ontology file=\"…\"/> with the file that defines it"
@@ -72,10 +74,12 @@ const char* ruleOf(const DataItem& item, std::string text) {
     return special && item.kind == Kind::Float ? finding::settingFinite : finding::settingKind;
 }
 
-void addSetting(Simplex& simplex, const SystemDescription::Setting& setting, Report& report) {
+void addSetting(const TypeModel& types, Simplex& simplex, const SystemDescription::Setting& setting,
+                Report& report) {
     const DataItem* item = simplex.type().findData(setting.data);
-    if (item == nullptr) {  // validate() says so; of no known kind it stays text
-        simplex.set(setting.data, Value{std::vector{setting.value}}, setting.place);
+    if (item == nullptr) {
+        const Value text{std::vector{setting.value}};
+        reportUnknownItem(types, simplex, {setting.data, text, setting.place}, report);
         return;
     }
     std::string why;
@@ -104,7 +108,7 @@ void SimplexTree::add(const SystemDescription& system, const ClassRegistry* regi
             simplex.relations_.push_back(
                 {relate.rule, relate.to, relate.delayed, relate.remote, relate.place});
         }
-        for (const auto& setting : entry.settings) addSetting(simplex, setting, report);
+        for (const auto& setting : entry.settings) addSetting(*types_, simplex, setting, report);
     }
     auto& all = description_;
     if (all.name.empty()) {

@@ -16,6 +16,9 @@ std::string valueText(const Value& value);  // as the attribute `value` holds it
 
 // The nearest of `valid`, "" if none is near.
 std::string nearestName(std::string_view wrong, const std::vector<std::string>& valid);
+// Whether to look for names that are near: not for the many findings of a hopeless model.
+inline bool looksForNearest(const Report& report) { return report.findings.size() < 200; }
+
 // "a, b, c and 4 more"
 std::string listText(const std::vector<std::string>& names, std::size_t most = 6);
 

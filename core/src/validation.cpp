@@ -7,8 +7,6 @@
 #include "system_findings.hpp"
 #include "validation_checks.hpp"
 
-#include <algorithm>
-
 namespace cortex {
 namespace {
 
@@ -19,19 +17,6 @@ void checkAgentType(const Checked& checked) {
     checked.report.error("/" + path, finding::agentType, description.place,
                          "the ontology has no type 'Agent', which the agent's own simplex is of",
                          "include base.xml: <ontology file=\"base.xml\"/>");
-}
-
-void checkLongCommands(const Checked& checked) {
-    for (const auto& [name, type] : checked.tree.types().types()) {
-        const auto command = std::ranges::find_if(type.commands, &Command::isLong);
-        if (command == type.commands.end() || type.isA("Activity")) continue;
-        std::string parents;
-        for (const auto& parent : type.parents) parents += parent + " ";
-        checked.report.error(name, finding::longActivity, type.place,
-                             "command '" + command->name + "' is long (" + command->place.text() +
-                                 "), but the type is no Activity",
-                             "write extends=\"" + parents + "Activity\"");
-    }
 }
 
 void checkClusterPath(const Checked& checked) {
@@ -76,7 +61,6 @@ void checkRate(const Checked& checked, const Simplex& simplex) {
 
 void checkModel(const Checked& checked) {
     checkAgentType(checked);
-    checkLongCommands(checked);
     checkClusterPath(checked);
 }
 
@@ -88,7 +72,8 @@ void checkSimplex(const Checked& checked, const Simplex& simplex) {
 Report validate(const SimplexTree& tree) {
     Report report;
     const auto structure = makeStructure("", tree);
-    const Checked checked{tree, *structure, report};
+    Checked checked{tree, *structure, report, {}};
+    for (const auto& entry : tree.description().simplexes) checked.declared.insert(entry.path);
     checkModel(checked);
     for (const auto& [path, simplex] : tree.simplexes()) {
         checkSimplex(checked, *simplex);

@@ -6,6 +6,8 @@
 #include "cortex/core/structure.hpp"
 
 #include <string>
+#include <string_view>
+#include <unordered_set>
 
 namespace cortex {
 
@@ -15,6 +17,8 @@ struct Checked {
     const SimplexTree& tree;
     const Structure& structure;
     Report& report;
+    // Paths that stand in the system file, also of simplexes that were refused.
+    std::unordered_set<std::string_view> declared;
 
     const SimplexInfo& info(const Simplex& simplex) const {
         return structure.simplexes[structure.find(simplex.path())];
@@ -26,6 +30,8 @@ void checkSimplex(const Checked& checked, const Simplex& simplex);
 void checkRelations(const Checked& checked, const Simplex& simplex);
 void checkCounts(const Checked& checked, const Simplex& simplex);
 void checkSettings(const Checked& checked, const Simplex& simplex);
+void reportUnknownItem(const TypeModel& types, const Simplex& simplex,
+                       const Simplex::Setting& setting, Report& report);
 // Over all relationships: writers, demands without a safe value, loops.
 void checkFlow(const Checked& checked);
 
@@ -33,6 +39,7 @@ void checkFlow(const Checked& checked);
 std::string ruleText(const Simplex& owner, const Rule& rule);
 Place placeFor(const Simplex& owner, const Rule& rule);
 // Simplexes that could be related under the rule and are not yet, the nearest in the tree first.
+// None when the report is long already: looking for them takes time.
 std::vector<std::string> fitting(const Checked& checked, const Simplex& owner, const Rule& rule);
 
 }  // namespace cortex

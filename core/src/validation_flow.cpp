@@ -6,9 +6,13 @@
 #include "validation_checks.hpp"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 namespace cortex {
 namespace {
+
+constexpr std::size_t mostPrinted = 10'000;
 
 // The edges of a structure with the relations that they come from, and the simplexes by index.
 class Flow {
@@ -47,7 +51,7 @@ private:
     void checkMixed(const std::vector<std::uint32_t>& outputs);
     void checkSafe(const SimplexInfo& demand, const Simplex& simplex);
     void checkObserved(std::uint32_t index);
-    std::vector<std::uint32_t> targetsUnder(const Edge& output, std::string_view rule) const;
+    std::span<const Edge> edgesUnder(std::uint32_t simplex, std::string_view rule) const;
     std::string observationError(const Edge& output, std::string_view rule,
                                  const DataItem& item) const;
     std::string counterpartRemedy(const Edge& output, const DataItem& item) const;
@@ -152,27 +156,27 @@ void Flow::checkSafe(const SimplexInfo& demand, const Simplex& simplex) {
                               "' (" + first->place.text() + "), or \"hold\", or \"observed\"");
 }
 
-std::vector<std::uint32_t> Flow::targetsUnder(const Edge& output, std::string_view rule) const {
-    const SimplexInfo& writer = info(output.owner);
-    std::vector<std::uint32_t> targets;
-    for (std::uint32_t n = writer.firstEdge; n < writer.firstEdge + writer.edgeCount; ++n) {
-        if (edge(n).rule->name == rule) targets.push_back(edge(n).target);
-    }
-    return targets;
+// Edges of a simplex lie by rule: those under one rule are neighbours.
+std::span<const Edge> Flow::edgesUnder(std::uint32_t simplex, std::string_view rule) const {
+    const std::span<const Edge> all{checked_.structure.edges};
+    const auto own = all.subspan(info(simplex).firstEdge, info(simplex).edgeCount);
+    const auto ruleName = [](const Edge& each) -> std::string_view { return each.rule->name; };
+    const auto [first, last] = std::ranges::equal_range(own, rule, {}, ruleName);
+    return {first, last};
 }
 
 // "" if the n-th simplex under `rule`, or its only one, observes the item that is demanded n-th.
 std::string Flow::observationError(const Edge& output, std::string_view rule,
                                    const DataItem& item) const {
-    const auto demanded = targetsUnder(output, output.rule->name);
-    const auto observing = targetsUnder(output, rule);
-    const auto place = std::ranges::find(demanded, output.target) - demanded.begin();
-    const auto position = observing.size() == 1 ? 0 : static_cast<std::size_t>(place);
+    const auto demanded = edgesUnder(output.owner, output.rule->name);
+    const auto observing = edgesUnder(output.owner, rule);
+    const auto place = static_cast<std::size_t>(&output - demanded.data());
+    const std::size_t position = observing.size() == 1 ? 0 : place;
     if (position >= observing.size()) {
         return "has its counterpart under rule '" + std::string{rule} +
                "', which has no simplex in place " + std::to_string(position + 1);
     }
-    const SimplexInfo& observed = info(observing[position]);
+    const SimplexInfo& observed = info(observing[position].target);
     const DataItem* found = observed.layout->type->findData(item.name);
     if (found == nullptr) return "observes " + observed.path + ", which has no '" + item.name + "'";
     const bool same =
@@ -211,7 +215,12 @@ void Flow::checkObserved(std::uint32_t index) {
 }
 
 void Flow::checkLoops() {
-    for (const Loop& loop : findLoops(checked_.structure)) reportLoop(loop);
+    std::size_t printed = 0;  // simplexes: many long loops are one mistake
+    for (const Loop& loop : findLoops(checked_.structure)) {
+        if (printed > mostPrinted) break;
+        reportLoop(loop);
+        printed += loop.size();
+    }
 }
 
 // To be delayed: rather what is observed than what is ordered, and never a demand.

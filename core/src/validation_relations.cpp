@@ -4,6 +4,8 @@
 #include "validation_checks.hpp"
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 namespace cortex {
 namespace {
@@ -43,15 +45,9 @@ void checkUnknownRule(const Checked& checked, const Simplex& owner, const Relati
                          remedy);
 }
 
-// A path that stands in the file but was refused has its own finding.
-bool declared(const SimplexTree& tree, const std::string& path) {
-    return std::ranges::any_of(tree.description().simplexes,
-                               [&](const auto& entry) { return entry.path == path; });
-}
-
 void checkUnknownTarget(const Checked& checked, const Simplex& owner, const Rule& rule,
                         const Relation& relation) {
-    if (declared(checked.tree, relation.target)) return;
+    if (checked.declared.contains(relation.target)) return;  // refused, with a finding of its own
     auto paths = fitting(checked, owner, rule);
     const std::string nearest = nearestName(relation.target, paths);
     if (!nearest.empty()) paths.insert(paths.begin(), nearest);
@@ -96,14 +92,9 @@ void checkRemote(const Checked& checked, const Simplex& owner, const Rule& rule,
     }
 }
 
-void checkTwice(const Checked& checked, const Simplex& owner, const Rule& rule,
-                const Relation& relation) {
-    const auto& all = owner.relations();
-    const auto same = [&](const Relation& each) {
-        return each.rule == relation.rule && each.target == relation.target;
-    };
-    if (&*std::ranges::find_if(all, same) == &relation) return;
-    const auto count = std::ranges::count(all, rule.name, &Relation::rule);
+void reportTwice(const Checked& checked, const Simplex& owner, const Rule& rule,
+                 const Relation& relation) {
+    const auto count = std::ranges::count(owner.relations(), rule.name, &Relation::rule);
     const auto paths = fitting(checked, owner, rule);
     const bool enough = count > static_cast<std::ptrdiff_t>(rule.min);
     checked.report.error(
@@ -125,6 +116,7 @@ Place placeFor(const Simplex& owner, const Rule& rule) {
 
 std::vector<std::string> fitting(const Checked& checked, const Simplex& owner, const Rule& rule) {
     std::vector<std::string> paths;
+    if (!looksForNearest(checked.report)) return paths;
     for (const auto& [path, simplex] : checked.tree.simplexes()) {
         const auto related = [&](const Relation& each) {
             return each.rule == rule.name && each.target == path;
@@ -142,13 +134,16 @@ std::vector<std::string> fitting(const Checked& checked, const Simplex& owner, c
 }
 
 void checkRelations(const Checked& checked, const Simplex& owner) {
+    std::set<std::pair<std::string_view, std::string_view>> related;
     for (const Relation& relation : owner.relations()) {
         const Rule* rule = owner.type().findRule(relation.rule);
         if (rule == nullptr) {
             checkUnknownRule(checked, owner, relation);
             continue;
         }
-        checkTwice(checked, owner, *rule, relation);
+        if (!related.emplace(relation.rule, relation.target).second) {
+            reportTwice(checked, owner, *rule, relation);
+        }
         const Simplex* target = checked.tree.find(relation.target);
         if (relation.remote)
             checkRemote(checked, owner, *rule, relation);

@@ -151,29 +151,30 @@ void checkValue(const Case& each) {
     }
 }
 
-void checkUnknownItem(const Checked& checked, const Simplex& simplex, const Setting& setting) {
+}  // namespace
+
+void reportUnknownItem(const TypeModel& types, const Simplex& simplex, const Setting& setting,
+                       Report& report) {
     std::vector<std::string> names;
     for (const DataItem& item : simplex.type().data) {
-        if (!isFramework(checked.tree.types(), simplex.type(), item)) names.push_back(item.name);
+        if (!isFramework(types, simplex.type(), item)) names.push_back(item.name);
     }
-    const std::string nearest = nearestName(setting.item, names);
+    std::string nearest;
+    if (looksForNearest(report)) nearest = nearestName(setting.item, names);
     std::string remedy = names.empty() ? "remove this <set>: there is nothing to set"
                                        : "items that can be set: " + listText(names);
     if (!nearest.empty()) {
         remedy = "write " + setText(nearest, valueText(setting.value)) + "; " + remedy;
     }
-    checked.report.error(simplex.path(), finding::unknownItem, setting.place,
-                         "type " + simplex.type().name + " has no item '" + setting.item + "'",
-                         remedy);
+    report.error(simplex.path(), finding::unknownItem, setting.place,
+                 "type " + simplex.type().name + " has no item '" + setting.item + "'", remedy);
 }
-
-}  // namespace
 
 void checkSettings(const Checked& checked, const Simplex& simplex) {
     for (const Setting& setting : simplex.settings()) {
         const DataItem* item = simplex.type().findData(setting.item);
         if (item == nullptr) {
-            checkUnknownItem(checked, simplex, setting);
+            reportUnknownItem(checked.tree.types(), simplex, setting, checked.report);
         } else if (isFramework(checked.tree.types(), simplex.type(), *item)) {
             checked.report.error(simplex.path(), finding::settingFramework, setting.place,
                                  "item '" + item->name + "' (" + item->place.text() +

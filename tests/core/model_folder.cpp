@@ -54,6 +54,21 @@ std::size_t CheckedModel::count(const std::string& rule) const {
     return static_cast<std::size_t>(std::ranges::count(report.findings, rule, &Finding::rule));
 }
 
+namespace {
+
+// Places as if the folder were the working folder.
+void shorten(Report& report, const std::string& folder) {
+    for (Finding& finding : report.findings) {
+        for (std::string* text : {&finding.place.file, &finding.message, &finding.remedy}) {
+            for (std::size_t at; (at = text->find(folder)) != std::string::npos;) {
+                text->erase(at, folder.size());
+            }
+        }
+    }
+}
+
+}  // namespace
+
 CheckedModel check(const std::filesystem::path& file) {
     CheckedModel checked;
     ModelFiles files = readModelFiles(std::array{file}, checked.report);
@@ -61,6 +76,7 @@ CheckedModel check(const std::filesystem::path& file) {
     checked.tree->add(files.system, nullptr, checked.report);
     checked.tree->createRelated();
     checked.report.append(validate(*checked.tree));
+    shorten(checked.report, file.parent_path().string() + "/");
     return checked;
 }
 
@@ -93,7 +109,8 @@ const char* const smallModel = R"(<ontology name="small" version="1.0">
   <type name="Controller" extends="Active">
     <data name="gain" kind="float" min="0" max="10" settable="always"/>
   </type>
-  <type name="BlindController" extends="Active"/>
+  <type name="Blind" extends="Active" abstract="true"/>
+  <type name="BlindController" extends="Blind"/>
   <type name="Switch" extends="Active"/>
   <type name="Device" extends="Active" measures="true"/>
   <type name="Tool" extends="Concept" abstract="true"/>
@@ -110,11 +127,11 @@ const char* const smallRules = R"(<morphology name="small">
   <rules type="Controller">
     <relationship name="axes" direction="input" target="Axis"/>
     <relationship name="demands" direction="output" target="Axis" counterpart="axes"/>
-    <relationship name="first" direction="output" target="Axis" max="1" refines="demands" counterpart="axes"/>
+  </rules>
+  <rules type="Blind">
+    <relationship name="demands" direction="output" target="Axis" max="2"/>
   </rules>
   <rules type="BlindController">
-    <relationship name="axes" direction="input" target="Axis"/>
-    <relationship name="demands" direction="output" target="Axis" max="2"/>
     <relationship name="third" direction="output" target="Axis" max="2" refines="demands"/>
   </rules>
   <rules type="Switch">

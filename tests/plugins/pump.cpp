@@ -14,7 +14,7 @@ public:
     using Simplex::Simplex;
 };
 
-void addClasses(cortex::ClassRegistry& registry) {
+[[maybe_unused]] void addClasses(cortex::ClassRegistry& registry) {
     registry.add<Pump>("Pump");
 #ifdef PUMP_UNSTATED
     registry.add<Pump>("Valve");
