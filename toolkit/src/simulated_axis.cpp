@@ -24,7 +24,7 @@ void SimulatedAxis::populate() {
     dampingRatio_ = data<const double>("dampingRatio");
     followingError_ = data<double>("followingError");
     limitCount_ = data<std::int64_t>("limitCount");
-    position_ = std::clamp(data<double>("startPosition").get(), limits_->min, limits_->max);
+    position_ = std::clamp(data<const double>("startPosition").get(), limits_->min, limits_->max);
     observation_->write(position_, 0);
     observedStatus_ = Ready;
 }
