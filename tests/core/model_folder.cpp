@@ -177,4 +177,27 @@ CheckedModel checkSmall(const std::string& elements) {
                                   elements + "</system>\n"));
 }
 
+Finding only(const CheckedModel& checked) {
+    if (checked.report.findings.size() == 1) return checked.report.findings.front();
+    return {Severity::Info, "", "", {}, checked.report.text(), ""};
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+std::string simplex(const std::string& path, const std::string& type, const std::string& inside,
+                    const std::string& attributes) {
+    return "<simplex path=\"" + path + "\" type=\"" + type + "\" " + attributes + ">\n" + inside +
+           "</simplex>\n";
+}
+
+std::string relate(const std::string& rule, const std::string& to, const std::string& more) {
+    return "<relate rule=\"" + rule + "\" to=\"" + to + "\" " + more + "/>\n";
+}
+
+std::string set(const std::string& item, const std::string& value) {
+    return "<set data=\"" + item + "\" value=\"" + value + "\"/>\n";
+}
+
 }  // namespace cortex::test

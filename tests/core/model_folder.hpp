@@ -44,4 +44,14 @@ CheckedModel check(const std::filesystem::path& file);
 TypeModel smallTypes();
 CheckedModel checkSmall(const std::string& elements);
 
+// Those elements as text, an element a line.
+std::string simplex(const std::string& path, const std::string& type,
+                    const std::string& inside = "", const std::string& attributes = "");
+std::string relate(const std::string& rule, const std::string& to, const std::string& more = "");
+std::string set(const std::string& item, const std::string& value);
+
+// The only finding of a model, or one that holds the whole report.
+Finding only(const CheckedModel& checked);
+bool contains(const std::string& text, const std::string& part);
+
 }  // namespace cortex::test

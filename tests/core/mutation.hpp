@@ -8,6 +8,7 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cortex::test {
 
@@ -40,6 +41,11 @@ struct Mutation {
 std::ostream& operator<<(std::ostream& stream, const Mutation& mutation);
 
 inline constexpr char systemFile[] = "lbr_teleop.xml";
+inline constexpr char ontologyFile[] = "robotics.xml";
+inline constexpr char morphologyFile[] = "robotics-morphology.xml";
+
+std::vector<Mutation> mutationsOfSystems();
+std::vector<Mutation> mutationsOfTypes();  // of types and rules, and of the form of the files
 
 // The shipped files side by side: the ontology, and the case study that uses it.
 void copyShipped(const ModelFolder& folder);

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/validation.hpp"
+
+#include "core/model_folder.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cortex {
+namespace {
+
+using namespace test;
+
+TEST(Validation, PrintsAWholeLoopAndDelaysWhatIsObserved) {
+    const auto finding = only(
+        checkSmall(simplex("/a", "Controller", relate("axes", "/y") + relate("demands", "/x")) +
+                   simplex("/b", "Controller", relate("axes", "/x") + relate("demands", "/y")) +
+                   simplex("/x", "Axis") + simplex("/y", "Axis")));
+
+    EXPECT_EQ(finding.rule, "loop");
+    EXPECT_EQ(finding.path, "/a");
+    EXPECT_EQ(finding.place.line, 8);
+    EXPECT_TRUE(contains(finding.message, "/a -> /x -> /b -> /y -> /a")) << finding.message;
+    EXPECT_EQ(finding.remedy, "write <relate rule=\"axes\" to=\"/x\" delayed=\"true\"/> in /b");
+}
+
+TEST(Validation, FindsEveryLoop) {
+    const auto checked = checkSmall(simplex("/a", "Switch", relate("before", "/b")) +
+                                    simplex("/b", "Switch", relate("before", "/a")) +
+                                    simplex("/c", "Switch", relate("before", "/c")) +
+                                    simplex("/d", "Switch", relate("before", "/a")));
+
+    EXPECT_EQ(checked.count("loop"), 2U) << checked.report.text();
+    EXPECT_TRUE(contains(checked.report.text(), "/a -> /b -> /a"));
+    EXPECT_TRUE(contains(checked.report.text(), "/c -> /c"));
+}
+
+TEST(Validation, TakesALoopWithADelayedRelationship) {
+    const auto checked =
+        checkSmall(simplex("/a", "Switch", relate("before", "/b", "delayed=\"true\"")) +
+                   simplex("/b", "Switch", relate("before", "/a")));
+
+    EXPECT_TRUE(checked.report.ok()) << checked.report.text();
+}
+
+TEST(Validation, WantsASafeValueForEveryItemOfAModification) {
+    const auto demanded =
+        checkSmall(simplex("/s", "Switch", relate("lamps", "/l")) + simplex("/l", "Lamp"));
+    const auto observed = checkSmall(
+        simplex("/s", "Switch", relate("lamps", "/l", "delayed=\"true\"")) + simplex("/l", "Lamp"));
+
+    EXPECT_EQ(only(demanded).rule, "safe-needed");
+    EXPECT_EQ(only(demanded).path, "/l");
+    EXPECT_TRUE(contains(only(demanded).message, "'on' of type Lamp has no safe value"));
+    EXPECT_TRUE(contains(only(demanded).remedy, "write safe=\"false\" for 'on' (small.xml:"));
+    EXPECT_TRUE(observed.report.ok()) << observed.report.text();
+}
+
+TEST(Validation, WantsACounterpartForWhatIsSafeAsObserved) {
+    const auto without = only(checkSmall(simplex("/c", "BlindController", relate("demands", "/a")) +
+                                         simplex("/a", "Axis")));
+    const auto empty = only(
+        checkSmall(simplex("/c", "Controller", relate("demands", "/a")) + simplex("/a", "Axis")));
+
+    EXPECT_EQ(without.rule, "observed-counterpart");
+    EXPECT_EQ(without.path, "/c");
+    EXPECT_EQ(without.place.line, 4);
+    EXPECT_TRUE(contains(without.message, "states no counterpart")) << without.message;
+    EXPECT_TRUE(contains(without.remedy, "add an input rule that observes it")) << without.remedy;
+    EXPECT_EQ(empty.rule, "observed-counterpart");
+    EXPECT_TRUE(contains(empty.message, "no simplex in place 1")) << empty.message;
+}
+
+TEST(Validation, PairsTheNthDemandWithTheNthObservation) {
+    const std::string axes = simplex("/o1", "Axis") + simplex("/o2", "Axis") +
+                             simplex("/d1", "Axis") + simplex("/d2", "Axis") +
+                             simplex("/d3", "Axis");
+    const std::string three =
+        relate("demands", "/d1") + relate("demands", "/d2") + relate("demands", "/d3");
+
+    const auto two = checkSmall(
+        axes + simplex("/c", "Controller", relate("axes", "/o1") + relate("axes", "/o2") + three));
+    const auto one = checkSmall(axes + simplex("/c", "Controller", relate("axes", "/o1") + three));
+
+    ASSERT_EQ(two.count("observed-counterpart"), 1U) << two.report.text();
+    EXPECT_TRUE(contains(two.find("observed-counterpart")->message, "no simplex in place 3"));
+    EXPECT_TRUE(one.report.ok()) << one.report.text();  // one observation serves all
+}
+
+TEST(Validation, AllowsSeveralWritersOnlyWhereTheTypeDoes) {
+    const std::string writers =
+        simplex("/c1", "Controller", relate("axes", "/o") + relate("demands", "/d")) +
+        simplex("/c2", "Controller", relate("axes", "/o") + relate("demands", "/d")) +
+        simplex("/o", "Axis");
+
+    const auto one = only(checkSmall(writers + simplex("/d", "Axis")));
+    const auto many = checkSmall(writers + simplex("/d", "SharedAxis"));
+
+    EXPECT_EQ(one.rule, "several-writers");
+    EXPECT_EQ(one.path, "/d");
+    EXPECT_EQ(one.place.line, 9);
+    EXPECT_TRUE(contains(one.message, "/c2 writes it")) << one.message;
+    EXPECT_TRUE(contains(one.remedy, "writers=\"many\" for type Axis (small.xml:")) << one.remedy;
+    EXPECT_TRUE(many.report.ok()) << many.report.text();
+}
+
+TEST(Validation, FindsWritersOfWhomSomeAreDelayed) {
+    const auto byRelate = only(
+        checkSmall(simplex("/c1", "Controller",
+                           relate("axes", "/o") + relate("demands", "/d", "delayed=\"true\"")) +
+                   simplex("/c2", "Controller", relate("axes", "/o") + relate("demands", "/d")) +
+                   simplex("/o", "Axis") + simplex("/d", "SharedAxis")));
+    const auto byRule =
+        checkSmall(simplex("/c", "Controller", relate("axes", "/o") + relate("demands", "/d")) +
+                   simplex("/dev", "Device", relate("observation", "/d")) + simplex("/o", "Axis") +
+                   simplex("/d", "SharedAxis"));
+
+    EXPECT_EQ(byRelate.rule, "delayed-mixed");
+    EXPECT_EQ(byRelate.place.line, 5);
+    EXPECT_EQ(byRelate.remedy, "write <relate rule=\"demands\" to=\"/d\"/>");
+    ASSERT_NE(byRule.find("delayed-mixed"), nullptr) << byRule.report.text();
+    EXPECT_EQ(byRule.find("delayed-mixed")->remedy,
+              "write <relate rule=\"demands\" to=\"/d\" delayed=\"true\"/>");
+}
+
+}  // namespace
+}  // namespace cortex
