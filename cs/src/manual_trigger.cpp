@@ -13,7 +13,7 @@ void ManualTrigger::step(std::int64_t cycles) {
     requested_ += cycles;
     const std::int64_t last = requested_;
     wake_.notify_all();
-    wake_.wait(lock, [&] { return (finished_ >= last && late_ == 0) || interrupted_; });
+    wake_.wait(lock, [&] { return (finished_ >= last && late_ == 0 && !running_) || interrupted_; });
 }
 
 void ManualTrigger::lateBy(std::int64_t periods) {
@@ -26,6 +26,7 @@ void ManualTrigger::start() {}
 Trigger ManualTrigger::waitForTick() {
     std::unique_lock lock{mutex_};
     finished_ = started_;
+    running_ = false;
     wake_.notify_all();
     Trigger trigger;
     if (skip_ && late_ > 0) {
@@ -45,6 +46,7 @@ Trigger ManualTrigger::waitForTick() {
         --late_;
     else
         ++started_;
+    running_ = true;
     trigger.nominalTime = tick_ * period_;
     return trigger;
 }

@@ -155,29 +155,30 @@ void TaskRunner::transition(Task& task, const Tick& tick) {
     const bool resting = simplex.state_ == State::Standby || simplex.state_ == State::Fault;
     if (forced_ && !resting) return enter(task, State::Standby, tick);
     const LifeCycle command = agent_.takeLifeCycle(task.index);
-    if (command != LifeCycle::None) return lifeCycle(task, command, tick);
+    if (command != LifeCycle::None && lifeCycle(task, command, tick)) return;
     if (!simplex.done_) return;
     if (const auto to = next(simplex.state_, Move::Done)) enter(task, *to, tick);
 }
 
-void TaskRunner::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
+// False: the command does not lead anywhere from this state, which is said unless it is harmless.
+bool TaskRunner::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     const auto to = next(simplex.state_, moveOf(command));
+    if (!to && command == LifeCycle::Shutdown) return false;  // on its way, or not running
     simplex.text_ = EventText{};
     if (!to) {
-        if (command == LifeCycle::Shutdown) return;  // not running: nothing to do
         simplex.text_ << (command == LifeCycle::Startup ? "startup needs Standby, is "
                                                         : "clearFaults needs Fault, is ")
                       << name(simplex.state_);
     } else if (command == LifeCycle::ClearFaults && !simplex.dead_ && !simplex.done_) {
         simplex.text_ << "the fault is not over: stateFault has not returned true";
-    } else if (command == LifeCycle::Startup && !mayStart(task)) {
-        // mayStart has said why
-    } else {
-        return enter(task, *to, tick);
+    } else if (command != LifeCycle::Startup || mayStart(task)) {  // mayStart says why not
+        enter(task, *to, tick);
+        return true;
     }
     agent_.post(*simplex.thread_, Severity::Warning, EventKind::Refusal, task.index, simplex.text_);
     agent_.refuseLifeCycle(task.index, simplex.text_);
+    return false;
 }
 
 bool TaskRunner::mayStart(Task& task) {

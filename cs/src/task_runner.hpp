@@ -129,7 +129,7 @@ private:
     void runTimed(Task& task, std::uint32_t worker, LoopThread& thread) CORTEX_REALTIME;
     void runHooks(Task& task, const Tick& tick, Position& position) CORTEX_REALTIME;
     void transition(Task& task, const Tick& tick) CORTEX_REALTIME;
-    void lifeCycle(Task& task, LifeCycle command, const Tick& tick) CORTEX_REALTIME;
+    bool lifeCycle(Task& task, LifeCycle command, const Tick& tick) CORTEX_REALTIME;
     void enter(Task& task, State to, const Tick& tick) CORTEX_REALTIME;
     void enterFault(Task& task, const Tick& tick) CORTEX_REALTIME;
     bool mayStart(Task& task) CORTEX_REALTIME;

@@ -149,6 +149,7 @@ TEST_P(MisbehavingHook, IsSeen) {
         GetParam().commit();
         done = true;
     };
+    munlockall();  // an earlier test may have locked what is still to come
     freshPage = static_cast<char*>(mmap(nullptr, 1 << 16, PROT_READ | PROT_WRITE,
                                         MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
     cs::ClusterCS cluster{"watched", watched(1, 0)};

@@ -16,6 +16,12 @@ void Probe::populate() {
     if (onPopulate) onPopulate(*this);
 }
 
+void Probe::forgetHooks() {
+    onLoopStart = onStandby = onActive = onLoopEnd = nullptr;
+    onStartingUp = onShuttingDown = onFault = nullptr;
+    onAdd = onPoke = onWork = nullptr;
+}
+
 ProbeCluster::ProbeCluster(cs::ClusterOptions options)
     : tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")},
       cluster{std::make_unique<cs::ClusterCS>("test", std::move(options))} {
@@ -29,7 +35,12 @@ ProbeCluster::ProbeCluster(cs::ClusterOptions options)
     });
 }
 
-ProbeCluster::~ProbeCluster() { cluster.reset(); }
+ProbeCluster::~ProbeCluster() {
+    for (const auto& [path, simplex] : tree.simplexes()) {
+        if (auto* probe = dynamic_cast<Probe*>(simplex.get())) probe->forgetHooks();
+    }
+    cluster.reset();
+}
 
 void ProbeCluster::start() { cluster->start(); }
 

@@ -33,6 +33,9 @@ public:
     using SimplexCS::outputs;
     using SimplexCS::setQuality;
 
+    // Before what the hooks refer to is gone.
+    void forgetHooks();
+
     Argument<double> amount;
     Result<double> sum;
 
@@ -58,11 +61,14 @@ private:
     Outcome work(Call& call) { return onWork ? onWork(*this, call) : Outcome::Done; }
 };
 
+// Its end calls no hooks of probes: what they refer to may be gone by then.
 // A cluster "test" on a manual trigger of 1 kHz with the types of tests/data/cs-rules.xml.
 class ProbeCluster {
 public:
     explicit ProbeCluster(cs::ClusterOptions options = {});
     ~ProbeCluster();
+    ProbeCluster(const ProbeCluster&) = delete;
+    ProbeCluster& operator=(const ProbeCluster&) = delete;
 
     Probe& probe(std::string_view path, std::string_view type = "Probe") {
         return tree.add<Probe>(path, type);

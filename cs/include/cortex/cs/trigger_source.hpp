@@ -78,7 +78,7 @@ private:
     std::int64_t late_ = 0, requestedLate_ = 0;
     bool skip_ = true;
     std::int64_t requested_ = 0, started_ = 0, finished_ = 0;
-    bool interrupted_ = false;
+    bool running_ = false, interrupted_ = false;
     std::mutex mutex_;
     std::condition_variable wake_;
 };
