@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/structure.hpp"
+
+#include "output.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace cortex::explorer {
+
+// A structure and the order of execution that its relationships give: tasks of level n wait for
+// nothing but tasks of lower levels. Only a structure without loops.
+struct Graph {
+    std::string title;  // of the system
+    std::shared_ptr<const Structure> structure;
+    std::vector<std::vector<std::uint32_t>> levels;  // simplexes with a task, by path
+    std::vector<std::uint32_t> levelOf;              // from 1; 0: no task
+};
+
+Graph makeGraph(std::string title, std::shared_ptr<const Structure> structure);
+
+Json graphJson(const Graph& graph);  // schemas/graph.json
+void printGraph(std::ostream& stream, const Graph& graph);
+void printDot(std::ostream& stream, const Graph& graph);
+
+}  // namespace cortex::explorer

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "type_json.hpp"
+#include "type_text.hpp"
+#include "verbs.hpp"
+
+#include <iostream>
+
+namespace cortex::explorer {
+namespace {
+
+[[noreturn]] void unknownType(const TypeModel& types, const std::string& wrong) {
+    std::vector<std::string> names;
+    for (const auto& [typeName, type] : types.types()) names.push_back(typeName);
+    const std::string nearest = nearestNames(wrong, names);
+    throw Failure{NotFound, "there is no type '" + wrong + "'; " +
+                                (nearest.empty() ? "'cortex types --file …' lists all " +
+                                                       std::to_string(names.size())
+                                                 : nearest)};
+}
+
+}  // namespace
+
+Exit showTypes(const TypesOptions& options) {
+    const Model model = readTypes(options.files);
+    requireValid(model);
+    const TypeModel& types = model.types();
+    const bool one = options.type.has_value();
+    const Type* type = one ? types.find(*options.type) : nullptr;
+    if (one && type == nullptr) unknownType(types, *options.type);
+    if (options.json && one) {
+        print(typeJson(types, *type));
+    } else if (options.json) {
+        Json list = Json::array();
+        for (const auto& [typeName, each] : types.types()) list.push_back(typeSummaryJson(each));
+        print({{"types", list}});
+    } else if (one) {
+        printType(std::cout, types, *type);
+    } else {
+        printTypeTree(std::cout, types);
+    }
+    return Yes;
+}
+
+}  // namespace cortex::explorer

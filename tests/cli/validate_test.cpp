@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cortex_process.hpp"
+#include "cli/json_schema.hpp"
+#include "core/model_folder.hpp"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using nlohmann::json;
+
+const std::string example = CORTEX_SOURCE_DIR "/examples/lbr_teleop/lbr_teleop.xml";
+const std::string ontology = CORTEX_SOURCE_DIR "/ontology/";
+
+std::string systemOf(const std::string& simplexes) {
+    return "<system name=\"test\">\n<morphology file=\"robotics-morphology.xml\"/>\n"
+           "<cluster name=\"test\"/>\n" +
+           simplexes + "</system>\n";
+}
+
+json findingsOf(const Outcome& outcome) { return json::parse(outcome.output).at("findings"); }
+
+TEST(CortexValidate, CountsTheSimplexesOfAValidSystemWithThoseThatRulesCreate) {
+    const Outcome outcome = cortex({"validate", example});
+
+    EXPECT_EQ(outcome.exit, 0) << outcome.output << outcome.errors;
+    EXPECT_EQ(outcome.output, example + ": valid, 48 simplexes, 16 active\n");
+    EXPECT_EQ(outcome.errors, "");
+}
+
+TEST(CortexValidate, ChecksTypesAndRulesWithoutASystem) {
+    const ModelFolder folder;
+    folder.write("t.xml",
+                 "<ontology name=\"t\" version=\"1.0\">\n<type name=\"A\">\n"
+                 "<data name=\"x\" kind=\"float\" unit=\"furlong\"/></type></ontology>\n");
+
+    const Outcome outcome = cortex({"validate", "t.xml"}, {}, folder.path());
+
+    EXPECT_EQ(outcome.exit, 1);
+    EXPECT_NE(outcome.output.find("error: A"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("[t.xml:3]"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("\n1 error in 1 file\n"), std::string::npos) << outcome.output;
+}
+
+TEST(CortexValidate, AcceptsEveryShippedOntologyFile) {
+    for (const char* name :
+         {"base.xml", "base-morphology.xml", "robotics.xml", "robotics-morphology.xml"}) {
+        const Outcome outcome = cortex({"validate", ontology + name});
+        EXPECT_EQ(outcome.exit, 0) << outcome.output;
+        EXPECT_NE(outcome.output.find(": valid, "), std::string::npos) << outcome.output;
+    }
+}
+
+TEST(CortexValidate, PrintsOneFindingALineWithPlaceAndRemedy) {
+    const ModelFolder folder;
+    folder.write("arm.xml", systemOf("<simplex path=\"/arm\" type=\"Arm\">\n"
+                                     "<relate rule=\"manipulator\" to=\"/lbr\"/></simplex>\n"
+                                     "<simplex path=\"/lbr\" type=\"KukaLbr\"/>\n"));
+
+    const Outcome outcome = cortex({"validate", "arm.xml"}, {}, folder.path());
+
+    EXPECT_EQ(outcome.exit, 1);
+    EXPECT_EQ(outcome.output.find("error: /arm: "), 0U) << outcome.output;
+    EXPECT_NE(outcome.output.find("Gripper"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find(".xml:"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("<relate rule=\"gripper\""), std::string::npos) << outcome.output;
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 2) << outcome.output;
+}
+
+TEST(CortexValidate, GivesFindingsAsJsonOfTheCommittedSchema) {
+    const ModelFolder folder;
+    folder.write("arm.xml", systemOf("<simplex path=\"/arm\" type=\"Arm\"/>\n"));
+
+    const Outcome outcome = cortex({"validate", "arm.xml", "--json"}, {}, folder.path());
+
+    EXPECT_EQ(outcome.exit, 1);
+    EXPECT_EQ(violationsOf("validate", outcome.output), "");
+    const json findings = findingsOf(outcome);
+    ASSERT_EQ(findings.size(), 2U) << outcome.output;
+    EXPECT_EQ(findings[0]["severity"], "error");
+    EXPECT_EQ(findings[0]["path"], "/arm");
+    EXPECT_GT(findings[0]["line"], 0);
+    EXPECT_NE(findings[0]["remedy"], "");
+}
+
+TEST(CortexValidate, GivesAnEmptyListForAValidModel) {
+    const Outcome outcome = cortex({"validate", "--json", example});
+
+    EXPECT_EQ(outcome.exit, 0);
+    EXPECT_EQ(violationsOf("validate", outcome.output), "");
+    EXPECT_TRUE(findingsOf(outcome).empty());
+}
+
+TEST(CortexValidate, KnowsTheSimplexOfTheAgentItself) {
+    const ModelFolder folder;
+    folder.write("clash.xml", systemOf("<simplex path=\"/test\" type=\"RotaryAxisConcept\"/>\n"));
+
+    const Outcome outcome = cortex({"validate", "clash.xml", "--json"}, {}, folder.path());
+
+    EXPECT_EQ(outcome.exit, 1);
+    EXPECT_EQ(findingsOf(outcome).at(0)["path"], "/test");
+}
+
+TEST(CortexValidate, TakesSeveralFilesAsOneModel) {
+    const ModelFolder folder;
+    folder.write("t.xml", "<ontology name=\"t\" version=\"1.0\"><type name=\"A\"/></ontology>\n");
+    folder.write("r.xml",
+                 "<morphology name=\"t\" version=\"1.0\"><rules type=\"A\">"
+                 "<relationship name=\"to\" direction=\"input\" target=\"A\"/></rules>"
+                 "</morphology>\n");
+
+    EXPECT_EQ(cortex({"validate", "r.xml"}, {}, folder.path()).exit, 1);
+    const Outcome outcome = cortex({"validate", "r.xml", "t.xml"}, {}, folder.path());
+
+    EXPECT_EQ(outcome.exit, 0) << outcome.output;
+    EXPECT_EQ(outcome.output, "2 files: valid, 1 type, 1 rule\n");
+}
+
+TEST(CortexValidate, ChecksEachOfSeveralSystemsAlone) {
+    const ModelFolder folder;
+    folder.write("one.xml", systemOf("<simplex path=\"/axis\" type=\"RotaryAxisConcept\"/>\n"));
+    folder.write("two.xml", systemOf("<simplex path=\"/axis\" type=\"LinearAxisConcept\"/>\n"));
+
+    const Outcome outcome = cortex({"validate", "one.xml", "two.xml"}, {}, folder.path());
+
+    EXPECT_EQ(outcome.exit, 0) << outcome.output;
+    EXPECT_EQ(outcome.output,
+              "one.xml: valid, 2 simplexes, 1 active\ntwo.xml: valid, 2 simplexes, 1 active\n");
+}
+
+TEST(CortexValidate, EndsWith3ForAFileThatIsNotThereAndChecksTheOthers) {
+    const ModelFolder folder;
+    folder.write("t.xml", "<ontology name=\"t\" version=\"1.0\"><type nam=\"A\"/></ontology>\n");
+
+    const Outcome outcome = cortex({"validate", "none.xml", "t.xml", "--json"}, {}, folder.path());
+
+    EXPECT_EQ(outcome.exit, 3);
+    EXPECT_EQ(violationsOf("validate", outcome.output), "");
+    EXPECT_NE(outcome.output.find("none.xml"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("unknown-attribute"), std::string::npos) << outcome.output;
+}
+
+TEST(CortexValidate, SaysThatAFolderIsNoFile) {
+    const Outcome outcome = cortex({"validate", ontology});
+
+    EXPECT_EQ(outcome.exit, 3);
+    EXPECT_NE(outcome.output.find("this is a folder"), std::string::npos) << outcome.output;
+}
+
+TEST(CortexValidate, SurvivesFilesThatAreNoXml) {
+    const ModelFolder folder;
+    std::string garbage;
+    for (int i = 0; i < 4096; ++i) garbage += static_cast<char>(i * 7919 >> 3);
+    folder.write("garbage.xml", garbage);
+    folder.write("empty.xml", "");
+
+    for (const char* name : {"garbage.xml", "empty.xml"}) {
+        const Outcome outcome = cortex({"validate", "--json", name}, {}, folder.path());
+        EXPECT_EQ(outcome.exit, 1) << name;
+        EXPECT_EQ(violationsOf("validate", outcome.output), "") << name;
+        EXPECT_FALSE(findingsOf(outcome).empty()) << name;
+    }
+}
+
+// A terminal would obey what a file's text contains.
+TEST(CortexValidate, PrintsControlCharactersAsEscapes) {
+    const ModelFolder folder;
+    folder.write("t.xml", systemOf("<simplex path=\"/a&#27;[31m\xC2\x9B\" type=\"Arm\"/>\n"));
+
+    const Outcome outcome = cortex({"validate", "t.xml"}, {}, folder.path());
+
+    EXPECT_EQ(outcome.exit, 1);
+    EXPECT_EQ(outcome.output.find('\x1b'), std::string::npos);
+    EXPECT_EQ(outcome.output.find("\xC2\x9B"), std::string::npos);
+}
+
+TEST(CortexValidate, IsNotColouredWhereItsOutputIsNoTerminal) {
+    const Outcome outcome = cortex({"validate", "none.xml"}, {{"TERM", "xterm"}, {"NO_COLOR", ""}});
+
+    EXPECT_EQ(outcome.output.find('\x1b'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cortex::test
