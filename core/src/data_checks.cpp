@@ -120,11 +120,11 @@ void checkValues(DataItem& item, const DataItem* own, const ItemContext& context
         const std::string error = valueError(item, item.initial);
         if (!error.empty()) {
             const bool restated = own && own->hasDefault;
-            context.error(
-                finding::defaultRange,
-                std::string{"has "} + (restated ? "" : "the inherited ") + "default " +
-                    inQuotes(toText(item.initial)) + ", which " + error,
-                restated ? "write a default that is in range" : "restate the default in this type");
+            context.error(finding::defaultRange,
+                          std::string{"has "} + (restated ? "" : "the inherited ") + "default " +
+                              inQuotes(toText(item.initial)) + ", which " + error,
+                          "write default=\"" + toText(implicitValue(item)) +
+                              "\" or another that is in range");
             item.hasDefault = false;
         }
     }

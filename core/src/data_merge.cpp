@@ -218,7 +218,7 @@ void canonicalUnit(DataItem& own, const ItemContext& context) {
 
 DataItem mergeData(const std::vector<FromParent<DataItem>>& parents, const DataItem* own,
                    const Stated& stated, const ItemContext& context) {
-    if (parents.empty() && stated.complete() && !stated("kind", false)) {
+    if (parents.empty() && stated.lacks("kind")) {
         context.error(finding::kindMissing, "has no kind, and no parent has this name",
                       "write kind=\"float\", \"int\", \"bool\" or \"string\", or correct the name");
     }

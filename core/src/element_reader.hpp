@@ -45,11 +45,11 @@ struct ElementReader {
         std::function<void(const XmlElement&)> read;
     };
     void children(const XmlElement& element, std::span<const Child> known) const;
-    // The element's attributes into `target`; names of those given go to `stated`, if any. False if
-    // a required one is missing.
+    // The element's attributes into `target`; `stated`, if any, is told their names, with "wrong "
+    // before those whose value is. False if a required one is missing.
     template <class T>
     bool attributes(const XmlElement& element, std::span<const AttributeReader<T>> known, T& target,
-                    const std::function<void(const char*)>& stated = {}) const;
+                    const std::function<void(const std::string&)>& stated = {}) const;
 
 private:
     void wrongValue(const XmlElement& element, const XmlAttribute& attribute,
@@ -59,7 +59,8 @@ private:
 
 template <class T>
 bool ElementReader::attributes(const XmlElement& element, std::span<const AttributeReader<T>> known,
-                               T& target, const std::function<void(const char*)>& stated) const {
+                               T& target,
+                               const std::function<void(const std::string&)>& stated) const {
     for (const XmlAttribute& attribute : element.attributes) {
         const auto same = [&](const auto& reader) { return attribute.name == reader.name; };
         const auto reader = std::find_if(known.begin(), known.end(), same);
@@ -72,11 +73,8 @@ bool ElementReader::attributes(const XmlElement& element, std::span<const Attrib
             continue;
         }
         const std::string expected = reader->read(target, attribute.value);
-        if (!expected.empty()) {
-            wrongValue(element, attribute, expected);
-        } else if (stated) {
-            stated(reader->name);
-        }
+        if (!expected.empty()) wrongValue(element, attribute, expected);
+        if (stated) stated((expected.empty() ? "" : "wrong ") + attribute.name);
     }
     bool complete = true;
     for (const auto& each : known) {

@@ -32,6 +32,12 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
     return above[b.size()];
 }
 
+// "minimum" for "min".
+bool isBeginning(std::string_view a, std::string_view b) {
+    constexpr std::size_t least = 3;
+    return std::min(a.size(), b.size()) >= least && (a.starts_with(b) || b.starts_with(a));
+}
+
 }  // namespace
 
 std::string nearestNames(std::string_view wrong, std::span<const std::string> valid) {
@@ -40,10 +46,11 @@ std::string nearestNames(std::string_view wrong, std::span<const std::string> va
     const std::size_t limit = std::max<std::size_t>(1, (wrong.size() + 1) / 3);
     std::vector<std::pair<std::size_t, std::string_view>> near;
     for (const std::string& candidate : valid) {
+        const bool beginning = isBeginning(wrong, candidate);
         const auto [shorter, longer] = std::minmax({wrong.size(), candidate.size()});
-        if (longer - shorter > limit) continue;
+        if (longer - shorter > limit && !beginning) continue;
         const std::size_t distance = editDistance(wrong, candidate);
-        if (distance <= limit) near.emplace_back(distance, candidate);
+        if (distance <= limit || beginning) near.emplace_back(std::min(distance, limit), candidate);
     }
     std::ranges::sort(near);
     near.erase(std::ranges::unique(near).begin(), near.end());

@@ -201,8 +201,8 @@ Child descriptionInto(const ElementReader& reader, std::string& target) {
 }
 
 // Collects in `stated` what is written, each with the prefix of its item.
-std::function<void(const char*)> into(std::set<std::string>& stated, std::string prefix) {
-    return [&stated, prefix = std::move(prefix)](const char* attribute) {
+std::function<void(const std::string&)> into(std::set<std::string>& stated, std::string prefix) {
+    return [&stated, prefix = std::move(prefix)](const std::string& attribute) {
         stated.insert(prefix + attribute);
     };
 }

@@ -130,7 +130,7 @@ void narrow(Rule& rule, const Rule& own, const Stated& stated, const ItemContext
 }
 
 void checkNew(const Rule& own, const Stated& stated, const ItemContext& context) {
-    if (stated.complete() && !stated("direction", false)) {
+    if (stated.lacks("direction")) {
         context.error(finding::directionMissing, "has no direction, and no parent has this name",
                       "write direction=\"input\" or \"output\", or correct the name");
     }

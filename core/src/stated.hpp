@@ -30,7 +30,11 @@ public:
     bool operator()(const char* attribute, bool differsFromDefault) const {
         return all_.contains(prefix_ + attribute) || (!complete_ && differsFromDefault);
     }
-    bool complete() const { return complete_; }
+    // Not written at all: neither well nor, what was found already, wrongly.
+    bool lacks(const std::string& attribute) const {
+        return complete_ && !all_.contains(prefix_ + attribute) &&
+               !all_.contains(prefix_ + "wrong " + attribute);
+    }
     const std::string& prefix() const { return prefix_; }
     Stated under(const std::string& prefix) const { return {all_, prefix}; }
 

@@ -44,8 +44,15 @@ void ItemContext::exclude(const std::string& attribute, const std::string& first
 
 // Only what this type says or joins itself: its parents' own mistakes are found with them.
 void TypeResolver::checkRules(const Type& type) {
+    const auto inherited = [&](const Rule& rule) {
+        return std::ranges::any_of(type.parents, [&](const std::string& parent) {
+            const Rule* same = types_.find(parent)->second.findRule(rule.name);
+            return same && same->target == rule.target && same->create == rule.create &&
+                   same->refines == rule.refines && same->counterpart == rule.counterpart;
+        });
+    };
     for (const Rule& rule : type.rules) {
-        if (rule.definedBy != type.name && type.parents.size() < 2) continue;
+        if (rule.definedBy != type.name && inherited(rule)) continue;
         if (!rule.target.empty() && !graph_.known(rule.target) && rule.definedBy == type.name) {
             const std::string near = graph_.nearest(rule.target);
             report_.error(type.name, finding::unknownTarget, rule.place,

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/value.hpp"
+
+#include <clocale>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace cortex {
+namespace {
+
+TEST(Value, KnowsItsKindAndLength) {
+    EXPECT_EQ(kindOf(Value{std::vector<std::int64_t>{1, 2}}), Kind::Int);
+    EXPECT_EQ(kindOf(Value{std::vector<double>{}}), Kind::Float);
+    EXPECT_EQ(kindOf(Value{std::vector<bool>{true}}), Kind::Bool);
+    EXPECT_EQ(kindOf(Value{std::vector<std::string>{"a"}}), Kind::String);
+    EXPECT_EQ(lengthOf(Value{std::vector<std::int64_t>{1, 2}}), 2U);
+}
+
+TEST(Value, NamesEachKindAsInXml) {
+    for (const Kind kind : {Kind::Int, Kind::Float, Kind::Bool, Kind::String}) {
+        EXPECT_EQ(kindFromName(name(kind)), kind);
+    }
+    EXPECT_FALSE(kindFromName("double"));
+}
+
+TEST(Value, ReadsOnlyWholeNumbersAsInt) {
+    EXPECT_EQ(toInt("42"), 42);
+    EXPECT_EQ(toInt("+42"), 42);
+    EXPECT_EQ(toInt("-9223372036854775808"), std::numeric_limits<std::int64_t>::min());
+    for (const char* text :
+         {"", " 1", "1 ", "1.0", "1e3", "0x10", "9223372036854775808", "+-1", "+"}) {
+        EXPECT_FALSE(toInt(text)) << text;
+    }
+}
+
+TEST(Value, ReadsOnlyFiniteNumbersAsFloat) {
+    EXPECT_EQ(toFloat("1.5"), 1.5);
+    EXPECT_EQ(toFloat("-1e-3"), -1e-3);
+    EXPECT_EQ(toFloat("+7"), 7.0);
+    for (const char* text : {"", "nan", "NaN", "inf", "-inf", "infinity", "1e999", "0x1p3", "1,5",
+                             "1 2", "1.5f", " 1"}) {
+        EXPECT_FALSE(toFloat(text)) << text;
+    }
+}
+
+TEST(Value, ReadsOnlyTrueAndFalseAsBool) {
+    EXPECT_EQ(toBool("true"), true);
+    EXPECT_EQ(toBool("false"), false);
+    for (const char* text : {"", "1", "True", "yes"}) EXPECT_FALSE(toBool(text)) << text;
+}
+
+TEST(Value, WritesTheShortestTextThatReadsBackEqual) {
+    EXPECT_EQ(toText(0.1), "0.1");
+    EXPECT_EQ(toText(1e22), "1e+22");
+    EXPECT_EQ(toText(std::int64_t{-5}), "-5");
+    EXPECT_EQ(toText(Number{2.5}), "2.5");
+    std::mt19937_64 random{7};
+    for (int i = 0; i < 20'000; ++i) {
+        double number = 0;
+        const std::uint64_t bits = random();
+        static_assert(sizeof(bits) == sizeof(number));
+        std::memcpy(&number, &bits, sizeof(number));
+        if (!std::isfinite(number)) continue;
+        EXPECT_EQ(toFloat(toText(number)), number);
+    }
+}
+
+TEST(Value, ReadsAndWritesNumbersTheSameInEveryLocale) {
+    const std::string before = std::setlocale(LC_ALL, nullptr);
+    if (std::setlocale(LC_ALL, "de_DE.UTF-8")) {
+        char text[8];
+        std::snprintf(text, sizeof text, "%.1f", 1.5);
+        EXPECT_STREQ(text, "1,5");  // the locale is really in force
+    }
+    EXPECT_EQ(toText(1.5), "1.5");
+    EXPECT_EQ(toText(1234567.0), "1234567");
+    EXPECT_EQ(toFloat("1.5"), 1.5);
+    EXPECT_FALSE(toFloat("1,5"));
+    std::setlocale(LC_ALL, before.c_str());
+}
+
+TEST(Value, ReadsArraysSeparatedByBlanks) {
+    std::string why;
+    const auto value = parseValue(Kind::Float, 3, " 1 2.5\t-3\n", why);
+    ASSERT_TRUE(value) << why;
+    EXPECT_EQ(*value, (Value{std::vector<double>{1, 2.5, -3}}));
+    EXPECT_EQ(toText(*value), "1 2.5 -3");
+    EXPECT_EQ(parseValue(Kind::Bool, 2, "true false", why),
+              (Value{std::vector<bool>{true, false}}));
+}
+
+TEST(Value, SaysWhatItExpectedAndWhatItFound) {
+    std::string why;
+    EXPECT_FALSE(parseValue(Kind::Float, 3, "1 2", why));
+    EXPECT_EQ(why, "expected 3 values, found 2");
+    EXPECT_FALSE(parseValue(Kind::Int, 1, "1.5", why));
+    EXPECT_EQ(why, "expected a whole number of 64 bit, found '1.5'");
+    EXPECT_FALSE(parseValue(Kind::Int, 1, "", why));
+    EXPECT_EQ(why, "expected 1 value, found 0");
+    EXPECT_FALSE(parseValue(Kind::Float, 1, "nan", why));
+    EXPECT_EQ(why, "expected a finite number, found 'nan'");
+    EXPECT_FALSE(parseValue(Kind::Bool, 1, "1", why));
+    EXPECT_EQ(why, "expected true or false, found '1'");
+}
+
+TEST(Value, TakesTheWholeTextAsOneString) {
+    std::string why;
+    const auto value = parseValue(Kind::String, 1, " \"quoted\" and more ", why);
+    ASSERT_TRUE(value);
+    EXPECT_EQ(std::get<std::vector<std::string>>(*value).front(), " \"quoted\" and more ");
+    EXPECT_EQ(toText(*value), " \"quoted\" and more ");
+}
+
+TEST(Value, QuotesElementsOfStringArraysWhereBlanksWouldDivideThem) {
+    const Value value{std::vector<std::string>{"plain", "two words", "", "a \"b\" \\c"}};
+    const std::string text = toText(value);
+    EXPECT_EQ(text, R"(plain "two words" "" "a \"b\" \\c")");
+    std::string why;
+    EXPECT_EQ(parseValue(Kind::String, 4, text, why), value) << why;
+}
+
+TEST(Value, RefusesStringArraysWithMisplacedQuotes) {
+    std::string why;
+    for (const char* text : {"\"open", "a\"b c", "\"a\"b c"}) {
+        EXPECT_FALSE(parseValue(Kind::String, 2, text, why)) << text;
+        EXPECT_EQ(why, "a double quote does not begin or end an element");
+    }
+    EXPECT_FALSE(parseValue(Kind::String, 2, "one", why));
+    EXPECT_EQ(why, "expected 2 values, found 1");
+}
+
+}  // namespace
+}  // namespace cortex
