@@ -68,11 +68,7 @@ void AgentRuntime::addAgentSimplex() {
     if (!wrong.empty()) throw Error("agent name '" + name_ + "': " + wrong);
     if (tree_.find(path) == nullptr) {
         if (tree_.types().find("Agent") == nullptr) {
-            refuse({Severity::Error,
-                    path,
-                    "agent-type",
-                    {},
-                    "the ontology has no type Agent",
+            refuse({Severity::Error, path, "agent-type", Place{}, "the ontology has no type Agent",
                     "include base.xml"});
         }
         tree_.add(path, "Agent");
