@@ -36,6 +36,28 @@ SystemDescription read(std::span<const fs::path> files, Model& model) {
     return std::move(read.system);
 }
 
+// An agent is one cluster: whoever runs this system says the same.
+void checkClusters(const SystemDescription& system, Report& report) {
+    const std::size_t count = system.clusters.size();
+    if (count == 0) {
+        report.warning("", "cluster-count", system.place,
+                       "the system has no cluster; only a program that names its agent can run it",
+                       "write <cluster name=\"…\" frequency=\"1000\"/>");
+    } else if (count > 1) {
+        report.error("/" + system.clusters[1].name, "cluster-count", system.clusters[1].place,
+                     "the system has " + std::to_string(count) + " clusters, an agent runs one",
+                     "keep one of them, and write a system file for each other");
+    }
+    for (const auto& cluster : system.clusters) {
+        const std::string wrong = SimplexTree::pathError("/" + cluster.name);
+        const bool level = cluster.name.find('/') == std::string::npos;
+        if (level && wrong.empty()) continue;
+        report.error("/" + cluster.name, "malformed-path", cluster.place,
+                     "the cluster's name '" + cluster.name + "' is no path of one level",
+                     "use A-Z a-z 0-9 _ -, at most 127 characters");
+    }
+}
+
 // The simplex of the agent itself, as a running one has it.
 void addAgents(SimplexTree& tree) {
     const bool cluster = tree.types().find("Cluster") != nullptr;
@@ -59,6 +81,7 @@ Model readSystem(std::span<const fs::path> files) {
     Model model;
     const SystemDescription system = read(files, model);
     model.tree->add(system, nullptr, model.report);
+    if (model.hasSystem) checkClusters(model.tree->description(), model.report);
     addAgents(*model.tree);
     model.tree->createRelated();
     // Without a system, what validate() says of types alone needs the base types.

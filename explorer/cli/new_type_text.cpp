@@ -79,7 +79,7 @@ std::string rulesOf(const Type& type) {
                                       : least + " to " + std::to_string(rule.max) + " ";
         lines.push_back(rule.name + " (" + name(rule.direction) + ", " + count + rule.target + ")");
     }
-    return lines.empty() ? "none" : xmlComment(joined(lines, ",\n           "));
+    return lines.empty() ? "none" : xmlComment(joined(lines, ",\n         "));
 }
 
 std::string freeName(std::string name, const Type& type) {

@@ -35,6 +35,14 @@ std::string validate(const std::string& file, const ModelFolder& folder) {
                : outcome.output + outcome.errors;
 }
 
+// Against the schema of editors and other tools, too.
+std::string xmllint(const std::string& kind, const std::string& file, const ModelFolder& folder) {
+    const Outcome outcome = runProgram(
+        "xmllint", {"--noout", "--schema", CORTEX_SOURCE_DIR "/ontology/" + kind + ".xsd", file},
+        {}, folder.path());
+    return outcome.exit == 0 ? "" : outcome.errors;
+}
+
 std::size_t filesIn(const ModelFolder& folder) {
     using std::filesystem::directory_iterator;
     return static_cast<std::size_t>(
@@ -61,6 +69,8 @@ TEST(CortexNewType, MakesFilesThatAreValidAsTheyAreAndWithTheirExamplesForEveryT
         EXPECT_NE(folder.read("mine.xml").find("\n    <data name=\"exampleItem\""),
                   std::string::npos);
         EXPECT_EQ(validate("mine-morphology.xml", folder), "") << parent << folder.read("mine.xml");
+        EXPECT_EQ(xmllint("ontology", "mine.xml", folder), "") << parent;
+        EXPECT_EQ(xmllint("morphology", "mine-morphology.xml", folder), "") << parent;
     }
 }
 
@@ -160,6 +170,7 @@ TEST(CortexNewSystem, MakesASystemThatIsValid) {
     EXPECT_EQ(made.exit, 0) << made.errors;
     EXPECT_EQ(made.output, "wrote mixer.xml\n");
     EXPECT_EQ(validate("mixer.xml", folder), "");
+    EXPECT_EQ(xmllint("system", "mixer.xml", folder), "");
     EXPECT_NE(folder.read("mixer.xml").find("<system name=\"mixer\">"), std::string::npos);
 }
 

@@ -104,6 +104,30 @@ TEST(CortexValidate, KnowsTheSimplexOfTheAgentItself) {
     EXPECT_EQ(findingsOf(outcome).at(0)["path"], "/test");
 }
 
+// As cortex-agent has it.
+TEST(CortexValidate, WantsOneClusterWithANameThatCanBeAPath) {
+    const ModelFolder folder;
+    const auto check = [&](const std::string& clusters) {
+        folder.write("s.xml", "<system name=\"s\">\n<ontology file=\"base.xml\"/>\n" + clusters +
+                                  "</system>\n");
+        return cortex({"validate", "s.xml"}, {}, folder.path());
+    };
+
+    EXPECT_EQ(check("<cluster name=\"a\"/>").output, "s.xml: valid, 1 simplex, 1 active\n");
+    EXPECT_NE(check("").output.find("warning: the system has no cluster"), std::string::npos);
+    EXPECT_NE(check("").output.find("s.xml: valid, 0 simplexes, 0 active, 1 warning"),
+              std::string::npos);
+    EXPECT_EQ(check("").exit, 0);
+    const std::vector<std::string> wrong{"<cluster name=\"a\"/><cluster name=\"b\"/>",
+                                         "<cluster name=\"../x\"/>", "<cluster name=\"a/b\"/>",
+                                         "<cluster name=\"\"/>", "<cluster name=\"a b\"/>"};
+    for (const std::string& clusters : wrong) {
+        const Outcome outcome = check(clusters);
+        EXPECT_EQ(outcome.exit, 1) << clusters << outcome.output;
+        EXPECT_NE(outcome.output.find("[s.xml:3]"), std::string::npos) << outcome.output;
+    }
+}
+
 TEST(CortexValidate, TakesSeveralFilesAsOneModel) {
     const ModelFolder folder;
     folder.write("t.xml", "<ontology name=\"t\" version=\"1.0\"><type name=\"A\"/></ontology>\n");
