@@ -47,8 +47,8 @@ struct Fixture {
 };
 
 void perTask(benchmark::State& state, std::int64_t tasks) {
-    state.counters["ns_per_task"] =
-        benchmark::Counter(static_cast<double>(state.iterations() * tasks) * 1e-9,
+    state.counters["per_task"] =
+        benchmark::Counter(static_cast<double>(state.iterations() * tasks),
                            benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 

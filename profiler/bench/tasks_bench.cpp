@@ -26,8 +26,8 @@ cs::ClusterOptions withThreads(std::int64_t threads) {
 }
 
 void report(benchmark::State& state, std::int64_t tasks) {
-    state.counters["ns_per_task"] =
-        benchmark::Counter(static_cast<double>(state.iterations() * burstCycles * tasks) * 1e-9,
+    state.counters["per_task"] =
+        benchmark::Counter(static_cast<double>(state.iterations() * burstCycles * tasks),
                            benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
@@ -128,19 +128,28 @@ void plainLoop(benchmark::State& state) {
     report(state, state.range(0));
 }
 
+// With all indexes and one image slot; the other slots of the pool are counted out.
 void bytesPerEmptySimplex(benchmark::State& state) {
     const int few = 1000;
     const int many = 11000;
-    const auto used = [] { return static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd); };
+    const auto used = [] {
+        const struct mallinfo2 info = mallinfo2();
+        return static_cast<double>(info.uordblks + info.hblkhd);
+    };
     double bytes = 0;
     for (auto _ : state) {
+        cs::ClusterOptions options;
+        options.imageReaders = 1;
         const double before = used();
-        auto small =
-            std::make_unique<BenchCluster>(emptySimplexes(few, chainLength), withThreads(1));
+        auto small = std::make_unique<BenchCluster>(emptySimplexes(few, chainLength), options);
         const double between = used();
-        auto large =
-            std::make_unique<BenchCluster>(emptySimplexes(many, chainLength), withThreads(1));
-        bytes = ((used() - between) - (between - before)) / (many - few);
+        auto large = std::make_unique<BenchCluster>(emptySimplexes(many, chainLength), options);
+        const double after = used();
+        const auto arena = [](BenchCluster& bench) {
+            return static_cast<double>(bench.cluster.agent().tables().arena().size());
+        };
+        const double otherSlots = 2 * (arena(*large) - arena(*small));
+        bytes = ((after - between) - (between - before) - otherSlots) / (many - few);
     }
     state.counters["bytes"] = bytes;
 }
