@@ -49,8 +49,8 @@ SlotState TaskRunner::readInputs(Task& task, const Tick& tick) {
               input.ages);
         safe = safe || (lost && input.rule->onLoss == OnLoss::Safe);
     }
-    if (safe && !task.safeByLoss) latchSafe(task);
-    task.safeByLoss = safe;
+    if (safe && !task.simplex->safeByLoss_) latchSafe(task);
+    task.simplex->safeByLoss_ = safe;
     return sum;
 }
 
@@ -114,7 +114,7 @@ void TaskRunner::limit(Task& task, const Tick& tick, TaskOutput& output, Worker&
     LimitResult result = output.limits->apply(elapsed);
     if (result.item == nullptr) return;
     ++worker.counts.limits;
-    if (simplex.state_ == State::Active) {
+    if (simplex.state_ == State::Active && !simplex.safeByLoss_) {
         reportLimit(result, output.target, task.index, *simplex.thread_);
         if (result.faults) {
             EventText text{result.item->name};
@@ -165,7 +165,7 @@ void TaskRunner::arbitrate(Task& task, Worker& worker, LoopThread& thread) {
     const LimitResult result = arbiter.limits->apply(elapsed);
     if (result.item == nullptr) return;
     ++worker.counts.limits;
-    if (active > 0) {
+    if (active > 0 && !chosen.writer->safeByLoss_) {
         reportLimit(result, task.index, chosen.writer->index(), thread);
         if (result.faults) chosen.output->refused = result.item;
     }

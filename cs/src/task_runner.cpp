@@ -109,7 +109,7 @@ void TaskRunner::runHooks(Task& task, const Tick& tick, Position& position) {
             simplex.done_ = simplex.stateStartingUp(tick);
             break;
         case State::Active:
-            if (task.safeByLoss)
+            if (task.simplex->safeByLoss_)
                 writeSafe(task);
             else
                 simplex.stateActive(tick);

@@ -82,7 +82,6 @@ struct Task {
     std::uint32_t firstInput = 0, inputCount = 0;
     std::uint32_t firstOutput = 0, outputCount = 0;
     bool measures = false;
-    bool safeByLoss = false;  // an onLoss="safe" input is lost: safe demands stand
     std::int64_t lastRun = 0, stateSince = 0;
     std::int64_t transitionTimeout = 0;  // ns
     Data<std::int64_t> state, faultCode;

@@ -91,6 +91,7 @@ private:
     bool faultPending_ = false;
     bool done_ = false;  // the transitional state's function has returned true
     bool dead_ = false;  // a hook threw: no hooks until clearFaults
+    bool safeByLoss_ = false;  // an onLoss="safe" input is lost: safe demands stand
     bool qualitySet_ = false;
     Quality quality_ = Quality::Good;
     LoopThread* thread_ = nullptr;
