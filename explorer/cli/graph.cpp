@@ -24,7 +24,7 @@ bool hasTask(const SimplexInfo& info) {
 
 }  // namespace
 
-Graph makeGraph(std::string title, std::shared_ptr<const Structure> structure) {
+Graph makeGraph(std::string title, const std::shared_ptr<const Structure>& structure) {
     const std::size_t count = structure->simplexes.size();
     std::vector<std::vector<std::uint32_t>> after(count);
     std::vector<std::uint32_t> waiting(count), depth(count), ready;

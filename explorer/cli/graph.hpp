@@ -22,7 +22,7 @@ struct Graph {
     std::vector<std::uint32_t> levelOf;              // from 1; 0: no task
 };
 
-Graph makeGraph(std::string title, std::shared_ptr<const Structure> structure);
+Graph makeGraph(std::string title, const std::shared_ptr<const Structure>& structure);
 
 Json graphJson(const Graph& graph);  // schemas/graph.json
 void printGraph(std::ostream& stream, const Graph& graph);

@@ -6,8 +6,9 @@
 #include "output.hpp"
 #include "type_json.hpp"
 
-#include <algorithm>
+#include <functional>
 #include <set>
+#include <utility>
 
 namespace cortex::explorer {
 namespace {
@@ -58,7 +59,7 @@ void addOrigin(Words& words, const Type& type, const std::string& definedBy) {
     if (definedBy != type.name) words.push_back("from " + definedBy);
 }
 
-Words cellsOf(const DataItem& item, Words more) {
+Words cellsOf(const DataItem& item, const Words& more) {
     return {item.name, shape(item), item.unit, range(item), initialOf(item), joined(more)};
 }
 
@@ -168,11 +169,12 @@ std::string roleText(const Type& type) {
 
 // Nearest first, each after what extends it.
 Words ancestorsOf(const TypeModel& types, const Type& type) {
-    Words ancestors{type.ancestors.begin(), type.ancestors.end()};
-    std::ranges::stable_sort(ancestors, std::ranges::greater{}, [&](const std::string& each) {
-        const Type* ancestor = types.find(each);
-        return ancestor == nullptr ? 0 : ancestor->ancestors.size();
-    });
+    std::set<std::pair<std::size_t, std::string>, std::greater<>> byDepth;
+    for (const std::string& each : type.ancestors) {
+        byDepth.emplace(types.at(each).ancestors.size(), each);
+    }
+    Words ancestors;
+    for (const auto& [depth, ancestor] : byDepth) ancestors.push_back(ancestor);
     return ancestors;
 }
 
