@@ -4,6 +4,7 @@
 #include "core/model_folder.hpp"
 
 #include <limits>
+#include <regex>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -328,6 +329,20 @@ TEST(Validation, SaysWhyNothingMoreIsCreated) {
     EXPECT_EQ(finding.path, "/n/inner/inner/inner/inner/inner/inner/inner");
     EXPECT_EQ(finding.place.line, 3);  // of the simplex in the file that it was created for
     EXPECT_TRUE(contains(finding.message, "at most 8 levels")) << finding.message;
+}
+
+TEST(Validation, HasEveryFindingExplained) {
+    const std::string explained = textOf(CORTEX_SOURCE_DIR "/docs/findings.md");
+    const std::regex constant{"\\[\\] = \"([a-z-]+)\""};
+    int count = 0;
+    for (const char* header : {"findings.hpp", "system_findings.hpp"}) {
+        std::string text = textOf(std::string{CORTEX_SOURCE_DIR "/core/src/"} + header);
+        for (std::smatch match; std::regex_search(text, match, constant); ++count) {
+            EXPECT_TRUE(contains(explained, "| `" + match[1].str() + "` |")) << match[1];
+            text = match.suffix();
+        }
+    }
+    EXPECT_GT(count, 80);
 }
 
 TEST(Validation, EndsWithAModelThatIsWrongThroughout) {

@@ -30,9 +30,9 @@ public:
     const Factory* find(std::string_view type) const;
     std::vector<std::string> names() const;
 
-    // Loads a plug-in for good and registers its classes. Throws Error in words when its ABI number,
-    // compiler or standard library differ, when it changed the floating-point mode, or when the hash
-    // of a type it implements differs from ours.
+    // Loads a plug-in for good and registers its classes. Throws Error in words when its ABI
+    // number, compiler or standard library differ, when it changed the floating-point mode, or when
+    // the hash of a type it implements differs from ours.
     void loadPlugin(const std::filesystem::path& file, const TypeModel& types);
 
 private:
@@ -62,14 +62,14 @@ const char* standardLibraryOfThisBuild();
 // In one source file of a plug-in, at namespace scope:
 //   void addClasses(cortex::ClassRegistry& registry) { registry.add<Pump>("Pump"); }
 //   CORTEX_PLUGIN(addClasses, {"Pump", ""})
-#define CORTEX_PLUGIN(registerFunction, ...)                                                     \
-    extern "C" __attribute__((visibility("default"))) const cortex::PluginDescription*           \
-    cortexPlugin() {                                                                             \
-        static const cortex::PluginDescription::ImplementedType types[] = {__VA_ARGS__,          \
-                                                                           {nullptr, nullptr}};  \
-        static const cortex::PluginDescription description{                                      \
-            cortex::pluginAbi, __VERSION__, CORTEX_STANDARD_LIBRARY, types, registerFunction};   \
-        return &description;                                                                     \
+#define CORTEX_PLUGIN(registerFunction, ...)                                                    \
+    extern "C" __attribute__((visibility("default"))) const cortex::PluginDescription*          \
+    cortexPlugin() {                                                                            \
+        static const cortex::PluginDescription::ImplementedType types[] = {__VA_ARGS__,         \
+                                                                           {nullptr, nullptr}}; \
+        static const cortex::PluginDescription description{                                     \
+            cortex::pluginAbi, __VERSION__, CORTEX_STANDARD_LIBRARY, types, registerFunction};  \
+        return &description;                                                                    \
     }
 
 #if defined(_GLIBCXX_RELEASE)

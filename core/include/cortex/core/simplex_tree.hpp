@@ -22,8 +22,8 @@ class SimplexTree {
 public:
     explicit SimplexTree(TypeModel types);
 
-    // Reads files of any kind and adds the simplexes of their system. `registry` makes the objects of
-    // active types; without it (or the class) they stay plain, which start() refuses.
+    // Reads files of any kind and adds the simplexes of their system. `registry` makes the objects
+    // of active types; without it (or the class) they stay plain, which start() refuses.
     static SimplexTree load(std::span<const std::filesystem::path> files,
                             const ClassRegistry* registry = nullptr);  // throws ModelError
     // What cannot be added (unknown type, bad path, bad value) goes to the report.
@@ -33,8 +33,8 @@ public:
     Simplex& add(std::string_view path, std::string_view type);
     template <class T, class... Arguments>
     T& add(std::string_view path, std::string_view type, Arguments&&... arguments) {
-        auto simplex = std::make_unique<T>(identity(path, type),
-                                           std::forward<Arguments>(arguments)...);
+        auto simplex =
+            std::make_unique<T>(identity(path, type), std::forward<Arguments>(arguments)...);
         T& reference = *simplex;
         insert(std::move(simplex));
         return reference;
@@ -43,7 +43,8 @@ public:
     // To a simplex of another agent, bound when that agent appears; inputs only.
     void relateRemote(Simplex& owner, std::string_view rule, std::string_view path);
 
-    // Fills rules with `create` up to their minimum; idempotent. start() calls it.
+    // Fills rules with `create` up to their minimum; idempotent. start() calls it. A simplex that
+    // stands at a created path already, of the type or a child, is related in its place.
     void createRelated(const ClassRegistry* registry = nullptr);
 
     Simplex* find(std::string_view path);

@@ -85,7 +85,7 @@ public:
     std::vector<Edge> edges;             // by owner, then rule, in the order related
     std::vector<std::unique_ptr<TypeLayout>> layouts;
     std::vector<InitialValue> initial;  // settings of the tree; a later one outranks
-    BlockSizes cyclic, constant;  // totals
+    BlockSizes cyclic, constant;        // totals
     std::unordered_map<std::string_view, std::uint32_t> byPath;
 
     std::uint32_t find(std::string_view path) const;  // noSimplex if there is none

@@ -6,7 +6,8 @@
 
 namespace cortex {
 
-// Every finding of a tree against its types and rules: a pure function, nothing is changed.
+// Every finding of a tree against its types and rules: a pure function, nothing is changed. Rules
+// with `create` are as SimplexTree::createRelated() left them: call it before.
 // Loops without a delayed relationship are found here too, printed whole by path.
 Report validate(const SimplexTree& tree);
 
