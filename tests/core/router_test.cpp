@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/agent_rig.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace cortex {
+namespace {
+
+using test::AgentRig;
+using test::Hand;
+using test::PlayedInterface;
+using Message = PlayedInterface::Message;
+
+struct Router : testing::Test {
+    AgentRig rig{"rig", {.outsideCommands = 8}};
+    Hand& worker = rig.hand("/worker");
+    Simplex& plate = rig.tree.add("/plate", "Plate");
+    int calls = 0;
+
+    void start() {
+        rig.make();
+        worker.on("poke", [this](Call&) { return ++calls, Outcome::Done; });
+        rig.start();
+    }
+    void SetUp() override { worker.state = State::Active; }
+    PlayedInterface::Answer answerTo(const Message& message) {
+        rig.outside.send(message);
+        rig.step();
+        return rig.outside.last();
+    }
+};
+
+TEST_F(Router, CommandFromOutsideIsExecutedInTheCycleWhoseReadTookIt) {
+    rig.make();
+    const auto in = worker.argument<double>("add", "amount");
+    const auto out = worker.result<double>("add", "sum");
+    worker.on("add", [&](Call& call) {
+        EXPECT_NE(call.sender(), nullptr);
+        call[out] = call[in] + 1;
+        return Outcome::Done;
+    });
+    rig.start();
+
+    const auto answer = answerTo(
+        {.path = "/worker", .command = "add", .arguments = {{"amount", Value{std::vector{2.0}}}}});
+
+    EXPECT_EQ(answer.outcome, Outcome::Done);
+    EXPECT_EQ(answer.sequence, 1U);
+    EXPECT_EQ(answer.latencyCycles, 0);
+    ASSERT_EQ(answer.response.size(), 8U);
+    EXPECT_EQ(*reinterpret_cast<const double*>(answer.response.data()), 3);
+    EXPECT_TRUE(rig.hasEvent("/worker: tool: add(amount=2): Done in 0 cycles"));
+}
+
+TEST_F(Router, SetOfASimplexWithoutTaskIsDoneAtRead) {
+    start();
+    rig.outside.send(
+        {.path = "/plate", .command = "set", .arguments = {{"level", Value{std::vector{4.0}}}}});
+    rig.begin();
+
+    EXPECT_EQ(plate.data<double>("level"), 4);
+    rig.end();
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Done);
+}
+
+TEST_F(Router, CommandsAreTakenInOrderOfInterfaceThenNameThenEpochThenSequence) {
+    PlayedInterface second;
+    rig.add(second);
+    rig.make();
+    std::vector<std::string> seen;
+    worker.on("poke", [&](Call& call) {
+        seen.push_back(std::string{call.sender()->nameText()});
+        return Outcome::Done;
+    });
+    const auto in = worker.argument<double>("add", "amount");
+    worker.on("add", [&](Call& call) {
+        seen.push_back(std::to_string(static_cast<int>(call[in])));
+        return Outcome::Done;
+    });
+    rig.start();
+    const auto add = [](double amount, std::uint64_t sequence) {
+        return Message{.path = "/worker",
+                       .command = "add",
+                       .arguments = {{"amount", Value{std::vector{amount}}}},
+                       .sequence = sequence};
+    };
+    second.send({.path = "/worker", .command = "poke", .sender = "a"});
+    rig.outside.send({.path = "/worker", .command = "poke", .sender = "z"});
+    rig.outside.send(add(2, 2));
+    rig.outside.send(add(1, 1));
+    rig.outside.send({.path = "/worker", .command = "poke", .sender = "b"});
+
+    rig.step();
+
+    EXPECT_EQ(seen, (std::vector<std::string>{"b", "1", "2", "z", "a"}));
+    EXPECT_EQ(second.answers.size(), 1U);
+    EXPECT_EQ(rig.outside.answers.size(), 4U);
+}
+
+TEST_F(Router, RepeatIsAnsweredFromTheWindowAndNotExecutedAgain) {
+    start();
+    answerTo({.path = "/worker", .command = "poke"});
+    const auto again = answerTo({.path = "/worker", .command = "poke"});
+
+    EXPECT_EQ(again.outcome, Outcome::Done);
+    EXPECT_EQ(calls, 1);
+    EXPECT_EQ(rig.outside.answers.size(), 2U);
+}
+
+TEST_F(Router, RepeatOfALongCommandIsAnsweredWithWhatItHasComeTo) {
+    rig.make();
+    Outcome next = Outcome::Running;
+    worker.on("watch", [&](Call&) { return ++calls, next; });
+    rig.start();
+    const Message watch{.path = "/worker", .command = "watch"};
+    EXPECT_EQ(answerTo(watch).outcome, Outcome::Running);
+    EXPECT_EQ(answerTo(watch).outcome, Outcome::Running);
+    EXPECT_EQ(rig.outside.answers.size(), 2U);
+    next = Outcome::Done;
+    rig.step();
+    EXPECT_EQ(answerTo(watch).outcome, Outcome::Done);
+
+    EXPECT_EQ(rig.outside.answers.size(), 4U);
+    EXPECT_EQ(calls, 3);
+}
+
+TEST_F(Router, RepeatInTheSameReadIsAnsweredOnce) {
+    start();
+    rig.outside.send({.path = "/worker", .command = "poke"});
+    rig.outside.send({.path = "/worker", .command = "poke"});
+    rig.step();
+
+    EXPECT_EQ(calls, 1);
+    EXPECT_EQ(rig.outside.answers.size(), 1U);
+}
+
+TEST_F(Router, WhatIsAcknowledgedIsForgottenAndALateRepeatOfItIgnored) {
+    start();
+    answerTo({.path = "/worker", .command = "poke", .sequence = 1});
+    answerTo({.path = "/worker", .command = "poke", .sequence = 2, .answeredBelow = 2});
+    rig.outside.send({.path = "/worker", .command = "poke", .sequence = 1});
+    rig.step();
+
+    EXPECT_EQ(calls, 2);
+    EXPECT_EQ(rig.outside.answers.size(), 2U);
+}
+
+TEST_F(Router, RefusalIsRepeatedLikeAnyOutcome) {
+    start();
+    worker.state = State::Fault;
+    EXPECT_EQ(answerTo({.path = "/worker", .command = "poke"}).outcome, Outcome::Rejected);
+    worker.state = State::Active;
+
+    EXPECT_EQ(answerTo({.path = "/worker", .command = "poke"}).outcome, Outcome::Rejected);
+    EXPECT_EQ(calls, 0);
+}
+
+TEST_F(Router, RejectsByStateRangeAndMissingHandler) {
+    start();
+    worker.state = State::Fault;
+    const auto state = answerTo({.path = "/worker", .command = "poke", .sequence = 1});
+    EXPECT_EQ(state.reason, Reason::State);
+    EXPECT_EQ(state.why, "poke needs Standby or Active, is Fault");
+    worker.state = State::Active;
+
+    const auto range = answerTo({.path = "/worker",
+                                 .command = "add",
+                                 .arguments = {{"amount", Value{std::vector{-1.0}}}},
+                                 .sequence = 2});
+    EXPECT_EQ(range.reason, Reason::Range);
+
+    const auto mute = answerTo({.path = "/worker", .command = "mute", .sequence = 3});
+    EXPECT_EQ(mute.reason, Reason::UnknownCommand);
+    EXPECT_EQ(rig.agent->thread(0).rejected, 3U);
+    EXPECT_TRUE(rig.hasEvent("tool: add(amount=-1): Rejected (range), amount: -1 is below 0"));
+}
+
+TEST_F(Router, RejectsWhatItDoesNotHave) {
+    start();
+    const auto simplex = answerTo({.path = "/nowhere", .command = "poke", .sequence = 1});
+    EXPECT_EQ(simplex.reason, Reason::UnknownCommand);
+    const auto command = answerTo({.path = "/worker", .command = "nothing", .sequence = 2});
+    EXPECT_EQ(command.reason, Reason::UnknownCommand);
+    const auto size =
+        answerTo({.path = "/worker", .command = "add", .sequence = 3, .sizeError = 8});
+    EXPECT_EQ(size.reason, Reason::UnknownCommand);
+    EXPECT_EQ(calls, 0);
+}
+
+TEST_F(Router, RejectsWhatIsMeantForAnotherStartOfTheAgent) {
+    start();
+    const auto answer = answerTo({.path = "/worker", .command = "poke", .targetEpoch = 12345});
+
+    EXPECT_EQ(answer.outcome, Outcome::Rejected);
+    EXPECT_EQ(answer.reason, Reason::Restarted);
+    EXPECT_EQ(calls, 0);
+    // Not kept: the same sequence meant for this start is executed.
+    EXPECT_EQ(answerTo({.path = "/worker", .command = "poke"}).outcome, Outcome::Done);
+}
+
+TEST_F(Router, NewStartOfASenderBeginsAnewAndTheOldOneIsRefused) {
+    start();
+    answerTo({.path = "/worker", .command = "poke", .epoch = 1});
+    EXPECT_EQ(answerTo({.path = "/worker", .command = "poke", .epoch = 2}).outcome, Outcome::Done);
+    const auto old = answerTo({.path = "/worker", .command = "poke", .sequence = 2, .epoch = 1});
+
+    EXPECT_EQ(old.reason, Reason::Restarted);
+    EXPECT_EQ(calls, 2);
+}
+
+TEST_F(Router, CommandThatCameTooLateIsExpiredAndSurelyNotExecuted) {
+    start();
+    rig.step(5);
+    const auto answer = answerTo({.path = "/worker", .command = "poke", .notAfter = 5});
+
+    EXPECT_EQ(answer.outcome, Outcome::Expired);
+    EXPECT_EQ(calls, 0);
+    EXPECT_EQ(
+        answerTo({.path = "/worker", .command = "poke", .sequence = 2, .notAfter = 7}).outcome,
+        Outcome::Done);
+}
+
+TEST_F(Router, CommandThatWaitedTooLongForASlowSimplexIsExpired) {
+    start();
+    rig.order = {};
+    rig.outside.send({.path = "/worker", .command = "poke", .notAfter = 3});
+    rig.step(4);
+    EXPECT_TRUE(rig.outside.answers.empty());
+    rig.order = {"/worker"};
+    rig.step();
+
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Expired);
+    EXPECT_EQ(calls, 0);
+}
+
+TEST_F(Router, SenderMayHaveOnlyAWindowUnanswered) {
+    start();
+    const auto beyond =
+        answerTo({.path = "/worker", .command = "poke", .sequence = 1 + senderWindow});
+    EXPECT_EQ(beyond.outcome, Outcome::Rejected);
+    EXPECT_EQ(beyond.reason, Reason::Window);
+
+    EXPECT_EQ(answerTo({.path = "/worker", .command = "poke", .sequence = senderWindow}).outcome,
+              Outcome::Done);
+    EXPECT_EQ(calls, 1);
+}
+
+TEST_F(Router, PoolOfAllSendersIsBounded) {
+    start();
+    for (std::uint64_t i = 1; i <= 10; ++i) {
+        rig.outside.send({.path = "/worker", .command = "poke", .sequence = i});
+    }
+    rig.step();
+
+    int full = 0;
+    for (const auto& answer : rig.outside.answers) full += answer.outcome == Outcome::MailboxFull;
+    EXPECT_EQ(full, 2);
+    EXPECT_EQ(calls, 8);
+    EXPECT_EQ(rig.agent->thread(0).rejected, 2U);
+}
+
+TEST_F(Router, TooManySendersAreRefusedUntilOneIsPastRepeating) {
+    start();
+    const auto from = [](int i, std::int64_t notAfter) {
+        return Message{.path = "/worker",
+                       .command = "poke",
+                       .sender = "tool" + std::to_string(i),
+                       .notAfter = notAfter};
+    };
+    for (int i = 0; i < 32; ++i) answerTo(from(i, i == 7 ? 40 : 1000));
+    EXPECT_EQ(answerTo(from(32, 1000)).reason, Reason::Window);
+    rig.step(10);
+
+    EXPECT_EQ(answerTo(from(32, 1000)).outcome, Outcome::Done);
+    EXPECT_EQ(answerTo(from(33, 1000)).reason, Reason::Window);
+}
+
+TEST_F(Router, WhatIsLeftWhenTheAgentStopsIsCancelled) {
+    start();
+    rig.order = {};
+    rig.outside.send({.path = "/worker", .command = "poke"});
+    rig.step();
+    rig.agent->stop();
+
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Cancelled);
+    EXPECT_EQ(calls, 0);
+}
+
+TEST_F(Router, AnswerToASenderThatStartedAnewInBetweenHarmsNobody) {
+    rig.make();
+    Outcome next = Outcome::Running;
+    worker.on("watch", [&](Call&) { return next; });
+    worker.on("poke", [&](Call&) { return ++calls, Outcome::Done; });
+    rig.start();
+    answerTo({.path = "/worker", .command = "watch", .epoch = 1});
+    answerTo({.path = "/worker", .command = "poke", .epoch = 2});
+    next = Outcome::Done;
+    rig.step();
+
+    EXPECT_EQ(calls, 1);
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Done);
+    EXPECT_EQ(answerTo({.path = "/worker", .command = "poke", .epoch = 2}).outcome, Outcome::Done);
+    EXPECT_EQ(calls, 1);
+}
+
+TEST_F(Router, EventsOfInterfacesAreThoseOfTheCycle) {
+    start();
+    rig.outside.atRead([&](Inbox& inbox) {
+        EXPECT_EQ(inbox.cycle(), 1);
+        inbox.event(Severity::Warning, EventKind::Agent, worker.index(), "hello");
+    });
+    rig.step();
+
+    EXPECT_TRUE(rig.hasEvent("/worker: hello"));
+}
+
+// Life-cycle commands
+
+struct LifeCycleFromOutside : Router {
+    LifeCycle taken = LifeCycle::None;
+
+    void SetUp() override {
+        start();
+        rig.setState(worker, State::Standby);
+        worker.run = [this] {
+            const LifeCycle command = rig.agent->takeLifeCycle(worker.index());
+            if (command != LifeCycle::None) taken = command;
+        };
+    }
+};
+
+TEST_F(LifeCycleFromOutside, IsAnsweredRunningThenDoneWhenTheStateIsReached) {
+    EXPECT_EQ(answerTo({.path = "/worker", .command = "startup"}).outcome, Outcome::Running);
+    EXPECT_EQ(taken, LifeCycle::Startup);
+    rig.setState(worker, State::StartingUp);
+    rig.step();
+    EXPECT_EQ(rig.outside.answers.size(), 1U);
+    rig.setState(worker, State::Active);
+    rig.step();
+
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Done);
+    EXPECT_EQ(rig.outside.last().latencyCycles, 2);
+    EXPECT_TRUE(rig.hasEvent("/worker: tool: startup(): Done in 2 cycles"));
+}
+
+TEST_F(LifeCycleFromOutside, IsRejectedWhereItIsNotAvailable) {
+    const auto shutdown = answerTo({.path = "/worker", .command = "shutdown", .sequence = 1});
+    EXPECT_EQ(shutdown.reason, Reason::State);
+    EXPECT_EQ(shutdown.why, "shutdown needs StartingUp or Active, is Standby");
+    EXPECT_EQ(answerTo({.path = "/worker", .command = "clearFaults", .sequence = 2}).reason,
+              Reason::State);
+    EXPECT_EQ(taken, LifeCycle::None);
+}
+
+TEST_F(LifeCycleFromOutside, FailsWhereTheSimplexGoesToFault) {
+    answerTo({.path = "/worker", .command = "startup"});
+    rig.setState(worker, State::Fault);
+    rig.step();
+
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Failed);
+    EXPECT_EQ(rig.outside.last().why, "it went to Fault");
+}
+
+TEST_F(LifeCycleFromOutside, FailsWhereTheSimplexComesBackToWhereItWas) {
+    answerTo({.path = "/worker", .command = "startup"});
+    rig.setState(worker, State::StartingUp);
+    rig.step();
+    rig.setState(worker, State::Standby);
+    rig.step();
+
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Failed);
+    EXPECT_EQ(rig.outside.last().why, "it is back in Standby");
+}
+
+TEST_F(LifeCycleFromOutside, FailsAfterTheTimeOfItsTypeAndASecond) {
+    rig.setState(worker, State::Active);
+    answerTo({.path = "/worker", .command = "shutdown"});
+    EXPECT_EQ(taken, LifeCycle::Shutdown);
+    rig.setState(worker, State::ShuttingDown);
+    rig.step(10'999);
+    EXPECT_EQ(rig.outside.answers.size(), 1U);
+    rig.step(2);
+
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Failed);
+    EXPECT_EQ(rig.outside.last().why, "it took too long, is ShuttingDown");
+}
+
+TEST_F(LifeCycleFromOutside, IsRejectedInTheWordsOfTheSimplex) {
+    worker.run = [this] {
+        if (rig.agent->takeLifeCycle(worker.index()) != LifeCycle::None) {
+            rig.agent->refuseLifeCycle(worker.index(), LifeCycle::Startup, "its arm is not there");
+        }
+    };
+    const auto answer = answerTo({.path = "/worker", .command = "startup"});
+
+    EXPECT_EQ(answer.outcome, Outcome::Rejected);
+    EXPECT_EQ(answer.reason, Reason::State);
+    EXPECT_EQ(answer.why, "its arm is not there");
+}
+
+TEST_F(LifeCycleFromOutside, IsRejectedWhereTheSimplexDoesNotFollow) {
+    answerTo({.path = "/worker", .command = "startup"});
+    rig.step(2);
+
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Rejected);
+    EXPECT_EQ(rig.outside.last().why, "it did not follow; its events say why");
+}
+
+TEST_F(LifeCycleFromOutside, ClearFaultsLeadsToStandby) {
+    rig.setState(worker, State::Fault);
+    EXPECT_EQ(answerTo({.path = "/worker", .command = "clearFaults"}).outcome, Outcome::Running);
+    EXPECT_EQ(taken, LifeCycle::ClearFaults);
+    rig.setState(worker, State::Standby);
+    rig.step();
+
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Done);
+}
+
+TEST_F(LifeCycleFromOutside, IsCancelledWhenTheAgentStops) {
+    answerTo({.path = "/worker", .command = "startup"});
+    rig.agent->stop();
+
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Cancelled);
+}
+
+}  // namespace
+}  // namespace cortex
