@@ -27,8 +27,7 @@ std::vector<std::string> typesMissingIn(const TypeModel& other, const TypeModel&
 void printList(const std::vector<Disagreement>& disagreements, bool contradictions) {
     for (const Disagreement& each : disagreements) {
         if (each.contradiction != contradictions) continue;
-        std::cout << (contradictions ? "contradiction: " : "difference: ") << printable(each.text())
-                  << '\n';
+        std::cout << printable(each.text()) << '\n';
     }
 }
 
