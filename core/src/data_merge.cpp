@@ -62,29 +62,25 @@ void joinLabels(DataItem& item, const DataItem& other, const char* rule, const s
     }
 }
 
-// Narrows `item`, from `first`, to what `second` allows as well.
-void intersect(DataItem& item, const FromParent<DataItem>& second, const std::string& first,
-               const Stated& stated, const ItemContext& context) {
-    const DataItem& other = *second.item;
-    for (const Shape& each : shape) {
-        if (each.text(item) != each.text(other)) {
-            context.exclude(each.attribute, each.text(item), each.text(other), first,
-                            second.parent);
-            return;
-        }
-    }
+void intersectRange(DataItem& item, const FromParent<DataItem>& second, const std::string& first,
+                    const ItemContext& context) {
     const auto text = [](const std::optional<Number>& bound) {
         return bound ? toText(*bound) : "*";
     };
     const auto range = [text](const DataItem& i) { return text(i.min) + " to " + text(i.max); };
     const std::string before = range(item);
-    tighter(item.min, other.min, true);
-    tighter(item.max, other.max, false);
-    tighter(item.rate, other.rate, false);
+    tighter(item.min, second.item->min, true);
+    tighter(item.max, second.item->max, false);
+    tighter(item.rate, second.item->rate, false);
     if (item.min && item.max && *item.min > *item.max) {
-        context.exclude("range", before, range(other), first, second.parent);
+        context.exclude("range", before, range(*second.item), first, second.parent);
         item.max = item.min;
     }
+}
+
+void intersectValues(DataItem& item, const FromParent<DataItem>& second, const std::string& first,
+                     const Stated& stated, const ItemContext& context) {
+    const DataItem& other = *second.item;
     if (item.hasDefault && other.hasDefault && item.initial != other.initial &&
         !stated("default", false)) {
         context.restate("default", toText(item.initial), toText(other.initial), first,
@@ -99,23 +95,41 @@ void intersect(DataItem& item, const FromParent<DataItem>& second, const std::st
         context.restate("safe", safeText(item.safe), safeText(other.safe), first, second.parent);
     }
     if (item.safe.kind == Safe::Kind::None) item.safe = other.safe;
-    if (!item.settable.empty() && !other.settable.empty()) {
-        if ((item.settable & other.settable).empty()) {
-            context.exclude("settable", item.settable.text(), other.settable.text(), first,
-                            second.parent);
-        }
-        item.settable = item.settable & other.settable;
-    } else {
-        item.settable = item.settable | other.settable;
+}
+
+void intersectSettable(DataItem& item, const FromParent<DataItem>& second, const std::string& first,
+                       const ItemContext& context) {
+    const StateSet other = second.item->settable;
+    if (item.settable.empty() || other.empty()) {
+        item.settable = item.settable | other;
+        return;
     }
-    item.onLimit = std::max(item.onLimit, other.onLimit);
+    if ((item.settable & other).empty()) {
+        context.exclude("settable", item.settable.text(), other.text(), first, second.parent);
+    }
+    item.settable = item.settable & other;
+}
+
+void finer(double& step, double other) {
+    if (step == 0 || (other > 0 && other < step)) step = other;
+}
+
+// Narrows `item`, from `first`, to what `second` allows as well.
+void intersect(DataItem& item, const FromParent<DataItem>& second, const std::string& first,
+               const Stated& stated, const ItemContext& context) {
+    const DataItem& other = *second.item;
+    for (const Shape& each : shape) {
+        if (each.text(item) == each.text(other)) continue;
+        context.exclude(each.attribute, each.text(item), each.text(other), first, second.parent);
+        return;
+    }
+    intersectRange(item, second, first, context);
+    intersectValues(item, second, first, stated, context);
+    intersectSettable(item, second, first, context);
     joinLabels(item, other, finding::intersectionEmpty, "in " + second.parent, context);
-    if (item.resolution == 0 || (other.resolution > 0 && other.resolution < item.resolution)) {
-        item.resolution = other.resolution;
-    }
-    if (item.deadband == 0 || (other.deadband > 0 && other.deadband < item.deadband)) {
-        item.deadband = other.deadband;
-    }
+    item.onLimit = std::max(item.onLimit, other.onLimit);
+    finer(item.resolution, other.resolution);
+    finer(item.deadband, other.deadband);
     if (item.format.empty()) item.format = other.format;
     if (item.description.empty()) item.description = other.description;
 }

@@ -58,7 +58,7 @@ std::string countText(std::uint32_t count) {
     return count == Rule::many ? "*" : std::to_string(count);
 }
 
-std::string joined(std::vector<std::string> names) {
+std::string joined(const std::vector<std::string>& names) {
     std::string result;
     for (const std::string& each : names) result += (result.empty() ? "" : " ") + each;
     return result;

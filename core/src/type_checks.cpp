@@ -14,7 +14,7 @@ namespace {
 std::string nearestRule(std::string_view wrong, const Type& type) {
     std::vector<std::string> valid;
     for (const Rule& each : type.rules) valid.push_back(each.name);
-    const std::string near = nearestNames(wrong, valid);
+    std::string near = nearestNames(wrong, valid);
     if (!near.empty()) return near;
     std::string all;
     for (const std::string& each : valid) all += (all.empty() ? "valid: " : ", ") + each;
