@@ -2,15 +2,15 @@
 // For each way out of Active, and back: no demand of the case study steps by more than its axis may
 // move in a cycle.
 #include "teleop.hpp"
-
 #include "toolkit/lbr_chain.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <limits>
 #include <stdexcept>
+
+#include <gtest/gtest.h>
 
 namespace cortex::test {
 namespace {
@@ -165,9 +165,9 @@ class Demands : public testing::TestWithParam<WayOut> {};
 Teleop::Set setOf(cs::Overflow overflow, StepWatch& watch) {
     Teleop::Set set;
     set.ontology = Types;
-    set.replacements = {{"type=\"FollowAxisController\"", "type=\"TestFollow\""},
-                        {"path=\"/drives/4\" type=\"SimulatedAxis\"",
-                         "path=\"/drives/4\" type=\"TestDrive\""}};
+    set.replacements = {
+        {"type=\"FollowAxisController\"", "type=\"TestFollow\""},
+        {"path=\"/drives/4\" type=\"SimulatedAxis\"", "path=\"/drives/4\" type=\"TestDrive\""}};
     set.classes = [](ClassRegistry& registry) {
         registry.add<TestFollow>("TestFollow");
         registry.add<TestDrive>("TestDrive");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace cortex::test {
@@ -112,7 +113,10 @@ TEST_P(FlippedJoint, BreaksThePromise) {
     Teleop teleop{set};
     teleop.startUp();
 
-    EXPECT_FALSE(track(teleop, EndOfPath).keepsPromise());
+    const Tracking tracking = track(teleop, EndOfPath);
+
+    EXPECT_GT(tracking.seconds, 5);
+    EXPECT_FALSE(tracking.keepsPromise());
 }
 
 INSTANTIATE_TEST_SUITE_P(LbrTeleop, FlippedJoint, testing::Range(1, 8));

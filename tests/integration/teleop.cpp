@@ -2,15 +2,18 @@
 #include "teleop.hpp"
 
 #include "cortex/toolkit/classes.hpp"
+
 #include "toolkit/lbr_chain.hpp"
 
 #include <cmath>
 #include <fstream>
-#include <gtest/gtest.h>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
+
 #include <unistd.h>
+
+#include <gtest/gtest.h>
 
 namespace cortex::test {
 namespace {

@@ -4,12 +4,14 @@
 #include "cortex/core/event_sinks.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 #include "cortex/toolkit/classes.hpp"
+
 #include "options.hpp"
 #include "summary.hpp"
 
 #include <array>
 #include <iostream>
 #include <string>
+
 #include <unistd.h>
 
 namespace cortex::toolkit {
@@ -70,14 +72,16 @@ SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry) {
 
 // Waits for the answer to the group command while it also minds signals. False: to be ended.
 bool startUp(cs::ClusterCS& cluster, const std::string& name) {
-    const std::uint64_t sent = cluster.send("/" + name, "startup",
-                                            {{"prefix", Value{std::vector<std::string>{"/"}}}});
+    const std::uint64_t sent =
+        cluster.send("/" + name, "startup", {{"prefix", Value{std::vector<std::string>{"/"}}}});
     CallResult answer;
     const bool interrupted = cs::waitForInterrupt(
         60, [&] { return cluster.program().poll(sent, answer) || !cluster.running(); });
     if (interrupted) return false;
-    if (answer.done()) std::cout << "all active simplexes are started" << std::endl;
-    else std::cerr << "startup: " << answer.text() << std::endl;
+    if (answer.done())
+        std::cout << "all active simplexes are started" << std::endl;
+    else
+        std::cerr << "startup: " << answer.text() << std::endl;
     return true;
 }
 

@@ -3,16 +3,18 @@
 
 #include "cortex/core/error.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <map>
+
+#include <CLI/CLI.hpp>
 
 namespace cortex::toolkit {
 namespace {
 
 constexpr int UsageError = 2;
 
-constexpr const char* Footer = R"(Exit codes: 0 ended; 1 model refused, the report was printed; 2 usage; 3 halted or hung.
+constexpr const char* Footer =
+    R"(Exit codes: 0 ended; 1 model refused, the report was printed; 2 usage; 3 halted or hung.
 Settings of the loop stand in the system file, <cluster name="…" frequency="…" threads="…"
 priority="…" overflow="…"/>; options outrank them. Files are looked for beside the file that names
 them, in $CORTEX_PATH, and where CorteX is installed.)";

@@ -40,7 +40,8 @@ std::string textOf(const DataItem& item, const Value& value) {
     if (numbers != nullptr && numbers->size() == 1) {
         return fixed(numbers->front(), decimalsOf(item.format));
     }
-    if (const auto* ints = std::get_if<std::vector<std::int64_t>>(&value); ints && ints->size() == 1) {
+    if (const auto* ints = std::get_if<std::vector<std::int64_t>>(&value);
+        ints && ints->size() == 1) {
         if (const auto label = item.labels.find(ints->front()); label != item.labels.end()) {
             return label->second;
         }
@@ -97,8 +98,8 @@ std::string metricsTable(const Image& image, const std::string& cluster) {
     constexpr std::array columns{"Last", "Mean", "P50", "P99", "P999", "Max"};
     constexpr std::array titles{"last", "mean", "p50", "p99", "p99.9", "max"};
     constexpr std::array counts{
-        Row{"overflows", "", "overflowCount"}, Row{"commands", "", "commandCount"},
-        Row{"rejected", "", "rejectedCount"},  Row{"conflicts", "", "conflictCount"},
+        Row{"overflows", "", "overflowCount"},    Row{"commands", "", "commandCount"},
+        Row{"rejected", "", "rejectedCount"},     Row{"conflicts", "", "conflictCount"},
         Row{"limited demands", "", "limitCount"}, Row{"dropped events", "", "eventsDropped"}};
     const std::string path = "/" + cluster;
 
@@ -116,8 +117,8 @@ std::string metricsTable(const Image& image, const std::string& cluster) {
         text += "\n";
     }
     for (const auto& [title, unit, item] : counts) {
-        text += "  " + left(title, 20) + right(toText(image.get<std::int64_t>(path, item)), 11) +
-                "\n";
+        text +=
+            "  " + left(title, 20) + right(toText(image.get<std::int64_t>(path, item)), 11) + "\n";
     }
     return text;
 }

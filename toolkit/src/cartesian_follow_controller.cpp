@@ -22,8 +22,10 @@ bool CartesianFollowController::stateStartingUp(const Tick&) {
 
 void CartesianFollowController::engage(bool pressed) {
     const bool usable = hand_.good() && tip_.good() && enableState_->quality == Quality::Good;
-    if (!usable) released_ = false;
-    else if (!pressed) released_ = true;
+    if (!usable)
+        released_ = false;
+    else if (!pressed)
+        released_ = true;
     const bool engage = pressed && released_;
     if (engage && !engaged_) {
         handThen_ = hand_.pose();

@@ -38,8 +38,10 @@ PoseInput::PoseInput(const InputSimplex& frame)
 Pose PoseInput::pose() const {
     Pose pose{vector(position), {rotation[3], rotation[0], rotation[1], rotation[2]}};
     const double norm = pose.rotation.norm();
-    if (norm > 0.5) pose.rotation.coeffs() /= norm;
-    else pose.rotation.setIdentity();
+    if (norm > 0.5)
+        pose.rotation.coeffs() /= norm;
+    else
+        pose.rotation.setIdentity();
     return pose;
 }
 
@@ -107,12 +109,11 @@ SerialChain chainOf(const Simplex& owner, const std::vector<InputSimplex>& axes,
     std::vector<ChainJoint> joints;
     for (const InputSimplex& axis : axes) {
         const AxisLimits limits{axis.type()};
-        joints.push_back({vector(axis.array<double>("originPosition")),
-                          vector(axis.array<double>("originRotation")),
-                          vector(axis.array<double>("direction")),
-                          axis.type().isA("LinearAxisConcept") ? JointKind::Linear
-                                                               : JointKind::Rotary,
-                          finite(limits.min), finite(limits.max), finite(limits.speed)});
+        joints.push_back(
+            {vector(axis.array<double>("originPosition")),
+             vector(axis.array<double>("originRotation")), vector(axis.array<double>("direction")),
+             axis.type().isA("LinearAxisConcept") ? JointKind::Linear : JointKind::Rotary,
+             finite(limits.min), finite(limits.max), finite(limits.speed)});
     }
     const Eigen::Vector3d angles = vector(tipRotation);
     const Eigen::Quaterniond rotation = Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *

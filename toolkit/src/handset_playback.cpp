@@ -53,8 +53,10 @@ bool HandsetPlayback::stateStartingUp(const Tick& tick) {
 
 void HandsetPlayback::stateActive(const Tick& tick) {
     time_ = static_cast<double>(tick.nominalTime - startedAt_) * 1e-9;
-    if (path_) play();
-    else moveByKeyboard(tick);
+    if (path_)
+        play();
+    else
+        moveByKeyboard(tick);
 }
 
 void HandsetPlayback::play() {

@@ -3,6 +3,7 @@
 
 #include "cortex/cs/simplex_cs.hpp"
 #include "cortex/toolkit/recorded_path.hpp"
+
 #include "handles.hpp"
 #include "keyboard_hand.hpp"
 

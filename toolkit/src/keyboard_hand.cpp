@@ -3,8 +3,9 @@
 
 #include "cortex/core/error.hpp"
 
-#include <poll.h>
 #include <string_view>
+
+#include <poll.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -18,8 +19,9 @@ constexpr std::int64_t KeyLasts = 120'000'000;     // ns, longer than a terminal
 
 KeyboardHand::KeyboardHand() {
     if (!isatty(STDIN_FILENO)) {
-        throw Error("the keyboard as source needs a terminal as standard input; "
-                    "else set source to 0 and give a file");
+        throw Error(
+            "the keyboard as source needs a terminal as standard input; "
+            "else set source to 0 and give a file");
     }
     thread_ = std::thread{[this] { run(); }};
 }

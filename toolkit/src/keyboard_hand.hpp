@@ -31,7 +31,7 @@ private:
     void take(char key);
 
     struct Axis {
-        std::atomic<std::int64_t> strokes{0};   // how many keys came; odd sign in `direction`
+        std::atomic<std::int64_t> strokes{0};  // how many keys came; odd sign in `direction`
         std::atomic<int> direction{0};
         std::int64_t seen = 0, until = 0;  // loop's side
     };

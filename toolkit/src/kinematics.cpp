@@ -12,7 +12,8 @@ void resize(SerialChain::JointVector& joints, std::size_t size) {
 
 void ForwardKinematics::populate() {
     const auto axes = inputs("axes");
-    chain_ = chainOf(*this, axes, array<const double>("tipPosition"), array<const double>("tipRotation"));
+    chain_ = chainOf(*this, axes, array<const double>("tipPosition"),
+                     array<const double>("tipRotation"));
     axes_ = axisInputs(axes);
     tip_ = PoseOutput{output("tip")};
     resize(positions_, axes.size());
@@ -30,7 +31,8 @@ void ForwardKinematics::stateActive(const Tick&) {
 
 void InverseKinematics::populate() {
     const auto axes = inputs("axes");
-    chain_ = chainOf(*this, axes, array<const double>("tipPosition"), array<const double>("tipRotation"));
+    chain_ = chainOf(*this, axes, array<const double>("tipPosition"),
+                     array<const double>("tipRotation"));
     axes_ = axisInputs(axes);
     targets_ = axisOutputs(outputs("targets"));
     requireSameCount(*this, axes_.size(), targets_.size(), "targets");

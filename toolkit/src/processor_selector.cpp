@@ -32,8 +32,8 @@ bool ProcessorSelector::stateStartingUp(const Tick& tick) {
 
 bool ProcessorSelector::handMoves(const Tick& tick) {
     const Twist velocity = hand_.velocity();
-    const bool moves = velocity.head<3>().norm() >= speedThreshold_ ||
-                       velocity.tail<3>().norm() >= turnThreshold_;
+    const bool moves =
+        velocity.head<3>().norm() >= speedThreshold_ || velocity.tail<3>().norm() >= turnThreshold_;
     stillFor_ = moves ? 0 : stillFor_ + tick.elapsedSeconds();
     return stillFor_ <= stillTime_;
 }
@@ -47,8 +47,7 @@ void ProcessorSelector::select(Choice choice) {
 void ProcessorSelector::stateActive(const Tick& tick) {
     const bool moves = handMoves(tick);
     const bool usable = hand_.good() && enableState_->quality == Quality::Good;
-    const bool follow =
-        usable && enable_ && moves && choices_[0].sender.state() != State::Fault;
+    const bool follow = usable && enable_ && moves && choices_[0].sender.state() != State::Fault;
     select(follow ? WhileMoving : Otherwise);
     Managed& chosen = choices_[follow ? 0 : 1];
     Managed& other = choices_[follow ? 1 : 0];

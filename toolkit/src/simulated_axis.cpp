@@ -47,7 +47,8 @@ void SimulatedAxis::servo(double seconds) {
     const double error = position_ - demand_->position;
     const double errorSpeed = velocity_ - demand_->velocity;
     const double newError = decay * (error * cosine + (errorSpeed + damping * error) * sine);
-    const double newSpeed = decay * (errorSpeed * cosine - (damping * errorSpeed + w * w * error) * sine);
+    const double newSpeed =
+        decay * (errorSpeed * cosine - (damping * errorSpeed + w * w * error) * sine);
     position_ = demand_->position + demand_->velocity * seconds + newError;
     velocity_ = demand_->velocity + newSpeed;
 }
@@ -60,8 +61,8 @@ void SimulatedAxis::brake(double seconds) {
 
 void SimulatedAxis::limit(double before, double seconds) {
     const double reach = limits_->speed * seconds;
-    const double position =
-        std::clamp(std::clamp(position_, before - reach, before + reach), limits_->min, limits_->max);
+    const double position = std::clamp(std::clamp(position_, before - reach, before + reach),
+                                       limits_->min, limits_->max);
     const double velocity = position <= limits_->min || position >= limits_->max
                                 ? 0
                                 : std::clamp(velocity_, -limits_->speed, limits_->speed);
@@ -81,8 +82,10 @@ std::int64_t SimulatedAxis::status() const {
 void SimulatedAxis::loopEnd(const Tick& tick) {
     const double before = position_;
     const double seconds = tick.elapsedSeconds();
-    if (state() == State::Active) servo(seconds);
-    else brake(seconds);
+    if (state() == State::Active)
+        servo(seconds);
+    else
+        brake(seconds);
     limit(before, seconds);
     observation_->write(position_, velocity_);
     observedStatus_ = status();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/cs/simplex_cs.hpp"
+
 #include "handles.hpp"
 
 namespace cortex::toolkit {
