@@ -2,8 +2,10 @@
 #include "cortex/toolkit/classes.hpp"
 
 #include "axis_controllers.hpp"
+#include "axis_pose_controller.hpp"
 #include "cartesian_follow_controller.hpp"
 #include "handset_playback.hpp"
+#include "jog_controller.hpp"
 #include "kinematics.hpp"
 #include "processor_selector.hpp"
 #include "simulated_axis.hpp"
@@ -16,6 +18,8 @@ void addClasses(ClassRegistry& registry) {
     registry.add<InverseKinematics>("InverseKinematics");
     registry.add<HoldAxisController>("HoldAxisController");
     registry.add<FollowAxisController>("FollowAxisController");
+    registry.add<AxisPoseController>("AxisPoseController");
+    registry.add<JogController>("JogController");
     registry.add<SineController>("SineController");
     registry.add<CartesianFollowController>("CartesianFollowController");
     registry.add<ProcessorSelector>("ProcessorSelector");
