@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lbr_chain.hpp"
+#include "rig.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace cortex::toolkit::test {
+namespace {
+
+Rig::Pairs sevenOf(const std::string& rule, const std::string& folder) {
+    Rig::Pairs pairs;
+    for (int i = 1; i <= 7; ++i) pairs.emplace_back(rule, folder + "/" + std::to_string(i));
+    return pairs;
+}
+
+void place(Rig& rig, const SerialChain::JointVector& joints) {
+    for (int i = 0; i < 7; ++i) {
+        rig.tree.at("/lbr/axes/" + std::to_string(i + 1)).data<double>("position") = joints[i];
+    }
+}
+
+// The geometry in the ontology is that of the data sheet.
+TEST(ForwardKinematics, FindsTheTipOfTheLbr) {
+    Rig rig;
+    rig.add("/lbr", "KukaLbr");
+    rig.add("/forward", "ForwardKinematics", sevenOf("axes", "/lbr/axes"));
+    rig.start();
+    rig.startUp();
+    const SerialChain chain = lbrChain();
+    for (int seed = 0; seed < 20; ++seed) {
+        SerialChain::JointVector joints(7);
+        for (int i = 0; i < 7; ++i) joints[i] = std::sin(seed * 7 + i * 3 + 1.0);
+        place(rig, joints);
+        rig.step();
+        const Pose expected = chain.forward(joints);
+
+        const auto position = rig.array("/forward/tip", "position");
+        const auto rotation = rig.array("/forward/tip", "rotation");
+
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_NEAR(position[i], expected.position[static_cast<int>(i)], 1e-12);
+        }
+        const Pose found{{}, {rotation[3], rotation[0], rotation[1], rotation[2]}};
+        EXPECT_NEAR(found.rotation.angularDistance(expected.rotation), 0, 1e-7);
+    }
+}
+
+class LbrInverse : public testing::Test {
+protected:
+    void SetUp() override {
+        rig_.add("/lbr", "KukaLbr");
+        rig_.add("/target", "CartesianConcept");
+        for (int i = 1; i <= 7; ++i) rig_.add("/targets/" + std::to_string(i), "RotaryAxisConcept");
+        Rig::Pairs relates = sevenOf("axes", "/lbr/axes");
+        relates.emplace_back("target", "/target");
+        for (const auto& pair : sevenOf("targets", "/targets")) relates.push_back(pair);
+        rig_.add("/inverse", "InverseKinematics", relates);
+        rig_.start();
+        place(rig_, lbrPosture());
+        aim(chain_.forward(lbrPosture()));
+        rig_.startUp();
+    }
+    void aim(const Pose& pose) {
+        auto position = rig_.tree.at("/target").array<double>("position");
+        auto rotation = rig_.tree.at("/target").array<double>("rotation");
+        for (std::size_t i = 0; i < 3; ++i) {
+            position[i] = pose.position[static_cast<int>(i)];
+            rotation[i] = pose.rotation.vec()[static_cast<int>(i)];
+        }
+        rotation[3] = pose.rotation.w();
+    }
+    SerialChain::JointVector solution() {
+        SerialChain::JointVector joints(7);
+        for (int i = 0; i < 7; ++i) {
+            joints[i] = rig_.get<double>("/targets/" + std::to_string(i + 1), "position");
+        }
+        return joints;
+    }
+    Rig rig_;
+    SerialChain chain_ = lbrChain();
+};
+
+TEST_F(LbrInverse, StaysWhereTheArmIsWhenThatIsTheTarget) {
+    rig_.step(10);
+
+    EXPECT_NEAR((solution() - lbrPosture()).norm(), 0, 1e-6);
+    EXPECT_TRUE(rig_.get<bool>("/inverse", "reached"));
+}
+
+TEST_F(LbrInverse, BringsTheTipToThePoseNoFasterThanTheAxesMay) {
+    Pose target = chain_.forward(lbrPosture());
+    target.position += Eigen::Vector3d{0.02, 0.03, -0.02};
+    aim(target);
+    SerialChain::JointVector before = solution();
+    double fastest = 0;
+    for (int i = 0; i < 150; ++i) {
+        rig_.step();
+        const auto share = (solution() - before).cwiseAbs().cwiseQuotient(chain_.maxSpeed());
+        fastest = std::max(fastest, share.maxCoeff() * 1e3);
+        before = solution();
+    }
+
+    EXPECT_LT(difference(chain_.forward(solution()), target).norm(), 1e-6);
+    EXPECT_LE(fastest, 1 + 1e-6);
+    EXPECT_GT(fastest, 0.9);
+}
+
+TEST_F(LbrInverse, BeginsAnewWhenTheArmIsElsewhere) {
+    const auto seeds = rig_.get<std::int64_t>("/inverse", "seedCount");
+    SerialChain::JointVector elsewhere = lbrPosture();
+    elsewhere[0] += 0.5;
+    place(rig_, elsewhere);
+    aim(chain_.forward(elsewhere));
+
+    rig_.step(2);
+
+    EXPECT_EQ(rig_.get<std::int64_t>("/inverse", "seedCount"), seeds + 1);
+    EXPECT_NEAR((solution() - elsewhere).norm(), 0, 1e-6);
+}
+
+class Clutch : public testing::Test {
+protected:
+    void SetUp() override {
+        rig_.add("/hand", "CartesianObservation");
+        rig_.add("/tip", "CartesianObservation");
+        rig_.add("/button", "DigitalIoConcept");
+        rig_.add("/clutch", "CartesianFollowController",
+                 {{"hand", "/hand"}, {"tip", "/tip"}, {"enable", "/button"}});
+        rig_.start();
+        rig_.tree.at("/tip").array<double>("position")[0] = 0.5;
+        rig_.startUp();
+    }
+    void press(bool pressed) {
+        rig_.tree.at("/button").data<bool>("value") = pressed;
+        rig_.step();
+    }
+    void moveHand(double x) {
+        rig_.tree.at("/hand").array<double>("position")[0] = x;
+        rig_.step();
+    }
+    double target() { return rig_.array("/clutch/target", "position")[0]; }
+
+    Rig rig_;
+};
+
+TEST_F(Clutch, TargetIsTheTipUntilThePress) {
+    moveHand(0.3);
+
+    EXPECT_DOUBLE_EQ(target(), 0.5);
+    EXPECT_FALSE(rig_.get<bool>("/clutch", "engaged"));
+}
+
+TEST_F(Clutch, TargetMovesAsTheHandSinceThePress) {
+    moveHand(0.3);
+    press(true);
+    EXPECT_DOUBLE_EQ(target(), 0.5);
+
+    moveHand(0.4);
+
+    EXPECT_DOUBLE_EQ(target(), 0.6);
+}
+
+TEST_F(Clutch, TargetStaysAfterTheRelease) {
+    press(true);
+    moveHand(0.1);
+    press(false);
+    moveHand(0.9);
+
+    EXPECT_DOUBLE_EQ(target(), 0.6);
+}
+
+TEST_F(Clutch, ThePoseTurnsAsTheHandTurns) {
+    press(true);
+    auto rotation = rig_.tree.at("/hand").array<double>("rotation");
+    rotation[2] = std::sin(0.1);
+    rotation[3] = std::cos(0.1);
+    rig_.step();
+
+    const auto turned = rig_.array("/clutch/target", "rotation");
+    EXPECT_NEAR(std::abs(turned[2]), std::sin(0.1), 1e-12);
+    EXPECT_NEAR(std::abs(turned[3]), std::cos(0.1), 1e-12);
+}
+
+TEST_F(Clutch, AfterALossOnlyANewPressEngages) {
+    press(true);
+    moveHand(0.1);
+    rig_.tree.at("/hand").slot().quality = Quality::Lost;
+    rig_.step();
+    EXPECT_FALSE(rig_.get<bool>("/clutch", "engaged"));
+
+    rig_.tree.at("/hand").slot().quality = Quality::Good;
+    moveHand(0.9);
+    EXPECT_DOUBLE_EQ(target(), 0.6);
+    press(false);
+    press(true);
+    moveHand(1.0);
+
+    EXPECT_DOUBLE_EQ(target(), 0.6);  // from the tip, which is at 0.5
+    EXPECT_EQ(rig_.get<std::int64_t>("/clutch", "engageCount"), 2);
+}
+
+class Selector : public testing::Test {
+protected:
+    void SetUp() override {
+        rig_.add("/hand", "CartesianObservation");
+        rig_.add("/button", "DigitalIoConcept");
+        for (const char* name : {"/axis", "/target", "/demand"})
+            rig_.add(name, "RotaryAxisConcept");
+        rig_.add("/follow", "FollowAxisController",
+                 {{"axes", "/axis"}, {"targets", "/target"}, {"demands", "/demand"}});
+        rig_.add("/hold", "HoldAxisController", {{"axes", "/axis"}, {"demands", "/demand"}});
+        rig_.add("/selector", "ProcessorSelector",
+                 {{"whileMoving", "/follow"},
+                  {"otherwise", "/hold"},
+                  {"hand", "/hand"},
+                  {"enable", "/button"}});
+        rig_.start();
+        rig_.startUp();
+        rig_.step(10);
+    }
+    void hand(bool pressed, double speed) {
+        rig_.tree.at("/button").data<bool>("value") = pressed;
+        rig_.tree.at("/hand").array<double>("linearVelocity")[1] = speed;
+    }
+    void expectActive(const char* active, const char* other) {
+        EXPECT_EQ(rig_.state(active), State::Active);
+        EXPECT_EQ(rig_.state(other), State::Standby);
+    }
+    Rig rig_;
+};
+
+TEST_F(Selector, HoldsUnlessTheHandMovesWithTheButtonPressed) {
+    expectActive("/hold", "/follow");
+    hand(true, 0);
+    rig_.step(300);
+    expectActive("/hold", "/follow");
+    hand(false, 0.2);
+    rig_.step(10);
+    expectActive("/hold", "/follow");
+    hand(true, 0.2);
+    rig_.step(3);
+    expectActive("/follow", "/hold");
+}
+
+TEST_F(Selector, HoldsAfterTheHandStoodStillForAWhile) {
+    hand(true, 0.2);
+    rig_.step(10);
+    hand(true, 0);
+    rig_.step(190);
+    expectActive("/follow", "/hold");
+    rig_.step(20);
+    expectActive("/hold", "/follow");
+    EXPECT_EQ(rig_.get<std::int64_t>("/selector", "switchCount"), 2);
+}
+
+TEST_F(Selector, HoldsAtOnceWhenTheButtonIsReleasedOrTheHandIsLost) {
+    hand(true, 0.2);
+    rig_.step(10);
+    hand(false, 0.2);
+    rig_.step(3);
+    expectActive("/hold", "/follow");
+    hand(true, 0.2);
+    rig_.step(10);
+    rig_.tree.at("/hand").slot().quality = Quality::Lost;
+    rig_.step(3);
+    expectActive("/hold", "/follow");
+}
+
+TEST_F(Selector, ShutsDownAfterItsChoicesHave) {
+    hand(true, 0.2);
+    rig_.step(10);
+
+    EXPECT_TRUE(rig_.call("/selector", "shutdown").done());
+
+    EXPECT_EQ(rig_.state("/follow"), State::Standby);
+    EXPECT_EQ(rig_.state("/hold"), State::Standby);
+    EXPECT_EQ(rig_.get<std::int64_t>("/selector", "selected"), 0);
+}
+
+TEST_F(Selector, NeverHasBothActive) {
+    for (int i = 0; i < 400; ++i) {
+        hand(i % 3 != 0, i % 5 != 0 ? 0.2 : 0);
+        rig_.step();
+        EXPECT_FALSE(rig_.state("/follow") == State::Active &&
+                     rig_.state("/hold") == State::Active);
+    }
+}
+
+}  // namespace
+}  // namespace cortex::toolkit::test
