@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/program_interface.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "command_pipe.hpp"
+#include "support/agent_rig.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace cortex {
+namespace {
+
+using namespace std::chrono_literals;
+using test::AgentRig;
+using test::Hand;
+
+struct ProgramInterface : testing::Test {
+    cortex::ProgramInterface program{"program", 8};
+    AgentRig rig;
+    Hand& worker = rig.hand("/worker");
+
+    void start() {
+        rig.add(program);
+        rig.make();
+        const auto in = worker.argument<double>("add", "amount");
+        const auto out = worker.result<double>("add", "sum");
+        worker.on("add", [=](Call& call) {
+            call[out] = call[in] + 1;
+            return Outcome::Done;
+        });
+        worker.on("watch", [](Call&) { return Outcome::Running; });
+        rig.start();
+    }
+};
+
+TEST_F(ProgramInterface, CarriesACommandAndItsAnswerOnce) {
+    start();
+    const auto sequence = program.post("/worker", "add", {{"amount", Value{std::vector{4.0}}}});
+    CallResult result;
+    EXPECT_FALSE(program.poll(sequence, result));
+    rig.step();
+
+    ASSERT_TRUE(program.poll(sequence, result));
+    EXPECT_TRUE(result.done());
+    EXPECT_EQ(result.response["sum"], (Value{std::vector{5.0}}));
+    EXPECT_EQ(result.text(), "Done");
+    EXPECT_FALSE(program.poll(sequence, result));
+}
+
+TEST_F(ProgramInterface, AnswerInWords) {
+    start();
+    worker.state = State::Standby;
+    const auto sequence = program.post("/worker", "add");
+    rig.step();
+    CallResult result;
+    ASSERT_TRUE(program.poll(sequence, result));
+
+    EXPECT_EQ(result.text(), "Rejected (state): add needs Active, is Standby");
+    EXPECT_FALSE(result.done());
+}
+
+TEST_F(ProgramInterface, RunningIsNoAnswer) {
+    start();
+    const auto sequence = program.post("/worker", "watch");
+    CallResult result;
+    rig.step(3);
+    EXPECT_FALSE(program.poll(sequence, result));
+    rig.agent->cancelActivity(worker.index(), rig.agent->thread(0));
+    rig.step();
+
+    ASSERT_TRUE(program.poll(sequence, result));
+    EXPECT_EQ(result.outcome, Outcome::Cancelled);
+}
+
+TEST_F(ProgramInterface, NamesWhatIsUnknown) {
+    EXPECT_THROW(program.post("/worker", "add"), Error);  // before start()
+    CallResult result;
+    EXPECT_FALSE(program.poll(1, result));
+    start();
+    EXPECT_THROW(program.post("/wroker", "add"), Error);
+    EXPECT_THROW(program.post("/worker", "ad"), Error);
+    EXPECT_THROW(program.post("/worker", "add", {{"amonut", Value{std::vector{1.0}}}}), Error);
+}
+
+TEST_F(ProgramInterface, FullPipeIsAnsweredAtOnce) {
+    start();
+    CallResult result;
+    for (int i = 0; i < 8; ++i) program.post("/worker", "add");
+    const auto ninth = program.post("/worker", "add");
+
+    ASSERT_TRUE(program.poll(ninth, result));
+    EXPECT_EQ(result.outcome, Outcome::MailboxFull);
+    rig.step();
+    EXPECT_FALSE(program.poll(ninth, result));
+    EXPECT_NE(program.post("/worker", "add"), 0U);
+}
+
+TEST_F(ProgramInterface, WindowOfUnansweredCommandsIsKept) {
+    start();
+    program.post("/worker", "watch");
+    rig.step();
+    CallResult result;
+    std::uint64_t last = 0;
+    for (std::uint32_t i = 1; i < senderWindow; ++i) {
+        last = program.post("/worker", "add");
+        rig.step();
+        ASSERT_TRUE(program.poll(last, result)) << i;
+        ASSERT_TRUE(result.done());
+    }
+    last = program.post("/worker", "add");
+    ASSERT_TRUE(program.poll(last, result));
+    EXPECT_EQ(result.outcome, Outcome::MailboxFull);
+}
+
+TEST_F(ProgramInterface, CallWaitsForTheAnswer) {
+    start();
+    std::atomic<bool> stop{false};
+    std::thread loop{[&] {
+        while (!stop) rig.step();
+    }};
+    for (int i = 0; i < 20; ++i) EXPECT_TRUE(program.call("/worker", "add").done());
+    stop = true;
+    loop.join();
+}
+
+TEST_F(ProgramInterface, CallGivesUpWhereNoAnswerComes) {
+    start();
+    const CallResult result = program.call("/worker", "add", {}, 1ms);
+
+    EXPECT_EQ(result.outcome, Outcome::Unknown);
+    EXPECT_EQ(result.why, "no answer within 1 ms");
+    rig.step();  // its answer is not kept for anybody
+    CallResult late;
+    EXPECT_FALSE(program.poll(1, late));
+}
+
+TEST_F(ProgramInterface, WhatIsOnItsWayWhenTheAgentStopsEnds) {
+    start();
+    const auto taken = program.post("/worker", "watch");
+    rig.step();
+    const auto waiting = program.post("/worker", "add");
+    rig.agent->stop();
+    CallResult result;
+
+    ASSERT_TRUE(program.poll(taken, result));
+    EXPECT_EQ(result.outcome, Outcome::Cancelled);
+    ASSERT_TRUE(program.poll(waiting, result));
+    EXPECT_EQ(result.outcome, Outcome::Unknown);
+    EXPECT_THROW(program.post("/worker", "add"), Error);
+}
+
+TEST_F(ProgramInterface, CommandsFromManyThreadsAllArrive) {
+    start();
+    std::atomic<bool> stop{false};
+    std::thread loop{[&] {
+        while (!stop) rig.step();
+    }};
+    std::atomic<int> done{0};
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i) {
+        threads.emplace_back([&] {
+            for (int k = 0; k < 25; ++k) done += program.call("/worker", "add").done() ? 1 : 0;
+        });
+    }
+    for (auto& thread : threads) thread.join();
+    stop = true;
+    loop.join();
+
+    EXPECT_EQ(done, 100);
+}
+
+TEST(SenderOfThisProcess, StartsLaterThanTheOnesBefore) {
+    const Sender first = makeSender("a"), second = makeSender(std::string(200, 'x'));
+
+    EXPECT_GT(second.epoch, first.epoch);
+    EXPECT_EQ(second.nameText().size(), 63U);
+    EXPECT_EQ(first.nameText(), "a");
+}
+
+TEST(CommandClient, KeepsTheLastThousandResultsThatNobodyFetched) {
+    cortex::ProgramInterface program;
+    AgentRig rig;
+    rig.hand("/worker");
+    rig.add(program);
+    rig.start();
+    for (int i = 0; i < 1100; ++i) {
+        program.post("/worker", "mute");
+        rig.step();
+    }
+    CallResult result;
+    EXPECT_FALSE(program.poll(1, result));
+    EXPECT_TRUE(program.poll(1000, result));
+    rig.agent->stop();
+}
+
+}  // namespace
+}  // namespace cortex
