@@ -31,9 +31,9 @@ private:
     void take(char key);
 
     struct Axis {
-        std::atomic<std::int64_t> strokes{0};  // how many keys came; odd sign in `direction`
+        std::atomic<std::int64_t> strokes{0};  // how many keys came
         std::atomic<int> direction{0};
-        std::int64_t seen = 0, until = 0;  // loop's side
+        std::int64_t seen = 0, until = 0;  // used by the loop only
     };
     std::array<Axis, Axes> axes_;
     std::atomic<bool> pressed_{false};
