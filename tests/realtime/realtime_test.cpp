@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tick is sacred: nothing on the loop's threads allocates, locks, calls the system or meets a new
-// page, while the whole case study runs with an observer, commands from outside and a fault.
+// The tick is sacred: nothing on the loop's threads allocates, locks, calls the system or meets a
+// new page, while the whole case study runs with an observer, commands from outside and a fault.
 #include "cortex/core/registry.hpp"
 #include "cortex/toolkit/classes.hpp"
+
 #include "realtime/detectors.hpp"
 #include "support/probe.hpp"
-
-#include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
@@ -16,6 +15,8 @@
 
 #include <sys/mman.h>
 #include <unistd.h>
+
+#include <gtest/gtest.h>
 
 namespace cortex::test {
 
@@ -65,8 +66,8 @@ class CaseStudy : public testing::TestWithParam<std::uint32_t> {};
 TEST_P(CaseStudy, RunsWithoutAllocationLockSystemCallOrPageFault) {
     resetOffences();
     const std::string root = CORTEX_SOURCE_DIR;
-    const std::vector<std::filesystem::path> files{
-        root + "/examples/lbr_teleop/lbr_teleop.xml", root + "/tests/data/cs-rules.xml"};
+    const std::vector<std::filesystem::path> files{root + "/examples/lbr_teleop/lbr_teleop.xml",
+                                                   root + "/tests/data/cs-rules.xml"};
     ClassRegistry registry;
     toolkit::addClasses(registry);
     SimplexTree tree = SimplexTree::load(files, &registry);
@@ -150,8 +151,8 @@ TEST_P(MisbehavingHook, IsSeen) {
         done = true;
     };
     munlockall();  // an earlier test may have locked what is still to come
-    freshPage = static_cast<char*>(mmap(nullptr, 1 << 16, PROT_READ | PROT_WRITE,
-                                        MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+    freshPage = static_cast<char*>(
+        mmap(nullptr, 1 << 16, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
     cs::ClusterCS cluster{"watched", watched(1, 0)};
     cluster.addSimplexTree(tree);
     cluster.setTriggerSource<WatchedClock>();
@@ -178,7 +179,12 @@ INSTANTIATE_TEST_SUITE_P(
                     std::free(kept);
                 },
                 [](const Offences& seen, std::uint64_t) { return seen.allocations >= 2; }},
-        Misdeed{"operatorNew", [] { delete new std::uint64_t{1}; },
+        Misdeed{"operatorNew",
+                [] {
+                    auto* volatile number =
+                        new std::uint64_t{1};  // or an optimiser leaves both out
+                    delete number;
+                },
                 [](const Offences& seen, std::uint64_t) { return seen.allocations >= 2; }},
         Misdeed{"mutex", [] { const std::lock_guard lock{someMutex}; },
                 [](const Offences& seen, std::uint64_t) { return seen.locks >= 1; }},
