@@ -98,9 +98,10 @@ TEST_F(LbrInverse, BringsTheTipToThePoseNoFasterThanTheAxesMay) {
     double fastest = 0;
     for (int i = 0; i < 150; ++i) {
         rig_.step();
-        const auto share = (solution() - before).cwiseAbs().cwiseQuotient(chain_.maxSpeed());
-        fastest = std::max(fastest, share.maxCoeff() * 1e3);
-        before = solution();
+        const SerialChain::JointVector now = solution();
+        const SerialChain::JointVector moved = (now - before).cwiseAbs();
+        fastest = std::max(fastest, moved.cwiseQuotient(chain_.maxSpeed()).maxCoeff() * 1e3);
+        before = now;
     }
 
     EXPECT_LT(difference(chain_.forward(solution()), target).norm(), 1e-6);
