@@ -88,7 +88,9 @@ TaskGraph ClusterCS::Implementation::graph() const {
     }
     for (const Edge& edge : structure.edges) {
         const SimplexInfo& target = structure.simplexes[edge.target];
-        if (edge.delayed || target.remote) continue;
+        // What several write is put together after the last of them, even if it is read later.
+        const bool joins = edge.rule->direction == Direction::Output && target.writers.size() > 1;
+        if ((edge.delayed && !joins) || target.remote) continue;
         if (edge.rule->direction == Direction::Output) {
             graph.edges.emplace_back(edge.owner, edge.target);
         } else if (!target.delayedOutput) {

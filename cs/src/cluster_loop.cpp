@@ -117,6 +117,7 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     lastNominal_ = trigger.nominalTime;
     watchdog_->cycleBegins(tick.cycle);
     agent_.beginCycle(tick);
+    reportMissed();
     runner_.beginCycle(tick);
     pool_->cycle();
     metrics_.write(runner_.counts());
@@ -141,9 +142,16 @@ void ClusterLoop::warnDuty() {
 
 void ClusterLoop::countMissed(std::int64_t missed) {
     metrics_.overflow(missed);
+    unreported_ += missed;
+}
+
+// Events of the cycle that follows: those of the one before have been handed out.
+void ClusterLoop::reportMissed() {
+    if (unreported_ == 0) return;
     EventText text{"missed "};
-    text << missed << (missed == 1 ? " tick" : " ticks") << ", " << metrics_.overflows()
+    text << unreported_ << (unreported_ == 1 ? " tick" : " ticks") << ", " << metrics_.overflows()
          << " since the start";
+    unreported_ = 0;
     agent_.post(agent_.thread(0), Severity::Warning, EventKind::Overflow, agent_.agentSimplex(),
                 text);
 }
@@ -192,6 +200,7 @@ void ClusterLoop::shutDown(const Trigger& last) {
         }
         cycle(trigger);
     }
+    reportMissed();
 }
 
 void ClusterLoop::hung(std::int64_t cycle, const HungHook& hook) {

@@ -46,6 +46,7 @@ private:
     void cycle(const Trigger& trigger) CORTEX_REALTIME;
     void checkOverflow(const Trigger& trigger) CORTEX_REALTIME;
     void countMissed(std::int64_t missed) CORTEX_REALTIME;
+    void reportMissed() CORTEX_REALTIME;
     void warnDuty() CORTEX_REALTIME;
     void shutDown(const Trigger& last);
     void hung(std::int64_t cycle, const HungHook& hook);
@@ -69,8 +70,9 @@ private:
     std::int64_t cycle_ = 0;
     std::int64_t lastNominal_ = 0;
     std::int64_t lastWakeUp_ = 0;
-    std::int64_t counted_ = 0;   // missed ticks counted but not yet passed over or caught up
-    std::int64_t caughtUp_ = 0;  // in a row
+    std::int64_t counted_ = 0;     // missed ticks counted but not yet passed over or caught up
+    std::int64_t caughtUp_ = 0;    // in a row
+    std::int64_t unreported_ = 0;  // missed ticks that no event tells yet
 };
 
 }  // namespace cortex::cs

@@ -80,7 +80,8 @@ DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, std::uin
                           item.rate.value_or(infinity), limited, false});
         next += alignedSize(item);
     }
-    setPrevious();
+    beginnings_.reserve(items_.size());
+    accept();
 }
 
 const std::byte* DemandLimits::previous(const DataItem& item) const {
@@ -88,28 +89,32 @@ const std::byte* DemandLimits::previous(const DataItem& item) const {
     return found == items_.end() ? nullptr : found->previous;
 }
 
-void DemandLimits::setPrevious() {
+void DemandLimits::accept() {
     for (const Item& item : items_) std::memcpy(item.previous, item.live, item.size);
 }
 
-void DemandLimits::restorePrevious() {
+void DemandLimits::restore() {
     for (const Item& item : items_) std::memcpy(item.live, item.previous, item.size);
 }
 
 LimitResult DemandLimits::apply(double elapsedSeconds) {
     LimitResult result;
+    beginnings_.clear();
     for (Item& item : items_) {
-        if (item.limited) {
-            const bool limitedNow = item.item->kind == Kind::Float
-                                        ? applyFloat(item, elapsedSeconds, result)
-                                        : applyInt(item, result);
-            if (result.notFinite) return result;
-            if (limitedNow) ++count_;
-            item.inEpisode = limitedNow;
-        }
-        std::memcpy(item.previous, item.live, item.size);
+        if (!item.limited) continue;
+        const bool limitedNow = item.item->kind == Kind::Float
+                                    ? applyFloat(item, elapsedSeconds, result)
+                                    : applyInt(item, result);
+        if (result.notFinite) return result;
+        item.inEpisode = limitedNow;
     }
     return result;
+}
+
+void DemandLimits::found(const Item& item, bool first, double value, double limit,
+                         LimitResult& result) {
+    result.any = true;
+    if (first && !item.inEpisode) beginnings_.push_back({item.item, value, limit, false});
 }
 
 bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
@@ -120,19 +125,19 @@ bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
     for (std::uint32_t i = 0; i < item.item->length; ++i) {
         const double written = values[i];
         if (!std::isfinite(written)) {
-            result = {item.item, written, previous[i], true, true, true};
+            result = {true, true, item.item};
+            beginnings_.push_back({item.item, written, previous[i], true});
             return true;
         }
-        double limited = std::clamp(written, item.min, item.max);
-        const bool outOfRange = limited != written;
-        if (item.item->rate) limited = std::clamp(limited, previous[i] - step, previous[i] + step);
+        const double inRange = std::clamp(written, item.min, item.max);
+        const double limited =
+            item.item->rate ? std::clamp(inRange, previous[i] - step, previous[i] + step) : inRange;
         if (limited == written) continue;
         values[i] = limited;
+        found(item, !any, written, limited, result);
         any = true;
-        if (result.item == nullptr) {
-            const bool faults = outOfRange && item.item->onLimit == OnLimit::Fault;
-            result = {item.item, written, limited, false, faults, !item.inEpisode};
-        }
+        const bool faults = inRange != written && item.item->onLimit == OnLimit::Fault;
+        if (faults && result.faulting == nullptr) result.faulting = item.item;
     }
     return any;
 }
@@ -150,12 +155,10 @@ bool DemandLimits::applyInt(Item& item, LimitResult& result) {
         const std::int64_t written = values[i];
         values[i] = std::clamp(written, min, max);
         if (values[i] == written) continue;
+        found(item, !any, static_cast<double>(written), static_cast<double>(values[i]), result);
         any = true;
-        if (result.item == nullptr) {
-            result = {
-                item.item, static_cast<double>(written),         static_cast<double>(values[i]),
-                false,     item.item->onLimit == OnLimit::Fault, !item.inEpisode};
-        }
+        const bool faults = item.item->onLimit == OnLimit::Fault;
+        if (faults && result.faulting == nullptr) result.faulting = item.item;
     }
     return any;
 }

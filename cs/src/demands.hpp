@@ -6,33 +6,40 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cortex::cs {
 
 // What limiting one modification found, for the caller to report.
 struct LimitResult {
-    const DataItem* item = nullptr;  // first item concerned; null: nothing
-    double value = 0;                // what was written
-    double limit = 0;                // what it became
-    bool notFinite = false;
-    bool faults = false;  // onLimit="fault"
-    bool isNew = false;   // the first cycle of an episode
+    bool any = false;                    // an item was not finite, out of range or too fast
+    bool notFinite = false;              // `faulting` is; the items after it were not looked at
+    const DataItem* faulting = nullptr;  // the first item that puts its writer into Fault
 };
 
 // The last step before a modification is read or sent: not finite, out of range, too fast.
 // One per modification that has a writer; used by the task that ran last among its writers.
 class DemandLimits {
 public:
+    // The first cycle of an episode of one item.
+    struct Beginning {
+        const DataItem* item;
+        double value, limit;  // what was written, what it became
+        bool notFinite;
+    };
+
     DemandLimits(const TypeLayout& layout, const Slice& live, std::uint32_t simplex);
 
     std::uint32_t simplex() const { return simplex_; }
+    // Limits the live values against those last accepted. May be called again with other values
+    // before accept(): a demand still moves no further than once.
     LimitResult apply(double elapsedSeconds) CORTEX_REALTIME;
-    // The value of an item as it last left apply(); null for items outside the cyclic table.
+    std::span<const Beginning> beginnings() const { return beginnings_; }  // of the last apply()
+    void accept() CORTEX_REALTIME;   // the live values are those that go out
+    void restore() CORTEX_REALTIME;  // the values last accepted go out once more
+    // The value of an item as last accepted; null for items outside the cyclic table.
     const std::byte* previous(const DataItem& item) const;
-    void setPrevious() CORTEX_REALTIME;  // takes the present values as the last ones
-    void restorePrevious() CORTEX_REALTIME;
-    std::uint64_t count() const { return count_; }
 
 private:
     struct Item {
@@ -45,11 +52,13 @@ private:
     };
     bool applyFloat(Item& item, double elapsed, LimitResult& result) CORTEX_REALTIME;
     bool applyInt(Item& item, LimitResult& result) CORTEX_REALTIME;
+    void found(const Item& item, bool first, double value, double limit, LimitResult& result)
+        CORTEX_REALTIME;
 
     std::uint32_t simplex_;
     std::vector<Item> items_;
     std::vector<std::byte> memory_;
-    std::uint64_t count_ = 0;
+    std::vector<Beginning> beginnings_;
 };
 
 // The safe values that one writer gives one modification, written by the framework whenever the

@@ -65,7 +65,7 @@ struct TaskBuilder {
             const std::uint32_t index = schedule.tasks[t];
             if (!isActive(index)) buildArbiter(runner.tasks_[t], index);
         }
-        for (const auto& limits : runner.limits_) limits->setPrevious();
+        for (const auto& limits : runner.limits_) limits->accept();
         agent.tables().latch();
     }
 

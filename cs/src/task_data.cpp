@@ -4,15 +4,16 @@
 #include "task_runner.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace cortex::cs {
 
 namespace {
 
 // Worst quality with its first cause, oldest stamp.
-void merge(SlotState& sum, const SlotState& state, Quality quality, bool ages) {
-    if (quality > sum.quality) {
-        sum.quality = quality;
+void merge(SlotState& sum, const SlotState& state, bool ages) {
+    if (state.quality > sum.quality) {
+        sum.quality = state.quality;
         sum.cause = state.cause;
     }
     if (ages && state.time < sum.time) {
@@ -36,17 +37,20 @@ SlotState TaskRunner::readInputs(Task& task, const Tick& tick) {
             input.lost = lost;
             inputLost(task, input, tick);
         }
-        if (input.held != nullptr) {
-            if (!lost)
-                copySlice(*input.held, input.heldFrom, input.heldTo);
-            else
-                input.heldTo.state->quality = std::max(input.heldTo.state->quality, Quality::Stale);
-            merge(sum, *input.heldTo.state, input.heldTo.state->quality, input.ages);
-            continue;
+        SlotState seen = *input.state;
+        if (lost && seen.quality < Quality::Stale) {  // it is too old, which is its own doing
+            seen.quality = Quality::Stale;
+            seen.cause = input.target;
         }
-        merge(sum, *input.state,
-              tooOld ? std::max(input.state->quality, Quality::Stale) : input.state->quality,
-              input.ages);
+        if (input.held != nullptr && !lost) copySlice(*input.held, input.heldFrom, input.heldTo);
+        if (input.held != nullptr && lost) {
+            if (input.heldTo.state->quality < Quality::Stale) {
+                input.heldTo.state->quality = Quality::Stale;
+                input.heldTo.state->cause = seen.cause;
+            }
+            seen = *input.heldTo.state;
+        }
+        merge(sum, seen, input.ages);
         safe = safe || (lost && input.rule->onLoss == OnLoss::Safe);
     }
     if (safe && !task.simplex->safeByLoss_) latchSafe(task);
@@ -84,10 +88,7 @@ void TaskRunner::inputLost(Task& task, TaskInput& input, const Tick& tick) {
 
 void TaskRunner::finish(Task& task, const Tick& tick, SlotState state, Worker& worker) {
     SimplexCS& simplex = *task.simplex;
-    for (std::uint32_t i = 0; i < task.outputCount; ++i) {
-        TaskOutput& output = outputs_[task.firstOutput + i];
-        if (output.limits != nullptr) limit(task, tick, output, worker);
-    }
+    limitOutputs(task, tick, worker);
     if (task.measures)
         state = {tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     else if (simplex.state_ == State::Fault && state.quality < Quality::Bad) {
@@ -108,38 +109,60 @@ void TaskRunner::finish(Task& task, const Tick& tick, SlotState state, Worker& w
     }
 }
 
-void TaskRunner::limit(Task& task, const Tick& tick, TaskOutput& output, Worker& worker) {
+// Each demand that this task alone writes. What is not a number or faults the task becomes safe,
+// and no demand moves further than its rate allows, safe or not.
+void TaskRunner::limitOutputs(Task& task, const Tick& tick, Worker& worker) {
     SimplexCS& simplex = *task.simplex;
+    const std::span outputs{outputs_.data() + task.firstOutput, task.outputCount};
     const double elapsed = tick.elapsedSeconds();
-    LimitResult result = output.limits->apply(elapsed);
-    if (result.item == nullptr) return;
-    ++worker.counts.limits;
-    if (simplex.state_ == State::Active && !simplex.safeByLoss_) {
-        reportLimit(result, output.target, task.index, *simplex.thread_);
-        if (result.faults) {
-            EventText text{result.item->name};
-            text << " of " << structure_.simplexes[output.target].path
-                 << (result.notFinite ? " was not a number" : " was out of range");
-            simplex.fault(result.notFinite ? DemandNotFinite : DemandOutOfRange, text.view());
-            enterFault(task, tick);
+    const bool demands = simplex.state_ == State::Active && !simplex.safeByLoss_;
+    bool again = false;
+    for (TaskOutput& output : outputs) {
+        if (output.limits == nullptr) continue;
+        const LimitResult result = output.limits->apply(elapsed);
+        if (!result.any) continue;
+        ++worker.counts.limits;
+        if (result.notFinite) {
+            output.safe->write();
+            again = true;
         }
+        if (!demands) continue;
+        reportLimits(*output.limits, task.index, *simplex.thread_);
+        if (result.faulting == nullptr) continue;
+        simplex.fault(result.notFinite ? DemandNotFinite : DemandOutOfRange,
+                      refusal(result, output.target).view());
     }
-    if (!result.notFinite) return;
-    output.safe->write();
-    if (output.limits->apply(elapsed).notFinite) output.limits->restorePrevious();
+    if (simplex.faultPending_) {
+        enterFault(task, tick);
+        again = true;
+    }
+    for (TaskOutput& output : outputs) {
+        if (output.limits == nullptr) continue;
+        if (again && output.limits->apply(elapsed).notFinite) output.limits->restore();
+        output.limits->accept();
+    }
 }
 
-void TaskRunner::reportLimit(const LimitResult& result, std::uint32_t target, std::uint32_t writer,
-                             LoopThread& thread) {
-    if (!result.isNew) return;
-    EventText text{result.item->name};
-    text << " of " << structure_.simplexes[target].path;
-    if (result.notFinite)
-        text << " was not a number";
-    else
-        text << " limited from " << result.value << " to " << result.limit;
-    if (!result.item->unit.empty() && !result.notFinite) text << " " << result.item->unit;
-    agent_.post(thread, Severity::Warning, EventKind::Limit, writer, text);
+EventText TaskRunner::refusal(const LimitResult& result, std::uint32_t target) const {
+    EventText text{result.faulting->name};
+    return text << " of " << structure_.simplexes[target].path
+                << (result.notFinite ? " was not a number" : " was out of range");
+}
+
+// One event for each item whose episode begins.
+void TaskRunner::reportLimits(const DemandLimits& limits, std::uint32_t simplex,
+                              LoopThread& thread) {
+    for (const DemandLimits::Beginning& each : limits.beginnings()) {
+        EventText text{each.item->name};
+        text << " of " << structure_.simplexes[limits.simplex()].path;
+        if (each.notFinite) {
+            text << " was not a number";
+        } else {
+            text << " limited from " << each.value << " to " << each.limit;
+            if (!each.item->unit.empty()) text << " " << each.item->unit;
+        }
+        agent_.post(thread, Severity::Warning, EventKind::Limit, simplex, text);
+    }
 }
 
 void TaskRunner::arbitrate(Task& task, Worker& worker, LoopThread& thread) {
@@ -163,17 +186,19 @@ void TaskRunner::arbitrate(Task& task, Worker& worker, LoopThread& thread) {
     if (arbiter.limits == nullptr) return;
     const double elapsed = static_cast<double>(cycleElapsed_) * 1e-9;
     const LimitResult result = arbiter.limits->apply(elapsed);
-    if (result.item == nullptr) return;
-    ++worker.counts.limits;
-    if (active > 0 && !chosen.writer->safeByLoss_) {
-        reportLimit(result, task.index, chosen.writer->index(), thread);
-        if (result.faults) chosen.output->refused = result.item;
+    if (result.any) ++worker.counts.limits;
+    // Events here are the shared simplex's: its writer's own may come from another thread.
+    const bool demands = active > 0 && !chosen.writer->safeByLoss_;
+    if (demands) reportLimits(*arbiter.limits, task.index, thread);
+    const bool faults = demands && result.faulting != nullptr;
+    if (faults) chosen.output->refused = result;
+    if (faults || result.notFinite) {
+        chosen.output->safe->latch();
+        chosen.output->safe->write();
+        copySlice(arbiter.sizes, chosen.slice, arbiter.live);
+        if (arbiter.limits->apply(elapsed).notFinite) arbiter.limits->restore();
     }
-    if (!result.notFinite) return;
-    chosen.output->safe->latch();
-    chosen.output->safe->write();
-    copySlice(arbiter.sizes, chosen.slice, arbiter.live);
-    if (arbiter.limits->apply(elapsed).notFinite) arbiter.limits->restorePrevious();
+    arbiter.limits->accept();
 }
 
 }  // namespace cortex::cs

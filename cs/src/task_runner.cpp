@@ -142,11 +142,10 @@ void TaskRunner::transition(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     for (std::uint32_t i = 0; i < task.outputCount; ++i) {
         TaskOutput& output = outputs_[task.firstOutput + i];
-        if (output.refused == nullptr) continue;
-        EventText text{output.refused->name};
-        text << " of " << structure_.simplexes[output.target].path << " was not a number";
-        output.refused = nullptr;
-        simplex.fault(DemandNotFinite, text.view());
+        if (output.refused.faulting == nullptr) continue;
+        simplex.fault(output.refused.notFinite ? DemandNotFinite : DemandOutOfRange,
+                      refusal(output.refused, output.target).view());
+        output.refused = {};
     }
     if (halted_ && simplex.state_ == State::Active) {
         simplex.fault(ClusterHalted, "the loop overran its period and overflow is \"halt\"");
@@ -177,7 +176,7 @@ bool TaskRunner::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
         return true;
     }
     agent_.post(*simplex.thread_, Severity::Warning, EventKind::Refusal, task.index, simplex.text_);
-    agent_.refuseLifeCycle(task.index, simplex.text_);
+    agent_.refuseLifeCycle(task.index, command, simplex.text_);
     return false;
 }
 
@@ -205,7 +204,14 @@ bool TaskRunner::mayStart(Task& task) {
 void TaskRunner::enter(Task& task, State to, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     const State from = simplex.state_;
-    if (from == State::Active) agent_.cancelActivity(task.index, *simplex.thread_);
+    if (from == State::Active &&
+        !agent_.cancelActivity(task.index, *simplex.thread_, !simplex.dead_)) {
+        if (to != State::Fault) {
+            simplex.fault(HookThrew,
+                          "the handler of its long command threw while it was cancelled");
+        }
+        simplex.dead_ = true;
+    }
     if (from == State::Active || to == State::StartingUp || to == State::Fault) {
         latchSafe(task);
         writeSafe(task);

@@ -54,7 +54,7 @@ struct TaskOutput {
     SafeDemands* safe = nullptr;     // null: not a demand
     DemandLimits* limits = nullptr;  // null: an arbiter applies them, or not a demand
     std::uint32_t target = noSimplex;
-    const DataItem* refused = nullptr;  // set by the arbiter: this demand was not finite
+    LimitResult refused;  // set by the arbiter: this demand faults its writer
 };
 
 // A simplex that several tasks write: takes the candidate of the one that is Active.
@@ -135,9 +135,10 @@ private:
     SlotState readInputs(Task& task, const Tick& tick) CORTEX_REALTIME;
     void inputLost(Task& task, TaskInput& input, const Tick& tick) CORTEX_REALTIME;
     void finish(Task& task, const Tick& tick, SlotState state, Worker& worker) CORTEX_REALTIME;
-    void limit(Task& task, const Tick& tick, TaskOutput& output, Worker& worker) CORTEX_REALTIME;
-    void reportLimit(const LimitResult& result, std::uint32_t target, std::uint32_t writer,
-                     LoopThread& thread) CORTEX_REALTIME;
+    void limitOutputs(Task& task, const Tick& tick, Worker& worker) CORTEX_REALTIME;
+    EventText refusal(const LimitResult& result, std::uint32_t target) const CORTEX_REALTIME;
+    void reportLimits(const DemandLimits& limits, std::uint32_t simplex, LoopThread& thread)
+        CORTEX_REALTIME;
     void arbitrate(Task& task, Worker& worker, LoopThread& thread) CORTEX_REALTIME;
     void latchSafe(Task& task) CORTEX_REALTIME;
     void writeSafe(Task& task) CORTEX_REALTIME;
