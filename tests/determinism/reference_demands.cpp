@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+// Demands in the reference: safe values, limits, and the choice between several writers.
+#include "determinism/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+namespace cortex::determinism {
+
+namespace {
+
+// Calls `copy` with the lists of the item's kind in both records.
+void copyItem(const Item& item, const Record& from, std::size_t first, Record& to) {
+    const auto copy = [&](const auto& source, auto& target) {
+        std::copy_n(source.begin() + static_cast<std::ptrdiff_t>(first), item.type->length,
+                    target.begin() + static_cast<std::ptrdiff_t>(item.first));
+    };
+    switch (item.type->kind) {
+        case Kind::Float:
+            return copy(from.floats, to.floats);
+        case Kind::Int:
+            return copy(from.ints, to.ints);
+        case Kind::Bool:
+            return copy(from.flags, to.flags);
+        case Kind::String:
+            return copy(from.texts, to.texts);
+    }
+}
+
+void storeGiven(const Item& item, const Value& value, Record& to) {
+    for (std::size_t i = 0; i < item.type->length; ++i) {
+        std::visit(
+            [&](const auto& values) {
+                using Element = typename std::decay_t<decltype(values)>::value_type;
+                const Element element = values[values.size() == 1 ? 0 : i];
+                if constexpr (std::is_same_v<Element, double>) to.floats[item.first + i] = element;
+                if constexpr (std::is_same_v<Element, std::int64_t>)
+                    to.ints[item.first + i] = element;
+                if constexpr (std::is_same_v<Element, bool>) to.flags[item.first + i].on = element;
+                if constexpr (std::is_same_v<Element, std::string>)
+                    to.texts[item.first + i] = element;
+            },
+            value);
+    }
+}
+
+double numberOf(const std::optional<Number>& bound, double otherwise) {
+    if (!bound) return otherwise;
+    return std::visit([](auto number) { return static_cast<double>(number); }, *bound);
+}
+
+}  // namespace
+
+// Before the first cycle every demand has its safe values.
+void Reference::initialiseDemands() {
+    for (RefSimplex& demand : all_) {
+        if (demand.demand) demand.previous = demand.live;
+    }
+    for (const int simplex : tasks_) {
+        for (Link* output : at(simplex).task->outputs) {
+            RefSimplex& demand = at(output->target);
+            if (!demand.demand) continue;
+            std::size_t place = 0;
+            std::vector<const Link*> observing;
+            for (const Link* each : at(simplex).links) {
+                if (each->rule == output->rule && each->plan < output->plan) ++place;
+                if (each->rule->name == output->rule->counterpart) observing.push_back(each);
+            }
+            output->safe = *output->seen;
+            if (!output->rule->counterpart.empty() && !observing.empty()) {
+                const Link& observed = *observing[place < observing.size() ? place : 0];
+                output->observed = observed.source;
+                output->observedShape = at(observed.target).shape;
+            }
+            for (const Item& item : demand.shape->items) {
+                if (item.type->safe.kind == Safe::Kind::Given) {
+                    storeGiven(item, item.type->safe.value, output->safe);
+                } else if (item.type->safe.kind == Safe::Kind::Observed) {
+                    copyItem(item, *output->observed,
+                             output->observedShape->find(item.type->name)->first, output->safe);
+                }
+            }
+            writeSafe(*output);
+        }
+    }
+    for (RefSimplex& simplex : all_) {
+        if (!simplex.candidates.empty()) simplex.live = *simplex.candidates.front()->seen;
+        simplex.previous = simplex.live;
+    }
+}
+
+void Reference::latchSafe(int simplex) {
+    for (Link* output : at(simplex).task->outputs) latchSafe(*output);
+}
+
+void Reference::latchSafe(Link& output) {
+    const RefSimplex& demand = at(output.target);
+    if (!demand.demand) return;
+    for (const Item& item : demand.shape->items) {
+        const Safe::Kind kind = item.type->safe.kind;
+        if (kind == Safe::Kind::Given || kind == Safe::Kind::None) continue;
+        if (kind == Safe::Kind::Observed && output.observed->state.quality < Quality::Bad) {
+            copyItem(item, *output.observed, output.observedShape->find(item.type->name)->first,
+                     output.safe);
+        } else {
+            copyItem(item, demand.previous, item.first, output.safe);
+        }
+    }
+}
+
+void Reference::writeSafe(int simplex) {
+    for (Link* output : at(simplex).task->outputs) writeSafe(*output);
+}
+
+void Reference::writeSafe(Link& output) {
+    const RefSimplex& demand = at(output.target);
+    if (!demand.demand) return;
+    for (const Item& item : demand.shape->items) {
+        if (item.type->safe.kind != Safe::Kind::None) {
+            copyItem(item, output.safe, item.first, *output.seen);
+        }
+    }
+}
+
+// Limits the live values of a demand against what it was when it was last sent.
+LimitFinding Reference::limit(RefSimplex& demand, double elapsed) {
+    LimitFinding finding;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto report = [&](std::size_t n, bool& first, double written, double became) {
+        const DataItem& type = *demand.shape->items[n].type;
+        if (!first && !demand.limited[n]) {
+            finding.texts.push_back(type.name + " of " + demand.path + " limited from " +
+                                    inText(written) + " to " + inText(became) +
+                                    (type.unit.empty() ? "" : " " + type.unit));
+        }
+        first = finding.any = true;
+    };
+    for (std::size_t n = 0; n < demand.shape->items.size(); ++n) {
+        const Item& item = demand.shape->items[n];
+        const double min = numberOf(item.type->min, -infinity);
+        const double max = numberOf(item.type->max, infinity);
+        bool limited = false;
+        for (std::size_t i = item.first; i < item.first + item.type->length; ++i) {
+            if (item.type->kind == Kind::Float) {
+                double& value = demand.live.floats[i];
+                const double written = value;
+                if (!std::isfinite(written)) {
+                    finding.any = finding.notFinite = finding.faults = true;
+                    finding.item = item.type;
+                    finding.texts.push_back(item.type->name + " of " + demand.path +
+                                            " was not a number");
+                    return finding;
+                }
+                value = std::clamp(written, min, max);
+                const bool outOfRange = value != written;
+                if (item.type->rate) {
+                    const double step = *item.type->rate * elapsed;
+                    const double before = demand.previous.floats[i];
+                    value = std::clamp(value, before - step, before + step);
+                }
+                if (value == written) continue;
+                report(n, limited, written, value);
+                if (!outOfRange || item.type->onLimit != OnLimit::Fault) continue;
+            } else if (item.type->kind == Kind::Int) {
+                std::int64_t& value = demand.live.ints[i];
+                const std::int64_t written = value;
+                if (item.type->min) value = std::max(value, std::get<0>(*item.type->min));
+                if (item.type->max) value = std::min(value, std::get<0>(*item.type->max));
+                if (value == written) continue;
+                report(n, limited, static_cast<double>(written), static_cast<double>(value));
+                if (item.type->onLimit != OnLimit::Fault) continue;
+            } else {
+                continue;
+            }
+            if (!finding.faults) finding.item = item.type;
+            finding.faults = true;
+        }
+        demand.limited[n] = limited;
+    }
+    return finding;
+}
+
+// After a task: each demand that it alone writes. What is not a number or faults becomes safe, and
+// no demand moves further than its rate allows, safe or not.
+void Reference::limitOutputs(int simplex, double elapsed) {
+    RefTask& task = *at(simplex).task;
+    const bool reports = task.state == State::Active && !task.safeByLoss;
+    bool again = false;
+    for (Link* output : task.outputs) {
+        RefSimplex& demand = at(output->target);
+        if (!demand.demand || demand.writers.size() > 1) continue;
+        const LimitFinding finding = limit(demand, elapsed);
+        if (finding.any) ++limits_;
+        output->notFinite = finding.notFinite;
+        again = again || finding.notFinite;
+        if (!reports) continue;
+        for (const std::string& text : finding.texts) {
+            post(simplex, Severity::Warning, EventKind::Limit, text);
+        }
+        if (!finding.faults) continue;
+        fault(simplex, finding.notFinite ? -3 : -4,
+              finding.item->name + " of " + demand.path +
+                  (finding.notFinite ? " was not a number" : " was out of range"));
+    }
+    again = again || task.faultPending;
+    if (task.faultPending) enterFault(simplex);
+    for (Link* output : task.outputs) {
+        RefSimplex& demand = at(output->target);
+        if (!demand.demand || demand.writers.size() > 1) continue;
+        if (output->notFinite) writeSafe(*output);
+        if (again && limit(demand, elapsed).notFinite) demand.live = demand.previous;
+        demand.previous = demand.live;
+    }
+}
+
+void Reference::arbitrate(int simplex) {
+    RefSimplex& target = at(simplex);
+    std::size_t active = 0;
+    for (std::size_t i = 0; i < target.candidates.size(); ++i) {
+        if (at(target.candidates[i]->owner).task->state != State::Active) continue;
+        if (active++ == 0) target.selected = i;
+    }
+    Link& chosen = *target.candidates[target.selected];
+    if (active > 1) {
+        ++conflicts_;
+        if (!target.inConflict) {
+            post(simplex, Severity::Warning, EventKind::Conflict,
+                 "several writers are Active; taken is " + at(chosen.owner).path);
+        }
+    }
+    target.inConflict = active > 1;
+    target.live = *chosen.seen;
+    if (!target.demand) return;
+    const double elapsed = static_cast<double>(elapsed_) * 1e-9;
+    const LimitFinding finding = limit(target, elapsed);
+    if (finding.any) ++limits_;
+    const bool reports = active > 0 && !at(chosen.owner).task->safeByLoss;
+    if (reports) {
+        for (const std::string& text : finding.texts) {
+            post(simplex, Severity::Warning, EventKind::Limit, text);
+        }
+        if (finding.faults) {
+            chosen.refused = finding.item;
+            chosen.refusedNotFinite = finding.notFinite;
+        }
+    }
+    if (finding.notFinite || (finding.faults && reports)) {
+        latchSafe(chosen);
+        writeSafe(chosen);
+        target.live = *chosen.seen;
+        if (limit(target, elapsed).notFinite) {
+            const SlotState state = target.live.state;
+            target.live = target.previous;
+            target.live.state = state;
+        }
+    }
+    target.previous = target.live;
+}
+
+}  // namespace cortex::determinism

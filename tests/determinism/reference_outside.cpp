@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands from outside in the reference: their order, life-cycle commands, groups of simplexes.
+#include "determinism/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cortex::determinism {
+
+namespace {
+
+LifeCycle lifeCycleOf(const std::string& command) {
+    if (command == "startup") return LifeCycle::Startup;
+    if (command == "shutdown") return LifeCycle::Shutdown;
+    if (command == "clearFaults") return LifeCycle::ClearFaults;
+    return LifeCycle::None;
+}
+
+bool comesBefore(const Visitor* a, const Visitor* b) {
+    return std::pair{a->plan->sender, a->sequence} < std::pair{b->plan->sender, b->sequence};
+}
+
+std::string describe(const OutsideCommandPlan& plan) {
+    std::string text = plan.command + "(";
+    bool first = true;
+    for (const auto& [name, value] : plan.arguments) {
+        text += (first ? "" : ", ") + name + "=";
+        first = false;
+        if (const auto* number = std::get_if<std::vector<double>>(&value)) {
+            text += inText(number->front());
+        } else if (const auto* integer = std::get_if<std::vector<std::int64_t>>(&value)) {
+            text += std::to_string(integer->front());
+        } else {
+            text += "\"" + std::get<3>(value).front() + "\"";
+        }
+    }
+    return text + ")";
+}
+
+}  // namespace
+
+// By sender, then sequence, however they were handed over.
+void Reference::readOutside() {
+    std::vector<Visitor*> arrivals;
+    for (; nextOutside_ < plan_.script.size(); ++nextOutside_) {
+        const OutsideCommandPlan& plan = plan_.script[nextOutside_];
+        if (plan.tick > cycle_) break;
+        Visitor& visitor = visitors_.emplace_back();
+        visitor.plan = &plan;
+        visitor.sequence = ++sequences_[plan.sender];
+        visitor.cycle = cycle_;
+        visitor.simplex = find(plan.path);
+        arrivals.push_back(&visitor);
+    }
+    std::ranges::sort(arrivals, comesBefore);
+    for (Visitor* visitor : arrivals) {
+        active_.push_back(visitor);
+        RefSimplex& target = at(visitor->simplex);
+        if (target.task != nullptr && lifeCycleOf(visitor->plan->command) != LifeCycle::None) {
+            deliverLifeCycle(*visitor);
+            continue;
+        }
+        target.visitors.push_back(visitor);
+        std::ranges::sort(target.visitors, comesBefore);
+    }
+}
+
+void Reference::settle(Visitor& visitor, Ending ending) {
+    visitor.ending = std::move(ending);
+    visitor.latency = cycle_ - visitor.cycle;
+}
+
+void Reference::deliverLifeCycle(Visitor& visitor) {
+    RefSimplex& target = at(visitor.simplex);
+    const std::string& command = visitor.plan->command;
+    const State state = target.task->state;
+    const StateSet available = target.type->findCommand(command)->available;
+    if (!available.has(state)) {
+        ++rejected_;
+        return settle(visitor,
+                      {Outcome::Rejected, Reason::State, needs(command, available, state)});
+    }
+    visitor.watched = lifeCycleOf(command);
+    visitor.before = state;
+    visitor.deadline = now_ + 1'000'000'000 + std::llround(target.type->transitionTimeout * 1e9);
+    postLifeCycle(visitor.simplex, visitor.watched, false);
+    settle(visitor, {Outcome::Running, Reason::None, {}});
+}
+
+void Reference::refuseLifeCycle(int simplex, LifeCycle command, const std::string& why) {
+    for (Visitor* visitor : active_) {
+        if (visitor->simplex != simplex || visitor->watched != command) continue;
+        visitor->watched = LifeCycle::None;
+        settle(*visitor, {Outcome::Rejected, Reason::State, why});
+    }
+}
+
+// At the end of a cycle: has the simplex come to where it was sent?
+void Reference::watch(Visitor& visitor) {
+    const RefTask& task = *at(visitor.simplex).task;
+    const State wanted = visitor.watched == LifeCycle::Startup ? State::Active : State::Standby;
+    const bool pending = std::ranges::any_of(task.pending, [](bool each) { return each; });
+    std::optional<Ending> ending;
+    if (task.state == wanted) {
+        ending = Ending{};
+    } else if (task.state == State::Fault && visitor.watched != LifeCycle::ClearFaults) {
+        ending = {Outcome::Failed, Reason::None, "it went to Fault"};
+    } else if (now_ > visitor.deadline) {
+        ending = {Outcome::Failed, Reason::None,
+                  std::string{"it took too long, is "} + name(task.state)};
+    } else if (task.state != visitor.before) {
+        visitor.moved = true;
+    } else if (visitor.moved) {
+        ending = {Outcome::Failed, Reason::None, std::string{"it is back in "} + name(task.state)};
+    } else if (!pending) {
+        if (visitor.takenCycle == 0) visitor.takenCycle = cycle_;
+        if (cycle_ <= visitor.takenCycle + 1) return;
+        ++rejected_;
+        ending = {Outcome::Rejected, Reason::State, "it did not follow; its events say why"};
+    }
+    if (!ending) return;
+    visitor.watched = LifeCycle::None;
+    settle(visitor, *ending);
+}
+
+// Answers of this cycle, in the order in which their commands came.
+void Reference::collect() {
+    for (Visitor* visitor : active_) {
+        if (visitor->watched != LifeCycle::None) watch(*visitor);
+        if (!visitor->ending) continue;
+        const Ending ending = *std::exchange(visitor->ending, std::nullopt);
+        observation_.answers.push_back({cycle_, visitor->plan->sender, visitor->sequence,
+                                        ending.outcome, ending.reason, ending.why,
+                                        visitor->latency});
+        if (ending.outcome == Outcome::Running) continue;
+        visitor->over = true;
+        const bool done = ending.outcome == Outcome::Done;
+        const bool refused =
+            ending.outcome == Outcome::Rejected || ending.outcome == Outcome::Expired;
+        post(visitor->simplex, done ? Severity::Info : Severity::Warning,
+             refused ? EventKind::Refusal : EventKind::Command,
+             visitor->plan->sender + ": " + describe(*visitor->plan) + ": " + name(ending.outcome) +
+                 (ending.reason == Reason::None ? ""
+                                                : std::string{" ("} + name(ending.reason) + ")") +
+                 (ending.why.empty() ? "" : ", " + ending.why) + " in " +
+                 std::to_string(visitor->latency) + (visitor->latency == 1 ? " cycle" : " cycles"));
+    }
+    std::erase_if(active_, [](const Visitor* visitor) { return visitor->over; });
+}
+
+// startup, shutdown and clearFaults sent to the agent: one simplex after the other.
+Ending Reference::group(const std::string& command, const Arguments& arguments, bool first) {
+    if (first) {
+        group_ = {};
+        group_.command = lifeCycleOf(command);
+        group_.prefix = std::get<3>(arguments.at("prefix")).front();
+        while (group_.prefix.ends_with('/')) group_.prefix.pop_back();
+    }
+    if (groupStep()) return {Outcome::Running, Reason::None, {}};
+    if (group_.failures.empty()) return {};
+    return {Outcome::Failed, Reason::None, group_.failures};
+}
+
+bool Reference::groupHas(int simplex) {
+    const std::string& path = at(simplex).path;
+    const bool below = path == group_.prefix || path.starts_with(group_.prefix + "/");
+    const int manager = at(simplex).task->manager;
+    if (!below || group_.command == LifeCycle::ClearFaults || manager < 0) return below;
+    const State state = at(manager).task->state;
+    return group_.command == LifeCycle::Shutdown &&
+           (state == State::Standby || state == State::Fault);
+}
+
+// True: somebody is still on the way.
+bool Reference::groupStep() {
+    while (group_.at < tasks_.size()) {
+        const bool shutdown = group_.command == LifeCycle::Shutdown;
+        const bool startup = group_.command == LifeCycle::Startup;
+        const int simplex = tasks_[shutdown ? tasks_.size() - 1 - group_.at : group_.at];
+        RefTask& task = *at(simplex).task;
+        const bool resting = task.state == State::Standby || task.state == State::Fault;
+        const bool there = startup    ? task.state == State::Active
+                           : shutdown ? resting
+                                      : task.state != State::Fault;
+        if (!groupHas(simplex) || there) {
+            ++group_.at;
+            group_.posted = false;
+            continue;
+        }
+        if (!group_.posted) {
+            group_.posted = true;
+            group_.postedAfter = task.now;
+            postLifeCycle(simplex, group_.command, false);
+            return true;
+        }
+        const bool ran = task.now > group_.postedAfter;
+        const bool failed =
+            startup ? task.state == State::Fault || (ran && task.state == State::Standby)
+                    : !shutdown && ran && task.state == State::Fault;
+        if (!failed) return true;
+        if (!group_.failures.empty()) group_.failures += "; ";
+        group_.failures += at(simplex).path +
+                           " did not follow: " + (task.text.empty() ? name(task.state) : task.text);
+        group_.failures = cut(group_.failures, eventCapacity);
+        group_.posted = false;
+        group_.at = startup ? tasks_.size() : group_.at + 1;
+    }
+    return false;
+}
+
+}  // namespace cortex::determinism
