@@ -124,8 +124,8 @@ void AgentRuntime::postLifeCycle(std::uint32_t simplex, LifeCycle command, bool 
     if (later) anyLater_.store(true, std::memory_order_relaxed);
 }
 
-void AgentRuntime::refuseLifeCycle(std::uint32_t simplex, const EventText& why) {
-    if (router_ != nullptr) router_->refuseLifeCycle(simplex, why);
+void AgentRuntime::refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why) {
+    if (router_ != nullptr) router_->refuseLifeCycle(simplex, command, why);
 }
 
 void AgentRuntime::post(LoopThread& thread, Severity severity, EventKind kind,

@@ -102,7 +102,9 @@ void CommandPort::drainOutside() {
             try {
                 execute(entry.command, entry.request, entry.response, origin, verdict);
             } catch (...) {
-                entry.settle({Outcome::Failed, Reason::None, "its handler threw"}, thread_->clock);
+                verdict = {Outcome::Failed, Reason::None, "its handler threw"};
+                entry.settle(verdict, thread_->clock);
+                count(verdict, entry.answer.latency);
                 throw;
             }
         }
@@ -121,6 +123,7 @@ void CommandPort::execute(std::uint32_t command, const std::byte* request, std::
             cancel(verdict);
         return;
     }
+    copyRecord(response, entry.emptyResponse.data(), entry.response.size);
     if (!accepted(entry, request, verdict)) return;
     const Handler& handler = handlers_[command];
     if (handler.function == nullptr) {
@@ -131,7 +134,6 @@ void CommandPort::execute(std::uint32_t command, const std::byte* request, std::
         startActivity(command, request, response, origin, verdict);
         return;
     }
-    copyRecord(response, entry.emptyResponse.data(), entry.response.size);
     Call call{request, response};
     if (origin.outside != nullptr) call.setSender(&origin.outside->sender);
     verdict.outcome = handler(call);

@@ -49,6 +49,7 @@ Router::Router(AgentRuntime& runtime)
 
 void Router::read(std::span<CommunicationInterface* const> interfaces) {
     taskless_.clear();
+    began_ = runtime_.thread(0).clock;
     Lease lost;
     while (leases_.takeExpired(cycle(), lost)) controlLost(lost, "it was not renewed for 2 s");
     for (interface_ = 0; interface_ < interfaces.size(); ++interface_) {

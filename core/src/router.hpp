@@ -31,7 +31,8 @@ public:
     void collect() CORTEX_REALTIME;  // answers given in this cycle
     void write(std::span<CommunicationInterface* const> interfaces) CORTEX_REALTIME;
     void stop();  // answers what is still on its way
-    void refuseLifeCycle(std::uint32_t simplex, const EventText& why) CORTEX_REALTIME;
+    void refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why)
+        CORTEX_REALTIME;
 
     std::int64_t cycle() const override { return runtime_.cycle(); }
     void link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
@@ -83,6 +84,7 @@ private:
     AgentRuntime& runtime_;
     const Structure& structure_;
     std::uint32_t interface_ = 0;  // that is being read
+    ChunkClock began_;             // the loop thread's clock when the cycle began
     std::vector<OutsideEntry> pool_;
     std::vector<std::byte> records_;
     std::vector<OutsideEntry*> free_, arrivals_, active_;

@@ -193,10 +193,10 @@ void Router::watch(OutsideEntry& entry) {
     }
 }
 
-void Router::refuseLifeCycle(std::uint32_t simplex, const EventText& why) {
+void Router::refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why) {
     for (OutsideEntry* entry : active_) {
-        if (entry->simplex != simplex || entry->watched == LifeCycle::None) continue;
-        settle(*entry, {Outcome::Rejected, Reason::State, why}, runtime_.thread(0).clock);
+        if (entry->simplex != simplex || entry->watched != command) continue;
+        settle(*entry, {Outcome::Rejected, Reason::State, why}, began_);
     }
 }
 

@@ -30,7 +30,7 @@ struct alignas(64) LoopThread {
     std::uint32_t sequence = 0;  // of events in this cycle; beginCycle() starts it anew
     std::uint64_t commands = 0;  // executed, since start
     std::uint64_t rejected = 0;
-    std::int64_t lastLatency = 0;  // ns, of the last executed command
+    std::int64_t lastLatency = 0;              // ns, of the last executed command
     std::vector<std::uint32_t> latencyCounts;  // histogram, ns, see latencyBucket()
 };
 std::uint32_t latencyBucket(std::int64_t nanoseconds) CORTEX_REALTIME;  // 16 per octave
@@ -39,11 +39,11 @@ inline constexpr std::uint32_t latencyBuckets = 16 * 36;
 
 struct AgentOptions {
     std::uint32_t imageReaders = 8;
-    std::uint32_t loopThreads = 1;       // threads that post events: workers and the loop
-    std::uint32_t eventCapacity = 4096;  // per loop thread
+    std::uint32_t loopThreads = 1;        // threads that post events: workers and the loop
+    std::uint32_t eventCapacity = 4096;   // per loop thread
     std::uint32_t outsideCommands = 256;  // on their way at once, of all senders
-    bool controlRequired = false;        // commands from outside need a lease
-    std::int64_t period = 1'000'000;     // ns, nominal
+    bool controlRequired = false;         // commands from outside need a lease
+    std::int64_t period = 1'000'000;      // ns, nominal
 };
 
 // One agent at run time: structure, tables, mailboxes, images, events and the two ends of a cycle.
@@ -87,13 +87,14 @@ public:
 
     // Step (1) of a task: answers to what it sent, commands of its lanes in canonical order, then
     // from outside, then its long command. What a handler throws passes through.
-    void processCommands(std::uint32_t simplex, State state, const Tick& tick,
-                         LoopThread& thread) CORTEX_REALTIME;
+    void processCommands(std::uint32_t simplex, State state, const Tick& tick, LoopThread& thread)
+        CORTEX_REALTIME;
     bool hasCommandWork(std::uint32_t simplex) const CORTEX_REALTIME;
     // Leaving Active: the last call of a long command, then the answer Cancelled. Without
-    // `callHandler` (a hook threw) only the answer. False: the handler threw; nothing passes through.
-    bool cancelActivity(std::uint32_t simplex, LoopThread& thread,
-                        bool callHandler = true) CORTEX_REALTIME;
+    // `callHandler` (a hook threw) only the answer. False: the handler threw; nothing passes
+    // through.
+    bool cancelActivity(std::uint32_t simplex, LoopThread& thread, bool callHandler = true)
+        CORTEX_REALTIME;
 
     // The pending life-cycle word: taken in step (1); `shutdown` outranks the others.
     LifeCycle takeLifeCycle(std::uint32_t simplex) CORTEX_REALTIME;
@@ -103,7 +104,8 @@ public:
 
     // What a task may say when it does not follow a life-cycle command; goes to who sent it from
     // outside.
-    void refuseLifeCycle(std::uint32_t simplex, const EventText& why) CORTEX_REALTIME;
+    void refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why)
+        CORTEX_REALTIME;
 
     void post(LoopThread& thread, Severity severity, EventKind kind, std::uint32_t simplex,
               const EventText& text) CORTEX_REALTIME;
