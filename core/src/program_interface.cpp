@@ -44,7 +44,7 @@ std::string CallResult::text() const {
     return text;
 }
 
-ProgramInterface::ProgramInterface(std::string sender, std::uint32_t capacity)
+ProgramInterface::ProgramInterface(const std::string& sender, std::uint32_t capacity)
     : implementation_{std::make_unique<Implementation>(sender, capacity)} {}
 
 ProgramInterface::~ProgramInterface() = default;

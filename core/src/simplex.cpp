@@ -107,7 +107,8 @@ Simplex& RelatedSimplex::simplex() const {
     AgentRuntime& runtime = owner_->runtime();
     const std::uint32_t target = runtime.structure().edges[edge_].target;
     if (runtime.structure().simplexes[target].remote) {
-        throw Error(owner_->path() + ": " + path() + " belongs to another agent; send it a command");
+        throw Error(owner_->path() + ": " + path() +
+                    " belongs to another agent; send it a command");
     }
     return runtime.simplex(target);
 }

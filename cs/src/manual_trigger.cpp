@@ -13,7 +13,8 @@ void ManualTrigger::step(std::int64_t cycles) {
     requested_ += cycles;
     const std::int64_t last = requested_;
     wake_.notify_all();
-    wake_.wait(lock, [&] { return (finished_ >= last && late_ == 0 && !running_) || interrupted_; });
+    wake_.wait(lock,
+               [&] { return (finished_ >= last && late_ == 0 && !running_) || interrupted_; });
 }
 
 void ManualTrigger::lateBy(std::int64_t periods) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/error.hpp"
-#include "support/probe.hpp"
 
-#include <gtest/gtest.h>
+#include "support/probe.hpp"
 
 #include <atomic>
 #include <chrono>
 #include <csignal>
 #include <thread>
+
+#include <gtest/gtest.h>
 
 namespace cortex::test {
 
@@ -350,9 +351,9 @@ TEST(GroupCommands, NameWhoDidNotFollowAndStartNothingThatComesAfter) {
     EXPECT_EQ(after.state(), State::Standby);
 
     first.onStartingUp = nullptr;
-    EXPECT_EQ(cluster.call("/test", "clearFaults", {{"prefix", std::vector<std::string>{"/"}}})
-                  .outcome,
-              Outcome::Done);
+    EXPECT_EQ(
+        cluster.call("/test", "clearFaults", {{"prefix", std::vector<std::string>{"/"}}}).outcome,
+        Outcome::Done);
     EXPECT_EQ(first.state(), State::Standby);
 }
 

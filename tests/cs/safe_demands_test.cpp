@@ -2,11 +2,11 @@
 // What a demand becomes on each way out of Active and back, for value, hold and observed.
 #include "support/probe.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include <gtest/gtest.h>
 
 namespace cortex::test {
 
@@ -117,18 +117,20 @@ TEST_P(SafeDemandsOnEachWayOut, NeverStepByMoreThanOneCyclesLimitAndComeToRestAt
 
 INSTANTIATE_TEST_SUITE_P(
     Ways, SafeDemandsOnEachWayOut,
-    testing::Values(
-        WayOut{"shutdown", [](Plant& plant) { plant.cluster.cluster->send("/controller", "shutdown"); },
-               restart},
-        WayOut{"fault", [](Plant& plant) { plant.faults = true; }, restart},
-        WayOut{"aThrow", [](Plant& plant) { plant.throws = true; }, restart},
-        WayOut{"lostInput",
-               [](Plant& plant) {
-                   plant.source.onActive = [](Probe& self, const Tick&) {
-                       self.setQuality(Quality::Bad);
-                   };
-               },
-               [](Plant& plant) { plant.source.onActive = nullptr; }}),
+    testing::Values(WayOut{"shutdown",
+                           [](Plant& plant) {
+                               plant.cluster.cluster->send("/controller", "shutdown");
+                           },
+                           restart},
+                    WayOut{"fault", [](Plant& plant) { plant.faults = true; }, restart},
+                    WayOut{"aThrow", [](Plant& plant) { plant.throws = true; }, restart},
+                    WayOut{"lostInput",
+                           [](Plant& plant) {
+                               plant.source.onActive = [](Probe& self, const Tick&) {
+                                   self.setQuality(Quality::Bad);
+                               };
+                           },
+                           [](Plant& plant) { plant.source.onActive = nullptr; }}),
     [](const auto& way) { return std::string{way.param.name}; });
 
 TEST(SafeDemands, AreWrittenInTheCycleOfAThrowOverWhatWasHalfWritten) {

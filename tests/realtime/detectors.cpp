@@ -59,14 +59,14 @@ void onTrappedCall(int, siginfo_t* info, void* context) {
 }
 
 void installFilter() {
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_sigaction = onTrappedCall;
     action.sa_flags = SA_SIGINFO | SA_NODEFER;
     sigaction(SIGSYS, &action, nullptr);
 
-    constexpr std::array allowed{SYS_futex,         SYS_clock_nanosleep, SYS_clock_gettime,
-                                 SYS_rt_sigreturn,  SYS_exit,            SYS_exit_group,
-                                 SYS_madvise,       SYS_munmap,          SYS_rt_sigprocmask};
+    constexpr std::array allowed{
+        SYS_futex,      SYS_clock_nanosleep, SYS_clock_gettime, SYS_rt_sigreturn,  SYS_exit,
+        SYS_exit_group, SYS_madvise,         SYS_munmap,        SYS_rt_sigprocmask};
     std::vector<sock_filter> program;
     program.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)));
     for (const long number : allowed) {
@@ -187,11 +187,11 @@ void free(void* memory) {
     __libc_free(memory);
 }
 
-#define CORTEX_INTERPOSE_LOCK(name, Argument)                                     \
-    int name(Argument* argument) {                                                \
-        countLock();                                                              \
+#define CORTEX_INTERPOSE_LOCK(name, Argument)                                       \
+    int name(Argument* argument) {                                                  \
+        countLock();                                                                \
         static const auto original = cortex::test::next<int (*)(Argument*)>(#name); \
-        return original(argument);                                                \
+        return original(argument);                                                  \
     }
 
 CORTEX_INTERPOSE_LOCK(pthread_mutex_lock, pthread_mutex_t)

@@ -20,7 +20,7 @@ std::string toHex(const TypeHash& hash);
 
 struct Disagreement {
     std::string type;
-    std::string item;  // "position", "command zero", "rule axes", or "" for the type itself
+    std::string item;          // "position", "command zero", "rule axes", or "" for the type itself
     std::string ours, theirs;  // as text, "" where one side lacks it
     // A contradiction cuts the link; a difference (range, default, …) is listed and linked.
     bool contradiction = false;

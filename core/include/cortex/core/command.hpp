@@ -16,18 +16,25 @@ namespace cortex {
 struct Sender;
 
 enum class Outcome : std::uint8_t {
-    None,         // not sent yet, or no answer yet
+    None,  // not sent yet, or no answer yet
     Done,
-    Running,      // accepted, not finished
-    Rejected,     // not executed; see Reason
-    Failed,       // executed, without success
+    Running,   // accepted, not finished
+    Rejected,  // not executed; see Reason
+    Failed,    // executed, without success
     Cancelled,
     MailboxFull,  // not executed
     Expired,      // surely not executed
     Unknown       // no answer: it may have run
 };
 enum class Reason : std::uint8_t {
-    None, State, Range, Busy, Authority, Restarted, Window, UnknownCommand
+    None,
+    State,
+    Range,
+    Busy,
+    Authority,
+    Restarted,
+    Window,
+    UnknownCommand
 };
 
 const char* name(Outcome outcome);
@@ -59,8 +66,10 @@ public:
         using Cell = typename StorageOf<T>::type;
         return Data<T>{reinterpret_cast<Cell*>(response_ + result.offset)};
     }
-    bool first() const { return first_; }          // false when a long command is called again
-    bool cancelling() const { return cancelling_; }  // last call of a long command that is cancelled
+    bool first() const { return first_; }  // false when a long command is called again
+    bool cancelling() const {
+        return cancelling_;
+    }  // last call of a long command that is cancelled
     // Why it failed, in words; returns Failed so that a handler can `return call.fail("…")`.
     Outcome fail(std::string_view why) CORTEX_REALTIME;
     // Not executed: `return call.reject(Reason::State, "…")`.

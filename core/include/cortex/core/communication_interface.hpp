@@ -30,14 +30,15 @@ inline constexpr std::uint32_t maxRecord = 4096;
 // How many commands after the last one that it has every answer below a sender may have sent.
 inline constexpr std::uint32_t senderWindow = 128;
 
-// A command from outside as the loop sees it: fixed size, its record already laid out as the target's
-// CommandTable says. A transport decodes and checks shapes before it puts one into the Inbox.
+// A command from outside as the loop sees it: fixed size, its record already laid out as the
+// target's CommandTable says. A transport decodes and checks shapes before it puts one into the
+// Inbox.
 struct OutsideCommand {
     Sender sender;
     std::int64_t targetEpoch = 0;
-    std::uint64_t sequence = 0;      // per sender, from 1
+    std::uint64_t sequence = 0;       // per sender, from 1
     std::uint64_t answeredBelow = 0;  // the sender has every answer below this sequence
-    std::int64_t notAfter = 0;       // cycle of the target's own counter
+    std::int64_t notAfter = 0;        // cycle of the target's own counter
     std::uint32_t simplex = noSimplex;
     std::uint32_t command = CommandTable::none;
     std::uint32_t size = 0;
@@ -81,8 +82,8 @@ public:
     virtual void link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
                       std::int64_t age) CORTEX_REALTIME = 0;
     // Once, before the first link(): the constant items.
-    virtual void linkConstants(std::uint32_t simplex, const LinkBinding& binding,
-                               const Slice& from) CORTEX_REALTIME = 0;
+    virtual void linkConstants(std::uint32_t simplex, const LinkBinding& binding, const Slice& from)
+        CORTEX_REALTIME = 0;
     virtual void linkLost(std::uint32_t simplex) CORTEX_REALTIME = 0;
     virtual void command(const OutsideCommand& command) CORTEX_REALTIME = 0;
     // An agent or a tool that sent commands is no longer heard.

@@ -47,9 +47,12 @@ struct StorageOf<const T> {
 template <class T>
 constexpr Kind kindFor() {
     using Plain = std::remove_const_t<T>;
-    if constexpr (std::is_same_v<Plain, std::int64_t>) return Kind::Int;
-    else if constexpr (std::is_same_v<Plain, double>) return Kind::Float;
-    else if constexpr (std::is_same_v<Plain, bool>) return Kind::Bool;
+    if constexpr (std::is_same_v<Plain, std::int64_t>)
+        return Kind::Int;
+    else if constexpr (std::is_same_v<Plain, double>)
+        return Kind::Float;
+    else if constexpr (std::is_same_v<Plain, bool>)
+        return Kind::Bool;
     else {
         static_assert(std::is_same_v<Plain, std::string_view>,
                       "data is std::int64_t, double, bool or std::string_view");
@@ -74,14 +77,18 @@ public:
 
     operator Plain() const CORTEX_REALTIME { return get(); }
     Plain get() const CORTEX_REALTIME {
-        if constexpr (std::is_same_v<Plain, std::string_view>) return cell_->view();
-        else return *cell_;
+        if constexpr (std::is_same_v<Plain, std::string_view>)
+            return cell_->view();
+        else
+            return *cell_;
     }
     Data& operator=(Plain value) CORTEX_REALTIME
         requires(!std::is_const_v<T>)
     {
-        if constexpr (std::is_same_v<Plain, std::string_view>) cell_->assign(value);
-        else *cell_ = value;
+        if constexpr (std::is_same_v<Plain, std::string_view>)
+            cell_->assign(value);
+        else
+            *cell_ = value;
         return *this;
     }
     Data& operator+=(Plain value) CORTEX_REALTIME

@@ -21,7 +21,16 @@
 namespace cortex {
 
 enum class EventKind : std::uint8_t {
-    StateChange, Fault, Refusal, Overflow, Limit, Conflict, Agent, Command, Watchdog, Message
+    StateChange,
+    Fault,
+    Refusal,
+    Overflow,
+    Limit,
+    Conflict,
+    Agent,
+    Command,
+    Watchdog,
+    Message
 };
 
 const char* name(EventKind kind);
@@ -30,7 +39,7 @@ const char* name(EventKind kind);
 class EventText {
 public:
     EventText() = default;
-    EventText(std::string_view text) { *this << text; }                // NOLINT: reads as a text
+    EventText(std::string_view text) { *this << text; }                 // NOLINT: reads as a text
     EventText(const char* text) : EventText{std::string_view{text}} {}  // NOLINT
 
     EventText& operator<<(std::string_view text) CORTEX_REALTIME;
@@ -47,11 +56,11 @@ private:
 // One thing that happened in a cycle. Fixed size; the number is given when it is merged.
 struct Event {
     std::int64_t cycle = 0;
-    std::int64_t time = 0;        // nominal, ns since the cluster's start
-    std::uint64_t number = 0;     // per agent and epoch, from 1
+    std::int64_t time = 0;     // nominal, ns since the cluster's start
+    std::uint64_t number = 0;  // per agent and epoch, from 1
     std::uint32_t simplex = noSimplex;
-    std::uint32_t order = 0;      // canonical order of the simplex, then `sequence` decide the merge
-    std::uint32_t sequence = 0;   // per ring and cycle
+    std::uint32_t order = 0;     // canonical order of the simplex, then `sequence` decide the merge
+    std::uint32_t sequence = 0;  // per ring and cycle
     Severity severity = Severity::Info;
     EventKind kind = EventKind::Message;
     EventText text;

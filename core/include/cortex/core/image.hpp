@@ -62,8 +62,8 @@ public:
     ImagePool(Tables& tables, std::uint32_t readers);
 
     // Loop thread, once at the end of a cycle.
-    void publish(std::int64_t cycle, std::int64_t nominalTime,
-                 std::int64_t wallClock) CORTEX_REALTIME;
+    void publish(std::int64_t cycle, std::int64_t nominalTime, std::int64_t wallClock)
+        CORTEX_REALTIME;
 
     // Pins the newest image. Empty if `readers` images are already pinned.
     Image newest() CORTEX_REALTIME;

@@ -29,9 +29,9 @@ struct AnswerHead {
 class Lane;
 
 // Sender's handle on one command of a related simplex, got in populate(). Set the arguments through
-// their handles, then send(); the answer stands from the sender's next task on. The newest answer is
-// kept; sends in a row are answered in order and counted. Getting an argument of `set` means that
-// every send() sets that item.
+// their handles, then send(); the answer stands from the sender's next task on. The newest answer
+// is kept; sends in a row are answered in order and counted. Getting an argument of `set` means
+// that every send() sets that item.
 class CommandSender {
 public:
     CommandSender() = default;

@@ -27,7 +27,7 @@ struct CallResult {
 // outside. The loop's side is wait-free.
 class ProgramInterface final : public CommunicationInterface {
 public:
-    explicit ProgramInterface(std::string sender = "program", std::uint32_t capacity = 64);
+    explicit ProgramInterface(const std::string& sender = "program", std::uint32_t capacity = 64);
     ~ProgramInterface() override;
 
     using Arguments = std::map<std::string, Value>;
@@ -38,7 +38,8 @@ public:
     // The answer if it has come; once. Running is not an answer.
     bool poll(std::uint64_t sequence, CallResult& result);
     // post() and wait; Unknown after the timeout.
-    CallResult call(std::string_view path, std::string_view command, const Arguments& arguments = {},
+    CallResult call(std::string_view path, std::string_view command,
+                    const Arguments& arguments = {},
                     std::chrono::milliseconds timeout = std::chrono::seconds{5});
 
     void announce(const AgentAccess& agent) override;

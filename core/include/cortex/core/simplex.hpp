@@ -18,8 +18,8 @@ namespace cortex {
 class Simplex;
 class AgentRuntime;
 
-// What a simplex may touch of one that it is related to; got in populate(). Through an input data is
-// read; through an output to a descriptive simplex it is written. Data of an active simplex is
+// What a simplex may touch of one that it is related to; got in populate(). Through an input data
+// is read; through an output to a descriptive simplex it is written. Data of an active simplex is
 // written by its own task only: read it as data<const T>, act on it with a command.
 class RelatedSimplex {
 public:
@@ -78,8 +78,7 @@ public:
     template <ArrayElement T>
     std::span<T> array(std::string_view item) const {
         std::size_t length = 0;
-        auto* first =
-            static_cast<T*>(cell(item, kindFor<T>(), true, !std::is_const_v<T>, length));
+        auto* first = static_cast<T*>(cell(item, kindFor<T>(), true, !std::is_const_v<T>, length));
         return {first, length};
     }
     CommandSender command(std::string_view name, std::uint32_t capacity = 16) const {
@@ -147,8 +146,7 @@ public:
     template <ArrayElement T>
     std::span<T> array(std::string_view item) {
         std::size_t length = 0;
-        auto* first =
-            static_cast<T*>(cell(item, kindFor<T>(), true, !std::is_const_v<T>, length));
+        auto* first = static_cast<T*>(cell(item, kindFor<T>(), true, !std::is_const_v<T>, length));
         return {first, length};
     }
     SlotState& slot();  // own quality and stamp
@@ -169,7 +167,7 @@ protected:
         return {parameterOffset(command, parameter, kindFor<T>(), false)};
     }
     void handle(std::string_view command, Handler handler);  // throws if the type lacks it
-    AgentRuntime& runtime() const { return *runtime_; }  // from start() on
+    AgentRuntime& runtime() const { return *runtime_; }      // from start() on
 
 private:
     friend class AgentRuntime;

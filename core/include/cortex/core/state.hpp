@@ -23,7 +23,9 @@ public:
 
     static constexpr StateSet none() { return StateSet{}; }
     static constexpr StateSet always() { return StateSet{(1U << stateCount) - 1U}; }
-    static constexpr StateSet of(State state) { return StateSet{1U << static_cast<unsigned>(state)}; }
+    static constexpr StateSet of(State state) {
+        return StateSet{1U << static_cast<unsigned>(state)};
+    }
 
     constexpr bool has(State state) const { return (bits_ & of(state).bits_) != 0; }
     constexpr bool empty() const { return bits_ == 0; }

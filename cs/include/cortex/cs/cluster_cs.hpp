@@ -29,7 +29,7 @@ struct ClusterOptions {
     std::uint32_t threads = 1;  // loop thread included
     int priority = 0;           // SCHED_FIFO 1 to 99; 0: none
     bool lockMemory = true;     // asked for where priority is; refusal is reported
-    std::vector<int> cpus{};      // to pin threads to; empty: all that the process may use
+    std::vector<int> cpus{};    // to pin threads to; empty: all that the process may use
     Overflow overflow = Overflow::Skip;
     std::uint32_t catchUpCycles = 10;
     double warnDuty = 0;           // duty cycle in % above which each cycle is an event; 0: none
