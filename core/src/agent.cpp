@@ -95,9 +95,9 @@ void AgentRuntime::processTaskless(const Tick& tick) {
     for (const std::uint32_t simplex : router_->tasklessReceivers()) process(simplex);
 }
 
-void AgentRuntime::processCommands(std::uint32_t simplex, State state, const Tick& tick,
+void AgentRuntime::processCommands(std::uint32_t simplex, State state, const Tick&,
                                    LoopThread& thread) {
-    if (ports_[simplex] != nullptr) ports_[simplex]->process(state, tick, thread);
+    if (ports_[simplex] != nullptr) ports_[simplex]->process(state, thread);
 }
 
 bool AgentRuntime::hasCommandWork(std::uint32_t simplex) const {

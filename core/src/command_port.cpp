@@ -43,19 +43,27 @@ CommandPort::CommandPort(AgentRuntime& runtime, std::uint32_t simplex, const Com
 }
 
 bool CommandPort::hasWork() const {
-    if (!sending_.empty() || outside_ != nullptr) return true;
+    if (sending_.first != nullptr || outside_ != nullptr) return true;
     if (activity_ != nullptr && activity_->running()) return true;
-    return std::ranges::any_of(receiving_, [](const Lane* lane) { return lane->pending(); });
+    return receiving_.first != nullptr &&
+           (receiving_.first->pending() ||
+            std::ranges::any_of(receiving_.others,
+                                [](const Lane* lane) { return lane->pending(); }));
 }
 
-void CommandPort::process(State state, const Tick& tick, LoopThread& thread) {
+void CommandPort::process(State state, LoopThread& thread) {
     thread_ = &thread;
     state_ = state;
-    nominalTime_ = tick.nominalTime;
     startedNow_ = false;
-    for (Lane* lane : sending_) lane->takeAnswers();
-    for (Lane* lane : receiving_) {
-        if (lane->pending()) drain(*lane);
+    if (sending_.first != nullptr) {
+        sending_.first->takeAnswers();
+        for (Lane* lane : sending_.others) lane->takeAnswers();
+    }
+    if (receiving_.first != nullptr) {
+        if (receiving_.first->pending()) drain(*receiving_.first);
+        for (Lane* lane : receiving_.others) {
+            if (lane->pending()) drain(*lane);
+        }
     }
     if (outside_ != nullptr) drainOutside();
     if (activity_ != nullptr && activity_->running()) stepActivity();
@@ -171,7 +179,7 @@ void CommandPort::startActivity(std::uint32_t command, const std::byte* request,
     }
     startedNow_ = true;
     cancelWhy_ = nullptr;
-    activity_->start(entry, handlers_[command], request, origin, nominalTime_, verdict);
+    activity_->start(entry, handlers_[command], request, origin, runtime_.nominalTime(), verdict);
     copyRecord(response, activity_->response(), entry.response.size);
 }
 
@@ -233,7 +241,7 @@ void CommandPort::stepActivity() {
         activity_->cancel(thread_->clock, true, std::exchange(cancelWhy_, nullptr));
         return;
     }
-    activity_->step(thread_->clock, nominalTime_);
+    activity_->step(thread_->clock, runtime_.nominalTime());
 }
 
 bool CommandPort::cancelActivity(LoopThread& thread, bool callHandler) {

@@ -21,19 +21,19 @@ EventText stateRefusal(std::string_view what, StateSet needs, State state) CORTE
 // Both ends of the commands of one simplex: lanes that it receives from in canonical order of
 // senders, the queue from outside, handlers, its long command, and the lanes that it sends on.
 // Set up in populate() and start(); afterwards its task's, and between cycles the loop thread's.
-class CommandPort {
+class alignas(64) CommandPort {
 public:
     CommandPort(AgentRuntime& runtime, std::uint32_t simplex, const CommandTable& table);
 
     void setHandler(std::uint32_t command, Handler handler) { handlers_[command] = handler; }
-    void addReceiving(Lane& lane) { receiving_.push_back(&lane); }  // in canonical order
-    void addSending(Lane& lane) { sending_.push_back(&lane); }
+    void addReceiving(Lane& lane) { receiving_.add(lane); }  // in canonical order
+    void addSending(Lane& lane) { sending_.add(lane); }
 
     const CommandTable& table() const { return table_; }
-    bool hasLanes() const { return !receiving_.empty(); }
+    bool hasLanes() const { return receiving_.first != nullptr; }
     bool hasWork() const CORTEX_REALTIME;
     // Step (1). What a handler throws passes through, after its command was answered Failed.
-    void process(State state, const Tick& tick, LoopThread& thread) CORTEX_REALTIME;
+    void process(State state, LoopThread& thread) CORTEX_REALTIME;
     // False: the handler threw on its last call.
     bool cancelActivity(LoopThread& thread, bool callHandler);
     void enqueue(OutsideEntry& entry) CORTEX_REALTIME;  // between cycles
@@ -65,17 +65,31 @@ private:
     void count(const Verdict& verdict, std::int64_t latency) CORTEX_REALTIME;
     bool settable(const Target& target, const std::byte* request, Verdict& verdict) const;
 
+    // Mostly one lane, then it costs no look-up.
+    struct LaneList {
+        Lane* first = nullptr;
+        std::vector<Lane*> others;
+
+        void add(Lane& lane) {
+            if (first == nullptr)
+                first = &lane;
+            else
+                others.push_back(&lane);
+        }
+    };
+
+    // What every command touches.
     LoopThread* thread_ = nullptr;
     const CommandTable& table_;
-    std::vector<Lane*> receiving_, sending_;
     OutsideEntry* outside_ = nullptr;
     std::unique_ptr<Activity> activity_;
+    LaneList receiving_, sending_;
+
     std::vector<Handler> handlers_;
     State state_ = State::Standby;
     bool stateless_;           // a descriptive simplex: always settable
     bool startedNow_ = false;  // the activity had its call of this step
     const char* cancelWhy_ = nullptr;
-    std::int64_t nominalTime_ = 0;
     std::vector<Target> targets_;
     AgentRuntime& runtime_;
     std::uint32_t simplex_;

@@ -3,6 +3,7 @@
 
 #include "cortex/core/mailbox.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -69,7 +70,7 @@ public:
     std::uint64_t number() const CORTEX_REALTIME { return head_ + 1; }
     LaneSlot& front() CORTEX_REALTIME { return slot(head_); }
     const std::byte* request() CORTEX_REALTIME { return record(head_); }
-    std::byte* response() CORTEX_REALTIME { return record(head_) + shape_.requestSize; }
+    std::byte* response() CORTEX_REALTIME { return place(head_) + responseOffset_; }
     void answer(const Verdict& verdict, const ChunkClock& clock) CORTEX_REALTIME;
     void pop() CORTEX_REALTIME { ++head_; }
     // The last answer to a command that was answered Running and popped.
@@ -86,21 +87,29 @@ private:
         AnswerHead answer;
         std::uint16_t handle = 0;
     };
+    std::uint32_t indexOf(std::uint64_t position) const {
+        return (static_cast<std::uint32_t>(position) - first_) & mask_;
+    }
     std::byte* place(std::uint64_t position) const {
-        return slots_ + ((position - first_) & mask_) * stride_;
+        return slots_ + std::size_t{indexOf(position)} * stride_;
     }
     LaneSlot& slot(std::uint64_t position) const {
         return *reinterpret_cast<LaneSlot*>(place(position));
     }
     std::byte* record(std::uint64_t position) const { return place(position) + sizeof(LaneSlot); }
     void takeFinals() CORTEX_REALTIME;
+    CommandSender::State& handle(std::uint16_t index) const {
+        return onlyHandle_ != nullptr ? *onlyHandle_ : *handles_[index];
+    }
 
-    // Sender writes tail_, taken_, first_; receiver head_, refusing_. An empty lane starts again at
-    // its first slot, so that light traffic stays in one cache line.
-    std::uint64_t tail_ = 0, taken_ = 0, first_ = 0;
-    std::uint64_t head_ = 0;
+    // One cache line. Sender writes tail_, taken_, first_; receiver head_, refusing_. An empty lane
+    // starts again at its first slot, so that light traffic stays in one more cache line.
+    std::uint64_t tail_ = 0, taken_ = 0, head_ = 0;
     std::byte* slots_ = nullptr;
-    std::uint32_t stride_ = 0, mask_ = 0, capacity_ = 0;
+    CommandSender::State* onlyHandle_ = nullptr;  // where there is one
+    std::uint32_t first_ = 0;                     // the command in the first slot, modulo 2^32
+    std::uint32_t mask_ = 0, capacity_ = 0;
+    std::uint32_t stride_ = 0, responseOffset_ = 0;
     bool delayed_ = false, hasLong_ = false, refusing_ = false;
 
     std::uint64_t latchedTail_ = 0, latchedHead_ = 0, latchedFinalTail_ = 0;
@@ -116,26 +125,29 @@ private:
     std::vector<Line> memory_;
 };
 
-// What a handle owns: the records that the sender's task fills and reads.
-struct CommandSender::State {
+// What a handle owns: the records that the sender's task fills and reads. Its first two cache lines
+// are all that a command of few parameters and its answer touch.
+struct alignas(64) CommandSender::State {
     State(const CommandTable& commands, std::uint32_t entry, std::uint32_t edgeIndex,
           std::uint32_t room);
     void storeFinal(const AnswerHead& head, const std::byte* record) CORTEX_REALTIME;
 
     Lane* lane = nullptr;           // from start() on
     CommandPort* sender = nullptr;  // likewise
-    std::uint16_t command = 0, handle = 0;
-    std::uint32_t requestSize = 0, responseSize = 0;
-    std::uint64_t sent = 0, answered = 0;
     std::byte* request = nullptr;
     std::byte* response = nullptr;
+    std::uint64_t sent = 0, answered = 0;
+    std::uint32_t requestSize = 0, responseSize = 0;
+    std::uint16_t command = 0, handle = 0;
     bool full = false;    // the last send() found no room
     bool worded = false;  // answer.why is not empty
+
+    std::array<std::uint64_t, 4> smallRecords{};  // request, then response, where they fit
     AnswerHead answer;
 
     const CommandTable* table = nullptr;
     std::uint32_t edge = noSimplex, capacity = 0;
-    std::vector<std::uint64_t> records;  // request, then response
+    std::vector<std::uint64_t> records;  // where they do not
 };
 
 }  // namespace cortex

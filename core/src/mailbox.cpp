@@ -49,8 +49,10 @@ Verdict verdictOf(Outcome outcome, const Call& call) {
 }
 
 Lane::Lane(const Shape& shape, std::vector<CommandSender::State*> handles)
-    : mask_{std::bit_ceil(std::max(shape.capacity, 1U)) - 1U},
+    : onlyHandle_{handles.size() == 1 ? handles.front() : nullptr},
+      mask_{std::bit_ceil(std::max(shape.capacity, 1U)) - 1U},
       capacity_{shape.capacity},
+      responseOffset_{static_cast<std::uint32_t>(sizeof(LaneSlot)) + shape.requestSize},
       delayed_{shape.delayed},
       hasLong_{shape.hasLong},
       shape_{shape},
@@ -71,7 +73,7 @@ Lane::Lane(const Shape& shape, std::vector<CommandSender::State*> handles)
 std::uint64_t Lane::post(std::uint16_t command, std::uint16_t handle, const std::byte* request,
                          std::uint32_t size, const ChunkClock& clock) {
     if (tail_ - taken_ >= capacity_) return 0;
-    if (tail_ == taken_) first_ = tail_;
+    if (tail_ == taken_) first_ = static_cast<std::uint32_t>(tail_);
     LaneSlot& head = slot(tail_);
     head.cycles = clock.cycle;
     head.time = clock.nanoseconds;
@@ -88,7 +90,7 @@ void Lane::answer(const Verdict& verdict, const ChunkClock& clock) {
     head.outcome = verdict.outcome;
     head.reason = verdict.reason;
     head.worded = verdict.why.has_value();
-    if (head.worded) whys_[(head_ - first_) & mask_] = *verdict.why;
+    if (head.worded) whys_[indexOf(head_)] = *verdict.why;
 }
 
 void Lane::finish(const AnswerHead& answer, std::uint16_t handle, const std::byte* response,
@@ -103,7 +105,7 @@ void Lane::takeAnswers() {
     const std::uint64_t end = delayed_ ? latchedHead_ : head_;
     while (taken_ != end) {
         const LaneSlot& head = slot(taken_);
-        CommandSender::State& state = *handles_[head.handle];
+        CommandSender::State& state = handle(head.handle);
         AnswerHead& answer = state.answer;
         answer.number = taken_ + 1;
         answer.latencyCycles = head.cycles;
@@ -111,11 +113,11 @@ void Lane::takeAnswers() {
         answer.reason = head.reason;
         answer.outcome = head.outcome;
         if (head.worded)
-            answer.why = whys_[(taken_ - first_) & mask_];
+            answer.why = whys_[indexOf(taken_)];
         else if (state.worded)
             answer.why = {};
         state.worded = head.worded;
-        copyRecord(state.response, record(taken_) + shape_.requestSize, state.responseSize);
+        copyRecord(state.response, place(taken_) + responseOffset_, state.responseSize);
         ++state.answered;
         ++taken_;
     }
@@ -127,8 +129,8 @@ void Lane::takeFinals() {
     for (; finalTaken_ != end; ++finalTaken_) {
         const std::size_t place = finalTaken_ % finals_.size();
         const Final& final = finals_[place];
-        handles_[final.handle]->storeFinal(final.answer,
-                                           &finalResponses_[place * shape_.responseSize]);
+        handle(final.handle)
+            .storeFinal(final.answer, &finalResponses_[place * shape_.responseSize]);
     }
 }
 
@@ -142,14 +144,15 @@ bool Lane::startsRefusing(bool refused) { return !std::exchange(refusing_, refus
 
 CommandSender::State::State(const CommandTable& commands, std::uint32_t entry,
                             std::uint32_t edgeIndex, std::uint32_t room)
-    : command{static_cast<std::uint16_t>(entry)},
-      requestSize{commands.entries[entry].request.size},
+    : requestSize{commands.entries[entry].request.size},
       responseSize{commands.entries[entry].response.size},
+      command{static_cast<std::uint16_t>(entry)},
       table{&commands},
       edge{edgeIndex},
-      capacity{room},
-      records((requestSize + responseSize) / 8U + 1U) {
-    request = reinterpret_cast<std::byte*>(records.data());
+      capacity{room} {
+    const std::size_t words = (requestSize + responseSize) / 8U;
+    if (words > smallRecords.size()) records.resize(words);
+    request = reinterpret_cast<std::byte*>(records.empty() ? smallRecords.data() : records.data());
     response = request + requestSize;
     initialiseRecord(commands.entries[entry].request, request);
     initialiseRecord(commands.entries[entry].response, response);
