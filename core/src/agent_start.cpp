@@ -201,9 +201,16 @@ void AgentRuntime::start() {
     makeLanes();
     findTaskless();
     router_ = std::make_unique<Router>(*this);
-    started_ = true;
     const AgentAccess access{structure_, images_.get(), events_.get(), options_.period};
-    for (CommunicationInterface* interface : interfaces_) interface->announce(access);
+    std::size_t announced = 0;
+    try {
+        for (; announced < interfaces_.size(); ++announced)
+            interfaces_[announced]->announce(access);
+    } catch (...) {  // the one that failed and those after it know no agent
+        while (announced > 0) interfaces_[--announced]->close();
+        throw;
+    }
+    started_ = true;
     images_->publish(0, 0, utcMicroseconds() * 1000);
     events_->start();
 }

@@ -137,8 +137,19 @@ void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) 
 }
 
 void ClusterCS::start() {
+    if (implementation_->loop)
+        throw Error("cluster " + implementation_->name + " was started before");
+    try {
+        startAll();
+    } catch (...) {
+        implementation_->loop.reset();
+        implementation_->agent.reset();
+        throw;
+    }
+}
+
+void ClusterCS::startAll() {
     Implementation& self = *implementation_;
-    if (self.loop) throw Error("cluster " + self.name + " was started before");
     if (self.tree == nullptr) throw Error("give cluster " + self.name + " a tree: addSimplexTree");
     if (!self.trigger) throw Error("give cluster " + self.name + " a trigger: setTriggerSource");
     const std::string path = "/" + self.name;
@@ -149,6 +160,14 @@ void ClusterCS::start() {
         refuse(std::move(report));
     }
     if (self.tree->find(path) == nullptr) self.tree->add(path, "Cluster");
+    const Simplex& cluster = self.tree->at(path);
+    if (!cluster.type().isA("Cluster")) {
+        Report report;
+        report.error(path, "agent-type", cluster.place(),
+                     "a cluster's own simplex is a Cluster, here it is a " + cluster.type().name,
+                     "leave it out, or write type=\"Cluster\"");
+        refuse(std::move(report));
+    }
     self.tree->createRelated(self.registry);
 
     std::vector<std::string> realtimeReport;
@@ -193,7 +212,9 @@ bool ClusterCS::stop() {
     return true;
 }
 
-bool ClusterCS::running() const { return ended() == Ended::Running || ended() == Ended::Halted; }
+bool ClusterCS::running() const {
+    return implementation_->loop && implementation_->loop->joinable();
+}
 
 Ended ClusterCS::ended() const {
     return implementation_->loop ? implementation_->loop->ended() : Ended::NotStarted;

@@ -50,6 +50,12 @@ void ClusterLoop::start() {
     ended_.store(Ended::Running, std::memory_order_release);
     thread_ = std::thread{[this] { run(); }};
     ready_.wait(false);
+    if (failure_) {
+        thread_.join();
+        watchdog_.reset();
+        ended_.store(Ended::NotStarted, std::memory_order_release);
+        std::rethrow_exception(failure_);
+    }
     for (const std::string& refusal : realtimeReport_) {
         Event event;
         event.severity = Severity::Warning;
@@ -88,23 +94,58 @@ void ClusterLoop::prepareThread() {
 }
 
 void ClusterLoop::run() {
-    prepareThread();
+    try {
+        prepareThread();
+        trigger_.skipMissed(options_.overflow != Overflow::CatchUp);
+        trigger_.start();
+    } catch (...) {
+        failure_ = std::current_exception();
+        pool_.reset();
+    }
+    const bool failed = failure_ != nullptr;
     ready_.store(true);
     ready_.notify_all();
-    trigger_.start();
-    Trigger last;
-    lastNominal_ = -trigger_.period();
-    for (;;) {
-        const Trigger trigger = trigger_.waitForTick();
-        if (trigger.stopped) break;
-        last = trigger;
-        cycle(trigger);
-        checkOverflow(trigger);
+    if (failed) return;
+    try {
+        loop();
+    } catch (const std::exception& error) {
+        tellFailure("the trigger", error.what());
     }
-    shutDown(last);
+    shutDown();
     pool_.reset();
     if (ended() == Ended::Running) ended_.store(Ended::Stopped, std::memory_order_release);
     finished_.store(true, std::memory_order_release);
+}
+
+void ClusterLoop::loop() {
+    lastNominal_ = -trigger_.period();
+    for (;;) {
+        const Trigger trigger = trigger_.waitForTick();
+        if (trigger.stopped) return;
+        last_ = trigger;
+        cycle(trigger);
+        checkOverflow();
+    }
+}
+
+// What code of the user's threw outside of any simplex.
+void ClusterLoop::tellFailure(const char* who, const char* what) {
+    Event event;
+    event.cycle = cycle_;
+    event.simplex = agent_.agentSimplex();
+    event.severity = Severity::Error;
+    event.text << who << " threw: " << what;
+    agent_.events().postOutside(event);
+}
+
+void ClusterLoop::beat(const Heartbeat& heartbeat) {
+    for (const auto& function : heartbeats_) {
+        try {
+            function(heartbeat);
+        } catch (const std::exception& error) {
+            tellFailure("a heartbeat function", error.what());
+        }
+    }
 }
 
 void ClusterLoop::cycle(const Trigger& trigger) {
@@ -127,9 +168,8 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     lastWakeUp_ = begin;
     warnDuty();
     metrics_.hung(watchdog_->reported() == tick.cycle);
+    if (!heartbeats_.empty()) beat({tick.cycle, true, {}, {}});
     watchdog_->cycleEnds();
-    const Heartbeat beat{tick.cycle, true, {}, {}};
-    for (const auto& heartbeat : heartbeats_) heartbeat(beat);
 }
 
 void ClusterLoop::warnDuty() {
@@ -143,6 +183,9 @@ void ClusterLoop::warnDuty() {
 void ClusterLoop::countMissed(std::int64_t missed) {
     metrics_.overflow(missed);
     unreported_ += missed;
+    if (options_.overflow != Overflow::Halt) return;
+    runner_.halt();
+    ended_.store(Ended::Halted, std::memory_order_release);
 }
 
 // Events of the cycle that follows: those of the one before have been handed out.
@@ -157,18 +200,15 @@ void ClusterLoop::reportMissed() {
 }
 
 // A job is never cut: this comes after it, and decides what becomes of the ticks it ran over.
-void ClusterLoop::checkOverflow(const Trigger&) {
+void ClusterLoop::checkOverflow() {
     const std::int64_t missed = trigger_.missed();
     if (missed == 0) {
         caughtUp_ = 0;
+        trigger_.skipMissed(options_.overflow != Overflow::CatchUp);
         return;
     }
     if (missed > counted_) {
         countMissed(missed - counted_);
-        if (options_.overflow == Overflow::Halt) {
-            runner_.halt();
-            ended_.store(Ended::Halted, std::memory_order_release);
-        }
         counted_ = missed;
     }
     const bool catchUp = options_.overflow == Overflow::CatchUp &&
@@ -179,19 +219,19 @@ void ClusterLoop::checkOverflow(const Trigger&) {
 
 // After the last tick: everything to Standby in order, then by force; the last write is the last
 // cycle's.
-void ClusterLoop::shutDown(const Trigger& last) {
+void ClusterLoop::shutDown() {
     const std::int64_t period = trigger_.period();
     const std::int64_t budget = std::max<std::int64_t>(stopBudget / period, 2);
-    Trigger trigger = last;
+    Trigger trigger = last_;
     trigger.periods = 1;
     trigger.lateness = 0;
     const std::int64_t start = monotonicNow();
-    group_.begin(LifeCycle::Shutdown, "/");
+    group_.beginStop();
     for (std::int64_t i = 1; cycle_ > 0 && i <= budget && !group_.allResting(); ++i) {
         trigger.nominalTime += period;
         if (trigger_.realTime()) {
             std::this_thread::sleep_until(std::chrono::steady_clock::time_point{
-                std::chrono::nanoseconds{start + i * period}});
+                std::chrono::nanoseconds{start + std::min(i * period, stopBudget)}});
         }
         group_.step();
         if (i == budget || monotonicNow() - start > stopBudget) {
@@ -211,21 +251,20 @@ void ClusterLoop::hung(std::int64_t cycle, const HungHook& hook) {
     event.kind = EventKind::Watchdog;
     event.text = EventText{hook.text()};
     agent_.events().postOutside(event);
-    const Heartbeat beat{cycle, false, hook.path, hook.hook};
-    for (const auto& heartbeat : heartbeats_) heartbeat(beat);
+    beat({cycle, false, hook.path, hook.hook});
 }
 
 std::optional<HungHook> ClusterLoop::stop() {
     if (!thread_.joinable()) return std::nullopt;
     trigger_.interrupt();
-    // The loop ends by itself within its budget, unless one cycle does not end.
+    // The loop ends by itself within its budget, unless a cycle does not end or none begins.
     std::int64_t seen = -1;
     auto since = std::chrono::steady_clock::now();
     while (!finished_.load(std::memory_order_acquire)) {
         std::this_thread::sleep_for(1ms);
-        const std::int64_t cycle = watchdog_->executing();
+        const std::int64_t cycle = watchdog_->begun();
         const auto now = std::chrono::steady_clock::now();
-        if (cycle != seen || cycle == 0) {
+        if (cycle != seen) {
             seen = cycle;
             since = now;
         } else if (now - since >= 2s) {

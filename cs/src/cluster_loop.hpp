@@ -11,6 +11,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -43,12 +44,15 @@ public:
 private:
     void run();
     void prepareThread();
+    void loop();
+    void beat(const Heartbeat& heartbeat);
+    void tellFailure(const char* who, const char* what);
     void cycle(const Trigger& trigger) CORTEX_REALTIME;
-    void checkOverflow(const Trigger& trigger) CORTEX_REALTIME;
+    void checkOverflow() CORTEX_REALTIME;
     void countMissed(std::int64_t missed) CORTEX_REALTIME;
     void reportMissed() CORTEX_REALTIME;
     void warnDuty() CORTEX_REALTIME;
-    void shutDown(const Trigger& last);
+    void shutDown();
     void hung(std::int64_t cycle, const HungHook& hook);
 
     AgentRuntime& agent_;
@@ -64,9 +68,11 @@ private:
     std::unique_ptr<Watchdog> watchdog_;
     std::thread thread_;
     std::atomic<bool> ready_{false}, finished_{false};
+    std::exception_ptr failure_;  // of the start, for start() to throw
     std::atomic<Ended> ended_{Ended::NotStarted};
 
     // Loop thread only.
+    Trigger last_;
     std::int64_t cycle_ = 0;
     std::int64_t lastNominal_ = 0;
     std::int64_t lastWakeUp_ = 0;

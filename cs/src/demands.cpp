@@ -80,7 +80,7 @@ DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, std::uin
                           item.rate.value_or(infinity), limited, false});
         next += alignedSize(item);
     }
-    beginnings_.reserve(items_.size());
+    beginnings_.reserve(items_.size() + 1);  // an array may begin two: a limit, then not finite
     accept();
 }
 

@@ -25,9 +25,21 @@ void GroupCommands::registerHandler(std::string_view name) {
 
 Outcome GroupCommands::handle(LifeCycle command, Call& call, Argument<std::string_view> prefix) {
     if (call.cancelling()) return Outcome::Cancelled;
-    if (call.first()) begin(command, call[prefix]);
+    if (stopping_) return call.fail("the cluster is stopping");
+    if (call.first()) {
+        begin(command, call[prefix]);
+        if (!prefix_.view().empty() && !anyBelongs()) {
+            EventText text{"no active simplex stands at or below "};
+            return call.fail((text << prefix_.view()).view());
+        }
+    }
     if (step()) return Outcome::Running;
     return anyFailed_ ? call.fail(failures_.view()) : Outcome::Done;
+}
+
+void GroupCommands::beginStop() {
+    begin(LifeCycle::Shutdown, "/");
+    stopping_ = true;
 }
 
 void GroupCommands::begin(LifeCycle command, std::string_view prefix) {
@@ -65,6 +77,15 @@ bool GroupCommands::step() {
 
 SimplexCS& GroupCommands::member(std::size_t at) const {
     return *order_[command_ == LifeCycle::Shutdown ? order_.size() - 1 - at : at];
+}
+
+bool GroupCommands::anyBelongs() const {
+    const std::string_view prefix = prefix_.view();
+    for (const SimplexCS* simplex : order_) {
+        const std::string_view path = simplex->path();
+        if (path == prefix || (path.starts_with(prefix) && path[prefix.size()] == '/')) return true;
+    }
+    return false;
 }
 
 bool GroupCommands::belongs(const SimplexCS& simplex) const {

@@ -19,6 +19,8 @@ public:
     GroupCommands(const GroupCommands&) = delete;
     GroupCommands& operator=(const GroupCommands&) = delete;
 
+    // From now on only shuts down: commands of others are refused.
+    void beginStop();
     void begin(LifeCycle command, std::string_view prefix) CORTEX_REALTIME;
     // Once a cycle, before the tasks. False: all that can follow have.
     bool step() CORTEX_REALTIME;
@@ -31,6 +33,7 @@ private:
     template <LifeCycle command>
     void registerHandler(std::string_view name);
 
+    bool anyBelongs() const CORTEX_REALTIME;
     bool belongs(const SimplexCS& simplex) const CORTEX_REALTIME;
     bool reached(const SimplexCS& simplex) const CORTEX_REALTIME;
     bool failed(const SimplexCS& simplex) const CORTEX_REALTIME;
@@ -46,6 +49,7 @@ private:
     std::size_t at_ = 0;
     bool posted_ = false;
     bool anyFailed_ = false;
+    bool stopping_ = false;
     std::int64_t postedAfter_ = 0;  // nominal time of the member's last run before
 };
 

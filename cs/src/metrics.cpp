@@ -141,7 +141,7 @@ void ClusterMetrics::writeLatency() {
             if (thread.latencyCounts[bin] == 0) continue;
             latencySum_[bin] += thread.latencyCounts[bin];
             count += thread.latencyCounts[bin];
-            sum += latencyOfBucket(bin) * thread.latencyCounts[bin];
+            sum += latencyOfBucket(bin) * static_cast<double>(thread.latencyCounts[bin]);
             greatest = std::max(greatest, latencyOfBucket(bin));
         }
     }

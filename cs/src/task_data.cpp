@@ -53,6 +53,7 @@ SlotState TaskRunner::readInputs(Task& task, const Tick& tick) {
         merge(sum, seen, input.ages);
         safe = safe || (lost && input.rule->onLoss == OnLoss::Safe);
     }
+    safe = safe && task.simplex->state_ == State::Active;
     if (safe && !task.simplex->safeByLoss_) latchSafe(task);
     task.simplex->safeByLoss_ = safe;
     return sum;
@@ -89,7 +90,7 @@ void TaskRunner::inputLost(Task& task, TaskInput& input, const Tick& tick) {
 void TaskRunner::finish(Task& task, const Tick& tick, SlotState state, Worker& worker) {
     SimplexCS& simplex = *task.simplex;
     limitOutputs(task, tick, worker);
-    if (task.measures)
+    if (task.measures && !simplex.dead_)
         state = {tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     else if (simplex.state_ == State::Fault && state.quality < Quality::Bad) {
         state.quality = Quality::Bad;

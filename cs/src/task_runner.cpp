@@ -153,6 +153,7 @@ void TaskRunner::transition(Task& task, const Tick& tick) {
     if (simplex.faultPending_) return enterFault(task, tick);
     const bool resting = simplex.state_ == State::Standby || simplex.state_ == State::Fault;
     if (forced_ && !resting) return enter(task, State::Standby, tick);
+    if (forced_) return;
     const LifeCycle command = agent_.takeLifeCycle(task.index);
     if (command != LifeCycle::None && lifeCycle(task, command, tick)) return;
     if (!simplex.done_) return;
@@ -212,7 +213,8 @@ void TaskRunner::enter(Task& task, State to, const Tick& tick) {
         }
         simplex.dead_ = true;
     }
-    if (from == State::Active || to == State::StartingUp || to == State::Fault) {
+    const bool comesToRest = to == State::Standby && from != State::Fault;
+    if (from == State::Active || to == State::StartingUp || to == State::Fault || comesToRest) {
         latchSafe(task);
         writeSafe(task);
     }
@@ -234,8 +236,10 @@ void TaskRunner::enter(Task& task, State to, const Tick& tick) {
 void TaskRunner::enterFault(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     simplex.faultPending_ = false;
-    if (simplex.state_ == State::Fault) return;
-    enter(task, State::Fault, tick);
+    const bool faultedBefore = simplex.state_ == State::Fault;
+    if (faultedBefore) writeSafe(task);
+    if (faultedBefore && simplex.faultCode_ != HookThrew) return;
+    if (!faultedBefore) enter(task, State::Fault, tick);
     task.faultCode = simplex.faultCode_;
     task.faultText = simplex.text_.view();
     EventText text{"fault "};

@@ -11,7 +11,7 @@ HungHook findHungHook(const TaskRunner& runner, AgentRuntime& agent) {
         if (simplex == noSimplex || hook == Hook::None) continue;
         return {agent.structure().simplexes[simplex].path, name(hook)};
     }
-    return {"/" + agent.name(), "the work of the framework or an interface"};
+    return {"/" + agent.name(), "the framework, an interface, a heartbeat or the trigger"};
 }
 
 Watchdog::Watchdog(const TaskRunner& runner, AgentRuntime& agent, std::chrono::nanoseconds limit,

@@ -33,10 +33,12 @@ public:
     // Loop thread.
     void cycleBegins(std::int64_t cycle) CORTEX_REALTIME {
         executing_.store(cycle, std::memory_order_release);
+        begun_.store(cycle, std::memory_order_release);
     }
     void cycleEnds() CORTEX_REALTIME { executing_.store(0, std::memory_order_release); }
     // The cycle now executing, 0 between cycles. Any thread.
     std::int64_t executing() const { return executing_.load(std::memory_order_acquire); }
+    std::int64_t begun() const { return begun_.load(std::memory_order_acquire); }  // the last
     std::int64_t reported() const { return reported_.load(std::memory_order_acquire); }
 
 private:
@@ -46,7 +48,7 @@ private:
     AgentRuntime& agent_;
     std::chrono::nanoseconds limit_;
     Report report_;
-    std::atomic<std::int64_t> executing_{0};
+    std::atomic<std::int64_t> executing_{0}, begun_{0};
     std::atomic<std::int64_t> reported_{0};  // last cycle that hung
     std::mutex mutex_;
     std::condition_variable wake_;

@@ -262,7 +262,7 @@ OutsideCommandPlan Planner::ordered(std::int64_t tick) {
 }
 
 void Planner::addScript() {
-    OutsideCommandPlan start{2, "anna", "/test", "startup", {}, 100};
+    OutsideCommandPlan start{1, "anna", "/test", "startup", {}, 100};
     start.arguments["prefix"] = std::vector{std::string{"/"}};
     plan_.script.push_back(start);
     for (std::int64_t tick = 1; tick <= steps; ++tick) {
@@ -273,7 +273,6 @@ void Planner::addScript() {
     }
     static constexpr std::array senders{"zoe", "anna", "mia"};
     for (OutsideCommandPlan& each : plan_.script) each.sender = senders[chance_.below(3)];
-    std::ranges::stable_sort(plan_.script, {}, &OutsideCommandPlan::tick);
 }
 
 void Planner::addLate() {

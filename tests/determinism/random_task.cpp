@@ -20,7 +20,6 @@ int threadNumber() {
 RandomTask::RandomTask(Identity identity, const Plan& plan, std::size_t index,
                        Disturbance& disturbance)
     : SimplexCS{std::move(identity)},
-      plan_{plan},
       index_{index},
       self_{plan.simplexes[index]},
       disturbance_{disturbance},
@@ -31,7 +30,7 @@ RandomTask::RandomTask(Identity identity, const Plan& plan, std::size_t index,
 void RandomTask::delay() {
     if (disturbance_.seed == 0 || !delays_.oneIn(8)) return;
     if (delays_.oneIn(8)) return std::this_thread::yield();
-    for (volatile std::uint64_t n = delays_.below(8000); n > 0;) n = n - 1;
+    for (volatile std::uint64_t n = delays_.below(4000); n > 0;) n = n - 1;
 }
 
 void RandomTask::populate() {

@@ -67,7 +67,6 @@ private:
     Reply execute(const Bound& bound, Call& call);
     void delay();
 
-    const Plan& plan_;
     std::size_t index_;
     const SimplexPlan& self_;
     Disturbance& disturbance_;

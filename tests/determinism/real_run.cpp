@@ -143,11 +143,17 @@ Observation runOnThreads(const Plan& plan, std::uint32_t threads, std::uint64_t 
     });
     cluster.start();
     auto late = plan.late.begin();
-    for (std::int64_t step = 1; step <= steps; ++step) {
-        for (; late != plan.late.end() && late->cycle == step; ++late)
+    for (std::int64_t done = 0; done < steps;) {
+        for (; late != plan.late.end() && late->cycle == done + 1; ++late) {
             trigger.lateBy(late->periods);
-        trigger.step();
-        if (step % snapshotEvery == 0) observation.snapshots.push_back(snapshotOf(cluster.image()));
+        }
+        // Up to the next look at the tables, or to the step that is late.
+        std::int64_t until = (done / snapshotEvery + 1) * snapshotEvery;
+        if (late != plan.late.end()) until = std::min(until, late->cycle - 1);
+        trigger.step(until - done);
+        done = until;
+        if (done % snapshotEvery != 0) continue;
+        observation.snapshots.push_back(snapshotOf(cluster.image()));
     }
     cluster.agent().events().flush();
     recording = false;

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -277,13 +278,15 @@ void Reference::post(int simplex, Severity severity, EventKind kind, std::string
     posted_.push_back(
         {at(simplex).rank,
          phase_,
+         posted_.size(),
          {cycle_, now_, 0, at(simplex).path, severity, kind, cut(text, eventCapacity)}});
 }
 
 // Canonical order, then as posted.
 void Reference::closeEvents() {
-    std::ranges::stable_sort(posted_, {},
-                             [](const Posted& each) { return std::pair{each.rank, each.phase}; });
+    std::ranges::sort(posted_, {}, [](const Posted& each) {
+        return std::tuple{each.rank, each.phase, each.number};
+    });
     for (Posted& each : posted_) {
         each.event.number = observation_.events.size() + 1;
         observation_.events.push_back(std::move(each.event));

@@ -110,6 +110,7 @@ private:
     void collect();
     Ending group(const std::string& command, const Arguments& arguments, bool first);
     bool groupStep();
+    bool groupCovers(int simplex);
     bool groupHas(int simplex);
 
     const Plan& plan_;
@@ -134,7 +135,8 @@ private:
 
     struct Posted {
         std::size_t rank;
-        int phase;  // of the cycle: begin, tasks, end
+        int phase;           // of the cycle: begin, tasks, end
+        std::size_t number;  // in this cycle, as posted
         SeenEvent event;
     };
     int phase_ = 0;

@@ -156,15 +156,27 @@ Ending Reference::group(const std::string& command, const Arguments& arguments, 
         group_.command = lifeCycleOf(command);
         group_.prefix = std::get<3>(arguments.at("prefix")).front();
         while (group_.prefix.ends_with('/')) group_.prefix.pop_back();
+        const bool any = std::ranges::any_of(tasks_, [this](int simplex) {
+            const std::string& path = at(simplex).path;
+            return path == group_.prefix || path.starts_with(group_.prefix + "/");
+        });
+        if (!any) {
+            return {Outcome::Failed, Reason::None,
+                    "no active simplex stands at or below " + group_.prefix};
+        }
     }
     if (groupStep()) return {Outcome::Running, Reason::None, {}};
     if (group_.failures.empty()) return {};
     return {Outcome::Failed, Reason::None, group_.failures};
 }
 
-bool Reference::groupHas(int simplex) {
+bool Reference::groupCovers(int simplex) {
     const std::string& path = at(simplex).path;
-    const bool below = path == group_.prefix || path.starts_with(group_.prefix + "/");
+    return path == group_.prefix || path.starts_with(group_.prefix + "/");
+}
+
+bool Reference::groupHas(int simplex) {
+    const bool below = groupCovers(simplex);
     const int manager = at(simplex).task->manager;
     if (!below || group_.command == LifeCycle::ClearFaults || manager < 0) return below;
     const State state = at(manager).task->state;

@@ -140,7 +140,8 @@ void Reference::enter(int simplex, State to) {
         }
         task.dead = true;
     }
-    if (from == State::Active || to == State::StartingUp || to == State::Fault) {
+    const bool comesToRest = to == State::Standby && from != State::Fault;
+    if (from == State::Active || to == State::StartingUp || to == State::Fault || comesToRest) {
         latchSafe(simplex);
         writeSafe(simplex);
     }
@@ -161,8 +162,10 @@ void Reference::enter(int simplex, State to) {
 void Reference::enterFault(int simplex) {
     RefTask& task = *at(simplex).task;
     task.faultPending = false;
-    if (task.state == State::Fault) return;
-    enter(simplex, State::Fault);
+    const bool faultedBefore = task.state == State::Fault;
+    if (faultedBefore) writeSafe(simplex);
+    if (faultedBefore && task.faultCode != -1) return;
+    if (!faultedBefore) enter(simplex, State::Fault);
     item<std::int64_t>(simplex, "faultCode") = task.faultCode;
     item<std::string>(simplex, "faultText") = cut(task.text, 48);
     post(simplex, Severity::Error, EventKind::Fault,
@@ -213,6 +216,7 @@ SlotState Reference::readInputs(int simplex) {
             sum.cycle = seen.cycle;
         }
     }
+    safe = safe && task.state == State::Active;
     if (safe && !task.safeByLoss) latchSafe(simplex);
     task.safeByLoss = safe;
     return sum;
@@ -242,7 +246,7 @@ void Reference::finish(int simplex, SlotState state, std::int64_t elapsed) {
     const Quality least = task.state == State::Fault    ? Quality::Bad
                           : task.state == State::Active ? Quality::Good
                                                         : Quality::Stale;
-    if (at(simplex).type->measures) {
+    if (at(simplex).type->measures && !task.dead) {
         state = {cycle_, now_, noSimplex, Quality::Good};
     } else if (state.quality < least) {
         state.quality = least;

@@ -31,7 +31,7 @@ struct alignas(64) LoopThread {
     std::uint64_t commands = 0;  // executed, since start
     std::uint64_t rejected = 0;
     std::int64_t lastLatency = 0;              // ns, of the last executed command
-    std::vector<std::uint32_t> latencyCounts;  // histogram, ns, see latencyBucket()
+    std::vector<std::uint64_t> latencyCounts;  // histogram, ns, see latencyBucket()
 };
 std::uint32_t latencyBucket(std::int64_t nanoseconds) CORTEX_REALTIME;  // 16 per octave
 double latencyOfBucket(std::uint32_t bucket);                           // us, upper edge

@@ -86,7 +86,7 @@ public:
     // populates, builds the schedule, announces, starts the loop.
     void start();
     // Shuts all simplexes down in order (2 s at most), safe demands, last write, ends the loop.
-    // False: a hook did not return; the caller ends the process (exit code 3).
+    // If a hook does not return it is named, and the process ends with exit code 3.
     bool stop();
 
     bool running() const;
@@ -107,6 +107,7 @@ public:
 
 private:
     void setTrigger(std::unique_ptr<TriggerSource> source);
+    void startAll();
 
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;
