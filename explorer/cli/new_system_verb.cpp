@@ -17,7 +17,7 @@ constexpr std::string_view skeleton = R"(<?xml version="1.0" encoding="UTF-8"?>
 
   <!-- The agent: its name, cycles per second, threads, real-time priority, and what happens when a
        cycle takes too long (skip, catchUp or halt). Its own simplex is /{name}. -->
-  <cluster name="{name}" frequency="1000" threads="1" priority="80" overflow="skip"/>
+  <cluster name="{name}" frequency="1000" threads="1" priority="0" overflow="skip"/>
 
   <!-- Data: the axis as it is, and as it is wished to be. A path is a name in the plant; what can be
        at it, and with which data, says the type: cortex types RotaryAxisConcept -f {file} -->
