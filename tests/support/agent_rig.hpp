@@ -117,7 +117,6 @@ private:
     std::vector<CommunicationInterface*> interfaces_;
     std::mutex mutex_;
     std::vector<std::string> events_;
-    bool started_ = false;
 };
 
 }  // namespace cortex::test
