@@ -11,7 +11,7 @@
 
 namespace cortex::determinism {
 
-// Splitmix64: the only source of chance here, the same on every machine.
+// Splitmix64: the only source of chance here. The same seed gives the same in every run of a build.
 class Chance {
 public:
     explicit Chance(std::uint64_t seed) : state_{seed} {}

@@ -128,6 +128,7 @@ Observation runOnThreads(const Plan& plan, std::uint32_t threads, std::uint64_t 
     options.forceThreads = true;
     options.chunkSize = plan.chunkSize;
     options.watchdogPeriods = 1e6;  // it measures: a busy machine is no hang
+    options.imageReaders = 1;
     options.catchUpCycles = plan.catchUpCycles;
     options.overflow = plan.overflow == OverflowPlan::CatchUp ? cs::Overflow::CatchUp
                        : plan.overflow == OverflowPlan::Halt  ? cs::Overflow::Halt
