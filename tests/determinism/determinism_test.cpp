@@ -16,12 +16,12 @@ namespace cortex::determinism {
 namespace {
 
 #if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define CORTEX_UNDER_TSAN
+#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
+#define CORTEX_UNDER_SANITIZER
 #endif
 #endif
 
-#ifdef CORTEX_UNDER_TSAN
+#ifdef CORTEX_UNDER_SANITIZER
 constexpr std::uint64_t usualSystems = 60;
 #else
 constexpr std::uint64_t usualSystems = 1000;
@@ -129,7 +129,7 @@ TEST(DeterminismIsCaughtMissing, WhereAMailboxIsMergedByArrival) {
     EXPECT_GE(caught * 4, systems);
 }
 
-#ifndef CORTEX_UNDER_TSAN  // it would report the race that is made here
+#ifndef CORTEX_UNDER_SANITIZER  // it would report the race that is made here
 TEST(DeterminismIsCaughtMissing, WhereTheScheduleLacksOneDependency) {
     int tried = 0, caught = 0;
     for (std::uint64_t seed = 3; tried < 12; seed += 3) {
