@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/probe.hpp"
+
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+
+namespace {
+
+TEST(Overflow, SkipGoesOnAtTheNextTickOfTheGridAndCountsEachMissedOne) {
+    ProbeCluster cluster;
+    std::vector<std::int64_t> times;
+    std::vector<std::int64_t> elapsed;
+    cluster.probe("/a").onLoopStart = [&](Probe&, const Tick& tick) {
+        times.push_back(tick.nominalTime / 1'000'000);
+        elapsed.push_back(tick.elapsed / 1'000'000);
+    };
+    cluster.start();
+    cluster.step(2);
+    cluster.trigger->lateBy(3);
+    cluster.step(3);
+
+    EXPECT_EQ(times, (std::vector<std::int64_t>{0, 1, 2, 6, 7}));
+    EXPECT_EQ(elapsed, (std::vector<std::int64_t>{1, 1, 1, 4, 1}));
+    EXPECT_EQ(cluster.integer("/test", "overflowCount"), 3);
+    EXPECT_TRUE(cluster.hasEvent("/test: missed 3 ticks, 3 since the start"));
+}
+
+TEST(Overflow, CatchUpRunsTheMissedTicksAtOnceAndCountsThemOnce) {
+    ProbeCluster cluster{{.overflow = cs::Overflow::CatchUp, .catchUpCycles = 5}};
+    std::vector<std::int64_t> times;
+    cluster.probe("/a").onLoopStart = [&](Probe&, const Tick& tick) {
+        times.push_back(tick.nominalTime / 1'000'000);
+    };
+    cluster.start();
+    cluster.step(2);
+    cluster.trigger->lateBy(3);
+    cluster.step();
+    EXPECT_EQ(times, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5}));
+    cluster.step();
+
+    EXPECT_EQ(times.back(), 6);
+    EXPECT_EQ(cluster.integer("/test", "overflowCount"), 3);
+}
+
+TEST(Overflow, CatchUpSkipsAfterItsBoundAndEveryTickIsRunOrCounted) {
+    ProbeCluster cluster{{.overflow = cs::Overflow::CatchUp, .catchUpCycles = 2}};
+    std::vector<std::int64_t> times;
+    cluster.probe("/a").onLoopStart = [&](Probe&, const Tick& tick) {
+        times.push_back(tick.nominalTime / 1'000'000);
+    };
+    cluster.start();
+    cluster.trigger->lateBy(5);
+    cluster.step(2);
+
+    // 0, then two of the five at once, the other three skipped, then on.
+    EXPECT_EQ(times, (std::vector<std::int64_t>{0, 1, 2, 6}));
+    EXPECT_EQ(cluster.integer("/test", "overflowCount"), 5);
+}
+
+TEST(Overflow, HaltFaultsAllThatIsActiveInTheNextCycleAndRunsOnWithSafeDemands) {
+    ProbeCluster cluster{{.overflow = cs::Overflow::Halt}};
+    Simplex& signal = cluster.tree.add("/s", "Signal");
+    Probe& writer = cluster.probe("/writer");
+    Probe& resting = cluster.probe("/resting");
+    Probe& slow = cluster.probe("/slow");
+    slow.runEvery(10);
+    cluster.tree.relate(writer, "out", signal);
+    writer.onPopulate = [](Probe& self) {
+        Data<double> out = self.output("out").data<double>("value");
+        self.onActive = [out](Probe&, const Tick&) mutable { out = 3; };
+    };
+    int after = 0;
+    resting.onStandby = [&](Probe&, const Tick&) { ++after; };
+    cluster.start();
+    cluster.startup(writer);
+    cluster.startup(slow);
+    cluster.trigger->lateBy(1);
+    cluster.step();
+    after = 0;
+
+    cluster.step();
+
+    EXPECT_EQ(cluster.state("/writer"), State::Fault);
+    EXPECT_EQ(cluster.state("/slow"), State::Fault);
+    EXPECT_EQ(cluster.integer("/writer", "faultCode"), -5);
+    EXPECT_EQ(cluster.number("/s", "value"), 0);
+    EXPECT_EQ(cluster.state("/resting"), State::Standby);
+    cluster.step(4);
+    EXPECT_EQ(after, 5);
+    EXPECT_EQ(cluster.cluster->ended(), cs::Ended::Halted);
+    EXPECT_EQ(cluster.call("/writer", "clearFaults").outcome, Outcome::Done);
+    cluster.startup(writer);
+    EXPECT_EQ(cluster.state("/writer"), State::Active);
+}
+
+TEST(Overflow, WarnTellsEachCycleAboveItsDutyThreshold) {
+    ProbeCluster cluster{{.warnDuty = 1e-6}};
+    cluster.probe("/a");
+    cluster.start();
+    cluster.step(3);
+
+    EXPECT_TRUE(cluster.hasEvent("% is above 1e-06 %"));
+}
+
+}  // namespace
+
+}  // namespace cortex::test
