@@ -65,8 +65,8 @@ Quality Image::quality(std::string_view path) const {
 
 const void* Image::cells(std::uint32_t simplex, const ItemLayout& item) const {
     const Tables& tables = pool().tables_;
-    const Slice from = item.item->constant ? tables.constants(simplex)
-                                           : tables.sliceIn(pool().slots_[slot_].memory, simplex);
+    const Slice from = item.constant ? tables.constants(simplex)
+                                     : tables.sliceIn(pool().slots_[slot_].memory, simplex);
     return from.at(item.item->kind, item.offset);
 }
 

@@ -44,7 +44,9 @@ void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Sl
     state = *from.state;
     state.time = runtime_.nominalTime() - age;
     state.cause = state.quality == Quality::Good ? noSimplex : simplex;
-    link->freshCycle = runtime_.cycle();
+    link->freshTime = runtime_.nominalTime();
+    link->period = std::max(binding.period, runtime_.options().period);
+    runtime_.ownerPeriods_[simplex] = link->period;
     if (!link->bound) post(Severity::Info, simplex, "linked");
     link->bound = true;
     link->stale = false;
@@ -53,7 +55,7 @@ void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Sl
 void LinkTable::constants(std::uint32_t simplex, const LinkBinding& binding, const Slice& from) {
     Link* link = find(simplex);
     if (link == nullptr || !binding.usable) return;
-    apply(binding.constants, from, runtime_.tables().constants(simplex));
+    apply(binding.constants, from, link->slice);
 }
 
 void LinkTable::lost(std::uint32_t simplex) {
@@ -67,8 +69,8 @@ void LinkTable::lost(std::uint32_t simplex) {
 
 void LinkTable::age() {
     for (Link& link : links_) {
-        if (!link.bound || link.stale || runtime_.cycle() - link.freshCycle < stalePeriods)
-            continue;
+        const std::int64_t age = runtime_.nominalTime() - link.freshTime;
+        if (!link.bound || link.stale || age < stalePeriods * link.period) continue;
         link.stale = true;
         SlotState& state = *link.slice.state;
         if (state.quality >= Quality::Stale) continue;

@@ -26,7 +26,7 @@ private:
     struct Link {
         std::uint32_t simplex;
         Slice slice;
-        std::int64_t freshCycle = 0;
+        std::int64_t freshTime = 0, period = 0;  // ns, nominal time
         bool bound = false, stale = false;
     };
     Link* find(std::uint32_t simplex) CORTEX_REALTIME;

@@ -54,6 +54,7 @@ void LoopbackAgent::bind(const std::shared_ptr<LoopbackAgent>& other) {
         bound->theirs = theirs.find(info.path);
         bound->binding = compileLink(*info.layout, *theirs.simplexes[bound->theirs].layout,
                                      *ours.types, *theirs.types);
+        bound->binding.period = other->access_.period * theirs.writtenEvery(bound->theirs);
         for (const Finding& finding : bound->binding.findings.findings) {
             note(finding.severity, link->simplex, finding.text());
         }

@@ -131,19 +131,12 @@ void* RelatedSimplex::cell(std::string_view item, Kind kind, bool array, bool wr
                     "command");
     }
     length = layout.item->length;
-    const Slice slice = layout.item->constant ? tables.constants(target) : tables.edge(edge_);
+    const Slice slice = layout.constant ? tables.constants(target) : tables.edge(edge_);
     return slice.at(kind, layout.offset);
 }
 
 CommandSender RelatedSimplex::sender(std::string_view command, std::uint32_t capacity) const {
     return owner_->runtime().makeSender(edge_, command, capacity);
-}
-
-SlotState* OutputSimplex::slot() const {
-    if (type().active()) {
-        throw Error(owner_->path() + ": " + path() + " is active and sets its own quality");
-    }
-    return owner_->runtime().tables().edge(edge_).state;
 }
 
 Simplex::Simplex(Identity identity) : identity_{std::move(identity)} {}
@@ -180,7 +173,7 @@ void* Simplex::cell(std::string_view item, Kind kind, bool array, bool write, st
                     tables.structure().simplexes[info.writers.front()].path);
     }
     length = layout.item->length;
-    const Slice slice = layout.item->constant ? tables.constants(index_) : tables.live(index_);
+    const Slice slice = layout.constant ? tables.constants(index_) : tables.live(index_);
     return slice.at(kind, layout.offset);
 }
 

@@ -30,23 +30,25 @@ std::uint32_t elements(const DataItem& item) {
     return item.kind == Kind::String ? item.length * StringCell::size(item.capacity) : item.length;
 }
 
-TypeLayout typeLayout(const Type& type) {
+TypeLayout typeLayout(const Type& type, bool remote) {
     TypeLayout layout;
     layout.type = &type;
+    layout.remote = remote;
     for (const auto& item : type.data) {
-        std::uint32_t& used = countOf(item.constant ? layout.constant : layout.cyclic, item.kind);
-        layout.items.push_back({&item, used});
+        const bool constant = item.constant && !remote;
+        std::uint32_t& used = countOf(constant ? layout.constant : layout.cyclic, item.kind);
+        layout.items.push_back({&item, used, constant});
         used += elements(item);
     }
     return layout;
 }
 
-const TypeLayout* layoutFor(Structure& structure, const Type& type) {
+const TypeLayout* layoutFor(Structure& structure, const Type& type, bool remote = false) {
     auto& layouts = structure.layouts;
-    const auto found =
-        std::ranges::find_if(layouts, [&](const auto& each) { return each->type == &type; });
+    const auto found = std::ranges::find_if(
+        layouts, [&](const auto& each) { return each->type == &type && each->remote == remote; });
     if (found != layouts.end()) return found->get();
-    return layouts.emplace_back(std::make_unique<TypeLayout>(typeLayout(type))).get();
+    return layouts.emplace_back(std::make_unique<TypeLayout>(typeLayout(type, remote))).get();
 }
 
 void addSimplexes(Structure& structure, const SimplexTree& tree) {
@@ -75,7 +77,7 @@ void addRemotes(Structure& structure, const SimplexTree& tree) {
     for (const auto& [path, type] : remotes) {
         SimplexInfo info;
         info.path = path;
-        info.layout = layoutFor(structure, *type);
+        info.layout = layoutFor(structure, *type, true);
         info.role = type->role;
         info.remote = true;
         structure.simplexes.push_back(std::move(info));
@@ -181,6 +183,16 @@ RecordLayout recordLayout(const std::vector<DataItem>& parameters) {
 std::uint32_t Structure::find(std::string_view path) const {
     const auto found = byPath.find(path);
     return found != byPath.end() ? found->second : noSimplex;
+}
+
+std::uint32_t Structure::writtenEvery(std::uint32_t simplex) const {
+    const SimplexInfo& info = simplexes[simplex];
+    if (info.role == Role::Active) return info.every;
+    std::uint32_t every = 1;
+    for (const std::uint32_t writer : info.writers) {
+        every = std::max(every, simplexes[writer].every);
+    }
+    return every;
 }
 
 std::shared_ptr<Structure> makeStructure(const std::string& agent, const SimplexTree& tree) {

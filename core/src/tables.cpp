@@ -203,7 +203,7 @@ Slice Tables::extraSlice(std::uint32_t simplex) {
 }
 
 void* Tables::cell(std::uint32_t simplex, const ItemLayout& item) const {
-    const Slice slice = item.item->constant ? constants(simplex) : live(simplex);
+    const Slice slice = item.constant ? constants(simplex) : live(simplex);
     return slice.at(item.item->kind, item.offset);
 }
 

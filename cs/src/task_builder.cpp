@@ -99,17 +99,6 @@ struct TaskBuilder {
         task.outputCount = static_cast<std::uint32_t>(runner.outputs_.size()) - task.firstOutput;
     }
 
-    // Cycles between two writings of a simplex.
-    std::uint32_t writtenEvery(std::uint32_t simplex) const {
-        const SimplexInfo& info = structure.simplexes[simplex];
-        if (info.role == Role::Active) return info.every;
-        std::uint32_t every = 1;
-        for (const std::uint32_t writer : info.writers) {
-            every = std::max(every, structure.simplexes[writer].every);
-        }
-        return every;
-    }
-
     void addInput(const Edge& edge) {
         const SimplexInfo& target = structure.simplexes[edge.target];
         const std::uint32_t number = numberOf(edge);
@@ -118,7 +107,8 @@ struct TaskBuilder {
         input.target = edge.target;
         input.ages = target.remote || target.role == Role::Active || !target.writers.empty();
         input.maxAge = std::max(toNanoseconds(edge.rule->maxAge),
-                                3 * runner.period_ * writtenEvery(edge.target));
+                                3 * runner.period_ * structure.writtenEvery(edge.target));
+        if (target.remote) input.ownerPeriod = &agent.ownerPeriod(edge.target);
         input.state = agent.tables().edgeSource(number).state;
         if (edge.rule->onLoss == OnLoss::Hold) {
             input.held = &target.layout->cyclic;

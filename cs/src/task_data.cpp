@@ -29,6 +29,9 @@ SlotState TaskRunner::readInputs(Task& task, const Tick& tick) {
     bool safe = false;
     for (std::uint32_t i = 0; i < task.inputCount; ++i) {
         TaskInput& input = inputs_[task.firstInput + i];
+        if (input.ownerPeriod != nullptr) {
+            input.maxAge = std::max(input.maxAge, 3 * *input.ownerPeriod);
+        }
         const bool tooOld = input.ages && tick.nominalTime - input.state->time > input.maxAge;
         const bool lost = input.state->quality >= Quality::Bad || tooOld;
         const bool faults =
@@ -161,6 +164,7 @@ void TaskRunner::reportLimits(const DemandLimits& limits, std::uint32_t simplex,
         } else {
             text << " limited from " << each.value << " to " << each.limit;
             if (!each.item->unit.empty()) text << " " << each.item->unit;
+            if (each.byRate) text << " by its rate";
         }
         agent_.post(thread, Severity::Warning, EventKind::Limit, simplex, text);
     }

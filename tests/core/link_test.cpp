@@ -108,8 +108,9 @@ struct Link : testing::Test {
         rig.tree.relateRemote(boss, "readings", "/far");
         rig.start();
         const TypeModel& types = rig.tree.types();
-        binding = compiled(types, "Reading", types, "Reading");
         simplex = rig.agent->structure().find("/far");
+        binding = compileLink(*rig.agent->structure().simplexes[simplex].layout,
+                              layoutOf(types, "Reading"), types, types);
         auto* cell = reinterpret_cast<StringCell*>(strings);
         *cell = {16, 0, 0};
         cell->assign("far away");
@@ -208,6 +209,16 @@ TEST_F(Link, WhatIsNoLinkOrNotUsableIsIgnored) {
     rig.step();
 
     EXPECT_EQ(quality(), Quality::Lost);
+}
+
+TEST_F(Link, IsStaleAfterThreePeriodsOfItsOwnerWhereThatIsSlower) {
+    binding.period = 10'000'000;  // ours is 1 ms
+    sample();
+    rig.step(29);
+    EXPECT_EQ(quality(), Quality::Good);
+    EXPECT_EQ(rig.agent->ownerPeriod(simplex), 10'000'000);
+    rig.step();
+    EXPECT_EQ(quality(), Quality::Stale);
 }
 
 }  // namespace

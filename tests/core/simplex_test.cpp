@@ -186,13 +186,6 @@ TEST_F(SimplexTest, LeavesDataOfActiveSimplexesToTheirTask) {
     EXPECT_EQ(errorOf([&] { order.data<double>("gain"); }),
               "/worker: /peer.gain is written by its own task only: take a handle to const, or "
               "send a command");
-    EXPECT_EQ(errorOf([&] { order.slot(); }), "/worker: /peer is active and sets its own quality");
-}
-
-TEST_F(SimplexTest, OverridesTheQualityOfAnOutput) {
-    start();
-    worker.output("tip").slot()->quality = Quality::Bad;
-    EXPECT_EQ(tree.at("/axis2").slot().quality, Quality::Bad);
 }
 
 TEST_F(SimplexTest, LeavesAWrittenConceptToItsWriter) {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Order, quality, stamps, loss and arbitration between simplexes of one cluster.
+#include "cortex/core/loopback.hpp"
+
 #include "support/probe.hpp"
+
+#include <chrono>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -254,6 +259,36 @@ TEST(Arbitration, NoneActiveGivesSafeValues) {
 
     EXPECT_EQ(shared.cluster.number("/s", "value"), 0);
     EXPECT_EQ(shared.cluster.quality("/s"), Quality::Stale);
+}
+
+TEST(DataFlow, AnotherAgentsValueMayBeThreeOfItsOwnersPeriodsOld) {
+    LoopbackHub hub;
+    ProbeCluster near;
+    SimplexTree tree{*near.tree.sharedTypes()};
+    auto& sensor = tree.add<Probe>("/sensor", "Probe");
+    tree.relate(sensor, "out", tree.add("/s", "Signal"));
+    cs::ClusterCS away{"away"};
+    away.addSimplexTree(tree);
+    auto& clock = away.setTriggerSource<cs::ManualTrigger>(std::chrono::milliseconds{100});
+    away.adoptInterface(hub.makeInterface());
+    away.start();
+    away.send("/sensor", "startup");
+    clock.step(5);
+
+    near.tree.relateRemote(near.probe("/reader"), "in", "/s");  // maxAge 50 ms
+    near.cluster->adoptInterface(hub.makeInterface());
+    near.start();
+    near.step(300);
+    EXPECT_EQ(near.quality("/s"), Quality::Good);
+    near.step();
+    EXPECT_EQ(near.quality("/s"), Quality::Stale);
+    EXPECT_FALSE(near.hasEvent("ms old"));
+    near.step();
+    EXPECT_TRUE(near.hasEvent("/reader: in /s is 301 ms old, allowed 300"));
+    clock.step();
+    near.step();
+    EXPECT_EQ(near.quality("/s"), Quality::Good);
+    EXPECT_TRUE(near.hasEvent("/reader: in /s is back"));
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ const TypeLayout* SmallStructure::layoutFor(const Type& type) {
     layout.type = &type;
     for (const DataItem& each : type.data) {
         std::uint32_t& used = blockOf(each.constant ? layout.constant : layout.cyclic, each.kind);
-        layout.items.push_back({&each, used});
+        layout.items.push_back({&each, used, each.constant});
         used += each.length * (each.kind == Kind::String ? StringCell::size(each.capacity) : 1U);
     }
     return &layout;

@@ -66,7 +66,8 @@ struct LinkBinding {
         std::uint32_t from, to, length;  // offsets as in ItemLayout
     };
     std::vector<Copy> copies, constants;
-    bool usable = false;  // false: contradiction or wrong type; `findings` says why
+    std::int64_t period = 0;  // ns between two writings by its owner; the transport says it
+    bool usable = false;      // false: contradiction or wrong type; `findings` says why
     Report findings;
 };
 LinkBinding compileLink(const TypeLayout& ours, const TypeLayout& theirs, const TypeModel& ourTypes,

@@ -84,8 +84,6 @@ public:
     CommandSender command(std::string_view name, std::uint32_t capacity = 16) const {
         return sender(name, capacity);
     }
-    // Overrides the quality that the framework gives to this output; in the tick, after inputs.
-    SlotState* slot() const;
 };
 
 // The building block: <type, id, data, relationships, commands, mailbox>. The tree creates it; its

@@ -24,14 +24,16 @@ struct BlockSizes {
 struct ItemLayout {
     const DataItem* item = nullptr;
     std::uint32_t offset = 0;
+    bool constant = false;  // in the table of constants
 };
 
 // The slice of every simplex of one type. Constant items lie in a table of their own, which is not
-// copied into images.
+// copied into images; those of another agent's simplexes arrive at run time and lie with the rest.
 struct TypeLayout {
     const Type* type = nullptr;
     std::vector<ItemLayout> items;  // sorted by name
     BlockSizes cyclic, constant;
+    bool remote = false;  // of another agent's simplexes
 
     const ItemLayout* find(std::string_view item) const;
 };
@@ -88,7 +90,8 @@ public:
     BlockSizes cyclic, constant;        // totals
     std::unordered_map<std::string_view, std::uint32_t> byPath;
 
-    std::uint32_t find(std::string_view path) const;  // noSimplex if there is none
+    std::uint32_t find(std::string_view path) const;          // noSimplex if there is none
+    std::uint32_t writtenEvery(std::uint32_t simplex) const;  // cycles between two writings
 };
 
 }  // namespace cortex
