@@ -98,10 +98,10 @@ std::uint64_t CommandClient::post(CommandPipe& pipe, std::string_view path,
 
     message.sender = sender_;
     message.targetEpoch = pipe.structure().epoch;
+    message.answeredBelow = answeredBelow();
     message.sequence = next_++;
-    message.answeredBelow = unanswered_.empty() ? message.sequence : unanswered_.begin()->first;
     message.notAfter = notAfter;
-    unanswered_[message.sequence] = false;
+    unanswered_[message.sequence] = {};
     const bool windowFull = message.sequence - message.answeredBelow >= senderWindow;
     if (windowFull || !pipe.push(message, octets)) {
         CallResult result;
@@ -112,8 +112,18 @@ std::uint64_t CommandClient::post(CommandPipe& pipe, std::string_view path,
     return message.sequence;
 }
 
+// A long one that runs holds up nothing: Running was its answer, the last one follows by itself.
+std::uint64_t CommandClient::answeredBelow() const {
+    const auto first =
+        std::ranges::find_if(unanswered_, [](const auto& each) { return !each.second.running; });
+    return first != unanswered_.end() ? first->first : next_;
+}
+
 void CommandClient::take(const OutsideAnswer& answer, const CommandPipe& pipe) {
-    if (answer.outcome == Outcome::Running || !unanswered_.contains(answer.sequence)) return;
+    const auto asked = unanswered_.find(answer.sequence);
+    if (asked == unanswered_.end()) return;
+    asked->second.running = answer.outcome == Outcome::Running;
+    if (asked->second.running) return;
     CallResult result;
     result.outcome = answer.outcome;
     result.reason = answer.reason;
@@ -127,7 +137,7 @@ void CommandClient::take(const OutsideAnswer& answer, const CommandPipe& pipe) {
 }
 
 void CommandClient::finish(std::uint64_t sequence, CallResult result) {
-    const bool abandoned = unanswered_[sequence];
+    const bool abandoned = unanswered_[sequence].abandoned;
     unanswered_.erase(sequence);
     if (abandoned) return;
     results_[sequence] = std::move(result);
@@ -144,7 +154,7 @@ bool CommandClient::poll(std::uint64_t sequence, CallResult& result) {
 
 void CommandClient::abandon(std::uint64_t sequence) {
     const auto found = unanswered_.find(sequence);
-    if (found != unanswered_.end()) found->second = true;
+    if (found != unanswered_.end()) found->second.abandoned = true;
 }
 
 void CommandClient::loseAll(const std::string& why) {

@@ -59,11 +59,16 @@ public:
     void loseAll(const std::string& why);  // no answer will come: Unknown
 
 private:
+    struct Asked {
+        bool running = false;    // it was answered, but not for the last time
+        bool abandoned = false;  // its answer will not be fetched
+    };
+    std::uint64_t answeredBelow() const;
     void finish(std::uint64_t sequence, CallResult result);
 
     Sender sender_;
     std::uint64_t next_ = 1;
-    std::map<std::uint64_t, bool> unanswered_;  // true: abandoned
+    std::map<std::uint64_t, Asked> unanswered_;
     std::map<std::uint64_t, CallResult> results_;
 };
 

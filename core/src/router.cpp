@@ -10,6 +10,7 @@ namespace cortex {
 namespace {
 
 constexpr std::uint32_t knownSenders = 32;
+constexpr std::int64_t longestBudget = 3'600'000'000'000;  // ns: no record is kept for longer
 
 std::uint32_t largest(const AgentRuntime& runtime, std::uint32_t CommandTable::* size) {
     std::uint32_t result = 8;
@@ -24,6 +25,7 @@ std::uint32_t largest(const AgentRuntime& runtime, std::uint32_t CommandTable::*
 Router::Router(AgentRuntime& runtime)
     : runtime_{runtime},
       structure_{runtime.structure()},
+      longestBudget_{longestBudget / std::max(runtime.options().period, std::int64_t{1})},
       pool_(std::max(runtime.options().outsideCommands, 1U)),
       senders_{knownSenders, largest(runtime, &CommandTable::maxResponse)},
       leases_{runtime},
@@ -88,13 +90,14 @@ void Router::command(const OutsideCommand& command) {
     KeptOutcome& kept = record.kept(command.sequence);
     if (kept.stage != Stage::Empty) return repeat(kept, command.sender);
     verdict = {};
-    judge(command, verdict);
+    judge(command, record, verdict);
     kept.sequence = command.sequence;
     kept.simplex = command.simplex;
     kept.command = command.command;
     kept.size = 0;
     kept.answer = {};
-    record.lastNotAfter = std::max(record.lastNotAfter, command.notAfter);
+    record.lastNotAfter =
+        std::max(record.lastNotAfter, std::min(command.notAfter, cycle() + longestBudget_));
     if (verdict.outcome == Outcome::Done) {
         kept.stage = Stage::OnItsWay;
         ++record.onTheirWay;
@@ -108,9 +111,15 @@ void Router::command(const OutsideCommand& command) {
 }
 
 // Leaves Done where the command may go on its way.
-void Router::judge(const OutsideCommand& command, Verdict& verdict) const {
-    if (cycle() > command.notAfter) {
+void Router::judge(const OutsideCommand& command, const SenderRecord& sender,
+                   Verdict& verdict) const {
+    if (cycle() > command.notAfter && sender.unsure) {
+        verdict = {Outcome::Unknown, Reason::None,
+                   "its time was over when it came, and whether it had run before is forgotten"};
+    } else if (cycle() > command.notAfter) {
         verdict = {Outcome::Expired, Reason::None, "its time was over when it came"};
+    } else if (command.notAfter - cycle() > longestBudget_) {
+        verdict = {Outcome::Rejected, Reason::Range, "its time ends later than an hour from now"};
     } else if (command.simplex >= structure_.simplexes.size() ||
                structure_.simplexes[command.simplex].remote ||
                command.command >= runtime_.commands(command.simplex).entries.size()) {

@@ -31,8 +31,8 @@ public:
     void collect() CORTEX_REALTIME;  // answers given in this cycle
     void write(std::span<CommunicationInterface* const> interfaces) CORTEX_REALTIME;
     void stop();  // answers what is still on its way
-    void refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why)
-        CORTEX_REALTIME;
+    void refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why,
+                         LoopThread& thread) CORTEX_REALTIME;
 
     std::int64_t cycle() const override { return runtime_.cycle(); }
     void link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
@@ -55,7 +55,7 @@ private:
     using Stage = KeptOutcome::Stage;
 
     // router.cpp: on their way in and out.
-    void judge(const OutsideCommand& command, Verdict& verdict) const;
+    void judge(const OutsideCommand& command, const SenderRecord& sender, Verdict& verdict) const;
     void admit(const OutsideCommand& command, std::uint32_t record);
     void repeat(const KeptOutcome& kept, const Sender& sender);
     void refuse(const OutsideCommand& command, const Verdict& verdict);
@@ -84,6 +84,7 @@ private:
     AgentRuntime& runtime_;
     const Structure& structure_;
     std::uint32_t interface_ = 0;  // that is being read
+    std::int64_t longestBudget_;   // cycles
     ChunkClock began_;             // the loop thread's clock when the cycle began
     std::vector<OutsideEntry> pool_;
     std::vector<std::byte> records_;

@@ -43,7 +43,9 @@ SenderTable::Found SenderTable::find(std::uint32_t interface, const Sender& send
         }
     }
     if (free == nullptr) return Found::NoRoom;
+    forgot_ = forgot_ || free->used;
     adopt(*free, interface, sender);
+    free->unsure = forgot_;
     record = static_cast<std::uint32_t>(free - records_.data());
     return Found::New;
 }

@@ -31,6 +31,7 @@ struct SenderRecord {
     std::int64_t lastNotAfter = 0;  // after it no repeat of its commands can be executed
     std::uint32_t onTheirWay = 0;
     bool used = false;
+    bool unsure = false;              // it may be a forgotten sender that comes back
     std::vector<KeptOutcome> window;  // by sequence modulo its size
 
     KeptOutcome& kept(std::uint64_t sequence) { return window[sequence % window.size()]; }
@@ -52,6 +53,7 @@ private:
     void adopt(SenderRecord& record, std::uint32_t interface, const Sender& sender) CORTEX_REALTIME;
 
     std::vector<SenderRecord> records_;
+    bool forgot_ = false;  // a sender, to make room for another
     std::vector<std::byte> responses_;
 };
 

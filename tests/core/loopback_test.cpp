@@ -249,7 +249,7 @@ TEST_F(Loopback, AgentsOnThreadsOfTheirOwnLinkCommandAndStop) {
     CallResult result;
     for (int i = 0; i < 20; ++i) {
         const auto number =
-            hub.post("tool", "/plate", "set", {{"level", Value{std::vector{2.0}}}}, 1'000'000'000);
+            hub.post("tool", "/plate", "set", {{"level", Value{std::vector{2.0}}}}, 3'000'000);
         while (!hub.poll("tool", number, result)) std::this_thread::yield();
         EXPECT_TRUE(result.done()) << result.text();
     }

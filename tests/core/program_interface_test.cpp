@@ -103,9 +103,10 @@ TEST_F(ProgramInterface, FullPipeIsAnsweredAtOnce) {
 }
 
 TEST_F(ProgramInterface, WindowOfUnansweredCommandsIsKept) {
+    rig.hand("/resting");
     start();
-    program.post("/worker", "watch");
-    rig.step();
+    rig.order = {"/worker"};
+    program.post("/resting", "mute");  // waits for a task that does not come
     CallResult result;
     std::uint64_t last = 0;
     for (std::uint32_t i = 1; i < senderWindow; ++i) {
@@ -198,6 +199,24 @@ TEST(CommandClient, KeepsTheLastThousandResultsThatNobodyFetched) {
     EXPECT_FALSE(program.poll(1, result));
     EXPECT_TRUE(program.poll(1000, result));
     rig.agent->stop();
+}
+
+TEST_F(ProgramInterface, LongCommandThatRunsHoldsUpNoOthers) {
+    start();
+    const auto watching = program.post("/worker", "watch");
+    rig.step(2);
+    CallResult result;
+    for (std::uint32_t i = 0; i < 2 * senderWindow; ++i) {
+        const auto sequence = program.post("/worker", "add");
+        rig.step(2);
+        ASSERT_TRUE(program.poll(sequence, result));
+        ASSERT_TRUE(result.done()) << i << ": " << result.text();
+    }
+    rig.agent->cancelActivity(worker.index(), rig.agent->thread(0));
+    rig.step();
+
+    ASSERT_TRUE(program.poll(watching, result));
+    EXPECT_EQ(result.outcome, Outcome::Cancelled);
 }
 
 }  // namespace

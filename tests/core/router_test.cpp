@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/agent_rig.hpp"
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -321,6 +322,32 @@ TEST_F(Router, EventsOfInterfacesAreThoseOfTheCycle) {
 
 // Life-cycle commands
 
+TEST_F(Router, CommandWhoseTimeWouldNeverEndIsRefused) {
+    start();
+    const auto answer = answerTo({.path = "/worker",
+                                  .command = "poke",
+                                  .notAfter = std::numeric_limits<std::int64_t>::max()});
+
+    EXPECT_EQ(answer.outcome, Outcome::Rejected);
+    EXPECT_EQ(answer.reason, Reason::Range);
+    EXPECT_EQ(calls, 0);
+}
+
+TEST_F(Router, LateRepeatOfASenderThatWasForgottenIsUnknownAndNotExpired) {
+    start();
+    const auto from = [](const std::string& sender, std::int64_t notAfter) {
+        return Message{
+            .path = "/worker", .command = "poke", .sender = sender, .notAfter = notAfter};
+    };
+    EXPECT_EQ(answerTo(from("early", 5)).outcome, Outcome::Done);
+    for (int i = 0; i < 31; ++i) answerTo(from("tool" + std::to_string(i), 1000));
+    EXPECT_EQ(answerTo(from("late", 40)).outcome, Outcome::Done);  // takes the place of "early"
+    rig.step(10);
+
+    EXPECT_EQ(answerTo(from("early", 5)).outcome, Outcome::Unknown);
+    EXPECT_EQ(calls, 33);
+}
+
 struct LifeCycleFromOutside : Router {
     LifeCycle taken = LifeCycle::None;
 
@@ -328,7 +355,8 @@ struct LifeCycleFromOutside : Router {
         start();
         rig.setState(worker, State::Standby);
         worker.run = [this] {
-            const LifeCycle command = rig.agent->takeLifeCycle(worker.index());
+            const LifeCycle command =
+                rig.agent->takeLifeCycle(worker.index(), rig.agent->thread(0));
             if (command != LifeCycle::None) taken = command;
         };
     }
@@ -392,8 +420,9 @@ TEST_F(LifeCycleFromOutside, FailsAfterTheTimeOfItsTypeAndASecond) {
 
 TEST_F(LifeCycleFromOutside, IsRejectedInTheWordsOfTheSimplex) {
     worker.run = [this] {
-        if (rig.agent->takeLifeCycle(worker.index()) != LifeCycle::None) {
-            rig.agent->refuseLifeCycle(worker.index(), LifeCycle::Startup, "its arm is not there");
+        if (rig.agent->takeLifeCycle(worker.index(), rig.agent->thread(0)) != LifeCycle::None) {
+            rig.agent->refuseLifeCycle(worker.index(), LifeCycle::Startup, "its arm is not there",
+                                       rig.agent->thread(0));
         }
     };
     const auto answer = answerTo({.path = "/worker", .command = "startup"});
