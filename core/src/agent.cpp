@@ -51,7 +51,7 @@ void AgentRuntime::beginCycle(const Tick& tick) {
     for (Lane* lane : delayedLanes_) lane->latch();
     if (anyLater_.load(std::memory_order_relaxed)) releaseLifeCycles();
     router_->read(interfaces_);
-    processTaskless(tick);
+    processTaskless();
     threads_[0].sequence = taskSequence;
 }
 
@@ -81,11 +81,11 @@ void AgentRuntime::releaseLifeCycles() {
     }
 }
 
-void AgentRuntime::processTaskless(const Tick& tick) {
+void AgentRuntime::processTaskless() {
     const auto process = [&](std::uint32_t simplex) {
         if (!hasCommandWork(simplex)) return;
         try {
-            processCommands(simplex, State::Active, tick, threads_[0]);
+            processCommands(simplex, State::Active, threads_[0]);
         } catch (...) {  // no task to put into Fault: the event and the answer must do
             post(threads_[0], Severity::Error, EventKind::Fault, simplex,
                  "a command handler threw");
@@ -95,25 +95,31 @@ void AgentRuntime::processTaskless(const Tick& tick) {
     for (const std::uint32_t simplex : router_->tasklessReceivers()) process(simplex);
 }
 
-void AgentRuntime::processCommands(std::uint32_t simplex, State state, const Tick&,
-                                   LoopThread& thread) {
-    if (ports_[simplex] != nullptr) ports_[simplex]->process(state, thread);
+void AgentRuntime::processCommands(std::uint32_t simplex, State state, LoopThread& thread,
+                                   bool dead) {
+    if (ports_[simplex] != nullptr) ports_[simplex]->process(state, thread, dead);
 }
 
 bool AgentRuntime::hasCommandWork(std::uint32_t simplex) const {
     return ports_[simplex] != nullptr && ports_[simplex]->hasWork();
 }
 
-bool AgentRuntime::cancelActivity(std::uint32_t simplex, LoopThread& thread, bool callHandler) {
-    return ports_[simplex] == nullptr || ports_[simplex]->cancelActivity(thread, callHandler);
+bool AgentRuntime::cancelActivity(std::uint32_t simplex, LoopThread& thread, bool callHandler,
+                                  std::string_view why) {
+    return ports_[simplex] == nullptr || ports_[simplex]->cancelActivity(thread, callHandler, why);
 }
 
-LifeCycle AgentRuntime::takeLifeCycle(std::uint32_t simplex) {
+LifeCycle AgentRuntime::takeLifeCycle(std::uint32_t simplex, LoopThread& thread) {
     std::atomic<std::uint8_t>& word = lifeCycle_[simplex];
     if (word.load(std::memory_order_relaxed) == 0) return LifeCycle::None;
     const std::uint8_t bits = word.exchange(0, std::memory_order_relaxed);
     for (const LifeCycle command : {LifeCycle::Shutdown, LifeCycle::ClearFaults}) {
-        if ((bits & bitOf(command)) != 0) return command;
+        if ((bits & bitOf(command)) == 0) continue;
+        if ((bits & bitOf(LifeCycle::Startup)) != 0) {
+            refuseLifeCycle(simplex, LifeCycle::Startup, "another life-cycle command outranks it",
+                            thread);
+        }
+        return command;
     }
     return LifeCycle::Startup;
 }
@@ -124,8 +130,9 @@ void AgentRuntime::postLifeCycle(std::uint32_t simplex, LifeCycle command, bool 
     if (later) anyLater_.store(true, std::memory_order_relaxed);
 }
 
-void AgentRuntime::refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why) {
-    if (router_ != nullptr) router_->refuseLifeCycle(simplex, command, why);
+void AgentRuntime::refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why,
+                                   LoopThread& thread) {
+    if (router_ != nullptr) router_->refuseLifeCycle(simplex, command, why, thread);
 }
 
 void AgentRuntime::post(LoopThread& thread, Severity severity, EventKind kind,

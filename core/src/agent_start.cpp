@@ -92,6 +92,7 @@ void AgentRuntime::bindSimplexes() {
     simplexes_.resize(count);
     ports_.resize(count);
     ranks_.resize(count);
+    ownerPeriods_.assign(count, options_.period);
     lifeCycle_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
     lifeCycleLater_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -139,6 +140,17 @@ void AgentRuntime::registerHandler(std::uint32_t simplex, std::string_view comma
                      command, namesOf(table));
     }
     portOf(simplex).setHandler(index, handler);
+}
+
+std::vector<std::string_view> AgentRuntime::unhandledCommands(std::uint32_t simplex) const {
+    std::vector<std::string_view> names;
+    const CommandTable& table = commands(simplex);
+    for (std::uint32_t i = 0; i < table.entries.size(); ++i) {
+        const bool builtIn = table.entries[i].command == nullptr ||
+                             lifeCycleCommand(table.entries[i].name) != LifeCycle::None;
+        if (!builtIn && !ports_[simplex]->handles(i)) names.push_back(table.entries[i].name);
+    }
+    return names;
 }
 
 CommandSender AgentRuntime::makeSender(std::uint32_t edge, std::string_view command,

@@ -51,9 +51,10 @@ bool CommandPort::hasWork() const {
                                 [](const Lane* lane) { return lane->pending(); }));
 }
 
-void CommandPort::process(State state, LoopThread& thread) {
+void CommandPort::process(State state, LoopThread& thread, bool dead) {
     thread_ = &thread;
     state_ = state;
+    dead_ = dead;
     startedNow_ = false;
     if (sending_.first != nullptr) {
         sending_.first->takeAnswers();
@@ -158,6 +159,10 @@ bool CommandPort::accepted(const CommandTable::Entry& entry, const std::byte* re
         refuse(verdict, Reason::State, stateRefusal(entry.name, entry.available, state_));
         return false;
     }
+    if (dead_) {
+        refuse(verdict, Reason::State, "one of its hooks threw: clearFaults comes first");
+        return false;
+    }
     for (const ArgumentCheck& check : entry.checks) {
         if (checkArgument(check, request, verdict.why)) continue;
         verdict.outcome = Outcome::Rejected;
@@ -244,10 +249,10 @@ void CommandPort::stepActivity() {
     activity_->step(thread_->clock, runtime_.nominalTime());
 }
 
-bool CommandPort::cancelActivity(LoopThread& thread, bool callHandler) {
+bool CommandPort::cancelActivity(LoopThread& thread, bool callHandler, std::string_view why) {
     if (activity_ == nullptr || !activity_->running()) return true;
     try {
-        activity_->cancel(thread.clock, callHandler, "its simplex left Active");
+        activity_->cancel(thread.clock, callHandler, why);
     } catch (...) {
         runtime_.post(thread, Severity::Error, EventKind::Fault, simplex_,
                       "the handler of its long command threw while it was cancelled");

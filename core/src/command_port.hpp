@@ -26,6 +26,7 @@ public:
     CommandPort(AgentRuntime& runtime, std::uint32_t simplex, const CommandTable& table);
 
     void setHandler(std::uint32_t command, Handler handler) { handlers_[command] = handler; }
+    bool handles(std::uint32_t command) const { return handlers_[command].function != nullptr; }
     void addReceiving(Lane& lane) { receiving_.add(lane); }  // in canonical order
     void addSending(Lane& lane) { sending_.add(lane); }
 
@@ -33,9 +34,10 @@ public:
     bool hasLanes() const { return receiving_.first != nullptr; }
     bool hasWork() const CORTEX_REALTIME;
     // Step (1). What a handler throws passes through, after its command was answered Failed.
-    void process(State state, LoopThread& thread) CORTEX_REALTIME;
+    // `dead`: its commands are refused.
+    void process(State state, LoopThread& thread, bool dead) CORTEX_REALTIME;
     // False: the handler threw on its last call.
-    bool cancelActivity(LoopThread& thread, bool callHandler);
+    bool cancelActivity(LoopThread& thread, bool callHandler, std::string_view why);
     void enqueue(OutsideEntry& entry) CORTEX_REALTIME;  // between cycles
     // Between cycles: the long command is cancelled in the next step (1).
     void requestCancel(const char* why) CORTEX_REALTIME { cancelWhy_ = why; }
@@ -88,6 +90,7 @@ private:
     std::vector<Handler> handlers_;
     State state_ = State::Standby;
     bool stateless_;           // a descriptive simplex: always settable
+    bool dead_ = false;        // a hook threw: no handler may run
     bool startedNow_ = false;  // the activity had its call of this step
     const char* cancelWhy_ = nullptr;
     std::vector<Target> targets_;

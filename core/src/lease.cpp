@@ -158,7 +158,8 @@ bool LeaseTable::takeExpired(std::int64_t cycle, Lease& lost) {
 
 bool LeaseTable::takeLeaseOf(const Sender& sender, Lease& lost) {
     for (Lease& lease : leases_) {
-        if (!lease.heldBy(sender)) continue;
+        // One handed over to a name waits for whichever start of it renews first.
+        if (!lease.heldBy(sender) || lease.holder.epoch == 0) continue;
         lost = lease;
         lease = {};
         show(lease);

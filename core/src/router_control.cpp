@@ -193,10 +193,12 @@ void Router::watch(OutsideEntry& entry) {
     }
 }
 
-void Router::refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why) {
+void Router::refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why,
+                             LoopThread& thread) {
     for (OutsideEntry* entry : active_) {
         if (entry->simplex != simplex || entry->watched != command) continue;
         settle(*entry, {Outcome::Rejected, Reason::State, why}, began_);
+        ++thread.rejected;
     }
 }
 

@@ -32,6 +32,7 @@ struct ClusterCS::Implementation {
     TaskGraph graph() const;
     void requireClasses() const;
     void populate(std::span<SimplexCS* const> simplexes) const;
+    void warnOfUnhandled(const SimplexCS& simplex) const;
 };
 
 namespace {
@@ -130,10 +131,23 @@ void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) 
         try {
             simplex->populate();
         } catch (const std::exception& error) {
-            report.error(simplex->path(), "populate", simplex->place(), error.what());
+            const std::string path = simplex->path() + ": ";
+            std::string_view what = error.what();
+            if (what.starts_with(path)) what.remove_prefix(path.size());
+            report.error(simplex->path(), "populate", simplex->place(), std::string{what});
         }
     }
     if (!report.ok()) refuse(std::move(report));
+}
+
+void ClusterCS::Implementation::warnOfUnhandled(const SimplexCS& simplex) const {
+    for (const std::string_view command : agent->unhandledCommands(simplex.index())) {
+        Event event;
+        event.severity = Severity::Warning;
+        event.simplex = simplex.index();
+        event.text << "no handler for the command " << command << ": register one in populate()";
+        agent->events().postOutside(event);
+    }
 }
 
 void ClusterCS::start() {
@@ -197,6 +211,7 @@ void ClusterCS::startAll() {
                                       self.heartbeats, std::move(realtimeReport));
     self.agent->start();
     self.loop->start();
+    for (const SimplexCS* simplex : simplexes) self.warnOfUnhandled(*simplex);
 }
 
 bool ClusterCS::stop() {

@@ -46,7 +46,7 @@ void ClusterLoop::start() {
                    options_.watchdogPeriods * static_cast<double>(trigger_.period()))});
     watchdog_ = std::make_unique<Watchdog>(
         runner_, agent_, limit,
-        [this](std::int64_t cycle, const HungHook& hook) { hung(cycle, hook); });
+        [this](const Tick& tick, const HungHook& hook) { hung(tick, hook); });
     ended_.store(Ended::Running, std::memory_order_release);
     thread_ = std::thread{[this] { run(); }};
     ready_.wait(false);
@@ -132,6 +132,7 @@ void ClusterLoop::loop() {
 void ClusterLoop::tellFailure(const char* who, const char* what) {
     Event event;
     event.cycle = cycle_;
+    event.time = lastNominal_;
     event.simplex = agent_.agentSimplex();
     event.severity = Severity::Error;
     event.text << who << " threw: " << what;
@@ -156,9 +157,10 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     const Tick tick{++cycle_, trigger.nominalTime, trigger.nominalTime - lastNominal_,
                     trigger.lateness};
     lastNominal_ = trigger.nominalTime;
-    watchdog_->cycleBegins(tick.cycle);
+    watchdog_->cycleBegins(tick);
     agent_.beginCycle(tick);
     reportMissed();
+    warnDuty();
     runner_.beginCycle(tick);
     pool_->cycle();
     metrics_.write(runner_.counts());
@@ -166,12 +168,12 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     metrics_.cycleEnded(lastWakeUp_ == 0 ? 0 : begin - lastWakeUp_, trigger.lateness,
                         monotonicNow() - begin);
     lastWakeUp_ = begin;
-    warnDuty();
     metrics_.hung(watchdog_->reported() == tick.cycle);
     if (!heartbeats_.empty()) beat({tick.cycle, true, {}, {}});
     watchdog_->cycleEnds();
 }
 
+// Of the cycle before, for the same reason.
 void ClusterLoop::warnDuty() {
     if (options_.warnDuty <= 0 || metrics_.lastDuty() <= options_.warnDuty) return;
     EventText text{"duty cycle "};
@@ -227,6 +229,7 @@ void ClusterLoop::shutDown() {
     trigger.lateness = 0;
     const std::int64_t start = monotonicNow();
     group_.beginStop();
+    runner_.beginStop();
     for (std::int64_t i = 1; cycle_ > 0 && i <= budget && !group_.allResting(); ++i) {
         trigger.nominalTime += period;
         if (trigger_.realTime()) {
@@ -243,15 +246,16 @@ void ClusterLoop::shutDown() {
     reportMissed();
 }
 
-void ClusterLoop::hung(std::int64_t cycle, const HungHook& hook) {
+void ClusterLoop::hung(const Tick& tick, const HungHook& hook) {
     Event event;
-    event.cycle = cycle;
+    event.cycle = tick.cycle;
+    event.time = tick.nominalTime;
     event.simplex = agent_.structure().find(hook.path);
     event.severity = Severity::Error;
     event.kind = EventKind::Watchdog;
     event.text = EventText{hook.text()};
     agent_.events().postOutside(event);
-    beat({cycle, false, hook.path, hook.hook});
+    beat({tick.cycle, false, hook.path, hook.hook});
 }
 
 std::optional<HungHook> ClusterLoop::stop() {

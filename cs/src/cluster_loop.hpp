@@ -53,7 +53,7 @@ private:
     void reportMissed() CORTEX_REALTIME;
     void warnDuty() CORTEX_REALTIME;
     void shutDown();
-    void hung(std::int64_t cycle, const HungHook& hook);
+    void hung(const Tick& tick, const HungHook& hook);
 
     AgentRuntime& agent_;
     TriggerSource& trigger_;

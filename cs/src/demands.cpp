@@ -111,10 +111,10 @@ LimitResult DemandLimits::apply(double elapsedSeconds) {
     return result;
 }
 
-void DemandLimits::found(const Item& item, bool first, double value, double limit,
+void DemandLimits::found(const Item& item, bool first, double value, double limit, bool byRate,
                          LimitResult& result) {
     result.any = true;
-    if (first && !item.inEpisode) beginnings_.push_back({item.item, value, limit, false});
+    if (first && !item.inEpisode) beginnings_.push_back({item.item, value, limit, false, byRate});
 }
 
 bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
@@ -126,7 +126,7 @@ bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
         const double written = values[i];
         if (!std::isfinite(written)) {
             result = {true, true, item.item};
-            beginnings_.push_back({item.item, written, previous[i], true});
+            beginnings_.push_back({item.item, written, previous[i], true, false});
             return true;
         }
         const double inRange = std::clamp(written, item.min, item.max);
@@ -134,7 +134,7 @@ bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
             item.item->rate ? std::clamp(inRange, previous[i] - step, previous[i] + step) : inRange;
         if (limited == written) continue;
         values[i] = limited;
-        found(item, !any, written, limited, result);
+        found(item, !any, written, limited, limited != inRange, result);
         any = true;
         const bool faults = inRange != written && item.item->onLimit == OnLimit::Fault;
         if (faults && result.faulting == nullptr) result.faulting = item.item;
@@ -155,7 +155,8 @@ bool DemandLimits::applyInt(Item& item, LimitResult& result) {
         const std::int64_t written = values[i];
         values[i] = std::clamp(written, min, max);
         if (values[i] == written) continue;
-        found(item, !any, static_cast<double>(written), static_cast<double>(values[i]), result);
+        found(item, !any, static_cast<double>(written), static_cast<double>(values[i]), false,
+              result);
         any = true;
         const bool faults = item.item->onLimit == OnLimit::Fault;
         if (faults && result.faulting == nullptr) result.faulting = item.item;

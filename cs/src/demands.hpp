@@ -27,6 +27,7 @@ public:
         const DataItem* item;
         double value, limit;  // what was written, what it became
         bool notFinite;
+        bool byRate;  // in range, but too far from the value before
     };
 
     DemandLimits(const TypeLayout& layout, const Slice& live, std::uint32_t simplex);
@@ -52,8 +53,8 @@ private:
     };
     bool applyFloat(Item& item, double elapsed, LimitResult& result) CORTEX_REALTIME;
     bool applyInt(Item& item, LimitResult& result) CORTEX_REALTIME;
-    void found(const Item& item, bool first, double value, double limit, LimitResult& result)
-        CORTEX_REALTIME;
+    void found(const Item& item, bool first, double value, double limit, bool byRate,
+               LimitResult& result) CORTEX_REALTIME;
 
     std::uint32_t simplex_;
     std::vector<Item> items_;

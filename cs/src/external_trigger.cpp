@@ -25,7 +25,7 @@ Trigger ExternalTrigger::waitForTick() {
     }
     Trigger trigger;
     trigger.stopped = interrupted_.load(std::memory_order_acquire);
-    trigger.periods = notified - static_cast<std::uint32_t>(seen_);
+    if (skip_) trigger.periods = notified - static_cast<std::uint32_t>(seen_);
     seen_ += trigger.periods;
     trigger.nominalTime = (seen_ - 1) * period_;
     return trigger;

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "group_commands.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace cortex::cs {
+
+namespace {
+
+bool resting(State state) { return state == State::Standby || state == State::Fault; }
+
+}  // namespace
 
 GroupCommands::GroupCommands(AgentRuntime& agent, std::vector<SimplexCS*> order)
     : agent_{agent}, order_{std::move(order)} {
@@ -49,6 +58,7 @@ void GroupCommands::begin(LifeCycle command, std::string_view prefix) {
     failures_ = EventText{};
     at_ = 0;
     posted_ = false;
+    again_ = false;
     anyFailed_ = false;
 }
 
@@ -72,7 +82,16 @@ bool GroupCommands::step() {
         // What comes after relies on it; a shutdown goes on all the same.
         at_ = command_ == LifeCycle::Startup ? order_.size() : at_ + 1;
     }
-    return false;
+    if (command_ != LifeCycle::Shutdown || std::exchange(again_, true) || !anyWorks()) return false;
+    at_ = 0;
+    return step();
+}
+
+// Something was left to a manager that then faulted.
+bool GroupCommands::anyWorks() const {
+    return std::ranges::any_of(order_, [this](const SimplexCS* simplex) {
+        return belongs(*simplex) && !resting(simplex->state_);
+    });
 }
 
 SimplexCS& GroupCommands::member(std::size_t at) const {
@@ -96,16 +115,15 @@ bool GroupCommands::belongs(const SimplexCS& simplex) const {
     if (!below || command_ == LifeCycle::ClearFaults || simplex.manager_ == noSimplex) return below;
     // A manager looks after its own while it works.
     const auto& manager = static_cast<const SimplexCS&>(agent_.simplex(simplex.manager_));
-    const bool idle = manager.state_ == State::Standby || manager.state_ == State::Fault;
-    return command_ == LifeCycle::Shutdown && idle;
+    return command_ == LifeCycle::Shutdown && resting(manager.state_);
 }
 
 bool GroupCommands::reached(const SimplexCS& simplex) const {
     switch (command_) {
         case LifeCycle::Startup:
             return simplex.state_ == State::Active;
-        case LifeCycle::Shutdown:
-            return simplex.state_ == State::Standby || simplex.state_ == State::Fault;
+        case LifeCycle::Shutdown:  // what faults on its way has not followed
+            return simplex.state_ == State::Standby || (simplex.state_ == State::Fault && !posted_);
         case LifeCycle::ClearFaults:
             return simplex.state_ != State::Fault;
         case LifeCycle::None:
@@ -122,6 +140,7 @@ bool GroupCommands::failed(const SimplexCS& simplex) const {
         case LifeCycle::ClearFaults:
             return ran && simplex.state_ == State::Fault;
         case LifeCycle::Shutdown:
+            return simplex.state_ == State::Fault;
         case LifeCycle::None:
             break;
     }
@@ -136,10 +155,8 @@ void GroupCommands::addFailure(const SimplexCS& simplex) {
 }
 
 bool GroupCommands::allResting() const {
-    for (const SimplexCS* simplex : order_) {
-        if (simplex->state_ != State::Standby && simplex->state_ != State::Fault) return false;
-    }
-    return true;
+    return std::ranges::all_of(order_,
+                               [](const SimplexCS* simplex) { return resting(simplex->state_); });
 }
 
 }  // namespace cortex::cs

@@ -34,6 +34,7 @@ private:
     void registerHandler(std::string_view name);
 
     bool anyBelongs() const CORTEX_REALTIME;
+    bool anyWorks() const CORTEX_REALTIME;
     bool belongs(const SimplexCS& simplex) const CORTEX_REALTIME;
     bool reached(const SimplexCS& simplex) const CORTEX_REALTIME;
     bool failed(const SimplexCS& simplex) const CORTEX_REALTIME;
@@ -48,6 +49,7 @@ private:
     EventText failures_;
     std::size_t at_ = 0;
     bool posted_ = false;
+    bool again_ = false;  // the second round of a shutdown
     bool anyFailed_ = false;
     bool stopping_ = false;
     std::int64_t postedAfter_ = 0;  // nominal time of the member's last run before

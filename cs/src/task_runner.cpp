@@ -73,11 +73,11 @@ void TaskRunner::runTask(Task& task, std::uint32_t worker, LoopThread& thread) {
     Position& position = positions_[worker];
     position.simplex.store(task.index, std::memory_order_relaxed);
     SlotState state{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
+    at(position, Hook::Commands);
     try {
         transition(task, tick);
         if (agent_.hasCommandWork(task.index)) {
-            at(position, Hook::Commands);
-            agent_.processCommands(task.index, simplex.state_, tick, thread);
+            agent_.processCommands(task.index, simplex.state_, thread, simplex.dead_);
         }
         if (task.inputCount != 0) state = readInputs(task, tick);
         if (!simplex.faultPending_) runHooks(task, tick, position);
@@ -154,7 +154,7 @@ void TaskRunner::transition(Task& task, const Tick& tick) {
     const bool resting = simplex.state_ == State::Standby || simplex.state_ == State::Fault;
     if (forced_ && !resting) return enter(task, State::Standby, tick);
     if (forced_) return;
-    const LifeCycle command = agent_.takeLifeCycle(task.index);
+    const LifeCycle command = agent_.takeLifeCycle(task.index, *simplex.thread_);
     if (command != LifeCycle::None && lifeCycle(task, command, tick)) return;
     if (!simplex.done_) return;
     if (const auto to = next(simplex.state_, Move::Done)) enter(task, *to, tick);
@@ -166,7 +166,9 @@ bool TaskRunner::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
     const auto to = next(simplex.state_, moveOf(command));
     if (!to && command == LifeCycle::Shutdown) return false;  // on its way, or not running
     simplex.text_ = EventText{};
-    if (!to) {
+    if (stopping_ && command == LifeCycle::Startup) {
+        simplex.text_ << "the cluster is stopping";
+    } else if (!to) {
         simplex.text_ << (command == LifeCycle::Startup ? "startup needs Standby, is "
                                                         : "clearFaults needs Fault, is ")
                       << name(simplex.state_);
@@ -177,7 +179,7 @@ bool TaskRunner::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
         return true;
     }
     agent_.post(*simplex.thread_, Severity::Warning, EventKind::Refusal, task.index, simplex.text_);
-    agent_.refuseLifeCycle(task.index, command, simplex.text_);
+    agent_.refuseLifeCycle(task.index, command, simplex.text_, *simplex.thread_);
     return false;
 }
 
@@ -205,8 +207,9 @@ bool TaskRunner::mayStart(Task& task) {
 void TaskRunner::enter(Task& task, State to, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     const State from = simplex.state_;
-    if (from == State::Active &&
-        !agent_.cancelActivity(task.index, *simplex.thread_, !simplex.dead_)) {
+    const char* left = to == State::Fault ? "its simplex went to Fault" : "its simplex left Active";
+    if ((from == State::Active || to == State::Fault) &&
+        !agent_.cancelActivity(task.index, *simplex.thread_, !simplex.dead_, left)) {
         if (to != State::Fault) {
             simplex.fault(HookThrew,
                           "the handler of its long command threw while it was cancelled");

@@ -41,8 +41,9 @@ struct TaskInput {
     const SlotState* state = nullptr;
     const Rule* rule = nullptr;
     std::uint32_t target = noSimplex;
-    std::int64_t maxAge = 0;  // ns
-    bool ages = false;        // something writes it
+    std::int64_t maxAge = 0;                    // ns
+    const std::int64_t* ownerPeriod = nullptr;  // another agent's: 3 of them are allowed
+    bool ages = false;                          // something writes it
     bool lost = false;
     const BlockSizes* held = nullptr;  // onLoss="hold": sizes of the copy
     Slice heldFrom, heldTo;
@@ -111,6 +112,8 @@ public:
 
     // In the next cycle all that is Active faults (overflow="halt").
     void halt() { haltNext_ = true; }
+    // From now on nothing starts up.
+    void beginStop() { stopping_ = true; }
     // In the next cycle: whatever is not in Standby or Fault goes to Standby, with safe demands.
     void forceStandby() { forced_ = true; }
 
@@ -159,7 +162,7 @@ private:
     Tick tick_;
     std::int64_t cycleElapsed_ = 0;  // ns of nominal time since the last cycle
     std::uint32_t timedChunk_ = 0;
-    bool haltNext_ = false, halted_ = false, forced_ = false;
+    bool haltNext_ = false, halted_ = false, forced_ = false, stopping_ = false;
 };
 
 }  // namespace cortex::cs

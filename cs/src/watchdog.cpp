@@ -41,7 +41,8 @@ void Watchdog::run() {
             since = Clock::now();
         } else if (cycle != 0 && reported() != cycle && Clock::now() - since >= limit_) {
             reported_.store(cycle, std::memory_order_release);
-            report_(cycle, findHungHook(runner_, agent_));
+            report_({cycle, nominalTime_.load(std::memory_order_relaxed)},
+                    findHungHook(runner_, agent_));
         }
     }
 }

@@ -24,16 +24,17 @@ HungHook findHungHook(const TaskRunner& runner, AgentRuntime& agent);
 // Sees a cycle that does not end, on a thread of its own, and says so once for each.
 class Watchdog {
 public:
-    using Report = std::function<void(std::int64_t cycle, const HungHook&)>;
+    using Report = std::function<void(const Tick&, const HungHook&)>;
 
     Watchdog(const TaskRunner& runner, AgentRuntime& agent, std::chrono::nanoseconds limit,
              Report report);
     ~Watchdog();
 
     // Loop thread.
-    void cycleBegins(std::int64_t cycle) CORTEX_REALTIME {
-        executing_.store(cycle, std::memory_order_release);
-        begun_.store(cycle, std::memory_order_release);
+    void cycleBegins(const Tick& tick) CORTEX_REALTIME {
+        nominalTime_.store(tick.nominalTime, std::memory_order_relaxed);
+        executing_.store(tick.cycle, std::memory_order_release);
+        begun_.store(tick.cycle, std::memory_order_release);
     }
     void cycleEnds() CORTEX_REALTIME { executing_.store(0, std::memory_order_release); }
     // The cycle now executing, 0 between cycles. Any thread.
@@ -48,7 +49,7 @@ private:
     AgentRuntime& agent_;
     std::chrono::nanoseconds limit_;
     Report report_;
-    std::atomic<std::int64_t> executing_{0}, begun_{0};
+    std::atomic<std::int64_t> executing_{0}, begun_{0}, nominalTime_{0};
     std::atomic<std::int64_t> reported_{0};  // last cycle that hung
     std::mutex mutex_;
     std::condition_variable wake_;

@@ -128,18 +128,18 @@ TEST(Agent, PendingLifeCycleWordIsNeverFullAndShutdownOutranks) {
     const Hand& worker = rig.hand("/worker");
     rig.start();
     AgentRuntime& agent = *rig.agent;
-    EXPECT_EQ(agent.takeLifeCycle(worker.index()), LifeCycle::None);
+    EXPECT_EQ(agent.takeLifeCycle(worker.index(), agent.thread(0)), LifeCycle::None);
     for (int i = 0; i < 1000; ++i) agent.postLifeCycle(worker.index(), LifeCycle::Startup, false);
-    EXPECT_EQ(agent.takeLifeCycle(worker.index()), LifeCycle::Startup);
-    EXPECT_EQ(agent.takeLifeCycle(worker.index()), LifeCycle::None);
+    EXPECT_EQ(agent.takeLifeCycle(worker.index(), agent.thread(0)), LifeCycle::Startup);
+    EXPECT_EQ(agent.takeLifeCycle(worker.index(), agent.thread(0)), LifeCycle::None);
 
     agent.postLifeCycle(worker.index(), LifeCycle::Shutdown, false);
     agent.postLifeCycle(worker.index(), LifeCycle::Startup, false);
-    EXPECT_EQ(agent.takeLifeCycle(worker.index()), LifeCycle::Shutdown);
-    EXPECT_EQ(agent.takeLifeCycle(worker.index()), LifeCycle::None);
+    EXPECT_EQ(agent.takeLifeCycle(worker.index(), agent.thread(0)), LifeCycle::Shutdown);
+    EXPECT_EQ(agent.takeLifeCycle(worker.index(), agent.thread(0)), LifeCycle::None);
 
     agent.postLifeCycle(worker.index(), LifeCycle::ClearFaults, false);
-    EXPECT_EQ(agent.takeLifeCycle(worker.index()), LifeCycle::ClearFaults);
+    EXPECT_EQ(agent.takeLifeCycle(worker.index(), agent.thread(0)), LifeCycle::ClearFaults);
 }
 
 TEST(Agent, LaterLifeCycleWordIsSeenFromTheNextCycleOn) {
@@ -148,10 +148,10 @@ TEST(Agent, LaterLifeCycleWordIsSeenFromTheNextCycleOn) {
     rig.start();
     rig.step();
     rig.agent->postLifeCycle(worker.index(), LifeCycle::Startup, true);
-    EXPECT_EQ(rig.agent->takeLifeCycle(worker.index()), LifeCycle::None);
+    EXPECT_EQ(rig.agent->takeLifeCycle(worker.index(), rig.agent->thread(0)), LifeCycle::None);
     rig.step();
 
-    EXPECT_EQ(rig.agent->takeLifeCycle(worker.index()), LifeCycle::Startup);
+    EXPECT_EQ(rig.agent->takeLifeCycle(worker.index(), rig.agent->thread(0)), LifeCycle::Startup);
 }
 
 TEST(Agent, EventsOfACycleStandInCanonicalOrderBeginTasksEnd) {
@@ -211,8 +211,7 @@ TEST(Agent, AllocatesNothingAfterStart) {
     for (int i = 0; i < 50; ++i) {
         rig.begin();
         for (Hand* hand : {&boss, &worker}) {
-            rig.agent->processCommands(hand->index(), State::Active, rig.tick,
-                                       rig.agent->thread(0));
+            rig.agent->processCommands(hand->index(), State::Active, rig.agent->thread(0));
             if (hand->run) hand->run();
         }
         rig.end();

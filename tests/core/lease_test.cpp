@@ -156,8 +156,9 @@ TEST_F(Control, LosingItMeansWhatTheTypeSays) {
     EXPECT_EQ(ask("desk", "/army", "watch").outcome, Outcome::Running);
     rig.step(205);
 
-    EXPECT_EQ(rig.agent->takeLifeCycle(axis.index()), LifeCycle::Shutdown);  // onLeaseLost=shutdown
-    EXPECT_EQ(rig.agent->takeLifeCycle(arm.index()), LifeCycle::None);
+    EXPECT_EQ(rig.agent->takeLifeCycle(axis.index(), rig.agent->thread(0)),
+              LifeCycle::Shutdown);  // onLeaseLost=shutdown
+    EXPECT_EQ(rig.agent->takeLifeCycle(arm.index(), rig.agent->thread(0)), LifeCycle::None);
     EXPECT_EQ(rig.outside.last().outcome, Outcome::Cancelled);  // hold: its long command ends
     EXPECT_EQ(rig.outside.last().why, "control was lost");
     EXPECT_EQ(rig.outside.answers.size(), 4U);  // continue: /army goes on
@@ -194,6 +195,15 @@ TEST_F(Control, IsHandedOverAndRenewedByTheNewHolder) {
     rig.step(190);
     EXPECT_EQ(renew("hall", "/arm").outcome, Outcome::Done);
     rig.step(190);
+    EXPECT_EQ(shown("leaseHolder"), "hall");
+}
+
+TEST_F(Control, HandedOverIsNotLostWithAnEarlierStartOfItsNewHolder) {
+    take("desk", "/arm");
+    ask("desk", "/rig", "handOverControl", {{"prefix", text("/arm")}, {"to", text("hall")}});
+    rig.outside.loseSender("hall", 1);
+    rig.step();
+
     EXPECT_EQ(shown("leaseHolder"), "hall");
 }
 

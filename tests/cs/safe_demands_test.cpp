@@ -271,6 +271,21 @@ TEST(DemandLimits, FaultTheWriterOfASharedDemandThatIsNotFinite) {
     EXPECT_TRUE(cluster.hasEvent("/bad: fault -3: value of /s was not a number"));
 }
 
+TEST(DemandLimits, SayWhereItIsTheRateThatLimits) {
+    ProbeCluster cluster;
+    Probe& probe = cluster.probe("/a");
+    cluster.tree.relate(probe, "demand", cluster.tree.add("/d", "Demand"));
+    cluster.tree.relate(probe, "observed", cluster.tree.add("/o", "Observation"));
+    probe.onPopulate = [](Probe& self) {
+        Data<double> position = self.output("demand").data<double>("position");
+        self.onActive = [position](Probe&, const Tick&) mutable { position = 1; };
+    };
+    cluster.start();
+    cluster.startup(probe);
+
+    EXPECT_TRUE(cluster.hasEvent("/a: position of /d limited from 1 to 0.002 rad by its rate"));
+}
+
 }  // namespace
 
 }  // namespace cortex::test

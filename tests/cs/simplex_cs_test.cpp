@@ -307,6 +307,61 @@ TEST(SimplexCS, ReachesARelatedSimplexInTheNextCycleAlongADelayedOutput) {
     EXPECT_EQ(cluster.state("/z"), State::StartingUp);
 }
 
+TEST(SimplexCS, CommandsOfOneWhoseHookThrewAreRefusedUntilCleared) {
+    ProbeCluster cluster;
+    Probe& bad = cluster.probe("/bad");
+    int pokes = 0;
+    bad.onPoke = [&](Probe&, Call&) { return ++pokes, Outcome::Done; };
+    bad.onActive = [](Probe&, const Tick&) { throw std::runtime_error{"cannot go on"}; };
+    cluster.start();
+    cluster.startup(bad);
+    cluster.step();
+    ASSERT_EQ(cluster.state("/bad"), State::Fault);
+
+    const CallResult refused = cluster.call("/bad", "poke");  // which is available in Fault
+
+    EXPECT_EQ(refused.text(), "Rejected (state): one of its hooks threw: clearFaults comes first");
+    EXPECT_EQ(pokes, 0);
+    EXPECT_EQ(cluster.call("/bad", "clearFaults").outcome, Outcome::Done);
+    EXPECT_EQ(cluster.call("/bad", "poke").outcome, Outcome::Done);
+}
+
+TEST(SimplexCS, LongCommandBegunInStandbyIsCancelledByAFault) {
+    ProbeCluster cluster;
+    Probe& probe = cluster.probe("/a", "LongProbe");
+    probe.onWork = [](Probe&, Call& call) {
+        return call.cancelling() ? Outcome::Cancelled : Outcome::Running;
+    };
+    bool broken = false;
+    probe.onStandby = [&](Probe& self, const Tick&) {
+        if (broken) self.fault(3, "no pressure");
+    };
+    cluster.start();
+    const std::uint64_t sequence = cluster.cluster->send("/a", "watch");
+    cluster.step(3);
+    broken = true;
+    cluster.step(2);
+
+    CallResult result;
+    ASSERT_TRUE(cluster.cluster->program().poll(sequence, result));
+    EXPECT_EQ(result.text(), "Cancelled: its simplex went to Fault");
+}
+
+TEST(SimplexCS, StartupThatIsOutrankedIsAnsweredSo) {
+    ProbeCluster cluster;
+    Probe& probe = cluster.probe("/a");
+    cluster.start();
+    const std::uint64_t sequence = cluster.cluster->send("/a", "startup");
+    cluster.cluster->agent().postLifeCycle(probe.index(), LifeCycle::Shutdown, false);
+    cluster.step();
+
+    CallResult result;
+    ASSERT_TRUE(cluster.cluster->program().poll(sequence, result));
+    EXPECT_EQ(result.text(), "Rejected (state): another life-cycle command outranks it");
+    cluster.step();
+    EXPECT_EQ(cluster.integer("/test", "rejectedCount"), 1);
+}
+
 }  // namespace
 
 }  // namespace cortex::test

@@ -97,7 +97,7 @@ private:
     void endLong(int simplex, const Ending& ending);
     void cancelLong(int simplex, const std::string& why, bool callHandler,
                     Outcome outcome = Outcome::Cancelled);
-    bool leaveLong(int simplex);
+    bool leaveLong(int simplex, const std::string& why);
     Ending set(int simplex, State state, const Arguments& arguments);
     void count(const Ending& ending);
 
@@ -150,7 +150,7 @@ private:
         LifeCycle command = LifeCycle::None;
         std::string prefix, failures;
         std::size_t at = 0;
-        bool posted = false;
+        bool posted = false, again = false;
         std::int64_t postedAfter = 0;
     } group_;
     Observation observation_;

@@ -222,6 +222,10 @@ Ending Reference::execute(int simplex, State state, const std::string& name,
     if (!command.available.has(state)) {
         return {Outcome::Rejected, Reason::State, needs(name, command.available, state)};
     }
+    if (self.task != nullptr && self.task->dead) {
+        return {Outcome::Rejected, Reason::State,
+                "one of its hooks threw: clearFaults comes first"};
+    }
     for (const DataItem& parameter : command.request) {
         const auto given = arguments.find(parameter.name);
         const std::string why = given == arguments.end() ? "" : wrong(parameter, given->second);
@@ -332,11 +336,11 @@ void Reference::endLong(int simplex, const Ending& ending) {
                                            ending.why});
 }
 
-// Leaving Active; false: the handler threw. After a throw no handler is called.
-bool Reference::leaveLong(int simplex) {
+// Leaving Active or going to Fault; false: the handler threw. After a throw no handler is called.
+bool Reference::leaveLong(int simplex, const std::string& why) {
     if (at(simplex).longCommand.command == nullptr) return true;
     try {
-        cancelLong(simplex, "its simplex left Active", !at(simplex).task->dead);
+        cancelLong(simplex, why, !at(simplex).task->dead);
     } catch (...) {
         post(simplex, Severity::Error, EventKind::Fault,
              "the handler of its long command threw while it was cancelled");

@@ -128,12 +128,14 @@ void Reference::writeSafe(Link& output) {
 LimitFinding Reference::limit(RefSimplex& demand, double elapsed) {
     LimitFinding finding;
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const auto report = [&](std::size_t n, bool& first, double written, double became) {
+    const auto report = [&](std::size_t n, bool& first, double written, double became,
+                            bool byRate) {
         const DataItem& type = *demand.shape->items[n].type;
         if (!first && !demand.limited[n]) {
             finding.texts.push_back(type.name + " of " + demand.path + " limited from " +
                                     inText(written) + " to " + inText(became) +
-                                    (type.unit.empty() ? "" : " " + type.unit));
+                                    (type.unit.empty() ? "" : " " + type.unit) +
+                                    (byRate ? " by its rate" : ""));
         }
         first = finding.any = true;
     };
@@ -154,14 +156,15 @@ LimitFinding Reference::limit(RefSimplex& demand, double elapsed) {
                     return finding;
                 }
                 value = std::clamp(written, min, max);
-                const bool outOfRange = value != written;
+                const double inRange = value;
+                const bool outOfRange = inRange != written;
                 if (item.type->rate) {
                     const double step = *item.type->rate * elapsed;
                     const double before = demand.previous.floats[i];
                     value = std::clamp(value, before - step, before + step);
                 }
                 if (value == written) continue;
-                report(n, limited, written, value);
+                report(n, limited, written, value, value != inRange);
                 if (!outOfRange || item.type->onLimit != OnLimit::Fault) continue;
             } else if (item.type->kind == Kind::Int) {
                 std::int64_t& value = demand.live.ints[i];
@@ -169,7 +172,7 @@ LimitFinding Reference::limit(RefSimplex& demand, double elapsed) {
                 if (item.type->min) value = std::max(value, std::get<0>(*item.type->min));
                 if (item.type->max) value = std::min(value, std::get<0>(*item.type->max));
                 if (value == written) continue;
-                report(n, limited, static_cast<double>(written), static_cast<double>(value));
+                report(n, limited, static_cast<double>(written), static_cast<double>(value), false);
                 if (item.type->onLimit != OnLimit::Fault) continue;
             } else {
                 continue;

@@ -93,6 +93,7 @@ void Reference::refuseLifeCycle(int simplex, LifeCycle command, const std::strin
         if (visitor->simplex != simplex || visitor->watched != command) continue;
         visitor->watched = LifeCycle::None;
         settle(*visitor, {Outcome::Rejected, Reason::State, why});
+        ++rejected_;
     }
 }
 
@@ -193,7 +194,7 @@ bool Reference::groupStep() {
         RefTask& task = *at(simplex).task;
         const bool resting = task.state == State::Standby || task.state == State::Fault;
         const bool there = startup    ? task.state == State::Active
-                           : shutdown ? resting
+                           : shutdown ? resting && !(group_.posted && task.state == State::Fault)
                                       : task.state != State::Fault;
         if (!groupHas(simplex) || there) {
             ++group_.at;
@@ -209,7 +210,7 @@ bool Reference::groupStep() {
         const bool ran = task.now > group_.postedAfter;
         const bool failed =
             startup ? task.state == State::Fault || (ran && task.state == State::Standby)
-                    : !shutdown && ran && task.state == State::Fault;
+                    : (shutdown || ran) && task.state == State::Fault;
         if (!failed) return true;
         if (!group_.failures.empty()) group_.failures += "; ";
         group_.failures += at(simplex).path +
@@ -218,7 +219,15 @@ bool Reference::groupStep() {
         group_.posted = false;
         group_.at = startup ? tasks_.size() : group_.at + 1;
     }
-    return false;
+    // What a manager was to shut down before it faulted: once more from the beginning.
+    const bool left = std::ranges::any_of(tasks_, [this](int simplex) {
+        const State state = at(simplex).task->state;
+        return groupHas(simplex) && state != State::Standby && state != State::Fault;
+    });
+    if (group_.command != LifeCycle::Shutdown || group_.again || !left) return false;
+    group_.again = true;
+    group_.at = 0;
+    return groupStep();
 }
 
 }  // namespace cortex::determinism

@@ -81,7 +81,12 @@ void Reference::transition(int simplex) {
     for (const LifeCycle command :
          {LifeCycle::Shutdown, LifeCycle::ClearFaults, LifeCycle::Startup}) {
         if (!task.pending[static_cast<std::size_t>(command)]) continue;
+        const bool outranked = command != LifeCycle::Startup &&
+                               task.pending[static_cast<std::size_t>(LifeCycle::Startup)];
         std::ranges::fill(task.pending, false);
+        if (outranked) {
+            refuseLifeCycle(simplex, LifeCycle::Startup, "another life-cycle command outranks it");
+        }
         if (lifeCycle(simplex, command)) return;
     }
     if (!task.done) return;
@@ -134,7 +139,9 @@ bool Reference::mayStart(int simplex) {
 void Reference::enter(int simplex, State to) {
     RefTask& task = *at(simplex).task;
     const State from = task.state;
-    if (from == State::Active && !leaveLong(simplex)) {
+    const bool faults = to == State::Fault;
+    if ((from == State::Active || faults) &&
+        !leaveLong(simplex, faults ? "its simplex went to Fault" : "its simplex left Active")) {
         if (to != State::Fault) {
             fault(simplex, -1, "the handler of its long command threw while it was cancelled");
         }

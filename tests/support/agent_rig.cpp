@@ -132,7 +132,7 @@ void AgentRig::runTasks() {
         auto* hand = dynamic_cast<Hand*>(tree.find(path));
         if (hand == nullptr) continue;
         if (agent->hasCommandWork(hand->index())) {
-            agent->processCommands(hand->index(), hand->state, tick, agent->thread(0));
+            agent->processCommands(hand->index(), hand->state, agent->thread(0));
         }
         if (hand->run) hand->run();
     }

@@ -12,7 +12,9 @@ void Probe::populate() {
     sum = result<double>("add", "sum");
     on<&Probe::add>("add");
     on<&Probe::poke>("poke");
-    if (type().findCommand("work") != nullptr) on<&Probe::work>("work");
+    for (const char* command : {"work", "watch"}) {
+        if (type().findCommand(command) != nullptr) on<&Probe::work>(command);
+    }
     if (onPopulate) onPopulate(*this);
 }
 

@@ -20,6 +20,7 @@
 namespace cortex {
 
 class Router;
+class LinkTable;
 class CommandPort;
 class Lane;
 
@@ -72,8 +73,9 @@ public:
 
     const std::string& name() const { return name_; }
     const AgentOptions& options() const { return options_; }
-    std::int64_t cycle() const { return cycle_; }              // of the present or last cycle
-    std::int64_t nominalTime() const { return nominalTime_; }  // likewise
+    // Of the present or last cycle; loop's threads only, everyone else asks an image.
+    std::int64_t cycle() const { return cycle_; }
+    std::int64_t nominalTime() const { return nominalTime_; }
     SimplexTree& tree() { return tree_; }
     const Structure& structure() const { return *structure_; }
     Tables& tables() { return *tables_; }
@@ -84,28 +86,32 @@ public:
     Simplex& simplex(std::uint32_t index) { return *simplexes_[index]; }
     std::uint32_t rank(std::uint32_t simplex) const { return ranks_[simplex]; }
     std::uint32_t agentSimplex() const { return agentSimplex_; }  // index of /<name>
+    // Of a simplex of another agent: ns between two writings by its owner, at least our period;
+    // known when it is linked, from beginCycle() on.
+    const std::int64_t& ownerPeriod(std::uint32_t simplex) const { return ownerPeriods_[simplex]; }
 
     // Step (1) of a task: answers to what it sent, commands of its lanes in canonical order, then
-    // from outside, then its long command. What a handler throws passes through.
-    void processCommands(std::uint32_t simplex, State state, const Tick& tick, LoopThread& thread)
+    // from outside, then its long command. What a handler throws passes through. `dead`: a hook of
+    // it threw, so that no handler runs.
+    void processCommands(std::uint32_t simplex, State state, LoopThread& thread, bool dead = false)
         CORTEX_REALTIME;
     bool hasCommandWork(std::uint32_t simplex) const CORTEX_REALTIME;
-    // Leaving Active: the last call of a long command, then the answer Cancelled. Without
-    // `callHandler` (a hook threw) only the answer. False: the handler threw; nothing passes
-    // through.
-    bool cancelActivity(std::uint32_t simplex, LoopThread& thread, bool callHandler = true)
-        CORTEX_REALTIME;
+    // On leaving Active and in Fault: the last call of a long command, then the answer Cancelled.
+    // Without `callHandler` (a hook threw) only the answer. False: the handler threw; nothing
+    // passes through.
+    bool cancelActivity(std::uint32_t simplex, LoopThread& thread, bool callHandler = true,
+                        std::string_view why = "its simplex left Active") CORTEX_REALTIME;
 
     // The pending life-cycle word: taken in step (1); `shutdown` outranks the others.
-    LifeCycle takeLifeCycle(std::uint32_t simplex) CORTEX_REALTIME;
+    LifeCycle takeLifeCycle(std::uint32_t simplex, LoopThread& thread) CORTEX_REALTIME;
     // `later`: from the next cycle on (delayed relationships, and anything on the loop thread after
     // the simplex ran).
     void postLifeCycle(std::uint32_t simplex, LifeCycle command, bool later) CORTEX_REALTIME;
 
     // What a task may say when it does not follow a life-cycle command; goes to who sent it from
     // outside.
-    void refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why)
-        CORTEX_REALTIME;
+    void refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why,
+                         LoopThread& thread) CORTEX_REALTIME;
 
     void post(LoopThread& thread, Severity severity, EventKind kind, std::uint32_t simplex,
               const EventText& text) CORTEX_REALTIME;
@@ -114,9 +120,12 @@ public:
     void registerHandler(std::uint32_t simplex, std::string_view command, Handler handler);
     CommandSender makeSender(std::uint32_t edge, std::string_view command, std::uint32_t capacity);
     const CommandTable& commands(std::uint32_t simplex) const { return *tableOf_[simplex]; }
+    // Commands of its type that would be rejected for want of a handler.
+    std::vector<std::string_view> unhandledCommands(std::uint32_t simplex) const;
 
 private:
     friend class Router;
+    friend class LinkTable;
 
     void addAgentSimplex();
     void checkModel();
@@ -125,7 +134,7 @@ private:
     void makeLanes();
     void findTaskless();
     void releaseLifeCycles() CORTEX_REALTIME;
-    void processTaskless(const Tick& tick) CORTEX_REALTIME;
+    void processTaskless() CORTEX_REALTIME;
 
     std::string name_;
     SimplexTree& tree_;
@@ -146,6 +155,7 @@ private:
     std::vector<CommunicationInterface*> interfaces_;
     std::vector<LoopThread> threads_;
     std::vector<std::uint32_t> ranks_;
+    std::vector<std::int64_t> ownerPeriods_;
     std::unique_ptr<std::atomic<std::uint8_t>[]> lifeCycle_, lifeCycleLater_;  // bits
     std::atomic<bool> anyLater_{false};
     std::uint32_t agentSimplex_ = noSimplex;

@@ -24,6 +24,7 @@ class SimplexCS : public Simplex {
 public:
     using Simplex::Simplex;
 
+    // In hooks of this simplex; everyone else reads its item `state`.
     State state() const { return state_; }
 
 protected:

@@ -84,7 +84,7 @@ private:
 };
 
 // Ticks from elsewhere: another thread, a socket, a device. notify() is called once a tick; ticks
-// that come while a cycle runs are counted as missed.
+// that come while a cycle runs are missed, and skipped or caught up.
 class ExternalTrigger final : public TriggerSource {
 public:
     explicit ExternalTrigger(std::chrono::nanoseconds nominalPeriod);
@@ -96,10 +96,12 @@ public:
     void interrupt() override;
     std::int64_t period() const override { return period_; }
     std::int64_t missed() override;
+    void skipMissed(bool skip) override { skip_ = skip; }
 
 private:
     std::int64_t period_;
     std::int64_t seen_ = 0;
+    bool skip_ = true;
     std::atomic<std::uint32_t> notified_{0};
     std::atomic<bool> interrupted_{false};
 };
