@@ -62,6 +62,18 @@ TEST(TypeLayout, PlacesItemsByKindAndConstantsApart) {
     EXPECT_EQ(layout.find(""), nullptr);
 }
 
+TEST(TypeLayout, ConstantsOfAnotherAgentsSimplexLieWithTheRest) {
+    const SimplexTree tree = plant();
+    const auto structure = makeStructure("test", tree);
+
+    const TypeLayout& far = *infoOf(*structure, "/far/axis").layout;
+
+    EXPECT_TRUE(far.remote);
+    EXPECT_EQ(far.constant.floats, 0U);
+    EXPECT_FALSE(far.find("direction")->constant);
+    EXPECT_TRUE(infoOf(*structure, "/observed").layout->find("direction")->constant);
+}
+
 TEST(RecordLayout, PlacesParametersAtMultiplesOfEight) {
     std::vector<DataItem> parameters(4);
     parameters[0].name = "on";
@@ -134,7 +146,7 @@ TEST(Structure, DecidesWhatAnInstanceIs) {
 }
 
 TEST(Structure, KnowsTheWritersOfASimplex) {
-    SimplexTree tree = plant();
+    const SimplexTree tree = plant();
     tree.relate(tree.add("/another", "Controller"), "demands", tree.at("/demanded"));
 
     const auto structure = makeStructure("test", tree);
@@ -164,7 +176,7 @@ TEST(Structure, TakesRatesAndLaysSlicesOneAfterTheOther) {
     EXPECT_EQ(structure->cyclic.floats, sum.floats);
     EXPECT_EQ(structure->cyclic.bools, sum.bools);
     EXPECT_EQ(structure->constant.floats, constantSum.floats);
-    EXPECT_EQ(structure->constant.floats, 9U);
+    EXPECT_EQ(structure->constant.floats, 6U);
 }
 
 TEST(Structure, SharesOneLayoutAmongSimplexesOfAType) {
