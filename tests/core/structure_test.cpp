@@ -146,7 +146,7 @@ TEST(Structure, DecidesWhatAnInstanceIs) {
 }
 
 TEST(Structure, KnowsTheWritersOfASimplex) {
-    const SimplexTree tree = plant();
+    SimplexTree tree = plant();
     tree.relate(tree.add("/another", "Controller"), "demands", tree.at("/demanded"));
 
     const auto structure = makeStructure("test", tree);
