@@ -166,8 +166,9 @@ bool TaskRunner::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
     const auto to = next(simplex.state_, moveOf(command));
     if (!to && command == LifeCycle::Shutdown) return false;  // on its way, or not running
     simplex.text_ = EventText{};
-    if (stopping_ && command == LifeCycle::Startup) {
-        simplex.text_ << "the cluster is stopping";
+    const bool tooLate = stopping_ && command == LifeCycle::Startup;
+    if (tooLate) {
+        simplex.text_ << "no startup: the cluster is stopping";
     } else if (!to) {
         simplex.text_ << (command == LifeCycle::Startup ? "startup needs Standby, is "
                                                         : "clearFaults needs Fault, is ")
@@ -178,7 +179,8 @@ bool TaskRunner::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
         enter(task, *to, tick);
         return true;
     }
-    agent_.post(*simplex.thread_, Severity::Warning, EventKind::Refusal, task.index, simplex.text_);
+    agent_.post(*simplex.thread_, tooLate ? Severity::Info : Severity::Warning, EventKind::Refusal,
+                task.index, simplex.text_);
     agent_.refuseLifeCycle(task.index, command, simplex.text_, *simplex.thread_);
     return false;
 }

@@ -252,7 +252,7 @@ TEST(ClusterCS, StartsNothingUpWhileItStops) {
     EXPECT_EQ(ticks, 5);
     EXPECT_EQ(startups, 0);
     EXPECT_EQ(cluster.state("/eager"), State::Standby);
-    EXPECT_TRUE(cluster.hasEvent("/eager: the cluster is stopping"));
+    EXPECT_TRUE(cluster.hasEvent("/eager: no startup: the cluster is stopping"));
 }
 
 TEST(ClusterCS, WarnsOfACommandThatNobodyHandles) {

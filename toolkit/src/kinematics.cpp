@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinematics.hpp"
 
+#include <algorithm>
+
 namespace cortex::toolkit {
 namespace {
 
@@ -76,7 +78,10 @@ void InverseKinematics::stateActive(const Tick& tick) {
     rotationError_ = error.tail<3>().norm();
     for (std::size_t i = 0; i < targets_.size(); ++i) {
         const auto joint = static_cast<Eigen::Index>(i);
-        targets_[i].write(solution_[joint], (solution_[joint] - before[joint]) / options.period);
+        // At its limit the quotient can exceed the speed by its rounding.
+        const double limit = chain_->maxSpeed()[joint];
+        const double speed = (solution_[joint] - before[joint]) / options.period;
+        targets_[i].write(solution_[joint], std::clamp(speed, -limit, limit));
     }
 }
 
