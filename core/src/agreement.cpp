@@ -166,8 +166,10 @@ std::string canonicalText(const Type& type) {
     return text;
 }
 
-TypeHash typeHash(const Type& type) {
-    const auto whole = sha256(canonicalText(type));
+TypeHash typeHash(const Type& type) { return hashOf(canonicalText(type)); }
+
+TypeHash hashOf(std::string_view text) {
+    const auto whole = sha256(text);
     TypeHash hash{};
     std::copy_n(whole.begin(), hash.size(), hash.begin());
     return hash;

@@ -4,7 +4,6 @@
 #include "cortex/core/tables.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -14,11 +13,6 @@ namespace cortex {
 namespace {
 
 using Words = std::optional<EventText>;
-
-constexpr std::array outcomeNames{"None",      "Done",        "Running", "Rejected", "Failed",
-                                  "Cancelled", "MailboxFull", "Expired", "Unknown"};
-constexpr std::array reasonNames{"none",      "state",     "range",  "busy",
-                                 "authority", "restarted", "window", "unknown"};
 
 std::uint32_t octets(const DataItem& item) {
     const bool small = item.kind == Kind::Bool;
@@ -120,9 +114,6 @@ bool checkElement(const ArgumentCheck& check, const std::byte* cell, std::uint32
 }
 
 }  // namespace
-
-const char* name(Outcome outcome) { return outcomeNames[static_cast<std::size_t>(outcome)]; }
-const char* name(Reason reason) { return reasonNames[static_cast<std::size_t>(reason)]; }
 
 Outcome Call::fail(std::string_view why) {
     why_.emplace(why);

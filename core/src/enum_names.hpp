@@ -13,7 +13,7 @@
 
 namespace cortex {
 
-// Spellings of an enumeration in XML, in the order of its enumerators.
+// Spellings of an enumeration in XML and messages, in the order of its enumerators.
 template <class E>
 inline constexpr std::array<const char*, 0> spellings{};
 template <>

@@ -50,12 +50,6 @@ std::string_view numberText(Number number, std::array<char, 32>& buffer) {
 
 }  // namespace
 
-const char* name(EventKind kind) {
-    static constexpr std::array names{"state change", "fault", "refusal", "overflow", "limit",
-                                      "conflict",     "agent", "command", "watchdog", "message"};
-    return names[static_cast<std::size_t>(kind)];
-}
-
 EventText& EventText::operator<<(std::string_view text) {
     const std::size_t fitting = fittingLength(text, text_.size() - length_);
     if (fitting > 0) std::memcpy(text_.data() + length_, text.data(), fitting);

@@ -41,6 +41,8 @@ inline constexpr char writersChanged[] = "writers-changed";
 inline constexpr char commandRole[] = "command-role";
 inline constexpr char longActivity[] = "long-activity";
 inline constexpr char transitionTimeout[] = "transition-timeout";
+inline constexpr char typeDescription[] = "type-description";
+inline constexpr char typeHash[] = "type-hash";
 
 // Data items and parameters
 inline constexpr char duplicateData[] = "duplicate-data";

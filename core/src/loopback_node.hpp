@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/command_exchange.hpp"
 #include "cortex/core/communication_interface.hpp"
-
-#include "command_pipe.hpp"
-#include "spsc_ring.hpp"
+#include "cortex/core/spsc_ring.hpp"
 
 #include <atomic>
 #include <cstdint>

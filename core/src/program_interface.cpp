@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/program_interface.hpp"
 
+#include "cortex/core/command_exchange.hpp"
 #include "cortex/core/error.hpp"
-
-#include "command_pipe.hpp"
 
 #include <algorithm>
 #include <mutex>

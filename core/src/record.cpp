@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record.hpp"
 
+#include "cortex/core/command_exchange.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/tables.hpp"
 
@@ -89,6 +90,16 @@ std::map<std::string, Value> decodeRecord(const RecordLayout& layout, const std:
     std::map<std::string, Value> values;
     for (const ItemLayout& item : layout.items) {
         values[item.item->name] = loadValue(*item.item, record + item.offset);
+    }
+    return values;
+}
+
+std::map<std::string, Value> argumentsOf(const CommandTable& table, std::uint32_t command,
+                                         const std::byte* request) {
+    const CommandTable::Entry& entry = table.entries[command];
+    std::map<std::string, Value> values = decodeRecord(entry.request, request);
+    for (std::size_t i = 0; isSet(entry) && i < entry.request.items.size(); ++i) {
+        if (request[i] == std::byte{0}) values.erase(entry.request.items[i].item->name);
     }
     return values;
 }

@@ -13,11 +13,6 @@ std::string Place::text() const {
     return line > 0 ? file + ":" + std::to_string(line) : file;
 }
 
-const char* name(Severity severity) {
-    constexpr const char* names[] = {"info", "warning", "error"};
-    return names[static_cast<std::size_t>(severity)];
-}
-
 std::string Finding::text() const {
     std::string result = path.empty() ? message : path + ": " + message;
     if (!place.file.empty()) result += " [" + place.text() + "]";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/command.hpp"
 
+#include "cortex/core/command_exchange.hpp"
 #include "cortex/core/error.hpp"
 
 #include "record.hpp"

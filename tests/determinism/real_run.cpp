@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "determinism/real_run.hpp"
 
+#include "cortex/core/command_exchange.hpp"
 #include "cortex/cs/cluster_cs.hpp"
-
-#include "record.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent_rig.hpp"
 
-#include "record.hpp"
+#include "cortex/core/command_exchange.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cortex {
@@ -14,6 +15,7 @@ namespace cortex {
 // with equal hashes mean the same; unequal ones are compared item by item.
 using TypeHash = std::array<std::uint8_t, 16>;
 
+TypeHash hashOf(std::string_view text);
 std::string canonicalText(const Type& type);
 TypeHash typeHash(const Type& type);
 std::string toHex(const TypeHash& hash);

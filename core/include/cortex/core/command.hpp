@@ -39,6 +39,8 @@ enum class Reason : std::uint8_t {
 
 const char* name(Outcome outcome);
 const char* name(Reason reason);
+std::optional<Outcome> outcomeFromName(std::string_view text);
+std::optional<Reason> reasonFromName(std::string_view text);
 
 // Offset of a command parameter, got in populate(): Argument for the request, Result for the
 // response. Used on the Call inside a handler.

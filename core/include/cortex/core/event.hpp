@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -34,6 +35,7 @@ enum class EventKind : std::uint8_t {
 };
 
 const char* name(EventKind kind);
+std::optional<EventKind> eventKindFromName(std::string_view text);
 
 // Bounded text that is built without allocation; what does not fit is cut.
 class EventText {

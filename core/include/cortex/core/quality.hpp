@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 namespace cortex {
 
@@ -10,6 +12,7 @@ namespace cortex {
 enum class Quality : std::uint8_t { Good, Stale, Bad, Lost };
 
 const char* name(Quality quality);  // "good", "stale", "bad", "lost"
+std::optional<Quality> qualityFromName(std::string_view text);
 
 inline constexpr std::uint32_t noSimplex = 0xffffffffU;
 

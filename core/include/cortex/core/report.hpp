@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cortex {
@@ -18,6 +20,7 @@ struct Place {
 enum class Severity { Info, Warning, Error };
 
 const char* name(Severity severity);
+std::optional<Severity> severityFromName(std::string_view text);
 
 // One thing found in a model. `path` is the simplex or the type concerned, `rule` the short name of
 // what was broken (see docs/ontology.md, "Findings"), `remedy` what to write instead.

@@ -35,6 +35,7 @@ const char* name(OnLimit onLimit);
 const char* name(OnBusy onBusy);
 const char* name(OnSenderLost onSenderLost);
 const char* name(OnLeaseLost onLeaseLost);
+std::optional<Role> roleFromName(std::string_view text);
 
 // What a modification item is set to when no writer is Active: a value, the last value (hold), or
 // the item of the same name in the simplex that the writer's counterpart rule names (observed).

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/communication_interface.hpp"
+#include "cortex/core/program_interface.hpp"
+#include "cortex/core/spsc_ring.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// What a transport needs to carry commands from outside into a loop and their answers back.
+namespace cortex {
+
+// Records of commands. Off the loop. The record is aligned to 8 octets and as large as its layout.
+// Throws Error for unknown parameters and values of the wrong kind or length; parameters that are
+// not given have their defaults.
+void encodeRecord(const CommandTable& table, std::uint32_t command,
+                  const std::map<std::string, Value>& arguments, std::byte* record);
+std::map<std::string, Value> decodeRecord(const RecordLayout& layout, const std::byte* record);
+// Of `set` only the items that are given.
+std::map<std::string, Value> argumentsOf(const CommandTable& table, std::uint32_t command,
+                                         const std::byte* request);
+
+// The commands of every simplex of a structure. Immutable; any thread may read.
+class CommandTables {
+public:
+    explicit CommandTables(std::shared_ptr<const Structure> structure);
+    CommandTables(const CommandTables&) = delete;
+    CommandTables& operator=(const CommandTables&) = delete;
+
+    const Structure& structure() const { return *structure_; }
+    const CommandTable& of(std::uint32_t simplex) const { return *tables_[simplex]; }
+    // Simplex, command and size of the record; throws Error with the nearest names.
+    OutsideCommand find(std::string_view path, std::string_view command) const;
+
+private:
+    std::shared_ptr<const Structure> structure_;
+    std::map<const TypeLayout*, CommandTable> byLayout_;
+    std::vector<const CommandTable*> tables_;
+};
+
+// Commands from threads of this process into one agent's loop, and their answers back. Off the loop
+// one thread at a time (the owner's mutex); read() and write() in the loop.
+class CommandPipe {
+public:
+    CommandPipe(const AgentAccess& agent, std::uint32_t capacity);
+
+    const Structure& structure() const { return *agent_.structure; }
+    const CommandTables& tables() const { return tables_; }
+    std::int64_t newestCycle() const { return agent_.images->newestCycle(); }
+    const CommandTable& table(std::uint32_t simplex) const { return tables_.of(simplex); }
+
+    // False: full. `record` is copied.
+    bool push(const OutsideCommand& command, const std::byte* record);
+    // The next answer, valid until popAnswer(); null: none.
+    const OutsideAnswer* answer() { return answers_.front(); }
+    void popAnswer() { answers_.pop(); }
+
+    void read(Inbox& inbox) CORTEX_REALTIME;
+    void write(Outbox& outbox) CORTEX_REALTIME;  // what finds no room waits for the next cycle
+
+private:
+    AgentAccess agent_;
+    CommandTables tables_;
+    SpscRing<OutsideCommand> commands_;
+    SpscRing<OutsideAnswer> answers_;
+    std::vector<std::byte> requests_, responses_;
+};
+
+// A command that is numbered and encoded. Not open: its sender has too many on their way; it is
+// answered MailboxFull already and not to be sent.
+struct PreparedCommand {
+    OutsideCommand message;             // without `request`
+    std::vector<std::uint64_t> record;  // message.size octets
+    bool open = true;
+
+    const std::byte* request() const { return reinterpret_cast<const std::byte*>(record.data()); }
+};
+
+// One sender's side of its commands to one agent: sequence numbers, what is unanswered, and answers
+// until they are fetched (the last thousand). Used under its owner's mutex.
+class CommandClient {
+public:
+    using Arguments = ProgramInterface::Arguments;
+
+    explicit CommandClient(Sender sender) : sender_{sender} {}
+
+    const Sender& sender() const { return sender_; }
+    // Throws Error as ProgramInterface::post(). Full pipes and windows answer MailboxFull.
+    std::uint64_t post(CommandPipe& pipe, std::string_view path, std::string_view command,
+                       const Arguments& arguments, std::int64_t notAfter);
+    // The first half of post(), for another transport; refuse() where that could not send it.
+    PreparedCommand prepare(const CommandTables& tables, std::string_view path,
+                            std::string_view command, const Arguments& arguments,
+                            std::int64_t notAfter);
+    void refuse(std::uint64_t sequence);  // MailboxFull
+
+    void take(const OutsideAnswer& answer, const CommandPipe& pipe);
+    void take(std::uint64_t sequence, Outcome outcome, Reason reason, std::string why,
+              std::int64_t latencyCycles, std::map<std::string, Value> response);
+    bool poll(std::uint64_t sequence, CallResult& result);
+    void abandon(std::uint64_t sequence);  // its answer will not be fetched
+    void loseAll(const std::string& why);  // no answer will come: Unknown
+
+private:
+    struct Asked {
+        bool running = false;    // it was answered, but not for the last time
+        bool abandoned = false;  // its answer will not be fetched
+    };
+    std::uint64_t answeredBelow() const;
+    void finish(std::uint64_t sequence, CallResult result);
+
+    Sender sender_;
+    std::uint64_t next_ = 1;
+    std::map<std::uint64_t, Asked> unanswered_;
+    std::map<std::uint64_t, CallResult> results_;
+};
+
+// Name cut to what fits, this host, and a start later than any other of this process.
+Sender makeSender(std::string_view name);
+
+}  // namespace cortex

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comms/raw_dds.hpp"
+
+#include "participant_qos.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <arpa/inet.h>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <fastdds/rtps/attributes/ServerAttributes.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+
+namespace cortex::comms {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+
+struct RawSample {
+    Id key{};
+    std::vector<std::uint8_t> octets;
+};
+
+class RawType final : public dds::TopicDataType {
+    using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
+    using Handle = eprosima::fastrtps::rtps::InstanceHandle_t;
+
+public:
+    explicit RawType(const std::string& name) {
+        setName(name.c_str());
+        m_typeSize = 64;
+        m_isGetKeyDefined = true;
+        auto_fill_type_object(false);
+        auto_fill_type_information(false);
+    }
+    bool serialize(void* data, Payload* payload) override {
+        const auto& octets = static_cast<RawSample*>(data)->octets;
+        std::copy(octets.begin(), octets.end(), payload->data);
+        payload->length = static_cast<std::uint32_t>(octets.size());
+        return true;
+    }
+    bool deserialize(Payload*, void*) override { return false; }
+    std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
+        return [data] {
+            return static_cast<std::uint32_t>(static_cast<RawSample*>(data)->octets.size());
+        };
+    }
+    void* createData() override { return new RawSample; }
+    void deleteData(void* data) override { delete static_cast<RawSample*>(data); }
+    bool getKey(void* data, Handle* handle, bool) override {
+        const Id& key = static_cast<RawSample*>(data)->key;
+        for (std::size_t i = 0; i < key.size(); ++i) handle->value[i] = key[i];
+        return true;
+    }
+};
+
+void remove(dds::DomainParticipant* participant) {
+    participant->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+}
+
+std::uint16_t freePort() {
+    const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    EXPECT_EQ(bind(descriptor, reinterpret_cast<sockaddr*>(&address), size), 0);
+    EXPECT_EQ(getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size), 0);
+    close(descriptor);
+    return ntohs(address.sin_port);
+}
+
+}  // namespace
+
+struct RawWriter::Impl {
+    dds::DomainParticipant* participant = nullptr;
+    dds::DataWriter* writer = nullptr;
+};
+
+RawWriter::RawWriter(const NetworkOptions& options, const Topic& topic, const std::string& typeName)
+    : impl_{std::make_unique<Impl>()} {
+    setUpFastDds();
+    impl_->participant = dds::DomainParticipantFactory::get_instance()->create_participant(
+        static_cast<dds::DomainId_t>(options.domain), participantQos(options, "raw"));
+    dds::TypeSupport{new RawType{typeName}}.register_type(impl_->participant);
+    dds::Topic* made =
+        impl_->participant->create_topic(topic.name, typeName, dds::TOPIC_QOS_DEFAULT);
+    impl_->writer = impl_->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT)
+                        ->create_datawriter(made, writerQos(topic.qos));
+}
+
+RawWriter::~RawWriter() { remove(impl_->participant); }
+
+bool RawWriter::write(const Id& key, const std::vector<std::uint8_t>& octets) {
+    RawSample sample{key, octets};
+    return impl_->writer->write(&sample);
+}
+
+std::uint32_t RawWriter::readers() const {
+    dds::PublicationMatchedStatus status;
+    impl_->writer->get_publication_matched_status(status);
+    return static_cast<std::uint32_t>(status.current_count);
+}
+
+struct DiscoveryServer::Impl {
+    dds::DomainParticipant* participant = nullptr;
+    std::uint16_t port = 0;
+};
+
+DiscoveryServer::DiscoveryServer(const NetworkOptions& options) : impl_{std::make_unique<Impl>()} {
+    namespace rtps = eprosima::fastrtps::rtps;
+    setUpFastDds();
+    impl_->port = freePort();
+    dds::DomainParticipantQos qos = participantQos(options, "server");
+    rtps::Locator_t locator;
+    rtps::IPLocator::setIPv4(locator, "127.0.0.1");
+    locator.port = impl_->port;
+    auto& builtin = qos.wire_protocol().builtin;
+    builtin.initialPeersList.clear();
+    builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::SERVER;
+    builtin.metatrafficUnicastLocatorList.push_back(locator);
+    rtps::get_server_client_default_guidPrefix(0, qos.wire_protocol().prefix);
+    impl_->participant = dds::DomainParticipantFactory::get_instance()->create_participant(
+        static_cast<dds::DomainId_t>(options.domain), qos);
+}
+
+DiscoveryServer::~DiscoveryServer() { remove(impl_->participant); }
+
+std::string DiscoveryServer::address() const { return "127.0.0.1:" + std::to_string(impl_->port); }
+
+}  // namespace cortex::comms
