@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent_commands.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "ids.hpp"
+#include "named_values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::int64_t silence = 1'000'000'000;  // ns until a sender is lost
+constexpr std::uint32_t onTheirWay = 256;        // commands
+constexpr std::size_t mostSenders = 64;
+
+template <std::size_t Size>
+bool put(const std::string& text, std::array<char, Size>& to) {
+    if (text.size() >= Size || text.find('\0') != std::string::npos) return false;
+    std::ranges::copy(text, to.begin());
+    return true;
+}
+
+// Empty for names that are no sender's.
+std::optional<Sender> senderOf(const Command& command) {
+    Sender sender;
+    sender.epoch = command.senderEpoch;
+    const bool fits = put(command.sender, sender.name) && put(command.host, sender.host);
+    if (!fits || command.sender.empty() || command.senderEpoch <= 0) return {};
+    return sender;
+}
+
+}  // namespace
+
+AgentCommands::AgentCommands(AgentSelf& self, std::function<void(const Answer&)> send)
+    : self_{self}, send_{std::move(send)}, pipe_{self.access, onTheirWay}, lostSenders_{64} {}
+
+bool AgentCommands::believable(const Command& command) {
+    const char* wrong = nullptr;
+    if (command.link != linkId(command.sender, command.target)) wrong = "with a wrong id";
+    if (!senderOf(command)) wrong = "of a sender that cannot be";
+    if (command.sequenceNumber == 0 || command.answeredBelow > command.sequenceNumber) {
+        wrong = "with a number that cannot be";
+    }
+    if (wrong != nullptr) self_.rejections.add(std::string{"a command "} + wrong);
+    return wrong == nullptr;
+}
+
+void AgentCommands::take(const Command& command, std::int64_t now) {
+    if (command.target != self_.name || !believable(command)) return;
+    const Sender sender = *senderOf(command);
+    if (!remember(sender, now)) {
+        return refuse(command, {Outcome::Rejected, Reason::Window, "too many senders"});
+    }
+    if (command.targetEpoch != self_.epoch) {
+        return refuse(command, {Outcome::Rejected, Reason::Restarted,
+                                "it is meant for another start of this agent"});
+    }
+    OutsideCommand message;
+    std::vector<std::uint64_t> record;
+    Refusal refusal{};
+    if (!encode(command, message, record, refusal)) return refuse(command, refusal);
+    message.sender = sender;
+    message.targetEpoch = command.targetEpoch;
+    message.sequence = command.sequenceNumber;
+    message.answeredBelow = command.answeredBelow;
+    message.notAfter = command.notAfter;
+    // Not answered: it may be a repeat of one that the loop has.
+    if (!pipe_.push(message, reinterpret_cast<const std::byte*>(record.data()))) {
+        self_.rejections.add("a command of " + command.sender + ": too many are on their way");
+    }
+}
+
+// Simplex, command and arguments by their names; what does not fit is said in the words of core.
+bool AgentCommands::encode(const Command& command, OutsideCommand& message,
+                           std::vector<std::uint64_t>& record, Refusal& refusal) const {
+    refusal = {Outcome::Rejected, Reason::UnknownCommand, {}};
+    try {
+        message = pipe_.tables().find(command.path, command.command);
+        if (self_.structure().simplexes[message.simplex].remote) {
+            throw Error(command.path + " belongs to another agent");
+        }
+        refusal.reason = Reason::Range;
+        const auto arguments = valuesOf(command.arguments);
+        if (!arguments) throw Error("its arguments are malformed, or one is given twice");
+        record.resize(message.size / 8U + 1U);
+        encodeRecord(pipe_.table(message.simplex), message.command, *arguments,
+                     reinterpret_cast<std::byte*>(record.data()));
+        return true;
+    } catch (const Error& error) {
+        refusal.why = error.what();
+        return false;
+    }
+}
+
+void AgentCommands::refuse(const Command& command, const Refusal& refusal) {
+    Answer answer;
+    answer.link = command.link;
+    answer.agent = self_.name;
+    answer.epoch = self_.epoch;
+    answer.sender = command.sender;
+    answer.senderEpoch = command.senderEpoch;
+    answer.sequenceNumber = command.sequenceNumber;
+    answer.outcome = name(refusal.outcome);
+    answer.reason = name(refusal.reason);
+    answer.why = refusal.why;
+    send_(answer);
+}
+
+bool AgentCommands::remember(const Sender& sender, std::int64_t now) {
+    const std::string name{sender.nameText()};
+    const auto known = senders_.find(name);
+    if (known == senders_.end()) {
+        if (senders_.size() >= mostSenders) return false;
+        senders_[name] = {sender, now};
+        return true;
+    }
+    // The loop itself lets go of an earlier start when a later one commands.
+    if (known->second.sender.epoch <= sender.epoch) known->second = {sender, now};
+    return true;
+}
+
+void AgentCommands::heard(const std::string& sender, std::int64_t epoch, std::int64_t now) {
+    const auto known = senders_.find(sender);
+    if (known != senders_.end() && known->second.sender.epoch == epoch) {
+        known->second.lastHeard = now;
+    }
+}
+
+void AgentCommands::lost(const std::string& sender, std::int64_t epoch) {
+    const auto known = senders_.find(sender);
+    if (known != senders_.end() && known->second.sender.epoch == epoch) {
+        known->second.lastHeard = steadyNow() - 2 * silence;
+    }
+}
+
+bool AgentCommands::tellLost(const Sender& sender) {
+    Sender* place = lostSenders_.free();
+    if (place == nullptr) return false;  // the loop stands still: in the next step
+    *place = sender;
+    lostSenders_.push();
+    return true;
+}
+
+void AgentCommands::step(std::int64_t now) {
+    for (; const OutsideAnswer* answer = pipe_.answer(); pipe_.popAnswer()) {
+        send_(answerFor(*answer));
+    }
+    std::erase_if(senders_, [&](const auto& each) {
+        return now - each.second.lastHeard > silence && tellLost(each.second.sender);
+    });
+}
+
+Answer AgentCommands::answerFor(const OutsideAnswer& answer) const {
+    Answer message;
+    message.sender = answer.sender.nameText();
+    message.link = linkId(message.sender, self_.name);
+    message.agent = self_.name;
+    message.epoch = self_.epoch;
+    message.senderEpoch = answer.sender.epoch;
+    message.sequenceNumber = answer.sequence;
+    message.outcome = name(answer.outcome);
+    message.reason = name(answer.reason);
+    message.why = answer.why.view();
+    message.latencyCycles = answer.latencyCycles;
+    message.latency = answer.latency;
+    if (answer.size > 0) {
+        const auto& entry = pipe_.table(answer.simplex).entries[answer.command];
+        message.response = namedValues(decodeRecord(entry.response, answer.response));
+    }
+    return message;
+}
+
+void AgentCommands::read(Inbox& inbox) {
+    for (std::size_t i = 0; i < lostSenders_.size(); ++i) {
+        const Sender* sender = lostSenders_.front();
+        if (sender == nullptr) break;
+        inbox.senderLost(*sender);
+        lostSenders_.pop();
+    }
+    pipe_.read(inbox);
+}
+
+bool AgentCommands::write(Outbox& outbox) {
+    pipe_.write(outbox);
+    return pipe_.answer() != nullptr;
+}
+
+}  // namespace cortex::comms

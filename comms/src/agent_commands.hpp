@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/command_exchange.hpp"
+#include "cortex/core/spsc_ring.hpp"
+
+#include "agent_self.hpp"
+#include "messages.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+
+namespace cortex::comms {
+
+// Commands from the network: what fits goes to the loop, the rest is answered at once; answers of
+// the loop go back. Tells the loop when a sender is no longer heard. read() and write() in the
+// loop, the rest on the communication thread.
+class AgentCommands {
+public:
+    AgentCommands(AgentSelf& self, std::function<void(const Answer&)> send);
+
+    void take(const Command& command, std::int64_t now);
+    // A presence of a sender, or its end.
+    void heard(const std::string& sender, std::int64_t epoch, std::int64_t now);
+    void lost(const std::string& sender, std::int64_t epoch);
+    void step(std::int64_t now);
+
+    void read(Inbox& inbox) CORTEX_REALTIME;
+    bool write(Outbox& outbox) CORTEX_REALTIME;  // whether there are answers to send
+
+private:
+    struct HeardSender {
+        Sender sender;
+        std::int64_t lastHeard = 0;
+    };
+    struct Refusal {
+        Outcome outcome;
+        Reason reason;
+        std::string why;
+    };
+    bool believable(const Command& command);
+    bool remember(const Sender& sender, std::int64_t now);
+    bool tellLost(const Sender& sender);
+    void refuse(const Command& command, const Refusal& refusal);
+    bool encode(const Command& command, OutsideCommand& message, std::vector<std::uint64_t>& record,
+                Refusal& refusal) const;
+    Answer answerFor(const OutsideAnswer& answer) const;
+
+    AgentSelf& self_;
+    std::function<void(const Answer&)> send_;
+    CommandPipe pipe_;
+    SpscRing<Sender> lostSenders_;
+    std::map<std::string, HeardSender> senders_;  // by name
+};
+
+}  // namespace cortex::comms

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent_events.hpp"
+
+#include <cstddef>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::size_t mostWaiting = 10'000;
+
+EventMessage messageOf(const Event& event, const Structure& structure, const EventMessage& head) {
+    EventMessage message = head;
+    message.number = event.number;
+    message.cycle = event.cycle;
+    message.wallClock = structure.epoch * 1000 + event.time;
+    message.severity = name(event.severity);
+    message.kind = name(event.kind);
+    message.path = event.simplex < structure.simplexes.size()
+                       ? structure.simplexes[event.simplex].path
+                       : "/" + structure.agent;
+    message.text = event.text.view();
+    return message;
+}
+
+}  // namespace
+
+AgentEvents::AgentEvents(const AgentSelf& self) {
+    EventMessage head;
+    head.agent = self.id;
+    head.name = self.name;
+    head.epoch = self.epoch;
+    self.access.events->addSink(
+        [queue = queue_, head](const Event& event, const Structure& structure) {
+            const std::lock_guard lock{queue->mutex};
+            if (!queue->open) return;
+            auto& messages = queue->messages;
+            if (messages.size() >= mostWaiting) messages.erase(messages.begin());
+            messages.push_back(messageOf(event, structure, head));
+        });
+}
+
+AgentEvents::~AgentEvents() {
+    const std::lock_guard lock{queue_->mutex};
+    queue_->open = false;
+}
+
+void AgentEvents::take(std::vector<EventMessage>& emptied) {
+    const std::lock_guard lock{queue_->mutex};
+    std::swap(queue_->messages, emptied);
+}
+
+}  // namespace cortex::comms

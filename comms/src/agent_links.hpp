@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "agent_link_buffer.hpp"
+#include "agent_peers.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cortex::comms {
+
+// The simplexes of other agents that ours name: finds their owners, binds them, and hands their
+// samples to the loop. read() in the loop, the rest on the communication thread.
+class AgentLinks {
+public:
+    explicit AgentLinks(AgentSelf& self);
+    ~AgentLinks();  // after the last read()
+
+    bool any() const { return !links_.empty(); }
+    void update(Peers& peers);  // after a change of them
+    void take(const Block& block, std::int64_t came);
+    // What we want of others and have not said yet.
+    std::vector<Interest> newInterests(const Peers& peers);
+
+    void read(Inbox& inbox) CORTEX_REALTIME;
+
+private:
+    // An agent that has the path, in one of its starts.
+    struct Claim {
+        std::int64_t epoch = 0;
+        std::uint32_t theirs = noSimplex, simplexes = 0;
+        Id structureHash{};
+        std::shared_ptr<const Structure> structure;
+        LinkBinding binding;
+        bool heard = false;
+        bool told = false;  // that another stays linked
+    };
+    // What the loop uses. It says which with `inUse`: that one is kept.
+    struct Bound {
+        Bound(std::uint64_t number, const std::string& owner, const Claim& claim);
+
+        const std::uint64_t serial;
+        const std::string agent;
+        const Claim claim;
+        const TypeLayout& layout;
+        SliceMemory constants;
+        LinkBuffer buffer;
+    };
+    struct Link {
+        std::uint32_t simplex = noSimplex;
+        std::map<std::string, Claim> claims;  // by agent
+        Bound* current = nullptr;
+        std::vector<std::unique_ptr<Bound>> kept;
+        std::atomic<Bound*> offered{nullptr}, inUse{nullptr};
+        std::uint64_t seen = 0;  // the loop's: serial of what it linked last
+        bool live = false;
+    };
+    // Whose blocks are wanted.
+    struct Owner {
+        std::int64_t epoch = 0;
+        Id structureHash{};
+        std::uint32_t simplexes = 0;
+        std::uint64_t newest = 0;  // sequence number of the block
+        std::map<std::uint32_t, Bound*> bounds;  // by index there
+    };
+
+    void tellWhyNot(Peer& peer) const;
+    void claim(Link& link, Peer& peer);
+    Claim makeClaim(const Link& link, Peer& peer, std::uint32_t theirs) const;
+    void choose(Link& link);
+    void bind(Link& link, const std::string* agent);
+    void findOwners();
+    bool believable(const Block& block, const Owner& owner);
+    void take(const Block& block, const SimplexData& data, const Owner& owner, std::int64_t came);
+    void readLink(Link& link, Inbox& inbox, std::int64_t now) CORTEX_REALTIME;
+
+    AgentSelf& self_;
+    std::vector<std::unique_ptr<Link>> links_;
+    std::map<Id, Owner> owners_;
+    std::map<std::string, std::vector<std::string>> said_;  // links wanted, by agent
+    std::uint64_t serial_ = 0;
+};
+
+}  // namespace cortex::comms

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "agent_self.hpp"
+#include "messages.hpp"
+#include "peer_model.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace cortex::comms {
+
+// One start of an agent or a tool: what it has and what it wants of us.
+struct PeerStart {
+    PeerStart(const std::string& name, std::int64_t epoch) : model{name, epoch} {}
+
+    PeerModel model;
+    Interest interest;
+    bool told = false;  // what is wrong with it
+};
+
+struct Peer {
+    const PeerModel& model() const { return current->model; }
+    std::int64_t epoch() const { return current->model.epoch(); }
+
+    std::string name;
+    bool heard = false;             // within the last second
+    bool agent = false;             // or a tool
+    std::int64_t lastHeard = 0;     // steadyNow()
+    std::optional<PeerStart> current;  // the newest whose presence was heard
+    std::optional<PeerStart> coming;   // samples came before its presence
+};
+
+using Peers = std::map<std::string, Peer, std::less<>>;  // by name
+
+// The agents and tools in the domain, as far as they are heard: the greater epoch of a name wins,
+// what is not heard for a second is lost. Nothing that they say is believed unchecked.
+// Communication thread only.
+class AgentPeers {
+public:
+    // `lost` is called for each that is no longer heard; `keepModels`: we link simplexes of others.
+    AgentPeers(AgentSelf& self, bool keepModels,
+               std::function<void(const std::string& name, std::int64_t epoch)> lost);
+
+    void take(const Presence& presence, std::int64_t now);
+    void take(const Model& model);
+    void expire(std::int64_t now);
+
+    // Whether anything became known or lost since the last call.
+    bool takeChanged() { return std::exchange(changed_, false); }
+    bool outranked() const { return outranked_; }  // a later start of our own name is heard
+    Peers& all() { return peers_; }
+
+private:
+    bool plausible(const std::string& name, std::int64_t epoch);
+    bool isOurs(const Presence& presence);
+    Peer* place(const std::string& name);
+    void hear(Peer& peer, const Presence& presence, std::int64_t now);
+    void lose(Peer& peer, const char* why);
+    void takeInto(PeerStart& start, const Model& model);
+
+    AgentSelf& self_;
+    bool keepModels_;
+    std::function<void(const std::string&, std::int64_t)> lost_;
+    Peers peers_;
+    bool changed_ = false, outranked_ = false;
+    std::string early_;  // whose clock was last said to be ahead
+};
+
+}  // namespace cortex::comms

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "agent_commands.hpp"
+#include "agent_events.hpp"
+#include "agent_links.hpp"
+#include "agent_model.hpp"
+#include "agent_peers.hpp"
+#include "agent_received.hpp"
+#include "agent_self.hpp"
+#include "agent_streams.hpp"
+#include "agent_wake.hpp"
+#include "participant.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cortex::comms {
+
+// One agent on the network: its participant and the communication thread, the only one that writes
+// to DDS. The constructor joins the network, run by announce(); read() and write() in the loop.
+class AgentThread {
+public:
+    AgentThread(const AgentAccess& agent, const NetworkOptions& options);
+    ~AgentThread();  // says what is left to say and leaves the network
+
+    void read(Inbox& inbox) CORTEX_REALTIME;
+    void write(Outbox& outbox) CORTEX_REALTIME;
+
+    std::uint64_t rejected() const { return self_.rejections.count() + participant_.malformed(); }
+    std::string lastRejection() const { return self_.rejections.last(); }
+
+private:
+    template <class Message>
+    std::unique_ptr<Reader<Message>> receive(const Topic& topic);
+    void run();
+    void step();
+    void takeMessages(std::int64_t now);
+    void changed();
+    void sendEvents();
+    void sendPresence(std::int64_t now);
+    void fallSilent();
+    void sayGoodbye();
+
+    AgentSelf self_;
+    AgentModel model_;
+    Participant participant_;
+    Wake wake_;
+    ReceivedQueue received_;
+    std::unique_ptr<Writer<Presence>> presenceOut_;
+    std::unique_ptr<Writer<Model>> modelOut_;
+    std::unique_ptr<Writer<Answer>> answerOut_;
+    std::unique_ptr<Writer<EventMessage>> eventOut_;
+    AgentEvents events_;
+    AgentCommands commands_;
+    AgentLinks links_;
+    AgentStreams streams_;
+    AgentPeers peers_;
+    std::unique_ptr<Reader<Presence>> presenceIn_;
+    std::unique_ptr<Reader<Model>> modelIn_;
+    std::unique_ptr<Reader<Block>> linkIn_;
+    std::unique_ptr<Reader<Command>> commandIn_;
+
+    // The communication thread's.
+    ReceivedMessages messages_;
+    std::vector<EventMessage> eventsToSend_;
+    std::int64_t presenceDue_ = 0;
+    bool silent_ = false;
+
+    std::atomic<bool> everyCycle_{false};  // somebody wants values
+    std::atomic<bool> stopping_{false};
+    std::thread thread_;
+};
+
+}  // namespace cortex::comms
