@@ -15,9 +15,9 @@ using Described = std::vector<DescribedAttribute>;
 std::string take(Described& attributes, std::string_view name, std::string_view otherwise = {}) {
     const auto found = std::ranges::find(attributes, name, &DescribedAttribute::name);
     if (found == attributes.end()) return std::string{otherwise};
-    std::string value = found->value;
+    std::string text = found->text;
     attributes.erase(found);
-    return value;
+    return text;
 }
 
 std::uint32_t takeNumber(Described& attributes, std::string_view name, std::uint32_t otherwise) {
@@ -28,7 +28,7 @@ std::uint32_t takeNumber(Described& attributes, std::string_view name, std::uint
 
 std::vector<Attribute> attributeMessages(const Described& attributes) {
     std::vector<Attribute> messages;
-    for (const auto& each : attributes) messages.push_back({each.name, each.value});
+    for (const auto& each : attributes) messages.push_back({each.name, each.text});
     return messages;
 }
 
@@ -37,8 +37,8 @@ Described described(const std::vector<Attribute>& messages,
                     std::initializer_list<std::string_view> fields = {}) {
     Described attributes;
     for (const Attribute& each : messages) {
-        if (std::ranges::count(fields, each.name) == 0)
-            attributes.push_back({each.name, each.value});
+        if (std::ranges::count(fields, each.name) > 0) continue;
+        attributes.push_back({each.name, each.value});
     }
     return attributes;
 }

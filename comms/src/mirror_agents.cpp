@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror_agents.hpp"
+
+#include "ids.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::uint16_t major = 1;
+constexpr std::size_t mostAgents = 10'000;
+constexpr std::chrono::seconds lostAfter{1};
+constexpr std::chrono::seconds forgottenAfter{61};
+
+// Own simplexes of an agent that a view shows.
+template <class Visit>
+void forShown(const Structure& structure, const MirrorView& view, Visit visit) {
+    for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
+        const SimplexInfo& info = structure.simplexes[i];
+        if (!info.remote && view.shows(info.path)) visit(i);
+    }
+}
+
+bool showsAny(const Structure& structure, const MirrorView& view) {
+    bool any = false;
+    forShown(structure, view, [&](std::uint32_t) { any = true; });
+    return any;
+}
+
+}  // namespace
+
+bool MirrorAgent::foreign() const {
+    return present() && std::ranges::count(model.presence()->majors, major) == 0;
+}
+
+AgentStatus MirrorAgent::status(Moment now) const {
+    AgentStatus status;
+    status.name = model.agent();
+    status.epoch = model.epoch();
+    status.age = std::chrono::duration<double>(now - heard).count();
+    status.missing = model.missing();
+    status.cycle = cycle;
+    status.loss = eventLoss + (tables ? tables->loss() : 0);
+    if (present()) {
+        const Presence& presence = *model.presence();
+        status.host = presence.host;
+        status.state = presence.state;
+        status.types = presence.types;
+        status.simplexes = presence.simplexes;
+        status.period = presence.period;
+        status.security = presence.security;
+    }
+    if (foreign()) {
+        status.trouble = "it speaks none of the protocols that this program knows";
+    } else if (!model.findings().ok()) {
+        status.trouble = model.findings().findings.front().text();
+    }
+    const bool whole = present() && !foreign() && model.complete() && status.trouble.empty();
+    if (!whole) status.state = "incomplete";
+    if (lost) status.state = "lost";
+    return status;
+}
+
+// Null: it is refused, or was sent by an earlier start.
+MirrorAgent* MirrorAgents::at(const std::string& name, std::int64_t epoch, Moment now) {
+    const auto found = agents_.find(name);
+    if (found != agents_.end()) {
+        if (epoch == found->second.model.epoch()) return &found->second;
+        if (epoch < found->second.model.epoch()) return nullptr;
+        lose(found->second, "a later start of it has taken its place");
+        if (found->second.tables) forgottenImages_ += found->second.tables->published();
+        agents_.erase(found);
+    }
+    if (name.empty() || agents_.size() >= mostAgents) {
+        ++refused_;
+        return nullptr;
+    }
+    names_[agentId(name)] = name;
+    return &agents_.try_emplace(name, name, epoch, now).first->second;
+}
+
+void MirrorAgents::take(const Presence& presence, Moment now) {
+    if (presence.role != "agent") {
+        if (tools_.size() < mostAgents) tools_[presence.agent] = now;
+        return;
+    }
+    MirrorAgent* agent = at(presence.name, presence.epoch, now);
+    if (agent == nullptr || !agent->model.add(presence)) return;
+    agent->heard = now;
+    agent->lost = false;
+    agent->cycle = std::max(agent->cycle, presence.cycle);
+    finish(*agent);
+}
+
+// Of tools there are models too: what they want of whom.
+void MirrorAgents::take(const Model& model, Moment now) {
+    if (!model.interests.empty()) return;
+    MirrorAgent* agent = at(model.agent, model.epoch, now);
+    if (agent != nullptr && agent->model.add(model)) finish(*agent);
+}
+
+void MirrorAgents::take(const Block& block, const MirrorView& view, Moment now) {
+    const auto name = names_.find(block.agent);
+    MirrorAgent* agent = name != names_.end() ? find(name->second) : nullptr;
+    if (agent == nullptr || !agent->tables || view.prefixes.empty()) return;
+    if (!agent->tables->apply(block, now)) return;
+    agent->heard = now;
+    agent->lost = false;
+    agent->cycle = std::max(agent->cycle, block.cycle);
+}
+
+std::optional<AgentEvent> MirrorAgents::take(const EventMessage& message) {
+    const auto severity = severityFromName(message.severity);
+    if (message.agent != agentId(message.name) || !severity) {
+        ++refused_;
+        return {};
+    }
+    MirrorAgent* agent = find(message.name);
+    if (agent != nullptr && agent->model.epoch() == message.epoch) {
+        if (agent->lastEvent != 0 && message.number > agent->lastEvent + 1) {
+            agent->eventLoss += message.number - agent->lastEvent - 1;
+        }
+        agent->lastEvent = std::max(agent->lastEvent, message.number);
+    }
+    return AgentEvent{message.name, message.epoch, message.number, message.cycle, message.wallClock,
+                      *severity,    message.kind,  message.path,   message.text};
+}
+
+// A structure once it is complete, tables once it is viewed.
+void MirrorAgents::finish(MirrorAgent& agent) {
+    if (agent.foreign() || !agent.model.complete()) return;
+    const auto structure = agent.model.structure();
+    if (structure == agent.structure) return;
+    agent.structure = structure;
+    agent.commands.reset();
+    if (agent.tables) forgottenImages_ += agent.tables->published();
+    agent.tables.reset();
+}
+
+void MirrorAgents::withdraw(const Id& agent) {
+    tools_.erase(agent);
+    const auto name = names_.find(agent);
+    MirrorAgent* found = name != names_.end() ? find(name->second) : nullptr;
+    if (found != nullptr) lose(*found, "the agent has ended");
+}
+
+void MirrorAgents::lose(MirrorAgent& agent, const char* why) {
+    if (std::exchange(agent.lost, true)) return;
+    if (agent.tables) agent.tables->lose();
+    onLost_(agent, why);
+}
+
+void MirrorAgents::tick(const MirrorView& view, Moment now) {
+    std::erase_if(tools_, [&](const auto& each) { return now - each.second > lostAfter; });
+    for (auto each = agents_.begin(); each != agents_.end();) {
+        MirrorAgent& agent = each->second;
+        if (now - agent.heard > lostAfter) lose(agent, "the agent is not heard");
+        if (now - agent.heard > forgottenAfter) {
+            if (agent.tables) forgottenImages_ += agent.tables->published();
+            names_.erase(agentId(each->first));
+            each = agents_.erase(each);
+            continue;
+        }
+        if (agent.structure && !agent.tables && showsAny(*agent.structure, view)) {
+            const Id& hash = agent.model.presence()->structureHash;
+            agent.tables = std::make_shared<MirrorTables>(agent.structure, hash);
+        }
+        if (agent.tables && !view.prefixes.empty()) {
+            agent.tables->markStale(now, view.patience(agent.model.presence()->period));
+        }
+        ++each;
+    }
+}
+
+void MirrorAgents::view(const MirrorView& view) {
+    for (auto& [name, agent] : agents_) {
+        if (!agent.tables) continue;
+        if (showsAny(*agent.structure, view)) {
+            agent.tables->restart(view);
+        } else {
+            forgottenImages_ += agent.tables->published();
+            agent.tables.reset();
+        }
+    }
+}
+
+MirrorAgent* MirrorAgents::find(std::string_view name) {
+    const auto found = agents_.find(name);
+    return found != agents_.end() ? &found->second : nullptr;
+}
+
+MirrorAgent* MirrorAgents::ownerOf(std::string_view path) {
+    MirrorAgent* owner = nullptr;
+    for (auto& [name, agent] : agents_) {
+        if (!agent.structure) continue;
+        const std::uint32_t index = agent.structure->find(path);
+        if (index == noSimplex || agent.structure->simplexes[index].remote) continue;
+        const bool before =
+            owner == nullptr || (owner->lost && !agent.lost) ||
+            (owner->lost == agent.lost && agent.model.epoch() < owner->model.epoch());
+        if (before) owner = &agent;
+    }
+    return owner;
+}
+
+std::uint32_t MirrorAgents::present() const {
+    const auto heard = std::ranges::count_if(
+        agents_, [](const auto& each) { return each.second.present() && !each.second.lost; });
+    return static_cast<std::uint32_t>(static_cast<std::size_t>(heard) + tools_.size());
+}
+
+bool MirrorAgents::complete() const {
+    return !agents_.empty() &&
+           std::ranges::all_of(agents_, [](const auto& each) { return each.second.settled(); });
+}
+
+bool MirrorAgents::valuesComplete(const MirrorView& view) const {
+    bool all = true;
+    for (const auto& [name, agent] : agents_) {
+        if (agent.lost || !agent.structure) continue;
+        forShown(*agent.structure, view, [&](std::uint32_t simplex) {
+            all = all && agent.tables && agent.tables->received(simplex);
+        });
+    }
+    return all;
+}
+
+std::uint64_t MirrorAgents::images() const {
+    std::uint64_t count = forgottenImages_;
+    for (const auto& [name, agent] : agents_) {
+        if (agent.tables) count += agent.tables->published();
+    }
+    return count;
+}
+
+std::uint64_t MirrorAgents::refused() const {
+    std::uint64_t count = refused_;
+    for (const auto& [name, agent] : agents_) {
+        count += agent.model.refused() + (agent.tables ? agent.tables->refused() : 0);
+    }
+    return count;
+}
+
+}  // namespace cortex::comms
