@@ -377,7 +377,7 @@ TEST(NetworkOptions, TakesItsDomainFromTheEnvironment) {
     EXPECT_EQ(NetworkOptions{}.domain, 230);
     for (const char* wrong : {"", "231", "-1", "7 ", "seven", "99999999999"}) {
         setenv("CORTEX_DOMAIN", wrong, 1);
-        const std::string text = refusal([] { NetworkOptions{}; });
+        const std::string text = refusal([] { const NetworkOptions options; });
         EXPECT_TRUE(contains(text, "CORTEX_DOMAIN is '" + std::string{wrong} + "'")) << text;
         EXPECT_TRUE(contains(text, "from 0 to 230")) << text;
     }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cortex::comms {
+
+// The environment variable CORTEX_DOMAIN, 0 where it is not set; throws Error unless 0 to 230.
+int defaultDomain();
+
+// Which network an agent or a tool joins. What it cannot have is refused when it joins, in words.
+struct NetworkOptions {
+    int domain = defaultDomain();
+    std::vector<std::string> interfaces;  // names or IPv4 addresses; none: all
+    std::vector<std::string> peers;       // "host" or "host:port", where multicast does not reach
+    std::string discoveryServer;  // instead of peers and multicast; several are joined by ";"
+    bool sharedMemory = false;    // besides UDP
+    std::string security;         // not available yet: must be empty
+};
+
+}  // namespace cortex::comms

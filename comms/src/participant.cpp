@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "participant.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "participant_qos.hpp"
+#include "topic_type.hpp"
+
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+
+namespace cortex::comms {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
+
+template <class Entity>
+Entity* created(Entity* entity, const std::string& what) {
+    if (!entity) {
+        throw Error{what +
+                    " was refused by Fast DDS; run again with CORTEX_DDS_LOG=warning in "
+                    "the environment to see its reason"};
+    }
+    return entity;
+}
+
+// Takes samples out of a reader as they arrive; decides alone whether a callback may still run.
+template <class M>
+class Receiver final : public dds::DataReaderListener {
+public:
+    Receiver(std::function<void(M&&)> onSample, std::function<void(const Id&)> onDisposed,
+             std::atomic<std::uint64_t>& malformed)
+        : onSample_{std::move(onSample)},
+          onDisposed_{std::move(onDisposed)},
+          malformed_{malformed} {}
+
+    // Fast DDS holds the reader's lock here, so ours is never held while that one is asked for.
+    void on_data_available(dds::DataReader* reader) override {
+        try {
+            dds::SampleInfo info;
+            for (;;) {
+                Envelope<M> envelope;
+                if (reader->take_next_sample(&envelope, &info) != ReturnCode::RETCODE_OK) return;
+                deliver(envelope, info);
+            }
+        } catch (...) {
+            ++malformed_;
+        }
+    }
+
+    void close() {
+        const std::lock_guard lock{mutex_};
+        closed_ = true;
+    }
+
+private:
+    void deliver(Envelope<M>& envelope, const dds::SampleInfo& info) {
+        const std::lock_guard lock{mutex_};
+        if (closed_) return;
+        if (!info.valid_data) {
+            disposed(info);
+        } else if (envelope.wellFormed) {
+            onSample_(std::move(envelope.incoming));
+        } else {
+            ++malformed_;
+        }
+    }
+
+    void disposed(const dds::SampleInfo& info) {
+        if (!onDisposed_ || info.instance_state == dds::NOT_ALIVE_NO_WRITERS_INSTANCE_STATE) return;
+        Id key;
+        for (std::size_t i = 0; i < key.size(); ++i) key[i] = info.instance_handle.value[i];
+        onDisposed_(key);
+    }
+
+    const std::function<void(M&&)> onSample_;
+    const std::function<void(const Id&)> onDisposed_;
+    std::atomic<std::uint64_t>& malformed_;
+    std::mutex mutex_;
+    bool closed_ = false;
+};
+
+}  // namespace
+
+struct Participant::Impl {
+    std::string name;
+    dds::DomainParticipant* participant = nullptr;
+    dds::Publisher* publisher = nullptr;
+    dds::Subscriber* subscriber = nullptr;
+    std::map<std::string, dds::Topic*, std::less<>> topics;
+    std::atomic<std::uint64_t> malformed = 0;
+
+    ~Impl() {
+        if (!participant) return;
+        participant->delete_contained_entities();
+        dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+    }
+
+    template <class M>
+    dds::Topic* topic(const char* topicName) {
+        if (const auto found = topics.find(topicName); found != topics.end()) return found->second;
+        if (participant->find_type(M::typeName).empty()) {
+            dds::TypeSupport{new TopicType<M>}.register_type(participant);
+        }
+        dds::Topic* made =
+            created(participant->create_topic(topicName, M::typeName, dds::TOPIC_QOS_DEFAULT),
+                    "topic '" + std::string{topicName} + "' of '" + name + "'");
+        topics.emplace(topicName, made);
+        return made;
+    }
+};
+
+// --- Writer -------------------------------------------------------------------------------------
+
+template <class M>
+struct Writer<M>::Impl {
+    dds::Publisher* publisher;
+    dds::DataWriter* writer;
+};
+
+template <class M>
+Writer<M>::Writer(std::unique_ptr<Impl> impl) : impl_{std::move(impl)} {}
+
+template <class M>
+Writer<M>::~Writer() {
+    impl_->publisher->delete_datawriter(impl_->writer);
+}
+
+template <class M>
+bool Writer<M>::write(const M& message) {
+    Envelope<M> envelope{&message, {}, false};
+    return impl_->writer->write(&envelope);
+}
+
+template <class M>
+bool Writer<M>::dispose(const M& message)
+    requires Keyed<M>
+{
+    Envelope<M> envelope{&message, {}, false};
+    return impl_->writer->dispose(&envelope, dds::HANDLE_NIL) == ReturnCode::RETCODE_OK;
+}
+
+template <class M>
+std::uint32_t Writer<M>::readers() const {
+    dds::PublicationMatchedStatus status;
+    impl_->writer->get_publication_matched_status(status);
+    return static_cast<std::uint32_t>(status.current_count);
+}
+
+// --- Reader -------------------------------------------------------------------------------------
+
+template <class M>
+struct Reader<M>::Impl {
+    dds::Subscriber* subscriber;
+    Receiver<M> receiver;
+    dds::DataReader* reader;
+};
+
+template <class M>
+Reader<M>::Reader(std::unique_ptr<Impl> impl) : impl_{std::move(impl)} {}
+
+template <class M>
+Reader<M>::~Reader() {
+    impl_->receiver.close();
+    impl_->subscriber->delete_datareader(impl_->reader);
+}
+
+template <class M>
+std::uint32_t Reader<M>::writers() const {
+    dds::SubscriptionMatchedStatus status;
+    impl_->reader->get_subscription_matched_status(status);
+    return static_cast<std::uint32_t>(status.current_count);
+}
+
+// --- Participant --------------------------------------------------------------------------------
+
+Participant::Participant(const NetworkOptions& options, const std::string& name)
+    : impl_{std::make_unique<Impl>()} {
+    impl_->name = name;
+    const dds::DomainParticipantQos qos = participantQos(options, name);
+    setUpFastDds();
+    const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
+    impl_->participant = created(dds::DomainParticipantFactory::get_instance()->create_participant(
+                                     static_cast<dds::DomainId_t>(options.domain), qos),
+                                 "the network membership" + where);
+    impl_->publisher = created(impl_->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT),
+                               "the publisher" + where);
+    impl_->subscriber = created(impl_->participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT),
+                                "the subscriber" + where);
+}
+
+Participant::~Participant() = default;
+
+template <class M>
+std::unique_ptr<Writer<M>> Participant::writer(const Topic& topic) {
+    using Entity = typename Writer<M>::Impl;
+    dds::DataWriter* made = created(
+        impl_->publisher->create_datawriter(impl_->topic<M>(topic.name), writerQos(topic.qos)),
+        "a writer of topic '" + std::string{topic.name} + "' of '" + impl_->name + "'");
+    return std::unique_ptr<Writer<M>>{
+        new Writer<M>{std::unique_ptr<Entity>{new Entity{impl_->publisher, made}}}};
+}
+
+template <class M>
+std::unique_ptr<Reader<M>> Participant::reader(const Topic& topic,
+                                               std::function<void(M&&)> onSample,
+                                               std::function<void(const Id&)> onDisposed) {
+    using Entity = typename Reader<M>::Impl;
+    dds::Topic* const made = impl_->topic<M>(topic.name);
+    std::unique_ptr<Entity> entity{
+        new Entity{impl_->subscriber,
+                   {std::move(onSample), std::move(onDisposed), impl_->malformed},
+                   nullptr}};
+    entity->reader =
+        created(impl_->subscriber->create_datareader(made, readerQos(topic.qos), &entity->receiver,
+                                                     dds::StatusMask::data_available()),
+                "a reader of topic '" + std::string{topic.name} + "' of '" + impl_->name + "'");
+    return std::unique_ptr<Reader<M>>{new Reader<M>{std::move(entity)}};
+}
+
+std::uint64_t Participant::malformed() const { return impl_->malformed; }
+
+// --- the messages -------------------------------------------------------------------------------
+
+template class Writer<Presence>;
+template class Writer<Model>;
+template class Writer<Block>;
+template class Writer<Command>;
+template class Writer<Answer>;
+template class Writer<EventMessage>;
+
+template class Reader<Presence>;
+template class Reader<Model>;
+template class Reader<Block>;
+template class Reader<Command>;
+template class Reader<Answer>;
+template class Reader<EventMessage>;
+
+template std::unique_ptr<Writer<Presence>> Participant::writer(const Topic&);
+template std::unique_ptr<Writer<Model>> Participant::writer(const Topic&);
+template std::unique_ptr<Writer<Block>> Participant::writer(const Topic&);
+template std::unique_ptr<Writer<Command>> Participant::writer(const Topic&);
+template std::unique_ptr<Writer<Answer>> Participant::writer(const Topic&);
+template std::unique_ptr<Writer<EventMessage>> Participant::writer(const Topic&);
+
+using OnDisposed = std::function<void(const Id&)>;
+template std::unique_ptr<Reader<Presence>> Participant::reader(const Topic&,
+                                                               std::function<void(Presence&&)>,
+                                                               OnDisposed);
+template std::unique_ptr<Reader<Model>> Participant::reader(const Topic&,
+                                                            std::function<void(Model&&)>,
+                                                            OnDisposed);
+template std::unique_ptr<Reader<Block>> Participant::reader(const Topic&,
+                                                            std::function<void(Block&&)>,
+                                                            OnDisposed);
+template std::unique_ptr<Reader<Command>> Participant::reader(const Topic&,
+                                                              std::function<void(Command&&)>,
+                                                              OnDisposed);
+template std::unique_ptr<Reader<Answer>> Participant::reader(const Topic&,
+                                                             std::function<void(Answer&&)>,
+                                                             OnDisposed);
+template std::unique_ptr<Reader<EventMessage>> Participant::reader(
+    const Topic&, std::function<void(EventMessage&&)>, OnDisposed);
+
+}  // namespace cortex::comms

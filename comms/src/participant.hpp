@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/comms/network_options.hpp"
+
+#include "messages.hpp"
+
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace cortex::comms {
+
+enum class Qos {
+    State,     // reliable; who joins late gets the newest of each key
+    Cycle,     // best effort; newest wins
+    Exchange,  // reliable; the newest 64 of each key, nothing for who joins late
+    Log,       // reliable; who joins late gets the newest 1000 of each key
+};
+
+struct Topic {
+    const char* name;
+    Qos qos;
+};
+
+namespace topics {
+inline constexpr Topic presence{"cortex/presence", Qos::State};
+inline constexpr Topic model{"cortex/1/model", Qos::State};
+inline constexpr Topic link{"cortex/1/link", Qos::Cycle};
+inline constexpr Topic view5{"cortex/1/view/5", Qos::Cycle};
+inline constexpr Topic view30{"cortex/1/view/30", Qos::Cycle};
+inline constexpr Topic view100{"cortex/1/view/100", Qos::Cycle};
+inline constexpr Topic viewEvery{"cortex/1/view/every", Qos::Cycle};
+inline constexpr Topic command{"cortex/1/command", Qos::Exchange};
+inline constexpr Topic answer{"cortex/1/answer", Qos::Exchange};
+inline constexpr Topic event{"cortex/1/event", Qos::Log};
+}  // namespace topics
+
+template <class M>
+concept Keyed = requires(const M& message) {
+    { message.key() } -> std::same_as<const Id&>;
+};
+
+// Writes messages to one topic; to be used and destroyed before its participant. Any thread.
+template <class M>
+class Writer {
+public:
+    ~Writer();
+
+    bool write(const M& message);  // false: nothing was written
+    bool dispose(const M& message)
+        requires Keyed<M>;  // of what was written; only the key counts
+    std::uint32_t readers() const;
+
+private:
+    friend class Participant;
+    struct Impl;
+    explicit Writer(std::unique_ptr<Impl> impl);
+
+    std::unique_ptr<Impl> impl_;
+};
+
+// Hands over what arrives on one topic, on threads of DDS, one call at a time. No call begins or
+// runs after its destructor, which must not be called from one. Destroyed before its participant.
+template <class M>
+class Reader {
+public:
+    ~Reader();
+
+    std::uint32_t writers() const;
+
+private:
+    friend class Participant;
+    struct Impl;
+    explicit Reader(std::unique_ptr<Impl> impl);
+
+    std::unique_ptr<Impl> impl_;
+};
+
+// The membership of an agent or a tool in a domain; the only place that knows Fast DDS.
+// Constructor, writer() and reader() throw Error; one thread at a time.
+class Participant {
+public:
+    Participant(const NetworkOptions& options, const std::string& name);
+    ~Participant();
+
+    template <class M>
+    std::unique_ptr<Writer<M>> writer(const Topic& topic);
+
+    // The callbacks should take the sample and return: while they run, nothing else arrives.
+    // A key that was never heard may be disposed too.
+    template <class M>
+    std::unique_ptr<Reader<M>> reader(const Topic& topic, std::function<void(M&&)> onSample,
+                                      std::function<void(const Id&)> onDisposed = {});
+
+    std::uint64_t malformed() const;  // samples that did not decode, or that a callback threw at
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace cortex::comms

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "participant_qos.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "network_address.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <mutex>
+#include <string_view>
+
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/log/Log.hpp>
+#include <fastdds/rtps/attributes/ServerAttributes.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+
+namespace cortex::comms {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+namespace transport = eprosima::fastdds::rtps;
+using eprosima::fastrtps::Duration_t;
+using eprosima::fastrtps::rtps::BuiltinAttributes;
+using eprosima::fastrtps::rtps::IPLocator;
+using eprosima::fastrtps::rtps::Locator_t;
+
+constexpr std::uint32_t ParticipantsPerHost = 300;  // for which a free port is searched
+constexpr std::uint32_t PeersPerHost = 100;         // ports asked on a peer without a port
+constexpr std::uint32_t LargestDatagram = 65536;
+constexpr std::uint32_t LargestBuffer = 64u << 20;
+constexpr const char* DiscoveryMulticast = "239.255.0.1";
+
+Duration_t milliseconds(std::uint32_t count) {
+    return {static_cast<std::int32_t>(count / 1000), count % 1000 * 1'000'000};
+}
+
+// What the system grants a socket: /proc/sys/net/core/rmem_max and wmem_max.
+std::uint32_t largestBuffer(const char* file) {
+    std::uint64_t octets = 0;
+    std::ifstream{file} >> octets;
+    return static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(octets, LargestDatagram, LargestBuffer));
+}
+
+Locator_t locatorOf(const Address& address, std::uint16_t port) {
+    Locator_t locator;
+    locator.kind = LOCATOR_KIND_UDPv4;
+    IPLocator::setIPv4(locator, address.ip);
+    locator.port = address.port != 0 ? address.port : port;
+    return locator;
+}
+
+bool isLoopback(const std::string& ip) { return ip.starts_with("127."); }
+
+// Peers replace the multicast address that is asked by default, so it is named beside them; on
+// loopback alone there is no multicast.
+void addPeers(BuiltinAttributes& builtin, const std::vector<std::string>& peers,
+              const std::vector<std::string>& interfaces) {
+    const bool loopback =
+        !interfaces.empty() && std::all_of(interfaces.begin(), interfaces.end(), isLoopback);
+    for (const std::string& peer : peers) {
+        builtin.initialPeersList.push_back(locatorOf(addressOf(peer, "peer"), 0));
+    }
+    if (loopback) {
+        builtin.initialPeersList.push_back(locatorOf({interfaces.front()}, 0));
+    } else if (!peers.empty()) {
+        builtin.initialPeersList.push_back(locatorOf({DiscoveryMulticast}, 0));
+    }
+}
+
+// The n-th server of the list has the identity that the command `fast-discovery-server -i n` gives.
+void addServers(BuiltinAttributes& builtin, std::string_view servers) {
+    for (int id = 0; !servers.empty(); ++id) {
+        const std::size_t end = std::min(servers.find(';'), servers.size());
+        const Address address = addressOf(std::string{servers.substr(0, end)}, "discovery server");
+        transport::RemoteServerAttributes server;
+        transport::get_server_client_default_guidPrefix(id, server.guidPrefix);
+        server.metatrafficUnicastLocatorList.push_back(
+            locatorOf(address, transport::DEFAULT_ROS2_SERVER_PORT));
+        builtin.discovery_config.m_DiscoveryServers.push_back(server);
+        servers.remove_prefix(std::min(end + 1, servers.size()));
+    }
+    builtin.discovery_config.discoveryProtocol =
+        eprosima::fastrtps::rtps::DiscoveryProtocol_t::CLIENT;
+}
+
+struct Profile {
+    bool reliable, lateJoiners;
+    std::int32_t depth, readerDepth;
+    std::uint32_t heartbeat;  // ms
+};
+
+// In the order of Qos. A reader's pool of samples without keys is as large as its depth, and needs
+// room for the fragments of several agents that arrive at once.
+constexpr std::array profiles{
+    Profile{true, true, 1, 1, 100},
+    Profile{false, false, 1, 64, 0},
+    Profile{true, false, 64, 64, 10},
+    Profile{true, true, 1000, 1000, 100},
+};
+
+const Profile& profileOf(Qos qos) { return profiles.at(static_cast<std::size_t>(qos)); }
+
+template <class EndpointQos>
+void apply(const Profile& profile, std::int32_t depth, EndpointQos& qos) {
+    qos.reliability().kind =
+        profile.reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
+    qos.durability().kind =
+        profile.lateJoiners ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+    qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+    qos.history().depth = depth;
+    qos.resource_limits().max_samples = 0;  // 0: unlimited
+    qos.resource_limits().max_instances = 0;
+    qos.resource_limits().max_samples_per_instance = 0;
+    qos.data_sharing().off();
+}
+
+}  // namespace
+
+dds::DomainParticipantQos participantQos(const NetworkOptions& options, const std::string& name) {
+    if (options.domain < 0 || options.domain > LastDomain) {
+        throw Error{"domain " + std::to_string(options.domain) + " of '" + name +
+                    "' does not exist; choose one from 0 to " + std::to_string(LastDomain)};
+    }
+    if (!options.security.empty()) {
+        throw Error{"security '" + options.security + "' of '" + name +
+                    "' is not available in this version; leave it empty"};
+    }
+    auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
+    udp->interfaceWhiteList = interfaceAddresses(options.interfaces);
+    udp->maxInitialPeersRange = PeersPerHost;
+    udp->receiveBufferSize = largestBuffer("/proc/sys/net/core/rmem_max");
+    udp->sendBufferSize = largestBuffer("/proc/sys/net/core/wmem_max");
+
+    dds::DomainParticipantQos qos;
+    qos.name(name);
+    qos.transport().use_builtin_transports = false;
+    qos.transport().user_transports.push_back(udp);
+    if (options.sharedMemory) {
+        qos.transport().user_transports.push_back(
+            std::make_shared<transport::SharedMemTransportDescriptor>());
+    }
+    BuiltinAttributes& builtin = qos.wire_protocol().builtin;
+    builtin.mutation_tries = ParticipantsPerHost;
+    builtin.discovery_config.leaseDuration = milliseconds(2000);
+    builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(600);
+    if (options.discoveryServer.empty()) {
+        addPeers(builtin, options.peers, udp->interfaceWhiteList);
+    } else {
+        addServers(builtin, options.discoveryServer);
+    }
+    return qos;
+}
+
+dds::DataWriterQos writerQos(Qos qos) {
+    const Profile& profile = profileOf(qos);
+    dds::DataWriterQos writer;
+    apply(profile, profile.depth, writer);
+    writer.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
+    if (profile.reliable) {
+        writer.reliable_writer_qos().times.heartbeatPeriod = milliseconds(profile.heartbeat);
+    }
+    return writer;
+}
+
+dds::DataReaderQos readerQos(Qos qos) {
+    const Profile& profile = profileOf(qos);
+    dds::DataReaderQos reader;
+    apply(profile, profile.readerDepth, reader);
+    return reader;
+}
+
+void setUpFastDds() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        dds::DomainParticipantFactory::get_instance()->load_profiles();
+        eprosima::fastrtps::LibrarySettingsAttributes settings;
+        settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
+        eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+        const char* log = std::getenv("CORTEX_DDS_LOG");  // error, warning or info
+        if (!log) {
+            dds::Log::ClearConsumers();
+        } else if (std::string_view{log} != "error") {
+            dds::Log::SetVerbosity(std::string_view{log} == "info" ? dds::Log::Kind::Info
+                                                                   : dds::Log::Kind::Warning);
+        }
+    });
+}
+
+}  // namespace cortex::comms

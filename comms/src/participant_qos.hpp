@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "participant.hpp"
+
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+
+// What is asked of Fast DDS; why is in docs/decisions.md.
+namespace cortex::comms {
+
+// Throws Error about options that cannot be had on this machine.
+eprosima::fastdds::dds::DomainParticipantQos participantQos(const NetworkOptions& options,
+                                                            const std::string& name);
+eprosima::fastdds::dds::DataWriterQos writerQos(Qos qos);
+eprosima::fastdds::dds::DataReaderQos readerQos(Qos qos);
+
+// For the whole process, at the first call: its log is off unless CORTEX_DDS_LOG is set, and two
+// participants of one process talk as those of two would.
+void setUpFastDds();
+
+}  // namespace cortex::comms
