@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent_links.hpp"
 
+#include "cortex/core/error.hpp"
+
 #include "ids.hpp"
 
 #include <algorithm>
@@ -66,14 +68,17 @@ void AgentLinks::update(Peers& peers) {
 void AgentLinks::tellWhyNot(Peer& peer) const {
     if (!peer.heard || !peer.agent || peer.current->told) return;
     PeerModel& model = peer.current->model;
-    if (model.structure() != nullptr || model.findings().ok()) return;
+    std::string why;
+    try {
+        if (model.structure() != nullptr || model.findings().ok()) return;
+        why = std::ranges::find(model.findings().findings, Severity::Error, &Finding::severity)
+                  ->text();
+    } catch (const Error& error) {
+        why = error.what();
+    }
     peer.current->told = true;
     self_.rejections.add("a model of " + peer.name + " that contradicts itself");
-    for (const Finding& finding : model.findings().findings) {
-        if (finding.severity != Severity::Error) continue;
-        return self_.event(Severity::Error, self_.simplex,
-                           "nothing of " + peer.name + " is linked: " + finding.text());
-    }
+    self_.event(Severity::Error, self_.simplex, "nothing of " + peer.name + " is linked: " + why);
 }
 
 void AgentLinks::claim(Link& link, Peer& peer) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <utility>
 
 namespace cortex::comms {
@@ -67,10 +68,21 @@ void AgentThread::write(Outbox& outbox) {
 void AgentThread::run() {
     for (const Model& sample : model_.samples()) modelOut_->write(sample);
     while (!stopping_.load()) {
-        step();
+        guarded([this] { step(); });
         wake_.waitFor(longestWait);
     }
-    sayGoodbye();
+    guarded([this] { sayGoodbye(); });
+}
+
+// Whatever others send, this thread goes on.
+template <class Function>
+void AgentThread::guarded(Function function) {
+    try {
+        function();
+    } catch (const std::exception& error) {
+        self_.rejections.add(error.what());
+        messages_ = {};
+    }
 }
 
 void AgentThread::step() {

@@ -38,6 +38,8 @@ private:
     template <class Message>
     std::unique_ptr<Reader<Message>> receive(const Topic& topic);
     void run();
+    template <class Function>
+    void guarded(Function function);
     void step();
     void takeMessages(std::int64_t now);
     void changed();

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// Links between agents over real DDS on the loopback interface.
+#include "comms/network_agent.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cortex::comms {
+namespace {
+
+// Agent "near" links /far, which others have.
+struct NearAgent : NetworkAgent {
+    NearAgent() : NetworkAgent{"near"} {
+        rig.tree.relateRemote(rig.hand("/boss", "Boss"), "readings", "/far");
+    }
+    Quality quality() { return rig.agent->images().newest().quality("/far"); }
+    double value() { return rig.get<double>("/far", "a"); }
+};
+
+// Agent "away" has /far.
+struct AwayAgent : NetworkAgent {
+    explicit AwayAgent(TypeModel types = test::commandTypes(), const std::string& name = "away",
+                       const std::string& type = "Reading")
+        : NetworkAgent{std::move(types), name}, far{rig.tree.add("/far", type)} {
+        if (far.type().isA("Reading")) {
+            far.set("origin", Value{std::vector{1.0, 2.0, 3.0}});
+            far.set("a", 1.0);
+        }
+    }
+    void setValue(double value) { far.data<double>("a") = value; }
+
+    Simplex& far;
+};
+
+bool linked(NearAgent& near, AwayAgent& away, double value) {
+    away.setValue(value);
+    return comesTrue([&] {
+        away.rig.step();
+        near.rig.step();
+        return near.quality() == Quality::Good && near.value() == value;
+    });
+}
+
+bool lost(NearAgent& near) {
+    return comesTrue([&] {
+        near.rig.step();
+        return near.quality() == Quality::Lost;
+    });
+}
+
+TEST(DdsLink, GoesLiveWithValueAndConstantsWhenTheReaderStartsFirst) {
+    NearAgent near;
+    near.rig.start();
+    near.rig.step();
+    EXPECT_EQ(near.quality(), Quality::Lost);
+    AwayAgent away{test::commandTypes(), "away", "FineReading"};
+    away.rig.start();
+
+    ASSERT_TRUE(linked(near, away, 4.5));
+    EXPECT_EQ(near.rig.agent->images().newest().value("/far", "origin"),
+              (Value{std::vector{1.0, 2.0, 3.0}}));
+    EXPECT_TRUE(near.rig.hasEvent("/far: linked"));
+    EXPECT_TRUE(near.rig.hasEvent("/near: agent away is heard"));
+}
+
+TEST(DdsLink, GoesLiveWhenTheOwnerStartsFirst) {
+    AwayAgent away;
+    away.rig.start();
+    away.rig.step();
+    NearAgent near;
+    near.rig.start();
+
+    EXPECT_TRUE(linked(near, away, 4.5));
+    EXPECT_TRUE(linked(near, away, 5.5));
+    EXPECT_EQ(near.dds.rejected(), 0U) << near.dds.lastRejection();
+    EXPECT_EQ(away.dds.rejected(), 0U) << away.dds.lastRejection();
+}
+
+TEST(DdsLink, CarriesEveryKindOfItem) {
+    NearAgent near;
+    AwayAgent away;
+    near.rig.start();
+    away.rig.start();
+    away.far.data<std::int64_t>("count") = -7;
+    away.far.data<std::string_view>("label") = "sixteen octets!!";
+    away.far.data<bool>("on") = true;
+
+    ASSERT_TRUE(linked(near, away, 2));
+    EXPECT_EQ(near.rig.get<std::int64_t>("/far", "count"), -7);
+    EXPECT_EQ(near.rig.get<std::string_view>("/far", "label"), "sixteen octets!!");
+    EXPECT_TRUE(near.rig.get<bool>("/far", "on"));
+}
+
+TEST(DdsLink, IsStaleWhenItsOwnerStandsStill) {
+    NearAgent near;
+    AwayAgent away;
+    near.rig.start();
+    away.rig.start();
+    ASSERT_TRUE(linked(near, away, 2));
+
+    EXPECT_TRUE(comesTrue([&] {
+        near.rig.step(4);
+        return near.quality() == Quality::Stale;
+    }));
+    EXPECT_EQ(near.value(), 2);
+}
+
+TEST(DdsLink, IsLostWithItsAgentAndBackWithItsNextStart) {
+    NearAgent near;
+    near.rig.start();
+    auto away = std::make_unique<AwayAgent>();
+    away->rig.start();
+    ASSERT_TRUE(linked(near, *away, 2));
+    away.reset();
+
+    ASSERT_TRUE(lost(near));
+    EXPECT_TRUE(near.rig.hasEvent("/near: agent away is lost: it stopped"));
+    EXPECT_TRUE(near.rig.hasEvent("/far: link lost"));
+    AwayAgent again;
+    again.far.set("origin", Value{std::vector{7.0, 8.0, 9.0}});
+    again.rig.start();
+
+    ASSERT_TRUE(linked(near, again, 3));
+    EXPECT_EQ(near.rig.agent->images().newest().value("/far", "origin"),
+              (Value{std::vector{7.0, 8.0, 9.0}}));
+}
+
+TEST(DdsLink, ToAnotherTypeStaysLostWithAnEvent) {
+    NearAgent near;
+    AwayAgent away{test::commandTypes(), "away", "Plate"};
+    near.rig.start();
+    away.rig.start();
+
+    EXPECT_TRUE(near.sees("/far: away: a Reading is needed, the other agent has a Plate"));
+    EXPECT_EQ(near.quality(), Quality::Lost);
+}
+
+TEST(DdsLink, ToAContradictingTypeStaysLostWithAnEvent) {
+    NearAgent near;
+    AwayAgent away{changedTypes("Reading",
+                                [](DataItem& item) {
+                                    if (item.name != "b") return;
+                                    item.kind = Kind::Int;
+                                    item.initial = Value{std::vector<std::int64_t>{0}};
+                                })};
+    near.rig.start();
+    away.rig.start();
+
+    EXPECT_TRUE(near.sees("/far: away: Reading"));
+    near.rig.step(10);
+    EXPECT_EQ(near.quality(), Quality::Lost);
+}
+
+TEST(DdsLink, ToATypeWithACorrectedLimitIsLiveAndSaysTheDifference) {
+    NearAgent near;
+    AwayAgent away{changedTypes("Reading", [](DataItem& item) {
+        if (item.name == "a") item.max = 100.0;
+    })};
+    near.rig.start();
+    away.rig.start();
+
+    EXPECT_TRUE(linked(near, away, 50));
+    EXPECT_TRUE(near.rig.hasEvent("/far: away: Reading"));
+}
+
+TEST(DdsLink, OfTwoClaimsTheOlderStaysLinked) {
+    NearAgent near;
+    AwayAgent away;
+    near.rig.start();
+    away.rig.start();
+    ASSERT_TRUE(linked(near, away, 2));
+    AwayAgent second{test::commandTypes(), "second"};
+    second.rig.start();
+    second.setValue(99);
+
+    EXPECT_TRUE(near.sees("/far: second claims it as well; away stays linked"));
+    EXPECT_TRUE(linked(near, away, 3));
+}
+
+TEST(DdsLink, OfTwoClaimsTheOlderWinsWhicheverIsHeardFirst) {
+    AwayAgent away;
+    away.rig.make();  // its epoch
+    AwayAgent second{test::commandTypes(), "second"};
+    second.rig.start();
+    NearAgent near;
+    near.rig.start();
+    ASSERT_TRUE(linked(near, second, 2));
+    away.rig.start();
+
+    EXPECT_TRUE(linked(near, away, 3));
+    EXPECT_TRUE(near.rig.hasEvent("/far: second claims it as well; away stays linked"));
+}
+
+}  // namespace
+}  // namespace cortex::comms

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an agent tells of itself and what it asks for, over real DDS on the loopback interface.
+#include "comms/network_agent.hpp"
+#include "peer_model.hpp"
+#include "toolkit/allocation_counter.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+namespace cortex::comms {
+namespace {
+
+struct DdsAgent : testing::Test {
+    DdsAgent() { agent.rig.tree.add("/plate", "Plate"); }
+    void start() {
+        agent.rig.start();
+        tool.connect();
+    }
+    // The newest presence of the agent.
+    std::optional<Presence> heard() const {
+        std::optional<Presence> newest;
+        for (const Presence& each : tool.heard.elements()) {
+            if (each.name == "robot") newest = each;
+        }
+        return newest;
+    }
+    bool hears(const std::string& state) {
+        return comesTrue([&] {
+            const auto presence = heard();
+            return presence && presence->state == state;
+        });
+    }
+
+    RawTool tool{"operator"};
+    NetworkAgent agent{"robot"};
+};
+
+TEST_F(DdsAgent, TellsItsPresenceTenTimesASecond) {
+    start();
+    agent.rig.step(5);
+    ASSERT_TRUE(comesTrue([&] {
+        const auto presence = heard();
+        return presence && presence->cycle == 5;
+    }));
+    const Presence presence = *heard();
+
+    EXPECT_EQ(presence.agent, agentId("robot"));
+    EXPECT_EQ(presence.role, "agent");
+    EXPECT_EQ(presence.epoch, agent.structure().epoch);
+    EXPECT_EQ(presence.period, 1'000'000);
+    EXPECT_EQ(presence.simplexes, 2U);
+    EXPECT_EQ(presence.majors, std::vector<std::uint16_t>{1});
+    EXPECT_TRUE(tool.heard.waitFor(tool.heard.elements().size() + 5));
+}
+
+TEST_F(DdsAgent, TellsAModelThatMakesTheSameStructure) {
+    Inbox<Model> models;
+    const auto reader = tool.participant.reader<Model>(topics::model, models.push());
+    start();
+    ASSERT_TRUE(hears("running"));
+    PeerModel known{"robot", agent.structure().epoch};
+    ASSERT_TRUE(known.add(*heard()));
+    std::size_t taken = 0;
+    EXPECT_TRUE(comesTrue([&] {
+        const auto all = models.elements();
+        for (; taken < all.size(); ++taken) known.add(all[taken]);
+        return known.complete();
+    }));
+
+    const auto structure = known.structure();
+    ASSERT_TRUE(structure) << known.findings().text();
+    EXPECT_EQ(structure->find("/plate"), agent.structure().find("/plate"));
+    EXPECT_EQ(structure->cyclic.floats, agent.structure().cyclic.floats);
+}
+
+TEST_F(DdsAgent, TellsItsEventsNumberedAndThatItStops) {
+    Inbox<EventMessage> events;
+    const auto reader = tool.participant.reader<EventMessage>(topics::event, events.push());
+    start();
+    const std::uint32_t plate = agent.structure().find("/plate");
+    agent.rig.agent->post(agent.rig.agent->thread(0), Severity::Warning, EventKind::Message, plate,
+                          "first");
+    agent.rig.step();
+    ASSERT_TRUE(events.waitFor(1));
+    agent.rig.agent->post(agent.rig.agent->thread(0), Severity::Info, EventKind::Message, plate,
+                          "last");
+    agent.rig.step();
+    agent.rig.agent->stop();
+
+    ASSERT_TRUE(events.waitFor(2));
+    const auto told = events.elements();
+    EXPECT_EQ(told[0].text, "first");
+    EXPECT_EQ(told[0].path, "/plate");
+    EXPECT_EQ(told[0].severity, "warning");
+    EXPECT_EQ(told[1].text, "last");
+    EXPECT_EQ(told[1].number, told[0].number + 1);
+    EXPECT_TRUE(hears("stopping"));
+}
+
+TEST_F(DdsAgent, WritesAViewOnlyWhileSomebodyAsks) {
+    Inbox<Block> blocks;
+    const auto reader = tool.participant.reader<Block>(topics::view30, blocks.push());
+    start();
+    ASSERT_TRUE(tool.presences->write(tool.presence()));
+    Interest wanted;
+    wanted.target = "robot";
+    wanted.views = {{30, {"/"}}};
+    ASSERT_TRUE(tool.models->write(tool.interest(wanted)));
+    const auto alive = [&] {
+        tool.presences->write(tool.presence());
+        agent.rig.step();
+        return true;
+    };
+    ASSERT_TRUE(comesTrue([&] { return alive() && blocks.elements().size() >= 3; }));
+    const Block block = blocks.elements().back();
+
+    EXPECT_EQ(block.agent, agentId("robot"));
+    EXPECT_EQ(block.epoch, agent.structure().epoch);
+    EXPECT_EQ(block.structureHash, heard()->structureHash);
+    ASSERT_EQ(block.simplexes.size(), 2U);
+    EXPECT_EQ(block.simplexes[0].index, 0U);
+    EXPECT_EQ(block.simplexes[0].floats, std::vector{1.0});
+
+    wanted.views.clear();
+    ASSERT_TRUE(tool.models->write(tool.interest(wanted)));
+    EXPECT_TRUE(comesTrue([&] { return alive() && reader->writers() == 0; }));
+}
+
+TEST_F(DdsAgent, ViewsOnlyWhatIsBelowThePrefixes) {
+    Inbox<Block> blocks;
+    const auto reader = tool.participant.reader<Block>(topics::viewEvery, blocks.push());
+    agent.rig.tree.add("/plate-b", "Plate");
+    agent.rig.tree.add("/plate/left", "Plate");
+    agent.rig.tree.add("/plates", "Plate");
+    start();
+    Interest wanted;
+    wanted.target = "robot";
+    wanted.views = {{0, {"/plate"}}};
+    ASSERT_TRUE(tool.models->write(tool.interest(wanted)));
+    ASSERT_TRUE(comesTrue([&] {
+        tool.presences->write(tool.presence());
+        agent.rig.step();
+        return !blocks.elements().empty();
+    }));
+
+    std::vector<std::string> paths;
+    for (const SimplexData& each : blocks.elements().back().simplexes) {
+        paths.push_back(agent.structure().simplexes[each.index].path);
+    }
+    EXPECT_EQ(paths, (std::vector<std::string>{"/plate", "/plate/left"}));
+}
+
+TEST_F(DdsAgent, FallsSilentWhenALaterStartOfItsNameIsHeard) {
+    start();
+    ASSERT_TRUE(hears("running"));
+    Presence later = *heard();
+    ++later.epoch;
+    ASSERT_TRUE(tool.presences->write(later));
+
+    EXPECT_TRUE(agent.sees("/robot: a later start of robot is heard"));
+    EXPECT_TRUE(comesTrue([&] {
+        return std::ranges::any_of(tool.heard.elements(),
+                                   [](const auto& each) { return each.state == "silent"; });
+    }));
+    agent.rig.agent->stop();
+    const auto all = tool.heard.elements();
+    EXPECT_TRUE(std::ranges::none_of(all, [](const auto& each) { return each.state == "stopping"; }));
+}
+
+TEST_F(DdsAgent, IsNotSilencedByAnEarlierStartOrATool) {
+    start();
+    ASSERT_TRUE(hears("running"));
+    Presence earlier = *heard();
+    --earlier.epoch;
+    Presence nameless = *heard();
+    nameless.epoch += 1;
+    nameless.role = "tool";
+    ASSERT_TRUE(tool.presences->write(earlier));
+    ASSERT_TRUE(tool.presences->write(nameless));
+
+    EXPECT_TRUE(comesTrue([&] { return agent.dds.rejected() == 1; })) << agent.dds.rejected();
+    EXPECT_EQ(agent.dds.lastRejection(), "a tool uses our name");
+    const std::int64_t cycle = agent.rig.tick.cycle + 1;
+    agent.rig.step();
+    EXPECT_TRUE(comesTrue([&] { return heard()->cycle == cycle; }));
+}
+
+}  // namespace
+}  // namespace cortex::comms

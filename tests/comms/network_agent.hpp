@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/comms/dds_interface.hpp"
+
+#include "comms/inbox.hpp"
+#include "ids.hpp"
+#include "messages.hpp"
+#include "participant.hpp"
+#include "support/agent_rig.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cortex::comms {
+
+// Types of the command tests, one of them changed.
+TypeModel changedTypes(const std::string& type, const std::function<void(DataItem&)>& change);
+
+// An agent on the network of this process; the test steps it.
+struct NetworkAgent {
+    explicit NetworkAgent(const std::string& name) : NetworkAgent{test::commandTypes(), name} {}
+    NetworkAgent(TypeModel types, const std::string& name) : rig{std::move(types), name} {
+        rig.add(dds);
+    }
+
+    const Structure& structure() const { return rig.agent->structure(); }
+    bool sees(std::string_view event) {
+        return comesTrue([&] {
+            rig.step();
+            return rig.hasEvent(event);
+        });
+    }
+
+    DdsInterface dds{loopback()};
+    test::AgentRig rig;
+};
+
+// A participant of the test's own: says whatever the test wants and collects what comes back.
+class RawTool {
+public:
+    explicit RawTool(std::string name);
+
+    Presence presence(const std::string& state = "running") const;
+    Model interest(Interest wanted) const;
+    Command command(const Structure& target, const std::string& path, const std::string& name,
+                    std::vector<NamedValue> arguments = {});
+    // Waits until agents listen.
+    void connect();
+
+    std::string name;
+    std::int64_t epoch = 1'700'000'000'000'000;
+    Participant participant;
+    std::unique_ptr<Writer<Presence>> presences;
+    std::unique_ptr<Writer<Model>> models;
+    std::unique_ptr<Writer<Command>> commands;
+    Inbox<Presence> heard;
+    Inbox<Answer> answers;
+    std::unique_ptr<Reader<Presence>> presenceReader;
+    std::unique_ptr<Reader<Answer>> answerReader;
+
+private:
+    std::uint64_t sequence_ = 0;
+};
+
+}  // namespace cortex::comms
