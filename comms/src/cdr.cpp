@@ -45,7 +45,8 @@ public:
 
     void operator()(const Number auto& field) { putNumbers(&field, 1); }
     void operator()(const std::same_as<bool> auto& field) {
-        putNumbers(field ? &octets_[1] : &octets_[0], 1);
+        const std::uint8_t octet = field ? 1 : 0;
+        putNumbers(&octet, 1);
     }
     void operator()(const Id& field) { putNumbers(field.data(), field.size()); }
     void operator()(const std::string& field) {
@@ -73,8 +74,6 @@ public:
     void operator()(const Struct auto& field) { field.visit(field, *this); }
 
 private:
-    static constexpr std::array<std::uint8_t, 2> octets_ = {0, 1};
-
     void putCount(std::size_t count) {
         const auto number = static_cast<std::uint32_t>(count);
         putNumbers(&number, 1);
