@@ -88,10 +88,12 @@ void MirrorAgents::take(const Presence& presence, Moment now) {
     }
     MirrorAgent* agent = at(presence.name, presence.epoch, now);
     if (agent == nullptr || !agent->model.add(presence)) return;
+    finish(*agent);
+    if (presence.state == "stopping") return lose(*agent, "the agent has ended");
+    if (presence.state == "silent") return lose(*agent, "a later start of it has its name");
     agent->heard = now;
     agent->lost = false;
     agent->cycle = std::max(agent->cycle, presence.cycle);
-    finish(*agent);
 }
 
 // Of tools there are models too: what they want of whom.

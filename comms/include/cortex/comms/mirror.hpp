@@ -22,9 +22,9 @@ namespace cortex::comms {
 // An agent on the network as it was last heard.
 struct AgentStatus {
     std::string name, host;
-    std::int64_t epoch = 0;  // UTC microseconds
-    std::string state;       // "running", "silent", "stopping"; "incomplete", "lost": as seen here
-    double age = 0;          // s since it was last heard
+    std::int64_t epoch = 0;                  // UTC microseconds
+    std::string state;                       // "running", "incomplete", "lost"
+    double age = 0;                          // s since it was last heard
     std::uint32_t types = 0, simplexes = 0;  // that it says to have
     std::uint32_t missing = 0;               // of them not here yet
     std::int64_t cycle = 0;                  // newest

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror_agents.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "comms/told_agent.hpp"
+#include "ids.hpp"
+#include "mirror_commands.hpp"
+#include "named_values.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cortex::comms {
+namespace {
+
+using namespace std::chrono_literals;
+
+const MirrorView everything{{"/"}, 30};
+const MirrorView nothing{};
+const Moment begin{1h};
+
+class MirrorAgentsTest : public testing::Test {
+protected:
+    void tellAll() {
+        for (const Model& model : agent.models) agents.take(model, begin);
+        agents.take(agent.presence, begin);
+    }
+    AgentStatus status(Moment now = begin) { return agents.find("rig")->status(now); }
+
+    ToldAgent agent;
+    std::vector<std::string> lost;
+    MirrorAgents agents{[this](const MirrorAgent& each, const char* why) {
+        lost.push_back(each.model.agent() + ": " + why);
+    }};
+};
+
+TEST_F(MirrorAgentsTest, AreIncompleteUntilAllIsThere) {
+    EXPECT_FALSE(agents.complete()) << "nobody is there";
+    agents.take(agent.presence, begin);
+    EXPECT_EQ(status().state, "incomplete");
+    EXPECT_EQ(status().missing, agent.models.size());
+    EXPECT_FALSE(agents.complete());
+
+    tellAll();
+
+    EXPECT_EQ(status().state, "running");
+    EXPECT_EQ(status().simplexes, agent.presence.simplexes);
+    EXPECT_TRUE(agents.complete());
+    EXPECT_TRUE(agents.find("rig")->structure);
+}
+
+TEST_F(MirrorAgentsTest, AreLostAfterASecondAndForgottenAfterAMinute) {
+    tellAll();
+
+    agents.tick(nothing, begin + 1s);
+    EXPECT_EQ(status().state, "running");
+    agents.tick(nothing, begin + 1001ms);
+    EXPECT_EQ(status().state, "lost");
+    EXPECT_EQ(lost, std::vector<std::string>{"rig: the agent is not heard"});
+    agents.tick(nothing, begin + 60s);
+    EXPECT_EQ(lost.size(), 1U);
+    ASSERT_NE(agents.find("rig"), nullptr);
+    agents.tick(nothing, begin + 62s);
+    EXPECT_EQ(agents.find("rig"), nullptr);
+}
+
+TEST_F(MirrorAgentsTest, AreBackWhenTheyAreHeardAgain) {
+    tellAll();
+    agents.tick(nothing, begin + 2s);
+
+    agents.take(agent.presence, begin + 3s);
+
+    EXPECT_EQ(status(begin + 3s).state, "running");
+    EXPECT_TRUE(agents.find("rig")->structure);
+}
+
+TEST_F(MirrorAgentsTest, AreLostAtOnceWhenTheySayGoodbye) {
+    tellAll();
+    agents.withdraw(agentId("rig"));
+    EXPECT_EQ(status().state, "lost");
+
+    agents.take(agent.presence, begin);
+    Presence last = agent.presence;
+    last.state = "stopping";
+    agents.take(last, begin);
+    EXPECT_EQ(status().state, "lost");
+    EXPECT_EQ(lost.size(), 2U);
+}
+
+TEST_F(MirrorAgentsTest, AreReplacedByALaterStartAndNotByAnEarlierOne) {
+    tellAll();
+    const auto structure = agents.find("rig")->structure;
+    Presence later = agent.presence;
+    ++later.epoch;
+
+    agents.take(later, begin);
+
+    EXPECT_EQ(status().epoch, later.epoch);
+    EXPECT_EQ(status().missing, agent.models.size());
+    EXPECT_FALSE(agents.find("rig")->structure);
+    EXPECT_EQ(lost.size(), 1U);
+    tellAll();
+    EXPECT_EQ(status().epoch, later.epoch);
+    EXPECT_FALSE(agents.find("rig")->structure);
+    EXPECT_NE(structure->find("/work/one"), noSimplex) << "its readers keep it";
+}
+
+TEST_F(MirrorAgentsTest, OfAnotherProtocolAreShownAndNotWaitedFor) {
+    agent.presence.majors = {2, 3};
+    agents.take(agent.presence, begin);
+
+    EXPECT_EQ(status().state, "incomplete");
+    EXPECT_NE(status().trouble, "");
+    EXPECT_TRUE(agents.complete());
+}
+
+TEST_F(MirrorAgentsTest, ThatContradictThemselvesSayHow) {
+    agent.lie("/boss", [](SimplexMessage& boss) { boss.role = "observation"; });
+    tellAll();
+
+    EXPECT_EQ(status().state, "incomplete");
+    EXPECT_NE(status().trouble.find("/boss"), std::string::npos) << status().trouble;
+    EXPECT_FALSE(agents.find("rig")->structure);
+}
+
+TEST_F(MirrorAgentsTest, HaveTablesWhileTheyAreViewed) {
+    tellAll();
+    agents.tick(nothing, begin);
+    EXPECT_FALSE(agents.find("rig")->tables);
+    agents.tick({{"/elsewhere"}, 5}, begin);
+    EXPECT_FALSE(agents.find("rig")->tables);
+
+    agents.tick(everything, begin);
+    ASSERT_TRUE(agents.find("rig")->tables);
+    EXPECT_FALSE(agents.valuesComplete(everything));
+    agents.take(agent.block(1), everything, begin);
+    EXPECT_TRUE(agents.valuesComplete(everything));
+
+    const std::weak_ptr<MirrorTables> tables = agents.find("rig")->tables;
+    agents.view(nothing);
+    EXPECT_TRUE(tables.expired());
+}
+
+TEST_F(MirrorAgentsTest, CountEventsThatDidNotCome) {
+    tellAll();
+    EventMessage message;
+    message.agent = agentId("rig");
+    message.name = "rig";
+    message.epoch = agent.epoch();
+    message.severity = "warning";
+    for (const std::uint64_t number : {7U, 8U, 11U}) {
+        message.number = number;
+        EXPECT_TRUE(agents.take(message));
+    }
+    EXPECT_EQ(status().loss, 2U);
+    message.severity = "dreadful";
+    EXPECT_FALSE(agents.take(message));
+    message.severity = "error";
+    message.agent[0] ^= 1U;
+    EXPECT_FALSE(agents.take(message));
+    EXPECT_EQ(agents.refused(), 2U);
+}
+
+class MirrorCommandsTest : public MirrorAgentsTest {
+protected:
+    MirrorCommandsTest() { tellAll(); }
+
+    std::uint64_t send(const std::string& command, const Mirror::Arguments& arguments = {}) {
+        return commands.send(*agents.find("rig"), "/work/one", command, arguments, 100ms, begin);
+    }
+    void tick(Moment now) {
+        commands.tick(now, [this](const Command& command) {
+            sent.push_back(command);
+            return true;
+        });
+    }
+    Answer answer(const char* outcome) const {
+        Answer message;
+        message.agent = "rig";
+        message.epoch = agent.epoch();
+        message.sender = sender.nameText();
+        message.senderEpoch = sender.epoch;
+        message.sequenceNumber = sent.back().sequenceNumber;
+        message.outcome = outcome;
+        message.reason = name(Reason::None);
+        message.latency = 1'500;
+        return message;
+    }
+
+    Sender sender = makeSender("tool");
+    MirrorCommands commands{sender};
+    std::vector<Command> sent;
+    CommandAnswer result;
+};
+
+TEST_F(MirrorCommandsTest, AreRepeatedAsTheyAreUntilTheyAreAnswered) {
+    const std::uint64_t number = send("add", {{"amount", Value{std::vector{2.0}}}});
+    tick(begin);
+    tick(begin + 1ms);
+    ASSERT_EQ(sent.size(), 1U);
+    EXPECT_EQ(sent[0].path, "/work/one");
+    EXPECT_EQ(sent[0].command, "add");
+    EXPECT_EQ(sent[0].arguments, namedValues({{"amount", std::vector{2.0}}}));
+    EXPECT_EQ(sent[0].targetEpoch, agent.epoch());
+    EXPECT_EQ(sent[0].notAfter, agent.presence.cycle + 100);  // at 1 kHz
+    tick(begin + 20ms);
+    ASSERT_EQ(sent.size(), 2U);
+    EXPECT_EQ(sent[1], sent[0]);
+    EXPECT_FALSE(commands.poll(number, result));
+
+    Answer message = answer("Done");
+    message.response = namedValues({{"sum", std::vector{5.0}}});
+    commands.take(message);
+
+    ASSERT_TRUE(commands.poll(number, result));
+    EXPECT_EQ(result.outcome, Outcome::Done);
+    EXPECT_EQ(result.response.at("sum"), Value(std::vector{5.0}));
+    EXPECT_EQ(result.latency, 1500ns);
+    EXPECT_FALSE(commands.poll(number, result)) << "once";
+    EXPECT_FALSE(commands.waiting());
+    tick(begin + 1s);
+    EXPECT_EQ(sent.size(), 2U);
+}
+
+TEST_F(MirrorCommandsTest, AreUnknownWithoutAnAnswerInTheirTime) {
+    const std::uint64_t number = send("poke");
+    tick(begin + 1s);
+    EXPECT_FALSE(commands.poll(number, result));
+
+    tick(begin + 2s);
+
+    ASSERT_TRUE(commands.poll(number, result));
+    EXPECT_EQ(result.outcome, Outcome::Unknown);
+}
+
+TEST_F(MirrorCommandsTest, AreUnknownWhenTheirAgentIsLost) {
+    const std::uint64_t number = send("poke");
+    tick(begin);
+
+    commands.lose("rig", "gone");
+
+    ASSERT_TRUE(commands.poll(number, result));
+    EXPECT_EQ(result.outcome, Outcome::Unknown);
+    EXPECT_EQ(result.why, "gone");
+}
+
+TEST_F(MirrorCommandsTest, AreNotSentToAnAgentThatIsNotHeard) {
+    agents.tick(nothing, begin + 2s);
+
+    const std::uint64_t number = send("poke");
+
+    EXPECT_FALSE(commands.waiting());
+    ASSERT_TRUE(commands.poll(number, result));
+    EXPECT_EQ(result.outcome, Outcome::Expired);
+}
+
+TEST_F(MirrorCommandsTest, ThatRunAreNeitherRepeatedNorOver) {
+    const std::uint64_t number = send("work");
+    tick(begin);
+    commands.take(answer("Running"));
+
+    tick(begin + 1h);
+
+    EXPECT_EQ(sent.size(), 1U);
+    EXPECT_FALSE(commands.poll(number, result));
+    commands.take(answer("Done"));
+    EXPECT_TRUE(commands.poll(number, result));
+}
+
+TEST_F(MirrorCommandsTest, BelieveOnlyAnswersToWhatTheyAsked) {
+    const std::uint64_t number = send("poke");
+    tick(begin);
+    const std::vector<std::function<void(Answer&)>> faults{
+        [](Answer& message) { message.sender = "other"; },
+        [](Answer& message) { ++message.senderEpoch; },
+        [](Answer& message) { message.agent = "other"; },
+        [](Answer& message) { ++message.epoch; },
+        [](Answer& message) { ++message.sequenceNumber; },
+        [](Answer& message) { message.outcome = "Fine"; },
+        [](Answer& message) { message.reason = "mood"; },
+        [](Answer& message) { message.response.push_back({"x", "kind", {}, {}, {}, {}}); }};
+    for (const auto& fault : faults) {
+        Answer message = answer("Done");
+        fault(message);
+        commands.take(message);
+    }
+    EXPECT_FALSE(commands.poll(number, result));
+    EXPECT_EQ(commands.refused(), 4U);
+}
+
+TEST_F(MirrorCommandsTest, RefuseUnknownNamesAndWrongKindsBeforeTheyAreSent) {
+    EXPECT_THROW(send("dance"), Error);
+    EXPECT_THROW(send("add", {{"amonut", Value{std::vector{1.0}}}}), Error);
+    EXPECT_THROW(send("add", {{"amount", Value{std::vector<bool>{true}}}}), Error);
+    EXPECT_FALSE(commands.waiting());
+}
+
+}  // namespace
+}  // namespace cortex::comms

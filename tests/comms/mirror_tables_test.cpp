@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror_tables.hpp"
+
+#include "cortex/comms/mirror.hpp"
+
+#include "comms/told_agent.hpp"
+#include "simplex_values.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace cortex::comms {
+namespace {
+
+using namespace std::chrono_literals;
+
+const MirrorView everything{{"/"}, 30};
+const Moment begin{1h};
+
+class MirrorTablesTest : public testing::Test {
+protected:
+    MirrorTablesTest() {
+        PeerModel peer{agent.name(), agent.epoch()};
+        tell(agent, peer);
+        tables = std::make_shared<MirrorTables>(peer.structure(), agent.presence.structureHash);
+        worker = tables->structure().find("/work/one");
+        reading = tables->structure().find("/reading");
+    }
+
+    Quality quality(std::uint32_t simplex) { return tables->newest().state(simplex).quality; }
+
+    ToldAgent agent;
+    std::shared_ptr<MirrorTables> tables;
+    std::uint32_t worker = 0, reading = 0;
+};
+
+TEST_F(MirrorTablesTest, ShowsEveryValueAsItsOwnerHasIt) {
+    agent.worker->data<std::string_view>("title") = "drill";
+    agent.worker->array<double>("weights")[1] = -0.5;
+    agent.worker->data<std::int64_t>("mode") = 2;
+    agent.worker->data<bool>("on") = true;
+    agent.rig.step();
+    const Image theirs = agent.rig.agent->images().newest();
+
+    ASSERT_TRUE(tables->apply(agent.block(1), begin));
+
+    const Image image = tables->newest();
+    EXPECT_EQ(image.cycle(), theirs.cycle());
+    EXPECT_EQ(image.nominalTime(), theirs.nominalTime());
+    EXPECT_EQ(image.get<std::string_view>("/work/one", "title"), "drill");
+    for (std::uint32_t i = 0; i < agent.presence.simplexes; ++i) {
+        EXPECT_EQ(image.state(i), theirs.state(i));
+        for (const ItemLayout& item : image.structure().simplexes[i].layout->items) {
+            EXPECT_EQ(image.value(i, item),
+                      theirs.value(image.structure().simplexes[i].path, item.item->name))
+                << item.item->name;
+        }
+    }
+}
+
+TEST_F(MirrorTablesTest, CallsLostWhatHasNotCome) {
+    EXPECT_EQ(quality(worker), Quality::Lost);
+    EXPECT_FALSE(tables->received(worker));
+    EXPECT_FALSE(tables->age(worker, begin));
+
+    Block block = agent.block(1);
+    std::erase_if(block.simplexes, [&](const auto& each) { return each.index == reading; });
+    tables->apply(block, begin);
+
+    EXPECT_EQ(quality(worker), Quality::Good);
+    EXPECT_EQ(quality(reading), Quality::Lost);
+}
+
+TEST_F(MirrorTablesTest, CallsStaleAfterAGapWhatHasNotComeAgain) {
+    tables->apply(agent.block(1), begin);
+    Block block = agent.block(5);
+    std::erase_if(block.simplexes, [&](const auto& each) { return each.index == reading; });
+
+    tables->apply(block, begin);
+
+    EXPECT_EQ(tables->loss(), 3U);
+    EXPECT_EQ(quality(worker), Quality::Good);
+    EXPECT_EQ(quality(reading), Quality::Stale);
+    tables->apply(agent.block(6), begin);
+    EXPECT_EQ(quality(reading), Quality::Good);
+    EXPECT_EQ(tables->loss(), 3U);
+}
+
+TEST_F(MirrorTablesTest, CallsStaleWhatDoesNotComeInTime) {
+    tables->apply(agent.block(1), begin);
+    const auto patience = everything.patience(1'000'000);
+    EXPECT_EQ(patience, 99999999ns);  // 3 periods of 30 Hz
+
+    tables->markStale(begin + patience - 1ms, patience);
+    EXPECT_EQ(quality(worker), Quality::Good);
+    tables->markStale(begin + patience, patience);
+    EXPECT_EQ(quality(worker), Quality::Stale);
+    EXPECT_EQ(tables->newest().state(worker).cause, worker);
+}
+
+TEST_F(MirrorTablesTest, CallsAllLostWithTheAgent) {
+    tables->apply(agent.block(1), begin);
+
+    tables->lose();
+
+    EXPECT_EQ(quality(worker), Quality::Lost);
+    tables->apply(agent.block(2), begin);
+    EXPECT_EQ(quality(worker), Quality::Good);
+}
+
+TEST_F(MirrorTablesTest, MeasuresAgeFromTheMeasurementByTheReceiversClock) {
+    Block block = agent.block(1);
+    block.nominalTime = 5'000'000'000;
+    for (SimplexData& each : block.simplexes) each.time = 4'750'000'000;
+
+    tables->apply(block, begin);
+
+    EXPECT_DOUBLE_EQ(tables->age(worker, begin + 500ms).value_or(-1), 0.75);
+}
+
+TEST_F(MirrorTablesTest, AppliesASimplexWholeOrNotAtAll) {
+    using Fault = std::function<void(SimplexData&)>;
+    const std::vector<Fault> faults{
+        [](SimplexData& data) { data.floats.pop_back(); },
+        [](SimplexData& data) { data.ints.push_back(1); },
+        [](SimplexData& data) { data.bools.clear(); },
+        [](SimplexData& data) { data.strings.emplace_back("more"); },
+        [](SimplexData& data) { data.strings.front() = std::string(3000, 'x'); },
+        [](SimplexData& data) { data.quality = 4; },
+        [](SimplexData& data) { data.index = 0xffffffffU; }};
+    agent.worker->data<double>("gain") = 7.0;
+    agent.rig.step();
+    for (const Fault& fault : faults) {
+        Block block = agent.block(1);
+        const std::uint64_t refused = tables->refused();
+        fault(block.simplexes[worker]);
+        EXPECT_TRUE(tables->apply(block, begin));
+        EXPECT_EQ(tables->refused(), refused + 1);
+        EXPECT_EQ(quality(worker), Quality::Lost);
+        EXPECT_EQ(tables->newest().get<double>("/work/one", "gain"), 1.0);
+        EXPECT_EQ(quality(reading), Quality::Good);
+    }
+}
+
+TEST_F(MirrorTablesTest, RefusesValuesOfASimplexOfAnotherAgent) {
+    Block block = agent.block(1);
+    const std::uint32_t far = tables->structure().find("/far/plate");
+    readValues(far, *tables->structure().simplexes[far].layout, tables->newest().slice(far),
+               block.simplexes.emplace_back());
+    block.simplexes.back().quality = 0;
+
+    tables->apply(block, begin);
+
+    EXPECT_EQ(tables->refused(), 1U);
+    EXPECT_EQ(quality(far), Quality::Lost);
+}
+
+TEST_F(MirrorTablesTest, RefusesBlocksOfAnotherStartOrStructure) {
+    Block block = agent.block(1);
+    ++block.epoch;
+    EXPECT_FALSE(tables->apply(block, begin));
+    block = agent.block(1);
+    block.structureHash[0] ^= 1U;
+    EXPECT_FALSE(tables->apply(block, begin));
+    EXPECT_EQ(quality(worker), Quality::Lost);
+    EXPECT_EQ(tables->refused(), 2U);
+}
+
+TEST_F(MirrorTablesTest, ToleratesNumbersThatCannotBe) {
+    Block block = agent.block(1);
+    block.nominalTime = std::numeric_limits<std::int64_t>::max();
+    block.simplexes[worker].time = std::numeric_limits<std::int64_t>::min();
+    block.simplexes[worker].cause = 4'000'000;
+
+    EXPECT_TRUE(tables->apply(block, begin));
+
+    EXPECT_EQ(tables->newest().state(worker).cause, noSimplex);
+    block.sequenceNumber = std::numeric_limits<std::uint64_t>::max();
+    EXPECT_TRUE(tables->apply(block, begin));
+}
+
+TEST_F(MirrorTablesTest, LosesWithAnotherViewWhatIsNoLongerShown) {
+    tables->apply(agent.block(7), begin);
+
+    tables->restart({{"/work"}, 5});
+
+    EXPECT_EQ(quality(worker), Quality::Good);
+    EXPECT_EQ(quality(reading), Quality::Lost);
+    tables->apply(agent.block(1), begin);
+    EXPECT_EQ(tables->loss(), 0U) << "its numbers are of another stream";
+}
+
+TEST_F(MirrorTablesTest, KeepsAnImageWhenTheTablesAreReplaced) {
+    agent.worker->data<double>("gain") = 3.0;
+    agent.rig.step();
+    tables->apply(agent.block(1), begin);
+    AgentImage image{tables, tables->newest()};
+    const std::weak_ptr<MirrorTables> watched = tables;
+
+    tables.reset();
+
+    EXPECT_EQ(image->get<double>("/work/one", "gain"), 3.0);
+    image = {};
+    EXPECT_TRUE(watched.expired());
+}
+
+TEST(MirrorView, ShowsPathsAndAllBelow) {
+    EXPECT_TRUE(isBelow("/arm/axis", "/arm"));
+    EXPECT_TRUE(isBelow("/arm", "/arm"));
+    EXPECT_TRUE(isBelow("/arm", "/"));
+    EXPECT_TRUE(isBelow("/arm/axis", "/arm/"));
+    EXPECT_FALSE(isBelow("/armour", "/arm"));
+    EXPECT_FALSE(isBelow("/ar", "/arm"));
+}
+
+TEST(MirrorView, TakesTheClassThatIsFastEnough) {
+    EXPECT_EQ(viewClass(1), 5U);
+    EXPECT_EQ(viewClass(5), 5U);
+    EXPECT_EQ(viewClass(6), 30U);
+    EXPECT_EQ(viewClass(31), 100U);
+    EXPECT_EQ(viewClass(101), 0U);
+    EXPECT_EQ(viewClass(0), 0U);
+}
+
+}  // namespace
+}  // namespace cortex::comms

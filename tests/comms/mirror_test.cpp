@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/comms/mirror.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "comms/stepped_agent.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+namespace cortex::comms {
+namespace {
+
+using namespace std::chrono_literals;
+
+// The agent "robot" with two workers, one of them Active.
+std::unique_ptr<SteppedAgent> robot() {
+    auto agent = std::make_unique<SteppedAgent>("robot");
+    test::Hand& arm = agent->rig.hand("/arm");
+    agent->rig.hand("/hand");
+    agent->rig.make();
+    const auto sum = arm.result<double>("add", "sum");
+    const auto amount = arm.argument<double>("add", "amount");
+    arm.on("add", [=](Call& call) {
+        call[sum] = call[amount] + 1;
+        return Outcome::Done;
+    });
+    arm.on("poke", [](Call& call) { return call.fail("it hurts"); });
+    return agent;
+}
+
+test::Hand& arm(SteppedAgent& agent) {
+    return dynamic_cast<test::Hand&>(agent.rig.tree.at("/arm"));
+}
+
+AgentStatus statusOf(const Mirror& mirror, const std::string& name) {
+    for (const AgentStatus& each : mirror.agents()) {
+        if (each.name == name) return each;
+    }
+    return {};
+}
+
+TEST(Mirror, KnowsEveryAgentWithAllItHas) {
+    const auto first = robot();
+    first->run();
+    SteppedAgent second{"station"};
+    second.rig.hand("/stick");
+    second.run();
+    const Mirror mirror{"test", loopback()};
+
+    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+
+    ASSERT_EQ(mirror.agents().size(), 2U);
+    const AgentStatus status = mirror.agents().front();
+    EXPECT_EQ(status.name, "robot");
+    EXPECT_EQ(status.state, "running");
+    EXPECT_EQ(status.epoch, first->structure().epoch);
+    EXPECT_EQ(status.simplexes, first->structure().simplexes.size());
+    EXPECT_EQ(status.missing, 0U);
+    EXPECT_EQ(status.loss, 0U);
+    const auto structure = mirror.structure("robot");
+    ASSERT_TRUE(structure);
+    for (std::uint32_t i = 0; i < structure->simplexes.size(); ++i) {
+        EXPECT_EQ(structure->simplexes[i].path, first->structure().simplexes[i].path);
+    }
+    EXPECT_EQ(mirror.ownerOf("/stick"), "station");
+    EXPECT_EQ(mirror.ownerOf("/nothing"), std::nullopt);
+    EXPECT_EQ(mirror.refused(), 0U);
+}
+
+TEST(Mirror, IsNotCompleteWhereNobodyIs) {
+    const Mirror mirror{"test", loopback()};
+
+    EXPECT_FALSE(mirror.waitUntilComplete(1ms));
+    EXPECT_TRUE(mirror.agents().empty());
+    EXPECT_FALSE(mirror.image("robot"));
+}
+
+TEST(Mirror, ShowsTheValuesThatAreViewed) {
+    const auto agent = robot();
+    agent->run();
+    Mirror mirror{"test", loopback()};
+    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    EXPECT_FALSE(mirror.image("robot"));
+
+    mirror.view({"/arm"}, 100);
+
+    ASSERT_TRUE(comesTrue([&] { return static_cast<bool>(mirror.image("robot")); }));
+    ASSERT_TRUE(mirror.waitForValues(longEnough));
+    agent->change([&] { arm(*agent).data<std::string_view>("title") = "drill"; });
+    EXPECT_TRUE(comesTrue(
+        [&] { return mirror.image("robot")->get<std::string_view>("/arm", "title") == "drill"; }));
+    const AgentImage image = mirror.image("robot");
+    EXPECT_EQ(image->quality("/arm"), Quality::Good);
+    EXPECT_EQ(image->quality("/hand"), Quality::Lost) << "nobody asked for it";
+    EXPECT_GE(mirror.age("robot", image->structure().find("/arm")).value_or(-1), 0.0);
+    EXPECT_FALSE(mirror.age("robot", image->structure().find("/hand")));
+}
+
+TEST(Mirror, CallsStaleWhatAnAgentThatHangsNoLongerSays) {
+    const auto agent = robot();
+    agent->run();
+    Mirror mirror{"test", loopback()};
+    mirror.view({"/"}, 30);
+    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitForValues(longEnough));
+
+    agent->change([&] {
+        EXPECT_TRUE(
+            comesTrue([&] { return mirror.image("robot")->quality("/arm") == Quality::Stale; }));
+        EXPECT_EQ(statusOf(mirror, "robot").state, "running") << "it is still heard";
+    });
+    EXPECT_TRUE(comesTrue([&] { return mirror.image("robot")->quality("/arm") == Quality::Good; }));
+}
+
+TEST(Mirror, SubscribesNothingThatIsNotAskedFor) {
+    const auto agent = robot();
+    agent->run();
+    Participant other{loopback(), "other"};
+    const auto presences = other.writer<Presence>(topics::presence);
+    const auto blocks = other.writer<Block>(topics::view30);
+    const auto events = other.writer<EventMessage>(topics::event);
+    const auto answers = other.writer<Answer>(topics::answer);
+    Mirror mirror{"test", loopback()};
+    ASSERT_TRUE(comesTrue([&] { return presences->readers() == 2; }));
+    EXPECT_EQ(blocks->readers() + events->readers() + answers->readers(), 0U);
+
+    mirror.view({"/arm"}, 30);
+    EXPECT_TRUE(comesTrue([&] { return blocks->readers() == 1; }));
+    mirror.view({});
+    EXPECT_TRUE(comesTrue([&] { return blocks->readers() == 0; }));
+    mirror.onEvent([](const AgentEvent&) {});
+    EXPECT_TRUE(comesTrue([&] { return events->readers() == 1; }));
+    EXPECT_EQ(answers->readers(), 0U);
+}
+
+TEST(Mirror, CallsCommandsAndSaysWhatCameOfThem) {
+    const auto agent = robot();
+    agent->run();
+    Mirror mirror{"test", loopback()};
+    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+
+    CommandAnswer answer = mirror.call("/arm", "add", {{"amount", Value{std::vector{2.0}}}}, 10s);
+    EXPECT_EQ(answer.outcome, Outcome::Done) << answer.text();
+    EXPECT_EQ(answer.response.at("sum"), Value(std::vector{3.0}));
+    answer = mirror.call("/arm", "add", {{"amount", Value{std::vector{200.0}}}}, 10s);
+    EXPECT_EQ(answer.outcome, Outcome::Rejected);
+    EXPECT_EQ(answer.reason, Reason::Range) << answer.text();
+    answer = mirror.call("/arm", "poke", {}, 10s);
+    EXPECT_EQ(answer.outcome, Outcome::Failed);
+    EXPECT_EQ(answer.why, "it hurts");
+    answer = mirror.call("/arm", "set", {{"gain", Value{std::vector{4.0}}}}, 10s);
+    EXPECT_EQ(answer.outcome, Outcome::Done) << answer.text();
+    agent->change([&] { EXPECT_EQ(double{arm(*agent).data<double>("gain")}, 4.0); });
+    EXPECT_TRUE(agent->rig.hasEvent(mirror.name())) << "the agent says who commanded";
+}
+
+TEST(Mirror, NamesTheNearestPathOfAnUnknownOne) {
+    const auto agent = robot();
+    agent->run();
+    Mirror mirror{"test", loopback()};
+    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+
+    try {
+        mirror.call("/amr", "poke");
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string{error.what()}.find("/arm"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Mirror, TellsEventsThatWereBeforeItCameToo) {
+    const auto agent = robot();
+    agent->run();
+    test::Hand& worker = arm(*agent);
+    const auto note = [&](const char* text) {
+        agent->change([&] {
+            agent->rig.agent->post(agent->rig.agent->thread(0), Severity::Warning,
+                                   EventKind::Message, worker.index(), text);
+        });
+    };
+    note("before");
+    Mirror mirror{"test", loopback()};
+    Inbox<AgentEvent> events;
+    mirror.onEvent(events.push());
+    const auto has = [](const char* text) {
+        return [text](const std::vector<AgentEvent>& all) {
+            return std::ranges::any_of(all, [&](const auto& each) { return each.text == text; });
+        };
+    };
+
+    ASSERT_TRUE(events.waitUntil(has("before")));
+    note("after");
+    ASSERT_TRUE(events.waitUntil(has("after")));
+
+    const auto all = events.elements();
+    const AgentEvent& last = all.back();
+    EXPECT_EQ(last.agent, "robot");
+    EXPECT_EQ(last.path, "/arm");
+    EXPECT_EQ(last.severity, Severity::Warning);
+    EXPECT_GT(last.number, all.front().number);
+}
+
+TEST(Mirror, LosesAnAgentThatEndsAndTakesItsNextStart) {
+    auto agent = robot();
+    agent->run();
+    Mirror mirror{"test", loopback()};
+    mirror.view({"/"}, 100);
+    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitForValues(longEnough));
+    const auto before = mirror.structure("robot");
+    const AgentImage kept = mirror.image("robot");
+
+    agent.reset();
+    ASSERT_TRUE(comesTrue([&] { return statusOf(mirror, "robot").state == "lost"; }));
+    EXPECT_EQ(mirror.image("robot")->quality("/arm"), Quality::Lost);
+    EXPECT_EQ(mirror.call("/arm", "poke").outcome, Outcome::Expired);
+
+    agent = robot();
+    agent->run();
+    ASSERT_TRUE(comesTrue([&] {
+        const AgentImage image = mirror.image("robot");
+        return image && &image->structure() != before.get() &&
+               image->quality("/arm") == Quality::Good;
+    }));
+    EXPECT_GT(mirror.structure("robot")->epoch, before->epoch);
+    EXPECT_EQ(kept->get<double>("/arm", "gain"), 1.0);
+    EXPECT_EQ(mirror.call("/arm", "poke", {}, 10s).outcome, Outcome::Failed);
+}
+
+TEST(Mirror, LosesAnAgentThatFallsSilentWithoutAWord) {
+    Participant other{loopback(), "mute"};
+    const auto presences = other.writer<Presence>(topics::presence);
+    Presence presence;
+    presence.name = "mute";
+    presence.agent = idOf({"mute"});
+    presence.epoch = 1;
+    presence.role = "agent";
+    presence.state = "running";
+    presence.majors = {1};
+    presences->write(presence);
+    const Mirror mirror{"test", loopback()};
+
+    ASSERT_TRUE(comesTrue([&] { return statusOf(mirror, "mute").state == "running"; }));
+    EXPECT_TRUE(comesTrue([&] { return statusOf(mirror, "mute").state == "lost"; }));
+    EXPECT_FALSE(mirror.structure("mute"));
+}
+
+TEST(Mirror, SurvivesWhatNoAgentWouldSay) {
+    const auto agent = robot();
+    agent->run();
+    Mirror mirror{"test", loopback()};
+    mirror.view({"/"}, 30);
+    mirror.onEvent([](const AgentEvent&) {});
+    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitForValues(longEnough));
+    Participant other{loopback(), "liar"};
+    const auto models = other.writer<Model>(topics::model);
+    const auto blocks = other.writer<Block>(topics::view30);
+    const auto events = other.writer<EventMessage>(topics::event);
+    ASSERT_TRUE(comesTrue([&] {
+        return models->readers() >= 1 && blocks->readers() == 1 && events->readers() == 1;
+    }));
+    const std::uint64_t refused = mirror.refused();
+    Model model;
+    model.agent = "robot";
+    model.epoch = agent->structure().epoch;
+    models->write(model);
+    EventMessage event;
+    event.name = "robot";
+    events->write(event);
+    Block block;
+    block.agent = idOf({"robot"});
+    block.epoch = agent->structure().epoch;
+    EXPECT_TRUE(comesTrue([&] {
+        blocks->write(block);
+        return mirror.refused() >= refused + 3;
+    }));
+    EXPECT_EQ(statusOf(mirror, "robot").state, "running");
+}
+
+TEST(Mirror, HasANameOfItsOwnForEveryInstance) {
+    const Mirror first{"test", loopback()};
+    const Mirror second{"test", loopback()};
+
+    EXPECT_NE(first.name(), second.name());
+    EXPECT_EQ(first.name().find("test@"), 0U) << first.name();
+    EXPECT_LT(first.name().size(), 64U);
+    EXPECT_LT((Mirror{std::string(200, 'x'), loopback()}.name().size()), 64U);
+}
+
+}  // namespace
+}  // namespace cortex::comms
