@@ -109,10 +109,9 @@ AgentLinks::Claim AgentLinks::makeClaim(const Link& link, Peer& peer, std::uint3
     claim.structureHash = presence.structureHash;
     claim.structure = peer.current->model.structure();
     claim.heard = true;
-    claim.binding =
-        compileLink(*ours.simplexes[link.simplex].layout,
-                    *claim.structure->simplexes[theirs].layout, *ours.types,
-                    *claim.structure->types);
+    claim.binding = compileLink(*ours.simplexes[link.simplex].layout,
+                                *claim.structure->simplexes[theirs].layout, *ours.types,
+                                *claim.structure->types);
     const std::int64_t every = claim.structure->writtenEvery(theirs);
     claim.binding.period =
         std::clamp(presence.period, std::int64_t{0}, longestTime / every) * every;
@@ -137,10 +136,9 @@ void AgentLinks::choose(Link& link) {
 
 void AgentLinks::bind(Link& link, const std::string* agent) {
     const Claim* claim = agent != nullptr ? &link.claims.at(*agent) : nullptr;
-    const bool same = link.current == nullptr
-                          ? claim == nullptr
-                          : claim != nullptr && link.current->agent == *agent &&
-                                link.current->claim.epoch == claim->epoch;
+    const bool same = link.current == nullptr ? claim == nullptr
+                                              : claim != nullptr && link.current->agent == *agent &&
+                                                    link.current->claim.epoch == claim->epoch;
     if (same) return;
     link.current = nullptr;
     if (claim != nullptr) {

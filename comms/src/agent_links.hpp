@@ -65,7 +65,7 @@ private:
         std::int64_t epoch = 0;
         Id structureHash{};
         std::uint32_t simplexes = 0;
-        std::uint64_t newest = 0;  // sequence number of the block
+        std::uint64_t newest = 0;                // sequence number of the block
         std::map<std::uint32_t, Bound*> bounds;  // by index there
     };
 

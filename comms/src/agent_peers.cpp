@@ -120,8 +120,7 @@ void AgentPeers::lose(Peer& peer, const char* why) {
     if (!std::exchange(peer.heard, false)) return;
     changed_ = true;
     if (peer.agent) {
-        self_.event(Severity::Warning, self_.simplex,
-                    "agent " + peer.name + " is lost: " + why);
+        self_.event(Severity::Warning, self_.simplex, "agent " + peer.name + " is lost: " + why);
     }
     lost_(peer.name, peer.epoch());
 }

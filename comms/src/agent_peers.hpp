@@ -28,9 +28,9 @@ struct Peer {
     std::int64_t epoch() const { return current->model.epoch(); }
 
     std::string name;
-    bool heard = false;             // within the last second
-    bool agent = false;             // or a tool
-    std::int64_t lastHeard = 0;     // steadyNow()
+    bool heard = false;                // within the last second
+    bool agent = false;                // or a tool
+    std::int64_t lastHeard = 0;        // steadyNow()
     std::optional<PeerStart> current;  // the newest whose presence was heard
     std::optional<PeerStart> coming;   // samples came before its presence
 };

@@ -22,8 +22,7 @@ AgentStreams::AgentStreams(AgentSelf& self, const Id& structureHash, Participant
       streams_{Stream{&topics::link, 0}, Stream{&topics::view5, 5}, Stream{&topics::view30, 30},
                Stream{&topics::view100, 100}, Stream{&topics::viewEvery, 0}} {
     const auto& simplexes = self.structure().simplexes;
-    own_ = static_cast<std::uint32_t>(
-        std::ranges::count(simplexes, false, &SimplexInfo::remote));
+    own_ = static_cast<std::uint32_t>(std::ranges::count(simplexes, false, &SimplexInfo::remote));
 }
 
 bool AgentStreams::any() const {

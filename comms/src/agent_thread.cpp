@@ -23,14 +23,14 @@ AgentThread::AgentThread(const AgentAccess& agent, const NetworkOptions& options
       answerOut_{participant_.writer<Answer>(topics::answer)},
       eventOut_{participant_.writer<EventMessage>(topics::event)},
       events_{self_},
-      commands_{self_, [this](const Answer& answer) {
+      commands_{self_,
+                [this](const Answer& answer) {
                     if (!silent_) answerOut_->write(answer);
                 }},
       links_{self_},
       streams_{self_, model_.structureHash(), participant_},
-      peers_{self_, links_.any(), [this](const std::string& name, std::int64_t epoch) {
-                 commands_.lost(name, epoch);
-             }},
+      peers_{self_, links_.any(),
+             [this](const std::string& name, std::int64_t epoch) { commands_.lost(name, epoch); }},
       presenceIn_{receive<Presence>(topics::presence)},
       modelIn_{receive<Model>(topics::model)},
       linkIn_{links_.any() ? receive<Block>(topics::link) : nullptr},

@@ -19,7 +19,7 @@ void Wake::waitFor(std::chrono::nanoseconds limit) noexcept {
         const timespec timeout{limit.count() / perSecond, limit.count() % perSecond};
         ::syscall(SYS_futex, &word_, FUTEX_WAIT_PRIVATE, Sleeping, &timeout, nullptr, 0);
     }
-    word_.store(Awake);
+    word_.exchange(Awake);  // and sees what was done before the signal
 }
 
 void Wake::wakeSleeper() noexcept {

@@ -85,8 +85,8 @@ SliceMemory::SliceMemory(const TypeLayout& layout, bool constants) {
     memory_.resize(bools + words(sizes.bools) + 1);
     std::uint64_t* first = memory_.data();
     slice_ = {reinterpret_cast<std::int64_t*>(first + ints), reinterpret_cast<double*>(first),
-              reinterpret_cast<bool*>(first + bools),
-              reinterpret_cast<std::byte*>(first + strings), &state_};
+              reinterpret_cast<bool*>(first + bools), reinterpret_cast<std::byte*>(first + strings),
+              &state_};
     for (const ItemLayout& item : layout.items) {
         if (item.constant != constants) continue;
         storeValue(*item.item, item.item->initial, slice_.at(item.item->kind, item.offset));

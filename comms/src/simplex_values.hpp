@@ -20,7 +20,8 @@ bool fits(const SimplexData& data, const TypeLayout& layout);
 // What fits; a slice whose strings have their capacities (SliceMemory).
 void storeValues(const SimplexData& data, const TypeLayout& layout, const Slice& to);
 
-// A slice outside the tables, with each item's default value: the cyclic items or the constant ones.
+// A slice outside the tables, with each item's default value: the cyclic items or the constant
+// ones.
 class SliceMemory {
 public:
     explicit SliceMemory(const TypeLayout& layout, bool constants = false);

@@ -99,7 +99,8 @@ TEST_F(DdsCommand, SentTwiceIsExecutedOnceAndAnsweredTwice) {
 
 TEST_F(DdsCommand, OutOfRangeIsRejectedWithItsReason) {
     start();
-    const auto refused = send(command("/plate", "set", arguments("level", Value{std::vector{9.0}})));
+    const auto refused =
+        send(command("/plate", "set", arguments("level", Value{std::vector{9.0}})));
 
     ASSERT_TRUE(refused);
     EXPECT_EQ(refused->outcome, "Rejected");

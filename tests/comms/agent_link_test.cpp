@@ -136,12 +136,11 @@ TEST(DdsLink, ToAnotherTypeStaysLostWithAnEvent) {
 
 TEST(DdsLink, ToAContradictingTypeStaysLostWithAnEvent) {
     NearAgent near;
-    AwayAgent away{changedTypes("Reading",
-                                [](DataItem& item) {
-                                    if (item.name != "b") return;
-                                    item.kind = Kind::Int;
-                                    item.initial = Value{std::vector<std::int64_t>{0}};
-                                })};
+    AwayAgent away{changedTypes("Reading", [](DataItem& item) {
+        if (item.name != "b") return;
+        item.kind = Kind::Int;
+        item.initial = Value{std::vector<std::int64_t>{0}};
+    })};
     near.rig.start();
     away.rig.start();
 

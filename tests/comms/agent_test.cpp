@@ -166,7 +166,8 @@ TEST_F(DdsAgent, FallsSilentWhenALaterStartOfItsNameIsHeard) {
     }));
     agent.rig.agent->stop();
     const auto all = tool.heard.elements();
-    EXPECT_TRUE(std::ranges::none_of(all, [](const auto& each) { return each.state == "stopping"; }));
+    EXPECT_TRUE(
+        std::ranges::none_of(all, [](const auto& each) { return each.state == "stopping"; }));
 }
 
 TEST_F(DdsAgent, IsNotSilencedByAnEarlierStartOrATool) {

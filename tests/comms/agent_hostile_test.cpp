@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// Participants that lie: what they say is counted and does nothing else.
+#include "comms/network_agent.hpp"
+#include "comms/raw_dds.hpp"
+
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+namespace cortex::comms {
+namespace {
+
+// "near" has linked /far of "away" when the liar begins.
+struct HostilePeer : testing::Test {
+    HostilePeer() {
+        near.rig.tree.relateRemote(near.rig.hand("/boss", "Boss"), "readings", "/far");
+        away.rig.tree.add("/far", "Reading").set("a", 7.0);
+        near.rig.start();
+        away.rig.start();
+        liar.connect();
+    }
+    bool linked() {
+        return comesTrue([&] {
+            away.rig.step();
+            near.rig.step();
+            return near.rig.agent->images().newest().quality("/far") == Quality::Good;
+        });
+    }
+    std::optional<Presence> presenceOf(const std::string& name) const {
+        for (const Presence& each : liar.heard.elements()) {
+            if (each.name == name) return each;
+        }
+        return {};
+    }
+    // Whether near counts it, with these words.
+    testing::AssertionResult rejects(const std::string& words, const std::function<void()>& say) {
+        const std::uint64_t before = near.dds.rejected();
+        const auto counted = [&] {
+            say();
+            near.rig.step();
+            return near.dds.rejected() > before &&
+                   near.dds.lastRejection().find(words) != std::string::npos;
+        };
+        if (comesTrue(counted)) return testing::AssertionSuccess();
+        return testing::AssertionFailure() << "last counted: " << near.dds.lastRejection();
+    }
+
+    NetworkAgent near{"near"}, away{"away"};
+    RawTool liar{"liar"};
+};
+
+TEST_F(HostilePeer, BlocksThatLieDoNothingButCount) {
+    ASSERT_TRUE(linked());
+    ASSERT_TRUE(comesTrue([&] { return presenceOf("away").has_value(); }));
+    const auto writer = liar.participant.writer<Block>(topics::link);
+    Block good;
+    good.agent = agentId("away");
+    good.epoch = away.structure().epoch;
+    good.structureHash = presenceOf("away")->structureHash;
+    good.sequenceNumber = std::numeric_limits<std::uint64_t>::max() / 2;
+    SimplexData data;
+    data.index = away.structure().find("/far");
+    data.ints = {0};
+    data.floats = {666, 666};
+    data.bools = {false};
+    data.strings = {""};
+
+    const auto say = [&](const std::function<void(Block&, SimplexData&)>& change) {
+        return [&, change] {
+            Block block = good;
+            SimplexData values = data;
+            change(block, values);
+            ++good.sequenceNumber;
+            block.simplexes.push_back(values);
+            writer->write(block);
+        };
+    };
+    const char* fits = "do not fit";
+    EXPECT_TRUE(rejects(fits, say([](Block&, SimplexData& values) { values.floats.clear(); })));
+    EXPECT_TRUE(rejects(fits, say([](Block&, SimplexData& values) { values.ints.push_back(1); })));
+    EXPECT_TRUE(rejects(fits, say([](Block&, SimplexData& values) { values.quality = 4; })));
+    EXPECT_TRUE(rejects(fits, say([](Block&, SimplexData& values) { values.time = -1; })));
+    EXPECT_TRUE(rejects(
+        fits, say([](Block&, SimplexData& values) { values.strings = {std::string(17, 'x')}; })));
+    EXPECT_TRUE(rejects("of no simplex",
+                        say([](Block&, SimplexData& values) { values.index = 0xffffffffU; })));
+    EXPECT_TRUE(rejects("another structure",
+                        say([](Block& block, SimplexData&) { block.structureHash = {}; })));
+    EXPECT_TRUE(rejects("a time", say([](Block& block, SimplexData&) {
+                            block.nominalTime = std::numeric_limits<std::int64_t>::max();
+                        })));
+    EXPECT_TRUE(rejects("a time", say([](Block& block, SimplexData&) { block.nominalTime = -1; })));
+    EXPECT_TRUE(rejects("more simplexes", say([](Block& block, SimplexData& values) {
+                            block.simplexes.assign(1000, values);
+                        })));
+
+    EXPECT_EQ(near.rig.get<double>("/far", "a"), 7.0);
+}
+
+TEST_F(HostilePeer, BlocksOfOtherStartsAndStrangersAreNotLookedAt) {
+    ASSERT_TRUE(linked());
+    const auto writer = liar.participant.writer<Block>(topics::link);
+    ASSERT_TRUE(comesTrue([&] { return writer->readers() > 0; }));
+    Block block;
+    block.sequenceNumber = 1;
+    block.agent = agentId("away");
+    block.epoch = away.structure().epoch + 1;
+    ASSERT_TRUE(writer->write(block));
+    block.agent = agentId("stranger");
+    ASSERT_TRUE(writer->write(block));
+
+    EXPECT_TRUE(linked());
+    EXPECT_EQ(near.dds.rejected(), 0U) << near.dds.lastRejection();
+}
+
+TEST_F(HostilePeer, PresencesThatCannotBeAreCounted) {
+    const auto say = [&](const std::function<void(Presence&)>& change) {
+        return [&, change] {
+            Presence presence = liar.presence();
+            change(presence);
+            liar.presences->write(presence);
+        };
+    };
+    EXPECT_TRUE(rejects("id", say([](Presence& each) { each.agent.front() ^= 1; })));
+    EXPECT_TRUE(rejects("name or epoch", say([](Presence& each) { each.epoch = -5; })));
+    EXPECT_TRUE(rejects("name or epoch", say([](Presence& each) { each.name.clear(); })));
+    EXPECT_TRUE(rejects("name or epoch", say([](Presence& each) { each.name.assign(500, 'x'); })));
+    EXPECT_TRUE(rejects("future", say([](Presence& each) {
+                            each.epoch = std::numeric_limits<std::int64_t>::max();
+                        })));
+    EXPECT_TRUE(
+        rejects("presence of liar", say([](Presence& each) { each.simplexes = 0xffffffffU; })));
+    EXPECT_TRUE(near.sees("/near: liar is not heard: its clock is more than a day ahead"));
+    EXPECT_TRUE(linked());
+}
+
+TEST_F(HostilePeer, ModelsAndInterestsThatCannotBeAreCounted) {
+    const auto say = [&](const std::function<void(Model&)>& change) {
+        return [&, change] {
+            Interest wanted;
+            wanted.target = "near";
+            Model model = liar.interest(wanted);
+            change(model);
+            liar.presences->write(liar.presence());
+            liar.models->write(model);
+        };
+    };
+    const auto interest = [](Model& model) -> Interest& { return model.interests.front(); };
+    EXPECT_TRUE(rejects("interest of liar", say([](Model& each) { each.id.front() ^= 1; })));
+    EXPECT_TRUE(rejects("interest of liar", say([](Model& each) { each.types.resize(1); })));
+    EXPECT_TRUE(rejects("not ours", say([&](Model& each) { interest(each).links = {"/no"}; })));
+    EXPECT_TRUE(rejects("not ours", say([&](Model& each) { interest(each).links = {"/far"}; })));
+    EXPECT_TRUE(rejects("17 Hz", say([&](Model& each) { interest(each).views = {{17, {"/"}}}; })));
+    EXPECT_TRUE(rejects("no path", say([&](Model& each) {
+                            interest(each).views = {{30, {"far"}}};
+                        })));
+    EXPECT_TRUE(rejects("model of liar", say([](Model& each) { each.interests.clear(); })));
+    EXPECT_TRUE(rejects("model of liar", say([](Model& each) {
+                            each.interests.clear();
+                            each.simplexes.resize(1);
+                            each.simplexes.front().path = "//";
+                            each.id = modelId("liar", "simplex", "//");
+                        })));
+    EXPECT_TRUE(linked());
+}
+
+// An agent that has what its presence counts, but no type of it.
+TEST_F(HostilePeer, ModelThatContradictsItselfLinksNothing) {
+    SimplexMessage simplex;
+    simplex.path = "/far";
+    simplex.type = "Reading";
+    Model model;
+    model.id = modelId("liar", "simplex", "/far");
+    model.agent = "liar";
+    model.epoch = 1;
+    model.simplexes = {simplex};
+    Presence presence = liar.presence();
+    presence.epoch = 1;
+    presence.role = "agent";
+    presence.simplexes = 1;
+    presence.structureHash = structureHash(model.simplexes);
+    presence.typesHash = typesHash({});
+
+    EXPECT_TRUE(rejects("contradicts itself", [&] {
+        liar.models->write(model);
+        liar.presences->write(presence);
+    }));
+    EXPECT_TRUE(near.sees("/near: nothing of liar is linked"));
+    EXPECT_TRUE(linked());
+    EXPECT_EQ(near.rig.get<double>("/far", "a"), 7.0);
+}
+
+TEST_F(HostilePeer, OctetsThatAreNoMessageAreCounted) {
+    for (const auto& [topic, type] : {std::pair{topics::presence, Presence::typeName},
+                                      std::pair{topics::command, Command::typeName}}) {
+        RawWriter writer{loopback(), topic, type};
+        ASSERT_TRUE(comesTrue([&] { return writer.readers() > 0; }));
+        const std::uint64_t before = near.dds.rejected();
+        EXPECT_TRUE(comesTrue([&] {
+            writer.write(Id{}, {0, 1, 0, 0, 0xff, 0xff, 0xff});
+            return near.dds.rejected() > before;
+        })) << topic.name;
+    }
+    EXPECT_TRUE(linked());
+}
+
+}  // namespace
+}  // namespace cortex::comms
