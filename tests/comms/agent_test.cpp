@@ -188,5 +188,37 @@ TEST_F(DdsAgent, IsNotSilencedByAnEarlierStartOrATool) {
     EXPECT_TRUE(comesTrue([&] { return heard()->cycle == cycle; }));
 }
 
+TEST(DdsLoop, AllocatesNothingWhileItLinksIsViewedAndCommanded) {
+    NetworkAgent near{"near"}, away{"away"};
+    near.rig.tree.relateRemote(near.rig.hand("/boss", "Boss"), "readings", "/far");
+    near.rig.tree.add("/plate", "Plate");
+    Simplex& far = away.rig.tree.add("/far", "Reading");
+    near.rig.start();
+    away.rig.start();
+    RawTool tool{"operator"};
+    tool.connect();
+    Interest wanted;
+    wanted.target = "near";
+    wanted.views = {{0, {"/"}}};
+    ASSERT_TRUE(tool.models->write(tool.interest(wanted)));
+    std::uint64_t allocated = 0;
+    double value = 0;
+    for (std::size_t round = 1; round <= 20; ++round) {
+        tool.presences->write(tool.presence());
+        tool.commands->write(tool.command(near.structure(), "/plate", "set"));
+        far.data<double>("a") = ++value;
+        ASSERT_TRUE(comesTrue([&] {
+            away.rig.step();
+            const std::uint64_t before = toolkit::test::allocationCount();
+            near.rig.step();
+            allocated += toolkit::test::allocationCount() - before;
+            return near.rig.get<double>("/far", "a") == value &&
+                   tool.answers.elements().size() >= round;
+        }));
+    }
+
+    EXPECT_EQ(allocated, 0U);
+}
+
 }  // namespace
 }  // namespace cortex::comms
