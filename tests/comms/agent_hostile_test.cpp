@@ -153,9 +153,8 @@ TEST_F(HostilePeer, ModelsAndInterestsThatCannotBeAreCounted) {
     EXPECT_TRUE(rejects("not ours", say([&](Model& each) { interest(each).links = {"/no"}; })));
     EXPECT_TRUE(rejects("not ours", say([&](Model& each) { interest(each).links = {"/far"}; })));
     EXPECT_TRUE(rejects("17 Hz", say([&](Model& each) { interest(each).views = {{17, {"/"}}}; })));
-    EXPECT_TRUE(rejects("no path", say([&](Model& each) {
-                            interest(each).views = {{30, {"far"}}};
-                        })));
+    EXPECT_TRUE(
+        rejects("no path", say([&](Model& each) { interest(each).views = {{30, {"far"}}}; })));
     EXPECT_TRUE(rejects("model of liar", say([](Model& each) { each.interests.clear(); })));
     EXPECT_TRUE(rejects("model of liar", say([](Model& each) {
                             each.interests.clear();
