@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/error.hpp"
 
+#include "live_registration.hpp"
 #include "verbs.hpp"
 
 #include <functional>
@@ -175,7 +176,7 @@ Examples:
 
 void addVerbs(CLI::App& app, Arguments& arguments) {
     app.footer(
-        R"(Exit codes: 0 yes, 1 no (findings, a difference, refused), 2 wrong usage, 3 not found.
+        R"(Exit codes: 0 yes, 1 no (findings, a difference, refused), 2 wrong usage, 3 not found, no answer.
 Help on a verb: cortex VERB --help
 Files are looked for as given, then in $CORTEX_PATH, then in the installed share/cortex.)");
     app.set_version_flag("--version", "cortex " CORTEX_VERSION, "Print the version and end");
@@ -187,6 +188,7 @@ Files are looked for as given, then in $CORTEX_PATH, then in the installed share
     addGraph(app, arguments);
     addNewType(app, arguments);
     addNewSystem(app, arguments);
+    addLiveVerbs(app, arguments.json, arguments.run);
 }
 
 // CLI11 calls an unknown verb an unexpected argument.

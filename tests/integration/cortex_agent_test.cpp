@@ -18,8 +18,8 @@ struct Ended {
 };
 
 Ended agent(const std::string& arguments) {
-    const std::string command =
-        std::string{CORTEX_BINARY_DIR} + "/bin/cortex-agent " + arguments + " 2>&1 < /dev/null";
+    const std::string command = std::string{CORTEX_BINARY_DIR} + "/bin/cortex-agent --offline " +
+                                arguments + " 2>&1 < /dev/null";
     Ended ended{-1, ""};
     FILE* pipe = popen(command.c_str(), "r");  // NOLINT: a test runs a program
     if (pipe == nullptr) return ended;

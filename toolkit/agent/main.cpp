@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // cortex-agent: runs any system file.
+#include "cortex/comms/dds_interface.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/event_sinks.hpp"
 #include "cortex/cs/cluster_cs.hpp"
@@ -108,12 +109,14 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     cluster.useClasses(registry);
     cluster.setTriggerSource<cs::InternalClock>(settings.period);
     cluster.addEventSink(line.log.empty() ? printEvents(std::cerr) : logEvents(line.log));
+    if (!line.offline) cluster.addInterface<comms::DdsInterface>(networkOptions(line));
     cluster.start();
     for (const std::string& refused : cluster.realtimeReport()) {
         std::cerr << "real time: " << refused << std::endl;
     }
     std::cout << line.system.string() << ": " << tree.simplexes().size() << " simplexes at "
               << 1e9 / static_cast<double>(settings.period.count()) << " Hz as /" << settings.name
+              << (line.offline ? "" : ", domain " + std::to_string(networkOptions(line).domain))
               << std::endl;
     if (!line.startup || startUp(cluster, settings.name)) {
         const std::chrono::duration<double> used = std::chrono::steady_clock::now() - began;

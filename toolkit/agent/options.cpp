@@ -64,6 +64,24 @@ cs::ClusterOptions optionsOf(const Attributes& attributes, const CommandLine& li
     return options;
 }
 
+void addNetwork(CLI::App& app, CommandLine& line) {
+    CLI::Option* offline = app.add_flag("--offline", line.offline, "joins no network");
+    app.add_option("--domain", line.domain,
+                   "domain of the agents that see each other; CORTEX_DOMAIN, else 0, if not given")
+        ->type_name("N")
+        ->check(CLI::Range(0, 230))
+        ->excludes(offline);
+    app.add_option("--interface", line.interfaces,
+                   "address or name of a network interface to use; all if not given")
+        ->type_name("ADDR")
+        ->allow_extra_args(false)
+        ->excludes(offline);
+    app.add_option("--peer", line.peers, "host that multicast does not reach")
+        ->type_name("HOST")
+        ->allow_extra_args(false)
+        ->excludes(offline);
+}
+
 }  // namespace
 
 std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode) {
@@ -92,6 +110,7 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
     app.add_flag("--startup", line.startup, "starts all active simplexes");
     app.add_option("--log", line.log, "writes events to a file instead of the standard error")
         ->type_name("FILE");
+    addNetwork(app, line);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -99,6 +118,14 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
         return std::nullopt;
     }
     return line;
+}
+
+comms::NetworkOptions networkOptions(const CommandLine& line) {
+    comms::NetworkOptions options;
+    if (line.domain) options.domain = *line.domain;
+    options.interfaces = line.interfaces;
+    options.peers = line.peers;
+    return options;
 }
 
 ClusterSettings clusterSettings(const SystemDescription& system, const CommandLine& line) {

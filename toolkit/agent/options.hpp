@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/comms/network_options.hpp"
 #include "cortex/core/model_files.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 
@@ -23,6 +24,9 @@ struct CommandLine {
     double seconds = 0;  // 0: until SIGINT or SIGTERM
     bool startup = false;
     std::filesystem::path log;
+    bool offline = false;
+    std::optional<int> domain;
+    std::vector<std::string> interfaces, peers;
 };
 
 // Empty when the program is to end at once, with `exitCode`: help was shown, or usage was wrong.
@@ -33,6 +37,8 @@ struct ClusterSettings {
     std::chrono::nanoseconds period{};
     cs::ClusterOptions options;
 };
+
+comms::NetworkOptions networkOptions(const CommandLine& line);
 
 // The <cluster> of the system file, outranked by the command line. Throws Error.
 ClusterSettings clusterSettings(const SystemDescription& system, const CommandLine& line);

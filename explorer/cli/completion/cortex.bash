@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-# bash completion of the command line program `cortex`: verbs, options, model files.
+# bash completion of the command line program `cortex`: verbs, options, model files, live paths.
 _cortex() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
-    local verb=${COMP_WORDS[1]} verbs="validate diff types graph new-type new-system" options i
+    local verb=${COMP_WORDS[1]} options i
+    local network="--domain --interface --peer --timeout --json --help"
+    local verbs="agents list show watch call set events validate diff types graph new-type new-system"
     COMPREPLY=()
     if ((COMP_CWORD == 1)); then
         mapfile -t COMPREPLY < <(compgen -W "$verbs --help --version" -- "$word")
         return
     fi
     case $verb in
+        agents | list | show | call | set) options=$network ;;
+        watch) options="--rate --count --csv $network" ;;
+        events) options="--follow --severity --csv $network" ;;
         validate | diff) options="--json --help" ;;
         types) options="--file --json --help" ;;
         graph) options="--file --dot --json --help" ;;
@@ -18,6 +23,10 @@ _cortex() {
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
+        return
+    fi
+    if [[ $verb =~ ^(agents|list|show|watch|call|set|events)$ ]]; then
+        _cortex_live "$@"
         return
     fi
     # Names of types, from the files on the line or those of the installation.
@@ -34,5 +43,22 @@ _cortex() {
     compopt -o filenames 2>/dev/null
     mapfile -t COMPREPLY < <(compgen -f -X '!*.xml' -- "$word"
         compgen -d -- "$word")
+}
+
+# Paths of the agents that are heard, commands of the simplex on the line.
+_cortex_live() {
+    local word=${COMP_WORDS[COMP_CWORD]} network=() i
+    for ((i = 2; i < COMP_CWORD; ++i)); do
+        [[ ${COMP_WORDS[i]} == --domain || ${COMP_WORDS[i]} == --interface ||
+            ${COMP_WORDS[i]} == --peer ]] && network+=("${COMP_WORDS[i]}" "${COMP_WORDS[i + 1]}")
+    done
+    if [[ ${COMP_WORDS[1]} == call && $COMP_CWORD -eq 3 ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "$("$1" show "${COMP_WORDS[2]}" --timeout 1 \
+            "${network[@]}" 2>/dev/null | sed -n '/^commands/,$s/^  \([A-Za-z0-9_-]*\).*/\1/p')" \
+            -- "$word")
+    elif [[ ${COMP_WORDS[1]} != agents ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "$("$1" list --timeout 1 "${network[@]}" 2>/dev/null |
+            sed 's/ .*//')" -- "$word")
+    fi
 }
 complete -F _cortex cortex

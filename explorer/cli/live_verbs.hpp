@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "live.hpp"
+#include "output.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+// The verbs that look at agents on a network. They print and return the exit code, or throw
+// Failure.
+namespace cortex::explorer {
+
+struct LiveOptions {
+    NetworkArguments network;
+    bool json = false;
+};
+
+Exit listAgents(const LiveOptions& options);
+
+struct ListOptions : LiveOptions {
+    std::string prefix = "/";
+};
+Exit listSimplexes(const ListOptions& options);
+
+struct ShowOptions : LiveOptions {
+    std::string path;
+};
+Exit showSimplex(const ShowOptions& options);
+
+struct WatchOptions : LiveOptions {
+    std::vector<std::string> what;  // PATH or PATH.item
+    std::uint32_t rate = 5;         // images per second; 0: every cycle
+    std::uint64_t count = 0;        // images; 0: for ever
+    bool csv = false;
+};
+Exit watchValues(const WatchOptions& options);
+
+struct CallOptions : LiveOptions {
+    std::string path, command;
+    std::vector<std::string> arguments;  // name=value
+};
+Exit callCommand(const CallOptions& options);
+Exit setItems(const CallOptions& options);  // command "set"
+
+struct EventOptions : LiveOptions {
+    std::string prefix = "/";
+    bool follow = false, csv = false;
+    std::string severity = "info";
+};
+Exit showEvents(const EventOptions& options);
+
+}  // namespace cortex::explorer

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verbs that look at a network, against an agent that is a process of its own.
+#include "cli/cortex_process.hpp"
+#include "cli/json_schema.hpp"
+#include "core/model_folder.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <sstream>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using nlohmann::json;
+
+const std::string domain = std::to_string(100 + getpid() % 100);
+const std::vector<std::string> network{"--domain", domain, "--interface", "127.0.0.1"};
+
+std::vector<std::string> operator+(std::vector<std::string> left,
+                                   const std::vector<std::string>& right) {
+    left.insert(left.end(), right.begin(), right.end());
+    return left;
+}
+
+// `cortex` on the network of this test, with time enough.
+Outcome live(const std::vector<std::string>& arguments) {
+    return cortex(arguments + network + std::vector<std::string>{"--timeout", "20"});
+}
+
+json liveJson(const std::vector<std::string>& arguments, const std::string& schema, int exit = 0) {
+    const Outcome outcome = live(arguments + std::vector<std::string>{"--json"});
+    EXPECT_EQ(outcome.exit, exit) << outcome.output << outcome.errors;
+    EXPECT_EQ(violationsOf(schema, outcome.output), "") << outcome.output;
+    return json::parse(outcome.output, nullptr, false);
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+    std::istringstream stream{text};
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+// A program that runs until it is destroyed, or killed.
+class Background {
+public:
+    explicit Background(std::vector<std::string> command) : child_{fork()} {
+        if (child_ < 0) throw std::runtime_error("cannot fork");
+        if (child_ > 0) return;
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        const int null = open("/dev/null", O_RDWR);
+        for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, file);
+        setenv("CORTEX_PATH", CORTEX_SOURCE_DIR "/ontology", 1);
+        std::vector<char*> pointers;
+        for (std::string& each : command) pointers.push_back(each.data());
+        pointers.push_back(nullptr);
+        execv(pointers.front(), pointers.data());
+        _exit(127);
+    }
+    ~Background() { end(SIGTERM); }
+    Background(const Background&) = delete;
+    Background& operator=(const Background&) = delete;
+
+    void end(int signal) {
+        if (child_ == 0) return;
+        kill(child_, signal);
+        waitpid(child_, nullptr, 0);
+        child_ = 0;
+    }
+
+private:
+    pid_t child_;
+};
+
+// The system that `cortex new-system` makes: one simulated axis that is held where it is.
+class CortexLive : public testing::Test {
+protected:
+    CortexLive() {
+        EXPECT_EQ(cortex({"new-system", "mixer", "-o", file_}).exit, 0);
+        start();
+    }
+    void start() {
+        const std::string program = CORTEX_BINARY_DIR "/bin/cortex-agent";
+        agent.emplace(std::vector<std::string>{program, file_} + network);
+    }
+
+private:
+    const ModelFolder folder_;
+    const std::string file_ = (folder_.path() / "mixer.xml").string();
+
+protected:
+    std::optional<Background> agent;
+};
+
+TEST_F(CortexLive, ListsEverySimplexWithStateAndQuality) {
+    const json list = liveJson({"list"}, "list");
+
+    std::vector<std::string> paths;
+    for (const json& each : list) {
+        paths.push_back(each["path"]);
+        EXPECT_EQ(each["agent"], "mixer");
+        EXPECT_NE(each["quality"], "lost") << each;
+    }
+    EXPECT_EQ(paths, (std::vector<std::string>{"/axis/demanded", "/axis/observed", "/controller",
+                                               "/drive", "/mixer"}));
+    EXPECT_EQ(list[0]["role"], "modification");
+    EXPECT_TRUE(list[0]["state"].is_null());
+    EXPECT_EQ(list[3]["type"], "SimulatedAxis");
+    EXPECT_EQ(list[3]["state"], "Standby");
+
+    EXPECT_EQ(liveJson({"list", "/axis"}, "list").size(), 2U);
+    const Outcome text = live({"list", "/drive"});
+    EXPECT_EQ(text.exit, 0);
+    EXPECT_EQ(linesOf(text.output).size(), 1U) << text.output;
+    EXPECT_EQ(live({"list", "/axes"}).exit, 3);
+}
+
+TEST_F(CortexLive, ShowsTheAgents) {
+    const json agents = liveJson({"agents"}, "agents");
+
+    ASSERT_EQ(agents.size(), 1U);
+    EXPECT_EQ(agents[0]["name"], "mixer");
+    EXPECT_EQ(agents[0]["state"], "running");
+    EXPECT_EQ(agents[0]["simplexes"], 5);
+    EXPECT_EQ(agents[0]["loss"], 0);
+    EXPECT_TRUE(contains(live({"agents"}).output, "mixer"));
+}
+
+TEST_F(CortexLive, ShowsASimplexWithAllThatIsKnownOfIt) {
+    const json shown = liveJson({"show", "/drive"}, "show");
+
+    EXPECT_EQ(shown["state"], "Standby");
+    EXPECT_EQ(shown["data"]["startPosition"]["value"], 0.5) << "a constant";
+    EXPECT_EQ(shown["data"]["naturalFrequency"]["unit"], "Hz");
+    EXPECT_GE(shown["age_ms"], 0);
+    EXPECT_TRUE(std::ranges::count(shown["ancestors"], "Device") == 1);
+    const json expected{
+        {{"rule", "demand"}, {"direction", "input"}, {"to", "/axis/demanded"}},
+        {{"rule", "observation"}, {"direction", "output"}, {"to", "/axis/observed"}}};
+    EXPECT_EQ(shown["relationships"], expected);
+    for (const json& command : shown["commands"]) {
+        if (command["name"] == "startup") EXPECT_EQ(command["available"], true);
+        if (command["name"] != "shutdown") continue;
+        EXPECT_EQ(command["available"], false);
+        EXPECT_EQ(command["reason"], "needs StartingUp Active, is Standby");
+    }
+    const Outcome text = live({"show", "/drive"});
+    EXPECT_EQ(text.exit, 0) << text.errors;
+    EXPECT_TRUE(contains(text.output, "naturalFrequency")) << text.output;
+    EXPECT_TRUE(contains(text.output, "needs StartingUp Active, is Standby")) << text.output;
+}
+
+TEST_F(CortexLive, CallsCommandsAndEndsWithWhatCameOfThem) {
+    json answer = liveJson({"call", "/drive", "startup"}, "call");
+    EXPECT_EQ(answer["outcome"], "Done");
+    answer = liveJson({"call", "/drive", "startup"}, "call", 1);
+    EXPECT_EQ(answer["outcome"], "Rejected");
+    EXPECT_TRUE(contains(answer["reason"], "Standby")) << answer;
+    EXPECT_TRUE(contains(live({"call", "/drive", "startup"}).output, "Rejected"));
+    EXPECT_EQ(liveJson({"call", "/mixer", "startup", "prefix=/"}, "call")["outcome"], "Done");
+    EXPECT_EQ(liveJson({"show", "/controller"}, "show")["state"], "Active");
+}
+
+TEST_F(CortexLive, SaysWhatIsValidWhereACommandIsNot) {
+    Outcome outcome = live({"call", "/drive", "strtup"});
+    EXPECT_EQ(outcome.exit, 3);
+    EXPECT_TRUE(contains(outcome.errors, "startup")) << outcome.errors;
+    outcome = live({"call", "/mixer", "startup", "prefx=/"});
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(contains(outcome.errors, "prefix")) << outcome.errors;
+    EXPECT_EQ(live({"call", "/mixer", "startup", "prefix"}).exit, 2);
+    outcome = live({"call", "/drve", "startup"});
+    EXPECT_EQ(outcome.exit, 3);
+    EXPECT_TRUE(contains(outcome.errors, "/drive")) << outcome.errors;
+    EXPECT_EQ(live({"call", "drive", "startup"}).exit, 2);
+}
+
+TEST_F(CortexLive, SetsItemsWithinTheirRange) {
+    EXPECT_EQ(liveJson({"set", "/drive", "naturalFrequency=9.5"}, "call")["outcome"], "Done");
+    const json data = liveJson({"show", "/drive"}, "show")["data"];
+    EXPECT_EQ(data["naturalFrequency"]["value"], 9.5);
+
+    const json answer =
+        liveJson({"set", "/drive", "naturalFrequency=8", "dampingRatio=7"}, "call", 1);
+    EXPECT_EQ(answer["outcome"], "Rejected");
+    EXPECT_TRUE(contains(answer["reason"], "dampingRatio")) << answer;
+    EXPECT_EQ(liveJson({"show", "/drive"}, "show")["data"]["naturalFrequency"]["value"], 9.5)
+        << "all or none";
+    EXPECT_EQ(live({"set", "/drive", "naturalFrequency=fast"}).exit, 2);
+    EXPECT_EQ(live({"set", "/drive", "followingError=1"}).exit, 2) << "not settable";
+}
+
+TEST_F(CortexLive, WatchesValues) {
+    const Outcome csv = live(
+        {"watch", "/mixer.commandCount", "/drive.state", "--csv", "--count", "3", "--rate", "100"});
+    EXPECT_EQ(csv.exit, 0) << csv.errors;
+    const auto lines = linesOf(csv.output);
+    ASSERT_EQ(lines.size(), 4U) << csv.output;
+    EXPECT_EQ(lines[0],
+              "time,/mixer.commandCount,/drive.state,/mixer.commandCount:quality,"
+              "/drive.state:quality");
+    EXPECT_TRUE(contains(lines[3], ",Standby,good,good")) << lines[3];
+
+    const Outcome objects = live({"watch", "/drive", "--json", "--count", "2"});
+    EXPECT_EQ(objects.exit, 0) << objects.errors;
+    for (const std::string& line : linesOf(objects.output)) {
+        EXPECT_EQ(violationsOf("watch", line), "") << line;
+        EXPECT_EQ(json::parse(line)["values"]["/drive.state"]["value"], 0);
+    }
+    const Outcome text = live({"watch", "/drive.naturalFrequency", "--count", "2"});
+    EXPECT_EQ(linesOf(text.output).size(), 1U) << "only what changes: " << text.output;
+    EXPECT_TRUE(contains(text.output, "/drive.naturalFrequency  12 Hz")) << text.output;
+    const Outcome wrong = live({"watch", "/drive.naturalFrequenzy"});
+    EXPECT_EQ(wrong.exit, 3);
+    EXPECT_TRUE(contains(wrong.errors, "naturalFrequency")) << wrong.errors;
+}
+
+TEST_F(CortexLive, PrintsEventsOfThePast) {
+    ASSERT_EQ(live({"call", "/drive", "startup"}).exit, 0);
+
+    const json events = liveJson({"events"}, "events");
+    EXPECT_TRUE(std::ranges::any_of(events, [](const json& each) {
+        return each["path"] == "/drive" && contains(each["text"], "Standby -> StartingUp");
+    })) << events;
+    EXPECT_TRUE(std::ranges::any_of(events, [](const json& each) {
+        return each["kind"] == "command" && contains(each["text"], "cortex@");
+    })) << events;
+    for (const json& each : liveJson({"events", "/drive"}, "events")) {
+        EXPECT_EQ(each["path"], "/drive");
+    }
+    EXPECT_TRUE(liveJson({"events", "/drive", "--severity", "error"}, "events").empty());
+    const Outcome csv = live({"events", "--csv"});
+    EXPECT_EQ(linesOf(csv.output).front(), "time,agent,number,cycle,severity,kind,path,text");
+}
+
+TEST_F(CortexLive, FindsNoAgentThatWasKilledAndItsNextStart) {
+    ASSERT_EQ(live({"list"}).exit, 0);
+    const json before = liveJson({"agents"}, "agents");
+
+    agent->end(SIGKILL);
+    const Outcome gone = cortex(std::vector<std::string>{"list", "--timeout", "0.3"} + network);
+    EXPECT_EQ(gone.exit, 3) << gone.output;
+    start();
+
+    EXPECT_EQ(liveJson({"list"}, "list").size(), 5U);
+    EXPECT_GT(liveJson({"agents"}, "agents")[0]["epoch"], before[0]["epoch"]);
+}
+
+TEST(CortexNetwork, SaysWhatToDoWhereNobodyIs) {
+    for (const std::vector<std::string>& verb : {std::vector<std::string>{"list"},
+                                                 {"agents"},
+                                                 {"show", "/arm"},
+                                                 {"watch", "/arm"},
+                                                 {"call", "/arm", "startup"},
+                                                 {"set", "/arm", "a=1"},
+                                                 {"events"}}) {
+        const Outcome outcome =
+            cortex(verb + network + std::vector<std::string>{"--timeout", "0.05"});
+        EXPECT_EQ(outcome.exit, 3) << verb.front();
+        EXPECT_EQ(outcome.output, "");
+        EXPECT_TRUE(contains(outcome.errors, "no agent on domain " + domain)) << outcome.errors;
+        EXPECT_TRUE(contains(outcome.errors, "--peer")) << outcome.errors;
+    }
+    const Outcome asJson =
+        cortex(std::vector<std::string>{"list", "--json", "--timeout", "0.05"} + network);
+    EXPECT_EQ(violationsOf("error", asJson.output), "");
+}
+
+TEST(CortexNetwork, EndsWith2ForWrongUsage) {
+    const std::vector<std::vector<std::string>> wrong{{"show"},
+                                                      {"show", "arm"},
+                                                      {"list", "/a//b"},
+                                                      {"call", "/arm"},
+                                                      {"set", "/arm"},
+                                                      {"watch"},
+                                                      {"watch", "/arm", "--csv", "--json"},
+                                                      {"watch", "/arm", "--count", "0"},
+                                                      {"events", "--severity", "bad"},
+                                                      {"list", "--domain", "231"},
+                                                      {"list", "--timeout", "0"}};
+    for (const auto& arguments : wrong) {
+        const Outcome outcome = cortex(arguments);
+        EXPECT_EQ(outcome.exit, 2) << arguments.front() << outcome.errors;
+        EXPECT_NE(outcome.errors, "");
+    }
+}
+
+}  // namespace
+}  // namespace cortex::test
