@@ -30,9 +30,14 @@ public:
         if (!report_.ok()) return nullptr;
         for (const auto& [path, message] : simplexes) complete(tree_.at(path), message);
         if (!report_.ok()) return nullptr;
-        auto structure = makeStructure(agent_, tree_);
-        check(*structure, simplexes);
-        return structure;
+        try {
+            auto structure = makeStructure(agent_, tree_);
+            check(*structure, simplexes);
+            return structure;
+        } catch (const ModelError& tooLarge) {
+            report_.append(tooLarge.report());
+            return nullptr;
+        }
     }
 
 private:
@@ -77,7 +82,7 @@ private:
         if (target != nullptr) return wrong("it is no simplex of another agent");
         if (rule->direction != Direction::Input) return wrong("other agents' can only be inputs");
         if (!SimplexTree::pathError(relationship.target).empty()) return wrong("it is no path");
-        tree_.relateRemote(simplex, relationship.rule, relationship.target);
+        tree_.relateRemote(simplex, relationship.rule, relationship.target, relationship.delayed);
     }
 
     void setConstant(Simplex& simplex, const NamedValue& named) {

@@ -23,6 +23,7 @@ inline constexpr std::size_t labels = 1024;        // of one item
 inline constexpr std::uint32_t arrayLength = 65'536;
 inline constexpr std::uint32_t stringCapacity = 4096;
 inline constexpr std::size_t recordSize = 4096;      // octets of a request or response
+inline constexpr std::uint64_t dataSize = 1U << 30U;  // octets of all simplexes
 inline constexpr std::size_t suggestions = 100;      // unknown names for which near ones are sought
 inline constexpr std::size_t modelCost = 4U << 20U;  // array elements, at least 16 an item
 

@@ -90,8 +90,9 @@ void SimplexTree::relate(Simplex& owner, std::string_view rule, const Simplex& t
     owner.relations_.push_back({std::string{rule}, target.path(), delayed, false, {}});
 }
 
-void SimplexTree::relateRemote(Simplex& owner, std::string_view rule, std::string_view path) {
-    owner.relations_.push_back({std::string{rule}, std::string{path}, false, true, {}});
+void SimplexTree::relateRemote(Simplex& owner, std::string_view rule, std::string_view path,
+                               bool delayed) {
+    owner.relations_.push_back({std::string{rule}, std::string{path}, delayed, true, {}});
 }
 
 const Simplex* SimplexTree::find(std::string_view path) const {

@@ -3,11 +3,15 @@
 
 #include "cortex/core/agent.hpp"
 #include "cortex/core/data.hpp"
+#include "cortex/core/error.hpp"
 
+#include "bounds.hpp"
 #include "resolved_relations.hpp"
+#include "system_findings.hpp"
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace cortex {
 namespace {
@@ -81,6 +85,28 @@ void addRemotes(Structure& structure, const SimplexTree& tree) {
         info.role = type->role;
         info.remote = true;
         structure.simplexes.push_back(std::move(info));
+    }
+}
+
+// Counted in 64 bit: the offsets that follow have 32.
+void checkSize(const Structure& structure) {
+    std::map<const TypeLayout*, std::uint64_t> octets;
+    for (const auto& layout : structure.layouts) {
+        std::uint64_t& size = octets[layout.get()];
+        for (const DataItem& item : layout->type->data) {
+            const bool string = item.kind == Kind::String;
+            size += std::uint64_t{item.length} * (string ? StringCell::size(item.capacity) : 8U);
+        }
+    }
+    std::uint64_t total = 0;
+    for (const SimplexInfo& info : structure.simplexes) {
+        total += octets[info.layout];
+        if (total <= bounds::dataSize) continue;
+        Report report;
+        report.error(info.path, finding::dataSize, {},
+                     "the data of the simplexes up to this one takes more than 1 GiB",
+                     "shorten arrays and strings, or divide the system");
+        throw ModelError{std::move(report)};
     }
 }
 
@@ -201,6 +227,7 @@ std::shared_ptr<Structure> makeStructure(const std::string& agent, const Simplex
     structure->types = tree.sharedTypes();
     addSimplexes(*structure, tree);
     addRemotes(*structure, tree);
+    checkSize(*structure);
     indexPaths(*structure);
     addEdges(*structure, tree);
     decideWritersAndRoles(*structure);

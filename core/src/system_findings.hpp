@@ -10,6 +10,7 @@ namespace cortex::finding {
 // The agent
 inline constexpr char agentType[] = "agent-type";
 inline constexpr char clusterPath[] = "cluster-path";
+inline constexpr char dataSize[] = "data-size";
 
 // A simplex
 inline constexpr char malformedPath[] = "malformed-path";

@@ -2,6 +2,7 @@
 #include "cortex/core/validation.hpp"
 
 #include "cortex/core/agent.hpp"
+#include "cortex/core/error.hpp"
 
 #include "remedies.hpp"
 #include "system_findings.hpp"
@@ -71,7 +72,12 @@ void checkSimplex(const Checked& checked, const Simplex& simplex) {
 
 Report validate(const SimplexTree& tree) {
     Report report;
-    const auto structure = makeStructure("", tree);
+    std::shared_ptr<const Structure> structure;
+    try {
+        structure = makeStructure("", tree);
+    } catch (const ModelError& tooLarge) {
+        return tooLarge.report();
+    }
     Checked checked{tree, *structure, report, {}};
     for (const auto& entry : tree.description().simplexes) checked.declared.insert(entry.path);
     checkModel(checked);

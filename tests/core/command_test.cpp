@@ -83,6 +83,8 @@ TEST_F(Command, RecordOfSetHasAFlagForEachItemInFront) {
     EventText text;
     describeRecord(table, index("set"), octets, text);
     EXPECT_EQ(text.view(), "gain=2");
+    EXPECT_EQ(argumentsOf(table, index("set"), octets),
+              (std::map<std::string, Value>{{"gain", Value{std::vector{2.0}}}}));
 }
 
 TEST_F(Command, ArgumentsInRangeAreGood) {

@@ -164,6 +164,7 @@ private:
 };
 
 // Builds the structure of a validated tree; exposed for tools that show a model without running it.
+// Throws ModelError if the data takes more than 1 GiB.
 std::shared_ptr<Structure> makeStructure(const std::string& agent, const SimplexTree& tree);
 
 }  // namespace cortex

@@ -41,7 +41,8 @@ public:
     }
     void relate(Simplex& owner, std::string_view rule, const Simplex& target, bool delayed = false);
     // To a simplex of another agent, bound when that agent appears; inputs only.
-    void relateRemote(Simplex& owner, std::string_view rule, std::string_view path);
+    void relateRemote(Simplex& owner, std::string_view rule, std::string_view path,
+                      bool delayed = false);
 
     // Fills rules with `create` up to their minimum; idempotent. start() calls it. A simplex that
     // stands at a created path already, of the type or a child, is related in its place.
