@@ -130,7 +130,11 @@ void checkValues(DataItem& item, const DataItem* own, const ItemContext& context
     }
     if (!item.hasDefault) item.initial = implicitValue(item);
     if (item.safe.kind != Safe::Kind::Given) return;
-    const std::string error = valueError(item, item.safe.value);
+    std::string error = valueError(item, item.safe.value);
+    const std::string text = toText(item.safe.value);
+    if (item.kind == Kind::String && (text == "hold" || text == "observed")) {
+        error = "is a word of files for another thing";
+    }
     if (error.empty()) return;
     context.error(finding::safeRange,
                   "has the safe value " + inQuotes(toText(item.safe.value)) + ", which " + error,
@@ -169,6 +173,11 @@ void checkLabels(DataItem& item, const DataItem* own, const ItemContext& context
     }
     std::map<std::string_view, std::int64_t> numbers;
     for (const auto& [number, label] : item.labels) {
+        if (label.empty() || label.find_first_of(" \t\r\n") != std::string::npos) {
+            context.error(finding::labels,
+                          "has the label " + inQuotes(label) + ", which is no word",
+                          "write one without blanks, such as not-ready");
+        }
         const auto [known, added] = numbers.emplace(label, number);
         if (added) continue;
         context.error(finding::labels,

@@ -6,9 +6,7 @@
 #include "text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -115,7 +113,7 @@ private:
     void error(const std::string& type, const char* rule, const std::string& message,
                const std::string& remedy) {
         Report found;
-        found.error(type.substr(0, bounds::nameLength), rule, {}, message, remedy);
+        found.error(isName(type) ? type : "", rule, {}, message, remedy);
         take(found);
     }
 

@@ -271,5 +271,9 @@ TEST(ShippedOntology, HasTheCommittedHashes) {
         << "on purpose? cp " << written << " tests/data/";
 }
 
+TEST(HashOf, IsTheFirstHalfOfSha256) {
+    EXPECT_EQ(toHex(hashOf("abc")), "ba7816bf8f01cfea414140de5dae2223");
+}
+
 }  // namespace
 }  // namespace cortex

@@ -185,6 +185,77 @@ TEST(SenderOfThisProcess, StartsLaterThanTheOnesBefore) {
     EXPECT_EQ(first.nameText(), "a");
 }
 
+struct PreparedCommands : testing::Test {
+    static std::shared_ptr<Structure> structure() {
+        SimplexTree tree{test::commandTypes()};
+        tree.add("/worker", "Worker");
+        auto structure = makeStructure("rig", tree);
+        structure->epoch = 7;
+        return structure;
+    }
+    const CommandTables tables{structure()};
+    CommandClient client{makeSender("tool")};
+    CallResult result;
+
+    PreparedCommand prepare() {
+        return client.prepare(tables, "/worker", "add",
+                              {{"amount", Value{std::vector<std::int64_t>{3}}}}, 50);
+    }
+};
+
+TEST_F(PreparedCommands, AreNumberedAndEncodedForAnyTransport) {
+    const PreparedCommand prepared = prepare();
+    const OutsideCommand& message = prepared.message;
+
+    EXPECT_TRUE(prepared.open);
+    EXPECT_EQ(message.sender, client.sender());
+    EXPECT_EQ(message.sequence, 1U);
+    EXPECT_EQ(message.targetEpoch, 7);
+    EXPECT_EQ(message.notAfter, 50);
+    EXPECT_EQ(message.simplex, tables.structure().find("/worker"));
+    EXPECT_EQ(argumentsOf(tables.of(message.simplex), message.command, prepared.request()),
+              (std::map<std::string, Value>{{"amount", Value{std::vector{3.0}}}}));
+    EXPECT_EQ(prepare().message.sequence, 2U);
+    EXPECT_THROW(client.prepare(tables, "/walker", "add", {}, 50), Error);
+    EXPECT_THROW(client.prepare(tables, "/worker", "ad", {}, 50), Error);
+    EXPECT_THROW(client.prepare(tables, "/worker", "add", {{"a", Value{}}}, 50), Error);
+}
+
+TEST_F(PreparedCommands, AreAnsweredByNames) {
+    prepare();
+    client.take(1, Outcome::Running, Reason::None, "", 0, {});
+    EXPECT_FALSE(client.poll(1, result));
+    client.take(1, Outcome::Rejected, Reason::Busy, "it works", 4,
+                {{"sum", Value{std::vector{3.5}}}});
+
+    ASSERT_TRUE(client.poll(1, result));
+    EXPECT_EQ(result.text(), "Rejected (busy): it works");
+    EXPECT_EQ(result.latencyCycles, 4);
+    EXPECT_EQ(result.response.at("sum"), (Value{std::vector{3.5}}));
+    client.take(1, Outcome::Done, Reason::None, "", 4, {});
+    EXPECT_FALSE(client.poll(1, result));
+}
+
+TEST_F(PreparedCommands, AreNotToBeSentWhenTooManyAreOnTheirWay) {
+    for (std::uint32_t i = 0; i < senderWindow; ++i) ASSERT_TRUE(prepare().open);
+
+    EXPECT_FALSE(prepare().open);
+    ASSERT_TRUE(client.poll(senderWindow + 1, result));
+    EXPECT_EQ(result.outcome, Outcome::MailboxFull);
+    client.take(1, Outcome::Done, Reason::None, "", 1, {});
+    EXPECT_FALSE(prepare().open);
+    client.take(2, Outcome::Done, Reason::None, "", 1, {});
+    client.take(3, Outcome::Done, Reason::None, "", 1, {});
+    EXPECT_TRUE(prepare().open);
+}
+
+TEST_F(PreparedCommands, ThatCouldNotBeSentAreAnswered) {
+    client.refuse(prepare().message.sequence);
+
+    ASSERT_TRUE(client.poll(1, result));
+    EXPECT_EQ(result.outcome, Outcome::MailboxFull);
+}
+
 TEST(CommandClient, KeepsTheLastThousandResultsThatNobodyFetched) {
     cortex::ProgramInterface program;
     AgentRig rig;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/state.hpp"
 
+#include "cortex/core/command.hpp"
+#include "cortex/core/event.hpp"
+#include "cortex/core/quality.hpp"
 #include "cortex/core/report.hpp"
 #include "cortex/core/type_model.hpp"
 
@@ -109,6 +112,23 @@ TEST(NearestNames, ListsAtMostThreeByDistance) {
     EXPECT_EQ(nearestNames("gripper", valid), "");
     EXPECT_EQ(nearestNames("", valid), "");
     EXPECT_EQ(nearestNames(std::string(1'000'000, 'x'), valid), "");
+}
+
+template <class E, class Read>
+void expectReadBack(int count, Read read) {
+    for (int i = 0; i < count; ++i) EXPECT_EQ(read(name(static_cast<E>(i))), static_cast<E>(i));
+    EXPECT_FALSE(read(""));
+    EXPECT_FALSE(read("nothing"));
+}
+
+TEST(EnumNames, AreReadBack) {
+    expectReadBack<Kind>(4, kindFromName);
+    expectReadBack<Role>(4, roleFromName);
+    expectReadBack<Outcome>(9, outcomeFromName);
+    expectReadBack<Reason>(8, reasonFromName);
+    expectReadBack<Quality>(4, qualityFromName);
+    expectReadBack<Severity>(3, severityFromName);
+    expectReadBack<EventKind>(10, eventKindFromName);
 }
 
 }  // namespace
