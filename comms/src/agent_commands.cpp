@@ -18,6 +18,7 @@ namespace {
 constexpr std::int64_t silence = 1'000'000'000;  // ns until a sender is lost
 constexpr std::uint32_t onTheirWay = 256;        // commands
 constexpr std::size_t mostSenders = 64;
+constexpr std::size_t longestName = 128;  // of what is looked up; paths are no longer
 
 template <std::size_t Size>
 bool put(const std::string& text, std::array<char, Size>& to) {
@@ -81,6 +82,9 @@ bool AgentCommands::encode(const Command& command, OutsideCommand& message,
                            std::vector<std::uint64_t>& record, Refusal& refusal) const {
     refusal = {Outcome::Rejected, Reason::UnknownCommand, {}};
     try {
+        if (std::max(command.path.size(), command.command.size()) > longestName) {
+            throw Error("no path and no command has a name as long as that");
+        }
         message = pipe_.tables().find(command.path, command.command);
         if (self_.structure().simplexes[message.simplex].remote) {
             throw Error(command.path + " belongs to another agent");

@@ -85,7 +85,7 @@ void AgentLinks::claim(Link& link, Peer& peer) {
     const auto known = link.claims.find(peer.name);
     if (known != link.claims.end()) {
         known->second.heard = peer.heard;
-        if (known->second.epoch == peer.epoch()) return;
+        if (peer.current && known->second.epoch == peer.epoch()) return;
         link.claims.erase(known);
     }
     if (!peer.heard || !peer.agent) return;
