@@ -3,12 +3,16 @@
 
 #include "cortex/core/error.hpp"
 
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <memory>
 #include <string_view>
 
 #include <ifaddrs.h>
 #include <netdb.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <arpa/inet.h>
 #include <net/if.h>
@@ -48,6 +52,21 @@ std::string listed(const std::vector<Interface>& interfaces) {
     return list.empty() ? "none" : list;
 }
 
+// Like Fast DDS, which says nothing when it gets no port, and then hears nothing.
+bool canBind(int port) {
+    const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (descriptor < 0) {
+        throw Error{std::string{"no UDP socket can be opened: "} + std::strerror(errno)};
+    }
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    const int result =
+        bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+    close(descriptor);
+    return result == 0;
+}
+
 }  // namespace
 
 std::vector<std::string> interfaceAddresses(const std::vector<std::string>& interfaces) {
@@ -67,6 +86,17 @@ std::vector<std::string> interfaceAddresses(const std::vector<std::string>& inte
                     "; this machine has " + listed(active)};
     }
     return addresses;
+}
+
+void requireFreePort(int domain, int participants) {
+    const int first = 7410 + 250 * domain;  // as RTPS has it: 2 for each participant
+    const int end = first + 2 * participants;
+    for (int port = first; port < end; port += 2) {
+        if (canBind(port)) return;
+    }
+    throw Error{"no UDP port is free for domain " + std::to_string(domain) + " (every other from " +
+                std::to_string(first) + " to " + std::to_string(end - 2) +
+                "); join another domain, or end programs that hold them (`ss -ulpn` lists them)"};
 }
 
 Address addressOf(const std::string& text, const std::string& option) {

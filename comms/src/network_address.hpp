@@ -18,6 +18,9 @@ struct Address {
 // IPv4 addresses of interfaces given by name or address; throws Error that lists the valid ones.
 std::vector<std::string> interfaceAddresses(const std::vector<std::string>& interfaces);
 
+// Throws Error if none of the ports is free on which so many participants of a domain are asked.
+void requireFreePort(int domain, int participants);
+
 // "host" or "host:port"; throws Error that names `option`.
 Address addressOf(const std::string& text, const std::string& option);
 

@@ -50,16 +50,7 @@ public:
 
     // Fast DDS holds the reader's lock here, so ours is never held while that one is asked for.
     void on_data_available(dds::DataReader* reader) override {
-        try {
-            dds::SampleInfo info;
-            for (;;) {
-                Envelope<M> envelope;
-                if (reader->take_next_sample(&envelope, &info) != ReturnCode::RETCODE_OK) return;
-                deliver(envelope, info);
-            }
-        } catch (...) {
-            ++malformed_;
-        }
+        while (takeOne(*reader)) continue;
     }
 
     void close() {
@@ -68,6 +59,19 @@ public:
     }
 
 private:
+    bool takeOne(dds::DataReader& reader) {
+        bool taken = false;
+        try {
+            Envelope<M> envelope;
+            dds::SampleInfo info;
+            taken = reader.take_next_sample(&envelope, &info) == ReturnCode::RETCODE_OK;
+            if (taken) deliver(envelope, info);
+        } catch (...) {
+            ++malformed_;
+        }
+        return taken;
+    }
+
     void deliver(Envelope<M>& envelope, const dds::SampleInfo& info) {
         const std::lock_guard lock{mutex_};
         if (closed_) return;

@@ -30,8 +30,8 @@ using eprosima::fastrtps::rtps::BuiltinAttributes;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 
-constexpr std::uint32_t ParticipantsPerHost = 300;  // for which a free port is searched
-constexpr std::uint32_t PeersPerHost = 100;         // ports asked on a peer without a port
+constexpr int ParticipantsPerHost = 300;     // for which a free port is searched
+constexpr std::uint32_t PeersPerHost = 100;  // ports asked on a peer without a port
 constexpr std::uint32_t LargestDatagram = 65536;
 constexpr std::uint32_t LargestBuffer = 64u << 20;
 constexpr const char* DiscoveryMulticast = "239.255.0.1";
@@ -132,6 +132,7 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
         throw Error{"security '" + options.security + "' of '" + name +
                     "' is not available in this version; leave it empty"};
     }
+    requireFreePort(options.domain, ParticipantsPerHost);
     auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = interfaceAddresses(options.interfaces);
     udp->maxInitialPeersRange = PeersPerHost;
@@ -147,7 +148,7 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
             std::make_shared<transport::SharedMemTransportDescriptor>());
     }
     BuiltinAttributes& builtin = qos.wire_protocol().builtin;
-    builtin.mutation_tries = ParticipantsPerHost;
+    builtin.mutation_tries = static_cast<std::uint32_t>(ParticipantsPerHost);
     builtin.discovery_config.leaseDuration = milliseconds(2000);
     builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(600);
     if (options.discoveryServer.empty()) {

@@ -7,7 +7,7 @@
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 
-// What is asked of Fast DDS; why is in docs/decisions.md.
+// What is asked of Fast DDS.
 namespace cortex::comms {
 
 // Throws Error about options that cannot be had on this machine.

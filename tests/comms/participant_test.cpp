@@ -237,6 +237,21 @@ TEST(Participant, CountsMalformedSamplesAndReadsOn) {
     EXPECT_EQ(inbox.elements().back(), presence(3));
 }
 
+TEST(Participant, DoesNotWriteWhatCannotBeEncoded) {
+    Participant agent{loopback(), "agent"}, tool{loopback(), "tool"};
+    Inbox<Presence> inbox;
+    const auto reader = tool.reader<Presence>(topics::presence, inbox.push());
+    const auto writer = agent.writer<Presence>(topics::presence);
+    Presence wrong = presence(1);
+    wrong.name.push_back('\0');
+
+    EXPECT_FALSE(writer->write(wrong));
+    EXPECT_TRUE(writer->write(presence(2)));
+
+    ASSERT_TRUE(inbox.waitFor(1));
+    EXPECT_EQ(inbox.elements().front(), presence(2));
+}
+
 TEST(Participant, SurvivesACallbackThatThrows) {
     Participant agent{loopback(), "agent"}, tool{loopback(), "tool"};
     Inbox<Presence> inbox;
@@ -362,6 +377,14 @@ TEST(Participant, RefusesADomainThatDoesNotExist) {
         options.domain = domain;
         EXPECT_TRUE(contains(joinRefusal(options), "from 0 to 230")) << domain;
     }
+}
+
+TEST(Participant, RefusesADomainWhosePortsAreTaken) {
+    const TakenPorts ports{7410 + 250 * loopback().domain, 300};
+
+    const std::string text = joinRefusal(loopback());
+
+    EXPECT_TRUE(contains(text, "no UDP port is free")) << text;
 }
 
 TEST(Participant, RefusesSecurityRatherThanDoWithoutIt) {

@@ -69,13 +69,24 @@ void remove(dds::DomainParticipant* participant) {
     dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
 }
 
-std::uint16_t freePort() {
+// A socket on that port of the loopback interface; -1 if it is taken. 0: on any port.
+int bound(int port) {
     const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
+        return descriptor;
+    }
+    close(descriptor);
+    return -1;
+}
+
+std::uint16_t freePort() {
+    const int descriptor = bound(0);
+    sockaddr_in address{};
     socklen_t size = sizeof address;
-    EXPECT_EQ(bind(descriptor, reinterpret_cast<sockaddr*>(&address), size), 0);
     EXPECT_EQ(getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size), 0);
     close(descriptor);
     return ntohs(address.sin_port);
@@ -138,5 +149,17 @@ DiscoveryServer::DiscoveryServer(const NetworkOptions& options) : impl_{std::mak
 DiscoveryServer::~DiscoveryServer() { remove(impl_->participant); }
 
 std::string DiscoveryServer::address() const { return "127.0.0.1:" + std::to_string(impl_->port); }
+
+TakenPorts::TakenPorts(int first, int count) {
+    for (int i = 0; i < count; ++i) {
+        if (const int descriptor = bound(first + 2 * i); descriptor >= 0) {
+            descriptors_.push_back(descriptor);
+        }
+    }
+}
+
+TakenPorts::~TakenPorts() {
+    for (const int descriptor : descriptors_) close(descriptor);
+}
 
 }  // namespace cortex::comms

@@ -39,4 +39,14 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
+// Every other UDP port from `first` on, as far as it was free.
+class TakenPorts {
+public:
+    TakenPorts(int first, int count);
+    ~TakenPorts();
+
+private:
+    std::vector<int> descriptors_;
+};
+
 }  // namespace cortex::comms
