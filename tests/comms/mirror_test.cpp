@@ -183,8 +183,8 @@ TEST(Mirror, TellsEventsThatWereBeforeItCameToo) {
         });
     };
     note("before");
-    Mirror mirror{"test", loopback()};
     Inbox<AgentEvent> events;
+    Mirror mirror{"test", loopback()};
     mirror.onEvent(events.push());
     const auto has = [](const char* text) {
         return [text](const std::vector<AgentEvent>& all) {
