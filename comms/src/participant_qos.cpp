@@ -92,29 +92,28 @@ void addServers(BuiltinAttributes& builtin, std::string_view servers) {
 
 struct Profile {
     bool reliable, lateJoiners;
-    std::int32_t depth, readerDepth;
+    std::int32_t depth;
     std::uint32_t heartbeat;  // ms
 };
 
-// In the order of Qos. A reader's pool of samples without keys is as large as its depth, and needs
-// room for the fragments of several agents that arrive at once.
+// In the order of Qos.
 constexpr std::array profiles{
-    Profile{true, true, 1, 1, 100},
-    Profile{false, false, 1, 64, 0},
-    Profile{true, false, 64, 64, 10},
-    Profile{true, true, 1000, 1000, 100},
+    Profile{true, true, 1, 100},
+    Profile{false, false, 1, 0},
+    Profile{true, false, 64, 10},
+    Profile{true, true, 1000, 100},
 };
 
 const Profile& profileOf(Qos qos) { return profiles.at(static_cast<std::size_t>(qos)); }
 
 template <class EndpointQos>
-void apply(const Profile& profile, std::int32_t depth, EndpointQos& qos) {
+void apply(const Profile& profile, EndpointQos& qos) {
     qos.reliability().kind =
         profile.reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
     qos.durability().kind =
         profile.lateJoiners ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
     qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
-    qos.history().depth = depth;
+    qos.history().depth = profile.depth;
     qos.resource_limits().max_samples = 0;  // 0: unlimited
     qos.resource_limits().max_instances = 0;
     qos.resource_limits().max_samples_per_instance = 0;
@@ -162,7 +161,7 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
 dds::DataWriterQos writerQos(Qos qos) {
     const Profile& profile = profileOf(qos);
     dds::DataWriterQos writer;
-    apply(profile, profile.depth, writer);
+    apply(profile, writer);
     writer.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
     if (profile.reliable) {
         writer.reliable_writer_qos().times.heartbeatPeriod = milliseconds(profile.heartbeat);
@@ -171,9 +170,8 @@ dds::DataWriterQos writerQos(Qos qos) {
 }
 
 dds::DataReaderQos readerQos(Qos qos) {
-    const Profile& profile = profileOf(qos);
     dds::DataReaderQos reader;
-    apply(profile, profile.readerDepth, reader);
+    apply(profileOf(qos), reader);
     return reader;
 }
 

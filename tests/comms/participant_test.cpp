@@ -276,12 +276,13 @@ TEST(Participant, CallsBackOnThreadsOfItsOwnEvenWithinOneProcess) {
     const auto reader = tool.reader<Presence>(
         topics::presence, [&](Presence&&) { threads.push()(std::this_thread::get_id()); });
     const auto writer = agent.writer<Presence>(topics::presence);
-    ASSERT_TRUE(comesTrue([&] { return writer->readers() == 1; }));
+    ASSERT_TRUE(comesTrue([&] { return writer->readers() == 1 && reader->writers() == 1; }));
 
-    ASSERT_TRUE(writer->write(presence(1)));
-
-    ASSERT_TRUE(threads.waitFor(1));
-    EXPECT_NE(threads.elements().front(), std::this_thread::get_id());
+    for (std::size_t count = 1; count <= 3; ++count) {
+        ASSERT_TRUE(writer->write(presence(1)));
+        ASSERT_TRUE(threads.waitFor(count));
+        EXPECT_NE(threads.elements().back(), std::this_thread::get_id());
+    }
 }
 
 TEST(Participant, CallsNobodyBackOnceAReaderIsDestroyed) {
