@@ -145,8 +145,9 @@ TEST_F(DdsAgent, ViewsOnlyWhatIsBelowThePrefixes) {
         return !blocks.elements().empty();
     }));
 
+    const Block block = blocks.elements().back();
     std::vector<std::string> paths;
-    for (const SimplexData& each : blocks.elements().back().simplexes) {
+    for (const SimplexData& each : block.simplexes) {
         paths.push_back(agent.structure().simplexes[each.index].path);
     }
     EXPECT_EQ(paths, (std::vector<std::string>{"/plate", "/plate/left"}));
