@@ -147,7 +147,9 @@ TEST_F(CortexLive, ShowsASimplexWithAllThatIsKnownOfIt) {
         {{"rule", "observation"}, {"direction", "output"}, {"to", "/axis/observed"}}};
     EXPECT_EQ(shown["relationships"], expected);
     for (const json& command : shown["commands"]) {
-        if (command["name"] == "startup") EXPECT_EQ(command["available"], true);
+        if (command["name"] == "startup") {
+            EXPECT_EQ(command["available"], true);
+        }
         if (command["name"] != "shutdown") continue;
         EXPECT_EQ(command["available"], false);
         EXPECT_EQ(command["reason"], "needs StartingUp Active, is Standby");
