@@ -2,11 +2,12 @@
 #include "agent_events.hpp"
 
 #include <cstddef>
+#include <utility>
 
 namespace cortex::comms {
 namespace {
 
-constexpr std::size_t mostWaiting = 10'000;
+constexpr std::size_t mostWaiting = 10'000, mostAtOnce = 64;
 
 EventMessage messageOf(const Event& event, const Structure& structure, const EventMessage& head) {
     EventMessage message = head;
@@ -34,7 +35,7 @@ AgentEvents::AgentEvents(const AgentSelf& self) {
             const std::lock_guard lock{queue->mutex};
             if (!queue->open) return;
             auto& messages = queue->messages;
-            if (messages.size() >= mostWaiting) messages.erase(messages.begin());
+            if (messages.size() >= mostWaiting) messages.pop_front();
             messages.push_back(messageOf(event, structure, head));
         });
 }
@@ -44,9 +45,19 @@ AgentEvents::~AgentEvents() {
     queue_->open = false;
 }
 
-void AgentEvents::take(std::vector<EventMessage>& emptied) {
+bool AgentEvents::take(std::vector<EventMessage>& emptied) {
     const std::lock_guard lock{queue_->mutex};
-    std::swap(queue_->messages, emptied);
+    auto& messages = queue_->messages;
+    while (!messages.empty() && emptied.size() < mostAtOnce) {
+        emptied.push_back(std::move(messages.front()));
+        messages.pop_front();
+    }
+    return messages.empty();
+}
+
+bool AgentEvents::empty() const {
+    const std::lock_guard lock{queue_->mutex};
+    return queue_->messages.empty();
 }
 
 }  // namespace cortex::comms

@@ -4,9 +4,9 @@
 #include "agent_self.hpp"
 #include "messages.hpp"
 
+#include <deque>
 #include <memory>
 #include <mutex>
-#include <utility>
 #include <vector>
 
 namespace cortex::comms {
@@ -19,12 +19,14 @@ public:
     explicit AgentEvents(const AgentSelf& self);
     ~AgentEvents();  // from here on the sink does nothing
 
-    void take(std::vector<EventMessage>& emptied);
+    // The oldest ones, a few: the thread has other things to do. False: more are waiting.
+    bool take(std::vector<EventMessage>& emptied);
+    bool empty() const;
 
 private:
     struct Queue {
         std::mutex mutex;
-        std::vector<EventMessage> messages;
+        std::deque<EventMessage> messages;
         bool open = true;
     };
     std::shared_ptr<Queue> queue_ = std::make_shared<Queue>();

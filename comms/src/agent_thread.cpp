@@ -124,7 +124,7 @@ void AgentThread::changed() {
 }
 
 void AgentThread::sendEvents() {
-    events_.take(eventsToSend_);
+    if (!events_.take(eventsToSend_)) wake_.signal();  // the next step follows at once
     for (const EventMessage& event : eventsToSend_) {
         if (!silent_) eventOut_->write(event);
     }
@@ -147,6 +147,7 @@ void AgentThread::fallSilent() {
 void AgentThread::sayGoodbye() {
     step();
     if (silent_) return;
+    while (!events_.empty()) sendEvents();
     const Presence last = model_.presence("stopping");
     presenceOut_->write(last);
     presenceOut_->dispose(last);

@@ -190,7 +190,8 @@ TEST_F(DdsAgent, IsNotSilencedByAnEarlierStartOrATool) {
 }
 
 TEST(DdsLoop, AllocatesNothingWhileItLinksIsViewedAndCommanded) {
-    NetworkAgent near{"near"}, away{"away"};
+    NetworkAgent near{"near"};
+    NetworkAgent away{test::commandTypes(), "away", {.period = 1'000'000'000}};  // never stale
     near.rig.tree.relateRemote(near.rig.hand("/boss", "Boss"), "readings", "/far");
     near.rig.tree.add("/plate", "Plate");
     Simplex& far = away.rig.tree.add("/far", "Reading");
