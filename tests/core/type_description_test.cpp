@@ -16,7 +16,6 @@
 namespace cortex {
 namespace {
 
-namespace fs = std::filesystem;
 using test::isValid;
 using test::readTypes;
 using test::XmlModel;
@@ -124,7 +123,7 @@ void expectToldWhole(const XmlModel& model) {
 class ShippedTypes : public testing::TestWithParam<const char*> {};
 
 TEST_P(ShippedTypes, AreToldWhole) {
-    expectToldWhole(TypeModel::load(fs::path{CORTEX_SOURCE_DIR} / GetParam()));
+    expectToldWhole(TypeModel::load(std::filesystem::path{CORTEX_SOURCE_DIR} / GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, ShippedTypes,
@@ -193,7 +192,8 @@ TEST(TypeDescription, TellsLabelsThatANarrowedRangeExcludes) {
     expectToldWhole(
         readTypes("<type name='A'><data name='m' kind='int' labels='0:Off 1:On 2:Auto'/></type>"
                   "<type name='B' extends='A'><data name='m' min='0' max='1'/></type>"
-                  "<type name='C' extends='B'/>"));
+                  "<type name='C' extends='B'/>"
+                  "<type name='D' extends='A'><data name='m' max='1' labels='-1:Back'/></type>"));
 }
 
 TEST(TypeDescription, TellsWhatParentsMakeTogether) {
@@ -382,8 +382,8 @@ TEST(TypeDescription, ClosureHasAncestorsTargetsAndWhatIsCreated) {
 }
 
 TEST(TypeDescription, ClosureOfAnyShippedTypeIsToldWithoutTheOthers) {
-    const TypeModel model =
-        TypeModel::load(fs::path{CORTEX_SOURCE_DIR} / "ontology/robotics-morphology.xml");
+    const TypeModel model = TypeModel::load(std::filesystem::path{CORTEX_SOURCE_DIR} /
+                                            "ontology/robotics-morphology.xml");
     for (const auto& [name, type] : model.types()) {
         std::vector<TypeDescription> described;
         for (const Type* each : closureOf(model, std::span{&name, 1})) {
