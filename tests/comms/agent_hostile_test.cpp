@@ -19,7 +19,7 @@ struct HostilePeer : testing::Test {
         away.rig.tree.add("/far", "Reading").set("a", 7.0);
         near.rig.start();
         away.rig.start();
-        liar.connect();
+        liar.connect(2);
     }
     bool linked() {
         return comesTrue([&] {

@@ -198,7 +198,7 @@ TEST(DdsLoop, AllocatesNothingWhileItLinksIsViewedAndCommanded) {
     near.rig.start();
     away.rig.start();
     RawTool tool{"operator"};
-    tool.connect();
+    tool.connect(2);
     Interest wanted;
     wanted.target = "near";
     wanted.views = {{0, {"/"}}};

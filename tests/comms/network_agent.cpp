@@ -72,9 +72,11 @@ Command RawTool::command(const Structure& target, const std::string& path,
     return message;
 }
 
-void RawTool::connect() {
-    const bool connected = comesTrue([this] {
-        return commands->readers() > 0 && answerReader->writers() > 0 && presences->readers() > 0;
+void RawTool::connect(std::uint32_t agents) {
+    const bool connected = comesTrue([&] {
+        // Its own reader hears its presence too.
+        return commands->readers() >= agents && answerReader->writers() >= agents &&
+               presences->readers() > agents;
     });
     if (!connected) throw std::logic_error("no agent listens to the test");
 }

@@ -50,8 +50,8 @@ public:
     Model interest(Interest wanted) const;
     Command command(const Structure& target, const std::string& path, const std::string& name,
                     std::vector<NamedValue> arguments = {});
-    // Waits until agents listen.
-    void connect();
+    // Waits until so many agents listen.
+    void connect(std::uint32_t agents = 1);
 
     std::string name;
     std::int64_t epoch = 1'700'000'000'000'000;

@@ -22,7 +22,7 @@ TEST(DdsInterface, NeitherAllocatesNorLocksNorCallsTheSystemInTheLoop) {
     near.rig.start();
     away.rig.start();
     RawTool tool{"operator"};
-    tool.connect();
+    tool.connect(2);
     Interest wanted;
     wanted.target = "near";
     wanted.views = {{0, {"/"}}};
