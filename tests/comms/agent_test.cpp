@@ -17,6 +17,7 @@ struct DdsAgent : testing::Test {
     void start() {
         agent.rig.start();
         tool.connect();
+        ASSERT_TRUE(hears("running"));
     }
     // The newest presence of the agent.
     std::optional<Presence> heard() const {
@@ -59,7 +60,6 @@ TEST_F(DdsAgent, TellsAModelThatMakesTheSameStructure) {
     Inbox<Model> models;
     const auto reader = tool.participant.reader<Model>(topics::model, models.push());
     start();
-    ASSERT_TRUE(hears("running"));
     PeerModel known{"robot", agent.structure().epoch};
     ASSERT_TRUE(known.add(*heard()));
     std::size_t taken = 0;
@@ -155,7 +155,6 @@ TEST_F(DdsAgent, ViewsOnlyWhatIsBelowThePrefixes) {
 
 TEST_F(DdsAgent, FallsSilentWhenALaterStartOfItsNameIsHeard) {
     start();
-    ASSERT_TRUE(hears("running"));
     Presence later = *heard();
     ++later.epoch;
     ASSERT_TRUE(tool.presences->write(later));
@@ -173,7 +172,6 @@ TEST_F(DdsAgent, FallsSilentWhenALaterStartOfItsNameIsHeard) {
 
 TEST_F(DdsAgent, IsNotSilencedByAnEarlierStartOrATool) {
     start();
-    ASSERT_TRUE(hears("running"));
     Presence earlier = *heard();
     --earlier.epoch;
     Presence nameless = *heard();
