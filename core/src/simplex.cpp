@@ -214,8 +214,8 @@ std::vector<std::uint32_t> Simplex::edgesUnder(std::string_view rule, Direction 
     return found;
 }
 
-std::uint32_t Simplex::parameterOffset(std::string_view command, std::string_view parameter,
-                                       Kind kind, bool request) const {
+const ItemLayout& Simplex::parameter(std::string_view command, std::string_view parameter,
+                                     Shape shape, bool request) const {
     const CommandTable& table = startedRuntime().commands(index_);
     const std::uint32_t found = table.find(command);
     if (found == CommandTable::none) throwNoCommand(*this, command);
@@ -229,8 +229,9 @@ std::uint32_t Simplex::parameterOffset(std::string_view command, std::string_vie
         for (const ItemLayout& each : record.items) names.push_back(each.item->name);
         throwUnknown(where + " has no '" + std::string{parameter} + "'", parameter, names);
     }
-    checkShape(*layout->item, {kind, false, false}, where + ": '" + layout->item->name + "'");
-    return layout->offset;
+    checkShape(*layout->item, {shape.kind, shape.array, false},
+               where + ": '" + layout->item->name + "'");
+    return *layout;
 }
 
 void Simplex::handle(std::string_view command, Handler handler) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -50,6 +51,15 @@ template <class T>
 struct Result {
     std::uint32_t offset = 0;
 };
+// The same of array parameters, which the Call shows as spans.
+template <ArrayElement T>
+struct ArrayArgument {
+    std::uint32_t offset = 0, length = 0;
+};
+template <ArrayElement T>
+struct ArrayResult {
+    std::uint32_t offset = 0, length = 0;
+};
 
 // One execution of a command, seen by its handler. Arguments were checked before.
 class Call {
@@ -65,6 +75,14 @@ public:
     Data<T> operator[](Result<T> result) CORTEX_REALTIME {
         using Cell = typename StorageOf<T>::type;
         return Data<T>{reinterpret_cast<Cell*>(response_ + result.offset)};
+    }
+    template <class T>
+    std::span<const T> operator[](ArrayArgument<T> argument) const CORTEX_REALTIME {
+        return {reinterpret_cast<const T*>(request_ + argument.offset), argument.length};
+    }
+    template <class T>
+    std::span<T> operator[](ArrayResult<T> result) CORTEX_REALTIME {
+        return {reinterpret_cast<T*>(response_ + result.offset), result.length};
     }
     bool first() const { return first_; }  // false when a long command is called again
     bool cancelling() const {

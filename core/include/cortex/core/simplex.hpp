@@ -157,12 +157,22 @@ protected:
     std::vector<OutputSimplex> outputs(std::string_view rule);
 
     template <class T>
-    Argument<T> argument(std::string_view command, std::string_view parameter) const {
-        return {parameterOffset(command, parameter, kindFor<T>(), true)};
+    Argument<T> argument(std::string_view command, std::string_view name) const {
+        return {parameter(command, name, {kindFor<T>(), false}, true).offset};
     }
     template <class T>
-    Result<T> result(std::string_view command, std::string_view parameter) const {
-        return {parameterOffset(command, parameter, kindFor<T>(), false)};
+    Result<T> result(std::string_view command, std::string_view name) const {
+        return {parameter(command, name, {kindFor<T>(), false}, false).offset};
+    }
+    template <ArrayElement T>
+    ArrayArgument<T> arrayArgument(std::string_view command, std::string_view name) const {
+        const ItemLayout& layout = parameter(command, name, {kindFor<T>(), true}, true);
+        return {layout.offset, layout.item->length};
+    }
+    template <ArrayElement T>
+    ArrayResult<T> arrayResult(std::string_view command, std::string_view name) const {
+        const ItemLayout& layout = parameter(command, name, {kindFor<T>(), true}, false);
+        return {layout.offset, layout.item->length};
     }
     void handle(std::string_view command, Handler handler);  // throws if the type lacks it
     AgentRuntime& runtime() const { return *runtime_; }      // from start() on
@@ -175,8 +185,12 @@ private:
 
     AgentRuntime& startedRuntime() const;  // throws before start()
     void* cell(std::string_view item, Kind kind, bool array, bool write, std::size_t& length);
-    std::uint32_t parameterOffset(std::string_view command, std::string_view parameter, Kind kind,
-                                  bool request) const;
+    struct Shape {
+        Kind kind;
+        bool array;
+    };
+    const ItemLayout& parameter(std::string_view command, std::string_view name, Shape shape,
+                                bool request) const;
     std::vector<std::uint32_t> edgesUnder(std::string_view rule, Direction direction) const;
 
     Identity identity_;
