@@ -24,6 +24,13 @@ public:
     using Error::Error;
 };
 
+// As an ontology states it.
+std::string shape(const DataItem& item) {
+    std::string text = std::string{"kind=\""} + name(item.kind) + "\" length=\"" +
+                       std::to_string(item.length) + "\"";
+    return item.unit.empty() ? text : text + " unit=\"" + item.unit + "\"";
+}
+
 // PATH.ITEM=VALUE
 void applySetting(SimplexTree& tree, const std::string& text) {
     const std::size_t equals = text.find('=');
@@ -42,7 +49,9 @@ void applySetting(SimplexTree& tree, const std::string& text) {
     }
     std::string why;
     auto value = parseValue(item->kind, item->length, text.substr(equals + 1), why);
-    if (!value) throw UsageError("--set " + text + ": " + why);
+    if (!value) {
+        throw UsageError("--set " + text + ": " + why + "; " + itemName + " has " + shape(*item));
+    }
     simplex.set(itemName, std::move(*value), {"--set", 0});
 }
 

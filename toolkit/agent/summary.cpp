@@ -110,9 +110,14 @@ std::string metricsTable(const Image& image, const std::string& cluster) {
     for (const char* title : titles) text += right(title, 11);
     text += "\n";
     for (const auto& [title, unit, item] : rows) {
+        const auto figure = [&, name = std::string{item}](std::string_view column) {
+            return image.get<double>(path, name + std::string{column});
+        };
+        const bool any = figure("Max") > 0, ranked = figure("P999") > 0;  // else not yet computed
         text += "  " + left(title, 16) + left(unit, 4);
-        for (const char* column : columns) {
-            text += right(fixed(image.get<double>(path, std::string{item} + column), 2), 11);
+        for (const std::string_view column : columns) {
+            const bool known = column.starts_with('P') ? ranked : any;
+            text += right(known ? fixed(figure(column), 2) : "-", 11);
         }
         text += "\n";
     }
