@@ -30,17 +30,6 @@ std::uint32_t elements(const DataItem& item) {
     return item.kind == Kind::String ? item.length * StringCell::size(item.capacity) : item.length;
 }
 
-TypeLayout typeLayout(const Type& type) {
-    TypeLayout layout;
-    layout.type = &type;
-    for (const auto& item : type.data) {
-        std::uint32_t& used = countOf(item.constant ? layout.constant : layout.cyclic, item.kind);
-        layout.items.push_back({&item, used});
-        used += elements(item);
-    }
-    return layout;
-}
-
 const TypeLayout* layoutFor(Structure& structure, const Type& type) {
     auto& layouts = structure.layouts;
     const auto found =
@@ -152,6 +141,17 @@ BlockSizes& BlockSizes::operator+=(const BlockSizes& other) {
     bools += other.bools;
     strings += other.strings;
     return *this;
+}
+
+TypeLayout typeLayout(const Type& type) {
+    TypeLayout layout;
+    layout.type = &type;
+    for (const auto& item : type.data) {
+        std::uint32_t& used = countOf(item.constant ? layout.constant : layout.cyclic, item.kind);
+        layout.items.push_back({&item, used});
+        used += elements(item);
+    }
+    return layout;
 }
 
 const ItemLayout* TypeLayout::find(std::string_view item) const {
