@@ -5,6 +5,7 @@
 #include "cortex/core/tables.hpp"
 
 #include "lookup.hpp"
+#include "text.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -42,9 +43,13 @@ Value converted(const DataItem& item, const Value& value, const std::string& wha
         ints != nullptr && item.kind == Kind::Float) {
         result = std::vector<double>(ints->begin(), ints->end());
     }
-    if (kindOf(result) != item.kind || lengthOf(result) != item.length) {
+    if (kindOf(result) != item.kind) {
         throw Error(what + " is " + shapeOf(item) + ", got " + name(kindOf(value)) + " " +
                     toText(value));
+    }
+    if (lengthOf(result) != item.length) {
+        throw Error(what + " is " + shapeOf(item) + ": " +
+                    wrongCount(item.length, lengthOf(result)) + ": " + inQuotes(toText(value)));
     }
     return result;
 }

@@ -143,10 +143,10 @@ Simplex::Simplex(Identity identity) : identity_{std::move(identity)} {}
 
 Simplex::~Simplex() = default;
 
-void Simplex::set(std::string_view item, Value value, Place place) {
+void Simplex::set(std::string_view item, const GivenValue& value, Place place) {
     const auto same = std::ranges::find(settings_, item, &Setting::item);
     Setting& setting = same != settings_.end() ? *same : settings_.emplace_back();
-    setting = {std::string{item}, fitted(type(), item, std::move(value)), std::move(place)};
+    setting = {std::string{item}, fitted(type(), item, value), std::move(place)};
 }
 
 void Simplex::runEvery(int cycles, int phase) {

@@ -93,6 +93,37 @@ TEST(Validation, FindsAnUnknownRule) {
     EXPECT_EQ(only(none).remedy, "remove it: type Lamp has no rules");
 }
 
+TEST(Validation, SaysOnceThatARuleIsMisspelt) {
+    const std::string lamps = simplex("/l1", "Lamp") + simplex("/l2", "Lamp");
+    const auto alone =
+        checkSmall(simplex("/arm", "Arm", relate("tol", "/hand")) + simplex("/hand", "Welder"));
+    const auto oneOfTwo = checkSmall(
+        simplex("/p", "Painter", relate("outputs", "/l1") + relate("outptus", "/l2")) + lamps);
+    const auto notEnough = checkSmall(simplex("/p", "Painter", relate("outptus", "/l2")) + lamps);
+    const auto another = checkSmall(simplex("/arm", "Arm", relate("zzzz", "/l1")) + lamps);
+
+    EXPECT_EQ(only(alone).rule, "unknown-rule") << alone.report.text();
+    EXPECT_EQ(only(oneOfTwo).rule, "unknown-rule") << oneOfTwo.report.text();
+    for (const CheckedModel* both : {&notEnough, &another}) {
+        EXPECT_EQ(both->count("unknown-rule"), 1U) << both->report.text();
+        EXPECT_EQ(both->count("below-min"), 1U) << both->report.text();
+    }
+}
+
+TEST(Validation, NamesTheRuleThatShouldRefineTheOneThatLacksSimplexes) {
+    const std::string lamps = simplex("/l1", "Lamp") + simplex("/l2", "Lamp");
+    const auto related = only(checkSmall(
+        simplex("/p", "Painter", relate("lights", "/l1") + relate("lights", "/l2")) + lamps));
+    const auto bare = only(checkSmall(simplex("/p", "Painter") + lamps));
+
+    EXPECT_EQ(related.rule, "below-min");
+    EXPECT_TRUE(related.remedy.starts_with(
+        "write refines=\"outputs\" for rule 'lights' (small-morphology.xml:36), or add "))
+        << related.remedy;
+    EXPECT_EQ(bare.rule, "below-min");
+    EXPECT_TRUE(bare.remedy.starts_with("relate 2 with ")) << bare.remedy;
+}
+
 TEST(Validation, FindsAnUnknownTarget) {
     const auto input = only(checkSmall(simplex("/c", "Controller", relate("axes", "/axsi")) +
                                        simplex("/axis", "Axis") + simplex("/other", "Axis")));
@@ -218,6 +249,15 @@ INSTANTIATE_TEST_SUITE_P(
         SettingCase{"direction", "0 2 -2", "setting-range", "value=\"0 1 -1\"/>"},
         SettingCase{"note", "nine octs", "setting-length", "value=\"nine oct\"/>"}));
 
+TEST(Validation, SaysHowManyValuesASettingNeedsAndHas) {
+    const auto scalar = checkSmall(simplex("/a", "Axis", set("position", "1 2")));
+    const auto array = checkSmall(simplex("/a", "Axis", set("direction", "0 0")));
+
+    EXPECT_EQ(only(scalar).message, "item 'position' is float: expected 1 value, found 2");
+    EXPECT_EQ(only(array).message,
+              "item 'direction' is float array of 3: expected 3 values, found 2");
+}
+
 TEST(Validation, CutsATextThatIsTooLongAtACharacter) {
     const Finding finding = only(checkSmall(simplex("/a", "Axis", set("note", "1234567\u00e9"))));
 
@@ -249,6 +289,9 @@ TEST(Validation, ChecksSettingsMadeInCode) {
     EXPECT_TRUE(contains(report.findings[0].message, "is a float, set is a bool"));
     EXPECT_EQ(report.findings[1].rule, "setting-finite");
     EXPECT_EQ(report.findings[2].rule, "setting-length");
+    EXPECT_TRUE(
+        report.findings[2].message.ends_with("is float array of 3: expected 3 values, found 1"))
+        << report.findings[2].message;
 }
 
 TEST(Validation, TakesRemoteSimplexesAsInputsOnly) {

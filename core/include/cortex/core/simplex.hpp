@@ -122,15 +122,7 @@ public:
     std::uint32_t index() const { return index_; }  // in the Structure, from start() on
 
     // Setup, before start(): the value an item starts with. Wrong ones are findings of validate().
-    void set(std::string_view item, Value value, Place place = {});
-    void set(std::string_view item, double value) { set(item, Value{std::vector{value}}); }
-    void set(std::string_view item, int value) { set(item, std::int64_t{value}); }
-    void set(std::string_view item, std::int64_t value) { set(item, Value{std::vector{value}}); }
-    void set(std::string_view item, bool value) { set(item, Value{std::vector<bool>{value}}); }
-    void set(std::string_view item, std::string_view value) {
-        set(item, Value{std::vector{std::string{value}}});
-    }
-    void set(std::string_view item, const char* value) { set(item, std::string_view{value}); }
+    void set(std::string_view item, const GivenValue& value, Place place = {});
     void runEvery(int cycles, int phase = -1);
 
     // Own data, from populate() on; of a descriptive simplex without writer also for the program,
