@@ -50,7 +50,7 @@ void addOutput(CLI::App& verb, NewFileOptions& options, const char* description)
 void needFiles(const Paths& files, const char* example) {
     if (files.empty()) {
         throw Failure{
-            Usage, std::string{"no model is named: give its files, for example --file "} + example};
+            Usage, std::string{"no network yet: give --file FILE…, for example --file "} + example};
     }
 }
 
