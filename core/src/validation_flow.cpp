@@ -289,8 +289,8 @@ void Flow::checkAges() {
         const Edge& first = edge(index);
         const Rule& rule = *first.rule;
         std::uint32_t slowest = index;
-        while (++index < relations_.size() && edge(index).owner == first.owner &&
-               edge(index).rule == first.rule) {
+        for (++index; index < relations_.size(); ++index) {
+            if (edge(index).owner != first.owner || edge(index).rule != first.rule) break;
             if (writtenEvery(index) > writtenEvery(slowest)) slowest = index;
         }
         const int every = writtenEvery(slowest);

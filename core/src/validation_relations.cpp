@@ -102,7 +102,7 @@ void reportTwice(const Checked& checked, const Simplex& owner, const Rule& rule,
 
 std::string meantRule(const Checked& checked, const Simplex& owner, const Relation& relation) {
     const auto& rules = owner.type().rules;
-    const std::string nearest = nearestName(relation.rule, namesOf(rules));
+    std::string nearest = nearestName(relation.rule, namesOf(rules));
     const Simplex* target = checked.tree.find(relation.target);
     if (!nearest.empty() || target == nullptr) return nearest;
     const auto taking = std::ranges::find_if(

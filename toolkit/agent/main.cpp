@@ -48,11 +48,11 @@ void applySetting(SimplexTree& tree, const std::string& text) {
                          ") has no item '" + itemName + "'; " + nearestNames(itemName, names));
     }
     std::string why;
-    auto value = parseValue(item->kind, item->length, text.substr(equals + 1), why);
+    const auto value = parseValue(item->kind, item->length, text.substr(equals + 1), why);
     if (!value) {
         throw UsageError("--set " + text + ": " + why + "; " + itemName + " has " + shape(*item));
     }
-    simplex.set(itemName, std::move(*value), {"--set", 0});
+    simplex.set(itemName, *value, {"--set", 0});
 }
 
 SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry) {
