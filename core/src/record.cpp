@@ -83,7 +83,8 @@ void encodeRecord(const CommandTable& table, std::uint32_t command,
         if (item == nullptr) {
             std::vector<std::string> valid;
             for (const ItemLayout& each : entry.request.items) valid.push_back(each.item->name);
-            throwUnknown(what + " is unknown", name, valid);
+            throwUnknown(isSet(entry) ? "'" + name + "' is no settable item" : what + " is unknown",
+                         name, valid);
         }
         storeValue(*item->item, converted(*item->item, value, what), record + item->offset);
         if (isSet(entry)) record[item - entry.request.items.data()] = std::byte{1};

@@ -124,6 +124,9 @@ void TypeResolver::checkRefines(const Type& type, const Rule& rule) {
         error(std::string{", which is an "} + name(general->direction),
               "refine a rule of its direction");
     }
+    if (general->delayed && !rule.delayed) {
+        error(", which is delayed", "write delayed=\"true\" for it as well");
+    }
     if (!graph_.isA(rule.target, general->target)) {
         error(", whose target " + inQuotes(general->target) + " is not that of " +
                   inQuotes(rule.target),

@@ -99,8 +99,10 @@ void Flow::checkSecondWriter(std::uint32_t index) {
                           owner(edge(index)).path() + " writes it by " +
                               ruleText(owner(edge(index)), *edge(index).rule) + ", and so does " +
                               info(target.writers.front()).path,
-                          "remove this <relate>, or write writers=\"many\" for type " + type.name +
-                              " (" + type.place.text() + ")");
+                          "remove this <relate>, or let both write simplexes of their own and a "
+                          "third combine them; if only one of them is ever Active, write "
+                          "writers=\"many\" for type " +
+                              type.name + " (" + type.place.text() + ")");
 }
 
 // One owner would write the same data by two rules. The later <relate> is one too many; where one

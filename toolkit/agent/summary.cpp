@@ -128,6 +128,19 @@ std::string metricsTable(const Image& image, const std::string& cluster) {
     return text;
 }
 
+std::string faultLines(const Image& image) {
+    std::string text;
+    const Structure& structure = image.structure();
+    for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
+        const SimplexInfo& info = structure.simplexes[i];
+        if (info.remote || !info.layout->type->isA("Active")) continue;
+        if (image.get<std::int64_t>(info.path, "state") != static_cast<int>(State::Fault)) continue;
+        const auto why = image.get<std::string_view>(info.path, "faultText");
+        text += info.path + " is in Fault: " + std::string{why} + "\n";
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
 std::string monitorTables(const Image& image) {
     std::string text;
     const Structure& structure = image.structure();

@@ -85,6 +85,9 @@ public:
         return {reinterpret_cast<T*>(response_ + result.offset), result.length};
     }
     bool first() const { return first_; }  // false when a long command is called again
+    // Nominal time of this cycle, as Tick::seconds(), and since the first call of a long command.
+    double seconds() const { return static_cast<double>(now_) * 1e-9; }
+    double elapsedSeconds() const { return static_cast<double>(now_ - begun_) * 1e-9; }
     bool cancelling() const {
         return cancelling_;
     }  // last call of a long command that is cancelled
@@ -100,11 +103,16 @@ public:
     void setFirst(bool first) { first_ = first; }
     void setCancelling(bool cancelling) { cancelling_ = cancelling; }
     void setSender(const Sender* sender) { sender_ = sender; }
+    void setTime(std::int64_t now, std::int64_t begun) {  // nominal, ns
+        now_ = now;
+        begun_ = begun;
+    }
 
 private:
     const std::byte* request_;
     std::byte* response_;
     const Sender* sender_ = nullptr;
+    std::int64_t now_ = 0, begun_ = 0;
     bool first_ = true;
     bool cancelling_ = false;
     Reason reason_ = Reason::None;

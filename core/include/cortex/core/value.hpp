@@ -23,7 +23,8 @@ std::optional<Kind> kindFromName(std::string_view text);
 using Value = std::variant<std::vector<std::int64_t>, std::vector<double>, std::vector<bool>,
                            std::vector<std::string>>;
 
-// A value as code gives it: a Value, a vector of elements, or one element (0.5, 3, true, "text").
+// A value as code gives it: a Value, a vector of elements (or array, or span), or one element (0.5,
+// 3, true, "text").
 class GivenValue {
 public:
     template <class T>
@@ -42,6 +43,11 @@ private:
             return std::vector<double>{static_cast<double>(given)};
         else if constexpr (std::is_convertible_v<const T&, std::string_view>)
             return std::vector<std::string>{std::string{std::string_view{given}}};
+        else if constexpr (requires { requires std::is_integral_v<typename T::value_type>; } &&
+                           !std::is_same_v<T, std::vector<bool>>)
+            return std::vector<std::int64_t>(given.begin(), given.end());
+        else if constexpr (requires { requires std::is_floating_point_v<typename T::value_type>; })
+            return std::vector<double>(given.begin(), given.end());
         else
             return Value{given};
     }
