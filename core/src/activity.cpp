@@ -20,7 +20,7 @@ Data<T> itemOf(AgentRuntime& runtime, std::uint32_t simplex, std::string_view it
 }  // namespace
 
 Activity::Activity(AgentRuntime& runtime, std::uint32_t simplex, const CommandTable& table)
-    : structure_{runtime.structure()},
+    : runtime_{runtime},
       request_{std::make_unique<std::uint64_t[]>(table.maxRequest / 8U + 1U)},
       response_{std::make_unique<std::uint64_t[]>(table.maxResponse / 8U + 1U)},
       outcome_{itemOf<std::int64_t>(runtime, simplex, "outcome")},
@@ -28,11 +28,10 @@ Activity::Activity(AgentRuntime& runtime, std::uint32_t simplex, const CommandTa
       requester_{itemOf<std::string_view>(runtime, simplex, "requester")} {}
 
 void Activity::start(const CommandTable::Entry& entry, const Handler& handler,
-                     const std::byte* request, const Origin& origin, std::int64_t nominalTime,
-                     Verdict& verdict) {
+                     const std::byte* request, const Origin& origin, Verdict& verdict) {
     handler_ = handler;
     origin_ = origin;
-    startedTime_ = nominalTime;
+    startedTime_ = runtime_.nominalTime();
     copyRecord(reinterpret_cast<std::byte*>(request_.get()), request, entry.request.size);
     copyRecord(reinterpret_cast<std::byte*>(response_.get()), entry.emptyResponse.data(),
                entry.response.size);
@@ -44,8 +43,8 @@ void Activity::start(const CommandTable::Entry& entry, const Handler& handler,
     if (outcome_.bound()) outcome_ = static_cast<std::int64_t>(verdict.outcome);
 }
 
-void Activity::step(const ChunkClock& clock, std::int64_t nominalTime) {
-    const double seconds = static_cast<double>(nominalTime - startedTime_) * 1e-9;
+void Activity::step(const ChunkClock& clock) {
+    const double seconds = static_cast<double>(runtime_.nominalTime() - startedTime_) * 1e-9;
     const double timeout = entry_->command->timeout;
     if (timeout > 0 && seconds >= timeout) {
         EventText why{entry_->name};
@@ -80,6 +79,7 @@ void Activity::stop(const ChunkClock& clock, bool callHandler, const Verdict& ve
 Verdict Activity::call(bool first, bool cancelling) {
     Call call{reinterpret_cast<const std::byte*>(request_.get()),
               reinterpret_cast<std::byte*>(response_.get())};
+    call.setTime(runtime_.nominalTime(), startedTime_);
     call.setFirst(first);
     call.setCancelling(cancelling);
     if (origin_.outside != nullptr) call.setSender(&origin_.outside->sender);
@@ -107,7 +107,7 @@ void Activity::finish(const Verdict& verdict, const ChunkClock& clock) {
 
 std::string_view Activity::requesterName() const {
     if (origin_.outside != nullptr) return origin_.outside->sender.nameText();
-    return structure_.simplexes[origin_.lane->shape().sender].path;
+    return runtime_.structure().simplexes[origin_.lane->shape().sender].path;
 }
 
 }  // namespace cortex

@@ -38,9 +38,9 @@ public:
     // Calls the handler for the first time; the verdict is Running, or already the last. Like
     // step(), passes on what the handler throws, after answering Failed.
     void start(const CommandTable::Entry& entry, const Handler& handler, const std::byte* request,
-               const Origin& origin, std::int64_t nominalTime, Verdict& verdict);
+               const Origin& origin, Verdict& verdict);
     // Calls it again, or for the last time when the command's time is over.
-    void step(const ChunkClock& clock, std::int64_t nominalTime);
+    void step(const ChunkClock& clock);
     // The last call and the answer Cancelled; without `callHandler` only the answer.
     void cancel(const ChunkClock& clock, bool callHandler, std::string_view why);
 
@@ -50,7 +50,7 @@ private:
     void stop(const ChunkClock& clock, bool callHandler, const Verdict& verdict);
     std::string_view requesterName() const CORTEX_REALTIME;
 
-    const Structure& structure_;
+    const AgentRuntime& runtime_;
     const CommandTable::Entry* entry_ = nullptr;
     Handler handler_;
     Origin origin_;

@@ -2,6 +2,7 @@
 #include "cortex/core/error.hpp"
 #include "cortex/core/simplex_tree.hpp"
 
+#include "lookup.hpp"
 #include "remedies.hpp"
 #include "system_findings.hpp"
 #include "text.hpp"
@@ -88,7 +89,7 @@ void addSetting(const TypeModel& types, Simplex& simplex, const SystemDescriptio
         return;
     }
     report.error(simplex.path(), ruleOf(*item, setting.value), setting.place,
-                 "item '" + setting.data + "': " + why,
+                 "item '" + setting.data + "' is " + shapeOf(*item) + ": " + why,
                  "write " + setText(setting.data, valueText(item->initial)));
 }
 

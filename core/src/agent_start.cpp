@@ -82,8 +82,8 @@ void AgentRuntime::addAgentSimplex() {
 }
 
 void AgentRuntime::checkModel() {
-    Report report = validate(tree_);
-    if (!report.ok()) throw ModelError(std::move(report));
+    report_ = validate(tree_);
+    if (!report_.ok()) throw ModelError(std::move(report_));
 }
 
 void AgentRuntime::bindSimplexes() {

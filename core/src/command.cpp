@@ -149,7 +149,7 @@ CommandTable commandTable(const Type& type) {
                                  {}});
         table.hasLong = table.hasLong || command.isLong;
     }
-    if (table.hasLong && type.findCommand("cancel") == nullptr) {
+    if (table.hasLong) {
         table.entries.push_back({nullptr, "cancel", {}, {}, StateSet::always(), {}, {}});
     }
     for (const DataItem& item : type.data) {

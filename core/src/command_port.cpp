@@ -144,6 +144,7 @@ void CommandPort::execute(std::uint32_t command, const std::byte* request, std::
         return;
     }
     Call call{request, response};
+    call.setTime(runtime_.nominalTime(), runtime_.nominalTime());
     if (origin.outside != nullptr) call.setSender(&origin.outside->sender);
     verdict.outcome = handler(call);
     if (verdict.outcome == Outcome::Done) return;
@@ -184,7 +185,7 @@ void CommandPort::startActivity(std::uint32_t command, const std::byte* request,
     }
     startedNow_ = true;
     cancelWhy_ = nullptr;
-    activity_->start(entry, handlers_[command], request, origin, runtime_.nominalTime(), verdict);
+    activity_->start(entry, handlers_[command], request, origin, verdict);
     copyRecord(response, activity_->response(), entry.response.size);
 }
 
@@ -246,7 +247,7 @@ void CommandPort::stepActivity() {
         activity_->cancel(thread_->clock, true, std::exchange(cancelWhy_, nullptr));
         return;
     }
-    activity_->step(thread_->clock, runtime_.nominalTime());
+    activity_->step(thread_->clock);
 }
 
 bool CommandPort::cancelActivity(LoopThread& thread, bool callHandler, std::string_view why) {

@@ -60,10 +60,7 @@ std::string fitValue(Value& value, const DataItem& shape) {
     if (kindOf(value) != shape.kind) {
         return std::string{"expected "} + name(shape.kind) + ", found " + name(kindOf(value));
     }
-    if (lengthOf(value) != shape.length) {
-        return "expected " + std::to_string(shape.length) + " values, found " +
-               std::to_string(lengthOf(value));
-    }
+    if (lengthOf(value) != shape.length) return wrongCount(shape.length, lengthOf(value));
     return {};
 }
 

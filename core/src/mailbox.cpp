@@ -17,7 +17,12 @@ namespace {
 
 constexpr std::uint32_t lineSize = 64;
 
-const ItemLayout& parameterAt(const CommandSender::State* state, std::string_view name, Kind kind,
+struct Shape {
+    Kind kind;
+    bool array;
+};
+
+const ItemLayout& parameterAt(const CommandSender::State* state, std::string_view name, Shape shape,
                               bool request) {
     if (state == nullptr) throw Error("this command sender is unbound: get it in populate()");
     const CommandTable::Entry& entry = state->table->entries[state->command];
@@ -30,9 +35,9 @@ const ItemLayout& parameterAt(const CommandSender::State* state, std::string_vie
         for (const ItemLayout& each : layout.items) valid.push_back(each.item->name);
         throwUnknown(what + std::string{name} + "'", name, valid);
     }
-    if (item->item->kind != kind || item->item->length != 1) {
-        throw Error(what + std::string{name} + "' as one " + cortex::name(kind) + ": it is " +
-                    shapeOf(*item->item));
+    if (item->item->kind != shape.kind || (item->item->length != 1 && !shape.array)) {
+        throw Error(what + std::string{name} + (shape.array ? "' as an array of " : "' as one ") +
+                    cortex::name(shape.kind) + ": it is " + shapeOf(*item->item));
     }
     return *item;
 }
@@ -181,17 +186,20 @@ const AnswerHead& CommandSender::answer() const { return state_->answer; }
 std::uint64_t CommandSender::sent() const { return state_->sent; }
 std::uint64_t CommandSender::answered() const { return state_->answered; }
 
-void* CommandSender::argumentCell(std::string_view name, Kind kind) {
-    const ItemLayout& item = parameterAt(state_.get(), name, kind, true);
+std::pair<void*, std::size_t> CommandSender::argumentCells(std::string_view name, Kind kind,
+                                                           bool array) {
+    const ItemLayout& item = parameterAt(state_.get(), name, {kind, array}, true);
     const CommandTable::Entry& entry = state_->table->entries[state_->command];
     if (entry.command == nullptr) {  // `set`: the flag of this item
         state_->request[&item - entry.request.items.data()] = std::byte{1};
     }
-    return state_->request + item.offset;
+    return {state_->request + item.offset, item.item->length};
 }
 
-const void* CommandSender::responseCell(std::string_view name, Kind kind) {
-    return state_->response + parameterAt(state_.get(), name, kind, false).offset;
+std::pair<const void*, std::size_t> CommandSender::responseCells(std::string_view name, Kind kind,
+                                                                 bool array) {
+    const ItemLayout& item = parameterAt(state_.get(), name, {kind, array}, false);
+    return {state_->response + item.offset, item.item->length};
 }
 
 }  // namespace cortex

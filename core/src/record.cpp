@@ -6,6 +6,7 @@
 #include "cortex/core/tables.hpp"
 
 #include "lookup.hpp"
+#include "text.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -43,9 +44,13 @@ Value converted(const DataItem& item, const Value& value, const std::string& wha
         ints != nullptr && item.kind == Kind::Float) {
         result = std::vector<double>(ints->begin(), ints->end());
     }
-    if (kindOf(result) != item.kind || lengthOf(result) != item.length) {
+    if (kindOf(result) != item.kind) {
         throw Error(what + " is " + shapeOf(item) + ", got " + name(kindOf(value)) + " " +
                     toText(value));
+    }
+    if (lengthOf(result) != item.length) {
+        throw Error(what + " is " + shapeOf(item) + ": " +
+                    wrongCount(item.length, lengthOf(result)) + ": " + inQuotes(toText(value)));
     }
     return result;
 }
@@ -79,7 +84,8 @@ void encodeRecord(const CommandTable& table, std::uint32_t command,
         if (item == nullptr) {
             std::vector<std::string> valid;
             for (const ItemLayout& each : entry.request.items) valid.push_back(each.item->name);
-            throwUnknown(what + " is unknown", name, valid);
+            throwUnknown(isSet(entry) ? "'" + name + "' is no settable item" : what + " is unknown",
+                         name, valid);
         }
         storeValue(*item->item, converted(*item->item, value, what), record + item->offset);
         if (isSet(entry)) record[item - entry.request.items.data()] = std::byte{1};

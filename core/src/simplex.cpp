@@ -143,10 +143,10 @@ Simplex::Simplex(Identity identity) : identity_{std::move(identity)} {}
 
 Simplex::~Simplex() = default;
 
-void Simplex::set(std::string_view item, Value value, Place place) {
+void Simplex::set(std::string_view item, const GivenValue& value, Place place) {
     const auto same = std::ranges::find(settings_, item, &Setting::item);
     Setting& setting = same != settings_.end() ? *same : settings_.emplace_back();
-    setting = {std::string{item}, fitted(type(), item, std::move(value)), std::move(place)};
+    setting = {std::string{item}, fitted(type(), item, value), std::move(place)};
 }
 
 void Simplex::runEvery(int cycles, int phase) {
@@ -214,8 +214,8 @@ std::vector<std::uint32_t> Simplex::edgesUnder(std::string_view rule, Direction 
     return found;
 }
 
-std::uint32_t Simplex::parameterOffset(std::string_view command, std::string_view parameter,
-                                       Kind kind, bool request) const {
+const ItemLayout& Simplex::parameter(std::string_view command, std::string_view parameter,
+                                     Shape shape, bool request) const {
     const CommandTable& table = startedRuntime().commands(index_);
     const std::uint32_t found = table.find(command);
     if (found == CommandTable::none) throwNoCommand(*this, command);
@@ -229,8 +229,9 @@ std::uint32_t Simplex::parameterOffset(std::string_view command, std::string_vie
         for (const ItemLayout& each : record.items) names.push_back(each.item->name);
         throwUnknown(where + " has no '" + std::string{parameter} + "'", parameter, names);
     }
-    checkShape(*layout->item, {kind, false, false}, where + ": '" + layout->item->name + "'");
-    return layout->offset;
+    checkShape(*layout->item, {shape.kind, shape.array, false},
+               where + ": '" + layout->item->name + "'");
+    return *layout;
 }
 
 void Simplex::handle(std::string_view command, Handler handler) {

@@ -34,19 +34,6 @@ std::uint32_t elements(const DataItem& item) {
     return item.kind == Kind::String ? item.length * StringCell::size(item.capacity) : item.length;
 }
 
-TypeLayout typeLayout(const Type& type, bool remote) {
-    TypeLayout layout;
-    layout.type = &type;
-    layout.remote = remote;
-    for (const auto& item : type.data) {
-        const bool constant = item.constant && !remote;
-        std::uint32_t& used = countOf(constant ? layout.constant : layout.cyclic, item.kind);
-        layout.items.push_back({&item, used, constant});
-        used += elements(item);
-    }
-    return layout;
-}
-
 const TypeLayout* layoutFor(Structure& structure, const Type& type, bool remote = false) {
     auto& layouts = structure.layouts;
     const auto found = std::ranges::find_if(
@@ -180,6 +167,19 @@ BlockSizes& BlockSizes::operator+=(const BlockSizes& other) {
     bools += other.bools;
     strings += other.strings;
     return *this;
+}
+
+TypeLayout typeLayout(const Type& type, bool remote) {
+    TypeLayout layout;
+    layout.type = &type;
+    layout.remote = remote;
+    for (const auto& item : type.data) {
+        const bool constant = item.constant && !remote;
+        std::uint32_t& used = countOf(constant ? layout.constant : layout.cyclic, item.kind);
+        layout.items.push_back({&item, used, constant});
+        used += elements(item);
+    }
+    return layout;
 }
 
 const ItemLayout* TypeLayout::find(std::string_view item) const {

@@ -39,6 +39,7 @@ inline constexpr char settingFramework[] = "setting-framework";
 
 // The flow of data
 inline constexpr char severalWriters[] = "several-writers";
+inline constexpr char outputTwice[] = "output-twice";
 inline constexpr char delayedMixed[] = "delayed-mixed";
 inline constexpr char delayedDemand[] = "delayed-demand";
 inline constexpr char safeNeeded[] = "safe-needed";

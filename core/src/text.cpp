@@ -62,6 +62,11 @@ bool isName(std::string_view text) {
            std::ranges::all_of(text, [](char c) { return isLetter(c) || isDigit(c) || c == '-'; });
 }
 
+std::string wrongCount(std::size_t expected, std::size_t found) {
+    return "expected " + std::to_string(expected) + (expected == 1 ? " value" : " values") +
+           ", found " + std::to_string(found);
+}
+
 bool isUtf8(std::string_view text) {
     while (!text.empty()) {
         const std::size_t size = characterSize(text);

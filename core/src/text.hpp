@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,9 @@ std::string inQuotes(std::string_view text);
 
 // [A-Za-z_][A-Za-z0-9_-]*, at most 64 characters: types, items, commands, rules, parameters.
 bool isName(std::string_view text);
+
+// "expected 1 value, found 2"
+std::string wrongCount(std::size_t expected, std::size_t found);
 
 bool isUtf8(std::string_view text);
 

@@ -11,6 +11,14 @@ namespace cortex {
 
 namespace {
 
+struct BuiltIn {
+    std::string_view name;
+    const char* use;
+};
+constexpr BuiltIn builtInCommands[] = {
+    {"set", "settable=\"…\" lets data be set without a command of its own"},
+    {"cancel", "a long command can be cancelled without a command of its own"}};
+
 std::string nearestRule(std::string_view wrong, const Type& type) {
     std::vector<std::string> valid;
     for (const Rule& each : type.rules) valid.push_back(each.name);
@@ -116,6 +124,9 @@ void TypeResolver::checkRefines(const Type& type, const Rule& rule) {
         error(std::string{", which is an "} + name(general->direction),
               "refine a rule of its direction");
     }
+    if (general->delayed && !rule.delayed) {
+        error(", which is delayed", "write delayed=\"true\" for it as well");
+    }
     if (!graph_.isA(rule.target, general->target)) {
         error(", whose target " + inQuotes(general->target) + " is not that of " +
                   inQuotes(rule.target),
@@ -166,9 +177,11 @@ void TypeResolver::checkBehaviour(const Type& type) {
                           what + " is long, but there is no type 'Activity'",
                           "include base.xml and extend Activity");
         }
-        if (command.name == "set") {
+        for (const auto& [name, use] : builtInCommands) {
+            if (command.name != name) continue;
             report_.error(type.name, finding::reservedName, command.place,
-                          what + " has the name of the built-in command", "take another name");
+                          what + " has the name of a built-in command",
+                          std::string{"take another name; "} + use);
         }
     }
     if (type.role != Role::Modification) return;

@@ -28,6 +28,9 @@ struct Checked {
 void checkModel(const Checked& checked);
 void checkSimplex(const Checked& checked, const Simplex& simplex);
 void checkRelations(const Checked& checked, const Simplex& simplex);
+// The rule that a relation with an unknown one is taken to mean; "" if none is near or fits.
+std::string meantRule(const Checked& checked, const Simplex& owner,
+                      const Simplex::Relation& relation);
 void checkCounts(const Checked& checked, const Simplex& simplex);
 void checkSettings(const Checked& checked, const Simplex& simplex);
 void reportUnknownItem(const TypeModel& types, const Simplex& simplex,

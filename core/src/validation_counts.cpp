@@ -47,6 +47,27 @@ std::string freePath(const SimplexTree& tree, std::string path) {
     }
 }
 
+// Another rule with relationships that could refine this one, so that they count for it as well.
+std::string refineInstead(const Checked& checked, const Simplex& owner, const Rule& rule) {
+    const TypeModel& types = checked.tree.types();
+    for (const Rule& other : owner.type().rules) {
+        const Type* type = types.find(other.definedBy);
+        const auto inherits = [&](const std::string& parent) {
+            const Type* found = types.find(parent);
+            return found != nullptr && found->findRule(rule.name) != nullptr;
+        };
+        const bool fits = other.name != rule.name && other.direction == rule.direction &&
+                          other.refines.empty() && other.min <= rule.max &&
+                          types.isA(other.target, rule.target);
+        if (!fits || type == nullptr || std::ranges::none_of(type->parents, inherits)) continue;
+        if (relationsFor(owner, other).empty()) continue;
+        const std::string place = other.place.text();
+        return "write refines=\"" + rule.name + "\" for rule '" + other.name + "'" +
+               (place.empty() ? "" : " (" + place + ")") + ", or ";
+    }
+    return "";
+}
+
 std::string relateMissing(const Checked& checked, const Simplex& owner, const Rule& rule,
                           std::size_t missing) {
     const auto paths = fitting(checked, owner, rule);
@@ -66,15 +87,17 @@ std::string relateMissing(const Checked& checked, const Simplex& owner, const Ru
            relateText(rule.name, path);
 }
 
-void checkMinimum(const Checked& checked, const Simplex& owner, const Rule& rule,
-                  std::size_t count) {
-    if (count >= rule.min || checkTaken(checked, owner, rule)) return;
+// `misspelt`: relations whose unknown rule is taken to mean this one, a finding of their own.
+void checkMinimum(const Checked& checked, const Simplex& owner, const Rule& rule, std::size_t count,
+                  std::size_t misspelt) {
+    if (count + misspelt >= rule.min || checkTaken(checked, owner, rule)) return;
     const std::string atLeast = rule.min == rule.max ? "" : "at least ";
     checked.report.error(owner.path(), finding::belowMin, placeFor(owner, rule),
                          ruleText(owner, rule) + " needs " + atLeast + std::to_string(rule.min) +
                              " " + rule.target + ", has " + std::to_string(count) +
                              whyNotCreated(checked, owner, rule),
-                         relateMissing(checked, owner, rule, rule.min - count));
+                         refineInstead(checked, owner, rule) +
+                             relateMissing(checked, owner, rule, rule.min - count));
 }
 
 void checkMaximum(const Checked& checked, const Simplex& owner, const Rule& rule,
@@ -91,9 +114,17 @@ void checkMaximum(const Checked& checked, const Simplex& owner, const Rule& rule
 }  // namespace
 
 void checkCounts(const Checked& checked, const Simplex& owner) {
-    for (const Rule& rule : owner.type().rules) {
+    const Type& type = owner.type();
+    std::vector<std::string> meant;
+    for (const auto& relation : owner.relations()) {
+        if (type.findRule(relation.rule) != nullptr) continue;
+        meant.push_back(meantRule(checked, owner, relation));
+    }
+    for (const Rule& rule : type.rules) {
         const auto counted = relationsFor(owner, rule);
-        checkMinimum(checked, owner, rule, counted.size());
+        const auto misspelt = std::ranges::count_if(
+            meant, [&](const std::string& each) { return countsFor(type, each, rule.name); });
+        checkMinimum(checked, owner, rule, counted.size(), static_cast<std::size_t>(misspelt));
         checkMaximum(checked, owner, rule, counted);
     }
 }

@@ -14,6 +14,14 @@ namespace {
 
 constexpr std::size_t mostPrinted = 10'000;
 
+// Hz as the system file says; 0 if it does not, or if the agent is one of several clusters.
+double frequencyOf(const SystemDescription& system) {
+    if (system.clusters.size() != 1) return 0;
+    const auto& attributes = system.clusters.front().attributes;
+    const auto found = attributes.find("frequency");
+    return found != attributes.end() ? toFloat(found->second).value_or(0) : 0;
+}
+
 // The edges of a structure with the relations that they come from, and the simplexes by index.
 class Flow {
 public:
@@ -31,6 +39,7 @@ public:
     void checkRemoteTypes();
     void checkDemands();
     void checkLoops();
+    void checkAges();
 
 private:
     const Edge& edge(std::uint32_t index) const { return checked_.structure.edges[index]; }
@@ -48,9 +57,11 @@ private:
     }
 
     void checkSecondWriter(std::uint32_t index);
+    void checkSecondRule(std::uint32_t first, std::uint32_t second);
     void checkMixed(const std::vector<std::uint32_t>& outputs);
     void checkSafe(const SimplexInfo& demand, const Simplex& simplex);
     void checkObserved(std::uint32_t index);
+    int writtenEvery(std::uint32_t index) const;
     std::span<const Edge> edgesUnder(std::uint32_t simplex, std::string_view rule) const;
     std::string observationError(const Edge& output, std::string_view rule,
                                  const DataItem& item) const;
@@ -69,12 +80,13 @@ void Flow::checkWriters() {
     }
     for (const auto& edges : outputs) {
         if (edges.empty()) continue;
-        checkMixed(edges);
-        std::uint32_t last = edge(edges.front()).owner;
-        for (const std::uint32_t index : edges) {
-            if (std::exchange(last, edge(index).owner) != edge(index).owner) {
-                checkSecondWriter(index);
-            }
+        if (edge(edges.front()).owner != edge(edges.back()).owner) checkMixed(edges);
+        for (std::size_t n = 1; n < edges.size(); ++n) {
+            const Edge &before = edge(edges[n - 1]), &each = edge(edges[n]);
+            if (each.owner != before.owner)
+                checkSecondWriter(edges[n]);
+            else if (each.rule != before.rule)
+                checkSecondRule(edges[n - 1], edges[n]);
         }
     }
 }
@@ -87,8 +99,30 @@ void Flow::checkSecondWriter(std::uint32_t index) {
                           owner(edge(index)).path() + " writes it by " +
                               ruleText(owner(edge(index)), *edge(index).rule) + ", and so does " +
                               info(target.writers.front()).path,
-                          "remove this <relate>, or write writers=\"many\" for type " + type.name +
-                              " (" + type.place.text() + ")");
+                          "remove this <relate>, or let both write simplexes of their own and a "
+                          "third combine them; if only one of them is ever Active, write "
+                          "writers=\"many\" for type " +
+                              type.name + " (" + type.place.text() + ")");
+}
+
+// One owner would write the same data by two rules. The later <relate> is one too many; where one
+// rule refines the other, the more general.
+void Flow::checkSecondRule(std::uint32_t first, std::uint32_t second) {
+    const Simplex& writer = owner(edge(second));
+    const auto refines = [&](std::uint32_t inner, std::uint32_t general) {
+        return countsFor(writer.type(), edge(inner).rule->name, edge(general).rule->name);
+    };
+    if (relations_[second] < relations_[first]) std::swap(first, second);
+    if (refines(second, first)) std::swap(first, second);
+    const std::string remedy = refines(first, second)
+                                   ? ": one under '" + edge(first).rule->name + "' counts for '" +
+                                         edge(second).rule->name + "' too"
+                                   : ", or relate another simplex";
+    checked_.report.error(writer.path(), finding::outputTwice, relations_[second]->place,
+                          ruleText(writer, *edge(second).rule) + " writes " +
+                              info(edge(second).target).path + ", and so does " +
+                              ruleText(writer, *edge(first).rule),
+                          "remove this <relate>" + remedy);
 }
 
 // Either all writers of a simplex are delayed or none: an observation, or a demand.
@@ -239,6 +273,43 @@ void Flow::reportLoop(const Loop& loop) {
                           "write " + relateOf(best, true) + " in " + owner(edge(best)).path());
 }
 
+// Cycles between two writings of what the edge reads, 0 if this agent does not write it.
+int Flow::writtenEvery(std::uint32_t index) const {
+    const SimplexInfo& source = info(edge(index).target);
+    if (source.remote) return 0;
+    std::uint32_t every = source.role == Role::Active ? source.every : 0;
+    for (const std::uint32_t writer : source.writers) every = std::max(every, info(writer).every);
+    return static_cast<int>(every);
+}
+
+// Inputs whose maxAge the running agent raises; one finding a rule, for what is written least
+// often.
+void Flow::checkAges() {
+    const double frequency = frequencyOf(checked_.tree.description());
+    if (frequency == 0) return;
+    for (std::uint32_t index = 0; index < relations_.size();) {
+        const Edge& first = edge(index);
+        const Rule& rule = *first.rule;
+        std::uint32_t slowest = index;
+        for (++index; index < relations_.size(); ++index) {
+            if (edge(index).owner != first.owner || edge(index).rule != first.rule) break;
+            if (writtenEvery(index) > writtenEvery(slowest)) slowest = index;
+        }
+        const int every = writtenEvery(slowest);
+        const double least = 3.0 * every / frequency;
+        const bool stated = rule.maxAge != Rule{}.maxAge;
+        if (rule.direction == Direction::Output || !stated || rule.maxAge >= least) continue;
+        checked_.report.warning(
+            owner(first).path(), finding::maxAge, relations_[slowest]->place,
+            ruleText(owner(first), rule) + " has maxAge=\"" + toText(rule.maxAge) +
+                "\", which is raised to " + toText(least) + ": three periods of " +
+                info(edge(slowest).target).path + ", written " +
+                (every == 1 ? "each cycle" : "every " + std::to_string(every) + " cycles") +
+                " at " + toText(frequency) + " Hz",
+            "write maxAge=\"" + toText(least) + "\" or more, or leave it out");
+    }
+}
+
 }  // namespace
 
 void checkFlow(const Checked& checked) {
@@ -247,6 +318,7 @@ void checkFlow(const Checked& checked) {
     flow.checkRemoteTypes();
     flow.checkDemands();
     flow.checkLoops();
+    flow.checkAges();
 }
 
 }  // namespace cortex

@@ -31,12 +31,7 @@ std::string writeOneOf(const std::string& rule, const std::vector<std::string>& 
 
 void checkUnknownRule(const Checked& checked, const Simplex& owner, const Relation& relation) {
     const auto names = namesOf(owner.type().rules);
-    std::string nearest = nearestName(relation.rule, names);
-    const Simplex* target = checked.tree.find(relation.target);
-    for (const Rule& rule : owner.type().rules) {
-        const bool fits = target != nullptr && target->type().isA(rule.target);
-        if (nearest.empty() && fits) nearest = rule.name;
-    }
+    const std::string nearest = meantRule(checked, owner, relation);
     std::string remedy = "remove it: type " + owner.type().name + " has no rules";
     if (!names.empty()) remedy = "rules of " + owner.type().name + ": " + listText(names);
     if (!nearest.empty()) remedy = "write " + relateText(nearest, relation.target) + "; " + remedy;
@@ -104,6 +99,16 @@ void reportTwice(const Checked& checked, const Simplex& owner, const Rule& rule,
 }
 
 }  // namespace
+
+std::string meantRule(const Checked& checked, const Simplex& owner, const Relation& relation) {
+    const auto& rules = owner.type().rules;
+    std::string nearest = nearestName(relation.rule, namesOf(rules));
+    const Simplex* target = checked.tree.find(relation.target);
+    if (!nearest.empty() || target == nullptr) return nearest;
+    const auto taking = std::ranges::find_if(
+        rules, [&](const Rule& rule) { return target->type().isA(rule.target); });
+    return taking != rules.end() ? taking->name : "";
+}
 
 std::string ruleText(const Simplex& owner, const Rule& rule) {
     const std::string place = owner.place().file.empty() ? "" : rule.place.text();

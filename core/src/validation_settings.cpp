@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lookup.hpp"
 #include "remedies.hpp"
 #include "system_findings.hpp"
+#include "text.hpp"
 #include "validation_checks.hpp"
 
 #include <algorithm>
@@ -138,10 +140,10 @@ void checkValue(const Case& each) {
             std::string{"is a "} + name(each.item.kind) + ", set is a " + name(kindOf(value)),
             each.item.initial);
     } else if (lengthOf(value) != each.item.length) {
-        each.error(finding::settingLength,
-                   "has " + std::to_string(each.item.length) + " elements, set are " +
-                       std::to_string(lengthOf(value)),
-                   each.item.initial);
+        each.error(
+            finding::settingLength,
+            "is " + shapeOf(each.item) + ": " + wrongCount(each.item.length, lengthOf(value)),
+            each.item.initial);
     } else if (const auto* floats = std::get_if<std::vector<double>>(&value)) {
         checkFloats(each, *floats);
     } else if (const auto* ints = std::get_if<std::vector<std::int64_t>>(&value)) {

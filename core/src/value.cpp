@@ -72,11 +72,6 @@ bool splitStrings(std::string_view text, std::vector<std::string>& parts) {
     return true;
 }
 
-std::string wrongCount(std::size_t expected, std::size_t found) {
-    return "expected " + std::to_string(expected) + (expected == 1 ? " value" : " values") +
-           ", found " + std::to_string(found);
-}
-
 template <class T, class Convert>
 std::optional<Value> parseElements(std::size_t length, std::string_view text, Convert convert,
                                    const char* expected, std::string& why) {

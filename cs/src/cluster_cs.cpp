@@ -32,6 +32,8 @@ struct ClusterCS::Implementation {
     TaskGraph graph() const;
     void requireClasses() const;
     void populate(std::span<SimplexCS* const> simplexes) const;
+    void warn(std::uint32_t simplex, const EventText& text) const;
+    void warnOfModel() const;
     void warnOfUnhandled(const SimplexCS& simplex) const;
 };
 
@@ -140,13 +142,27 @@ void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) 
     if (!report.ok()) refuse(std::move(report));
 }
 
+void ClusterCS::Implementation::warn(std::uint32_t simplex, const EventText& text) const {
+    Event event;
+    event.severity = Severity::Warning;
+    event.simplex = simplex;
+    event.text = text;
+    agent->events().postOutside(event);
+}
+
+void ClusterCS::Implementation::warnOfModel() const {
+    for (const Finding& finding : agent->warnings().findings) {
+        EventText text{finding.message};
+        const std::string place = finding.place.text();
+        if (!place.empty()) text << " [" << place << "]";
+        warn(agent->structure().find(finding.path), text);
+    }
+}
+
 void ClusterCS::Implementation::warnOfUnhandled(const SimplexCS& simplex) const {
     for (const std::string_view command : agent->unhandledCommands(simplex.index())) {
-        Event event;
-        event.severity = Severity::Warning;
-        event.simplex = simplex.index();
-        event.text << "no handler for the command " << command << ": register one in populate()";
-        agent->events().postOutside(event);
+        EventText text{"no handler for the command "};
+        warn(simplex.index(), text << command << ": register one in populate()");
     }
 }
 
@@ -211,6 +227,7 @@ void ClusterCS::startAll() {
                                       self.heartbeats, std::move(realtimeReport));
     self.agent->start();
     self.loop->start();
+    self.warnOfModel();
     for (const SimplexCS* simplex : simplexes) self.warnOfUnhandled(*simplex);
 }
 

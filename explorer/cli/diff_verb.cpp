@@ -10,12 +10,6 @@
 namespace cortex::explorer {
 namespace {
 
-Model readValid(const std::filesystem::path& file) {
-    Model model = readTypes(std::array{file});
-    requireValid(model);
-    return model;
-}
-
 std::vector<std::string> typesMissingIn(const TypeModel& other, const TypeModel& model) {
     std::vector<std::string> names;
     for (const auto& [name, type] : model.types()) {
@@ -48,7 +42,9 @@ void printSummary(const std::vector<Disagreement>& disagreements, std::size_t co
 }  // namespace
 
 Exit diffModels(const DiffOptions& options) {
-    const Model ours = readValid(options.ours), theirs = readValid(options.theirs);
+    const Model ours = readTypes(std::array{options.ours});
+    const Model theirs = readTypes(std::array{options.theirs});
+    requireValid(std::array{&ours, &theirs});
     const auto disagreements = compare(ours.types(), theirs.types());
     const auto onlyOurs = typesMissingIn(theirs.types(), ours.types());
     const auto onlyTheirs = typesMissingIn(ours.types(), theirs.types());

@@ -4,11 +4,18 @@
 #include "graph.hpp"
 #include "verbs.hpp"
 
+#include <algorithm>
 #include <iostream>
 
 namespace cortex::explorer {
 
 Exit showGraph(const GraphOptions& options) {
+    const bool several = options.files.size() > 1;
+    const auto systems = several ? std::ranges::count_if(options.files, isSystem) : 0;
+    if (systems > 1) {
+        throw Failure{Usage, "a graph is of one system, these files have " +
+                                 std::to_string(systems) + ": give one of them"};
+    }
     const Model model = readSystem(options.files);
     requireValid(model);
     if (!model.hasSystem) {

@@ -4,6 +4,7 @@
 #include "live_registration.hpp"
 #include "verbs.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <iostream>
 
@@ -47,8 +48,16 @@ void addOutput(CLI::App& verb, NewFileOptions& options, const char* description)
     verb.add_flag("--force", options.force, "Replace a file that exists");
 }
 
-void needFiles(const Paths& files) {
-    if (files.empty()) throw Failure{Usage, "no network yet: give --file"};
+void needFiles(const Paths& files, const char* example) {
+    if (files.empty()) {
+        throw Failure{
+            Usage, std::string{"no network yet: give --file FILE…, for example --file "} + example};
+    }
+}
+
+void refuseFileAsType(const std::string& type) {
+    if (!looksLikeFile(type)) return;
+    throw Failure{Usage, "'" + type + "' is a file, not a type; did you mean --file " + type + "?"};
 }
 
 void addValidate(CLI::App& app, Arguments& arguments) {
@@ -103,7 +112,8 @@ void addTypes(CLI::App& app, Arguments& arguments) {
         arguments.run = [&arguments, named = type->count() > 0] {
             arguments.types.json = arguments.json;
             if (named) arguments.types.type = arguments.type;
-            needFiles(arguments.types.files);
+            if (named && arguments.types.files.empty()) refuseFileAsType(arguments.type);
+            needFiles(arguments.types.files, "robotics-morphology.xml");
             return showTypes(arguments.types);
         };
     });
@@ -122,7 +132,7 @@ void addGraph(CLI::App& app, Arguments& arguments) {
     verb->callback([&] {
         arguments.run = [&] {
             arguments.graph.json = arguments.json;
-            needFiles(arguments.graph.files);
+            needFiles(arguments.graph.files, "SYSTEM.xml");
             return showGraph(arguments.graph);
         };
     });
@@ -140,6 +150,7 @@ Examples:
     verb->add_option("NAME", options.name, "Name of the new type")->required()->type_name("");
     verb->add_option("-e,--extends", options.parents, "Types that it extends")
         ->required()
+        ->delimiter(',')
         ->type_name("TYPE");
     options.file = "robotics-morphology.xml";
     verb->add_option("-f,--file", options.file,
@@ -191,40 +202,72 @@ Files are looked for as given, then in $CORTEX_PATH, then in the installed share
     addLiveVerbs(app, arguments.json, arguments.run);
 }
 
-// CLI11 calls an unknown verb an unexpected argument.
-bool refuseUnknownVerb(const CLI::App& app, const std::string& wrong) {
-    if (wrong.starts_with('-')) return false;
+std::string nearestOrAll(const std::string& wrong, const std::vector<std::string>& names) {
+    const std::string nearest = nearestNames(wrong, names);
+    return nearest.empty() ? "there are " + joined(names) : nearest;
+}
+
+// CLI11 calls an unknown verb an unexpected argument. Empty: it is one.
+std::string wrongVerb(const CLI::App& app, const std::string& wrong) {
+    if (wrong.starts_with('-')) return {};
     std::vector<std::string> names;
     for (const CLI::App* verb : app.get_subcommands(nullptr)) names.push_back(verb->get_name());
-    for (const std::string& name : names) {
-        if (name == wrong) return false;
+    if (std::ranges::count(names, wrong) > 0) return {};
+    return "there is no verb '" + wrong + "'; " + nearestOrAll(wrong, names);
+}
+
+std::string wrongOption(const CLI::App& app, const std::string& argument) {
+    const std::string wrong = argument.substr(0, argument.find('='));
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     }
-    const std::string nearest = nearestNames(wrong, names);
-    std::cerr << "cortex: there is no verb '" << printable(wrong) << "'; "
-              << (nearest.empty() ? "there are " + joined(names) : nearest) << '\n';
-    return true;
+    const bool takesFiles =
+        app.get_option_no_throw("FILE") != nullptr || app.get_option_no_throw("OURS") != nullptr;
+    const bool file = takesFiles && (wrong == "-f" || wrong == "--file");
+    const bool early = !app.get_subcommands().empty();
+    return "there is no option '" + wrong + "'" + (early ? " before the verb" : "") +
+           (file ? " here: name the files without it" : "; " + nearestOrAll(wrong, names)) +
+           (early ? "; those of a verb stand after it" : "");
+}
+
+// What is wrong, better than CLI11 says it: with the nearest option, or where a file belongs.
+std::string wrongUsage(const CLI::App& app, const CLI::ParseError& error) {
+    for (const std::string& argument : app.remaining()) {
+        if (argument.starts_with('-') && argument != "--") return wrongOption(app, argument);
+    }
+    if (!app.get_subcommands().empty()) return wrongUsage(*app.get_subcommands().front(), error);
+    const std::vector<std::string> extra = app.remaining();
+    if (extra.empty() || dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) {
+        return error.what();
+    }
+    const bool files =
+        app.get_option_no_throw("--file") != nullptr && std::ranges::all_of(extra, looksLikeFile);
+    return "'" + joined(extra, " ") + "' was not expected" +
+           (files ? "; did you mean --file " + joined(extra, " ") + "?" : "");
 }
 
 Exit parse(CLI::App& app, int count, char** values) {
-    if (count > 1 && refuseUnknownVerb(app, values[1])) return Usage;
+    std::string wrong = count > 1 ? wrongVerb(app, values[1]) : "";
     try {
-        app.parse(count, values);
+        if (wrong.empty()) {
+            app.parse(count, values);
+            return Yes;
+        }
     } catch (const CLI::Success& asked) {  // help, version
         app.exit(asked);
         return Yes;
     } catch (const CLI::ParseError& error) {
-        if (count < 2) {
-            std::cerr << app.help();
-        } else {
-            std::cerr << "cortex: " << printable(error.what()) << "\nhelp: cortex "
-                      << (app.get_subcommands().empty()
-                              ? ""
-                              : app.get_subcommands().front()->get_name() + " ")
-                      << "--help\n";
-        }
+        if (count > 1) wrong = wrongUsage(app, error);
+    }
+    if (wrong.empty()) {
+        std::cerr << app.help();
         return Usage;
     }
-    return Yes;
+    const auto verbs = app.get_subcommands();
+    std::cerr << "cortex: " << printable(wrong) << "\nhelp: cortex "
+              << (verbs.empty() ? "" : verbs.front()->get_name() + " ") << "--help\n";
+    return Usage;
 }
 
 void printFailure(const Failure& failure, bool json) {
@@ -233,7 +276,8 @@ void printFailure(const Failure& failure, bool json) {
         return;
     }
     printFindings(failure.report(), Stream::Errors);
-    std::cerr << "cortex: " << printable(failure.what()) << '\n';
+    const bool said = failure.code() == NotFound && !failure.report().ok();  // by the findings
+    if (!said) std::cerr << "cortex: " << printable(failure.what()) << '\n';
 }
 
 int runProgram(int count, char** values) {

@@ -4,6 +4,9 @@
 #include "cortex/core/validation.hpp"
 
 #include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
 
 namespace cortex::explorer {
 namespace {
@@ -71,6 +74,8 @@ void addAgents(SimplexTree& tree) {
 
 }  // namespace
 
+bool isSystem(const fs::path& file) { return readTypes(std::array{file}).hasSystem; }
+
 Model readTypes(std::span<const fs::path> files) {
     Model model;
     read(files, model);
@@ -96,14 +101,28 @@ bool lacksFile(const Report& report) {
     });
 }
 
-void requireValid(const Model& model) {
-    if (model.report.ok()) {
-        printFindings(model.report, Stream::Errors);
+Report joinReports(std::span<const Model* const> models) {
+    Report all;
+    std::set<std::string> known;
+    for (const Model* model : models) {
+        for (const Finding& finding : model->report.findings) {
+            if (known.insert(finding.rule + finding.text()).second) all.add(finding);
+        }
+    }
+    return all;
+}
+
+void requireValid(std::span<const Model* const> models) {
+    Report report = joinReports(models);
+    if (report.ok()) {
+        printFindings(report, Stream::Errors);
         return;
     }
-    const bool lacking = lacksFile(model.report);
+    const bool lacking = lacksFile(report);
     throw Failure{lacking ? NotFound : No,
-                  lacking ? "a file cannot be read" : "the model has errors", model.report};
+                  lacking ? "a file cannot be read" : "the model has errors", std::move(report)};
 }
+
+void requireValid(const Model& model) { requireValid(std::array{&model}); }
 
 }  // namespace cortex::explorer

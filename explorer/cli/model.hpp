@@ -27,12 +27,16 @@ struct Model {
     const TypeModel& types() const { return tree->types(); }
 };
 
+bool isSystem(const std::filesystem::path& file);
 Model readTypes(std::span<const std::filesystem::path> files);
 Model readSystem(std::span<const std::filesystem::path> files);  // and validates
 
 // A file that was named on the command line cannot be read: not found, rather than wrong.
 bool lacksFile(const Report& report);
-// Throws Failure if the model has errors; prints warnings.
+// What several models share is found several times and said once.
+Report joinReports(std::span<const Model* const> models);
+// Throws Failure if one of the models has errors; prints warnings.
+void requireValid(std::span<const Model* const> models);
 void requireValid(const Model& model);
 
 }  // namespace cortex::explorer

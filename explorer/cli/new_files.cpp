@@ -105,6 +105,10 @@ std::string xmlAttribute(std::string_view text) {
     return result;
 }
 
+std::string fileNameHint(std::string_view name) {
+    return name.ends_with(".xml") ? "; a file is named by -o" : "";
+}
+
 std::string xmlComment(std::string_view text) {
     std::string result;
     for (const char c : text) {

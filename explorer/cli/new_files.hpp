@@ -28,4 +28,7 @@ std::string filledIn(std::string_view text, const std::vector<Substitution>& sub
 std::string xmlAttribute(std::string_view text);  // escaped
 std::string xmlComment(std::string_view text);    // what may stand in a comment
 
+// Of a wrong name that is a file's: where that belongs.
+std::string fileNameHint(std::string_view name);
+
 }  // namespace cortex::explorer

@@ -48,7 +48,8 @@ Exit newSystem(const NewSystemOptions& options) {
     if (!wrong.empty() || options.name.find('/') != std::string::npos) {
         throw Failure{Usage,
                       "'" + options.name +
-                          "' cannot name a system: use A-Z a-z 0-9 _ -, at most 127 characters"};
+                          "' cannot name a system: use A-Z a-z 0-9 _ -, at most 127 characters" +
+                          fileNameHint(options.name)};
     }
     std::filesystem::path file = options.output;
     std::error_code ignored;

@@ -22,7 +22,8 @@ void checkName(const std::string& name) {
     throw Failure{Usage,
                   "'" + name +
                       "' cannot name a type: a letter or _ first, then letters, digits, _ and "
-                      "-, at most 64 characters"};
+                      "-, at most 64 characters" +
+                      fileNameHint(name)};
 }
 
 void checkParents(const TypeModel& types, const std::vector<std::string>& parents) {

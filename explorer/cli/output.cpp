@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 
 #include <unistd.h>
@@ -39,6 +40,11 @@ std::size_t width(std::string_view text) {  // characters of UTF-8
 }
 
 }  // namespace
+
+bool looksLikeFile(const std::string& argument) {
+    std::error_code ignored;
+    return argument.ends_with(".xml") || std::filesystem::is_regular_file(argument, ignored);
+}
 
 std::string printable(std::string_view text) {
     std::string result;

@@ -32,6 +32,9 @@ private:
     Report report_;
 };
 
+// A file that is there, or a name as files of models have it; no type's name has a dot.
+bool looksLikeFile(const std::string& argument);
+
 // Text from files and arguments may hold anything: control characters, which a terminal would obey,
 // become visible escapes.
 std::string printable(std::string_view text);

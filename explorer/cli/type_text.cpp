@@ -156,7 +156,9 @@ void printRules(std::ostream& stream, const Type& type) {
 std::string roleText(const Type& type) {
     switch (type.role) {
         case Role::Active:
-            return "active: has a task in every cycle";
+            return type.isA("Agent") ? "active: has commands and state items; its commands run in "
+                                       "the loop itself, between cycles, without a task of its own"
+                                     : "active: has a task in every cycle";
         case Role::Observation:
             return "observation: data of the plant as it is";
         case Role::Modification:
@@ -246,7 +248,8 @@ void printType(std::ostream& stream, const TypeModel& types, const Type& type) {
     add("writers", type.manyWriters ? "many: several simplexes may write one" : "");
     add("measures", type.measures ? "its outputs keep their quality in every state" : "");
     if (type.onLeaseLost != OnLeaseLost::Continue) add("on lease lost", name(type.onLeaseLost));
-    if (type.active()) add("transitions", "within " + toText(type.transitionTimeout) + " s");
+    if (type.active() && !type.isA("Agent"))
+        add("transitions", "within " + toText(type.transitionTimeout) + " s");
     add("icon", type.icon);
     add("since", type.since);
     add("replaces", type.replaces);

@@ -18,10 +18,22 @@ namespace {
                                                  : nearest)};
 }
 
+// What follows --file is taken for files, a type's name too.
+void explainTypeAsFile(const TypesOptions& options, Report& report) {
+    const std::string last = options.files.back().string();
+    if (options.type || options.files.size() == 1 || last.find('.') != std::string::npos) return;
+    for (Finding& finding : report.findings) {
+        if (!finding.message.starts_with("there is no file '" + last + "'")) continue;
+        finding.remedy = "correct the name, or name a type before --file: cortex types " + last +
+                         " --file " + options.files.front().string();
+    }
+}
+
 }  // namespace
 
 Exit showTypes(const TypesOptions& options) {
-    const Model model = readTypes(options.files);
+    Model model = readTypes(options.files);
+    explainTypeAsFile(options, model.report);
     requireValid(model);
     const TypeModel& types = model.types();
     const bool one = options.type.has_value();

@@ -18,8 +18,7 @@ std::vector<Checked> check(const Paths& files) {
     Paths systems, others;
     if (files.size() > 1) {
         for (const auto& file : files) {
-            const bool system = readTypes(std::array{file}).hasSystem;
-            (system ? systems : others).push_back(file);
+            (isSystem(file) ? systems : others).push_back(file);
         }
     }
     std::vector<Checked> checked;
@@ -35,16 +34,10 @@ std::vector<Checked> check(const Paths& files) {
     return checked;
 }
 
-// What two systems share is found twice and said once.
 Report join(const std::vector<Checked>& checked) {
-    Report all;
-    std::set<std::string> known;
-    for (const Checked& each : checked) {
-        for (const Finding& finding : each.model.report.findings) {
-            if (known.insert(finding.rule + finding.text()).second) all.add(finding);
-        }
-    }
-    return all;
+    std::vector<const Model*> models;
+    for (const Checked& each : checked) models.push_back(&each.model);
+    return joinReports(models);
 }
 
 void printValid(const Checked& checked) {

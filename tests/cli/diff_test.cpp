@@ -3,6 +3,8 @@
 #include "cli/json_schema.hpp"
 #include "core/model_folder.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace cortex::test {
@@ -85,6 +87,23 @@ TEST(CortexDiff, NeedsTwoModels) {
     EXPECT_EQ(cortex({"diff", "axis.xml"}, {}, files.folder.path()).exit, 2);
     EXPECT_EQ(files.diff("none.xml").exit, 3);
     EXPECT_EQ(violationsOf("error", files.diff("none.xml", {"--json"}).output), "");
+}
+
+TEST(CortexDiff, SaysOnceOfEachFileThatItIsNotThere) {
+    const auto lines = [](const Outcome& outcome) {
+        return std::ranges::count(outcome.errors, '\n');
+    };
+    const Outcome one = Files{}.diff("none.xml");
+    const Outcome both = cortex({"diff", "no.xml", "none.xml"});
+    const Outcome same = cortex({"diff", "none.xml", "none.xml"});
+
+    for (const Outcome* each : {&one, &both, &same}) EXPECT_EQ(each->exit, 3);
+    EXPECT_EQ(one.errors.find("error: there is no file 'none.xml'"), 0U) << one.errors;
+    EXPECT_EQ(lines(one), 1) << one.errors;
+    EXPECT_NE(both.errors.find("'no.xml'"), std::string::npos) << both.errors;
+    EXPECT_NE(both.errors.find("'none.xml'"), std::string::npos) << both.errors;
+    EXPECT_EQ(lines(both), 2) << both.errors;
+    EXPECT_EQ(lines(same), 1) << same.errors;
 }
 
 }  // namespace

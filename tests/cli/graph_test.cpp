@@ -109,10 +109,22 @@ TEST(CortexGraph, RefusesALoopAndNamesIt) {
 
 TEST(CortexGraph, AsksForASystem) {
     EXPECT_EQ(cortex({"graph"}).exit, 2);
-    EXPECT_NE(cortex({"graph"}).errors.find("no network yet: give --file"), std::string::npos);
+    EXPECT_NE(cortex({"graph"}).errors.find("for example --file SYSTEM.xml"), std::string::npos);
     EXPECT_EQ(cortex({"graph", "--file", "base.xml"}).exit, 2);
     EXPECT_EQ(cortex({"graph", "--file", "none.xml"}).exit, 3);
     EXPECT_EQ(cortex({"graph", "--dot", "--json", "--file", example}).exit, 2);
+}
+
+TEST(CortexGraph, SaysThatAGraphIsOfOneSystem) {
+    const ModelFolder folder;
+    folder.write("one.xml", "<system name=\"one\"/>");
+    folder.write("two.xml", "<system name=\"two\"/>");
+
+    const Outcome outcome = cortex({"graph", "--file", "one.xml", "two.xml"}, {}, folder.path());
+
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_EQ(outcome.errors,
+              "cortex: a graph is of one system, these files have 2: give one of them\n");
 }
 
 }  // namespace

@@ -131,6 +131,10 @@ TEST(CortexNewType, ExtendsSeveralTypesThatAgree) {
             .exit,
         0);
     EXPECT_EQ(validate("t-morphology.xml", folder), "");
+    const Outcome commas =
+        cortex({"new-type", "Tool", "--extends", "Gripper,OneDofManipulator"}, {}, folder.path());
+    EXPECT_NE(commas.output.find("extends=\"Gripper OneDofManipulator\""), std::string::npos)
+        << commas.errors;
 
     const Outcome refused = cortex(
         {"new-type", "Odd", "--extends", "RotaryAxisConcept", "LinearAxisConcept", "-o", "o.xml"},

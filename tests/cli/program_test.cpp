@@ -51,6 +51,41 @@ TEST(CortexProgram, NamesTheNearestOfAnUnknownVerb) {
     EXPECT_NE(outcome.errors.find("nearest of: validate"), std::string::npos) << outcome.errors;
 }
 
+TEST(CortexProgram, NamesTheNearestOfAnUnknownOption) {
+    const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
+        {{"--vesion"}, "there is no option '--vesion'; nearest of: --version"},
+        {{"validate", "--JSON", "x.xml"}, "there is no option '--JSON'; nearest of: --json"},
+        {{"new-type", "Pump", "--extend=Device"}, "'--extend'; nearest of: --extends"},
+        {{"graph", "-x"}, "there are --help, --json, --dot, --file"},
+        {{"--json", "graph"}, "before the verb; there are --help, --version; those of a verb"}};
+    for (const auto& [arguments, message] : wrong) {
+        const Outcome outcome = cortex(arguments);
+        EXPECT_EQ(outcome.exit, 2);
+        EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
+        EXPECT_NE(outcome.errors.find("\nhelp: cortex "), std::string::npos) << outcome.errors;
+    }
+}
+
+TEST(CortexProgram, SaysWhereTheNameOfAFileBelongs) {
+    const ModelFolder folder;
+    folder.write("there", "");
+    const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
+        {{"graph", "there"}, "'there' was not expected; did you mean --file there?"},
+        {{"graph", "a.xml", "b.xml"}, "; did you mean --file a.xml b.xml?"},
+        {{"graph", "word"}, "'word' was not expected\n"},
+        {{"types", "there"}, "'there' is a file, not a type; did you mean --file there?"},
+        {{"types", "KukaLbr", "x.xml"}, "'x.xml' was not expected; did you mean --file x.xml?"},
+        {{"validate", "--file", "there"}, "no option '--file' here: name the files without it"},
+        {{"diff", "-f", "a.xml", "b.xml"}, "no option '-f' here: name the files without it"},
+        {{"new-system", "plant.xml"}, "; a file is named by -o"},
+        {{"new-type", "Pump.xml", "--extends", "Device"}, "; a file is named by -o"}};
+    for (const auto& [arguments, message] : wrong) {
+        const Outcome outcome = cortex(arguments, {}, folder.path());
+        EXPECT_EQ(outcome.exit, 2);
+        EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
+    }
+}
+
 TEST(CortexProgram, PrintsItsVersion) {
     const Outcome outcome = cortex({"--version"});
 

@@ -124,7 +124,26 @@ TEST(CortexTypes, AsksForAFileWhileThereIsNoNetwork) {
     const Outcome outcome = cortex({"types"});
 
     EXPECT_EQ(outcome.exit, 2);
-    EXPECT_TRUE(contains(outcome.errors, "no network yet: give --file")) << outcome.errors;
+    EXPECT_TRUE(contains(outcome.errors, "for example --file robotics-morphology.xml"))
+        << outcome.errors;
+}
+
+TEST(CortexTypes, SaysThatANameAfterTheFilesIsTakenForAFile) {
+    const Outcome outcome = cortex({"types", "--file", robotics, "KukaLbr"});
+
+    EXPECT_EQ(outcome.exit, 3);
+    EXPECT_TRUE(contains(outcome.errors, "cortex types KukaLbr --file " + robotics))
+        << outcome.errors;
+}
+
+TEST(CortexTypes, SaysThatAnAgentIsActiveWithoutATaskOfItsOwn) {
+    for (const char* name : {"Agent", "Cluster"}) {
+        const Outcome outcome = cortex({"types", name, "--file", robotics});
+        EXPECT_TRUE(contains(outcome.output, "active: has commands and state items"))
+            << outcome.output;
+        EXPECT_FALSE(contains(outcome.output, "has a task in every cycle")) << outcome.output;
+        EXPECT_FALSE(contains(outcome.output, "transitions")) << outcome.output;
+    }
 }
 
 TEST(CortexTypes, RefusesAModelWithErrorsAndSaysThem) {

@@ -167,6 +167,23 @@ TEST(CortexValidate, EndsWith3ForAFileThatIsNotThereAndChecksTheOthers) {
     EXPECT_NE(outcome.output.find("unknown-attribute"), std::string::npos) << outcome.output;
 }
 
+TEST(CortexValidate, ChecksEachSystemWhereAFileIsNotThere) {
+    const ModelFolder folder;
+    folder.write("one.xml", systemOf("<simplex path=\"/one\" type=\"Arm\"/>\n"));
+    folder.write("two.xml", systemOf("<simplex path=\"/two\" type=\"Arm\"/>\n"));
+
+    const Outcome outcome =
+        cortex({"validate", "one.xml", "none.xml", "two.xml"}, {}, folder.path());
+
+    EXPECT_EQ(outcome.exit, 3);
+    for (const char* part : {"there is no file 'none.xml'", "error: /one: ", "error: /two: "}) {
+        EXPECT_NE(outcome.output.find(part), std::string::npos) << part << outcome.output;
+    }
+    EXPECT_EQ(outcome.output.find("none.xml'"), outcome.output.rfind("none.xml'"))
+        << "said once\n"
+        << outcome.output;
+}
+
 TEST(CortexValidate, SaysThatAFolderIsNoFile) {
     const Outcome outcome = cortex({"validate", ontology});
 

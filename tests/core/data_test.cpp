@@ -17,6 +17,21 @@ static_assert(!std::is_assignable_v<Data<const double>&, double>);
 static_assert(!std::is_assignable_v<Data<const std::string_view>&, std::string_view>);
 static_assert(!std::is_assignable_v<Data<const bool>&, bool>);
 static_assert(!std::is_constructible_v<Data<double>, const double*>);
+template <class T>
+constexpr bool counts = requires(Data<T> data) {
+    data += data.get();
+    data -= data.get();
+    data *= data.get();
+    data /= data.get();
+};
+template <class T>
+constexpr bool countsAtAll = requires(Data<T> data) { data += data.get(); } ||
+                             requires(Data<T> data) { data -= data.get(); } ||
+                             requires(Data<T> data) { data *= data.get(); } ||
+                             requires(Data<T> data) { data /= data.get(); };
+static_assert(counts<double> && counts<std::int64_t>);
+static_assert(!countsAtAll<bool> && !countsAtAll<std::string_view>);
+static_assert(!countsAtAll<const double> && !countsAtAll<const std::int64_t>);
 static_assert(std::is_same_v<StorageOf<const std::string_view>::type, const StringCell>);
 static_assert(kindFor<const std::int64_t>() == Kind::Int && kindFor<double>() == Kind::Float &&
               kindFor<bool>() == Kind::Bool && kindFor<std::string_view>() == Kind::String);
@@ -42,6 +57,25 @@ TEST(Data, IsUsedLikeTheValueItself) {
 
     EXPECT_EQ(cell, 5.5);
     EXPECT_EQ(seen.get(), 5.5);
+}
+
+TEST(Data, IsCountedAndScaledInPlace) {
+    double cell = 6;
+    std::int64_t count = 7;
+    Data<double> position{&cell};
+    Data<std::int64_t> cycles{&count};
+
+    position -= 1;
+    EXPECT_EQ(cell, 5);
+    position *= 3;
+    EXPECT_EQ(cell, 15);
+    (position /= 2) += 0.5;
+    EXPECT_EQ(cell, 8);
+    cycles += 2;
+    cycles -= 1;
+    cycles *= 5;
+    cycles /= 3;
+    EXPECT_EQ(count, 13);
 }
 
 TEST(Data, IsUnboundUntilItIsObtained) {

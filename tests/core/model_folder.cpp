@@ -119,6 +119,10 @@ const char* const smallModel = R"(<ontology name="small" version="1.0">
   <type name="Arm" extends="Concept"/>
   <type name="Three" extends="Concept"/>
   <type name="Nest" extends="Concept"/>
+  <type name="Maker" extends="Active" abstract="true"/>
+  <type name="Painter" extends="Maker"/>
+  <type name="Pair" extends="Active"/>
+  <type name="Watcher" extends="Active"/>
 </ontology>
 )";
 
@@ -152,6 +156,21 @@ const char* const smallRules = R"(<morphology name="small">
   </rules>
   <rules type="Nest">
     <relationship name="inner" direction="input" target="Nest" min="1" max="1" create="Nest"/>
+  </rules>
+  <rules type="Maker">
+    <relationship name="outputs" direction="output" target="Concept" min="2" delayed="true"/>
+  </rules>
+  <rules type="Painter">
+    <relationship name="lights" direction="output" target="Lamp" delayed="true"/>
+  </rules>
+  <rules type="Pair">
+    <relationship name="left" direction="output" target="Concept" delayed="true"/>
+    <relationship name="right" direction="output" target="Concept" delayed="true"/>
+    <relationship name="ask" direction="output" target="Active"/>
+    <relationship name="tell" direction="output" target="Active"/>
+  </rules>
+  <rules type="Watcher">
+    <relationship name="seen" direction="input" target="Concept" maxAge="0.004"/>
   </rules>
 </morphology>
 )";

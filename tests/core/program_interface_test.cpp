@@ -54,6 +54,26 @@ TEST_F(ProgramInterface, CarriesACommandAndItsAnswerOnce) {
     EXPECT_FALSE(program.poll(sequence, result));
 }
 
+TEST_F(ProgramInterface, TakesArgumentsOfOneElementAsTheyAre) {
+    using Arguments = cortex::ProgramInterface::Arguments;
+    const Arguments all{{"speed", 0.5}, {"name", "x"}, {"n", 3}, {"on", true}};
+    const Arguments texts{{"name", "x"}};
+    start();
+    const auto whole = program.post("/worker", "add", {{"amount", 4}});
+    const auto list = program.post("/worker", "add", {{"amount", std::vector{5.0}}});
+    rig.step();
+    CallResult first, second;
+
+    EXPECT_EQ(all, (std::map<std::string, Value>{{"speed", std::vector{0.5}},
+                                                 {"name", std::vector<std::string>{"x"}},
+                                                 {"n", std::vector<std::int64_t>{3}},
+                                                 {"on", std::vector<bool>{true}}}));
+    EXPECT_EQ(texts.at("name"), Value{std::vector<std::string>{"x"}});
+    ASSERT_TRUE(program.poll(whole, first) && program.poll(list, second));
+    EXPECT_EQ(first.response["sum"], Value{std::vector{5.0}});
+    EXPECT_EQ(second.response["sum"], Value{std::vector{6.0}});
+}
+
 TEST_F(ProgramInterface, AnswerInWords) {
     start();
     worker.state = State::Standby;
@@ -87,6 +107,24 @@ TEST_F(ProgramInterface, NamesWhatIsUnknown) {
     EXPECT_THROW(program.post("/wroker", "add"), Error);
     EXPECT_THROW(program.post("/worker", "ad"), Error);
     EXPECT_THROW(program.post("/worker", "add", {{"amonut", Value{std::vector{1.0}}}}), Error);
+}
+
+TEST_F(ProgramInterface, SaysHowManyValuesAnArgumentNeedsAndHas) {
+    start();
+    const auto error = [&](const GivenValue& amount) -> std::string {
+        try {
+            program.post("/worker", "add", {{"amount", amount}});
+        } catch (const Error& thrown) {
+            return thrown.what();
+        }
+        return "";
+    };
+
+    EXPECT_EQ(error(std::vector{1.0, 2.0}),
+              "command 'add': parameter 'amount' is float: expected 1 value, found 2: '1 2'");
+    EXPECT_EQ(error(std::vector<double>{}),
+              "command 'add': parameter 'amount' is float: expected 1 value, found 0: ''");
+    EXPECT_EQ(error(true), "command 'add': parameter 'amount' is float, got bool true");
 }
 
 TEST_F(ProgramInterface, FullPipeIsAnsweredAtOnce) {

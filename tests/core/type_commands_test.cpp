@@ -68,8 +68,10 @@ TEST(Command, ThatIsLongNeedsAnActivity) {
               "long-activity", "A", 2, "include base.xml"));
 }
 
-TEST(Command, CannotBeCalledSet) {
-    EXPECT_TRUE(finds(commands("<command name='set'/>"), "reserved-name", "P", 2));
+TEST(Command, CannotBeCalledLikeOneThatIsBuiltIn) {
+    EXPECT_TRUE(finds(commands("<command name='set'/>"), "reserved-name", "P", 2, "settable="));
+    EXPECT_TRUE(finds(commands("<command name='cancel'/>"), "reserved-name", "P", 2,
+                      "take another name; a long command can be cancelled"));
 }
 
 TEST(Command, IsGivenOnceWithEachParameterOnce) {

@@ -153,6 +153,13 @@ TEST(Refines, NamesAnInheritedRuleOfItsDirectionAndTarget) {
         "refines", "A", 3, "write a min of at most 4"));
 }
 
+TEST(Refines, ADelayedRuleIsRefinedByADelayedOneOnly) {
+    const std::string outputs = rule("direction='output' target='Axis' delayed='true'", "outputs");
+    const std::string tip = "direction='output' target='Rotary' refines='outputs'";
+    EXPECT_TRUE(isValid(rules(outputs, rule(tip + " delayed='true'", "tip"))));
+    EXPECT_TRUE(finds(rules(outputs, rule(tip, "tip")), "refines", "A", 3, "which is delayed"));
+}
+
 TEST(Refines, IsNotForRulesOfTheSameType) {
     const std::string both = rule("direction='output' target='Axis'", "outputs") +
                              rule("direction='output' target='Axis' refines='outputs'", "tip");

@@ -122,5 +122,81 @@ TEST(Validation, FindsWritersOfWhomSomeAreDelayed) {
               "write <relate rule=\"demands\" to=\"/d\" delayed=\"true\"/>");
 }
 
+TEST(Validation, FindsASimplexThatOneOwnerWritesByTwoRules) {
+    const auto finding =
+        only(checkSmall(simplex("/p", "Pair", relate("right", "/a") + relate("left", "/a")) +
+                        simplex("/a", "SharedAxis")));
+
+    EXPECT_EQ(finding.rule, "output-twice");
+    EXPECT_EQ(finding.path, "/p");
+    EXPECT_EQ(finding.place.line, 5);
+    EXPECT_TRUE(contains(finding.message, "rule 'left'")) << finding.message;
+    EXPECT_TRUE(contains(finding.message, "writes /a, and so does rule 'right'"));
+    EXPECT_EQ(finding.remedy, "remove this <relate>, or relate another simplex");
+}
+
+TEST(Validation, KeepsTheRefiningOneOfTwoRulesThatWriteASimplex) {
+    const auto inner = relate("third", "/a"), general = relate("demands", "/a");
+    int line = 5;
+    for (const std::string& both : {inner + general, general + inner}) {
+        const auto checked =
+            checkSmall(simplex("/c", "BlindController", both) + simplex("/a", "Axis"));
+        ASSERT_EQ(checked.count("output-twice"), 1U) << checked.report.text();
+        const Finding& finding = *checked.find("output-twice");
+        EXPECT_EQ(finding.place.line, line--);
+        EXPECT_TRUE(contains(finding.remedy, "one under 'third' counts for 'demands' too"));
+    }
+    const auto once = checkSmall(simplex("/c", "BlindController", inner) + simplex("/a", "Axis"));
+    EXPECT_EQ(once.count("output-twice"), 0U) << once.report.text();
+}
+
+TEST(Validation, TakesOneSimplexUnderTwoRulesWhereNothingIsWritten) {
+    const auto commanded =
+        checkSmall(simplex("/p", "Pair", relate("ask", "/s") + relate("tell", "/s")) +
+                   simplex("/s", "Switch"));
+    const auto readAndWritten = checkSmall(
+        simplex("/d", "Device",
+                relate("demand", "/a", "delayed=\"true\"") + relate("observation", "/a")) +
+        simplex("/a", "Axis"));
+
+    EXPECT_EQ(commanded.report.text(), "");
+    EXPECT_EQ(readAndWritten.report.text(), "");
+}
+
+std::string watched(const std::string& cluster, const std::string& rate) {
+    return cluster + "\n" + simplex("/d", "Device", relate("observation", "/a"), rate) +
+           simplex("/w", "Watcher", relate("seen", "/b") + relate("seen", "/a")) +
+           simplex("/a", "Axis") + simplex("/b", "Axis");
+}
+
+TEST(Validation, WarnsOfAMaxAgeBelowThreePeriodsOfWhatIsRead) {
+    const auto finding =
+        only(checkSmall(watched("<cluster name=\"robot\" frequency=\"1000\"/>", "every=\"2\"")));
+
+    EXPECT_EQ(finding.severity, Severity::Warning);
+    EXPECT_EQ(finding.rule, "max-age");
+    EXPECT_EQ(finding.path, "/w");
+    EXPECT_EQ(finding.place.line, 9);
+    EXPECT_TRUE(contains(finding.message,
+                         "has maxAge=\"0.004\", which is raised to 0.006: three periods of /a, "
+                         "written every 2 cycles at 1000 Hz"))
+        << finding.message;
+    EXPECT_EQ(finding.remedy, "write maxAge=\"0.006\" or more, or leave it out");
+}
+
+TEST(Validation, WarnsOfNoMaxAgeThatHoldsOrIsNotStated) {
+    const auto holds =
+        checkSmall(watched("<cluster name=\"robot\" frequency=\"750\"/>", "every=\"1\""));
+    const auto ofNoFrequency = checkSmall(watched("<cluster name=\"robot\"/>", "every=\"9\""));
+    const auto notStated =
+        checkSmall("<cluster name=\"robot\" frequency=\"1\"/>\n" +
+                   simplex("/d", "Device", relate("observation", "/a")) +
+                   simplex("/c", "Controller", relate("axes", "/a")) + simplex("/a", "Axis"));
+
+    for (const CheckedModel* model : {&holds, &ofNoFrequency, &notStated}) {
+        EXPECT_EQ(model->report.text(), "");
+    }
+}
+
 }  // namespace
 }  // namespace cortex

@@ -21,6 +21,23 @@ TEST(Value, KnowsItsKindAndLength) {
     EXPECT_EQ(lengthOf(Value{std::vector<std::int64_t>{1, 2}}), 2U);
 }
 
+TEST(GivenValue, IsAValueAVectorOrOneElement) {
+    const auto of = [](const GivenValue& given) -> Value { return given; };
+    const bool on = true;
+    const char* const text = "x";
+
+    EXPECT_EQ(of(0.5), Value{std::vector{0.5}});
+    EXPECT_EQ(of(0.5F), Value{std::vector{0.5}});
+    EXPECT_EQ(of(3), Value{std::vector{std::int64_t{3}}});
+    EXPECT_EQ(of(3U), Value{std::vector{std::int64_t{3}}});
+    EXPECT_EQ(of(on), Value{std::vector<bool>{true}});
+    EXPECT_EQ(of(text), Value{std::vector{std::string{"x"}}});
+    EXPECT_EQ(of("x"), of(std::string{"x"}));
+    EXPECT_EQ(of(std::string_view{"x"}), of("x"));
+    EXPECT_EQ(of(std::vector{1.0, 2.0}), (Value{std::vector{1.0, 2.0}}));
+    EXPECT_EQ(of(Value{std::vector{1.0}}), Value{std::vector{1.0}});
+}
+
 TEST(Value, NamesEachKindAsInXml) {
     for (const Kind kind : {Kind::Int, Kind::Float, Kind::Bool, Kind::String}) {
         EXPECT_EQ(kindFromName(name(kind)), kind);

@@ -267,6 +267,15 @@ TEST(ClusterCS, WarnsOfACommandThatNobodyHandles) {
     EXPECT_FALSE(cluster.hasEvent("command startup"));
 }
 
+TEST(ClusterCS, TellsTheWarningsOfItsModelAsEvents) {
+    ProbeCluster cluster;
+    Simplex& order = cluster.tree.add("/order", "Order");
+    cluster.tree.relate(cluster.probe("/a"), "out", order, true);
+    cluster.start();
+
+    EXPECT_TRUE(cluster.hasEvent("/a: rule 'out' delays a demand: /order is a modification"));
+}
+
 }  // namespace
 
 }  // namespace cortex::test

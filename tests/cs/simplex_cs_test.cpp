@@ -362,6 +362,27 @@ TEST(SimplexCS, StartupThatIsOutrankedIsAnsweredSo) {
     EXPECT_EQ(cluster.integer("/test", "rejectedCount"), 1);
 }
 
+TEST(SimplexCS, CommandsKnowTheTimeOfTheirCycleEvenBeforeTheFirstHook) {
+    ProbeCluster cluster;
+    Probe& probe = cluster.probe("/a", "LongProbe");
+    std::vector<double> times, elapsed;
+    probe.onPoke = [&](Probe&, Call& call) {
+        times.push_back(call.seconds());
+        return Outcome::Done;
+    };
+    probe.onWork = [&](Probe&, Call& call) {
+        elapsed.push_back(call.elapsedSeconds());
+        return call.elapsedSeconds() < 0.002 ? Outcome::Running : Outcome::Done;
+    };
+    cluster.start();
+    cluster.step(4000);
+    cluster.call("/a", "poke");
+    cluster.call("/a", "watch");
+
+    EXPECT_EQ(times, (std::vector<double>{4.0}));
+    EXPECT_EQ(elapsed, (std::vector<double>{0, 0.001, 0.002}));
+}
+
 }  // namespace
 
 }  // namespace cortex::test

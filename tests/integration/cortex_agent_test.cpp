@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <regex>
 
 #include <sys/wait.h>
 
@@ -83,6 +84,44 @@ TEST(CortexAgent, EndsWithTwoForWrongUsage) {
     EXPECT_TRUE(says(ended, "naturalFrequency")) << ended.output;
     EXPECT_EQ(agent(system + " --set /drive/1.naturalFrequency=10").exitCode, 2);
     EXPECT_EQ(agent("--help").exitCode, 0);
+}
+
+TEST(CortexAgent, SaysHowManyValuesASettingNeeds) {
+    const TeleopFile file;
+    const std::string system = file.path().string();
+
+    const Ended two = agent(system + " --set '/drives/1.naturalFrequency=1 2'");
+    EXPECT_EQ(two.exitCode, 2);
+    EXPECT_TRUE(says(two,
+                     "expected 1 value, found 2; naturalFrequency has kind=\"float\" length=\"1\" "
+                     "unit=\"Hz\""))
+        << two.output;
+    const Ended array = agent(system + " --set /handset/pose.position=1");
+    EXPECT_EQ(array.exitCode, 2);
+    EXPECT_TRUE(says(array, "expected 3 values, found 1; position has kind=\"float\" length=\"3\""))
+        << array.output;
+}
+
+TEST(CortexAgent, NamesTheNearestOptionAndTheOneOfAFile) {
+    EXPECT_TRUE(says(agent("s.xml --pluign=a.so"), "'--pluign'; nearest of: --plugin"));
+    EXPECT_TRUE(says(agent("--secnods 1"), "'--secnods'; nearest of: --seconds"));
+    EXPECT_TRUE(says(agent("s.xml --plugin a.so b.so"), "did you mean --plugin b.so?"));
+    const Ended help = agent("--help");
+    EXPECT_TRUE(says(help, "--plugin FILE ...")) << help.output;
+    EXPECT_TRUE(says(help, "--set PATH.ITEM=VALUE ...")) << help.output;
+}
+
+// Percentiles are first computed after some 50 cycles, which this run does not have.
+TEST(CortexAgent, PrintsADashForWhatItHasNotComputed) {
+    const TeleopFile file;
+
+    const Ended ended = agent(file.path().string() + " --priority 0 --frequency 20 --seconds 0.1");
+
+    EXPECT_EQ(ended.exitCode, 0) << ended.output;
+    const std::regex duty{"duty cycle +% +[-.0-9]+ +[-.0-9]+ +- +- +- +[-.0-9]+\n"};
+    const std::regex latency{"command latency us +- +- +- +- +- +-\n"};
+    EXPECT_TRUE(std::regex_search(ended.output, duty)) << ended.output;
+    EXPECT_TRUE(std::regex_search(ended.output, latency)) << ended.output;
 }
 
 TEST(CortexAgent, RefusesASettingOutOfItsRange) {

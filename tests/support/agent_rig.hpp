@@ -21,6 +21,8 @@ TypeModel commandTypes();  // tests/data/command-rules.xml
 class Hand : public Simplex {
 public:
     using Simplex::argument;
+    using Simplex::arrayArgument;
+    using Simplex::arrayResult;
     using Simplex::handle;
     using Simplex::input;
     using Simplex::inputs;

@@ -1,28 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/small_structure.hpp"
 
-#include "cortex/core/data.hpp"
-
 #include <algorithm>
 #include <utility>
 
 namespace cortex::test {
 
 namespace {
-
-std::uint32_t& blockOf(BlockSizes& sizes, Kind kind) {
-    switch (kind) {
-        case Kind::Int:
-            return sizes.ints;
-        case Kind::Float:
-            return sizes.floats;
-        case Kind::Bool:
-            return sizes.bools;
-        case Kind::String:
-            break;
-    }
-    return sizes.strings;
-}
 
 void decideWriters(Structure& structure) {
     for (const Edge& edge : structure.edges) {
@@ -66,14 +50,7 @@ const TypeLayout* SmallStructure::layoutFor(const Type& type) {
     for (const auto& layout : structure_->layouts) {
         if (layout->type == &type) return layout.get();
     }
-    TypeLayout& layout = *structure_->layouts.emplace_back(std::make_unique<TypeLayout>());
-    layout.type = &type;
-    for (const DataItem& each : type.data) {
-        std::uint32_t& used = blockOf(each.constant ? layout.constant : layout.cyclic, each.kind);
-        layout.items.push_back({&each, used, each.constant});
-        used += each.length * (each.kind == Kind::String ? StringCell::size(each.capacity) : 1U);
-    }
-    return &layout;
+    return structure_->layouts.emplace_back(std::make_unique<TypeLayout>(typeLayout(type))).get();
 }
 
 std::uint32_t SmallStructure::add(std::string path, const Type& type) {

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <iostream>
+#include <set>
 #include <string>
 
 #include <unistd.h>
@@ -25,14 +26,24 @@ public:
     using Error::Error;
 };
 
+// As an ontology states it.
+std::string shape(const DataItem& item) {
+    std::string text = std::string{"kind=\""} + name(item.kind) + "\" length=\"" +
+                       std::to_string(item.length) + "\"";
+    return item.unit.empty() ? text : text + " unit=\"" + item.unit + "\"";
+}
+
 // PATH.ITEM=VALUE
-void applySetting(SimplexTree& tree, const std::string& text) {
+void applySetting(SimplexTree& tree, const std::string& text, std::set<std::string>& given) {
     const std::size_t equals = text.find('=');
     const std::size_t dot = text.rfind('.', equals);
     if (equals == std::string::npos || dot == std::string::npos || dot == 0) {
         throw UsageError("--set " + text + ": write it as /path/of/simplex.item=value");
     }
     const std::string itemName = text.substr(dot + 1, equals - dot - 1);
+    if (!given.insert(text.substr(0, equals)).second) {
+        throw UsageError("--set " + text + ": " + text.substr(0, equals) + " is given twice");
+    }
     Simplex& simplex = tree.at(text.substr(0, dot));
     const DataItem* item = simplex.type().findData(itemName);
     if (item == nullptr) {
@@ -42,9 +53,11 @@ void applySetting(SimplexTree& tree, const std::string& text) {
                          ") has no item '" + itemName + "'; " + nearestNames(itemName, names));
     }
     std::string why;
-    auto value = parseValue(item->kind, item->length, text.substr(equals + 1), why);
-    if (!value) throw UsageError("--set " + text + ": " + why);
-    simplex.set(itemName, std::move(*value), {"--set", 0});
+    const auto value = parseValue(item->kind, item->length, text.substr(equals + 1), why);
+    if (!value) {
+        throw UsageError("--set " + text + ": " + why + "; " + itemName + " has " + shape(*item));
+    }
+    simplex.set(itemName, *value, {"--set", 0});
 }
 
 SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry) {
@@ -62,7 +75,8 @@ SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry) {
     if (!report.ok()) throw ModelError(std::move(report));
     tree.createRelated(&registry);
     try {
-        for (const std::string& setting : line.settings) applySetting(tree, setting);
+        std::set<std::string> given;
+        for (const std::string& setting : line.settings) applySetting(tree, setting, given);
     } catch (const UsageError&) {
         throw;
     } catch (const Error& error) {
@@ -79,10 +93,13 @@ bool startUp(cs::ClusterCS& cluster, const std::string& name) {
     const bool interrupted = cs::waitForInterrupt(
         60, [&] { return cluster.program().poll(sent, answer) || !cluster.running(); });
     if (interrupted) return false;
-    if (answer.done())
+    const std::string faults = faultLines(cluster.image());
+    if (!answer.done())
+        std::cerr << "startup: " << answer.text() << std::endl;
+    else if (faults.empty())
         std::cout << "all active simplexes are started" << std::endl;
     else
-        std::cerr << "startup: " << answer.text() << std::endl;
+        std::cerr << "started, but not all went on:\n" << faults << std::flush;
     return true;
 }
 
@@ -124,7 +141,7 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
               line.seconds > 0 ? std::max(1e-3, line.seconds - used.count()) : 0);
     }
     std::cout << metricsTable(cluster.image(), settings.name) << monitorTables(cluster.image())
-              << std::flush;
+              << faultLines(cluster.image()) << std::flush;
     const bool halted = cluster.ended() == cs::Ended::Halted;
     const bool stopped = cluster.stop();
     return stopped && !halted ? Ended : Halted;

@@ -3,8 +3,11 @@
 
 #include "cortex/core/error.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <map>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 
@@ -82,17 +85,40 @@ void addNetwork(CLI::App& app, CommandLine& line) {
         ->excludes(offline);
 }
 
+// Better than CLI11 says it: the nearest option, or the option that a file belongs to.
+std::string wrongUsage(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<std::string> unexpected = app.remaining();
+    const auto option = std::ranges::find_if(
+        unexpected, [](const std::string& each) { return each.starts_with("-"); });
+    if (option != unexpected.end()) {
+        const std::string wrong = option->substr(0, option->find('='));
+        std::vector<std::string> names;
+        for (const CLI::Option* each : app.get_options()) {
+            for (const std::string& name : each->get_lnames()) names.push_back("--" + name);
+        }
+        const std::string nearest = nearestNames(wrong, names);
+        return "there is no option '" + wrong + "'" + (nearest.empty() ? "" : "; " + nearest);
+    }
+    if (unexpected.empty() || dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) {
+        return error.what();
+    }
+    const std::string& wrong = unexpected.front();
+    return "'" + wrong + "' was not expected" +
+           (wrong.ends_with(".so") ? "; did you mean --plugin " + wrong + "?" : "");
+}
+
 }  // namespace
 
 std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode) {
     CommandLine line;
     CLI::App app{"Runs a system file with the toolkit's types and those of plug-ins."};
     app.name("cortex-agent")->footer(Footer);
-    app.add_option("SYSTEM.xml", line.system, "the system file")->required();
-    app.add_option("--plugin", line.plugins, "shared object with classes of active types")
+    app.add_option("SYSTEM.xml", line.system, "the system file")->required()->type_name("");
+    app.add_option("--plugin", line.plugins,
+                   "shared object with classes of active types; once for each")
         ->type_name("FILE")
         ->allow_extra_args(false);
-    app.add_option("--set", line.settings, "value that an item starts with")
+    app.add_option("--set", line.settings, "value that an item starts with; once for each")
         ->type_name("PATH.ITEM=VALUE")
         ->allow_extra_args(false);
     app.add_option("--frequency", line.frequency, "cycles per second")
@@ -114,7 +140,11 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        exitCode = app.exit(error) == 0 ? 0 : UsageError;
+        exitCode = error.get_exit_code() == 0 ? app.exit(error) : UsageError;
+        if (exitCode != 0) {
+            std::cerr << "cortex-agent: " << wrongUsage(app, error)
+                      << "\nhelp: cortex-agent --help\n";
+        }
         return std::nullopt;
     }
     return line;

@@ -110,9 +110,14 @@ std::string metricsTable(const Image& image, const std::string& cluster) {
     for (const char* title : titles) text += right(title, 11);
     text += "\n";
     for (const auto& [title, unit, item] : rows) {
+        const auto figure = [&, name = std::string{item}](std::string_view column) {
+            return image.get<double>(path, name + std::string{column});
+        };
+        const bool any = figure("Max") > 0, ranked = figure("P999") > 0;  // else not yet computed
         text += "  " + left(title, 16) + left(unit, 4);
-        for (const char* column : columns) {
-            text += right(fixed(image.get<double>(path, std::string{item} + column), 2), 11);
+        for (const std::string_view column : columns) {
+            const bool known = column.starts_with('P') ? ranked : any;
+            text += right(known ? fixed(figure(column), 2) : "-", 11);
         }
         text += "\n";
     }
@@ -121,6 +126,19 @@ std::string metricsTable(const Image& image, const std::string& cluster) {
             "  " + left(title, 20) + right(toText(image.get<std::int64_t>(path, item)), 11) + "\n";
     }
     return text;
+}
+
+std::string faultLines(const Image& image) {
+    std::string text;
+    const Structure& structure = image.structure();
+    for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
+        const SimplexInfo& info = structure.simplexes[i];
+        if (info.remote || !info.layout->type->isA("Active")) continue;
+        if (image.get<std::int64_t>(info.path, "state") != static_cast<int>(State::Fault)) continue;
+        const auto why = image.get<std::string_view>(info.path, "faultText");
+        text += info.path + " is in Fault: " + std::string{why} + "\n";
+    }
+    return text.empty() ? text : "\n" + text;
 }
 
 std::string monitorTables(const Image& image) {

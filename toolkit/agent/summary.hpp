@@ -13,6 +13,9 @@ std::string statusLine(const Image& image, const std::string& cluster);
 // A table of the loop's metrics.
 std::string metricsTable(const Image& image, const std::string& cluster);
 
+// Simplexes in Fault and why, a line each; "" if there is none.
+std::string faultLines(const Image& image);
+
 // Data of every simplex whose type is a Monitor.
 std::string monitorTables(const Image& image);
 

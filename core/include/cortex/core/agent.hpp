@@ -77,6 +77,7 @@ public:
     std::int64_t cycle() const { return cycle_; }
     std::int64_t nominalTime() const { return nominalTime_; }
     SimplexTree& tree() { return tree_; }
+    const Report& warnings() const { return report_; }  // what validation found; no errors
     const Structure& structure() const { return *structure_; }
     Tables& tables() { return *tables_; }
     ImagePool& images() { return *images_; }
@@ -139,6 +140,7 @@ private:
     std::string name_;
     SimplexTree& tree_;
     AgentOptions options_;
+    Report report_;
     std::shared_ptr<Structure> structure_;
     std::unique_ptr<Tables> tables_;
     std::unique_ptr<ImagePool> images_;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -52,6 +53,15 @@ template <class T>
 struct Result {
     std::uint32_t offset = 0;
 };
+// The same of array parameters, which the Call shows as spans.
+template <ArrayElement T>
+struct ArrayArgument {
+    std::uint32_t offset = 0, length = 0;
+};
+template <ArrayElement T>
+struct ArrayResult {
+    std::uint32_t offset = 0, length = 0;
+};
 
 // One execution of a command, seen by its handler. Arguments were checked before.
 class Call {
@@ -68,7 +78,18 @@ public:
         using Cell = typename StorageOf<T>::type;
         return Data<T>{reinterpret_cast<Cell*>(response_ + result.offset)};
     }
+    template <class T>
+    std::span<const T> operator[](ArrayArgument<T> argument) const CORTEX_REALTIME {
+        return {reinterpret_cast<const T*>(request_ + argument.offset), argument.length};
+    }
+    template <class T>
+    std::span<T> operator[](ArrayResult<T> result) CORTEX_REALTIME {
+        return {reinterpret_cast<T*>(response_ + result.offset), result.length};
+    }
     bool first() const { return first_; }  // false when a long command is called again
+    // Nominal time of this cycle, as Tick::seconds(), and since the first call of a long command.
+    double seconds() const { return static_cast<double>(now_) * 1e-9; }
+    double elapsedSeconds() const { return static_cast<double>(now_ - begun_) * 1e-9; }
     bool cancelling() const {
         return cancelling_;
     }  // last call of a long command that is cancelled
@@ -84,11 +105,16 @@ public:
     void setFirst(bool first) { first_ = first; }
     void setCancelling(bool cancelling) { cancelling_ = cancelling; }
     void setSender(const Sender* sender) { sender_ = sender; }
+    void setTime(std::int64_t now, std::int64_t begun) {  // nominal, ns
+        now_ = now;
+        begun_ = begun;
+    }
 
 private:
     const std::byte* request_;
     std::byte* response_;
     const Sender* sender_ = nullptr;
+    std::int64_t now_ = 0, begun_ = 0;
     bool first_ = true;
     bool cancelling_ = false;
     Reason reason_ = Reason::None;

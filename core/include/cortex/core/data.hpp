@@ -64,6 +64,10 @@ constexpr Kind kindFor() {
 template <class T>
 concept ArrayElement = !std::is_same_v<std::remove_const_t<T>, std::string_view>;
 
+// Data that is counted up or scaled where it lies.
+template <class T>
+concept NumberCell = std::is_same_v<T, std::int64_t> || std::is_same_v<T, double>;
+
 // Handle to one scalar item: a plain pointer into the tables, used like the value itself.
 // Data<const T> only reads. Got in populate(), used in ticks; unbound until then.
 template <class T>
@@ -92,9 +96,27 @@ public:
         return *this;
     }
     Data& operator+=(Plain value) CORTEX_REALTIME
-        requires(std::is_arithmetic_v<T> && !std::is_const_v<T>)
+        requires NumberCell<T>
     {
         *cell_ += value;
+        return *this;
+    }
+    Data& operator-=(Plain value) CORTEX_REALTIME
+        requires NumberCell<T>
+    {
+        *cell_ -= value;
+        return *this;
+    }
+    Data& operator*=(Plain value) CORTEX_REALTIME
+        requires NumberCell<T>
+    {
+        *cell_ *= value;
+        return *this;
+    }
+    Data& operator/=(Plain value) CORTEX_REALTIME
+        requires NumberCell<T>
+    {
+        *cell_ /= value;
         return *this;
     }
     explicit operator bool() const

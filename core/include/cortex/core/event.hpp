@@ -8,6 +8,7 @@
 
 #include <array>
 #include <atomic>
+#include <concepts>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -48,6 +49,10 @@ public:
     EventText& operator<<(const char* text) CORTEX_REALTIME;
     EventText& operator<<(std::int64_t number) CORTEX_REALTIME;
     EventText& operator<<(double number) CORTEX_REALTIME;
+    template <std::integral T>
+    EventText& operator<<(T number) CORTEX_REALTIME {
+        return *this << static_cast<std::int64_t>(number);
+    }
     std::string_view view() const { return {text_.data(), length_}; }
 
 private:

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
+#include <utility>
 
 namespace cortex {
 
@@ -38,12 +40,23 @@ public:
 
     template <class T>
     Data<T> argument(std::string_view name) {
-        return Data<T>{static_cast<typename StorageOf<T>::type*>(argumentCell(name, kindFor<T>()))};
+        return Data<T>{static_cast<typename StorageOf<T>::type*>(
+            argumentCells(name, kindFor<T>(), false).first)};
+    }
+    template <ArrayElement T>
+    std::span<T> arrayArgument(std::string_view name) {
+        const auto [first, length] = argumentCells(name, kindFor<T>(), true);
+        return {static_cast<T*>(first), length};
     }
     template <class T>
     Data<const T> response(std::string_view name) {
-        return Data<const T>{
-            static_cast<typename StorageOf<const T>::type*>(responseCell(name, kindFor<T>()))};
+        return Data<const T>{static_cast<typename StorageOf<const T>::type*>(
+            responseCells(name, kindFor<T>(), false).first)};
+    }
+    template <ArrayElement T>
+    std::span<const T> arrayResponse(std::string_view name) {
+        const auto [first, length] = responseCells(name, kindFor<T>(), true);
+        return {static_cast<const T*>(first), length};
     }
     // Returns None when it is on its way, else MailboxFull.
     Outcome send() CORTEX_REALTIME;
@@ -57,8 +70,8 @@ public:
     explicit CommandSender(std::shared_ptr<State> state) : state_{std::move(state)} {}
 
 private:
-    void* argumentCell(std::string_view name, Kind kind);
-    const void* responseCell(std::string_view name, Kind kind);
+    std::pair<void*, std::size_t> argumentCells(std::string_view name, Kind kind, bool array);
+    std::pair<const void*, std::size_t> responseCells(std::string_view name, Kind kind, bool array);
 
     std::shared_ptr<State> state_;
 };

@@ -5,10 +5,12 @@
 
 #include <chrono>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace cortex {
 
@@ -30,7 +32,15 @@ public:
     explicit ProgramInterface(const std::string& sender = "program", std::uint32_t capacity = 64);
     ~ProgramInterface() override;
 
-    using Arguments = std::map<std::string, Value>;
+    // By parameter: {{"speed", 0.5}, {"name", "left"}, {"pose", std::vector{1.0, 2.0}}}.
+    struct Arguments : std::map<std::string, Value> {
+        Arguments() = default;
+        Arguments(std::map<std::string, Value> all)
+            : std::map<std::string, Value>(std::move(all)) {}
+        Arguments(std::initializer_list<std::pair<std::string, GivenValue>> all) {
+            for (const auto& [name, value] : all) emplace(name, value);
+        }
+    };
     // Sends; the sequence number identifies the answer. Throws Error for unknown paths, commands or
     // parameters and values of the wrong kind; ranges are checked by the receiver.
     std::uint64_t post(std::string_view path, std::string_view command,

@@ -122,15 +122,7 @@ public:
     std::uint32_t index() const { return index_; }  // in the Structure, from start() on
 
     // Setup, before start(): the value an item starts with. Wrong ones are findings of validate().
-    void set(std::string_view item, Value value, Place place = {});
-    void set(std::string_view item, double value) { set(item, Value{std::vector{value}}); }
-    void set(std::string_view item, int value) { set(item, std::int64_t{value}); }
-    void set(std::string_view item, std::int64_t value) { set(item, Value{std::vector{value}}); }
-    void set(std::string_view item, bool value) { set(item, Value{std::vector<bool>{value}}); }
-    void set(std::string_view item, std::string_view value) {
-        set(item, Value{std::vector{std::string{value}}});
-    }
-    void set(std::string_view item, const char* value) { set(item, std::string_view{value}); }
+    void set(std::string_view item, const GivenValue& value, Place place = {});
     void runEvery(int cycles, int phase = -1);
 
     // Own data, from populate() on; of a descriptive simplex without writer also for the program,
@@ -157,12 +149,22 @@ protected:
     std::vector<OutputSimplex> outputs(std::string_view rule);
 
     template <class T>
-    Argument<T> argument(std::string_view command, std::string_view parameter) const {
-        return {parameterOffset(command, parameter, kindFor<T>(), true)};
+    Argument<T> argument(std::string_view command, std::string_view name) const {
+        return {parameter(command, name, {kindFor<T>(), false}, true).offset};
     }
     template <class T>
-    Result<T> result(std::string_view command, std::string_view parameter) const {
-        return {parameterOffset(command, parameter, kindFor<T>(), false)};
+    Result<T> result(std::string_view command, std::string_view name) const {
+        return {parameter(command, name, {kindFor<T>(), false}, false).offset};
+    }
+    template <ArrayElement T>
+    ArrayArgument<T> arrayArgument(std::string_view command, std::string_view name) const {
+        const ItemLayout& layout = parameter(command, name, {kindFor<T>(), true}, true);
+        return {layout.offset, layout.item->length};
+    }
+    template <ArrayElement T>
+    ArrayResult<T> arrayResult(std::string_view command, std::string_view name) const {
+        const ItemLayout& layout = parameter(command, name, {kindFor<T>(), true}, false);
+        return {layout.offset, layout.item->length};
     }
     void handle(std::string_view command, Handler handler);  // throws if the type lacks it
     AgentRuntime& runtime() const { return *runtime_; }      // from start() on
@@ -175,8 +177,12 @@ private:
 
     AgentRuntime& startedRuntime() const;  // throws before start()
     void* cell(std::string_view item, Kind kind, bool array, bool write, std::size_t& length);
-    std::uint32_t parameterOffset(std::string_view command, std::string_view parameter, Kind kind,
-                                  bool request) const;
+    struct Shape {
+        Kind kind;
+        bool array;
+    };
+    const ItemLayout& parameter(std::string_view command, std::string_view name, Shape shape,
+                                bool request) const;
     std::vector<std::uint32_t> edgesUnder(std::string_view rule, Direction direction) const;
 
     Identity identity_;

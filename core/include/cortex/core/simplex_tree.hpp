@@ -26,6 +26,10 @@ public:
     // of active types; without it (or the class) they stay plain, which start() refuses.
     static SimplexTree load(std::span<const std::filesystem::path> files,
                             const ClassRegistry* registry = nullptr);  // throws ModelError
+    static SimplexTree load(const std::filesystem::path& file,
+                            const ClassRegistry* registry = nullptr) {
+        return load(std::span{&file, 1}, registry);
+    }
     // What cannot be added (unknown type, bad path, bad value) goes to the report.
     void add(const SystemDescription& system, const ClassRegistry* registry, Report& report);
 

@@ -38,6 +38,8 @@ struct TypeLayout {
     const ItemLayout* find(std::string_view item) const;
 };
 
+TypeLayout typeLayout(const Type& type, bool remote = false);
+
 // Parameters of a command as one flat record: octet offsets, each multiple of 8.
 struct RecordLayout {
     std::vector<ItemLayout> items;  // in the order of the type

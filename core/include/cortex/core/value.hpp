@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -21,6 +22,38 @@ std::optional<Kind> kindFromName(std::string_view text);
 // element. The alternative's index is the Kind.
 using Value = std::variant<std::vector<std::int64_t>, std::vector<double>, std::vector<bool>,
                            std::vector<std::string>>;
+
+// A value as code gives it: a Value, a vector of elements (or array, or span), or one element (0.5,
+// 3, true, "text").
+class GivenValue {
+public:
+    template <class T>
+    GivenValue(const T& given) : value_{valueOf(given)} {}
+
+    operator const Value&() const { return value_; }
+
+private:
+    template <class T>
+    static Value valueOf(const T& given) {
+        if constexpr (std::is_same_v<T, bool>)
+            return std::vector<bool>{given};
+        else if constexpr (std::is_integral_v<T>)
+            return std::vector<std::int64_t>{static_cast<std::int64_t>(given)};
+        else if constexpr (std::is_floating_point_v<T>)
+            return std::vector<double>{static_cast<double>(given)};
+        else if constexpr (std::is_convertible_v<const T&, std::string_view>)
+            return std::vector<std::string>{std::string{std::string_view{given}}};
+        else if constexpr (requires { requires std::is_integral_v<typename T::value_type>; } &&
+                           !std::is_same_v<T, std::vector<bool>>)
+            return std::vector<std::int64_t>(given.begin(), given.end());
+        else if constexpr (requires { requires std::is_floating_point_v<typename T::value_type>; })
+            return std::vector<double>(given.begin(), given.end());
+        else
+            return Value{given};
+    }
+
+    Value value_;
+};
 
 Kind kindOf(const Value& value);
 std::size_t lengthOf(const Value& value);

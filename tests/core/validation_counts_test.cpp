@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/validation.hpp"
+
+#include "core/model_folder.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace cortex {
+namespace {
+
+using namespace test;
+
+TEST(Validation, SaysOnceThatARuleIsMisspelt) {
+    const std::string lamps = simplex("/l1", "Lamp") + simplex("/l2", "Lamp");
+    const auto alone =
+        checkSmall(simplex("/arm", "Arm", relate("tol", "/hand")) + simplex("/hand", "Welder"));
+    const auto oneOfTwo = checkSmall(
+        simplex("/p", "Painter", relate("outputs", "/l1") + relate("outptus", "/l2")) + lamps);
+    const auto notEnough = checkSmall(simplex("/p", "Painter", relate("outptus", "/l2")) + lamps);
+    const auto another = checkSmall(simplex("/arm", "Arm", relate("zzzz", "/l1")) + lamps);
+
+    EXPECT_EQ(only(alone).rule, "unknown-rule") << alone.report.text();
+    EXPECT_EQ(only(oneOfTwo).rule, "unknown-rule") << oneOfTwo.report.text();
+    for (const CheckedModel* both : {&notEnough, &another}) {
+        EXPECT_EQ(both->count("unknown-rule"), 1U) << both->report.text();
+        EXPECT_EQ(both->count("below-min"), 1U) << both->report.text();
+    }
+}
+
+TEST(Validation, NamesTheRuleThatShouldRefineTheOneThatLacksSimplexes) {
+    const std::string lamps = simplex("/l1", "Lamp") + simplex("/l2", "Lamp");
+    const auto related = only(checkSmall(
+        simplex("/p", "Painter", relate("lights", "/l1") + relate("lights", "/l2")) + lamps));
+    const auto bare = only(checkSmall(simplex("/p", "Painter") + lamps));
+
+    EXPECT_EQ(related.rule, "below-min");
+    EXPECT_TRUE(related.remedy.starts_with(
+        "write refines=\"outputs\" for rule 'lights' (small-morphology.xml:36), or add "))
+        << related.remedy;
+    EXPECT_EQ(bare.rule, "below-min");
+    EXPECT_TRUE(bare.remedy.starts_with("relate 2 with ")) << bare.remedy;
+}
+
+TEST(Validation, FindsMoreThanTheMaximum) {
+    const auto finding =
+        only(checkSmall(simplex("/arm", "Arm", relate("tool", "/w1") + relate("tool", "/w2")) +
+                        simplex("/w1", "Welder") + simplex("/w2", "Welder")));
+
+    EXPECT_EQ(finding.rule, "above-max");
+    EXPECT_EQ(finding.place.line, 5);
+    EXPECT_TRUE(contains(finding.message, "takes 1 Tool, has 2"));
+}
+
+TEST(Validation, CountsRelationsOfARefiningRuleForTheOneItRefines) {
+    const auto checked = checkSmall(
+        simplex("/c", "BlindController",
+                relate("demands", "/a1") + relate("demands", "/a2") + relate("third", "/a3")) +
+        simplex("/a1", "Axis") + simplex("/a2", "Axis") + simplex("/a3", "Axis"));
+
+    ASSERT_NE(checked.find("above-max"), nullptr) << checked.report.text();
+    EXPECT_EQ(checked.find("above-max")->place.line, 6);
+    EXPECT_TRUE(contains(checked.find("above-max")->message, "rule 'demands'"));
+}
+
+TEST(Validation, FindsACreatedPathThatIsTaken) {
+    const auto finding = only(checkSmall(simplex("/t", "Three") + simplex("/t/axes/2", "Axis1")));
+
+    EXPECT_EQ(finding.rule, "created-path");
+    EXPECT_EQ(finding.path, "/t/axes/2");
+    EXPECT_EQ(finding.place.line, 5);
+    EXPECT_TRUE(contains(finding.remedy, "write type=\"Axis2\"")) << finding.remedy;
+}
+
+TEST(Validation, SaysWhyNothingMoreIsCreated) {
+    const auto finding = only(checkSmall(simplex("/n", "Nest")));
+
+    EXPECT_EQ(finding.rule, "below-min");
+    EXPECT_EQ(finding.path, "/n/inner/inner/inner/inner/inner/inner/inner");
+    EXPECT_EQ(finding.place.line, 3);  // of the simplex in the file that it was created for
+    EXPECT_TRUE(contains(finding.message, "at most 8 levels")) << finding.message;
+}
+
+}  // namespace
+}  // namespace cortex
