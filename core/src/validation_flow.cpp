@@ -275,11 +275,10 @@ void Flow::reportLoop(const Loop& loop) {
 
 // Cycles between two writings of what the edge reads, 0 if this agent does not write it.
 int Flow::writtenEvery(std::uint32_t index) const {
-    const SimplexInfo& source = info(edge(index).target);
-    if (source.remote) return 0;
-    std::uint32_t every = source.role == Role::Active ? source.every : 0;
-    for (const std::uint32_t writer : source.writers) every = std::max(every, info(writer).every);
-    return static_cast<int>(every);
+    const std::uint32_t source = edge(index).target;
+    const bool active = info(source).role == Role::Active;
+    const bool written = !info(source).remote && (active || !info(source).writers.empty());
+    return written ? static_cast<int>(checked_.structure.writtenEvery(source)) : 0;
 }
 
 // Inputs whose maxAge the running agent raises; one finding a rule, for what is written least

@@ -173,7 +173,7 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     watchdog_->cycleEnds();
 }
 
-// Of the cycle before, for the same reason.
+// About the cycle before: its own events have been handed out.
 void ClusterLoop::warnDuty() {
     if (options_.warnDuty <= 0 || metrics_.lastDuty() <= options_.warnDuty) return;
     EventText text{"duty cycle "};

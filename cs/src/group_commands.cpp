@@ -10,6 +10,11 @@ namespace {
 
 bool resting(State state) { return state == State::Standby || state == State::Fault; }
 
+// `prefix` without a slash at its end; "" is above everything.
+bool isAtOrBelow(std::string_view path, std::string_view prefix) {
+    return path.starts_with(prefix) && (path.size() == prefix.size() || path[prefix.size()] == '/');
+}
+
 }  // namespace
 
 GroupCommands::GroupCommands(AgentRuntime& agent, std::vector<SimplexCS*> order)
@@ -37,7 +42,7 @@ Outcome GroupCommands::handle(LifeCycle command, Call& call, Argument<std::strin
     if (stopping_) return call.fail("the cluster is stopping");
     if (call.first()) {
         begin(command, call[prefix]);
-        if (!prefix_.view().empty() && !anyBelongs()) {
+        if (!prefix_.view().empty() && !anyStandsThere()) {
             EventText text{"no active simplex stands at or below "};
             return call.fail((text << prefix_.view()).view());
         }
@@ -98,20 +103,14 @@ SimplexCS& GroupCommands::member(std::size_t at) const {
     return *order_[command_ == LifeCycle::Shutdown ? order_.size() - 1 - at : at];
 }
 
-bool GroupCommands::anyBelongs() const {
-    const std::string_view prefix = prefix_.view();
-    for (const SimplexCS* simplex : order_) {
-        const std::string_view path = simplex->path();
-        if (path == prefix || (path.starts_with(prefix) && path[prefix.size()] == '/')) return true;
-    }
-    return false;
+bool GroupCommands::anyStandsThere() const {
+    return std::ranges::any_of(order_, [this](const SimplexCS* simplex) {
+        return isAtOrBelow(simplex->path(), prefix_.view());
+    });
 }
 
 bool GroupCommands::belongs(const SimplexCS& simplex) const {
-    const std::string_view path = simplex.path();
-    const std::string_view prefix = prefix_.view();
-    const bool below =
-        path.starts_with(prefix) && (path.size() == prefix.size() || path[prefix.size()] == '/');
+    const bool below = isAtOrBelow(simplex.path(), prefix_.view());
     if (!below || command_ == LifeCycle::ClearFaults || simplex.manager_ == noSimplex) return below;
     // A manager looks after its own while it works.
     const auto& manager = static_cast<const SimplexCS&>(agent_.simplex(simplex.manager_));

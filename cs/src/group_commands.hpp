@@ -33,7 +33,7 @@ private:
     template <LifeCycle command>
     void registerHandler(std::string_view name);
 
-    bool anyBelongs() const CORTEX_REALTIME;
+    bool anyStandsThere() const CORTEX_REALTIME;
     bool anyWorks() const CORTEX_REALTIME;
     bool belongs(const SimplexCS& simplex) const CORTEX_REALTIME;
     bool reached(const SimplexCS& simplex) const CORTEX_REALTIME;

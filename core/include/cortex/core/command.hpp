@@ -86,13 +86,11 @@ public:
     std::span<T> operator[](ArrayResult<T> result) CORTEX_REALTIME {
         return {reinterpret_cast<T*>(response_ + result.offset), result.length};
     }
-    bool first() const { return first_; }  // false when a long command is called again
+    bool first() const { return first_; }            // false when a long command is called again
+    bool cancelling() const { return cancelling_; }  // its last call
     // Nominal time of this cycle, as Tick::seconds(), and since the first call of a long command.
     double seconds() const { return static_cast<double>(now_) * 1e-9; }
     double elapsedSeconds() const { return static_cast<double>(now_ - begun_) * 1e-9; }
-    bool cancelling() const {
-        return cancelling_;
-    }  // last call of a long command that is cancelled
     // Why it failed, in words; returns Failed so that a handler can `return call.fail("…")`.
     Outcome fail(std::string_view why) CORTEX_REALTIME;
     // Not executed: `return call.reject(Reason::State, "…")`.

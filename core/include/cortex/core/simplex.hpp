@@ -172,7 +172,6 @@ protected:
 private:
     friend class AgentRuntime;
     friend class RelatedSimplex;
-    friend class OutputSimplex;
     friend class SimplexTree;
 
     AgentRuntime& startedRuntime() const;  // throws before start()
