@@ -47,7 +47,7 @@ public:
 
 private:
     template <class Message>
-    bool add(std::vector<Arrived<Message>> ReceivedMessages::* list, Message&& message,
+    bool add(std::vector<Arrived<Message>> ReceivedMessages::* list, Message message,
              std::int64_t now, std::size_t most) {
         const std::lock_guard lock{mutex_};
         if ((messages_.*list).size() >= most) return false;

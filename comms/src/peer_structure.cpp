@@ -87,12 +87,12 @@ private:
 
     void setConstant(Simplex& simplex, const NamedValue& named) {
         const DataItem* item = simplex.type().findData(named.name);
-        auto value = valueOf(named);
+        const auto value = valueOf(named);
         if (item == nullptr || !item->constant || !value || kindOf(*value) != item->kind ||
             lengthOf(*value) != item->length) {
             return error(simplex.path(), "constant '" + named.name + "' does not fit its type");
         }
-        simplex.set(named.name, std::move(*value));
+        simplex.set(named.name, *value);
     }
 
     void check(const Structure& structure, const std::map<std::string, SimplexMessage>& simplexes) {

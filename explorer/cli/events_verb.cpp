@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <iostream>
 #include <mutex>
+#include <tuple>
 #include <utility>
 
 namespace cortex::explorer {
@@ -81,8 +82,8 @@ private:
 };
 
 void sort(std::vector<AgentEvent>& events) {
-    std::ranges::stable_sort(events, {}, [](const AgentEvent& event) {
-        return std::pair{event.wallClock, event.number};
+    std::ranges::sort(events, {}, [](const AgentEvent& event) {
+        return std::tie(event.wallClock, event.number, event.agent);
     });
 }
 

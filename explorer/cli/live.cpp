@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace cortex::explorer {
 namespace {
@@ -110,7 +111,8 @@ std::vector<FoundSimplex> Live::below(const std::string& prefix) const {
             }
         }
     }
-    std::ranges::stable_sort(found, {}, [](const auto& each) { return each.info().path; });
+    std::ranges::sort(found, {},
+                      [](const auto& each) { return std::tie(each.info().path, each.agent); });
     return found;
 }
 

@@ -111,7 +111,7 @@ ProgramInterface::Arguments parseArguments(const std::string& what, const Record
 }
 
 std::string csvText(const std::string& text) {
-    const std::string visible = printable(text);
+    std::string visible = printable(text);
     if (visible.find_first_of(",\" ") == std::string::npos) return visible;
     std::string result = "\"";
     for (const char c : visible) result += c == '"' ? "\"\"" : std::string{c};
