@@ -65,7 +65,10 @@ private:
         std::int64_t epoch = 0;
         Id structureHash{};
         std::uint32_t simplexes = 0;
+        std::int64_t patience = 0;               // ns: a block that came later than this after
+                                                 // the newest was not overtaken by it
         std::uint64_t newest = 0;                // sequence number of the block
+        std::int64_t newestCame = 0;             // steadyNow()
         std::map<std::uint32_t, Bound*> bounds;  // by index there
     };
 

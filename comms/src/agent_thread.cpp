@@ -104,7 +104,7 @@ void AgentThread::takeMessages(std::int64_t now) {
         peers_.take(presence, came);
         if (presence.state != "stopping") commands_.heard(presence.name, presence.epoch, came);
     }
-    for (auto& [model, came] : messages_.models) peers_.take(model);
+    for (auto& [model, came] : messages_.models) peers_.take(model, came);
     for (auto& [command, came] : messages_.commands) {
         if (!silent_) commands_.take(command, now);
     }
