@@ -8,6 +8,7 @@ namespace cortex {
 namespace {
 
 constexpr std::int64_t stalePeriods = 3;  // missed ones
+constexpr std::int64_t toldPeriods = 20;  // fewer happen often where nothing runs in real time
 
 std::size_t octetsOf(const LinkBinding::Copy& copy) {
     const bool octets = copy.kind == Kind::Bool || copy.kind == Kind::String;
@@ -49,7 +50,7 @@ void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Sl
     runtime_.ownerPeriods_[simplex] = link->period;
     if (!link->bound) post(Severity::Info, simplex, "linked");
     link->bound = true;
-    link->stale = false;
+    link->told = false;
 }
 
 void LinkTable::constants(std::uint32_t simplex, const LinkBinding& binding, const Slice& from) {
@@ -70,13 +71,15 @@ void LinkTable::lost(std::uint32_t simplex) {
 void LinkTable::age() {
     for (Link& link : links_) {
         const std::int64_t age = runtime_.nominalTime() - link.freshTime;
-        if (!link.bound || link.stale || age < stalePeriods * link.period) continue;
-        link.stale = true;
+        if (!link.bound || age < stalePeriods * link.period) continue;
         SlotState& state = *link.slice.state;
-        if (state.quality >= Quality::Stale) continue;
-        state.quality = Quality::Stale;
-        state.cause = link.simplex;
-        post(Severity::Warning, link.simplex, "no fresh sample for 3 periods");
+        if (state.quality < Quality::Stale) {
+            state.quality = Quality::Stale;
+            state.cause = link.simplex;
+        }
+        if (link.told || age < toldPeriods * link.period) continue;
+        link.told = true;
+        post(Severity::Warning, link.simplex, "no fresh sample for 20 periods");
     }
 }
 

@@ -131,7 +131,7 @@ private:
         report_.error("", finding::fileKind, from,
                       inQuotes(file) + " has the element <" + root.substr(0, 80) + ">, wanted is " +
                           wanted(asked),
-                      root == "system" ? "give the system file itself to the program"
+                      root == "system" ? "include it in a system, or give it to the program itself"
                                        : "write <" + root.substr(0, 80) +
                                              " file=\"…\"/> or <include file=\"…\"/>");
     }
@@ -163,7 +163,9 @@ private:
                              if (complete) open(wantedFile, reader.place(child.line), asked);
                          }};
         };
-        std::vector<Child> children{including("include", Asked::OntologyOrMorphology)};
+        const bool system = root.name == "system";
+        std::vector<Child> children{
+            including("include", system ? Asked::Any : Asked::OntologyOrMorphology)};
         if (root.name == "ontology") {
             children.push_back({"type", [&](const XmlElement& child) { addType(child, file); }});
         } else if (root.name == "morphology") {

@@ -10,7 +10,7 @@ std::vector<ResolvedRelation> resolveRelations(const SimplexTree& tree, const Si
     std::vector<ResolvedRelation> resolved;
     for (const auto& relation : owner.relations()) {
         const Rule* rule = owner.type().findRule(relation.rule);
-        const Simplex* target = relation.remote ? nullptr : tree.find(relation.target);
+        const Simplex* target = tree.find(relation.target);
         if (rule != nullptr && (relation.remote || target != nullptr)) {
             resolved.push_back({&relation, rule, target});
         }

@@ -26,7 +26,6 @@ inline constexpr char targetTwice[] = "target-twice";
 inline constexpr char belowMin[] = "below-min";
 inline constexpr char aboveMax[] = "above-max";
 inline constexpr char remoteOutput[] = "remote-output";
-inline constexpr char remoteLocal[] = "remote-local";
 inline constexpr char remoteTypes[] = "remote-types";
 
 // A setting

@@ -75,11 +75,6 @@ void checkRemote(const Checked& checked, const Simplex& owner, const Rule& rule,
         checked.report.error(owner.path(), finding::remoteOutput, relation.place,
                              text + " is an output; data of another agent is only read",
                              "remove this <relate>, and act on " + relation.target + " by command");
-    } else if (checked.tree.find(relation.target) != nullptr) {
-        checked.report.error(
-            owner.path(), finding::remoteLocal, relation.place,
-            text + ": " + relation.target + " is remote, but stands in this system",
-            "write " + relateText(rule.name, relation.target));
     } else if (const auto wrong = SimplexTree::pathError(relation.target); !wrong.empty()) {
         checked.report.error(owner.path(), finding::malformedPath, relation.place,
                              text + ": path '" + relation.target + "': " + wrong,
@@ -150,12 +145,11 @@ void checkRelations(const Checked& checked, const Simplex& owner) {
             reportTwice(checked, owner, *rule, relation);
         }
         const Simplex* target = checked.tree.find(relation.target);
+        if (target != nullptr) checkTargetType(checked, owner, *rule, relation, *target);
         if (relation.remote)
             checkRemote(checked, owner, *rule, relation);
         else if (target == nullptr)
             checkUnknownTarget(checked, owner, *rule, relation);
-        else
-            checkTargetType(checked, owner, *rule, relation, *target);
     }
 }
 

@@ -26,7 +26,7 @@ void merge(SlotState& sum, const SlotState& state, bool ages) {
 
 SlotState TaskRunner::readInputs(Task& task, const Tick& tick) {
     SlotState sum{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
-    bool safe = false;
+    bool anyLost = false, safe = false;
     for (std::uint32_t i = 0; i < task.inputCount; ++i) {
         TaskInput& input = inputs_[task.firstInput + i];
         if (input.ownerPeriod != nullptr) {
@@ -54,8 +54,10 @@ SlotState TaskRunner::readInputs(Task& task, const Tick& tick) {
             seen = *input.heldTo.state;
         }
         merge(sum, seen, input.ages);
+        anyLost = anyLost || lost;
         safe = safe || (lost && input.rule->onLoss == OnLoss::Safe);
     }
+    task.simplex->inputLost_ = anyLost;
     safe = safe && task.simplex->state_ == State::Active;
     if (safe && !task.simplex->safeByLoss_) latchSafe(task);
     task.simplex->safeByLoss_ = safe;

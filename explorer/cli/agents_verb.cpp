@@ -1,27 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "live_json.hpp"
 #include "live_verbs.hpp"
 
-#include <cmath>
 #include <iostream>
 
 namespace cortex::explorer {
-namespace {
-
-std::int64_t milliseconds(double seconds) { return std::llround(seconds * 1000); }
-
-Json agentJson(const comms::AgentStatus& agent) {
-    return {{"name", agent.name},
-            {"epoch", agent.epoch},
-            {"host", agent.host},
-            {"state", agent.state},
-            {"age_ms", milliseconds(agent.age)},
-            {"simplexes", agent.simplexes},
-            {"cycle", agent.cycle},
-            {"loss", agent.loss},
-            {"security", agent.security}};
-}
-
-}  // namespace
 
 Exit listAgents(const LiveOptions& options) {
     Live live{options.network};

@@ -1,41 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "live_events.hpp"
+#include "live_json.hpp"
 #include "live_values.hpp"
 #include "live_verbs.hpp"
 
 #include <algorithm>
-#include <condition_variable>
 #include <iostream>
-#include <mutex>
-#include <tuple>
-#include <utility>
 
 namespace cortex::explorer {
 namespace {
 
 using comms::AgentEvent;
-
-// Events on their way from the mirror's thread to ours.
-class Arrivals {
-public:
-    void push(const AgentEvent& event) {
-        {
-            const std::lock_guard lock{mutex_};
-            events_.push_back(event);
-        }
-        changed_.notify_one();
-    }
-    // All that have come; waits for one. Empty: none within `limit`.
-    std::vector<AgentEvent> take(std::chrono::milliseconds limit) {
-        std::unique_lock lock{mutex_};
-        changed_.wait_for(lock, limit, [&] { return !events_.empty(); });
-        return std::exchange(events_, {});
-    }
-
-private:
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::vector<AgentEvent> events_;
-};
 
 class Printer {
 public:
@@ -57,35 +32,18 @@ public:
                       << csvText(event.kind) << ',' << csvText(event.path) << ','
                       << csvText(event.text) << std::endl;
         } else if (options_.json) {
-            std::cout << json(event).dump(-1, ' ', false, Json::error_handler_t::replace)
-                      << std::endl;
+            printLine(eventJson(event));
         } else {
             std::cout << timeText(event.wallClock) << ' ' << name(event.severity) << ' '
                       << printable(event.path.empty() ? event.agent : event.path) << ' '
                       << printable(event.text) << std::endl;
         }
     }
-    static Json json(const AgentEvent& event) {
-        return {{"time", timeText(event.wallClock)},
-                {"agent", event.agent},
-                {"number", event.number},
-                {"cycle", event.cycle},
-                {"severity", name(event.severity)},
-                {"kind", event.kind},
-                {"path", event.path},
-                {"text", event.text}};
-    }
 
 private:
     const EventOptions& options_;
     Severity least_;
 };
-
-void sort(std::vector<AgentEvent>& events) {
-    std::ranges::sort(events, {}, [](const AgentEvent& event) {
-        return std::tie(event.wallClock, event.number, event.agent);
-    });
-}
 
 // Nothing says that the past has come whole: it is taken to be when nothing more comes for a while.
 std::vector<AgentEvent> past(Live& live, Arrivals& arrivals) {
@@ -96,7 +54,7 @@ std::vector<AgentEvent> past(Live& live, Arrivals& arrivals) {
         events.insert(events.end(), more.begin(), more.end());
         if (more.empty() || live.left() <= std::chrono::milliseconds{1}) break;
     }
-    sort(events);
+    sortByTime(events);
     return events;
 }
 
@@ -115,7 +73,7 @@ Exit showEvents(const EventOptions& options) {
     std::erase_if(events, [&](const AgentEvent& event) { return !printer.shows(event); });
     if (options.json && !options.follow) {
         Json list = Json::array();
-        for (const AgentEvent& each : events) list.push_back(Printer::json(each));
+        for (const AgentEvent& each : events) list.push_back(eventJson(each));
         print(list);
         return Yes;
     }

@@ -49,9 +49,10 @@ public:
 
     std::chrono::milliseconds left() const;  // of the time to wait
     std::chrono::milliseconds timeout() const { return timeout_; }
+    int domain() const { return domain_; }
+    [[noreturn]] void failWithNobody() const;  // throws Failure that says what to try
 
 private:
-    [[noreturn]] void failWithNobody() const;
     std::vector<std::string> paths() const;
 
     std::chrono::milliseconds timeout_;

@@ -149,6 +149,32 @@ void addEvents(LiveVerbs& verbs) {
         ->excludes(verb->get_option("--json"));
 }
 
+void addTop(LiveVerbs& verbs) {
+    const auto top = std::make_shared<TopOptions>();
+    CLI::App* verb = verbs.add(
+        "top", "Show agents, loops, states, faults and events as they change",
+        R"(On a terminal in place, until q or an interrupt; elsewhere one text after the other, with --json an
+object a line. Where it ends by itself, the last moment with agents stays. Exit code 3: no agent came.
+Examples:
+  cortex top
+  cortex top /arm --rate 5
+  cortex top --seconds 60 --until-gone)",
+        top, showTop);
+    verb->add_option("PREFIX", top->prefix,
+                     "Path whose states, faults and events count; all if not given")
+        ->type_name("");
+    verb->add_option("--rate", top->rate,
+                     "Refreshes per second; 2 on a terminal, 1 for JSON, else 0.2 if not given")
+        ->type_name("HZ")
+        ->check(CLI::Range(0.001, 30.0));
+    CLI::Option* seconds = verb->add_option("--seconds", top->seconds, "End after so many seconds")
+                               ->type_name("N")
+                               ->check(CLI::Range(0.0, 1e6));
+    verb->add_flag("--once", top->once, "Print one moment and end")->excludes(seconds);
+    verb->add_flag("--until-gone", top->untilGone,
+                   "End when the last agent is gone, after one was there");
+}
+
 }  // namespace
 
 void addLiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run) {
@@ -158,6 +184,7 @@ void addLiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run) {
     addWatch(verbs);
     addCall(verbs);
     addEvents(verbs);
+    addTop(verbs);
 }
 
 }  // namespace cortex::explorer

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,5 +52,13 @@ struct EventOptions : LiveOptions {
     std::string severity = "info";
 };
 Exit showEvents(const EventOptions& options);
+
+struct TopOptions : LiveOptions {
+    std::string prefix = "/";
+    std::optional<double> rate;     // refreshes per second; none: as fits where they go
+    std::optional<double> seconds;  // none: for ever
+    bool once = false, untilGone = false;
+};
+Exit showTop(const TopOptions& options);
 
 }  // namespace cortex::explorer

@@ -14,14 +14,6 @@ namespace {
 
 constexpr const char* plain = "\033[0m";
 
-bool coloured(Stream stream) {
-    const char* none = std::getenv("NO_COLOR");
-    if (none != nullptr && *none != '\0') return false;
-    const char* terminal = std::getenv("TERM");
-    if (terminal == nullptr || std::string_view{terminal} == "dumb") return false;
-    return isatty(stream == Stream::Output ? STDOUT_FILENO : STDERR_FILENO) == 1;
-}
-
 const char* colourOf(Severity severity) {
     constexpr std::array colours{"\033[36m", "\033[33m", "\033[31m"};
     return colours[static_cast<std::size_t>(severity)];
@@ -34,12 +26,20 @@ void appendEscaped(std::string& text, unsigned octet) {
     text += digits[octet % 16];
 }
 
-std::size_t width(std::string_view text) {  // characters of UTF-8
+}  // namespace
+
+bool coloured(Stream stream) {
+    const char* none = std::getenv("NO_COLOR");
+    if (none != nullptr && *none != '\0') return false;
+    const char* terminal = std::getenv("TERM");
+    if (terminal == nullptr || std::string_view{terminal} == "dumb") return false;
+    return isatty(stream == Stream::Output ? STDOUT_FILENO : STDERR_FILENO) == 1;
+}
+
+std::size_t textWidth(std::string_view text) {
     return static_cast<std::size_t>(
         std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
-
-}  // namespace
 
 bool looksLikeFile(const std::string& argument) {
     std::error_code ignored;
@@ -84,7 +84,7 @@ void Columns::print(std::ostream& stream) const {
         if (line.note) continue;
         widths.resize(std::max(widths.size(), line.cells.size()));
         for (std::size_t i = 0; i < line.cells.size(); ++i) {
-            widths[i] = std::max(widths[i], width(printable(line.cells[i])));
+            widths[i] = std::max(widths[i], textWidth(printable(line.cells[i])));
         }
     }
     for (const Line& line : lines_) {
@@ -92,7 +92,7 @@ void Columns::print(std::ostream& stream) const {
         for (std::size_t i = 0; i < line.cells.size(); ++i) {
             const std::string cell = printable(line.cells[i]);
             text += cell;
-            if (!line.note && widths[i] > 0) text.append(widths[i] - width(cell) + 2, ' ');
+            if (!line.note && widths[i] > 0) text.append(widths[i] - textWidth(cell) + 2, ' ');
         }
         text.erase(text.find_last_not_of(' ') + 1);
         stream << text << '\n';

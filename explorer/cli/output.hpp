@@ -13,6 +13,9 @@
 
 namespace cortex::explorer {
 
+enum class Stream { Output, Errors };
+bool coloured(Stream stream);  // on a terminal only, and not where NO_COLOR says no
+
 using Json = nlohmann::ordered_json;  // keys in the order in which they are added
 
 // What the program ends with: docs/command-line.md.
@@ -39,6 +42,8 @@ bool looksLikeFile(const std::string& argument);
 // become visible escapes.
 std::string printable(std::string_view text);
 
+std::size_t textWidth(std::string_view text);  // characters of UTF-8
+
 std::string plural(std::size_t count, const std::string& thing);  // "1 error", "3 errors"
 std::string joined(const std::vector<std::string>& parts, std::string_view separator = ", ");
 
@@ -64,7 +69,6 @@ private:
 void print(const Json& json);  // to standard output
 
 Json findingsJson(const Report& report);
-enum class Stream { Output, Errors };
 void printFindings(const Report& report, Stream stream);  // one a line; coloured on a terminal
 
 }  // namespace cortex::explorer

@@ -161,10 +161,17 @@ TEST_F(Link, IsStaleAfterThreeMissedPeriodsAndGoodAgainWithTheNextSample) {
     rig.step();
     EXPECT_EQ(quality(), Quality::Stale);
     EXPECT_EQ(rig.agent->tables().live(simplex).state->time, 1'000'000);
-    EXPECT_TRUE(rig.hasEvent("/far: no fresh sample for 3 periods"));
     sample();
 
     EXPECT_EQ(quality(), Quality::Good);
+}
+
+TEST_F(Link, SaysThatItIsStaleAfterTwentyMissedPeriods) {
+    sample();
+    rig.step(19);
+    EXPECT_FALSE(rig.hasEvent("/far: no fresh sample for 20 periods"));
+    rig.step();
+    EXPECT_TRUE(rig.hasEvent("/far: no fresh sample for 20 periods"));
 }
 
 TEST_F(Link, StalenessDoesNotMakeABadSampleBetter) {

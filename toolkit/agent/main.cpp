@@ -85,6 +85,26 @@ SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry) {
     return tree;
 }
 
+using Clock = std::chrono::steady_clock;
+
+// Seconds that are left of those asked for; 0: there is no end.
+double left(const CommandLine& line, Clock::time_point began) {
+    const std::chrono::duration<double> used = Clock::now() - began;
+    return line.seconds > 0 ? std::max(1e-3, line.seconds - used.count()) : 0;
+}
+
+// What relationships need of other agents has to be there before their owners can start. False: to
+// be ended, or the time is over.
+bool waitForOthers(cs::ClusterCS& cluster, double seconds) {
+    const std::string missing = missingLinks(cluster.image());
+    if (missing.empty()) return true;
+    std::cout << "waits for other agents, which have:" << missing << std::endl;
+    const auto linked = [&] { return missingLinks(cluster.image()).empty(); };
+    const bool interrupted =
+        cs::waitForInterrupt(seconds, [&] { return !cluster.running() || linked(); });
+    return !interrupted && cluster.running() && linked();
+}
+
 // Waits for the answer to the group command while it also minds signals. False: to be ended.
 bool startUp(cs::ClusterCS& cluster, const std::string& name) {
     const std::uint64_t sent =
@@ -105,7 +125,6 @@ bool startUp(cs::ClusterCS& cluster, const std::string& name) {
 
 void watch(cs::ClusterCS& cluster, const std::string& name, double seconds) {
     const bool terminal = isatty(STDOUT_FILENO) != 0;
-    using Clock = std::chrono::steady_clock;
     auto next = Clock::now();
     cs::waitForInterrupt(seconds, [&] {
         if (terminal && Clock::now() >= next) {
@@ -120,7 +139,7 @@ void watch(cs::ClusterCS& cluster, const std::string& name, double seconds) {
 int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTree& tree) {
     const ClusterSettings settings = clusterSettings(tree.description(), line);
     cs::blockStopSignals();
-    const auto began = std::chrono::steady_clock::now();
+    const auto began = Clock::now();
     cs::ClusterCS cluster{settings.name, settings.options};
     cluster.addSimplexTree(tree);
     cluster.useClasses(registry);
@@ -135,10 +154,9 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
               << 1e9 / static_cast<double>(settings.period.count()) << " Hz as /" << settings.name
               << (line.offline ? "" : ", domain " + std::to_string(networkOptions(line).domain))
               << std::endl;
-    if (!line.startup || startUp(cluster, settings.name)) {
-        const std::chrono::duration<double> used = std::chrono::steady_clock::now() - began;
-        watch(cluster, settings.name,
-              line.seconds > 0 ? std::max(1e-3, line.seconds - used.count()) : 0);
+    const bool starts = !line.startup || waitForOthers(cluster, left(line, began));
+    if (starts && (!line.startup || startUp(cluster, settings.name))) {
+        watch(cluster, settings.name, left(line, began));
     }
     std::cout << metricsTable(cluster.image(), settings.name) << monitorTables(cluster.image())
               << faultLines(cluster.image()) << std::flush;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -125,6 +126,19 @@ std::string metricsTable(const Image& image, const std::string& cluster) {
         text +=
             "  " + left(title, 20) + right(toText(image.get<std::int64_t>(path, item)), 11) + "\n";
     }
+    return text;
+}
+
+std::string missingLinks(const Image& image) {
+    const Structure& structure = image.structure();
+    std::set<std::string> missing;
+    for (const Edge& edge : structure.edges) {
+        const bool needed = structure.simplexes[edge.target].remote && edge.rule->min > 0;
+        if (needed && image.state(edge.target).quality == Quality::Lost)
+            missing.insert(structure.simplexes[edge.target].path);
+    }
+    std::string text;
+    for (const std::string& path : missing) text += " " + path;
     return text;
 }
 

@@ -13,6 +13,10 @@ std::string statusLine(const Image& image, const std::string& cluster);
 // A table of the loop's metrics.
 std::string metricsTable(const Image& image, const std::string& cluster);
 
+// Paths of other agents that are not linked and without which a simplex cannot start, each after a
+// blank.
+std::string missingLinks(const Image& image);
+
 // Simplexes in Fault and why, a line each; "" if there is none.
 std::string faultLines(const Image& image);
 

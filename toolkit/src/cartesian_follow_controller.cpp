@@ -7,26 +7,19 @@ void CartesianFollowController::populate() {
     hand_ = PoseInput{input("hand")};
     tip_ = PoseInput{input("tip")};
     target_ = PoseOutput{output("target")};
-    enable_ = input("enable").data<bool>("value");
-    enableState_ = &input("enable").state();
+    enable_ = Enable{input("enable"), {hand_.state, tip_.state}};
     engaged_ = data<bool>("engaged");
     engageCount_ = data<std::int64_t>("engageCount");
 }
 
 bool CartesianFollowController::stateStartingUp(const Tick&) {
     pose_ = tip_.pose();
-    released_ = false;
+    enable_.reset();
     engaged_ = false;
     return true;
 }
 
-void CartesianFollowController::engage(bool pressed) {
-    const bool usable = hand_.good() && tip_.good() && enableState_->quality == Quality::Good;
-    if (!usable)
-        released_ = false;
-    else if (!pressed)
-        released_ = true;
-    const bool engage = pressed && released_;
+void CartesianFollowController::engage(bool engage) {
     if (engage && !engaged_) {
         handThen_ = hand_.pose();
         tipThen_ = tip_.pose();
@@ -36,7 +29,7 @@ void CartesianFollowController::engage(bool pressed) {
 }
 
 void CartesianFollowController::stateActive(const Tick&) {
-    engage(enable_);
+    engage(enable_.update(inputLost()));
     Twist velocity = Twist::Zero();
     if (engaged_) {
         const Pose hand = hand_.pose();

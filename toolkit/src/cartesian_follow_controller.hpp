@@ -17,16 +17,14 @@ private:
     bool stateStartingUp(const Tick& tick) override;
     void stateActive(const Tick& tick) override;
     bool stateShuttingDown(const Tick& tick) override;
-    void engage(bool pressed);
+    void engage(bool engage);
 
     PoseInput hand_, tip_;
     PoseOutput target_;
-    Data<const bool> enable_;
-    const SlotState* enableState_ = nullptr;
+    Enable enable_;
     Data<bool> engaged_;
     Data<std::int64_t> engageCount_;
     Pose handThen_, tipThen_, pose_;
-    bool released_ = false;  // after a loss or a start: only a new press engages
 };
 
 }  // namespace cortex::toolkit

@@ -51,6 +51,29 @@ Twist PoseInput::velocity() const {
     return twist;
 }
 
+Enable::Enable(const InputSimplex& button, std::vector<const SlotState*> needed)
+    : pressed_{button.data<bool>("value")} {
+    needed.push_back(&button.state());
+    for (const SlotState* state : needed) needed_.push_back({state});
+}
+
+bool Enable::update(bool lost) {
+    usable_ = !lost;
+    for (Needed& each : needed_) {
+        if (each.state->quality == Quality::Good)
+            each.good = true;
+        else if (each.state->quality != Quality::Stale || each.state->time != each.time)
+            each.good = false;
+        each.time = each.state->time;
+        usable_ = usable_ && each.good;
+    }
+    if (!usable_)
+        released_ = false;
+    else if (!pressed_)
+        released_ = true;
+    return pressed_ && released_;
+}
+
 PoseOutput::PoseOutput(const OutputSimplex& frame)
     : position{frame.array<double>("position")},
       rotation{frame.array<double>("rotation")},

@@ -17,10 +17,34 @@ struct PoseInput {
 
     Pose pose() const CORTEX_REALTIME;
     Twist velocity() const CORTEX_REALTIME;  // linear above angular
-    bool good() const CORTEX_REALTIME { return state->quality == Quality::Good; }
 
     std::span<const double> position, rotation, linearVelocity, angularVelocity;
     const SlotState* state = nullptr;
+};
+
+// What enables a motion: on while the button is pressed and everything that the motion needs may be
+// acted on. After a loss or a start it takes a new press.
+class Enable {
+public:
+    Enable() = default;
+    Enable(const InputSimplex& button, std::vector<const SlotState*> needed);
+
+    void reset() CORTEX_REALTIME { released_ = false; }
+    // Once a cycle. `lost`: an input is lost, so nothing is acted on.
+    bool update(bool lost) CORTEX_REALTIME;
+    bool usable() const { return usable_; }  // as of the last update
+
+private:
+    // A value that has only grown old, within its maxAge, is still acted on; one that its writer
+    // calls stale is not.
+    struct Needed {
+        const SlotState* state = nullptr;
+        std::int64_t time = 0;
+        bool good = false;
+    };
+    Data<const bool> pressed_;
+    std::vector<Needed> needed_;
+    bool usable_ = false, released_ = false;
 };
 
 struct PoseOutput {

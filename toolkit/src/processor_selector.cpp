@@ -13,12 +13,12 @@ bool ended(State state) { return state == State::Standby || state == State::Faul
 
 void ProcessorSelector::populate() {
     hand_ = PoseInput{input("hand")};
-    enable_ = input("enable").data<bool>("value");
-    enableState_ = &input("enable").state();
+    enable_ = Enable{input("enable"), {hand_.state}};
     speedThreshold_ = data<const double>("speedThreshold");
     turnThreshold_ = data<const double>("turnThreshold");
     stillTime_ = data<const double>("stillTime");
     selected_ = data<std::int64_t>("selected");
+    reason_ = data<std::int64_t>("reason");
     switchCount_ = data<std::int64_t>("switchCount");
     choices_[0].sender = lifeCycle(output("whileMoving"), true);
     choices_[1].sender = lifeCycle(output("otherwise"), true);
@@ -26,6 +26,7 @@ void ProcessorSelector::populate() {
 
 bool ProcessorSelector::stateStartingUp(const Tick& tick) {
     stillFor_ = stillTime_ + 1;
+    enable_.reset();
     for (Managed& choice : choices_) choice.askedAt = tick.nominalTime - RetryAfter;
     return true;
 }
@@ -38,17 +39,30 @@ bool ProcessorSelector::handMoves(const Tick& tick) {
     return stillFor_ <= stillTime_;
 }
 
-void ProcessorSelector::select(Choice choice) {
+ProcessorSelector::Reason ProcessorSelector::reason(const Tick& tick) {
+    const bool moves = handMoves(tick);
+    const bool enabled = enable_.update(inputLost());
+    if (!enable_.usable()) return InputLost;
+    if (!enabled) return NotEnabled;
+    if (choices_[0].sender.state() == State::Fault) return Faulted;
+    return moves ? HandMoves : HandStill;
+}
+
+void ProcessorSelector::select(Reason reason) {
+    if (reason != reason_ && reason == InputLost)
+        event(Severity::Warning, "otherwise: the hand or its button is lost");
+    if (reason != reason_ && reason_ == InputLost)
+        event(Severity::Info, "the hand and its button are back: press anew to move");
+    reason_ = reason;
+    const Choice choice = reason == HandMoves ? WhileMoving : Otherwise;
     if (selected_ == choice) return;
     if (selected_ != None) switchCount_ += 1;
     selected_ = choice;
 }
 
 void ProcessorSelector::stateActive(const Tick& tick) {
-    const bool moves = handMoves(tick);
-    const bool usable = hand_.good() && enableState_->quality == Quality::Good;
-    const bool follow = usable && enable_ && moves && choices_[0].sender.state() != State::Fault;
-    select(follow ? WhileMoving : Otherwise);
+    select(reason(tick));
+    const bool follow = selected_ == WhileMoving;
     Managed& chosen = choices_[follow ? 0 : 1];
     Managed& other = choices_[follow ? 1 : 0];
     if (running(other.sender.state())) other.sender.shutdown();
@@ -68,6 +82,7 @@ bool ProcessorSelector::stopAll() {
         all = all && ended(state);
     }
     selected_ = None;
+    reason_ = NotActive;
     return all;
 }
 

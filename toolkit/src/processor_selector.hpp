@@ -16,6 +16,7 @@ public:
 
 private:
     enum Choice : std::int64_t { None, WhileMoving, Otherwise };
+    enum Reason : std::int64_t { NotActive, HandMoves, HandStill, NotEnabled, InputLost, Faulted };
     struct Managed {
         LifeCycleSender sender;
         std::int64_t askedAt = 0;  // ns; a startup that was refused is tried again later
@@ -28,14 +29,14 @@ private:
     bool stateFault(const Tick& tick) override;
 
     bool handMoves(const Tick& tick);
-    void select(Choice choice);
+    Reason reason(const Tick& tick);
+    void select(Reason reason);
     bool stopAll();
 
     PoseInput hand_;
-    Data<const bool> enable_;
-    const SlotState* enableState_ = nullptr;
+    Enable enable_;
     Data<const double> speedThreshold_, turnThreshold_, stillTime_;
-    Data<std::int64_t> selected_, switchCount_;
+    Data<std::int64_t> selected_, reason_, switchCount_;
     std::array<Managed, 2> choices_;  // WhileMoving, Otherwise
     double stillFor_ = 0;             // s
 };

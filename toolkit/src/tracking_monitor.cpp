@@ -10,7 +10,7 @@ namespace cortex::toolkit {
 void TrackingMonitor::populate() {
     hand_ = PoseInput{input("hand")};
     tip_ = PoseInput{input("tip")};
-    enable_ = input("enable").data<bool>("value");
+    enable_ = Enable{input("enable"), {hand_.state, tip_.state}};
     processorState_ = input("processor").data<std::int64_t>("state");
     rmsPosition_ = data<double>("rmsPosition");
     maxPosition_ = data<double>("maxPosition");
@@ -23,12 +23,13 @@ void TrackingMonitor::populate() {
 }
 
 void TrackingMonitor::stateActive(const Tick& tick) {
-    if (enable_ && !pressed_) {
+    const bool pressed = enable_.update(inputLost());
+    if (pressed && !pressed_) {
         handThen_ = hand_.pose();
         tipThen_ = tip_.pose();
         pressCount_ += 1;
     }
-    pressed_ = enable_;
+    pressed_ = pressed;
     if (pressed_ && processorState_ == static_cast<std::int64_t>(State::Active)) {
         measure(tick.elapsedSeconds());
         publish();

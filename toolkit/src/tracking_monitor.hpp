@@ -19,7 +19,7 @@ private:
     void publish();
 
     PoseInput hand_, tip_;
-    Data<const bool> enable_;
+    Enable enable_;
     Data<const std::int64_t> processorState_;
     Data<double> rmsPosition_, maxPosition_, rmsRotation_, maxRotation_, lag_, rmsSpeed_, time_;
     Data<std::int64_t> pressCount_;

@@ -28,6 +28,9 @@ public:
     State state() const { return state_; }
 
 protected:
+    // In hooks: an input is bad, lost or older than its rule allows, in this cycle.
+    bool inputLost() const { return inputLost_; }
+
     // Once, in start(), after validation: may allocate and throw. Relationships are complete.
     virtual void populate() {}
 
@@ -92,6 +95,7 @@ private:
     bool faultPending_ = false;
     bool done_ = false;        // the transitional state's function has returned true
     bool dead_ = false;        // a hook threw: no hooks until clearFaults
+    bool inputLost_ = false;
     bool safeByLoss_ = false;  // an onLoss="safe" input is lost: safe demands stand
     bool qualitySet_ = false;
     Quality quality_ = Quality::Good;

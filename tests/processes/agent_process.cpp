@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "processes/agent_process.hpp"
+
+#include "comms/inbox.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace cortex::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::size_t entriesOf(const fs::path& folder) {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator{folder}, fs::directory_iterator{}));
+}
+
+}  // namespace
+
+TestFolder::TestFolder() {
+    std::string name = (fs::temp_directory_path() / "cortex-processes-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+}
+
+TestFolder::~TestFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+fs::path TestFolder::write(const std::string& name, const std::string& text) const {
+    std::ofstream{path_ / name} << text;
+    return path_ / name;
+}
+
+AgentProcess::AgentProcess(const TestFolder& folder, fs::path system,
+                           std::vector<std::string> options)
+    : output_{folder.path() / (system.stem().string() + ".txt")} {
+    const comms::NetworkOptions network = comms::loopback();
+    command_ = {CORTEX_BINARY_DIR "/bin/cortex-agent",
+                system.string(),
+                "--priority",
+                "0",
+                "--domain",
+                std::to_string(network.domain),
+                "--interface",
+                network.interfaces.front()};
+    std::ranges::move(options, std::back_inserter(command_));
+    start();
+}
+
+void AgentProcess::start() {
+    std::vector<char*> arguments;
+    for (std::string& each : command_) arguments.push_back(each.data());
+    arguments.push_back(nullptr);
+    pid_ = fork();
+    if (pid_ < 0) throw std::runtime_error("cannot fork");
+    if (pid_ > 0) return;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+    const int out = open(output_.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+    dup2(out, STDOUT_FILENO);
+    dup2(out, STDERR_FILENO);
+    setenv("CORTEX_PATH", CORTEX_SOURCE_DIR "/ontology", 1);
+    execv(arguments.front(), arguments.data());
+    _exit(127);
+}
+
+void AgentProcess::kill9() {
+    if (pid_ <= 0) return;
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+    pid_ = 0;
+}
+
+int AgentProcess::endInOrder() {
+    int status = 0;
+    kill(pid_, SIGTERM);
+    waitpid(std::exchange(pid_, 0), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::string AgentProcess::output() const {
+    std::ostringstream text;
+    text << std::ifstream{output_}.rdbuf();
+    return text.str();
+}
+
+Held heldBy(pid_t pid) {
+    const fs::path process = fs::path{"/proc"} / std::to_string(pid);
+    Held held;
+    held.threads = entriesOf(process / "task");
+    held.files = entriesOf(process / "fd");
+    std::ifstream rollup{process / "smaps_rollup"};
+    for (std::string line; std::getline(rollup, line);) {
+        if (line.starts_with("Pss:")) held.memory = std::stol(line.substr(4));
+    }
+    return held;
+}
+
+}  // namespace cortex::test

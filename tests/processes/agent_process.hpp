@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace cortex::test {
+
+// A folder of its own, removed at its end.
+class TestFolder {
+public:
+    TestFolder();
+    ~TestFolder();
+    TestFolder(const TestFolder&) = delete;
+    TestFolder& operator=(const TestFolder&) = delete;
+
+    std::filesystem::path write(const std::string& name, const std::string& text) const;
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+// `cortex-agent` as a process, on the network of this test. It is killed with its object, and with
+// the test.
+class AgentProcess {
+public:
+    // What it prints goes to a file in `folder`.
+    AgentProcess(const TestFolder& folder, std::filesystem::path system,
+                 std::vector<std::string> options = {});
+    ~AgentProcess() { kill9(); }
+    AgentProcess(const AgentProcess&) = delete;
+    AgentProcess& operator=(const AgentProcess&) = delete;
+
+    void start();      // again, after an end
+    void kill9();      // and waits for the end
+    int endInOrder();  // SIGTERM; the exit code, -1 after a signal
+
+    pid_t pid() const { return pid_; }
+    std::string output() const;  // of all its starts
+
+private:
+    std::vector<std::string> command_;
+    std::filesystem::path output_;
+    pid_t pid_ = 0;
+};
+
+// What a process holds.
+struct Held {
+    long memory = 0;  // kB, shared pages in proportion (Pss)
+    std::size_t threads = 0, files = 0;
+};
+Held heldBy(pid_t pid);
+
+}  // namespace cortex::test
