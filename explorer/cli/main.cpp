@@ -2,6 +2,7 @@
 #include "cortex/core/error.hpp"
 
 #include "live_registration.hpp"
+#include "security_registration.hpp"
 #include "verbs.hpp"
 
 #include <algorithm>
@@ -200,6 +201,7 @@ Files are looked for as given, then in $CORTEX_PATH, then in the installed share
     addNewType(app, arguments);
     addNewSystem(app, arguments);
     addLiveVerbs(app, arguments.json, arguments.run);
+    addSecurityVerbs(app, arguments.json, arguments.run);
 }
 
 std::string nearestOrAll(const std::string& wrong, const std::vector<std::string>& names) {
