@@ -259,6 +259,8 @@ std::vector<std::string> Participant::takeRefusals() {
 
 std::uint64_t Participant::refused() const { return impl_->guard ? impl_->guard->refused() : 0; }
 
+std::uint32_t Participant::pending() const { return impl_->guard ? impl_->guard->pending() : 0; }
+
 // --- the messages -------------------------------------------------------------------------------
 
 template class Writer<Presence>;

@@ -103,6 +103,7 @@ public:
     // What security has refused since the last call, in words, and how often since the start.
     std::vector<std::string> takeRefusals();
     std::uint64_t refused() const;
+    std::uint32_t pending() const;  // others that are not authenticated yet
 
 private:
     struct Impl;

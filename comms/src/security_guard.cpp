@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "security_guard.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -8,7 +9,7 @@ namespace cortex::comms {
 namespace {
 
 namespace rtps = eprosima::fastrtps::rtps;
-constexpr std::size_t mostNames = 4'096;
+constexpr std::size_t mostFound = 4'096;
 constexpr std::size_t longestName = 64;  // of what others say that is repeated in an event
 
 }  // namespace
@@ -23,24 +24,33 @@ void SecurityGuard::on_participant_discovery(Dds*, rtps::ParticipantDiscoveryInf
     using Info = rtps::ParticipantDiscoveryInfo;
     const std::lock_guard lock{mutex_};
     if (info.status == Info::DISCOVERED_PARTICIPANT) {
-        if (names_.size() >= mostNames) names_.clear();
-        names_[info.info.m_guid] = std::string{info.info.m_participantName.c_str()};
+        if (found_.size() >= mostFound) found_.clear();
+        found_.try_emplace(info.info.m_guid).first->second.name =
+            std::string_view{info.info.m_participantName.c_str()}.substr(0, longestName);
     } else if (info.status != Info::CHANGED_QOS_PARTICIPANT) {
-        names_.erase(info.info.m_guid);
+        found_.erase(info.info.m_guid);
     }
 }
 
 void SecurityGuard::onParticipantAuthentication(Dds*, rtps::ParticipantAuthenticationInfo&& info) {
-    if (info.status == rtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) return;
-    ++refused_;
     std::string name;
     {
         const std::lock_guard lock{mutex_};
-        const auto known = names_.find(info.guid);
-        if (known != names_.end()) name = known->second.substr(0, longestName);
+        if (const auto known = found_.find(info.guid); known != found_.end()) {
+            known->second.pending = false;
+            name = known->second.name;
+        }
     }
+    if (info.status == rtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) return;
+    ++refused_;
     refusals_.add("a participant" + (name.empty() ? "" : " that calls itself " + name) +
                   " is refused: it has no certificate of our authority");
+}
+
+std::uint32_t SecurityGuard::pending() const {
+    const std::lock_guard lock{mutex_};
+    return static_cast<std::uint32_t>(
+        std::ranges::count_if(found_, [](const auto& each) { return each.second.pending; }));
 }
 
 void addSecurity(const std::string& folder, eprosima::fastdds::dds::DomainParticipantQos& qos) {

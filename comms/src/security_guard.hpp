@@ -39,6 +39,7 @@ public:
     SecurityIdentity& identity() { return identity_; }
     Refusals& refusals() { return refusals_; }
     std::uint64_t refused() const { return refused_; }
+    std::uint32_t pending() const;  // participants found, neither authenticated nor refused yet
 
     // What is claimed is a name, or the id of one.
     template <class Claim>
@@ -62,8 +63,12 @@ private:
     SecurityIdentity identity_;
     Refusals refusals_;
     std::atomic<std::uint64_t> refused_{0};
-    std::mutex mutex_;
-    std::map<Guid, std::string> names_;  // that participants give themselves, unproven
+    struct Found {
+        std::string name;  // that it gives itself, unproven
+        bool pending = true;
+    };
+    mutable std::mutex mutex_;
+    std::map<Guid, Found> found_;
 };
 
 // Asks Fast DDS for authentication, access control and encryption with the files of the folder.

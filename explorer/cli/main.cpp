@@ -240,6 +240,9 @@ std::string wrongUsage(const CLI::App& app, const CLI::ParseError& error) {
     }
     if (!app.get_subcommands().empty()) return wrongUsage(*app.get_subcommands().front(), error);
     const std::vector<std::string> extra = app.remaining();
+    if (app.get_parent() != nullptr && app.get_require_subcommand_min() > 0) {
+        return wrongVerb(app, extra.empty() ? "" : extra.front());
+    }
     if (extra.empty() || dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) {
         return error.what();
     }
