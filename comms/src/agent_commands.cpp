@@ -36,10 +36,22 @@ std::optional<Sender> senderOf(const Command& command) {
     return sender;
 }
 
+std::string prefixOf(const Value& value) {
+    const auto* texts = std::get_if<std::vector<std::string>>(&value);
+    std::string prefix = texts != nullptr && !texts->empty() ? texts->front() : "";
+    while (prefix.ends_with('/')) prefix.pop_back();
+    return prefix.empty() ? "/" : prefix;
+}
+
 }  // namespace
 
-AgentCommands::AgentCommands(AgentSelf& self, std::function<void(const Answer&)> send)
-    : self_{self}, send_{std::move(send)}, pipe_{self.access, onTheirWay}, lostSenders_{64} {}
+AgentCommands::AgentCommands(AgentSelf& self, std::function<void(const Answer&)> send,
+                             SecurityIdentity* identity)
+    : self_{self},
+      send_{std::move(send)},
+      identity_{identity},
+      pipe_{self.access, onTheirWay},
+      lostSenders_{64} {}
 
 bool AgentCommands::believable(const Command& command) {
     const char* wrong = nullptr;
@@ -66,6 +78,7 @@ void AgentCommands::take(const Command& command, std::int64_t now) {
     std::vector<std::uint64_t> record;
     Refusal refusal{};
     if (!encode(command, message, record, refusal)) return refuse(command, refusal);
+    if (!permitted(command, message, record, refusal)) return refuse(command, refusal);
     message.sender = sender;
     message.targetEpoch = command.targetEpoch;
     message.sequence = command.sequenceNumber;
@@ -117,6 +130,35 @@ bool AgentCommands::encode(const Command& command, OutsideCommand& message,
         refusal.why = error.what();
         return false;
     }
+}
+
+// With security: what is commanded must lie where the signed list of its sender says. A command to
+// the agent itself with a prefix is meant for what is at and below that.
+bool AgentCommands::permitted(const Command& command, const OutsideCommand& message,
+                              const std::vector<std::uint64_t>& record, Refusal& refusal) {
+    if (identity_ == nullptr) return true;
+    std::string path = command.path;
+    if (message.simplex == self_.simplex && command.command != "set") {
+        const auto arguments = argumentsOf(pipe_.table(message.simplex), message.command,
+                                           reinterpret_cast<const std::byte*>(record.data()));
+        if (const auto prefix = arguments.find("prefix"); prefix != arguments.end()) {
+            path = prefixOf(prefix->second);
+        }
+    }
+    std::string why;
+    const auto rights = identity_->rightsOf(command, why);
+    if (rights && mayCommand(*rights, path, why)) return true;
+    refusal = {Outcome::Rejected, Reason::Authority, why};
+    const bool repeated =
+        command.link == reportedLink_ && command.sequenceNumber == reportedNumber_;
+    reportedLink_ = command.link;
+    reportedNumber_ = command.sequenceNumber;
+    if (repeated) return false;
+    const std::string what =
+        command.command + " from " + command.sender + "@" + command.host + " refused: " + why;
+    self_.rejections.add(what);
+    self_.event(Severity::Warning, message.simplex, what);
+    return false;
 }
 
 void AgentCommands::refuse(const Command& command, const Refusal& refusal) {

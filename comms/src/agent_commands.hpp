@@ -6,6 +6,7 @@
 
 #include "agent_self.hpp"
 #include "messages.hpp"
+#include "security_identity.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -20,7 +21,9 @@ namespace cortex::comms {
 // loop, the rest on the communication thread.
 class AgentCommands {
 public:
-    AgentCommands(AgentSelf& self, std::function<void(const Answer&)> send);
+    // With an identity, senders need to prove that they may command.
+    AgentCommands(AgentSelf& self, std::function<void(const Answer&)> send,
+                  SecurityIdentity* identity = nullptr);
 
     void take(const Command& command, std::int64_t now);
     // A presence of a sender, or its end.
@@ -48,15 +51,20 @@ private:
     bool tellLost(const Sender& sender);
     void refuse(const Command& command, const Refusal& refusal);
     void turnAway(const Command& command, HeardSender& from);
+    bool permitted(const Command& command, const OutsideCommand& message,
+                   const std::vector<std::uint64_t>& record, Refusal& refusal);
     bool encode(const Command& command, OutsideCommand& message, std::vector<std::uint64_t>& record,
                 Refusal& refusal) const;
     Answer answerFor(const OutsideAnswer& answer) const;
 
     AgentSelf& self_;
     std::function<void(const Answer&)> send_;
+    SecurityIdentity* identity_;
     CommandPipe pipe_;
     SpscRing<Sender> lostSenders_;
     std::map<std::string, HeardSender> senders_;  // by name
+    Id reportedLink_{};                           // of the last command that was not permitted
+    std::uint64_t reportedNumber_ = 0;
 };
 
 }  // namespace cortex::comms

@@ -41,13 +41,14 @@ SimplexMessage simplexMessage(const Structure& structure, std::uint32_t index, c
 
 }  // namespace
 
-AgentModel::AgentModel(const AgentSelf& self) : self_{self} {
+AgentModel::AgentModel(const AgentSelf& self, std::string_view security) : self_{self} {
     presence_.agent = self.id;
     presence_.name = self.name;
     presence_.host = self.host;
     presence_.epoch = self.epoch;
     presence_.role = "agent";
     presence_.majors = {1};
+    presence_.security = security;
     presence_.period = self.access.period;
     addTypes();
     addSimplexes();

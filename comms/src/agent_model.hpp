@@ -5,6 +5,7 @@
 #include "messages.hpp"
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace cortex::comms {
@@ -13,7 +14,7 @@ namespace cortex::comms {
 // hashes in its presence. Made by announce(); throws Error while all images are held.
 class AgentModel {
 public:
-    explicit AgentModel(const AgentSelf& self);
+    AgentModel(const AgentSelf& self, std::string_view security);
 
     const std::vector<Model>& samples() const { return samples_; }
     const Id& structureHash() const { return presence_.structureHash; }

@@ -16,7 +16,7 @@ constexpr std::int64_t presenceInterval = 100'000'000;  // ns
 
 AgentThread::AgentThread(const AgentAccess& agent, const NetworkOptions& options)
     : self_{agent},
-      model_{self_},
+      model_{self_, options.security.empty() ? "" : securityOn},
       participant_{options, self_.name},
       presenceOut_{participant_.writer<Presence>(topics::presence)},
       modelOut_{participant_.writer<Model>(topics::model)},
@@ -26,7 +26,8 @@ AgentThread::AgentThread(const AgentAccess& agent, const NetworkOptions& options
       commands_{self_,
                 [this](const Answer& answer) {
                     if (!silent_) answerOut_->write(answer);
-                }},
+                },
+                participant_.identity()},
       links_{self_},
       streams_{self_, model_.structureHash(), participant_},
       peers_{self_, links_.any(),
@@ -89,6 +90,7 @@ void AgentThread::step() {
     const std::int64_t now = steadyNow();
     if (!silent_) streams_.step(now);
     takeMessages(now);
+    reportRefusals();
     peers_.expire(now);
     if (peers_.takeChanged()) changed();
     commands_.step(now);
@@ -112,6 +114,12 @@ void AgentThread::takeMessages(std::int64_t now) {
     messages_.presences.clear();
     messages_.models.clear();
     messages_.commands.clear();
+}
+
+void AgentThread::reportRefusals() {
+    for (const std::string& each : participant_.takeRefusals()) {
+        self_.event(Severity::Warning, self_.simplex, each);
+    }
 }
 
 void AgentThread::changed() {

@@ -31,7 +31,9 @@ public:
     void read(Inbox& inbox) CORTEX_REALTIME;
     void write(Outbox& outbox) CORTEX_REALTIME;
 
-    std::uint64_t rejected() const { return self_.rejections.count() + participant_.malformed(); }
+    std::uint64_t rejected() const {
+        return self_.rejections.count() + participant_.malformed() + participant_.refused();
+    }
     std::string lastRejection() const { return self_.rejections.last(); }
 
 private:
@@ -42,6 +44,7 @@ private:
     void guarded(Function function);
     void step();
     void takeMessages(std::int64_t now);
+    void reportRefusals();
     void changed();
     void sendEvents();
     void sendPresence(std::int64_t now);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/comms/mirror.hpp"
 
+#include "cortex/comms/security.hpp"
+
 #include "mirror_thread.hpp"
 
 #include <array>
@@ -12,15 +14,18 @@
 namespace cortex::comms {
 namespace {
 
-// Several of a tool may run at once, and several mirrors in one process.
-std::string ownName(const std::string& tool) {
+// Several of a tool may run at once, and several mirrors in one process. With security it has the
+// name that its certificate says.
+std::string ownName(const std::string& tool, const NetworkOptions& options) {
     static std::atomic<int> made{0};
     std::array<char, 64> host{};
     ::gethostname(host.data(), host.size() - 1);
     const int before = made.fetch_add(1);
     std::string end = "." + std::to_string(::getpid());
     if (before > 0) end += "." + std::to_string(before);
-    const std::string start = tool + "@" + host.data();
+    const std::string owner =
+        options.security.empty() ? tool : checkSecurity(options.security).agent;
+    const std::string start = owner + "@" + host.data();
     return start.substr(0, sizeof(Sender::name) - 1 - end.size()) + end;
 }
 
@@ -28,7 +33,7 @@ std::string ownName(const std::string& tool) {
 
 struct Mirror::Implementation {
     Implementation(const std::string& tool, const NetworkOptions& options)
-        : thread{ownName(tool), options} {}
+        : thread{ownName(tool, options), options} {}
 
     MirrorThread thread;
 };

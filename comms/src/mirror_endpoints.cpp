@@ -43,6 +43,7 @@ MirrorEndpoints::MirrorEndpoints(const NetworkOptions& options, const Sender& to
       inbox_{inbox},
       participant_{options, std::string{tool.nameText()}},
       self_{presenceOf(tool)} {
+    if (participant_.identity() != nullptr) self_.security = securityOn;
     presences_ = participant_.reader<Presence>(
         topics::presence, [this](Presence&& sample) { inbox_.push(std::move(sample)); },
         [this](const Id& agent) { inbox_.push(Withdrawn{agent}); });
@@ -82,6 +83,13 @@ void MirrorEndpoints::command() {
     answers_ = participant_.reader<Answer>(
         topics::answer, [this](Answer&& sample) { inbox_.push(std::move(sample)); });
     commands_ = participant_.writer<Command>(topics::command);
+}
+
+bool MirrorEndpoints::write(const Command& command) {
+    if (participant_.identity() == nullptr) return commands_->write(command);
+    Command proven = command;
+    participant_.identity()->sign(proven);
+    return commands_->write(proven);
 }
 
 void MirrorEndpoints::listen() {

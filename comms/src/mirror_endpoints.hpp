@@ -25,11 +25,12 @@ public:
     void listen();
     // Tells each agent what we want of it, where that has changed, and that we are here.
     void tell(const MirrorAgents& agents, const MirrorView& view, Moment now);
-    bool write(const Command& command) { return commands_->write(command); }
+    bool write(const Command& command);
 
-    std::uint32_t speakers() const { return presences_->writers(); }  // agents and tools
+    // Agents and tools; with security also those that are to prove that they are.
+    std::uint32_t speakers() const { return presences_->writers() + participant_.pending(); }
     std::uint32_t eventSources() const { return events_ ? events_->writers() : 0; }
-    std::uint64_t malformed() const { return participant_.malformed(); }
+    std::uint64_t malformed() const { return participant_.malformed() + participant_.refused(); }
 
 private:
     void speak();

@@ -25,4 +25,9 @@ int defaultDomain() {
     return domain;
 }
 
+std::string defaultSecurity() {
+    const char* folder = std::getenv("CORTEX_SECURITY");
+    return folder != nullptr ? folder : "";
+}
+
 }  // namespace cortex::comms

@@ -4,6 +4,7 @@
 #include "cortex/core/error.hpp"
 
 #include "participant_qos.hpp"
+#include "security_guard.hpp"
 #include "topic_type.hpp"
 
 #include <atomic>
@@ -43,10 +44,11 @@ template <class M>
 class Receiver final : public dds::DataReaderListener {
 public:
     Receiver(std::function<void(M&&)> onSample, std::function<void(const Id&)> onDisposed,
-             std::atomic<std::uint64_t>& malformed)
+             std::atomic<std::uint64_t>& malformed, SecurityGuard* guard)
         : onSample_{std::move(onSample)},
           onDisposed_{std::move(onDisposed)},
-          malformed_{malformed} {}
+          malformed_{malformed},
+          guard_{guard} {}
 
     // Fast DDS holds the reader's lock here, so ours is never held while that one is asked for.
     void on_data_available(dds::DataReader* reader) override {
@@ -78,6 +80,8 @@ private:
         if (!info.valid_data) {
             disposed(info);
         } else if (envelope.wellFormed) {
+            const M& sample = envelope.incoming;
+            if (guard_ && !guard_->admits(info.publication_handle, claimedName(sample))) return;
             onSample_(std::move(envelope.incoming));
         } else {
             ++malformed_;
@@ -88,12 +92,14 @@ private:
         if (!onDisposed_ || info.instance_state == dds::NOT_ALIVE_NO_WRITERS_INSTANCE_STATE) return;
         Id key;
         for (std::size_t i = 0; i < key.size(); ++i) key[i] = info.instance_handle.value[i];
+        if (guard_ && !guard_->admits(info.publication_handle, key)) return;
         onDisposed_(key);
     }
 
     const std::function<void(M&&)> onSample_;
     const std::function<void(const Id&)> onDisposed_;
     std::atomic<std::uint64_t>& malformed_;
+    SecurityGuard* const guard_;
     std::mutex mutex_;
     bool closed_ = false;
 };
@@ -102,6 +108,7 @@ private:
 
 struct Participant::Impl {
     std::string name;
+    std::unique_ptr<SecurityGuard> guard;  // outlives the participant
     dds::DomainParticipant* participant = nullptr;
     dds::Publisher* publisher = nullptr;
     dds::Subscriber* subscriber = nullptr;
@@ -195,12 +202,16 @@ std::uint32_t Reader<M>::writers() const {
 Participant::Participant(const NetworkOptions& options, const std::string& name)
     : impl_{std::make_unique<Impl>()} {
     impl_->name = name;
+    if (!options.security.empty()) {
+        impl_->guard = std::make_unique<SecurityGuard>(options.security, name, options.domain);
+    }
     dds::DomainParticipantQos qos = participantQos(options, name);
     setUpFastDds();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
     const auto join = [&] {
         return dds::DomainParticipantFactory::get_instance()->create_participant(
-            static_cast<dds::DomainId_t>(options.domain), qos);
+            static_cast<dds::DomainId_t>(options.domain), qos, impl_->guard.get(),
+            dds::StatusMask::none());
     };
     impl_->participant = join();
     if (impl_->participant == nullptr) {
@@ -232,10 +243,10 @@ std::unique_ptr<Reader<M>> Participant::reader(const Topic& topic,
                                                std::function<void(const Id&)> onDisposed) {
     using Entity = typename Reader<M>::Impl;
     dds::Topic* const made = impl_->topic<M>(topic.name);
-    std::unique_ptr<Entity> entity{
-        new Entity{impl_->subscriber,
-                   {std::move(onSample), std::move(onDisposed), impl_->malformed},
-                   nullptr}};
+    std::unique_ptr<Entity> entity{new Entity{
+        impl_->subscriber,
+        {std::move(onSample), std::move(onDisposed), impl_->malformed, impl_->guard.get()},
+        nullptr}};
     entity->reader =
         created(impl_->subscriber->create_datareader(made, readerQos(topic.qos), &entity->receiver,
                                                      dds::StatusMask::data_available()),
@@ -244,6 +255,18 @@ std::unique_ptr<Reader<M>> Participant::reader(const Topic& topic,
 }
 
 std::uint64_t Participant::malformed() const { return impl_->malformed; }
+
+SecurityIdentity* Participant::identity() const {
+    return impl_->guard ? &impl_->guard->identity() : nullptr;
+}
+
+std::vector<std::string> Participant::takeRefusals() {
+    return impl_->guard ? impl_->guard->refusals().take() : std::vector<std::string>{};
+}
+
+std::uint64_t Participant::refused() const { return impl_->guard ? impl_->guard->refused() : 0; }
+
+std::uint32_t Participant::pending() const { return impl_->guard ? impl_->guard->pending() : 0; }
 
 // --- the messages -------------------------------------------------------------------------------
 

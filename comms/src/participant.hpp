@@ -4,12 +4,14 @@
 #include "cortex/comms/network_options.hpp"
 
 #include "messages.hpp"
+#include "security_identity.hpp"
 
 #include <concepts>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace cortex::comms {
 
@@ -96,6 +98,12 @@ public:
                                       std::function<void(const Id&)> onDisposed = {});
 
     std::uint64_t malformed() const;  // samples that did not decode, or that a callback threw at
+
+    SecurityIdentity* identity() const;  // null: without security
+    // What security has refused since the last call, in words, and how often since the start.
+    std::vector<std::string> takeRefusals();
+    std::uint64_t refused() const;
+    std::uint32_t pending() const;  // others that are not authenticated yet
 
 private:
     struct Impl;

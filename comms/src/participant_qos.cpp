@@ -4,6 +4,7 @@
 #include "cortex/core/error.hpp"
 
 #include "network_address.hpp"
+#include "security_guard.hpp"
 
 #include <algorithm>
 #include <array>
@@ -148,10 +149,6 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
         throw Error{"domain " + std::to_string(options.domain) + " of '" + name +
                     "' does not exist; choose one from 0 to " + std::to_string(LastDomain)};
     }
-    if (!options.security.empty()) {
-        throw Error{"security '" + options.security + "' of '" + name +
-                    "' is not available in this version; leave it empty"};
-    }
     const int number = freeParticipant(options.domain, ParticipantsPerHost);
     auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = interfaceAddresses(options.interfaces);
@@ -161,6 +158,7 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
 
     dds::DomainParticipantQos qos;
     qos.name(name);
+    if (!options.security.empty()) addSecurity(options.security, qos);
     qos.transport().use_builtin_transports = false;
     qos.transport().user_transports.push_back(udp);
     if (options.sharedMemory) {

@@ -18,6 +18,7 @@ comms::NetworkOptions optionsOf(const NetworkArguments& arguments) {
     if (arguments.domain) options.domain = *arguments.domain;
     options.interfaces = arguments.interfaces;
     options.peers = arguments.peers;
+    if (arguments.security) options.security = *arguments.security;
     return options;
 }
 

@@ -43,6 +43,10 @@ private:
         verb.add_option("--peer", network.peers, "Host that multicast does not reach")
             ->type_name("HOST")
             ->allow_extra_args(false);
+        verb.add_option("--security", network.security,
+                        "Folder made by `cortex security create-agent`; CORTEX_SECURITY, else no "
+                        "security, if not given")
+            ->type_name("FOLDER");
         verb.add_option("--timeout", network.timeout,
                         "How long to wait for agents; 3 s if not given")
             ->type_name("S")

@@ -2,6 +2,7 @@
 #include "cortex/core/error.hpp"
 
 #include "live_registration.hpp"
+#include "security_registration.hpp"
 #include "verbs.hpp"
 
 #include <algorithm>
@@ -200,6 +201,7 @@ Files are looked for as given, then in $CORTEX_PATH, then in the installed share
     addNewType(app, arguments);
     addNewSystem(app, arguments);
     addLiveVerbs(app, arguments.json, arguments.run);
+    addSecurityVerbs(app, arguments.json, arguments.run);
 }
 
 std::string nearestOrAll(const std::string& wrong, const std::vector<std::string>& names) {
@@ -238,6 +240,9 @@ std::string wrongUsage(const CLI::App& app, const CLI::ParseError& error) {
     }
     if (!app.get_subcommands().empty()) return wrongUsage(*app.get_subcommands().front(), error);
     const std::vector<std::string> extra = app.remaining();
+    if (app.get_parent() != nullptr && app.get_require_subcommand_min() > 0) {
+        return wrongVerb(app, extra.empty() ? "" : extra.front());
+    }
     if (extra.empty() || dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) {
         return error.what();
     }

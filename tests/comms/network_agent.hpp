@@ -28,6 +28,10 @@ struct NetworkAgent {
         : rig{std::move(types), name, options} {
         rig.add(dds);
     }
+    NetworkAgent(const std::string& name, NetworkOptions network)
+        : dds{std::move(network)}, rig{test::commandTypes(), name} {
+        rig.add(dds);
+    }
 
     const Structure& structure() const { return rig.agent->structure(); }
     bool sees(std::string_view event) {

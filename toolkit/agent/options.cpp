@@ -83,6 +83,11 @@ void addNetwork(CLI::App& app, CommandLine& line) {
         ->type_name("HOST")
         ->allow_extra_args(false)
         ->excludes(offline);
+    app.add_option("--security", line.security,
+                   "folder made by `cortex security create-agent`; CORTEX_SECURITY, else no "
+                   "security, if not given")
+        ->type_name("FOLDER")
+        ->excludes(offline);
 }
 
 // Better than CLI11 says it: the nearest option, or the option that a file belongs to.
@@ -155,6 +160,7 @@ comms::NetworkOptions networkOptions(const CommandLine& line) {
     if (line.domain) options.domain = *line.domain;
     options.interfaces = line.interfaces;
     options.peers = line.peers;
+    if (line.security) options.security = *line.security;
     return options;
 }
 

@@ -8,6 +8,8 @@ namespace cortex::comms {
 
 // The environment variable CORTEX_DOMAIN, 0 where it is not set; throws Error unless 0 to 230.
 int defaultDomain();
+// The environment variable CORTEX_SECURITY, empty where it is not set.
+std::string defaultSecurity();
 
 // Which network an agent or a tool joins. What it cannot have is refused when it joins, in words.
 struct NetworkOptions {
@@ -16,7 +18,8 @@ struct NetworkOptions {
     std::vector<std::string> peers;       // "host" or "host:port", where multicast does not reach
     std::string discoveryServer;  // instead of peers and multicast; several are joined by ";"
     bool sharedMemory = false;    // besides UDP
-    std::string security;         // not available yet: must be empty
+    std::string security =
+        defaultSecurity();  // folder made by `cortex security create-agent`; empty: none
 };
 
 }  // namespace cortex::comms

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "messages.hpp"
+#include "security_identity.hpp"
+#include "security_refusals.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+#include <fastdds/rtps/common/Guid.h>
+
+namespace cortex::comms {
+
+inline const std::string& claimedName(const Presence& sample) { return sample.name; }
+inline const std::string& claimedName(const Model& sample) { return sample.agent; }
+inline const Id& claimedName(const Block& sample) { return sample.agent; }
+inline const std::string& claimedName(const Command& sample) { return sample.sender; }
+inline const std::string& claimedName(const Answer& sample) { return sample.agent; }
+inline const std::string& claimedName(const EventMessage& sample) { return sample.name; }
+
+// Stands at the entry of a participant with security: asks Fast DDS for it, hears of participants
+// that it refused, and refuses samples with a name that is not their sender's. Any thread.
+class SecurityGuard final : public eprosima::fastdds::dds::DomainParticipantListener {
+    using Guid = eprosima::fastrtps::rtps::GUID_t;
+    using Dds = eprosima::fastdds::dds::DomainParticipant;
+
+public:
+    // Throws Error as SecurityIdentity.
+    SecurityGuard(const std::string& folder, const std::string& name, int domain)
+        : identity_{folder, name, domain} {}
+
+    SecurityIdentity& identity() { return identity_; }
+    Refusals& refusals() { return refusals_; }
+    std::uint64_t refused() const { return refused_; }
+    std::uint32_t pending() const;  // participants found, neither authenticated nor refused yet
+
+    // What is claimed is a name, or the id of one.
+    template <class Claim>
+    bool admits(const eprosima::fastrtps::rtps::InstanceHandle_t& writer, const Claim& claim) {
+        GuidPrefix participant{};
+        for (std::size_t i = 0; i < participant.size(); ++i) participant[i] = writer.value[i];
+        if (identity_.maySpeakFor(participant, claim)) return true;
+        refuse(claim);
+        return false;
+    }
+
+    void on_participant_discovery(
+        Dds* participant, eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
+    void onParticipantAuthentication(
+        Dds* participant, eprosima::fastrtps::rtps::ParticipantAuthenticationInfo&& info) override;
+
+private:
+    void refuse(std::string_view name);
+    void refuse(const Id&) { ++refused_; }  // its names are refused, too, and reported
+
+    SecurityIdentity identity_;
+    Refusals refusals_;
+    std::atomic<std::uint64_t> refused_{0};
+    struct Found {
+        std::string name;  // that it gives itself, unproven
+        bool pending = true;
+    };
+    mutable std::mutex mutex_;
+    std::map<Guid, Found> found_;
+};
+
+// Asks Fast DDS for authentication, access control and encryption with the files of the folder.
+void addSecurity(const std::string& folder, eprosima::fastdds::dds::DomainParticipantQos& qos);
+
+}  // namespace cortex::comms

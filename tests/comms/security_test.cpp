@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// Agents and tools with security on, over real DDS on the loopback interface, and those who have no
+// right to be there: among them clients on raw Fast DDS, without the checks of our library.
+#include "cortex/comms/mirror.hpp"
+#include "cortex/core/error.hpp"
+
+#include "cdr.hpp"
+#include "comms/raw_dds.hpp"
+#include "comms/secured_plant.hpp"
+#include "comms/stepped_agent.hpp"
+#include "security_guard.hpp"
+
+#include <optional>
+#include <span>
+
+#include <gtest/gtest.h>
+
+namespace cortex::comms {
+namespace {
+
+using namespace std::chrono_literals;
+
+NetworkOptions secured(const std::string& folder) {
+    NetworkOptions options = loopback();
+    options.security = folder;
+    return options;
+}
+
+template <class M>
+std::vector<std::uint8_t> octetsOf(const M& message) {
+    std::vector<std::uint8_t> octets(encodedSize(message));
+    encode(message, std::span{octets});
+    return octets;
+}
+
+// The agent "robot" with two simplexes, and whoever the test makes keys for.
+struct Secured : testing::Test {
+    Secured() {
+        agent.rig.hand("/cell/arm").on("poke", [this](Call&) {
+            ++pokes;
+            return Outcome::Done;
+        });
+        agent.rig.hand("/belt").on("poke", [this](Call&) {
+            ++pokes;
+            return Outcome::Done;
+        });
+        agent.run();
+    }
+    bool reports(std::string_view event) {
+        return comesTrue([&] { return agent.rig.hasEvent(event); });
+    }
+    Command poke(const std::string& sender, const std::string& path) {
+        Command message;
+        message.link = linkId(sender, "robot");
+        message.sender = sender;
+        message.host = "desk";
+        message.senderEpoch = 1'700'000'000'000'000;
+        message.target = "robot";
+        message.targetEpoch = agent.structure().epoch;
+        message.sequenceNumber = ++sequence;
+        message.answeredBelow = 1;
+        message.notAfter = 3'000'000;
+        message.path = path;
+        message.command = "poke";
+        return message;
+    }
+    // Writes it as often as it takes to be reported.
+    bool isRefused(RawWriter& writer, const Command& command, std::string_view event) {
+        const auto octets = octetsOf(command);
+        EXPECT_TRUE(comesTrue([&] { return writer.readers() > 0; }));
+        EXPECT_TRUE(writer.write(command.link, octets));
+        return reports(event);
+    }
+
+    SecuredPlant plant;
+    SteppedAgent agent{"robot", secured(plant.make("robot"))};
+    std::atomic<int> pokes = 0;
+    std::uint64_t sequence = 0;
+};
+
+TEST_F(Secured, AgentIsSeenAndCommanded) {
+    Mirror mirror{"cortex", secured(plant.make("station", {"/cell"}))};
+    ASSERT_TRUE(mirror.waitUntilComplete(10s));
+
+    EXPECT_EQ(mirror.name().substr(0, 8), "station@");
+    EXPECT_EQ(mirror.agents().at(0).name, "robot");
+    EXPECT_EQ(mirror.agents().at(0).security, "authenticated, encrypted");
+    EXPECT_EQ(mirror.call("/cell/arm", "poke", {}, 10s).outcome, Outcome::Done);
+    EXPECT_EQ(pokes, 1);
+    EXPECT_EQ(mirror.refused(), 0U);
+}
+
+TEST_F(Secured, CommandOutsideThePrefixIsRefusedAndReported) {
+    Mirror mirror{"cortex", secured(plant.make("station", {"/cell"}))};
+    ASSERT_TRUE(mirror.waitUntilComplete(10s));
+    const CommandAnswer answer = mirror.call("/belt", "poke", {}, 10s);
+
+    EXPECT_EQ(answer.outcome, Outcome::Rejected);
+    EXPECT_EQ(answer.reason, Reason::Authority);
+    EXPECT_EQ(answer.why, "its authority ends at /cell");
+    EXPECT_TRUE(reports("refused: its authority ends at /cell"));
+    EXPECT_EQ(pokes, 0);
+}
+
+TEST_F(Secured, ControlIsTakenWithinThePrefixOnly) {
+    Mirror mirror{"cortex", secured(plant.make("station", {"/cell"}))};
+    ASSERT_TRUE(mirror.waitUntilComplete(10s));
+    const auto take = [&](const std::string& prefix) {
+        return mirror.call("/robot", "takeControl",
+                           {{"prefix", Value{std::vector<std::string>{prefix}}}}, 10s);
+    };
+    EXPECT_EQ(take("/cell").outcome, Outcome::Done);
+    EXPECT_EQ(take("/").reason, Reason::Authority);
+    EXPECT_EQ(take("//").reason, Reason::Authority);
+    EXPECT_EQ(take("").reason, Reason::Authority);
+    EXPECT_EQ(take("/belt").why, "its authority ends at /cell");
+}
+
+TEST_F(Secured, CommandOfAReaderIsRefusedAndReported) {
+    Mirror mirror{"cortex", secured(plant.make("display", {}))};
+    ASSERT_TRUE(mirror.waitUntilComplete(10s));
+
+    EXPECT_EQ(mirror.call("/cell/arm", "poke", {}, 10s).why, "it may only look");
+    EXPECT_TRUE(reports("refused: it may only look"));
+    EXPECT_EQ(pokes, 0);
+}
+
+TEST_F(Secured, WithoutACertificateNothingIsSeenAndTheAgentReportsIt) {
+    Mirror mirror{"thief", loopback()};
+    RawWriter writer{loopback(), topics::command, "cortex::Command"};
+
+    EXPECT_TRUE(reports("that calls itself thief@"));
+    EXPECT_TRUE(reports("that calls itself raw is refused: it has no certificate"));
+    EXPECT_TRUE(mirror.agents().empty());
+    EXPECT_EQ(writer.readers(), 0U);
+}
+
+TEST_F(Secured, WithTheCertificateOfAnotherAuthorityNothingIsSeenAndTheAgentReportsIt) {
+    const SecuredPlant other;
+    Mirror mirror{"cortex", secured(other.make("station"))};
+    RawWriter writer{secured(other.make("thief")), topics::command, "cortex::Command"};
+
+    EXPECT_TRUE(reports("that calls itself station@"));
+    EXPECT_TRUE(reports("that calls itself raw is refused: it has no certificate"));
+    EXPECT_TRUE(mirror.agents().empty());
+    EXPECT_EQ(writer.readers(), 0U);
+}
+
+TEST_F(Secured, RawClientOfAReaderIsRefusedWhateverItSays) {
+    const std::string display = plant.make("display", {}), boss = plant.make("boss");
+    const SecurityIdentity reader{display, "display", 0};
+    RawWriter writer{secured(display), topics::command, "cortex::Command"};
+
+    const Command bare = poke("display@desk.1", "/belt");
+    EXPECT_TRUE(isRefused(writer, bare, "refused: it does not say what it may command"));
+    Command honest = poke("display@desk.1", "/belt");
+    reader.sign(honest);
+    EXPECT_TRUE(isRefused(writer, honest, "refused: it may only look"));
+    Command stolen = poke("display@desk.1", "/belt");
+    stolen.extras.push_back({"authority", test::textOf(plant.path("boss") / "commands.smime")});
+    stolen.extras.push_back({"signature", "MEQC"});
+    EXPECT_TRUE(isRefused(writer, stolen, "refused: its list of commands is that of boss"));
+    Command named = poke("boss@desk.1", "/belt");
+    EXPECT_TRUE(isRefused(writer, named, "uses the name boss@desk.1"));
+    EXPECT_EQ(pokes, 0);
+}
+
+TEST_F(Secured, RawClientOutsideItsPrefixIsRefused) {
+    const std::string folder = plant.make("station", {"/cell"});
+    const SecurityIdentity station{folder, "station", 0};
+    RawWriter writer{secured(folder), topics::command, "cortex::Command"};
+
+    Command outside = poke("station@desk.1", "/belt");
+    station.sign(outside);
+    EXPECT_TRUE(isRefused(writer, outside, "refused: its authority ends at /cell"));
+    EXPECT_EQ(pokes, 0);
+    Command inside = poke("station@desk.1", "/cell/arm");
+    station.sign(inside);
+    EXPECT_TRUE(writer.write(inside.link, octetsOf(inside)));
+    EXPECT_TRUE(comesTrue([&] { return pokes == 1; }));
+}
+
+TEST_F(Secured, AnotherAgentsNameIsRefusedInEverySample) {
+    RawWriter writer{secured(plant.make("display", {})), topics::presence, "cortex::Presence"};
+    ASSERT_TRUE(comesTrue([&] { return writer.readers() > 0; }));
+    Presence lie;
+    lie.name = "station";
+    lie.agent = agentId(lie.name);
+    lie.epoch = 1'700'000'000'000'000;
+    lie.role = "agent";
+    lie.state = "running";
+    lie.majors = {1};
+    ASSERT_TRUE(writer.write(lie.agent, octetsOf(lie)));
+
+    EXPECT_TRUE(reports("uses the name station, and its certificate is that of another"));
+    EXPECT_FALSE(agent.rig.hasEvent("agent station is heard"));
+    lie.name = "display";
+    lie.agent = agentId(lie.name);
+    ASSERT_TRUE(writer.write(lie.agent, octetsOf(lie)));
+    EXPECT_TRUE(reports("agent display is heard"));
+}
+
+TEST_F(Secured, AgentWithAWrongFolderDoesNotStart) {
+    const std::string changed = plant.make("arm");
+    tamper(std::filesystem::path{changed} / "governance.smime", "ENCRYPT", "NONE");
+    NetworkAgent tampered{"arm", secured(changed)};
+    EXPECT_THROW(tampered.rig.start(), Error);
+    NetworkAgent another{"gripper", secured(plant.make("hand"))};
+    EXPECT_THROW(another.rig.start(), Error);
+    EXPECT_THROW(Mirror("cortex", secured("/nowhere")), Error);
+}
+
+}  // namespace
+}  // namespace cortex::comms
