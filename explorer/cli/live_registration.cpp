@@ -153,6 +153,32 @@ void addEvents(LiveVerbs& verbs) {
         ->excludes(verb->get_option("--json"));
 }
 
+void addSave(LiveVerbs& verbs) {
+    const auto save = std::make_shared<SaveOptions>();
+    CLI::App* verb = verbs.add("save", "Write the settable items of all agents into a file",
+                               R"(Examples:
+  cortex save tuned.xml
+  cortex save arm.xml /arm --force)",
+                               save, saveItems);
+    verb->add_option("FILE", save->file, "File to write")->required()->type_name("");
+    verb->add_option("PREFIX", save->prefix, "Path at and below which; all if not given")
+        ->type_name("");
+    verb->add_flag("--force", save->force, "Replace a file that exists");
+
+    const auto restore = std::make_shared<RestoreOptions>();
+    verb = verbs.add(
+        "restore", "Set the items that a file of 'save' has, showing what changes",
+        R"(Where one item of the file cannot be set, all that are wrong are listed and nothing is changed; take
+them out of the file. Then the items of each simplex are set together. Exit code 1: something was
+wrong or refused.
+Examples:
+  cortex restore tuned.xml --dry-run
+  cortex restore tuned.xml)",
+        restore, restoreItems);
+    verb->add_option("FILE", restore->file, "File that 'save' wrote")->required()->type_name("");
+    verb->add_flag("--dry-run", restore->dryRun, "Only show what would change");
+}
+
 void addTop(LiveVerbs& verbs) {
     const auto top = std::make_shared<TopOptions>();
     CLI::App* verb = verbs.add(
@@ -188,6 +214,7 @@ void addLiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run) {
     addWatch(verbs);
     addCall(verbs);
     addEvents(verbs);
+    addSave(verbs);
     addTop(verbs);
 }
 

@@ -53,6 +53,18 @@ struct EventOptions : LiveOptions {
 };
 Exit showEvents(const EventOptions& options);
 
+struct SaveOptions : LiveOptions {
+    std::string file, prefix = "/";
+    bool force = false;
+};
+Exit saveItems(const SaveOptions& options);
+
+struct RestoreOptions : LiveOptions {
+    std::string file;
+    bool dryRun = false;
+};
+Exit restoreItems(const RestoreOptions& options);
+
 struct TopOptions : LiveOptions {
     std::string prefix = "/";
     std::optional<double> rate;     // refreshes per second; none: as fits where they go

@@ -99,7 +99,11 @@ std::string xmlAttribute(std::string_view text) {
                 result += "&quot;";
                 break;
             default:
-                result += c;
+                if (static_cast<unsigned char>(c) < 0x20) {
+                    result += "&#" + std::to_string(static_cast<int>(c)) + ";";
+                } else {
+                    result += c;
+                }
         }
     }
     return result;
