@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tool on a network of CorteX agents, with nothing but Cyclone DDS and docs/protocol.md.
+#pragma once
+
+#include "model.h"
+
+#include <dds/dds.h>
+
+enum { mostAgents = 64 };
+
+typedef struct {
+    char name[64];
+    int64_t epoch;
+    dds_entity_t participant, presences, presenceReader, models, modelReader, blocks, commands,
+        answers;
+    int64_t presenceDue;  // ns
+    Agent agents[mostAgents];
+    int agentCount;
+} Tool;
+
+int64_t now(void);  // ns, of this process alone
+
+// On the loopback interface. Ends the program, with words, if there is no network.
+void join(Tool* tool, dds_domainid_t domain);
+void leave(Tool* tool);
+// A hundredth of a second: says that the tool is there, listens who else is.
+void step(Tool* tool);
+
+// All that agents have told; to be let go again.
+Models modelsOf(const Tool* tool);
+void letGo(const Tool* tool, Models* models);
+
+// Says what the tool wants of an agent from now on: values at and below a path, 30 times a second.
+void view(Tool* tool, const Agent* agent, const char* prefix);

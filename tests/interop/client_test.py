@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""A client that knows docs/protocol.md and Cyclone DDS only, against agents.
+
+client_test.py SOURCE_DIR BINARY_DIR SYSTEM…: the systems are those of the demonstration.
+The client is compiled outside of the tree, from the IDL that the protocol prints.
+"""
+
+import concurrent.futures
+import contextlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import random_model
+
+SOURCE, BINARY, *SYSTEMS = (pathlib.Path(each).resolve() for each in sys.argv[1:])
+LINE = re.compile(r'^(/\S*)\.([\w-]+) =(.*?)(?: \[([^]]*)\] (good|stale|bad|lost))?$')
+
+
+def domain(number):
+    return 100 + (os.getpid() + number) % 100
+
+
+def build(folder):
+    """The client, made in `folder` of what a stranger has."""
+    for each in (SOURCE / "tests/interop/client").iterdir():
+        shutil.copy(each, folder)
+    protocol = (SOURCE / "docs/protocol.md").read_text()
+    (folder / "cortex.idl").write_text(re.search(r"^```idl\n(.*?)^```$", protocol, re.M | re.S)[1])
+    subprocess.run(["idlc", "cortex.idl"], cwd=folder, check=True)
+    sources = sorted(each.name for each in folder.glob("*.c"))
+    options = ["-std=gnu17", "-D_GNU_SOURCE", "-O1", "-Wall", "-Wextra", "-Werror"]
+    subprocess.run(["cc", *options, "-o", "client", *sources, "-lddsc"], cwd=folder, check=True)
+    return folder / "client"
+
+
+@contextlib.contextmanager
+def agent(system, number, *options):
+    """An agent on a domain of this process, until the block ends."""
+    environment = dict(os.environ, CORTEX_PATH=str(SOURCE / "ontology"))
+    command = [BINARY / "bin/cortex-agent", system, "--priority", "0", "--interface", "127.0.0.1",
+               "--domain", str(domain(number)), *options]
+    with tempfile.TemporaryFile("w+") as output:
+        process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL,
+                                   stdout=output, stderr=subprocess.STDOUT)
+        try:
+            yield process
+            if process.poll() is not None:
+                output.seek(0)
+                raise AssertionError(f"{system} ended: {output.read()}")
+        finally:
+            process.terminate()
+            process.wait()
+
+
+class Client:
+    folder = tempfile.TemporaryDirectory()
+    program = build(pathlib.Path(folder.name))
+
+    def __init__(self, number):
+        self.domain = domain(number)
+
+    def run(self, *words, exits=0):
+        ran = subprocess.run([self.program, str(self.domain), *words], text=True,
+                             capture_output=True, timeout=60)
+        if ran.returncode != exits:
+            raise AssertionError(f"{words} ended with {ran.returncode}:\n{ran.stdout}{ran.stderr}")
+        return ran.stdout.splitlines()
+
+    def list(self):
+        return {tuple(line.split()) for line in self.run("list")}
+
+    def values(self, prefix):
+        """{path: {item: (elements, unit, quality)}}"""
+        found = {}
+        for line in self.run("values", prefix)[1:]:
+            path, item, elements, unit, quality = LINE.match(line).groups()
+            found.setdefault(path, {})[item] = (elements, unit, quality)
+        return found
+
+
+def number(text):
+    return {"true": True, "false": False}.get(text) if text in ("true", "false") else float(text)
+
+
+def same(printed, elements):
+    if isinstance(elements[0], str):
+        return printed == f' "{elements[0]}"'
+    return [number(each) for each in printed.split()] == [float(each) for each in elements]
+
+
+class CycloneClient(unittest.TestCase):
+    def test_lists_what_the_command_line_lists(self):
+        with self.demo():
+            listed = subprocess.run(
+                [BINARY / "bin/cortex", "list", "--json", "--domain", str(domain(0)), "--interface",
+                 "127.0.0.1", "--timeout", "20"], capture_output=True, check=True).stdout
+            expected = {(each["path"], each["type"], each["role"], each["agent"])
+                        for each in json.loads(listed)}
+            self.assertEqual(Client(0).list(), expected)
+            self.assertGreater(len(expected), 40)
+
+    def test_prints_live_values(self):
+        with self.demo():
+            lines = Client(0).run("values", "/playback", "20")
+        cycles = [int(line.split()[1]) for line in lines if line.startswith("cycle")]
+        times = [float(line.split()[2]) for line in lines if line.startswith("/playback.time =")]
+        self.assertEqual(len(times), 20)
+        self.assertEqual(cycles, sorted(set(cycles)))
+        self.assertGreater(len(set(times)), 10, times)
+        self.assertIn('/playback.file = "synthetic_hand_path.csv"', lines)
+
+    def test_calls_commands_and_gets_their_answers(self):
+        with self.demo():
+            client = Client(0)
+            owner = next(each[3] for each in client.list() if each[0] == "/drives/1")
+            self.assertEqual(client.run("call", f"/{owner}", "startup", "prefix=/"), ["Done none "])
+            answer, = client.run("call", "/drives/1", "startup", exits=1)
+            self.assertEqual(answer, "Rejected state startup needs Standby, is Active")
+            answer, = client.run("call", "/drives/1", "strtup", exits=1)
+            self.assertRegex(answer, "^Rejected unknown .*startup")
+            answer, = client.run("call", f"/{owner}", "takeControl", "prefix=7", exits=1)
+            self.assertRegex(answer, "^Rejected range .*7")
+
+    def test_reads_and_commands_random_models(self):
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            for _ in pool.map(self.checkModel, range(1, int(os.environ.get("MODELS", "12")) + 1)):
+                pass
+
+    @contextlib.contextmanager
+    def demo(self):
+        with contextlib.ExitStack() as stack:
+            for system in SYSTEMS:
+                stack.enter_context(agent(system, 0, "--startup"))
+            yield
+
+    def checkModel(self, seed):
+        model = random_model.Model(seed)
+        with tempfile.TemporaryDirectory() as folder:
+            with agent(model.write(pathlib.Path(folder)), seed):
+                client = Client(seed)
+                listed = {each[:2] for each in client.list() if each[0] != f"/{model.name}"}
+                self.assertEqual(listed, set(model.types.items()), f"seed {seed}")
+                self.compare(client, model)
+                for path, changes in model.settings:
+                    words = [f"{name}={','.join(map(random_model.text_of, elements))}"
+                             for name, elements in changes.items()]
+                    answer, = client.run("call", path, "set", *words)
+                    self.assertEqual(answer, "Done none ", f"seed {seed} {path} {words}")
+                    model.values[path].update(changes)
+                if model.settings:
+                    self.compare(client, model)
+
+    def compare(self, client, model):
+        values = client.values("/")
+        for path, items in model.values.items():
+            for name, elements in items.items():
+                printed, unit, quality = values[path][name]
+                where = f"{model.name} {path}.{name}: {printed!r}, not {elements}"
+                self.assertTrue(same(printed, elements), where)
+                if not model.constant(path, name):
+                    self.assertEqual((unit, quality), (model.unit(path, name), "good"), where)
+
+
+if __name__ == "__main__":
+    begin = time.monotonic()
+    ended = unittest.main(argv=sys.argv[:1], verbosity=2, exit=False)
+    print(f"{time.monotonic() - begin:.1f} s")
+    sys.exit(not ended.result.wasSuccessful())
