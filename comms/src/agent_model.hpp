@@ -14,7 +14,7 @@ namespace cortex::comms {
 // hashes in its presence. Made by announce(); throws Error while all images are held.
 class AgentModel {
 public:
-    AgentModel(const AgentSelf& self, std::string_view security);
+    explicit AgentModel(const AgentSelf& self, std::string_view security = {});
 
     const std::vector<Model>& samples() const { return samples_; }
     const Id& structureHash() const { return presence_.structureHash; }

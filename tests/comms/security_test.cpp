@@ -36,14 +36,14 @@ std::vector<std::uint8_t> octetsOf(const M& message) {
 // The agent "robot" with two simplexes, and whoever the test makes keys for.
 struct Secured : testing::Test {
     Secured() {
-        agent.rig.hand("/cell/arm").on("poke", [this](Call&) {
-            ++pokes;
-            return Outcome::Done;
-        });
-        agent.rig.hand("/belt").on("poke", [this](Call&) {
-            ++pokes;
-            return Outcome::Done;
-        });
+        test::Hand &arm = agent.rig.hand("/cell/arm"), &belt = agent.rig.hand("/belt");
+        agent.rig.make();
+        for (test::Hand* each : {&arm, &belt}) {
+            each->on("poke", [this](Call&) {
+                ++pokes;
+                return Outcome::Done;
+            });
+        }
         agent.run();
     }
     bool reports(std::string_view event) {

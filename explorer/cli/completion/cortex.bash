@@ -3,8 +3,9 @@
 _cortex() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
     local verb=${COMP_WORDS[1]} options i
-    local network="--domain --interface --peer --timeout --json --help"
+    local network="--domain --interface --peer --security --timeout --json --help"
     local verbs="agents list show watch call set events validate diff types graph new-type new-system"
+    verbs+=" security"
     COMPREPLY=()
     if ((COMP_CWORD == 1)); then
         mapfile -t COMPREPLY < <(compgen -W "$verbs --help --version" -- "$word")
@@ -18,6 +19,14 @@ _cortex() {
         types) options="--file --json --help" ;;
         graph) options="--file --dot --json --help" ;;
         new-type) options="--extends --file --output --force --json --help" ;;
+        security)
+            if ((COMP_CWORD == 2)); then
+                mapfile -t COMPREPLY < <(compgen -W "create-authority create-agent show --help" \
+                    -- "$word")
+                return
+            fi
+            options="--authority --out --read-only --may-command --domain --days --json --help"
+            ;;
         new-system) options="--output --force --json --help" ;;
         *) return ;;
     esac
@@ -50,7 +59,7 @@ _cortex_live() {
     local word=${COMP_WORDS[COMP_CWORD]} network=() i
     for ((i = 2; i < COMP_CWORD; ++i)); do
         [[ ${COMP_WORDS[i]} == --domain || ${COMP_WORDS[i]} == --interface ||
-            ${COMP_WORDS[i]} == --peer ]] && network+=("${COMP_WORDS[i]}" "${COMP_WORDS[i + 1]}")
+            ${COMP_WORDS[i]} == --peer || ${COMP_WORDS[i]} == --security ]] && network+=("${COMP_WORDS[i]}" "${COMP_WORDS[i + 1]}")
     done
     if [[ ${COMP_WORDS[1]} == call && $COMP_CWORD -eq 3 ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$("$1" show "${COMP_WORDS[2]}" --timeout 1 \
