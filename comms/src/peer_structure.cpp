@@ -82,7 +82,8 @@ private:
         if (target != nullptr) return wrong("it is no simplex of another agent");
         if (rule->direction != Direction::Input) return wrong("other agents' can only be inputs");
         if (!SimplexTree::pathError(relationship.target).empty()) return wrong("it is no path");
-        tree_.relateRemote(simplex, relationship.rule, relationship.target, relationship.delayed);
+        tree_.relateRemote(simplex, relationship.rule, relationship.target, {},
+                           relationship.delayed);
     }
 
     void setConstant(Simplex& simplex, const NamedValue& named) {

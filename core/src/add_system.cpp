@@ -107,7 +107,7 @@ void SimplexTree::add(const SystemDescription& system, const ClassRegistry* regi
         simplex.phase_ = entry.phase;
         for (const auto& relate : entry.relates) {
             simplex.relations_.push_back(
-                {relate.rule, relate.to, relate.delayed, relate.remote, relate.place});
+                {relate.rule, relate.to, relate.delayed, relate.remote, relate.place, relate.type});
         }
         for (const auto& setting : entry.settings) addSetting(*types_, simplex, setting, report);
     }

@@ -15,6 +15,11 @@ struct ResolvedRelation {
     const Simplex* target = nullptr;
 
     bool delayed() const { return relation->delayed || rule->delayed; }
+    const Type* wantedType(const TypeModel& types) const {  // of a remote target
+        const Type* stated = types.find(relation->type);
+        const bool fits = stated != nullptr && stated->isA(rule->target);
+        return fits ? stated : types.find(rule->target);
+    }
 };
 
 // By rule, then in the order related: the order of Structure::edges. Names that stand for nothing

@@ -91,8 +91,9 @@ void SimplexTree::relate(Simplex& owner, std::string_view rule, const Simplex& t
 }
 
 void SimplexTree::relateRemote(Simplex& owner, std::string_view rule, std::string_view path,
-                               bool delayed) {
-    owner.relations_.push_back({std::string{rule}, std::string{path}, delayed, true, {}});
+                               std::string_view type, bool delayed) {
+    owner.relations_.push_back(
+        {std::string{rule}, std::string{path}, delayed, true, {}, std::string{type}});
 }
 
 const Simplex* SimplexTree::find(std::string_view path) const {

@@ -54,12 +54,12 @@ void addSimplexes(Structure& structure, const SimplexTree& tree) {
     }
 }
 
-// A path that several rules name gets the most derived of their target types.
+// A path that several rules name gets the most derived of the types that are wanted.
 void addRemotes(Structure& structure, const SimplexTree& tree) {
     std::map<std::string, const Type*> remotes;
     for (const auto& [path, simplex] : tree.simplexes()) {
         for (const auto& resolved : resolveRelations(tree, *simplex)) {
-            const Type* type = tree.types().find(resolved.rule->target);
+            const Type* type = resolved.wantedType(tree.types());
             if (resolved.target != nullptr || type == nullptr) continue;
             const Type*& chosen = remotes[resolved.relation->target];
             if (chosen == nullptr || type->isA(chosen->name)) chosen = type;

@@ -29,6 +29,8 @@ constexpr std::array relateAttributes{
     AttributeReader<Relate>{
         "remote",
         [](Relate& relate, std::string_view text) { return readBool(relate.remote, text); }},
+    AttributeReader<Relate>{
+        "type", [](Relate& relate, std::string_view text) { return readText(relate.type, text); }},
 };
 
 constexpr std::array settingAttributes{

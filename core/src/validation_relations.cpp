@@ -80,6 +80,11 @@ void checkRemote(const Checked& checked, const Simplex& owner, const Rule& rule,
                              text + ": path '" + relation.target + "': " + wrong,
                              "write the path that the simplex has in its own agent");
     }
+    if (relation.type.empty() || checked.tree.types().isA(relation.type, rule.target)) return;
+    checked.report.error(
+        owner.path(), finding::targetType, relation.place,
+        text + " takes " + article(rule.target) + "; '" + relation.type + "' is none",
+        "write the type that it has there, or leave type=\"…\" out");
 }
 
 void reportTwice(const Checked& checked, const Simplex& owner, const Rule& rule,

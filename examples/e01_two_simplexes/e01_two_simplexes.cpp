@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two simplexes: a controller moves an axis to and fro at 1 kHz, and the program looks on.
+#include "cortex/comms/dds_interface.hpp"
 #include "cortex/core/simplex_tree.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 
@@ -32,6 +33,7 @@ int main() {
     cs::ClusterCS cluster{"plant", {.threads = 1}};
     cluster.addSimplexTree(tree);
     cluster.setTriggerSource<cs::InternalClock>(std::chrono::milliseconds{1});
+    cluster.addInterface<comms::DdsInterface>();  // others on the network see it all
     cluster.start();  // throws ModelError, with every rule that the tree breaks
     cluster.call("/arm/sine", "startup");
     for (int i = 0; i < 20 && !cs::waitForInterrupt(0.1); ++i)

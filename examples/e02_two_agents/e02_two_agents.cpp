@@ -49,7 +49,8 @@ int main(int argc, char** argv) {
     } else {
         auto& axis = tree.add("/desk/axis", "VirtualAxis");
         auto& follow = tree.add<Follow>("/desk/follow", "SineController");
-        tree.relateRemote(follow, "observed", "/machine/axis");  // whoever has it, and whenever
+        // Whoever has it, and whenever.
+        tree.relateRemote(follow, "observed", "/machine/axis", "VirtualAxis");
         tree.relate(follow, "axis", axis);
     }
     cs::blockStopSignals();

@@ -64,7 +64,7 @@ std::shared_ptr<const Structure> heard(const std::string& agent, const Said& sai
         Simplex& owner = tree.at(each.path);
         for (const SaidRelation& relation : each.relations) {
             if (relation.remote) {
-                tree.relateRemote(owner, relation.rule, relation.target, relation.delayed);
+                tree.relateRemote(owner, relation.rule, relation.target, {}, relation.delayed);
             } else {
                 tree.relate(owner, relation.rule, tree.at(relation.target), relation.delayed);
             }
@@ -142,7 +142,7 @@ TEST(ForeignStructure, HasRatesWritersDelaysAndSimplexesOfOtherAgents) {
     auto& device = tree.add("/device", "Device");
     controller.runEvery(5, 2);
     tree.relate(controller, "demands", demanded);
-    tree.relateRemote(controller, "axes", "/far/second", true);
+    tree.relateRemote(controller, "axes", "/far/second", {}, true);
     tree.relate(controller, "axes", observed, true);
     tree.relateRemote(controller, "axes", "/far/first");
     tree.relate(device, "demand", demanded);

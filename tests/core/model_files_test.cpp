@@ -188,9 +188,9 @@ TEST(ModelFiles, RefusesAFileOfTheWrongKind) {
     EXPECT_TRUE(
         finds(including("ontology", "morphology"), "file-kind", "", 2, "wanted is ontology"));
     EXPECT_TRUE(finds(including("morphology", "ontology"), "file-kind", "", 2, "<ontology file="));
-    EXPECT_TRUE(
-        finds(including("include", "system"), "file-kind", "", 2, "ontology or morphology"));
+    EXPECT_TRUE(finds(including("morphology", "system"), "file-kind", "", 2, "include it"));
     EXPECT_TRUE(isValid(including("include", "morphology")));
+    EXPECT_TRUE(isValid(including("include", "system")));
     const XmlModel twice = readFiles({{"s.xml",
                                        "<system name='s'><ontology file='o.xml'/>\n"
                                        "<morphology file='o.xml'/></system>"},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -43,6 +44,22 @@ std::string textOf(const std::filesystem::path& file) {
     std::ostringstream text;
     text << stream.rdbuf();
     return text.str();
+}
+
+std::string caseStudy() {
+    const std::filesystem::path folder{CORTEX_SOURCE_DIR "/examples/lbr_teleop"};
+    std::string text = textOf(folder / "lbr_teleop.xml");
+    const std::regex include{"  <include file=\"(\\w+\\.xml)\"/>\n"};
+    for (std::smatch match; std::regex_search(text, match, include);) {
+        const std::string part = textOf(folder / match[1].str());
+        const auto types = part.find("  <morphology");
+        const bool known = text.find("<morphology") != std::string::npos;
+        const auto begin = known ? part.find('\n', types) + 1 : types;
+        const auto place = static_cast<std::size_t>(match.position());
+        const auto length = static_cast<std::size_t>(match.length());
+        text.replace(place, length, part.substr(begin, part.find("</system>") - begin));
+    }
+    return text;
 }
 
 const Finding* CheckedModel::find(const std::string& rule) const {

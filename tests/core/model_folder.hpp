@@ -29,6 +29,9 @@ private:
 
 std::string textOf(const std::filesystem::path& file);
 
+// The system file of the case study with the parts that it includes written into it.
+std::string caseStudy();
+
 // What an agent or `cortex validate` makes of files: everything found, and the tree.
 struct CheckedModel {
     Report report;

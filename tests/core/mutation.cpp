@@ -93,9 +93,7 @@ std::string replaced(const std::string& text, std::string_view before, std::stri
 
 void copyShipped(const ModelFolder& folder) {
     folder.copyOntology();
-    const std::string system = textOf(CORTEX_SOURCE_DIR "/examples/lbr_teleop/lbr_teleop.xml");
-    folder.write(systemFile,
-                 std::regex_replace(system, std::regex{"file=\"[./]*/ontology/"}, "file=\""));
+    folder.write(systemFile, caseStudy());
 }
 
 int lineOf(const std::string& text, std::string_view at, std::size_t changed, std::size_t length) {

@@ -84,14 +84,6 @@ std::vector<Mutation> mutationsOfSystems() {
          .path = "/playback",
          .at = "/far/axis",
          .remedy = Remedy::Remove},
-        {.name = "RemoteSimplexOfThisSystem",
-         .file = systemFile,
-         .before = "rule=\"manipulator\" to=\"/arm/lbr\"",
-         .after = "rule=\"manipulator\" to=\"/arm/lbr\" remote=\"true\"",
-         .rule = "remote-local",
-         .path = "/arm",
-         .at = "remote",
-         .remedy = Remedy::Replace},
 
         // Simplexes
         {.name = "InstanceOfAnAbstractType",

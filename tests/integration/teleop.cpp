@@ -3,12 +3,12 @@
 
 #include "cortex/toolkit/classes.hpp"
 
+#include "core/model_folder.hpp"
 #include "toolkit/lbr_chain.hpp"
 
 #include <cmath>
 #include <fstream>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 
 #include <unistd.h>
@@ -19,13 +19,6 @@ namespace cortex::test {
 namespace {
 
 using toolkit::Pose;
-
-std::string contentOf(const std::filesystem::path& file) {
-    std::ifstream in{file};
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
 
 void replace(std::string& text, const std::string& from, const std::string& to) {
     std::size_t place = text.find(from);
@@ -55,7 +48,7 @@ TeleopFile::TeleopFile(const Replacements& replacements, const std::string& onto
     folder_ = std::filesystem::temp_directory_path() /
               ("cortex-teleop-" + std::to_string(getpid()) + "-" + std::to_string(++count));
     std::filesystem::create_directories(folder_);
-    std::string text = contentOf(source / "examples/lbr_teleop/lbr_teleop.xml");
+    std::string text = caseStudy();
     for (const auto& [from, to] : replacements) replace(text, from, to);
     replace(text, "synthetic_hand_path.csv",
             (source / "examples/lbr_teleop/synthetic_hand_path.csv").string());

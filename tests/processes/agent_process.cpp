@@ -28,23 +28,7 @@ std::size_t entriesOf(const fs::path& folder) {
 
 }  // namespace
 
-TestFolder::TestFolder() {
-    std::string name = (fs::temp_directory_path() / "cortex-processes-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-}
-
-TestFolder::~TestFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
-
-fs::path TestFolder::write(const std::string& name, const std::string& text) const {
-    std::ofstream{path_ / name} << text;
-    return path_ / name;
-}
-
-AgentProcess::AgentProcess(const TestFolder& folder, fs::path system,
+AgentProcess::AgentProcess(const ModelFolder& folder, fs::path system,
                            std::vector<std::string> options)
     : output_{folder.path() / (system.stem().string() + ".txt")} {
     const comms::NetworkOptions network = comms::loopback();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "core/model_folder.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,27 +11,12 @@
 
 namespace cortex::test {
 
-// A folder of its own, removed at its end.
-class TestFolder {
-public:
-    TestFolder();
-    ~TestFolder();
-    TestFolder(const TestFolder&) = delete;
-    TestFolder& operator=(const TestFolder&) = delete;
-
-    std::filesystem::path write(const std::string& name, const std::string& text) const;
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 // `cortex-agent` as a process, on the network of this test. It is killed with its object, and with
 // the test.
 class AgentProcess {
 public:
     // What it prints goes to a file in `folder`.
-    AgentProcess(const TestFolder& folder, std::filesystem::path system,
+    AgentProcess(const ModelFolder& folder, std::filesystem::path system,
                  std::vector<std::string> options = {});
     ~AgentProcess() { kill9(); }
     AgentProcess(const AgentProcess&) = delete;

@@ -53,7 +53,7 @@ comms::AgentImage Station::imageOf(const std::string& path) const {
     const auto owner = mirror_.ownerOf(path);
     if (!owner) return {};
     comms::AgentImage image = mirror_.image(*owner);
-    if (!image || image->quality(path) >= Quality::Lost) return {};
+    if (!image || !mirror_.age(*owner, image->structure().find(path))) return {};  // not come yet
     return image;
 }
 
@@ -67,6 +67,12 @@ std::optional<std::int64_t> Station::number(const std::string& path,
 double Station::real(const std::string& path, const std::string& item) const {
     const comms::AgentImage image = imageOf(path);
     return image ? image->get<double>(path, item) : 0;
+}
+
+std::vector<double> Station::reals(const std::string& path, const std::string& item) const {
+    const comms::AgentImage image = imageOf(path);
+    if (!image) return {};
+    return std::get<std::vector<double>>(image->value(path, item));
 }
 
 std::vector<double> Station::demands() const {

@@ -31,6 +31,7 @@ public:
     // Items as they came last.
     std::optional<std::int64_t> number(const std::string& path, const std::string& item) const;
     double real(const std::string& path, const std::string& item) const;
+    std::vector<double> reals(const std::string& path, const std::string& item) const;
     std::vector<double> demands() const;  // positions of the arm's axes
 
     // Events from now on are those after mark().

@@ -115,7 +115,7 @@ protected:
     void expectNoGrowth(std::size_t round, pid_t survivor);
     std::string outputs() const { return operator_.output() + robot.output(); }
 
-    TestFolder folder;
+    ModelFolder folder;
     const std::set<std::string> sharedBefore = sharedMemory();
     AgentProcess operator_{
         folder, example("operator.xml"),

@@ -203,6 +203,21 @@ TEST_F(Clutch, AfterALossOnlyANewPressEngages) {
     EXPECT_EQ(rig_.get<std::int64_t>("/clutch", "engageCount"), 2);
 }
 
+TEST_F(Clutch, GoesOnWithAValueThatHasOnlyGrownOldAndNotWithOneThatItsWriterCallsStale) {
+    press(true);
+    SlotState& hand = rig_.tree.at("/hand").slot();
+    hand.quality = Quality::Stale;
+    moveHand(0.1);
+    EXPECT_TRUE(rig_.get<bool>("/clutch", "engaged"));
+    EXPECT_DOUBLE_EQ(target(), 0.6);
+
+    hand.time += 1'000'000;
+    moveHand(0.2);
+
+    EXPECT_FALSE(rig_.get<bool>("/clutch", "engaged"));
+    EXPECT_DOUBLE_EQ(target(), 0.6);
+}
+
 class Selector : public testing::Test {
 protected:
     void SetUp() override {
@@ -268,6 +283,28 @@ TEST_F(Selector, HoldsAtOnceWhenTheButtonIsReleasedOrTheHandIsLost) {
     rig_.tree.at("/hand").slot().quality = Quality::Lost;
     rig_.step(3);
     expectActive("/hold", "/follow");
+}
+
+TEST_F(Selector, SaysWhyAndNeedsANewPressAfterALoss) {
+    enum Reason : std::int64_t { HandMoves = 1, HandStill, NotEnabled, InputLost };
+    const auto expectReason = [this](Reason reason) {
+        rig_.step(3);
+        EXPECT_EQ(rig_.get<std::int64_t>("/selector", "reason"), reason);
+    };
+    expectReason(NotEnabled);
+    hand(true, 0.2);
+    expectReason(HandMoves);
+    rig_.tree.at("/hand").slot().quality = Quality::Lost;
+    expectReason(InputLost);
+    rig_.tree.at("/hand").slot().quality = Quality::Good;
+    expectReason(NotEnabled);
+    hand(false, 0.2);
+    expectReason(NotEnabled);
+    hand(true, 0.2);
+    expectReason(HandMoves);
+    hand(true, 0);
+    rig_.step(210);
+    expectReason(HandStill);
 }
 
 TEST_F(Selector, ShutsDownAfterItsChoicesHave) {

@@ -17,8 +17,9 @@ struct SystemDescription {
     struct Relate {
         std::string rule, to;
         bool delayed = false;
-        bool remote = false;  // `to` belongs to another agent, bound when it appears
+        bool remote = false;  // `to` may belong to another agent, bound when it appears
         Place place;
+        std::string type = {};  // that it has there; the rule's target if empty
     };
     struct Setting {
         std::string data, value;
