@@ -8,10 +8,12 @@ namespace cortex::explorer {
 namespace {
 
 // First to second; what is delayed or belongs to another agent orders nothing.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> ordersOf(const Structure& structure) {
+std::vector<std::pair<std::uint32_t, std::uint32_t>> ordersOf(
+    const Structure& structure, const std::vector<std::string>& agents) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> orders;
     for (const Edge& edge : structure.edges) {
         if (edge.delayed || structure.simplexes[edge.target].remote) continue;
+        if (agents[edge.owner] != agents[edge.target]) continue;
         const bool input = edge.rule->direction == Direction::Input;
         orders.emplace_back(input ? edge.target : edge.owner, input ? edge.owner : edge.target);
     }
@@ -24,18 +26,32 @@ bool hasTask(const SimplexInfo& info) {
 
 }  // namespace
 
-Graph makeGraph(std::string title, const std::shared_ptr<const Structure>& structure) {
+bool Graph::severalAgents() const {
+    std::set<std::string> agents{agentOf.begin(), agentOf.end()};
+    agents.erase("");
+    return agents.size() > 1;
+}
+
+std::string Graph::agentText(std::uint32_t simplex) const {
+    const std::string& agent = agentOf[simplex];
+    if (agent.empty()) return "no agent";
+    return lost.contains(agent) ? agent + ", lost" : agent;
+}
+
+Graph makeGraph(std::string title, const std::shared_ptr<const Structure>& structure,
+                std::vector<std::string> agents, std::set<std::string> lost) {
     const std::size_t count = structure->simplexes.size();
     std::vector<std::vector<std::uint32_t>> after(count);
     std::vector<std::uint32_t> waiting(count), depth(count), ready;
-    for (const auto& [first, second] : ordersOf(*structure)) {
+    for (const auto& [first, second] : ordersOf(*structure, agents)) {
         after[first].push_back(second);
         ++waiting[second];
     }
     for (std::uint32_t i = 0; i < count; ++i) {
         if (waiting[i] == 0) ready.push_back(i);
     }
-    Graph graph{std::move(title), structure, {}, std::vector<std::uint32_t>(count)};
+    Graph graph{std::move(title),  structure,      {}, std::vector<std::uint32_t>(count),
+                std::move(agents), std::move(lost)};
     for (std::size_t next = 0; next < ready.size(); ++next) {
         const std::uint32_t simplex = ready[next];
         if (hasTask(structure->simplexes[simplex])) graph.levelOf[simplex] = ++depth[simplex];
@@ -69,6 +85,8 @@ Json graphJson(const Graph& graph) {
                              {"type", info.layout->type->name},
                              {"role", name(info.role)},
                              {"remote", info.remote},
+                             {"agent", graph.agentOf[i].empty() ? Json() : Json(graph.agentOf[i])},
+                             {"lost", graph.lost.contains(graph.agentOf[i])},
                              {"level", graph.levelOf[i] > 0 ? Json(graph.levelOf[i]) : Json()},
                              {"every", info.every},
                              {"writers", writers}});

@@ -20,8 +20,8 @@ std::string label(const std::string& first, const std::string& second) {
     return text + "\\n" + dotString(second).substr(1);
 }
 
-const char* look(const SimplexInfo& info) {
-    if (info.remote) return "shape=ellipse style=dashed";
+const char* look(const SimplexInfo& info, bool lost) {
+    if (info.remote || lost) return "shape=ellipse style=dashed";
     switch (info.role) {
         case Role::Active:
             return "shape=box style=filled fillcolor=\"#cfe2f3\"";
@@ -44,10 +44,13 @@ void printDot(std::ostream& stream, const Graph& graph) {
         << "digraph " << dotString(graph.title) << " {\n  rankdir=LR;\n"
         << "  node [fontname=\"sans-serif\" fontsize=10];\n"
         << "  edge [fontname=\"sans-serif\" fontsize=8];\n";
-    for (const SimplexInfo& info : structure.simplexes) {
+    const bool several = graph.severalAgents();
+    for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
+        const SimplexInfo& info = structure.simplexes[i];
+        const std::string agent = several ? " (" + graph.agentText(i) + ")" : "";
         stream << "  " << dotString(info.path)
-               << " [label=" << label(info.path, info.layout->type->name) << ' ' << look(info)
-               << "];\n";
+               << " [label=" << label(info.path, info.layout->type->name + agent) << ' '
+               << look(info, graph.lost.contains(graph.agentOf[i])) << "];\n";
     }
     for (const Edge& edge : structure.edges) {
         const bool input = edge.rule->direction == Direction::Input;

@@ -45,7 +45,10 @@ std::vector<std::string> shortened(const std::vector<std::string>& paths) {
 class GraphPrinter {
 public:
     GraphPrinter(std::ostream& stream, const Graph& graph)
-        : stream_{stream}, graph_{graph}, structure_{*graph.structure} {}
+        : stream_{stream},
+          graph_{graph},
+          structure_{*graph.structure},
+          several_{graph.severalAgents()} {}
 
     void run() {
         stream_ << "system " << printable(graph_.title) << ": "
@@ -66,6 +69,7 @@ private:
             for (const std::uint32_t simplex : graph_.levels[level]) {
                 const std::uint32_t every = info(simplex).every;
                 columns.add({number, info(simplex).path, info(simplex).layout->type->name,
+                             several_ ? graph_.agentText(simplex) : "",
                              every > 1 ? "every " + std::to_string(every) + " cycles" : ""});
                 number.clear();
             }
@@ -93,17 +97,24 @@ private:
         for (std::size_t i = 0; i < edges.size();) {
             const Edge& first = edges[i];
             std::vector<std::string> targets;
+            const std::string where = elsewhere(first);
             for (; i < edges.size() && edges[i].rule == first.rule &&
-                   edges[i].delayed == first.delayed;
+                   edges[i].delayed == first.delayed && elsewhere(edges[i]) == where;
                  ++i) {
-                const SimplexInfo& target = info(edges[i].target);
-                targets.push_back(target.path + (target.remote ? " (another agent)" : ""));
+                targets.push_back(info(edges[i].target).path);
             }
             const bool input = first.rule->direction == Direction::Input;
             columns.add({first.rule->name, (input ? "<- " : "-> ") + joined(shortened(targets)) +
-                                               (first.delayed ? " (delayed)" : "")});
+                                               where + (first.delayed ? " (delayed)" : "")});
         }
         columns.print(stream_);
+    }
+
+    // What is said of a target that does not belong to the agent of its owner.
+    std::string elsewhere(const Edge& edge) const {
+        if (graph_.agentOf[edge.owner] == graph_.agentOf[edge.target]) return "";
+        if (info(edge.target).remote) return several_ ? " (no agent)" : " (another agent)";
+        return " (" + graph_.agentText(edge.target) + ")";
     }
 
     // Everything without a task: what it is and who writes it.
@@ -115,6 +126,7 @@ private:
             std::vector<std::string> writers;
             for (const std::uint32_t writer : info(i).writers) writers.push_back(info(writer).path);
             columns.add({info(i).path, info(i).layout->type->name, roleOf(info(i)),
+                         several_ ? graph_.agentText(i) : "",
                          writers.empty() ? "" : "written by " + joined(writers)});
             any = true;
         }
@@ -130,6 +142,7 @@ private:
     std::ostream& stream_;
     const Graph& graph_;
     const Structure& structure_;
+    const bool several_;  // agents: each simplex says its own
 };
 
 }  // namespace

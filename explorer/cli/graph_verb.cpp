@@ -2,14 +2,18 @@
 #include "cortex/core/agent.hpp"
 
 #include "graph.hpp"
+#include "live_models.hpp"
 #include "verbs.hpp"
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 
 namespace cortex::explorer {
 
-Exit showGraph(const GraphOptions& options) {
+namespace {
+
+Graph graphOf(const GraphOptions& options) {
     const bool several = options.files.size() > 1;
     const auto systems = several ? std::ranges::count_if(options.files, isSystem) : 0;
     if (systems > 1) {
@@ -23,7 +27,24 @@ Exit showGraph(const GraphOptions& options) {
     }
     const SystemDescription& system = model.tree->description();
     const std::string agent = system.clusters.empty() ? "" : system.clusters.front().name;
-    const Graph graph = makeGraph(system.name, makeStructure(agent, *model.tree));
+    const std::shared_ptr<const Structure> structure = makeStructure(agent, *model.tree);
+    std::vector<std::string> agents;
+    for (const SimplexInfo& each : structure->simplexes) agents.push_back(each.remote ? "" : agent);
+    return makeGraph(system.name, structure, std::move(agents));
+}
+
+}  // namespace
+
+// Without files: that of all agents on the network.
+Exit showGraph(const GraphOptions& options) {
+    std::optional<Live> live;
+    std::string lacking;
+    if (options.files.empty()) {
+        live.emplace(options.network).waitForAll();
+        lacking = live->incomplete();
+        if (options.json && !lacking.empty()) throw Failure{NotFound, lacking};
+    }
+    const Graph graph = live ? graphOf(*live) : graphOf(options);
     if (options.json) {
         print(graphJson(graph));
     } else if (options.dot) {
@@ -31,6 +52,7 @@ Exit showGraph(const GraphOptions& options) {
     } else {
         printGraph(std::cout, graph);
     }
+    if (!lacking.empty()) throw Failure{NotFound, lacking};
     return Yes;
 }
 

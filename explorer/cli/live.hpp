@@ -44,6 +44,9 @@ public:
     // "incomplete: 37 of 44 from robot", or "" when all is here.
     std::string incomplete() const;
     FoundSimplex find(const std::string& path);  // throws Failure naming the nearest
+    std::optional<std::string> ownerOf(const std::string& path) const {
+        return mirror_->ownerOf(path);
+    }
     std::vector<FoundSimplex> below(const std::string& prefix) const;  // by path
     // Its newest values; waits for them. Throws Failure if they do not come.
     comms::AgentImage values(const FoundSimplex& simplex);

@@ -31,28 +31,6 @@ public:
     }
 
 private:
-    static void addNetwork(CLI::App& verb, NetworkArguments& network) {
-        verb.add_option("--domain", network.domain,
-                        "Domain of the agents; CORTEX_DOMAIN, else 0, if not given")
-            ->type_name("N")
-            ->check(CLI::Range(0, 230));
-        verb.add_option("--interface", network.interfaces,
-                        "Address or name of a network interface to use; all if not given")
-            ->type_name("ADDR")
-            ->allow_extra_args(false);
-        verb.add_option("--peer", network.peers, "Host that multicast does not reach")
-            ->type_name("HOST")
-            ->allow_extra_args(false);
-        verb.add_option("--security", network.security,
-                        "Folder made by `cortex security create-agent`; CORTEX_SECURITY, else no "
-                        "security, if not given")
-            ->type_name("FOLDER");
-        verb.add_option("--timeout", network.timeout,
-                        "How long to wait for agents; 3 s if not given")
-            ->type_name("S")
-            ->check(CLI::Range(0.001, 1e6));
-    }
-
     CLI::App& app_;
     bool& json_;
     std::function<Exit()>& run_;
@@ -206,6 +184,27 @@ Examples:
 }
 
 }  // namespace
+
+void addNetwork(CLI::App& verb, NetworkArguments& network) {
+    verb.add_option("--domain", network.domain,
+                    "Domain of the agents; CORTEX_DOMAIN, else 0, if not given")
+        ->type_name("N")
+        ->check(CLI::Range(0, 230));
+    verb.add_option("--interface", network.interfaces,
+                    "Address or name of a network interface to use; all if not given")
+        ->type_name("ADDR")
+        ->allow_extra_args(false);
+    verb.add_option("--peer", network.peers, "Host that multicast does not reach")
+        ->type_name("HOST")
+        ->allow_extra_args(false);
+    verb.add_option("--security", network.security,
+                    "Folder made by `cortex security create-agent`; CORTEX_SECURITY, else no "
+                    "security, if not given")
+        ->type_name("FOLDER");
+    verb.add_option("--timeout", network.timeout, "How long to wait for agents; 3 s if not given")
+        ->type_name("S")
+        ->check(CLI::Range(0.001, 1e6));
+}
 
 void addLiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run) {
     LiveVerbs verbs{app, json, run};

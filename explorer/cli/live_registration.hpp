@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "live.hpp"
 #include "output.hpp"
 
 #include <functional>
@@ -10,6 +11,7 @@
 namespace cortex::explorer {
 
 // The verbs of live_verbs.hpp. A verb that was chosen sets `run`; `json` is the flag of all verbs.
+void addNetwork(CLI::App& verb, NetworkArguments& network);
 void addLiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run);
 
 }  // namespace cortex::explorer

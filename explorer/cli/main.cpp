@@ -49,10 +49,12 @@ void addOutput(CLI::App& verb, NewFileOptions& options, const char* description)
     verb.add_flag("--force", options.force, "Replace a file that exists");
 }
 
-void needFiles(const Paths& files, const char* example) {
-    if (files.empty()) {
-        throw Failure{
-            Usage, std::string{"no network yet: give --file FILE…, for example --file "} + example};
+// Files, or else a network.
+void addSource(CLI::App& verb, Paths& files, NetworkArguments& network) {
+    CLI::Option* file = addFiles(verb, files);
+    addNetwork(verb, network);
+    for (const char* each : {"--domain", "--interface", "--peer", "--timeout"}) {
+        verb.get_option(each)->excludes(file);
     }
 }
 
@@ -104,17 +106,17 @@ void addTypes(CLI::App& app, Arguments& arguments) {
     CLI::App* verb =
         addVerb(app, arguments, "types", "Show the tree of types, or everything about one",
                 R"(Examples:
+  cortex types                                         those of all agents on the network
   cortex types --file robotics-morphology.xml          the tree: who extends whom
   cortex types KukaLbr --file robotics-morphology.xml  its data, commands and relationships, own and
                                                        inherited, and its hash)");
     CLI::Option* type = verb->add_option("NAME", arguments.type, "Name of a type")->type_name("");
-    addFiles(*verb, arguments.types.files);
+    addSource(*verb, arguments.types.files, arguments.types.network);
     verb->callback([&arguments, type] {
         arguments.run = [&arguments, named = type->count() > 0] {
             arguments.types.json = arguments.json;
             if (named) arguments.types.type = arguments.type;
             if (named && arguments.types.files.empty()) refuseFileAsType(arguments.type);
-            needFiles(arguments.types.files, "robotics-morphology.xml");
             return showTypes(arguments.types);
         };
     });
@@ -124,16 +126,16 @@ void addGraph(CLI::App& app, Arguments& arguments) {
     CLI::App* verb =
         addVerb(app, arguments, "graph", "Show who is joined to whom, and the order of execution",
                 R"(Examples:
+  cortex graph                                         all agents on the network
   cortex graph --file lbr_teleop.xml
   cortex graph --dot --file lbr_teleop.xml | dot -Tsvg -o lbr_teleop.svg)");
     CLI::Option* dot =
         verb->add_flag("--dot", arguments.graph.dot, "Print a graph in the language of Graphviz");
     dot->excludes(verb->get_option("--json"));
-    addFiles(*verb, arguments.graph.files);
+    addSource(*verb, arguments.graph.files, arguments.graph.network);
     verb->callback([&] {
         arguments.run = [&] {
             arguments.graph.json = arguments.json;
-            needFiles(arguments.graph.files, "SYSTEM.xml");
             return showGraph(arguments.graph);
         };
     });

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "live_models.hpp"
 #include "type_json.hpp"
 #include "type_text.hpp"
 #include "verbs.hpp"
@@ -12,10 +13,10 @@ namespace {
     std::vector<std::string> names;
     for (const auto& [typeName, type] : types.types()) names.push_back(typeName);
     const std::string nearest = nearestNames(wrong, names);
-    throw Failure{NotFound, "there is no type '" + wrong + "'; " +
-                                (nearest.empty() ? "'cortex types --file …' lists all " +
-                                                       std::to_string(names.size())
-                                                 : nearest)};
+    throw Failure{NotFound,
+                  "there is no type '" + wrong + "'; " +
+                      (nearest.empty() ? "'cortex types' lists all " + std::to_string(names.size())
+                                       : nearest)};
 }
 
 // What follows --file is taken for files, a type's name too.
@@ -29,13 +30,7 @@ void explainTypeAsFile(const TypesOptions& options, Report& report) {
     }
 }
 
-}  // namespace
-
-Exit showTypes(const TypesOptions& options) {
-    Model model = readTypes(options.files);
-    explainTypeAsFile(options, model.report);
-    requireValid(model);
-    const TypeModel& types = model.types();
+void printTypes(const TypeModel& types, const TypesOptions& options) {
     const bool one = options.type.has_value();
     const Type* type = one ? types.find(*options.type) : nullptr;
     if (one && type == nullptr) unknownType(types, *options.type);
@@ -50,6 +45,25 @@ Exit showTypes(const TypesOptions& options) {
     } else {
         printTypeTree(std::cout, types);
     }
+}
+
+}  // namespace
+
+// Without files: those of all agents on the network.
+Exit showTypes(const TypesOptions& options) {
+    if (options.files.empty()) {
+        Live live{options.network};
+        live.waitForAll();
+        const std::string lacking = live.incomplete();
+        if (options.json && !lacking.empty()) throw Failure{NotFound, lacking};
+        printTypes(typesOf(live), options);
+        if (!lacking.empty()) throw Failure{NotFound, lacking};
+        return Yes;
+    }
+    Model model = readTypes(options.files);
+    explainTypeAsFile(options, model.report);
+    requireValid(model);
+    printTypes(model.types(), options);
     return Yes;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "live.hpp"
 #include "model.hpp"
 #include "output.hpp"
 
@@ -24,16 +25,18 @@ struct DiffOptions {
 };
 Exit diffModels(const DiffOptions& options);
 
-// Where the model comes from: files; from agents on the network later.
+// Where the model comes from: files, or without any the agents on a network.
 struct TypesOptions {
     std::optional<std::string> type;  // none: all
     Paths files;
+    NetworkArguments network;
     bool json = false;
 };
 Exit showTypes(const TypesOptions& options);
 
 struct GraphOptions {
     Paths files;
+    NetworkArguments network;
     bool dot = false;
     bool json = false;
 };
