@@ -43,6 +43,7 @@ private:
     void step();
     void takeMessages(std::int64_t now);
     void changed();
+    void sendInterests();
     void sendEvents();
     void sendPresence(std::int64_t now);
     void fallSilent();
