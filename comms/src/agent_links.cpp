@@ -12,6 +12,7 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::int64_t longestTime = std::int64_t{1} << 60U;  // ns: sums do not overflow
+constexpr std::int64_t second = 1'000'000'000;                // ns
 constexpr std::int64_t longestDetour = 100'000'000;           // ns that the network may add
 
 bool isTime(std::int64_t time) { return time >= 0 && time < longestTime; }
@@ -194,6 +195,18 @@ std::vector<Interest> AgentLinks::newInterests(const Peers& peers) {
         changed.push_back(std::move(interest));
     }
     return changed;
+}
+
+// It may have forgotten what we want, or somebody else said something in our name.
+bool AgentLinks::askAgain(std::int64_t now) {
+    if (now < askDue_) return false;
+    askDue_ = now + second;
+    bool any = false;
+    for (const auto& [id, owner] : owners_) {
+        if (now - owner.newestCame < second) continue;
+        any = said_.erase(owner.bounds.begin()->second->agent) > 0 || any;
+    }
+    return any;
 }
 
 bool AgentLinks::believable(const Block& block, const Owner& owner) {

@@ -27,6 +27,9 @@ public:
     // What we want of others and have not said yet.
     std::vector<Interest> newInterests(const Peers& peers);
 
+    // Whether there are any again: of an owner that is heard and sends nothing for a second.
+    bool askAgain(std::int64_t now);
+
     void read(Inbox& inbox) CORTEX_REALTIME;
 
 private:
@@ -86,6 +89,7 @@ private:
     std::vector<std::unique_ptr<Link>> links_;
     std::map<Id, Owner> owners_;
     std::map<std::string, std::vector<std::string>> said_;  // links wanted, by agent
+    std::int64_t askDue_ = 0;
     std::uint64_t serial_ = 0;
 };
 

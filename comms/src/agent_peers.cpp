@@ -87,11 +87,15 @@ Peer* AgentPeers::place(const std::string& name) {
     return &peer;
 }
 
-// Models come once: what the one before said is kept, it may be alive and this one a mistake.
+// Models come once: what a start has said is kept, it may be alive and the later one a mistake.
 void AgentPeers::makeCurrent(Peer& peer, std::int64_t epoch) {
     if (peer.heard) lose(peer, "it started anew");
-    std::swap(peer.current, peer.other);
-    if (!peer.current || peer.epoch() != epoch) peer.current.emplace(peer.name, epoch);
+    if (peer.other && peer.other->model.epoch() == epoch) {
+        std::swap(peer.current, peer.other);
+    } else {
+        if (peer.current && peer.current->model.complete()) peer.other = std::move(peer.current);
+        peer.current.emplace(peer.name, epoch);
+    }
     changed_ = true;
 }
 
@@ -112,9 +116,10 @@ void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
     if (presence.state == "stopping") return lose(peer, "it stopped");
     if (presence.state == "silent") return lose(peer, "it fell silent");
     peer.lastHeard = now;
-    peer.agent = presence.role == "agent";
+    const bool agent = presence.role == "agent";
+    changed_ = changed_ || agent != peer.agent || !peer.heard;
+    peer.agent = agent;
     if (std::exchange(peer.heard, true)) return;
-    changed_ = true;
     if (peer.agent) {
         self_.event(Severity::Info, self_.simplex,
                     "agent " + peer.name + " is heard, from " + presence.host);

@@ -93,6 +93,7 @@ void AgentThread::step() {
     reportRefusals();
     peers_.expire(now);
     if (peers_.takeChanged()) changed();
+    if (links_.askAgain(now)) sendInterests();
     commands_.step(now);
     sendEvents();
     if (peers_.outranked()) fallSilent();
@@ -126,6 +127,10 @@ void AgentThread::changed() {
     links_.update(peers_.all());
     streams_.update(peers_.all());
     everyCycle_.store(streams_.any(), std::memory_order_relaxed);
+    sendInterests();
+}
+
+void AgentThread::sendInterests() {
     for (Interest& interest : links_.newInterests(peers_.all())) {
         if (!silent_) modelOut_->write(model_.sampleOf(std::move(interest)));
     }

@@ -46,6 +46,7 @@ private:
     void takeMessages(std::int64_t now);
     void reportRefusals();
     void changed();
+    void sendInterests();
     void sendEvents();
     void sendPresence(std::int64_t now);
     void fallSilent();

@@ -104,7 +104,6 @@ TEST_F(HostilePeer, ABlockWithAHugeNumberHoldsUpTheFollowingOnlyForAMoment) {
     ASSERT_TRUE(linked());
     ASSERT_TRUE(comesTrue([&] { return presenceOf("away").has_value(); }));
     const auto writer = liar.participant.writer<Block>(topics::link);
-    ASSERT_TRUE(comesTrue([&] { return writer->readers() > 0; }));
     SimplexData data;
     data.index = away.structure().find("/far");
     data.ints = {0};
@@ -117,8 +116,8 @@ TEST_F(HostilePeer, ABlockWithAHugeNumberHoldsUpTheFollowingOnlyForAMoment) {
     block.structureHash = presenceOf("away")->structureHash;
     block.sequenceNumber = std::numeric_limits<std::uint64_t>::max();
     block.simplexes = {data};
-    ASSERT_TRUE(writer->write(block));
     ASSERT_TRUE(comesTrue([&] {
+        writer->write(block);
         near.rig.step();
         return near.rig.get<double>("/far", "a") == 666;
     }));

@@ -90,7 +90,11 @@ struct MutatedSamples : testing::Test {
     void replay(const Topic& topic, const std::vector<M>& originals) {
         ASSERT_FALSE(originals.empty());
         RawWriter writer{loopback(), topic, M::typeName};
-        ASSERT_TRUE(comesTrue([&] { return writer.readers() > 0; }));
+        const std::uint64_t first = near.dds.rejected();
+        ASSERT_TRUE(comesTrue([&] {  // both ends know each other
+            writer.write(Id{0xff, 0xff}, {0, 1, 0, 0, 0xff});
+            return near.dds.rejected() > first;
+        }));
         const std::uint64_t before = near.dds.rejected();
         std::uint64_t malformed = 0;
         for (int round = 0; round < rounds; ++round) {
@@ -118,10 +122,13 @@ struct MutatedSamples : testing::Test {
 
 TEST_F(MutatedSamples, OfPresencesAreCountedAndDoNothing) {
     ASSERT_TRUE(works(1.5));
-    // Not its own: of a later start of its name it must fall silent.
-    auto heard = tool.heard.elements();
-    std::erase_if(heard, [](const Presence& each) { return each.name == "near"; });
-    replay(topics::presence, heard);
+    // Of one that is not there: who is, and hears a later start of its name, must fall silent.
+    Presence ghost = tool.presence();
+    ghost.name = "ghost";
+    ghost.agent = agentId("ghost");
+    ghost.role = "agent";
+    ghost.simplexes = 3;
+    replay<Presence>(topics::presence, {ghost, tool.presence()});
     EXPECT_TRUE(works(2.5)) << near.dds.lastRejection();
 }
 
@@ -140,6 +147,9 @@ TEST_F(MutatedSamples, OfCommandsAreCountedAndDoNothing) {
     for (const char* path : {"/plate", "/boss", "/near"}) {
         commands.push_back(tool.command(near.structure(), path, "set",
                                         {namedValue("level", Value{std::vector{0.5}})}));
+        // Not the tool's own: who speaks in its name can close its window.
+        commands.back().sender = "stranger";
+        commands.back().link = linkId("stranger", "near");
     }
     replay(topics::command, commands);
     EXPECT_TRUE(works(2.5)) << near.dds.lastRejection();

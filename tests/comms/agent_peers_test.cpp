@@ -79,7 +79,8 @@ TEST_F(AgentPeersTest, AnEarlierStartCountsWithAllItSaidOnceTheLaterIsNotHeard) 
 TEST_F(AgentPeersTest, ALaterStartThatIsNotHeardAgainGivesTheNameBack) {
     tell(first, 0);
     hear(first + 1'000'000, 100 * millisecond);
-    EXPECT_EQ(peer().epoch(), first + 1'000'000);
+    hear(first + 2'000'000, 150 * millisecond);
+    EXPECT_EQ(peer().epoch(), first + 2'000'000);
     for (int tenth = 2; tenth <= 12; ++tenth) hear(first, tenth * 100 * millisecond);
 
     EXPECT_EQ(peer().epoch(), first);
