@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t silence = 1'000'000'000;  // ns until a sender is lost
 constexpr std::uint32_t onTheirWay = 256;        // commands
-constexpr std::size_t mostSenders = 64;
+constexpr std::size_t mostSenders = 128;
 constexpr std::size_t longestName = 128;  // of what is looked up; paths are no longer
 
 template <std::size_t Size>
@@ -71,10 +71,27 @@ void AgentCommands::take(const Command& command, std::int64_t now) {
     message.sequence = command.sequenceNumber;
     message.answeredBelow = command.answeredBelow;
     message.notAfter = command.notAfter;
-    // Not answered: it may be a repeat of one that the loop has.
-    if (!pipe_.push(message, reinterpret_cast<const std::byte*>(record.data()))) {
-        self_.rejections.add("a command of " + command.sender + ": too many are on their way");
+    HeardSender& from = senders_[command.sender];
+    if (from.turnedAway.contains(message.sequence)) return turnAway(command, from);
+    if (pipe_.push(message, reinterpret_cast<const std::byte*>(record.data()))) {
+        from.newest = std::max(from.newest, message.sequence);
+    } else {
+        turnAway(command, from);
     }
+}
+
+// The loop takes no more. What it may have already, and is repeated here, gets its answer from the
+// loop; what was turned away once stays so: its sender may have read the answer.
+void AgentCommands::turnAway(const Command& command, HeardSender& from) {
+    self_.rejections.add("a command of " + command.sender + ": too many are on their way");
+    auto& known = from.turnedAway;
+    known.erase(known.begin(), known.lower_bound(command.answeredBelow));
+    const bool repeated = known.contains(command.sequenceNumber);
+    if (!repeated) {
+        if (command.sequenceNumber <= from.newest || known.size() >= 2 * senderWindow) return;
+        known.insert(command.sequenceNumber);
+    }
+    refuse(command, {Outcome::MailboxFull, Reason::None, "too many commands are on their way"});
 }
 
 // Simplex, command and arguments by their names; what does not fit is said in the words of core.
@@ -121,11 +138,16 @@ bool AgentCommands::remember(const Sender& sender, std::int64_t now) {
     const auto known = senders_.find(name);
     if (known == senders_.end()) {
         if (senders_.size() >= mostSenders) return false;
-        senders_[name] = {sender, now};
+        senders_[name] = {.sender = sender, .lastHeard = now};
         return true;
     }
-    // The loop itself lets go of an earlier start when a later one commands.
-    if (known->second.sender.epoch <= sender.epoch) known->second = {sender, now};
+    HeardSender& before = known->second;
+    if (before.sender.epoch == sender.epoch) {
+        before.lastHeard = now;
+    } else if (before.sender.epoch < sender.epoch) {
+        // The loop itself lets go of an earlier start when a later one commands.
+        before = {.sender = sender, .lastHeard = now};
+    }
     return true;
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 
 namespace cortex::comms {
@@ -34,6 +35,8 @@ private:
     struct HeardSender {
         Sender sender;
         std::int64_t lastHeard = 0;
+        std::uint64_t newest = 0;              // sequence number that the loop was given
+        std::set<std::uint64_t> turnedAway{};  // that it was not given, as far as unacknowledged
     };
     struct Refusal {
         Outcome outcome;
@@ -44,6 +47,7 @@ private:
     bool remember(const Sender& sender, std::int64_t now);
     bool tellLost(const Sender& sender);
     void refuse(const Command& command, const Refusal& refusal);
+    void turnAway(const Command& command, HeardSender& from);
     bool encode(const Command& command, OutsideCommand& message, std::vector<std::uint64_t>& record,
                 Refusal& refusal) const;
     Answer answerFor(const OutsideAnswer& answer) const;

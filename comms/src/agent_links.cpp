@@ -11,7 +11,9 @@
 namespace cortex::comms {
 namespace {
 
-constexpr std::int64_t longestTime = std::int64_t{1} << 61U;  // ns: sums do not overflow
+constexpr std::int64_t longestTime = std::int64_t{1} << 60U;  // ns: sums do not overflow
+constexpr std::int64_t second = 1'000'000'000;                // ns
+constexpr std::int64_t longestDetour = 100'000'000;           // ns that the network may add
 
 bool isTime(std::int64_t time) { return time >= 0 && time < longestTime; }
 
@@ -165,9 +167,11 @@ void AgentLinks::findOwners() {
         owner.structureHash = claim.structureHash;
         owner.simplexes = claim.simplexes;
         owner.bounds[claim.theirs] = link->current;
+        owner.patience = std::max({owner.patience, longestDetour, 3 * claim.binding.period});
         const auto old = before.find(id);
         if (old != before.end() && old->second.epoch == claim.epoch) {
             owner.newest = old->second.newest;
+            owner.newestCame = old->second.newestCame;
         }
     }
 }
@@ -193,6 +197,18 @@ std::vector<Interest> AgentLinks::newInterests(const Peers& peers) {
     return changed;
 }
 
+// It may have forgotten what we want, or somebody else said something in our name.
+bool AgentLinks::askAgain(std::int64_t now) {
+    if (now < askDue_) return false;
+    askDue_ = now + second;
+    bool any = false;
+    for (const auto& [id, owner] : owners_) {
+        if (now - owner.newestCame < second) continue;
+        any = said_.erase(owner.bounds.begin()->second->agent) > 0 || any;
+    }
+    return any;
+}
+
 bool AgentLinks::believable(const Block& block, const Owner& owner) {
     const char* wrong = nullptr;
     if (block.structureHash != owner.structureHash) wrong = "another structure";
@@ -207,8 +223,12 @@ void AgentLinks::take(const Block& block, std::int64_t came) {
     if (found == owners_.end()) return;
     Owner& owner = found->second;
     if (block.epoch != owner.epoch || !believable(block, owner)) return;
-    if (block.sequenceNumber <= owner.newest) return;  // overtaken on its way
+    // Overtaken on its way; or the newest was none of its owner's, and nothing follows it.
+    const bool older = block.sequenceNumber <= owner.newest;
+    if (older && came - owner.newestCame < owner.patience) return;
+    if (!older && owner.newest != 0) lost_ += block.sequenceNumber - owner.newest - 1;
     owner.newest = block.sequenceNumber;
+    owner.newestCame = came;
     for (const SimplexData& data : block.simplexes) take(block, data, owner, came);
 }
 

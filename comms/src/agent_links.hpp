@@ -24,8 +24,12 @@ public:
     bool any() const { return !links_.empty(); }
     void update(Peers& peers);  // after a change of them
     void take(const Block& block, std::int64_t came);
+    std::uint64_t lost() const { return lost_; }  // blocks of owners that did not come; any thread
     // What we want of others and have not said yet.
     std::vector<Interest> newInterests(const Peers& peers);
+
+    // Whether there are any again: of an owner that is heard and sends nothing for a second.
+    bool askAgain(std::int64_t now);
 
     void read(Inbox& inbox) CORTEX_REALTIME;
 
@@ -65,7 +69,10 @@ private:
         std::int64_t epoch = 0;
         Id structureHash{};
         std::uint32_t simplexes = 0;
+        std::int64_t patience = 0;               // ns: a block that came later than this after
+                                                 // the newest was not overtaken by it
         std::uint64_t newest = 0;                // sequence number of the block
+        std::int64_t newestCame = 0;             // steadyNow()
         std::map<std::uint32_t, Bound*> bounds;  // by index there
     };
 
@@ -83,7 +90,9 @@ private:
     std::vector<std::unique_ptr<Link>> links_;
     std::map<Id, Owner> owners_;
     std::map<std::string, std::vector<std::string>> said_;  // links wanted, by agent
+    std::int64_t askDue_ = 0;
     std::uint64_t serial_ = 0;
+    std::atomic<std::uint64_t> lost_{0};
 };
 
 }  // namespace cortex::comms

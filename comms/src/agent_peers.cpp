@@ -87,18 +87,27 @@ Peer* AgentPeers::place(const std::string& name) {
     return &peer;
 }
 
-void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
-    if (peer.current && presence.epoch < peer.epoch()) return;  // an earlier start: outranked
-    if (!peer.current || presence.epoch > peer.epoch()) {
-        if (peer.heard) lose(peer, "it started anew");
-        if (peer.coming && peer.coming->model.epoch() == presence.epoch) {
-            peer.current = std::move(peer.coming);
-        } else {
-            peer.current.emplace(peer.name, presence.epoch);
-        }
-        peer.coming.reset();
-        changed_ = true;
+// Models come once: what a start has said is kept, it may be alive and the later one a mistake.
+void AgentPeers::makeCurrent(Peer& peer, std::int64_t epoch) {
+    if (peer.heard) lose(peer, "it started anew");
+    if (peer.other && peer.other->model.epoch() == epoch) {
+        std::swap(peer.current, peer.other);
+    } else {
+        if (peer.current && peer.current->model.complete()) peer.other = std::move(peer.current);
+        peer.current.emplace(peer.name, epoch);
     }
+    changed_ = true;
+}
+
+// An earlier start is outranked, but only by one that is heard: clocks are set back too.
+void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
+    if (peer.current && presence.epoch < peer.epoch() &&
+        (peer.heard || presence.state != "running")) {
+        if (peer.other && peer.other->model.epoch() == presence.epoch) peer.other->spoke = now;
+        return;
+    }
+    if (!peer.current || presence.epoch != peer.epoch()) makeCurrent(peer, presence.epoch);
+    peer.current->spoke = now;
     const bool complete = peer.model().complete();
     if (!peer.current->model.add(presence)) {
         return self_.rejections.add("a presence of " + peer.name + " that cannot be");
@@ -107,9 +116,10 @@ void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
     if (presence.state == "stopping") return lose(peer, "it stopped");
     if (presence.state == "silent") return lose(peer, "it fell silent");
     peer.lastHeard = now;
-    peer.agent = presence.role == "agent";
+    const bool agent = presence.role == "agent";
+    changed_ = changed_ || agent != peer.agent || !peer.heard;
+    peer.agent = agent;
     if (std::exchange(peer.heard, true)) return;
-    changed_ = true;
     if (peer.agent) {
         self_.event(Severity::Info, self_.simplex,
                     "agent " + peer.name + " is heard, from " + presence.host);
@@ -131,19 +141,19 @@ void AgentPeers::expire(std::int64_t now) {
     }
 }
 
-void AgentPeers::take(const Model& model) {
+void AgentPeers::take(const Model& model, std::int64_t now) {
     if (model.agent == self_.name) return;
     if (!plausible(model.agent, model.epoch)) return;
     Peer* peer = place(model.agent);
     if (peer == nullptr) return;
-    if (peer->current && model.epoch <= peer->epoch()) {
-        if (model.epoch == peer->epoch()) takeInto(*peer->current, model);
-        return;
+    if (peer->current && model.epoch == peer->epoch()) return takeInto(*peer->current, model);
+    std::optional<PeerStart>& other = peer->other;
+    if (!other || other->model.epoch() < model.epoch || now - other->spoke > silence) {
+        if (!other || other->model.epoch() != model.epoch) other.emplace(peer->name, model.epoch);
     }
-    if (!peer->coming || peer->coming->model.epoch() < model.epoch) {
-        peer->coming.emplace(peer->name, model.epoch);
-    }
-    if (peer->coming->model.epoch() == model.epoch) takeInto(*peer->coming, model);
+    if (other->model.epoch() != model.epoch) return;
+    other->spoke = now;
+    takeInto(*other, model);
 }
 
 void AgentPeers::takeInto(PeerStart& start, const Model& model) {

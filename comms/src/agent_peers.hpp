@@ -20,7 +20,8 @@ struct PeerStart {
 
     PeerModel model;
     Interest interest;
-    bool told = false;  // what is wrong with it
+    std::int64_t spoke = 0;  // steadyNow()
+    bool told = false;       // what is wrong with it
 };
 
 struct Peer {
@@ -31,15 +32,15 @@ struct Peer {
     bool heard = false;                // within the last second
     bool agent = false;                // or a tool
     std::int64_t lastHeard = 0;        // steadyNow()
-    std::optional<PeerStart> current;  // the newest whose presence was heard
-    std::optional<PeerStart> coming;   // samples came before its presence
+    std::optional<PeerStart> current;  // whose presence was heard
+    std::optional<PeerStart> other;    // outranked, or its samples came before its presence
 };
 
 using Peers = std::map<std::string, Peer, std::less<>>;  // by name
 
-// The agents and tools in the domain, as far as they are heard: the greater epoch of a name wins,
-// what is not heard for a second is lost. Nothing that they say is believed unchecked.
-// Communication thread only.
+// The agents and tools in the domain, as far as they are heard: of the starts of a name that
+// are heard the greater epoch wins; what is not heard for a second is lost. Nothing that they say
+// is believed unchecked. Communication thread only.
 class AgentPeers {
 public:
     // `lost` is called for each that is no longer heard; `keepModels`: we link simplexes of others.
@@ -47,7 +48,7 @@ public:
                std::function<void(const std::string& name, std::int64_t epoch)> lost);
 
     void take(const Presence& presence, std::int64_t now);
-    void take(const Model& model);
+    void take(const Model& model, std::int64_t now);
     void expire(std::int64_t now);
 
     // Whether anything became known or lost since the last call.
@@ -59,6 +60,7 @@ private:
     bool plausible(const std::string& name, std::int64_t epoch);
     bool isOurs(const Presence& presence);
     Peer* place(const std::string& name);
+    void makeCurrent(Peer& peer, std::int64_t epoch);
     void hear(Peer& peer, const Presence& presence, std::int64_t now);
     void lose(Peer& peer, const char* why);
     void takeInto(PeerStart& start, const Model& model);

@@ -91,6 +91,7 @@ void AgentThread::step() {
     takeMessages(now);
     peers_.expire(now);
     if (peers_.takeChanged()) changed();
+    if (links_.askAgain(now)) sendInterests();
     commands_.step(now);
     sendEvents();
     if (peers_.outranked()) fallSilent();
@@ -104,7 +105,7 @@ void AgentThread::takeMessages(std::int64_t now) {
         peers_.take(presence, came);
         if (presence.state != "stopping") commands_.heard(presence.name, presence.epoch, came);
     }
-    for (auto& [model, came] : messages_.models) peers_.take(model);
+    for (auto& [model, came] : messages_.models) peers_.take(model, came);
     for (auto& [command, came] : messages_.commands) {
         if (!silent_) commands_.take(command, now);
     }
@@ -118,6 +119,10 @@ void AgentThread::changed() {
     links_.update(peers_.all());
     streams_.update(peers_.all());
     everyCycle_.store(streams_.any(), std::memory_order_relaxed);
+    sendInterests();
+}
+
+void AgentThread::sendInterests() {
     for (Interest& interest : links_.newInterests(peers_.all())) {
         if (!silent_) modelOut_->write(model_.sampleOf(std::move(interest)));
     }

@@ -32,6 +32,7 @@ public:
     void write(Outbox& outbox) CORTEX_REALTIME;
 
     std::uint64_t rejected() const { return self_.rejections.count() + participant_.malformed(); }
+    std::uint64_t lost() const { return links_.lost(); }
     std::string lastRejection() const { return self_.rejections.last(); }
 
 private:
@@ -43,6 +44,7 @@ private:
     void step();
     void takeMessages(std::int64_t now);
     void changed();
+    void sendInterests();
     void sendEvents();
     void sendPresence(std::int64_t now);
     void fallSilent();

@@ -50,11 +50,10 @@ public:
     }
     void operator()(const Id& field) { putNumbers(field.data(), field.size()); }
     void operator()(const std::string& field) {
-        putCount(field.size() + 1);
-        if constexpr (Writes) {
-            ok_ = ok_ && field.size() <= maxTextLength && field.find('\0') == std::string::npos;
-        }
-        putNumbers(field.c_str(), field.size() + 1);
+        const std::size_t size = std::strlen(field.c_str());  // a NUL ends it
+        putCount(size + 1);
+        ok_ = ok_ && size <= maxTextLength;
+        putNumbers(field.c_str(), size + 1);
     }
     void operator()(const std::vector<bool>& field) {
         putCount(field.size());

@@ -16,7 +16,7 @@ inline constexpr std::size_t maxTextLength = 64 * 1024;  // octets of a string
 template <class Message>
 std::size_t encodedSize(const Message& message);  // with the 4 octets of encapsulation
 
-// The octets written. 0: no room, or a string that is too long or has a NUL in it.
+// The octets written. 0: no room, or a string that is too long. A NUL ends a string.
 template <class Message>
 std::size_t encode(const Message& message, std::span<std::uint8_t> payload);
 

@@ -63,15 +63,19 @@ AgentStatus MirrorAgent::status(Moment now) const {
     return status;
 }
 
-// Null: it is refused, or was sent by an earlier start.
+// Null: it is refused, or was sent by an earlier start while a later one is heard.
 MirrorAgent* MirrorAgents::at(const std::string& name, std::int64_t epoch, Moment now) {
     const auto found = agents_.find(name);
     if (found != agents_.end()) {
         if (epoch == found->second.model.epoch()) return &found->second;
-        if (epoch < found->second.model.epoch()) return nullptr;
-        lose(found->second, "a later start of it has taken its place");
+        if (epoch < found->second.model.epoch() && !found->second.lost) return nullptr;
+        lose(found->second, "another start of it has taken its place");
         if (found->second.tables) forgottenImages_ += found->second.tables->published();
-        agents_.erase(found);
+        std::optional<PeerModel> aside = takeAside(name, epoch);
+        aside_.insert_or_assign(name, std::move(found->second.model));
+        found->second = MirrorAgent{name, epoch, now};
+        if (aside) found->second.model = std::move(*aside);
+        return &found->second;
     }
     if (name.empty() || agents_.size() >= mostAgents) {
         ++refused_;
@@ -79,6 +83,22 @@ MirrorAgent* MirrorAgents::at(const std::string& name, std::int64_t epoch, Momen
     }
     names_[agentId(name)] = name;
     return &agents_.try_emplace(name, name, epoch, now).first->second;
+}
+
+std::optional<PeerModel> MirrorAgents::takeAside(const std::string& name, std::int64_t epoch) {
+    const auto found = aside_.find(name);
+    if (found == aside_.end() || found->second.epoch() != epoch) return {};
+    std::optional<PeerModel> model = std::move(found->second);
+    aside_.erase(found);
+    return model;
+}
+
+// Models come once: what an earlier start says is kept for when the later one is lost.
+void MirrorAgents::setAside(const Model& model) {
+    if (!agents_.contains(model.agent)) return;
+    auto place = aside_.try_emplace(model.agent, model.agent, model.epoch).first;
+    if (place->second.epoch() < model.epoch) place->second = PeerModel{model.agent, model.epoch};
+    place->second.add(model);
 }
 
 void MirrorAgents::take(const Presence& presence, Moment now) {
@@ -100,7 +120,8 @@ void MirrorAgents::take(const Presence& presence, Moment now) {
 void MirrorAgents::take(const Model& model, Moment now) {
     if (!model.interests.empty()) return;
     MirrorAgent* agent = at(model.agent, model.epoch, now);
-    if (agent != nullptr && agent->model.add(model)) finish(*agent);
+    if (agent == nullptr) return setAside(model);
+    if (agent->model.add(model)) finish(*agent);
 }
 
 void MirrorAgents::take(const Block& block, const MirrorView& view, Moment now) {
@@ -162,6 +183,7 @@ void MirrorAgents::tick(const MirrorView& view, Moment now) {
         if (now - agent.heard > forgottenAfter) {
             if (agent.tables) forgottenImages_ += agent.tables->published();
             names_.erase(agentId(each->first));
+            aside_.erase(each->first);
             each = agents_.erase(each);
             continue;
         }

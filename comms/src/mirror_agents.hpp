@@ -37,8 +37,8 @@ struct MirrorAgent {
     AgentStatus status(Moment now) const;
 };
 
-// The agents of the domain: the greater epoch of a name wins, what is not heard for a second is
-// lost, and forgotten after a minute. Used under the mirror's mutex.
+// The agents of the domain: of the starts of a name that are heard the greater epoch wins; what
+// is not heard for a second is lost, and forgotten after a minute. Used under the mirror's mutex.
 class MirrorAgents {
 public:
     using Map = std::map<std::string, MirrorAgent, std::less<>>;
@@ -68,11 +68,14 @@ public:
 
 private:
     MirrorAgent* at(const std::string& name, std::int64_t epoch, Moment now);
+    std::optional<PeerModel> takeAside(const std::string& name, std::int64_t epoch);
+    void setAside(const Model& model);
     void lose(MirrorAgent& agent, const char* why);
     void finish(MirrorAgent& agent);
 
     OnLost onLost_;
     Map agents_;
+    std::map<std::string, PeerModel, std::less<>> aside_;  // of an earlier start that may be alive
     std::map<Id, Moment> tools_;
     std::map<Id, std::string> names_;
     std::uint64_t refused_ = 0, forgottenImages_ = 0;

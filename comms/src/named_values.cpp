@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "named_values.hpp"
 
+#include <cstring>
 #include <utility>
 
 namespace cortex::comms {
@@ -21,6 +22,8 @@ NamedValue namedValue(const std::string& name, const Value& value) {
             break;
         case Kind::String:
             named.strings = std::get<std::vector<std::string>>(value);
+            // As they arrive: a NUL ends a text on the wire.
+            for (std::string& text : named.strings) text.resize(std::strlen(text.c_str()));
             break;
     }
     return named;

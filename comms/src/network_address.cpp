@@ -88,11 +88,11 @@ std::vector<std::string> interfaceAddresses(const std::vector<std::string>& inte
     return addresses;
 }
 
-void requireFreePort(int domain, int participants) {
+int freeParticipant(int domain, int participants) {
     const int first = 7410 + 250 * domain;  // as RTPS has it: 2 for each participant
     const int end = first + 2 * participants;
     for (int port = first; port < end; port += 2) {
-        if (canBind(port)) return;
+        if (canBind(port)) return (port - first) / 2;
     }
     throw Error{"no UDP port is free for domain " + std::to_string(domain) + " (every other from " +
                 std::to_string(first) + " to " + std::to_string(end - 2) +

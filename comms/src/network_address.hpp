@@ -18,8 +18,9 @@ struct Address {
 // IPv4 addresses of interfaces given by name or address; throws Error that lists the valid ones.
 std::vector<std::string> interfaceAddresses(const std::vector<std::string>& interfaces);
 
-// Throws Error if none of the ports is free on which so many participants of a domain are asked.
-void requireFreePort(int domain, int participants);
+// The lowest number of a participant of a domain whose port is free; throws Error if none of so
+// many is: others would not ask there. Fast DDS itself never uses a number twice in a process.
+int freeParticipant(int domain, int participants);
 
 // "host" or "host:port"; throws Error that names `option`.
 Address addressOf(const std::string& text, const std::string& option);

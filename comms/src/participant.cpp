@@ -195,12 +195,19 @@ std::uint32_t Reader<M>::writers() const {
 Participant::Participant(const NetworkOptions& options, const std::string& name)
     : impl_{std::make_unique<Impl>()} {
     impl_->name = name;
-    const dds::DomainParticipantQos qos = participantQos(options, name);
+    dds::DomainParticipantQos qos = participantQos(options, name);
     setUpFastDds();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
-    impl_->participant = created(dds::DomainParticipantFactory::get_instance()->create_participant(
-                                     static_cast<dds::DomainId_t>(options.domain), qos),
-                                 "the network membership" + where);
+    const auto join = [&] {
+        return dds::DomainParticipantFactory::get_instance()->create_participant(
+            static_cast<dds::DomainId_t>(options.domain), qos);
+    };
+    impl_->participant = join();
+    if (impl_->participant == nullptr) {
+        // The number may be that of a participant of this process whose port was taken.
+        qos.wire_protocol().participant_id = -1;
+        impl_->participant = created(join(), "the network membership" + where);
+    }
     impl_->publisher = created(impl_->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT),
                                "the publisher" + where);
     impl_->subscriber = created(impl_->participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT),

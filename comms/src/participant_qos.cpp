@@ -10,7 +10,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <mutex>
+#include <random>
 #include <string_view>
+
+#include <unistd.h>
 
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/log/Log.hpp>
@@ -27,6 +30,7 @@ namespace dds = eprosima::fastdds::dds;
 namespace transport = eprosima::fastdds::rtps;
 using eprosima::fastrtps::Duration_t;
 using eprosima::fastrtps::rtps::BuiltinAttributes;
+using eprosima::fastrtps::rtps::GuidPrefix_t;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 
@@ -72,6 +76,23 @@ void addPeers(BuiltinAttributes& builtin, const std::vector<std::string>& peers,
     } else if (!peers.empty()) {
         builtin.initialPeersList.push_back(locatorOf({DiscoveryMulticast}, 0));
     }
+}
+
+// What no other participant has, of this process or another: the vendor, the host, and chance.
+GuidPrefix_t newPrefix() {
+    static std::random_device chance;
+    static std::mutex mutex;
+    const std::lock_guard lock{mutex};
+    GuidPrefix_t prefix;
+    const auto host = static_cast<std::uint32_t>(gethostid());
+    prefix.value[0] = 0x01;
+    prefix.value[1] = 0x0f;
+    prefix.value[2] = static_cast<std::uint8_t>(host);
+    prefix.value[3] = static_cast<std::uint8_t>(host >> 8);
+    for (std::size_t i = 4; i < GuidPrefix_t::size; ++i) {
+        prefix.value[i] = static_cast<std::uint8_t>(chance());
+    }
+    return prefix;
 }
 
 // The n-th server of the list has the identity that the command `fast-discovery-server -i n` gives.
@@ -131,7 +152,7 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
         throw Error{"security '" + options.security + "' of '" + name +
                     "' is not available in this version; leave it empty"};
     }
-    requireFreePort(options.domain, ParticipantsPerHost);
+    const int number = freeParticipant(options.domain, ParticipantsPerHost);
     auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = interfaceAddresses(options.interfaces);
     udp->maxInitialPeersRange = PeersPerHost;
@@ -146,6 +167,8 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
         qos.transport().user_transports.push_back(
             std::make_shared<transport::SharedMemTransportDescriptor>());
     }
+    qos.wire_protocol().participant_id = number;
+    qos.wire_protocol().prefix = newPrefix();
     BuiltinAttributes& builtin = qos.wire_protocol().builtin;
     builtin.mutation_tries = static_cast<std::uint32_t>(ParticipantsPerHost);
     builtin.discovery_config.leaseDuration = milliseconds(2000);

@@ -9,7 +9,7 @@
 namespace cortex {
 namespace {
 
-constexpr std::uint32_t knownSenders = 32;
+constexpr std::uint32_t knownSenders = 128;
 constexpr std::int64_t longestBudget = 3'600'000'000'000;  // ns: no record is kept for longer
 
 std::uint32_t largest(const AgentRuntime& runtime, std::uint32_t CommandTable::* size) {

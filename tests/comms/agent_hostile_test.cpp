@@ -99,6 +99,36 @@ TEST_F(HostilePeer, BlocksThatLieDoNothingButCount) {
     EXPECT_EQ(near.rig.get<double>("/far", "a"), 7.0);
 }
 
+// As a corrupt or spoofed one has it: all that follow look overtaken.
+TEST_F(HostilePeer, ABlockWithAHugeNumberHoldsUpTheFollowingOnlyForAMoment) {
+    ASSERT_TRUE(linked());
+    ASSERT_TRUE(comesTrue([&] { return presenceOf("away").has_value(); }));
+    const auto writer = liar.participant.writer<Block>(topics::link);
+    SimplexData data;
+    data.index = away.structure().find("/far");
+    data.ints = {0};
+    data.floats = {666, 666};
+    data.bools = {false};
+    data.strings = {""};
+    Block block;
+    block.agent = agentId("away");
+    block.epoch = away.structure().epoch;
+    block.structureHash = presenceOf("away")->structureHash;
+    block.sequenceNumber = std::numeric_limits<std::uint64_t>::max();
+    block.simplexes = {data};
+    ASSERT_TRUE(comesTrue([&] {
+        writer->write(block);
+        near.rig.step();
+        return near.rig.get<double>("/far", "a") == 666;
+    }));
+
+    EXPECT_TRUE(comesTrue([&] {
+        away.rig.step();
+        near.rig.step();
+        return near.rig.get<double>("/far", "a") == 7;
+    }));
+}
+
 TEST_F(HostilePeer, BlocksOfOtherStartsAndStrangersAreNotLookedAt) {
     ASSERT_TRUE(linked());
     const auto writer = liar.participant.writer<Block>(topics::link);

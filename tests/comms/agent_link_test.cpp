@@ -90,6 +90,17 @@ TEST(DdsLink, CarriesEveryKindOfItem) {
     EXPECT_TRUE(near.rig.get<bool>("/far", "on"));
 }
 
+TEST(DdsLink, CarriesTextUpToItsFirstNulAndOctetsThatAreNoText) {
+    NearAgent near;
+    AwayAgent away;
+    near.rig.start();
+    away.rig.start();
+    away.far.data<std::string_view>("label") = std::string_view{"a\xff\0b", 4};
+
+    ASSERT_TRUE(linked(near, away, 2));
+    EXPECT_EQ(near.rig.get<std::string_view>("/far", "label"), "a\xff");
+}
+
 TEST(DdsLink, IsStaleWhenItsOwnerStandsStill) {
     NearAgent near;
     AwayAgent away;

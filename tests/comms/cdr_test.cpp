@@ -208,11 +208,14 @@ TEST(CdrText, IsNoLongerThan64KiB) {
     EXPECT_FALSE(decode(FastCdr{std::endian::little}.encode(message), read));
 }
 
-TEST(CdrText, IsNotSentWithANulInIt) {
-    EventMessage message;
+TEST(CdrText, IsSentUpToItsFirstNul) {
+    EventMessage message, read;
     message.text = std::string{"a\0b", 3};
+    message.kind = std::string(1, '\0');
 
-    EXPECT_TRUE(encoded(message).empty());
+    ASSERT_TRUE(decode(encoded(message), read));
+    EXPECT_EQ(read.text, "a");
+    EXPECT_EQ(read.kind, "");
 }
 
 TEST(CdrBool, IsZeroOrOne) {

@@ -105,6 +105,23 @@ TEST_F(MirrorAgentsTest, AreReplacedByALaterStartAndNotByAnEarlierOne) {
     EXPECT_NE(structure->find("/work/one"), noSimplex) << "its readers keep it";
 }
 
+// Its clock was set back between two starts; its models come once.
+TEST_F(MirrorAgentsTest, AreReplacedByAnEarlierStartOnceTheyAreLost) {
+    tellAll();
+    const std::int64_t before = agent.presence.epoch;
+    agent.presence.epoch -= 1'000'000;
+    for (Model& model : agent.models) model.epoch = agent.presence.epoch;
+    tellAll();
+    EXPECT_EQ(status().epoch, before);
+
+    agents.tick(nothing, begin + 1001ms);
+    agents.take(agent.presence, begin + 1001ms);
+
+    EXPECT_EQ(status().epoch, agent.presence.epoch);
+    EXPECT_EQ(status(begin + 1001ms).state, "running");
+    EXPECT_TRUE(agents.find("rig")->structure);
+}
+
 TEST_F(MirrorAgentsTest, OfAnotherProtocolAreShownAndNotWaitedFor) {
     agent.presence.majors = {2, 3};
     agents.take(agent.presence, begin);

@@ -24,9 +24,9 @@ TypeModel changedTypes(const std::string& type, const std::function<void(DataIte
     return changed;
 }
 
-RawTool::RawTool(std::string toolName)
+RawTool::RawTool(std::string toolName, const NetworkOptions& options)
     : name{std::move(toolName)},
-      participant{loopback(), name},
+      participant{options, name},
       presences{participant.writer<Presence>(topics::presence)},
       models{participant.writer<Model>(topics::model)},
       commands{participant.writer<Command>(topics::command)},

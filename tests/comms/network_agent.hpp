@@ -44,7 +44,7 @@ struct NetworkAgent {
 // A participant of the test's own: says whatever the test wants and collects what comes back.
 class RawTool {
 public:
-    explicit RawTool(std::string name);
+    explicit RawTool(std::string name, const NetworkOptions& options = loopback());
 
     Presence presence(const std::string& state = "running") const;
     Model interest(Interest wanted) const;

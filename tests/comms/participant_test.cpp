@@ -243,7 +243,7 @@ TEST(Participant, DoesNotWriteWhatCannotBeEncoded) {
     const auto reader = tool.reader<Presence>(topics::presence, inbox.push());
     const auto writer = agent.writer<Presence>(topics::presence);
     Presence wrong = presence(1);
-    wrong.name.push_back('\0');
+    wrong.name.assign(100'000, 'x');
 
     EXPECT_FALSE(writer->write(wrong));
     EXPECT_TRUE(writer->write(presence(2)));

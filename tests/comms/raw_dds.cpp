@@ -36,10 +36,10 @@ class RawType final : public dds::TopicDataType {
     using Handle = eprosima::fastrtps::rtps::InstanceHandle_t;
 
 public:
-    explicit RawType(const std::string& name) {
+    RawType(const std::string& name, bool keyed) {
         setName(name.c_str());
         m_typeSize = 64;
-        m_isGetKeyDefined = true;
+        m_isGetKeyDefined = keyed;
         auto_fill_type_object(false);
         auto_fill_type_information(false);
     }
@@ -99,12 +99,13 @@ struct RawWriter::Impl {
     dds::DataWriter* writer = nullptr;
 };
 
-RawWriter::RawWriter(const NetworkOptions& options, const Topic& topic, const std::string& typeName)
+RawWriter::RawWriter(const NetworkOptions& options, const Topic& topic, const std::string& typeName,
+                     bool keyed)
     : impl_{std::make_unique<Impl>()} {
     setUpFastDds();
     impl_->participant = dds::DomainParticipantFactory::get_instance()->create_participant(
         static_cast<dds::DomainId_t>(options.domain), participantQos(options, "raw"));
-    dds::TypeSupport{new RawType{typeName}}.register_type(impl_->participant);
+    dds::TypeSupport{new RawType{typeName, keyed}}.register_type(impl_->participant);
     dds::Topic* made =
         impl_->participant->create_topic(topic.name, typeName, dds::TOPIC_QOS_DEFAULT);
     impl_->writer = impl_->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT)

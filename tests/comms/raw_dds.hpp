@@ -12,10 +12,11 @@
 // What others may do on a network of CorteX agents, made with Fast DDS itself.
 namespace cortex::comms {
 
-// A participant that writes any octets under the name of a keyed type.
+// A participant that writes any octets under the name of a type, keyed unless said otherwise.
 class RawWriter {
 public:
-    RawWriter(const NetworkOptions& options, const Topic& topic, const std::string& typeName);
+    RawWriter(const NetworkOptions& options, const Topic& topic, const std::string& typeName,
+              bool keyed = true);
     ~RawWriter();
 
     bool write(const Id& key, const std::vector<std::uint8_t>& octets);

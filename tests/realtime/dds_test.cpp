@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // An agent's loop on the network, watched like that of a cluster.
+#include "cortex/comms/mirror.hpp"
+
 #include "comms/network_agent.hpp"
-#include "realtime/detectors.hpp"
+#include "realtime/watched_cluster.hpp"
+#include "support/probe.hpp"
 
 #include <atomic>
 #include <chrono>
+#include <string>
 #include <thread>
+#include <vector>
+
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -59,6 +66,58 @@ TEST(DdsInterface, NeitherAllocatesNorLocksNorCallsTheSystemInTheLoop) {
     loop.join();
 
     EXPECT_TRUE(test::offences().none()) << test::offences().text();
+}
+
+// A real loop at 1 kHz that links a simplex of another agent, while tools come, look at everything,
+// command and go, and the other agent goes and comes back.
+TEST(DdsCluster, KeepsItsTicksCleanWhileClientsComeAndGo) {
+    test::resetOffences();
+    SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};
+    auto& probe = tree.add<test::Probe>("/probe", "Probe");
+    tree.relateRemote(probe, "observed", "/axis");
+    cs::ClusterCS cluster{"near", test::watched(1, geteuid() == 0 ? 10 : 0)};
+    cluster.addSimplexTree(tree);
+    cluster.setTriggerSource<test::WatchedClock>();
+    cluster.addInterface<DdsInterface>(loopback());
+    cluster.start();
+    test::runCycles(cluster, 200);
+    const std::uint64_t faults = test::pageFaults();
+
+    const auto axisIs = [&](Quality quality) {
+        return comesTrue([&] { return cluster.image().quality("/axis") == quality; });
+    };
+    for (int round = 0; round < 3; ++round) {
+        test::ProbeCluster far{{}, "far"};
+        far.tree.add("/axis", "Observation");
+        far.cluster->addInterface<DdsInterface>(loopback());
+        far.start();
+        std::atomic<bool> stop{false};
+        std::thread steps{[&] {
+            for (; !stop; std::this_thread::sleep_for(1ms)) far.step();
+        }};
+        std::vector<std::thread> tools;
+        for (const std::uint32_t rate : {0U, 30U, 100U}) {
+            tools.emplace_back([rate] {
+                Mirror mirror{"tool" + std::to_string(rate), loopback()};
+                mirror.view({"/"}, rate);
+                EXPECT_TRUE(mirror.waitForOwner("/probe", 10s));
+                EXPECT_TRUE(mirror.waitForValues(10s));
+                for (int i = 0; i < 20; ++i) {
+                    EXPECT_EQ(mirror.call("/probe", "poke").outcome, Outcome::Done);
+                }
+            });
+        }
+        EXPECT_TRUE(axisIs(Quality::Good));
+        for (std::thread& tool : tools) tool.join();
+        stop = true;
+        steps.join();
+        far.cluster->stop();
+        EXPECT_TRUE(axisIs(Quality::Lost));
+    }
+
+    EXPECT_TRUE(test::offences().none()) << test::offences().text();
+    EXPECT_EQ(test::pageFaults(), faults);
+    cluster.stop();
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include "cortex/core/registry.hpp"
 #include "cortex/toolkit/classes.hpp"
 
-#include "realtime/detectors.hpp"
+#include "realtime/watched_cluster.hpp"
 #include "support/probe.hpp"
 
 #include <atomic>
@@ -23,43 +23,6 @@ namespace cortex::test {
 namespace {
 
 using namespace std::chrono_literals;
-
-// The internal clock; a tick lasts from the return of waitForTick to its next call.
-class WatchedClock final : public cs::TriggerSource {
-public:
-    void start() override { clock_.start(); }
-    cs::Trigger waitForTick() override {
-        leaveTick();
-        const cs::Trigger trigger = clock_.waitForTick();
-        if (!trigger.stopped) enterTick();
-        return trigger;
-    }
-    void interrupt() override { clock_.interrupt(); }
-    std::int64_t period() const override { return clock_.period(); }
-    std::int64_t missed() override { return clock_.missed(); }
-    void skipMissed(bool skip) override { clock_.skipMissed(skip); }
-
-private:
-    cs::InternalClock clock_{1ms};
-};
-
-cs::ClusterOptions watched(std::uint32_t threads, int priority) {
-    cs::ClusterOptions options;
-    options.threads = threads;
-    options.forceThreads = threads > 1;
-    options.priority = priority;
-    options.onThreadStart = [](std::uint32_t thread) {
-        watchThisThread();
-        if (thread > 0) enterTick();  // a worker between cycles only waits
-    };
-    return options;
-}
-
-// Waits until the cluster has run so many cycles more.
-void runCycles(cs::ClusterCS& cluster, std::int64_t cycles) {
-    const std::int64_t last = cluster.image().cycle() + cycles;
-    while (cluster.image().cycle() < last) std::this_thread::sleep_for(1ms);
-}
 
 class CaseStudy : public testing::TestWithParam<std::uint32_t> {};
 

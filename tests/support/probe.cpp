@@ -24,9 +24,9 @@ void Probe::forgetHooks() {
     onAdd = onPoke = onWork = nullptr;
 }
 
-ProbeCluster::ProbeCluster(cs::ClusterOptions options)
+ProbeCluster::ProbeCluster(cs::ClusterOptions options, const std::string& name)
     : tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")},
-      cluster{std::make_unique<cs::ClusterCS>("test", std::move(options))} {
+      cluster{std::make_unique<cs::ClusterCS>(name, std::move(options))} {
     cluster->addSimplexTree(tree);
     trigger = &cluster->setTriggerSource<cs::ManualTrigger>(1ms);
     cluster->addEventSink([this](const Event& event, const Structure& structure) {

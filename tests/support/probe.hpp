@@ -62,10 +62,10 @@ private:
 };
 
 // Its end calls no hooks of probes: what they refer to may be gone by then.
-// A cluster "test" on a manual trigger of 1 kHz with the types of tests/data/cs-rules.xml.
+// A cluster on a manual trigger of 1 kHz with the types of tests/data/cs-rules.xml.
 class ProbeCluster {
 public:
-    explicit ProbeCluster(cs::ClusterOptions options = {});
+    explicit ProbeCluster(cs::ClusterOptions options = {}, const std::string& name = "test");
     ~ProbeCluster();
     ProbeCluster(const ProbeCluster&) = delete;
     ProbeCluster& operator=(const ProbeCluster&) = delete;

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "alternating_clock.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include <time.h>
+
+namespace cortex::observers {
+namespace {
+
+constexpr std::int64_t perSecond = 1000;  // ticks
+
+std::int64_t now() {
+    timespec time{};
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return time.tv_sec * 1'000'000'000 + time.tv_nsec;
+}
+
+double percentile(std::vector<std::int64_t> values, double part) {
+    if (values.empty()) return 0;
+    const auto rank =
+        static_cast<std::ptrdiff_t>(std::ceil(part * static_cast<double>(values.size())) - 1);
+    const auto place = values.begin() + std::max<std::ptrdiff_t>(rank, 0);
+    std::nth_element(values.begin(), place, values.end());
+    return static_cast<double>(*place) * 1e-3;
+}
+
+}  // namespace
+
+double Lateness::medianOfP99() const {
+    std::vector<std::int64_t> all;
+    for (const auto& second : seconds) {
+        all.push_back(static_cast<std::int64_t>(percentile(second, 0.99) * 1e3));
+    }
+    return percentile(all, 0.5);
+}
+
+std::string Lateness::tail() const {
+    std::vector<std::int64_t> all;
+    for (const auto& second : seconds) all.insert(all.end(), second.begin(), second.end());
+    char text[96];
+    std::snprintf(text, sizeof text, "p99.9 %.0f, p99.99 %.0f, max %.0f us", percentile(all, 0.999),
+                  percentile(all, 0.9999), percentile(all, 1));
+    return text;
+}
+
+Lateness Lateness::every(std::size_t second) const {
+    Lateness half;
+    for (std::size_t i = second; i < seconds.size(); i += 2) half.seconds.push_back(seconds[i]);
+    return half;
+}
+
+void AlternatingClock::start() {
+    origin_ = now();
+    second_.reserve(perSecond);
+}
+
+std::int64_t AlternatingClock::sleep() {
+    const std::int64_t deadline = origin_ + ++next_ * period_;
+    timespec time{deadline / 1'000'000'000, deadline % 1'000'000'000};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) != 0) continue;
+    return now() - deadline;
+}
+
+void AlternatingClock::finishSecond() {
+    {
+        const std::lock_guard lock{mutex_};
+        Lateness& to = sleeping_ ? measured_.sleeper : measured_.loop;
+        to.seconds.push_back(second_);
+        measured_.missed += std::exchange(missed_, 0);
+    }
+    second_.clear();
+    sleeping_ = !sleeping_;
+}
+
+cs::Trigger AlternatingClock::waitForTick() {
+    // Deadlines that passed while the cycle ran.
+    const std::int64_t due = (now() - origin_) / period_;
+    if (due > next_) {
+        missed_ += static_cast<std::uint64_t>(due - next_);
+        next_ = due;
+    }
+    while (!interrupted_) {
+        const std::int64_t lateness = sleep();
+        second_.push_back(lateness);
+        const bool ended = next_ % perSecond == 0;
+        const bool returns = !sleeping_;
+        if (ended) finishSecond();
+        if (!returns) continue;
+        return {next_ * period_, lateness, 1, false};
+    }
+    return {0, 0, 1, true};
+}
+
+AlternatingClock::Measured AlternatingClock::take() {
+    const std::lock_guard lock{mutex_};
+    return std::exchange(measured_, {});
+}
+
+}  // namespace cortex::observers

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/cs/trigger_source.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace cortex::observers {
+
+// Lateness of single wake-ups, ns, second by second.
+struct Lateness {
+    std::vector<std::vector<std::int64_t>> seconds;
+
+    double medianOfP99() const;                // us
+    std::string tail() const;                  // p99.9, p99.99 and maximum of all
+    Lateness every(std::size_t second) const;  // of two: 0 or 1
+};
+
+// A clock of 1 kHz that lets the loop run for a second and then only sleeps for a second, in turn:
+// the loop's lateness beside that of a bare sleeper, on the same thread. Loop thread; take() any.
+class AlternatingClock final : public cs::TriggerSource {
+public:
+    void start() override;
+    cs::Trigger waitForTick() override;
+    void interrupt() override { interrupted_ = true; }
+    std::int64_t period() const override { return period_; }
+
+    // What was measured since the last call, whole seconds only.
+    struct Measured {
+        Lateness loop, sleeper;
+        std::uint64_t missed = 0;  // ticks of the loop
+    };
+    Measured take();
+
+private:
+    static constexpr std::int64_t period_ = 1'000'000;
+    std::int64_t sleep();  // to the next deadline; its lateness
+    void finishSecond();
+
+    std::int64_t origin_ = 0, next_ = 0;
+    bool sleeping_ = false;
+    std::vector<std::int64_t> second_;
+    std::atomic<bool> interrupted_{false};
+    std::mutex mutex_;
+    Measured measured_;
+    std::uint64_t missed_ = 0;
+};
+
+}  // namespace cortex::observers

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace cortex::observers {
+
+// What one client process does until its standard input ends: looks at everything so many times a
+// second (0: every cycle), or sends a command a second.
+enum class Load { View30, ViewEvery, Command };
+
+int runClient(int number, Load load, int domain);
+
+// A number of client processes of this program.
+class Clients {
+public:
+    ~Clients() { stop(); }
+
+    void start(int number, Load load, int domain);
+    void waitUntilReady();  // throws Error if one ended instead
+    // Ends them; images that they saw, or commands that were done.
+    std::vector<std::uint64_t> stop();
+
+private:
+    struct Client {
+        pid_t process;
+        int input, output;
+    };
+    std::vector<Client> clients_;
+};
+
+}  // namespace cortex::observers

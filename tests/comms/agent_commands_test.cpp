@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands from the network on their way into the loop, without a network.
+#include "agent_commands.hpp"
+
+#include "ids.hpp"
+#include "support/agent_rig.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+namespace cortex::comms {
+namespace {
+
+constexpr int room = 256;  // of the pipe into the loop
+
+class CommandsOnly final : public CommunicationInterface {
+public:
+    void announce(const AgentAccess& agent) override {
+        self = std::make_unique<AgentSelf>(agent);
+        commands = std::make_unique<AgentCommands>(
+            *self, [this](const Answer& answer) { answers.push_back(answer); });
+    }
+    void read(Inbox& inbox) override { commands->read(inbox); }
+    void write(std::int64_t, Outbox& outbox) override { commands->write(outbox); }
+    void close() override {}
+
+    std::unique_ptr<AgentSelf> self;
+    std::unique_ptr<AgentCommands> commands;
+    std::vector<Answer> answers;
+};
+
+struct AgentCommandsTest : testing::Test {
+    AgentCommandsTest() {
+        rig.add(network);
+        rig.make();
+        worker.on("poke", [this](Call&) {
+            ++pokes;
+            return Outcome::Done;
+        });
+        rig.start();
+    }
+    // Number n of one of a few senders that poke in turn.
+    void send(int number) {
+        Command command;
+        command.sender = "tool" + std::to_string(number % 4);
+        command.host = "desk";
+        command.senderEpoch = 1;
+        command.target = "rig";
+        command.link = linkId(command.sender, command.target);
+        command.targetEpoch = rig.agent->structure().epoch;
+        command.sequenceNumber = static_cast<std::uint64_t>(number / 4 + 1);
+        command.answeredBelow = 1;
+        command.notAfter = 1000;
+        command.path = "/worker";
+        command.command = "poke";
+        network.commands->take(command, steadyNow());
+    }
+    void step() {
+        rig.step();
+        network.commands->step(steadyNow());
+    }
+    std::map<std::string, int> outcomes() const {
+        std::map<std::string, int> count;
+        for (const Answer& each : network.answers) ++count[each.outcome];
+        return count;
+    }
+
+    CommandsOnly network;
+    test::AgentRig rig;
+    test::Hand& worker = rig.hand("/worker");
+    int pokes = 0;
+};
+
+TEST_F(AgentCommandsTest, ThatTheLoopCannotTakeAreAnswered) {
+    for (int i = 0; i < room + 20; ++i) send(i);
+
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"MailboxFull", 20}}));
+    EXPECT_EQ(network.answers.front().sequenceNumber, room / 4 + 1);
+    EXPECT_EQ(network.answers.front().why, "too many commands are on their way");
+    EXPECT_EQ(network.self->rejections.count(), 20U);
+    step();
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"MailboxFull", 20}, {"Done", room}}));
+    EXPECT_EQ(pokes, room);
+}
+
+// Its sender may have read the answer: it must stay true.
+TEST_F(AgentCommandsTest, TurnedAwayOnceAreNotExecutedWhenTheyAreRepeated) {
+    for (int i = 0; i < room + 1; ++i) send(i);
+    step();
+    send(room);
+    step();
+
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"MailboxFull", 2}, {"Done", room}}));
+    EXPECT_EQ(pokes, room);
+}
+
+// What the loop has is answered by the loop alone.
+TEST_F(AgentCommandsTest, RepeatedWhileTheLoopTakesNoMoreGetNoAnswerButTheirs) {
+    for (int i = 0; i < room; ++i) send(i);
+    send(0);
+    EXPECT_TRUE(network.answers.empty());
+    step();
+
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Done", room}}));
+}
+
+TEST_F(AgentCommandsTest, ComeFromAHundredSendersAtOnce) {
+    for (int i = 0; i < 100; ++i) {
+        Command command;
+        command.sender = "tool" + std::to_string(i);
+        command.senderEpoch = 1;
+        command.target = "rig";
+        command.link = linkId(command.sender, command.target);
+        command.targetEpoch = rig.agent->structure().epoch;
+        command.sequenceNumber = 1;
+        command.answeredBelow = 1;
+        command.notAfter = 1000;
+        command.path = "/worker";
+        command.command = "poke";
+        network.commands->take(command, steadyNow());
+    }
+    step();
+
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Done", 100}}));
+}
+
+}  // namespace
+}  // namespace cortex::comms

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an agent believes of others, without a network.
+#include "agent_peers.hpp"
+
+#include "comms/told_agent.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::int64_t millisecond = 1'000'000;  // ns
+
+struct Listener {
+    Listener() {
+        rig.tree.add("/plate", "Plate");
+        rig.start();
+    }
+
+    test::AgentRig rig{"near"};
+};
+
+struct AgentPeersTest : testing::Test {
+    void tell(std::int64_t epoch, std::int64_t now, const char* state = "running") {
+        for (Model model : told.models) {
+            model.epoch = epoch;
+            peers.take(model, now);
+        }
+        hear(epoch, now, state);
+    }
+    void hear(std::int64_t epoch, std::int64_t now, const char* state = "running") {
+        peers.expire(now);
+        Presence presence = told.presence;
+        presence.epoch = epoch;
+        presence.state = state;
+        peers.take(presence, now);
+    }
+    Peer& peer() { return peers.all().at("rig"); }
+
+    Listener listener;
+    ToldAgent told;
+    std::vector<std::int64_t> lost;
+    AgentSelf self{listener.rig.outside.access};
+    AgentPeers peers{self, true,
+                     [this](const std::string&, std::int64_t epoch) { lost.push_back(epoch); }};
+    const std::int64_t first = told.epoch();
+};
+
+TEST_F(AgentPeersTest, OfTwoStartsThatAreHeardTheLaterCounts) {
+    tell(first, 0);
+    tell(first + 1, millisecond);
+    EXPECT_EQ(peer().epoch(), first + 1);
+    EXPECT_EQ(lost, std::vector{first});
+    EXPECT_TRUE(peer().current->model.structure());
+
+    hear(first, 2 * millisecond);
+
+    EXPECT_EQ(peer().epoch(), first + 1);
+}
+
+// Its clock was set back between two starts.
+TEST_F(AgentPeersTest, AnEarlierStartCountsWithAllItSaidOnceTheLaterIsNotHeard) {
+    tell(first, 0);
+    for (int tenth = 1; tenth <= 10; ++tenth) {
+        if (tenth == 1) tell(first - 1'000'000, 100 * millisecond);
+        hear(first - 1'000'000, tenth * 100 * millisecond);
+        EXPECT_EQ(peer().epoch(), first);
+    }
+
+    hear(first - 1'000'000, 1001 * millisecond);
+
+    EXPECT_EQ(lost, std::vector{first});
+    EXPECT_TRUE(peer().heard);
+    EXPECT_EQ(peer().epoch(), first - 1'000'000);
+    EXPECT_TRUE(peer().current->model.structure());
+}
+
+// Said by nobody, or by one that fell over at once.
+TEST_F(AgentPeersTest, ALaterStartThatIsNotHeardAgainGivesTheNameBack) {
+    tell(first, 0);
+    hear(first + 1'000'000, 100 * millisecond);
+    hear(first + 2'000'000, 150 * millisecond);
+    EXPECT_EQ(peer().epoch(), first + 2'000'000);
+    for (int tenth = 2; tenth <= 12; ++tenth) hear(first, tenth * 100 * millisecond);
+
+    EXPECT_EQ(peer().epoch(), first);
+    EXPECT_TRUE(peer().heard);
+    EXPECT_TRUE(peer().current->model.structure()) << "its models came once";
+}
+
+TEST_F(AgentPeersTest, AGoodbyeOfAnEarlierStartChangesNothing) {
+    tell(first, 0);
+    peers.expire(2'000 * millisecond);
+
+    hear(first - 1, 2'000 * millisecond, "silent");
+    hear(first - 1, 2'000 * millisecond, "stopping");
+
+    EXPECT_EQ(peer().epoch(), first);
+    EXPECT_FALSE(peer().heard);
+    EXPECT_EQ(lost, std::vector{first});
+}
+
+}  // namespace
+}  // namespace cortex::comms

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Races on purpose: a listener counts what another thread reads. ThreadSanitizer must say so, with
+// its suppressions for Fast DDS in force.
+#include "comms/inbox.hpp"
+#include "participant.hpp"
+
+#include <iostream>
+#include <thread>
+
+int main() {
+    using namespace cortex::comms;
+    Participant agent{loopback(), "agent"}, tool{loopback(), "tool"};
+    int heard = 0;
+    const auto reader = tool.reader<Presence>(topics::presence, [&](Presence&&) { ++heard; });
+    const auto writer = agent.writer<Presence>(topics::presence);
+    std::jthread talker{[&](const std::stop_token& stop) {
+        for (Presence presence; !stop.stop_requested(); ++presence.cycle) writer->write(presence);
+    }};
+    const bool counted = comesTrue([&] { return heard > 2; });
+    std::cerr << (counted ? "heard" : "nothing was heard") << '\n';
+    return counted ? 0 : 1;
+}
