@@ -226,6 +226,7 @@ void AgentLinks::take(const Block& block, std::int64_t came) {
     // Overtaken on its way; or the newest was none of its owner's, and nothing follows it.
     const bool older = block.sequenceNumber <= owner.newest;
     if (older && came - owner.newestCame < owner.patience) return;
+    if (!older && owner.newest != 0) lost_ += block.sequenceNumber - owner.newest - 1;
     owner.newest = block.sequenceNumber;
     owner.newestCame = came;
     for (const SimplexData& data : block.simplexes) take(block, data, owner, came);

@@ -24,6 +24,7 @@ public:
     bool any() const { return !links_.empty(); }
     void update(Peers& peers);  // after a change of them
     void take(const Block& block, std::int64_t came);
+    std::uint64_t lost() const { return lost_; }  // blocks of owners that did not come; any thread
     // What we want of others and have not said yet.
     std::vector<Interest> newInterests(const Peers& peers);
 
@@ -91,6 +92,7 @@ private:
     std::map<std::string, std::vector<std::string>> said_;  // links wanted, by agent
     std::int64_t askDue_ = 0;
     std::uint64_t serial_ = 0;
+    std::atomic<std::uint64_t> lost_{0};
 };
 
 }  // namespace cortex::comms

@@ -34,6 +34,10 @@ std::uint64_t DdsInterface::rejected() const {
     return implementation_->thread ? implementation_->thread->rejected() : 0;
 }
 
+std::uint64_t DdsInterface::lost() const {
+    return implementation_->thread ? implementation_->thread->lost() : 0;
+}
+
 std::string DdsInterface::lastRejection() const {
     return implementation_->thread ? implementation_->thread->lastRejection() : std::string{};
 }

@@ -145,7 +145,8 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     cluster.useClasses(registry);
     cluster.setTriggerSource<cs::InternalClock>(settings.period);
     cluster.addEventSink(line.log.empty() ? printEvents(std::cerr) : logEvents(line.log));
-    if (!line.offline) cluster.addInterface<comms::DdsInterface>(networkOptions(line));
+    const comms::DdsInterface* network =
+        line.offline ? nullptr : &cluster.addInterface<comms::DdsInterface>(networkOptions(line));
     cluster.start();
     for (const std::string& refused : cluster.realtimeReport()) {
         std::cerr << "real time: " << refused << std::endl;
@@ -158,8 +159,12 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     if (starts && (!line.startup || startUp(cluster, settings.name))) {
         watch(cluster, settings.name, left(line, began));
     }
-    std::cout << metricsTable(cluster.image(), settings.name) << monitorTables(cluster.image())
-              << faultLines(cluster.image()) << std::flush;
+    std::cout << metricsTable(cluster.image(), settings.name);
+    if (network != nullptr) {
+        std::cout << countLine("lost samples", network->lost())
+                  << countLine("refused samples", network->rejected());
+    }
+    std::cout << monitorTables(cluster.image()) << faultLines(cluster.image()) << std::flush;
     const bool halted = cluster.ended() == cs::Ended::Halted;
     const bool stopped = cluster.stop();
     return stopped && !halted ? Ended : Halted;

@@ -123,10 +123,13 @@ std::string metricsTable(const Image& image, const std::string& cluster) {
         text += "\n";
     }
     for (const auto& [title, unit, item] : counts) {
-        text +=
-            "  " + left(title, 20) + right(toText(image.get<std::int64_t>(path, item)), 11) + "\n";
+        text += countLine(title, static_cast<std::uint64_t>(image.get<std::int64_t>(path, item)));
     }
     return text;
+}
+
+std::string countLine(const std::string& title, std::uint64_t count) {
+    return "  " + left(title, 20) + right(std::to_string(count), 11) + "\n";
 }
 
 std::string missingLinks(const Image& image) {

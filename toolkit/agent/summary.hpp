@@ -3,6 +3,7 @@
 
 #include "cortex/core/image.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace cortex::toolkit {
@@ -12,6 +13,9 @@ std::string statusLine(const Image& image, const std::string& cluster);
 
 // A table of the loop's metrics.
 std::string metricsTable(const Image& image, const std::string& cluster);
+
+// One more line of it.
+std::string countLine(const std::string& title, std::uint64_t count);
 
 // Paths of other agents that are not linked and without which a simplex cannot start, each after a
 // blank.

@@ -26,6 +26,8 @@ public:
     // What others sent that was malformed or cannot be, and why the last time; until close().
     std::uint64_t rejected() const;
     std::string lastRejection() const;
+    // Samples of linked simplexes that were sent and did not come; until close().
+    std::uint64_t lost() const;
 
 private:
     struct Implementation;
