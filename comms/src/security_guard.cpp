@@ -20,6 +20,11 @@ void SecurityGuard::refuse(std::string_view name) {
                   ", and its certificate is that of another: refused");
 }
 
+void SecurityGuard::refuse(const Id&) {
+    ++refused_;
+    refusals_.add("a participant sends values in the name of another: refused");
+}
+
 void SecurityGuard::on_participant_discovery(Dds*, rtps::ParticipantDiscoveryInfo&& info) {
     using Info = rtps::ParticipantDiscoveryInfo;
     const std::lock_guard lock{mutex_};

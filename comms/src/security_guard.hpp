@@ -11,6 +11,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
@@ -47,7 +48,8 @@ public:
         GuidPrefix participant{};
         for (std::size_t i = 0; i < participant.size(); ++i) participant[i] = writer.value[i];
         if (identity_.maySpeakFor(participant, claim)) return true;
-        refuse(claim);
+        const bool early = std::is_same_v<Claim, Id> && !identity_.hasSpoken(participant);
+        if (!early) refuse(claim);  // else its name is still to come
         return false;
     }
 
@@ -58,7 +60,7 @@ public:
 
 private:
     void refuse(std::string_view name);
-    void refuse(const Id&) { ++refused_; }  // its names are refused, too, and reported
+    void refuse(const Id& agent);
 
     SecurityIdentity identity_;
     Refusals refusals_;
