@@ -5,6 +5,7 @@
 
 #include "ids.hpp"
 #include "named_values.hpp"
+#include "security_identity.hpp"
 
 #include <algorithm>
 #include <array>

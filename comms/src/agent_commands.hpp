@@ -6,7 +6,6 @@
 
 #include "agent_self.hpp"
 #include "messages.hpp"
-#include "security_identity.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -15,6 +14,8 @@
 #include <string>
 
 namespace cortex::comms {
+
+class SecurityIdentity;
 
 // Commands from the network: what fits goes to the loop, the rest is answered at once; answers of
 // the loop go back. Tells the loop when a sender is no longer heard. read() and write() in the

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent_thread.hpp"
 
+#include "security_identity.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <exception>

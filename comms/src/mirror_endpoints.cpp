@@ -2,6 +2,7 @@
 #include "mirror_endpoints.hpp"
 
 #include "ids.hpp"
+#include "security_identity.hpp"
 
 #include <utility>
 

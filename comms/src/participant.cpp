@@ -261,7 +261,7 @@ SecurityIdentity* Participant::identity() const {
 }
 
 std::vector<std::string> Participant::takeRefusals() {
-    return impl_->guard ? impl_->guard->refusals().take() : std::vector<std::string>{};
+    return impl_->guard ? impl_->guard->takeRefusals() : std::vector<std::string>{};
 }
 
 std::uint64_t Participant::refused() const { return impl_->guard ? impl_->guard->refused() : 0; }

@@ -4,7 +4,6 @@
 #include "cortex/comms/network_options.hpp"
 
 #include "messages.hpp"
-#include "security_identity.hpp"
 
 #include <concepts>
 #include <cstdint>
@@ -14,6 +13,8 @@
 #include <vector>
 
 namespace cortex::comms {
+
+class SecurityIdentity;
 
 enum class Qos {
     State,     // reliable; who joins late gets the newest of each key

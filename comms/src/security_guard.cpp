@@ -11,6 +11,11 @@ namespace {
 namespace rtps = eprosima::fastrtps::rtps;
 constexpr std::size_t mostFound = 4'096;
 constexpr std::size_t longestName = 64;  // of what others say that is repeated in an event
+constexpr std::chrono::seconds usualHandshake{2}, longestHandshake{5};
+
+std::string calledItself(const std::string& name) {
+    return name.empty() ? "" : " that calls itself " + name;
+}
 
 }  // namespace
 
@@ -18,6 +23,11 @@ void SecurityGuard::refuse(std::string_view name) {
     ++refused_;
     refusals_.add("a participant uses the name " + std::string{name.substr(0, longestName)} +
                   ", and its certificate is that of another: refused");
+}
+
+void SecurityGuard::refuse(const Id&) {
+    ++refused_;
+    refusals_.add("a participant sends values in the name of another: refused");
 }
 
 void SecurityGuard::on_participant_discovery(Dds*, rtps::ParticipantDiscoveryInfo&& info) {
@@ -43,14 +53,32 @@ void SecurityGuard::onParticipantAuthentication(Dds*, rtps::ParticipantAuthentic
     }
     if (info.status == rtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) return;
     ++refused_;
-    refusals_.add("a participant" + (name.empty() ? "" : " that calls itself " + name) +
+    refusals_.add("a participant" + calledItself(name) +
                   " is refused: it has no certificate of our authority");
 }
 
 std::uint32_t SecurityGuard::pending() const {
     const std::lock_guard lock{mutex_};
-    return static_cast<std::uint32_t>(
-        std::ranges::count_if(found_, [](const auto& each) { return each.second.pending; }));
+    const auto now = Clock::now();
+    return static_cast<std::uint32_t>(std::ranges::count_if(found_, [&](const auto& each) {
+        return each.second.pending && now - each.second.since < usualHandshake;
+    }));
+}
+
+// Who refuses our certificate does not show its own: all that we see is that nothing comes of it.
+std::vector<std::string> SecurityGuard::takeRefusals() {
+    {
+        const std::lock_guard lock{mutex_};
+        const auto now = Clock::now();
+        for (auto& [guid, found] : found_) {
+            if (!found.pending || found.told || now - found.since < longestHandshake) continue;
+            found.told = true;
+            ++refused_;
+            refusals_.add("a participant" + calledItself(found.name) +
+                          " is refused: it does not prove that it has a certificate");
+        }
+    }
+    return refusals_.take();
 }
 
 void addSecurity(const std::string& folder, eprosima::fastdds::dds::DomainParticipantQos& qos) {

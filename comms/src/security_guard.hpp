@@ -6,11 +6,14 @@
 #include "security_refusals.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
@@ -37,9 +40,11 @@ public:
         : identity_{folder, name, domain} {}
 
     SecurityIdentity& identity() { return identity_; }
-    Refusals& refusals() { return refusals_; }
+    // What was refused since the last call, in words.
+    std::vector<std::string> takeRefusals();
     std::uint64_t refused() const { return refused_; }
-    std::uint32_t pending() const;  // participants found, neither authenticated nor refused yet
+    // Participants found lately, neither authenticated nor refused yet.
+    std::uint32_t pending() const;
 
     // What is claimed is a name, or the id of one.
     template <class Claim>
@@ -47,7 +52,8 @@ public:
         GuidPrefix participant{};
         for (std::size_t i = 0; i < participant.size(); ++i) participant[i] = writer.value[i];
         if (identity_.maySpeakFor(participant, claim)) return true;
-        refuse(claim);
+        const bool early = std::is_same_v<Claim, Id> && !identity_.hasSpoken(participant);
+        if (!early) refuse(claim);  // else its name is still to come
         return false;
     }
 
@@ -58,14 +64,16 @@ public:
 
 private:
     void refuse(std::string_view name);
-    void refuse(const Id&) { ++refused_; }  // its names are refused, too, and reported
+    void refuse(const Id& agent);
 
     SecurityIdentity identity_;
     Refusals refusals_;
     std::atomic<std::uint64_t> refused_{0};
+    using Clock = std::chrono::steady_clock;
     struct Found {
         std::string name;  // that it gives itself, unproven
-        bool pending = true;
+        Clock::time_point since = Clock::now();
+        bool pending = true, told = false;
     };
     mutable std::mutex mutex_;
     std::map<Guid, Found> found_;

@@ -82,6 +82,11 @@ bool SecurityIdentity::maySpeakFor(const GuidPrefix& participant, const Id& agen
            });
 }
 
+bool SecurityIdentity::hasSpoken(const GuidPrefix& participant) {
+    const std::lock_guard lock{mutex_};
+    return speakers_.contains(participant);
+}
+
 void SecurityIdentity::sign(Command& command) const {
     command.extras.push_back({authorityExtra, folder_.commands});
     command.extras.push_back(

@@ -39,6 +39,7 @@ public:
     bool maySpeakFor(const GuidPrefix& participant, std::string_view name);
     // The same for the id of a name; only after a sample with the name itself.
     bool maySpeakFor(const GuidPrefix& participant, const Id& agent);
+    bool hasSpoken(const GuidPrefix& participant);
 
     void sign(Command& command) const;
     // What the list of its sender says; null and `why`: it does not prove who it is.

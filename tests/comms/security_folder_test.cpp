@@ -160,6 +160,29 @@ TEST(SecurityIdentity, IsForItsAgentItsToolsAndItsDomainsOnly) {
         contains(errorOf([&] { SecurityIdentity(folder, "station", 4); }), "not for domain 4"));
 }
 
+TEST(SecurityIdentity, NamesAreThoseOfTheParticipantsCertificate) {
+    const SecuredPlant plant;
+    SecurityIdentity robot{plant.make("robot"), "robot", 0};
+    const auto digest = subjectDigest("station");
+    GuidPrefix station{0x80};
+    for (std::size_t bit = 1; bit < 48; ++bit) {
+        const unsigned set = digest[(bit - 1) / 8] >> (7 - (bit - 1) % 8) & 1U;
+        station[bit / 8] = static_cast<std::uint8_t>(station[bit / 8] | set << (7 - bit % 8));
+    }
+    EXPECT_FALSE(robot.maySpeakFor(station, agentId("station")));
+    EXPECT_FALSE(robot.maySpeakFor(station, "display"));
+    EXPECT_FALSE(robot.hasSpoken(station));
+    EXPECT_TRUE(robot.maySpeakFor(station, "station"));
+    EXPECT_TRUE(robot.maySpeakFor(station, "station@desk.1"));
+    EXPECT_TRUE(robot.maySpeakFor(station, agentId("station")));
+    EXPECT_FALSE(robot.maySpeakFor(station, agentId("display")));
+    for (std::size_t bit = 0; bit < 48; ++bit) {
+        GuidPrefix other = station;
+        other[bit / 8] = static_cast<std::uint8_t>(other[bit / 8] ^ 1U << bit % 8);
+        EXPECT_FALSE(robot.maySpeakFor(other, "station")) << bit;
+    }
+}
+
 struct SignedCommand : testing::Test {
     SignedCommand() {
         command.sender = "station@desk.42";
