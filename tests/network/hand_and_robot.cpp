@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "network/hand_and_robot.hpp"
+
+#include "cortex/comms/dds_interface.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <stdexcept>
+
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace cortex::test {
+namespace {
+
+using namespace std::chrono_literals;
+constexpr auto budget = 500ms;
+
+TypeModel types() {
+    return TypeModel::load(std::filesystem::path{CORTEX_SOURCE_DIR} /
+                           "tests/data/network-rules.xml");
+}
+
+class Finger final : public cs::SimplexCS {
+public:
+    Finger(Identity identity, Record<Press>& presses)
+        : SimplexCS{std::move(identity)}, presses_{presses} {}
+
+private:
+    void populate() override {
+        const OutputSimplex button = output("button");
+        pressed_ = button.data<bool>("pressed");
+        press_ = button.data<std::int64_t>("press");
+        written_ = button.data<std::int64_t>("written");
+    }
+    void stateActive(const Tick& tick) override {
+        written_ = tick.cycle;
+        if (tick.cycle < next_) return;
+        const bool pressed = !pressed_;
+        if (pressed) {
+            press_ = press_ + 1;
+            last_.pressed = Clock::now();
+        } else {
+            last_.released = Clock::now();
+            presses_.add(last_);
+        }
+        pressed_ = pressed;
+        next_ = tick.cycle + 20 + press_ * 37 % 130;
+    }
+
+    Record<Press>& presses_;
+    Press last_;
+    std::int64_t next_ = 0;
+    Data<bool> pressed_;
+    Data<std::int64_t> press_, written_;
+};
+
+class Watcher final : public cs::SimplexCS {
+public:
+    Watcher(Identity identity, Record<Seen>& seen) : SimplexCS{std::move(identity)}, seen_{seen} {}
+
+private:
+    void populate() override {
+        const InputSimplex button = input("button");
+        pressed_ = button.data<bool>("pressed");
+        press_ = button.data<std::int64_t>("press");
+        written_ = button.data<std::int64_t>("written");
+    }
+    void stateActive(const Tick& tick) override {
+        if (written_ != last_) {
+            last_ = written_;
+            since_ = tick.cycle;
+        }
+        if (pressed_) seen_.add({press_, tick.cycle - since_, Clock::now()});
+    }
+
+    Record<Seen>& seen_;
+    std::int64_t last_ = 0, since_ = 0;
+    Data<const bool> pressed_;
+    Data<const std::int64_t> press_, written_;
+};
+
+class Counter final : public cs::SimplexCS {
+public:
+    Counter(Identity identity, Record<Executed>& executed)
+        : SimplexCS{std::move(identity)}, executed_{executed} {}
+
+private:
+    void populate() override {
+        count_ = data<std::int64_t>("count");
+        number_ = argument<std::int64_t>("increment", "number");
+        on<&Counter::increment>("increment");
+    }
+    // Commands are executed before the hooks of their cycle.
+    void loopEnd(const Tick& tick) override { cycle_ = tick.cycle; }
+    Outcome increment(Call& call) {
+        executed_.add({call[number_], cycle_ + 1});
+        count_ = count_ + 1;
+        return Outcome::Done;
+    }
+
+    Record<Executed>& executed_;
+    std::int64_t cycle_ = 0;
+    Data<std::int64_t> count_;
+    Argument<std::int64_t> number_;
+};
+
+CallResult startUp(cs::ClusterCS& cluster, const std::string& name) {
+    return cluster.call("/" + name, "startup", {{"prefix", Value{std::vector<std::string>{"/"}}}});
+}
+
+void start(cs::ClusterCS& cluster, SimplexTree& tree, const comms::NetworkOptions& network) {
+    cluster.addSimplexTree(tree);
+    cluster.setTriggerSource<cs::InternalClock>(1ms);
+    cluster.addInterface<comms::DdsInterface>(network);
+    cluster.start();
+}
+
+}  // namespace
+
+comms::NetworkOptions network(const std::string& peer) {
+    comms::NetworkOptions options;
+    options.domain = 7;
+    if (!peer.empty()) options.peers = {peer};
+    return options;
+}
+
+HandAgent::HandAgent(const comms::NetworkOptions& network) : tree_{types()}, cluster_{"hand"} {
+    Simplex& button = tree_.add("/hand/button", "Button");
+    tree_.relate(tree_.add<Finger>("/hand/finger", "Finger", *presses_), "button", button);
+    start(cluster_, tree_, network);
+    startUp(cluster_, "hand");
+}
+
+HandAgent::~HandAgent() = default;
+
+std::vector<Press> HandAgent::end() {
+    cluster_.stop();
+    return presses_->taken();
+}
+
+struct RobotProcess::Memory {
+    std::atomic<std::int64_t> newest;
+    Record<Seen> seen;
+    Record<Executed> executed;
+};
+
+namespace {
+
+RobotProcess::Memory* shared(int file) {
+    void* memory =
+        mmap(nullptr, sizeof(RobotProcess::Memory), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    if (memory == MAP_FAILED) throw std::runtime_error("no shared memory");
+    return static_cast<RobotProcess::Memory*>(memory);
+}
+
+void runRobot(RobotProcess::Memory& memory, const std::string& peer) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    cs::blockStopSignals();
+    SimplexTree tree{types()};
+    tree.add<Counter>("/robot/counter", "Counter", memory.executed);
+    tree.relateRemote(tree.add<Watcher>("/robot/watcher", "Watcher", memory.seen), "button",
+                      "/hand/button");
+    cs::ClusterCS cluster{"robot"};
+    start(cluster, tree, network(peer));
+    // The watcher does not start before it has a button.
+    for (bool started = false; !cs::waitForInterrupt(0.0005);) {
+        started = started || startUp(cluster, "robot").outcome == Outcome::Done;
+        const Image image = cluster.image();
+        const bool good = image.quality("/hand/button") == Quality::Good;
+        memory.newest = good ? image.get<std::int64_t>("/hand/button", "written") : 0;
+    }
+}
+
+}  // namespace
+
+bool RobotProcess::isOne(int count, char** words) {
+    if (count < 3 || std::string{words[1]} != "robot") return false;
+    runRobot(*shared(std::stoi(words[2])), count > 3 ? words[3] : "");
+    return true;
+}
+
+RobotProcess::RobotProcess(const std::string& peer) : file_{memfd_create("robot", 0)} {
+    if (ftruncate(file_, sizeof(Memory)) != 0) throw std::runtime_error("no shared memory");
+    memory_ = shared(file_);
+    std::string program = "/proc/self/exe", role = "robot", file = std::to_string(file_);
+    std::string copy = peer;
+    char* words[] = {program.data(), role.data(), file.data(), copy.data(), nullptr};
+    process_ = fork();
+    if (process_ < 0) throw std::runtime_error("cannot fork");
+    if (process_ > 0) return;
+    execv(program.c_str(), words);
+    _exit(127);
+}
+
+RobotProcess::~RobotProcess() {
+    end();
+    munmap(memory_, sizeof(Memory));
+    close(file_);
+}
+
+void RobotProcess::end() {
+    if (process_ == 0) return;
+    kill(process_, SIGTERM);
+    waitpid(process_, nullptr, 0);
+    process_ = 0;
+}
+
+std::int64_t RobotProcess::newest() const { return memory_->newest; }
+std::vector<Seen> RobotProcess::seen() const { return memory_->seen.taken(); }
+std::vector<Executed> RobotProcess::executed() const { return memory_->executed.taken(); }
+
+Station::Station(const comms::NetworkOptions& network) : mirror_{"station", network} {
+    mirror_.view({"/"}, 100);
+    thread_ = std::thread{[this] {
+        for (auto next = Clock::now(); !stop_; next = std::max(next + 20ms, Clock::now())) {
+            if (sends_) send();
+            poll();
+            std::this_thread::sleep_until(next);
+        }
+    }};
+}
+
+Station::~Station() {
+    stop_ = true;
+    if (thread_.joinable()) thread_.join();
+}
+
+std::int64_t Station::cycleOfRobot() {
+    for (const comms::AgentStatus& each : mirror_.agents()) {
+        if (each.name == "robot") return each.cycle;
+    }
+    return 0;
+}
+
+void Station::send() {
+    if (mirror_.structure("robot") == nullptr) return;
+    const auto number = static_cast<std::int64_t>(sent_.size()) + 1;
+    pending_[mirror_.send("/robot/counter", "increment", {{"number", Value{std::vector{number}}}},
+                          budget)] = number;
+    sent_[number].latest = cycleOfRobot() + budget / 1ms;
+}
+
+void Station::poll() {
+    std::erase_if(pending_, [this](const auto& each) {
+        comms::CommandAnswer answer;
+        if (!mirror_.poll(each.first, answer)) return false;
+        sent_[each.second].outcome = answer.outcome;
+        return true;
+    });
+}
+
+bool Station::sees(std::int64_t newerThan) {
+    for (const comms::AgentStatus& each : mirror_.agents()) {
+        if (each.name != "robot" || each.state != "running") continue;
+        const comms::AgentImage image = mirror_.image("robot");
+        if (!image || image->cycle() <= newerThan) return false;
+        const auto& simplexes = image->structure().simplexes;
+        return std::ranges::all_of(simplexes, [&](const SimplexInfo& info) {
+            return info.remote || image->quality(info.path) == Quality::Good;
+        });
+    }
+    return false;
+}
+
+std::map<std::int64_t, Station::Sent> Station::end() {
+    stop_ = true;
+    thread_.join();
+    for (const auto end = Clock::now() + 20s; !pending_.empty() && Clock::now() < end;) {
+        poll();
+        std::this_thread::sleep_for(1ms);
+    }
+    return sent_;
+}
+
+std::int64_t Station::count() {
+    const comms::AgentImage image = mirror_.image("robot");
+    return image ? image->get<std::int64_t>("/robot/counter", "count") : -1;
+}
+
+}  // namespace cortex::test

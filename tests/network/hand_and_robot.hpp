@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/comms/mirror.hpp"
+#include "cortex/comms/network_options.hpp"
+#include "cortex/cs/cluster_cs.hpp"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace cortex::test {
+
+comms::NetworkOptions network(const std::string& peer);
+
+using Clock = std::chrono::steady_clock;
+
+// What happened in a loop, in order; one thread writes, others read when the loop has ended.
+template <class T>
+class Record {
+public:
+    void add(const T& element) {
+        if (count_ < elements_.size()) elements_[count_++] = element;
+    }
+    std::vector<T> taken() const {
+        return {elements_.begin(), elements_.begin() + static_cast<std::ptrdiff_t>(count_)};
+    }
+
+private:
+    std::array<T, 500'000> elements_;
+    std::size_t count_ = 0;
+};
+
+struct Press {
+    Clock::time_point pressed, released;
+};
+struct Seen {
+    std::int64_t press;
+    std::int64_t cycles;  // of the reader, since a newer value came
+    Clock::time_point at;
+};
+struct Executed {
+    std::int64_t number, cycle;
+};
+
+// The agent "hand": its finger presses /hand/button for 20 to 150 cycles and lets it go as long.
+class HandAgent {
+public:
+    explicit HandAgent(const comms::NetworkOptions& network);
+    ~HandAgent();
+
+    std::vector<Press> end();  // by number, from 1
+
+private:
+    SimplexTree tree_;
+    std::unique_ptr<Record<Press>> presses_ = std::make_unique<Record<Press>>();
+    cs::ClusterCS cluster_;
+};
+
+// The agent "robot", a process of its own: watches the button, and counts commands. Hosts that are
+// one process are no two hosts to Fast DDS.
+class RobotProcess {
+public:
+    explicit RobotProcess(const std::string& peer);  // empty: none
+    ~RobotProcess();
+    RobotProcess(const RobotProcess&) = delete;
+    RobotProcess& operator=(const RobotProcess&) = delete;
+
+    std::int64_t newest() const;  // of the button, which is good: cycle of the hand; else 0
+    void end();
+    std::vector<Seen> seen() const;
+    std::vector<Executed> executed() const;
+
+    struct Memory;  // of both processes
+    // What the process does, told by its arguments; false: it is another.
+    static bool isOne(int count, char** words);
+
+private:
+    int file_ = -1;
+    Memory* memory_ = nullptr;
+    pid_t process_ = 0;
+};
+
+// A tool that watches everything and, from begin() on, sends `increment` fifty times a second.
+class Station {
+public:
+    explicit Station(const comms::NetworkOptions& network);
+    ~Station();
+
+    void begin() { sends_ = true; }
+    // Whether the robot and all of its values are here, newer than that cycle.
+    bool sees(std::int64_t newerThan);
+    std::int64_t cycleOfRobot();
+    struct Sent {
+        Outcome outcome = Outcome::None;
+        std::int64_t latest = 0;  // cycle of the robot in which it may still be executed
+    };
+    std::map<std::int64_t, Sent> end();  // by number; when all are answered, 20 s at most
+    std::int64_t count();                // of the robot
+
+private:
+    void send();
+    void poll();
+
+    comms::Mirror mirror_;
+    std::map<std::int64_t, Sent> sent_;
+    std::map<std::uint64_t, std::int64_t> pending_;
+    std::atomic<bool> sends_{false}, stop_{false};
+    std::thread thread_;
+};
+
+}  // namespace cortex::test

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <thread>
+
+namespace cortex::test {
+
+// Why this machine has no network namespaces for a test; empty: it has. Throws where it should
+// have.
+std::string whyNoHosts();
+
+// A host of its own as far as the network goes: a namespace that ends with this object. Threads
+// and programs that are started within stay within.
+class Host {
+public:
+    Host();
+    ~Host();
+    Host(const Host&) = delete;
+    Host& operator=(const Host&) = delete;
+
+    void within(const std::function<void()>& function) const;  // throws what the function throws
+    void command(const std::string& line) const;               // of the shell; throws if it fails
+    std::string path() const;                                  // of the namespace, for `ip`
+
+private:
+    int handle_ = -1;
+};
+
+// Two hosts, 10.77.0.1 and 10.77.0.2, joined by a pair of virtual network cards.
+class TwoHosts {
+public:
+    TwoHosts();
+
+    void cut() { second.command("ip link set eth0 down"); }
+    void join() { second.command("ip link set eth0 up"); }
+    void losePercent(int percent);  // of what comes in, on both
+    void dropMulticast();
+    void passAll();
+
+    Host first, second;
+
+private:
+    void filter(const std::string& rule);
+};
+
+// The same joined by a relay of whole frames, each of which takes 10 to 30 ms: later ones overtake.
+class DelayedHosts {
+public:
+    DelayedHosts();
+    ~DelayedHosts();
+
+    std::uint64_t frames() const { return frames_; }
+    std::uint64_t overtaken() const { return overtaken_; }
+
+    Host first, second;
+
+private:
+    void relay();
+
+    int taps_[2];
+    std::atomic<bool> stop_{false};
+    std::atomic<std::uint64_t> frames_{0}, overtaken_{0};
+    std::thread thread_;
+};
+
+}  // namespace cortex::test
