@@ -28,6 +28,8 @@ bool isBelow(const std::string& path, const std::string& prefix) {
 
 }  // namespace
 
+int domainOf(const NetworkArguments& arguments) { return optionsOf(arguments).domain; }
+
 void checkPath(const std::string& path) {
     const std::string wrong = SimplexTree::pathError(path);
     if (!wrong.empty()) throw Failure{Usage, "'" + path + "': " + wrong};

@@ -23,6 +23,8 @@ struct NetworkArguments {
     double timeout = 3;  // s
 };
 
+int domainOf(const NetworkArguments& arguments);
+
 // One simplex of an agent that is heard.
 struct FoundSimplex {
     std::string agent;

@@ -215,6 +215,14 @@ void addLiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run) {
     addEvents(verbs);
     addSave(verbs);
     addTop(verbs);
+    verbs.add(
+        "doctor", "Look whether this machine and network can run CorteX, with remedies",
+        R"(Looks at network interfaces, multicast, ports, buffers, clocks, real-time limits and the agents that
+are heard, and changes nothing. Exit code 1: an error; warnings are none.
+Examples:
+  cortex doctor
+  cortex doctor --domain 7 --json)",
+        std::make_shared<LiveOptions>(), examine);
 }
 
 }  // namespace cortex::explorer

@@ -21,6 +21,8 @@ struct LiveOptions {
 
 Exit listAgents(const LiveOptions& options);
 
+Exit examine(const LiveOptions& options);  // cortex doctor
+
 struct ListOptions : LiveOptions {
     std::string prefix = "/";
 };

@@ -16,15 +16,6 @@ std::int64_t now() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
 }
 
-// The simplex of the agent itself, which has the metrics of its loop.
-std::uint32_t ownSimplex(const Structure& structure) {
-    for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
-        const SimplexInfo& info = structure.simplexes[i];
-        if (!info.remote && info.layout->type->isA("Agent")) return i;
-    }
-    return noSimplex;
-}
-
 Json itemsOf(const Image& image, std::uint32_t simplex) {
     Json items = Json::object();
     for (const ItemLayout& each : image.structure().simplexes[simplex].layout->items) {
@@ -55,6 +46,14 @@ Json countsJson(const auto& counts, auto enumerator) {
 }
 
 }  // namespace
+
+std::uint32_t ownSimplex(const Structure& structure) {
+    for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
+        const SimplexInfo& info = structure.simplexes[i];
+        if (!info.remote && info.layout->type->isA("Agent")) return i;
+    }
+    return noSimplex;
+}
 
 std::optional<double> TopAgent::metric(const char* item) const {
     if (!loop.is_object()) return {};

@@ -55,6 +55,9 @@ private:
     std::vector<std::string> viewed_;
 };
 
+// The simplex of the agent itself, which has the metrics of its loop; noSimplex: it has none.
+std::uint32_t ownSimplex(const Structure& structure);
+
 Json topJson(const TopFrame& frame);  // schemas/top.json; its events are new since the last
 
 }  // namespace cortex::explorer

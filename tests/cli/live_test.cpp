@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The verbs that look at a network, against an agent that is a process of its own.
-#include "cli/cortex_process.hpp"
 #include "cli/json_schema.hpp"
+#include "cli/live_agent.hpp"
 #include "core/model_folder.hpp"
 
 #include <algorithm>
 #include <csignal>
-#include <sstream>
-#include <stdexcept>
-
-#include <fcntl.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -20,85 +13,6 @@ namespace cortex::test {
 namespace {
 
 using nlohmann::json;
-
-const std::string domain = std::to_string(100 + getpid() % 100);
-const std::vector<std::string> network{"--domain", domain, "--interface", "127.0.0.1"};
-
-std::vector<std::string> operator+(std::vector<std::string> left,
-                                   const std::vector<std::string>& right) {
-    left.insert(left.end(), right.begin(), right.end());
-    return left;
-}
-
-// `cortex` on the network of this test, with time enough.
-Outcome live(const std::vector<std::string>& arguments) {
-    return cortex(arguments + network + std::vector<std::string>{"--timeout", "20"});
-}
-
-json liveJson(const std::vector<std::string>& arguments, const std::string& schema, int exit = 0) {
-    const Outcome outcome = live(arguments + std::vector<std::string>{"--json"});
-    EXPECT_EQ(outcome.exit, exit) << outcome.output << outcome.errors;
-    EXPECT_EQ(violationsOf(schema, outcome.output), "") << outcome.output;
-    return json::parse(outcome.output, nullptr, false);
-}
-
-std::vector<std::string> linesOf(const std::string& text) {
-    std::istringstream stream{text};
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(stream, line);) lines.push_back(line);
-    return lines;
-}
-
-// A program that runs until it is destroyed, or killed.
-class Background {
-public:
-    explicit Background(std::vector<std::string> command) : child_{fork()} {
-        if (child_ < 0) throw std::runtime_error("cannot fork");
-        if (child_ > 0) return;
-        prctl(PR_SET_PDEATHSIG, SIGKILL);
-        const int null = open("/dev/null", O_RDWR);
-        for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, file);
-        setenv("CORTEX_PATH", CORTEX_SOURCE_DIR "/ontology", 1);
-        std::vector<char*> pointers;
-        for (std::string& each : command) pointers.push_back(each.data());
-        pointers.push_back(nullptr);
-        execv(pointers.front(), pointers.data());
-        _exit(127);
-    }
-    ~Background() { end(SIGTERM); }
-    Background(const Background&) = delete;
-    Background& operator=(const Background&) = delete;
-
-    void end(int signal) {
-        if (child_ == 0) return;
-        kill(child_, signal);
-        waitpid(child_, nullptr, 0);
-        child_ = 0;
-    }
-
-private:
-    pid_t child_;
-};
-
-// The system that `cortex new-system` makes: one simulated axis that is held where it is.
-class CortexLive : public testing::Test {
-protected:
-    CortexLive() {
-        EXPECT_EQ(cortex({"new-system", "mixer", "-o", file_}).exit, 0);
-        start();
-    }
-    void start() {
-        const std::string program = CORTEX_BINARY_DIR "/bin/cortex-agent";
-        agent.emplace(std::vector<std::string>{program, file_} + network);
-    }
-
-private:
-    const ModelFolder folder_;
-    const std::string file_ = (folder_.path() / "mixer.xml").string();
-
-protected:
-    std::optional<Background> agent;
-};
 
 TEST_F(CortexLive, ListsEverySimplexWithStateAndQuality) {
     const json list = liveJson({"list"}, "list");

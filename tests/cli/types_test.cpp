@@ -120,14 +120,6 @@ TEST(CortexTypes, RefusesHostileNamesAsUnknown) {
     }
 }
 
-TEST(CortexTypes, AsksForAFileWhileThereIsNoNetwork) {
-    const Outcome outcome = cortex({"types"});
-
-    EXPECT_EQ(outcome.exit, 2);
-    EXPECT_TRUE(contains(outcome.errors, "for example --file robotics-morphology.xml"))
-        << outcome.errors;
-}
-
 TEST(CortexTypes, SaysThatANameAfterTheFilesIsTakenForAFile) {
     const Outcome outcome = cortex({"types", "--file", robotics, "KukaLbr"});
 

@@ -4,7 +4,7 @@ _cortex() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
     local verb=${COMP_WORDS[1]} options i
     local network="--domain --interface --peer --security --timeout --json --help"
-    local verbs="agents list show watch call set events validate diff types graph new-type new-system"
+    local verbs="agents list show watch call set events top save restore doctor validate diff types graph new-type new-system"
     verbs+=" security"
     COMPREPLY=()
     if ((COMP_CWORD == 1)); then
@@ -12,12 +12,15 @@ _cortex() {
         return
     fi
     case $verb in
-        agents | list | show | call | set) options=$network ;;
+        agents | list | show | call | set | doctor) options=$network ;;
+        top) options="--rate --seconds --once --until-gone $network" ;;
+        save) options="--force $network" ;;
+        restore) options="--dry-run $network" ;;
         watch) options="--rate --count --csv $network" ;;
         events) options="--follow --severity --csv $network" ;;
         validate | diff) options="--json --help" ;;
-        types) options="--file --json --help" ;;
-        graph) options="--file --dot --json --help" ;;
+        types) options="--file $network" ;;
+        graph) options="--file --dot $network" ;;
         new-type) options="--extends --file --output --force --json --help" ;;
         security)
             if ((COMP_CWORD == 2)); then
@@ -34,16 +37,25 @@ _cortex() {
         mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
         return
     fi
-    if [[ $verb =~ ^(agents|list|show|watch|call|set|events)$ ]]; then
+    if [[ $verb =~ ^(agents|list|show|watch|call|set|events|top|doctor)$ ]]; then
         _cortex_live "$@"
         return
     fi
-    # Names of types, from the files on the line or those of the installation.
+    if [[ $verb == save && $COMP_CWORD -gt 2 ]]; then
+        _cortex_live "$@"
+        return
+    fi
+    # Names of types, from the agents that are heard, the files on the line or the installation's.
     if [[ $before == --extends || $before == -e || ($verb == types && COMP_CWORD -eq 2) ]]; then
         local files=()
         for ((i = 2; i < ${#COMP_WORDS[@]}; ++i)); do
             [[ ${COMP_WORDS[i]} == *.xml && $i -ne $COMP_CWORD ]] && files+=("${COMP_WORDS[i]}")
         done
+        if [[ $verb == types ]] && ((!${#files[@]})); then
+            mapfile -t COMPREPLY < <(compgen -W "$("$1" types --timeout 1 2>/dev/null |
+                sed -n 's/^ *\([A-Za-z0-9_-]*\).*/\1/p' | sort -u)" -- "$word")
+            ((${#COMPREPLY[@]})) && return
+        fi
         ((${#files[@]})) || files=(robotics-morphology.xml)
         mapfile -t COMPREPLY < <(compgen -W "$("$1" types --file "${files[@]}" 2>/dev/null |
             sed -n 's/^ *\([A-Za-z0-9_-]*\).*/\1/p' | sort -u)" -- "$word")
@@ -65,9 +77,25 @@ _cortex_live() {
         mapfile -t COMPREPLY < <(compgen -W "$("$1" show "${COMP_WORDS[2]}" --timeout 1 \
             "${network[@]}" 2>/dev/null | sed -n '/^commands/,$s/^  \([A-Za-z0-9_-]*\).*/\1/p')" \
             -- "$word")
-    elif [[ ${COMP_WORDS[1]} != agents ]]; then
+    elif [[ ${COMP_WORDS[1]} == set && $COMP_CWORD -ge 3 ]] ||
+        [[ ${COMP_WORDS[1]} == call && $COMP_CWORD -ge 4 ]]; then
+        _cortex_names "$@"
+    elif [[ ${COMP_WORDS[1]} == watch && $word == *.* ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "$("$1" show "${word%%.*}" --timeout 1 \
+            "${network[@]}" 2>/dev/null |
+            sed -n "/^data/,/^$/s|^  \([A-Za-z0-9_-]*\).*|${word%%.*}.\1|p")" -- "$word")
+    elif [[ ${COMP_WORDS[1]} != agents && ${COMP_WORDS[1]} != doctor ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$("$1" list --timeout 1 "${network[@]}" 2>/dev/null |
             sed 's/ .*//')" -- "$word")
     fi
+}
+# Parameters of the command on the line, as `name=`.
+_cortex_names() {
+    local command=set names
+    [[ ${COMP_WORDS[1]} == call ]] && command=${COMP_WORDS[3]}
+    names=$("$1" show "${COMP_WORDS[2]}" --timeout 1 "${network[@]}" 2>/dev/null |
+        sed -n "/^commands/,\$s/^  $command  *//p" | grep -o '[A-Za-z0-9_-]*=')
+    mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
+    compopt -o nospace 2>/dev/null
 }
 complete -F _cortex cortex

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: Apache-2.0
+// top, doctor, save, restore, types and graph, against agents that are processes of their own.
+#include "cli/json_schema.hpp"
+#include "cli/live_agent.hpp"
+#include "core/model_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+
+#include <poll.h>
+#include <pty.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using nlohmann::json;
+
+const std::string program = CORTEX_BINARY_DIR "/bin/cortex";
+
+TEST_F(CortexLive, TopPrintsOneMomentOfEverything) {
+    ASSERT_EQ(live({"call", "/mixer", "startup", "prefix=/"}).exit, 0);
+
+    const json top = liveJson({"top", "--once"}, "top");
+    ASSERT_EQ(top["agents"].size(), 1U);
+    const json& mixer = top["agents"][0];
+    EXPECT_EQ(mixer["name"], "mixer");
+    EXPECT_EQ(mixer["states"]["Active"], 2);
+    EXPECT_EQ(mixer["qualities"]["lost"], 0) << mixer;
+    EXPECT_GT(mixer["loop"]["cycleDurationMean"], 0);
+    EXPECT_EQ(mixer["loop"]["commandCount"], 1);
+    EXPECT_TRUE(top["faults"].empty());
+
+    const json below = liveJson({"top", "--once", "/drive"}, "top");
+    EXPECT_EQ(below["agents"][0]["states"]["Active"], 1);
+    EXPECT_TRUE(below["agents"][0]["loop"].is_object()) << "whatever the prefix";
+
+    const Outcome text = live({"top", "--once"});
+    EXPECT_EQ(text.exit, 0) << text.errors;
+    EXPECT_TRUE(contains(text.output, "jitter us")) << text.output;
+    EXPECT_TRUE(contains(text.output, "running")) << text.output;
+    EXPECT_FALSE(contains(text.output, "\033")) << "no terminal";
+}
+
+TEST_F(CortexLive, TopEndsAfterItsTimeAndWithTheLastAgent) {
+    const Outcome lines = live({"top", "--json", "--rate", "30", "--seconds", "0.5"});
+    EXPECT_EQ(lines.exit, 0) << lines.errors;
+    ASSERT_FALSE(linesOf(lines.output).empty());
+    for (const std::string& line : linesOf(lines.output)) EXPECT_EQ(violationsOf("top", line), "");
+
+    const std::string file = (folder.path() / "mixer.xml").string();
+    agent->end(SIGTERM);
+    agent.emplace(agentCommand(file) + std::vector<std::string>{"--seconds", "3"});
+    const Outcome text = live({"top", "--until-gone", "--seconds", "60"});
+    EXPECT_EQ(text.exit, 0) << text.errors;
+    const auto last = text.output.rfind("cortex top");
+    ASSERT_NE(last, std::string::npos) << text.output;
+    EXPECT_TRUE(contains(text.output.substr(last), "running")) << "the last moment with an agent";
+}
+
+// A program on a terminal of its own, with what it wrote.
+class OnTerminal {
+public:
+    OnTerminal(std::vector<std::string> command, unsigned short columns, unsigned short rows) {
+        winsize size{rows, columns, 0, 0};
+        child_ = forkpty(&terminal_, nullptr, nullptr, &size);
+        if (child_ != 0) return;
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        setenv("TERM", "xterm", 1);
+        unsetenv("NO_COLOR");
+        std::vector<char*> pointers;
+        for (std::string& each : command) pointers.push_back(each.data());
+        pointers.push_back(nullptr);
+        execv(pointers.front(), pointers.data());
+        _exit(127);
+    }
+    ~OnTerminal() {
+        if (child_ > 0) kill(child_, SIGKILL);
+        exit();
+        close(terminal_);
+    }
+    OnTerminal(const OnTerminal&) = delete;
+    OnTerminal& operator=(const OnTerminal&) = delete;
+
+    // Reads until it has written this, has ended, or 20 s are over.
+    bool shows(const std::string& text) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+        std::array<char, 4096> buffer{};
+        while (!contains(output_, text)) {
+            pollfd file{terminal_, POLLIN, 0};
+            if (std::chrono::steady_clock::now() > end || poll(&file, 1, 1000) < 0) return false;
+            if (file.revents == 0) continue;
+            const ssize_t count = read(terminal_, buffer.data(), buffer.size());
+            if (count <= 0) return false;
+            output_.append(buffer.data(), static_cast<std::size_t>(count));
+        }
+        return true;
+    }
+    void type(char key) { EXPECT_EQ(write(terminal_, &key, 1), 1); }
+    void signal(int number) { kill(child_, number); }
+    int exit() {
+        if (child_ > 0) waitpid(child_, &status_, 0);
+        child_ = 0;
+        return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
+    }
+    const std::string& output() const { return output_; }
+
+private:
+    int terminal_ = -1, status_ = 0;
+    pid_t child_ = 0;
+    std::string output_;
+};
+
+// What a person sees of the last frame, a line an element.
+std::vector<std::string> frameOf(const std::string& output) {
+    std::string text;
+    const std::string frame = output.substr(output.rfind("\033[H") + 3);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        if (frame[i] != '\033') {
+            if (frame[i] != '\r') text += frame[i];
+            continue;
+        }
+        while (i + 1 < frame.size() && std::isalpha(static_cast<unsigned char>(frame[i])) == 0) ++i;
+    }
+    return linesOf(text);
+}
+
+constexpr const char* otherScreen = "\033[?1049h";
+constexpr const char* ownScreen = "\033[?1049l";
+
+TEST_F(CortexLive, TopFitsTheTerminalAndGivesItBack) {
+    ASSERT_EQ(live({"list"}).exit, 0);
+
+    for (const int how : {0, SIGINT, SIGTERM}) {
+        OnTerminal top{std::vector<std::string>{program, "top", "--rate", "30"} + network, 60, 18};
+        ASSERT_TRUE(top.shows("running")) << top.output();
+        ASSERT_TRUE(top.shows("events\033")) << top.output();
+        EXPECT_TRUE(contains(top.output(), otherScreen));
+        EXPECT_TRUE(contains(top.output(), "\033[32mrunning")) << "coloured";
+        const auto lines = frameOf(top.output());
+        EXPECT_LE(lines.size(), 18U);
+        for (const std::string& each : lines) EXPECT_LE(each.size(), 60U) << each;
+        EXPECT_FALSE(contains(top.output(), ownScreen));
+
+        if (how == 0)
+            top.type('q');
+        else
+            top.signal(how);
+        EXPECT_TRUE(top.shows(ownScreen)) << how;
+        EXPECT_EQ(top.exit(), 0) << how;
+    }
+}
+
+TEST_F(CortexLive, SavesAndRestoresSettableItems) {
+    const std::string file = (folder.path() / "saved.xml").string();
+    ASSERT_EQ(live({"set", "/drive", "naturalFrequency=9.300000000000001"}).exit, 0);
+
+    const json saved = liveJson({"save", file}, "save");
+    EXPECT_EQ(saved["simplexes"], 1);
+    EXPECT_EQ(saved["items"], 2);
+    const std::string text = textOf(file);
+    EXPECT_TRUE(contains(text,
+                         "<set data=\"naturalFrequency\" value=\"9.300000000000001\"/>  "
+                         "<!-- Hz, 0.5 .. 15 -->"))
+        << text;
+    EXPECT_EQ(live({"save", file}).exit, 1) << "the file exists";
+    EXPECT_EQ(live({"save", file, "/drive", "--force"}).exit, 0);
+    EXPECT_EQ(live({"save", file, "/axis", "--force"}).exit, 3) << "nothing settable";
+    EXPECT_EQ(textOf(file).find("/drive") == std::string::npos, false);
+
+    EXPECT_EQ(liveJson({"restore", file}, "restore")["same"], 2);
+    ASSERT_EQ(live({"set", "/drive", "naturalFrequency=8"}).exit, 0);
+    const Outcome dry = live({"restore", file, "--dry-run"});
+    EXPECT_EQ(dry.exit, 0) << dry.errors;
+    EXPECT_TRUE(contains(dry.output, "/drive.naturalFrequency  8 -> 9.300000000000001  Hz"))
+        << dry.output;
+    const json restored = liveJson({"restore", file}, "restore");
+    EXPECT_EQ(restored["differences"][0]["now"], 8) << "a dry run changes nothing";
+    EXPECT_EQ(restored["results"][0]["outcome"], "Done");
+    EXPECT_EQ(liveJson({"show", "/drive"}, "show")["data"]["naturalFrequency"]["value"],
+              9.300000000000001);
+}
+
+TEST_F(CortexLive, RestoresNothingWhereSomethingIsWrongAndSaysAllOfIt) {
+    const std::string file = folder.write("wrong.xml", R"(<system name="saved">
+  <simplex path="/drive" type="SimulatedAxis">
+    <set data="naturalFrequency" value="9"/>
+    <set data="dampingRatio" value="7"/>
+    <set data="dampingRatios" value="1"/>
+    <set data="followingError" value="0"/>
+    <set data="faultText" value="&quot;"/>
+  </simplex>
+  <simplex path="/drvie" type="SimulatedAxis"><set data="dampingRatio" value="1"/></simplex>
+</system>)");
+    ASSERT_EQ(live({"set", "/drive", "naturalFrequency=8"}).exit, 0);
+
+    const json outcome = liveJson({"restore", file}, "restore", 1);
+    std::vector<std::string> rules;
+    for (const json& each : outcome["findings"]) rules.push_back(each["rule"]);
+    EXPECT_EQ(rules, (std::vector<std::string>{"out-of-range", "unknown-item", "not-settable",
+                                               "not-settable", "unknown-path"}));
+    EXPECT_EQ(outcome["findings"][0]["line"], 4);
+    EXPECT_TRUE(outcome["results"].empty());
+    EXPECT_EQ(liveJson({"show", "/drive"}, "show")["data"]["naturalFrequency"]["value"], 8);
+    EXPECT_EQ(live({"restore", (folder.path() / "none.xml").string()}).exit, 3);
+}
+
+// A settable text, which no shipped type has.
+TEST(CortexSave, BringsTextBackAsItWas) {
+    const ModelFolder folder;
+    ASSERT_EQ(cortex({"new-system", "mixer", "-o", (folder.path() / "mixer.xml").string()}).exit,
+              0);
+    folder.write("named.xml", R"(<ontology name="named" version="1.0">
+  <include file="robotics.xml"/>
+  <type name="NamedAxis" extends="SimulatedAxis" version="1.0" description="An axis with a name.">
+    <data name="label" kind="string" settable="always" description="What people call it."/>
+    <data name="words" kind="string" length="2" settable="always" description="Two of them."/>
+  </type>
+</ontology>)");
+    std::string system = folder.read("mixer.xml");
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        ASSERT_NE(system.find(from), std::string::npos) << system;
+        system.replace(system.find(from), from.size(), to);
+    };
+    replace("type=\"SimulatedAxis\"", "type=\"NamedAxis\"");
+    replace("<morphology file=\"robotics-morphology.xml\"/>",
+            "<morphology file=\"robotics-morphology.xml\"/>\n<ontology file=\"named.xml\"/>");
+    const Background agent{agentCommand(folder.write("named-mixer.xml", system).string())};
+    const std::string file = (folder.path() / "saved.xml").string();
+    const std::string label = "it's \"left\" & <right>,\n\tüber";
+    const std::string words = "\"a b\" c";
+    ASSERT_EQ(live({"set", "/drive", "label=" + label, "words=" + words}).exit, 0);
+
+    ASSERT_EQ(live({"save", file}).exit, 0);
+    ASSERT_EQ(live({"set", "/drive", "label=other", "words=x y"}).exit, 0);
+    ASSERT_EQ(live({"restore", file}).exit, 0);
+
+    const json data = liveJson({"show", "/drive"}, "show")["data"];
+    EXPECT_EQ(data["label"]["value"], label);
+    EXPECT_EQ(data["words"]["value"], (json{"a b", "c"}));
+}
+
+TEST_F(CortexLive, ShowsTypesAndGraphAsFilesDo) {
+    const std::string file = (folder.path() / "mixer.xml").string();
+
+    json ofFile = json::parse(cortex({"graph", "--json", "--file", file}).output);
+    json ofNetwork = liveJson({"graph"}, "graph");
+    ofFile.erase("system");
+    ofNetwork.erase("system");
+    EXPECT_EQ(ofNetwork, ofFile);
+    EXPECT_TRUE(contains(live({"graph", "--dot"}).output, "digraph"));
+
+    const json type = liveJson({"types", "SimulatedAxis"}, "type");
+    EXPECT_EQ(type["hash"], json::parse(cortex({"types", "SimulatedAxis", "--json", "--file",
+                                                "robotics-morphology.xml"})
+                                            .output)["hash"]);
+    EXPECT_GT(liveJson({"types"}, "types")["types"].size(), 5U);
+    EXPECT_EQ(live({"types", "SimulatedAxi"}).exit, 3);
+    EXPECT_EQ(cortex({"types", "--domain", "7", "--file", "base.xml"}).exit, 2);
+}
+
+TEST(CortexGraph, JoinsWhatAgentsHaveOfEachOther) {
+    const ModelFolder folder;
+    const auto systemOf = [&](const std::string& agent, const std::string& inside) {
+        return folder
+            .write(agent + ".xml", "<system name=\"" + agent +
+                                       "\"><morphology file=\"robotics-morphology.xml\"/>"
+                                       "<cluster name=\"" +
+                                       agent + "\" frequency=\"200\"/>" + inside + "</system>")
+            .string();
+    };
+    std::optional<Background> front{
+        agentCommand(systemOf("front",
+                              "<simplex path=\"/front/drive\" type=\"SimulatedAxis\">"
+                              "<relate rule=\"demand\" to=\"/front/demand\"/>"
+                              "<relate rule=\"observation\" to=\"/front/axis\"/></simplex>"
+                              "<simplex path=\"/front/demand\" type=\"RotaryAxisConcept\"/>"
+                              "<simplex path=\"/front/axis\" type=\"RotaryAxisConcept\"/>"))};
+    const Background back{
+        agentCommand(systemOf("back",
+                              "<simplex path=\"/back/hold\" type=\"HoldAxisController\">"
+                              "<relate rule=\"observed\" to=\"/front/axis\" remote=\"true\"/>"
+                              "<relate rule=\"axis\" to=\"/back/demand\"/></simplex>"
+                              "<simplex path=\"/back/demand\" type=\"RotaryAxisConcept\"/>"))};
+    json graph;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+    do {  // the second may not have begun
+        graph = liveJson({"graph"}, "graph");
+    } while (graph["simplexes"].size() < 7 && std::chrono::steady_clock::now() < end);
+
+    ASSERT_EQ(graph["simplexes"].size(), 7U) << graph;
+    for (const json& each : graph["simplexes"]) {
+        EXPECT_EQ(each["remote"], false) << each;
+        const std::string path = each["path"];
+        EXPECT_EQ(each["agent"], path.starts_with("/front") ? "front" : "back") << each;
+    }
+    const Outcome text = live({"graph"});
+    EXPECT_TRUE(contains(text.output, "observed  <- /front/axis (front)")) << text.output;
+
+    front->end(SIGKILL);
+    Outcome lost;
+    do {
+        lost = live({"graph"});
+    } while (!contains(lost.output, "(no agent)") && std::chrono::steady_clock::now() < end);
+    EXPECT_TRUE(contains(lost.output, "observed  <- /front/axis (no agent)") ||
+                contains(lost.output, "observed  <- /front/axis (another agent)"))
+        << lost.output;
+}
+
+TEST_F(CortexLive, DoctorLooksAtMachineNetworkAndAgents) {
+    const Outcome outcome = live({"doctor", "--json"});
+    EXPECT_EQ(violationsOf("doctor", outcome.output), "") << outcome.output << outcome.errors;
+    std::vector<std::string> subjects;
+    bool errors = false;
+    for (const json& each : json::parse(outcome.output)["findings"]) {
+        subjects.push_back(each["subject"]);
+        errors = errors || each["level"] == "error";
+        EXPECT_NE(each["message"], "");
+        EXPECT_EQ(each["level"] == "ok", each["remedy"] == "") << each;
+    }
+    EXPECT_EQ(outcome.exit, errors ? 1 : 0);
+    for (const char* each : {"cpu", "kernel", "priority", "memory", "clock", "timer",
+                             "shared memory", "interface", "ports", "firewall", "agent"}) {
+        EXPECT_EQ(std::ranges::count(subjects, each) > 0, true) << each << outcome.output;
+    }
+    const Outcome text = live({"doctor"});
+    EXPECT_TRUE(contains(text.output, "agent          mixer on ")) << text.output;
+}
+
+TEST(CortexDoctor, SaysThatNobodyIsThereAndGoesOn) {
+    const Outcome outcome =
+        cortex(std::vector<std::string>{"doctor", "--timeout", "0.05"} + network);
+
+    EXPECT_TRUE(contains(outcome.output, "none is heard on domain " + domain)) << outcome.output;
+    EXPECT_NE(outcome.exit, 3);
+}
+
+}  // namespace
+}  // namespace cortex::test
