@@ -81,8 +81,6 @@ public:
     std::vector<Executed> executed() const;
 
     struct Memory;  // of both processes
-    // What the process does, told by its arguments; false: it is another.
-    static bool isOne(int count, char** words);
 
 private:
     int file_ = -1;
