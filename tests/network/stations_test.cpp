@@ -91,7 +91,7 @@ public:
 
     // A mirror appends host and process to its name.
     bool isNamed(const std::string& name) const {
-        return name.ends_with("-" + std::to_string(process_));
+        return name.ends_with("." + std::to_string(process_));
     }
     void killIt() {
         if (process_ == 0) return;
