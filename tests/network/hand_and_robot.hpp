@@ -66,8 +66,8 @@ private:
     cs::ClusterCS cluster_;
 };
 
-// The agent "robot", a process of its own: watches the button, and counts commands. Hosts that are
-// one process are no two hosts to Fast DDS.
+// The agent "robot", a process of its own like on a host of its own: watches the button, and counts
+// commands.
 class RobotProcess {
 public:
     explicit RobotProcess(const std::string& peer);  // empty: none
