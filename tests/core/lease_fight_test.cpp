@@ -20,7 +20,7 @@ using test::AgentRig;
 using test::Hand;
 using Answer = test::PlayedInterface::Answer;
 
-constexpr std::int64_t leaseCycles = 20;  // 2 s at 10 Hz
+constexpr std::int64_t leaseCycles = 40;  // 2 s at 20 Hz
 
 struct Station {
     std::string name;
@@ -31,7 +31,7 @@ struct Station {
 class Fight {
 public:
     Fight(std::uint64_t seed, bool required)
-        : rig{"rig", {.controlRequired = required, .period = 100'000'000}},
+        : rig{"rig", {.controlRequired = required, .period = 50'000'000}},
           required_{required},
           random_{seed} {
         rig.make();
@@ -254,7 +254,7 @@ TEST_P(LeaseFight, NeverHasTwoWritersAndNeverRefusesAStop) {
           "handOverControl refused", "releaseControl done", "releaseControl refused",
           "renewControl done", "renewControl refused", "take at once done", "take at once refused",
           "write done", "write refused", "write of an earlier start refused", "crash"}) {
-        EXPECT_GT(counts[what], 20) << what << " did not happen often enough";
+        EXPECT_GT(counts[what], 10) << what << " did not happen often enough";
     }
 }
 

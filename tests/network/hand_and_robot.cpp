@@ -3,12 +3,13 @@
 
 #include "cortex/comms/dds_interface.hpp"
 
+#include "network/processes.hpp"
+
 #include <algorithm>
 #include <csignal>
 #include <stdexcept>
 
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -156,8 +157,11 @@ RobotProcess::Memory* shared(int file) {
     return static_cast<RobotProcess::Memory*>(memory);
 }
 
-void runRobot(RobotProcess::Memory& memory, const std::string& peer) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+}  // namespace
+
+void runRobot(int file, const std::string& peer) {
+    RobotProcess::Memory& memory = *shared(file);
+    const pid_t parent = getppid();
     cs::blockStopSignals();
     SimplexTree tree{types()};
     tree.add<Counter>("/robot/counter", "Counter", memory.executed);
@@ -166,20 +170,12 @@ void runRobot(RobotProcess::Memory& memory, const std::string& peer) {
     cs::ClusterCS cluster{"robot"};
     start(cluster, tree, network(peer));
     // The watcher does not start before it has a button.
-    for (bool started = false; !cs::waitForInterrupt(0.0005);) {
+    for (bool started = false; !cs::waitForInterrupt(0.0005) && getppid() == parent;) {
         started = started || startUp(cluster, "robot").outcome == Outcome::Done;
         const Image image = cluster.image();
         const bool good = image.quality("/hand/button") == Quality::Good;
         memory.newest = good ? image.get<std::int64_t>("/hand/button", "written") : 0;
     }
-}
-
-}  // namespace
-
-bool RobotProcess::isOne(int count, char** words) {
-    if (count < 3 || std::string{words[1]} != "robot") return false;
-    runRobot(*shared(std::stoi(words[2])), count > 3 ? words[3] : "");
-    return true;
 }
 
 RobotProcess::RobotProcess(const std::string& peer) : file_{memfd_create("robot", 0)} {

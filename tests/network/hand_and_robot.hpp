@@ -66,8 +66,8 @@ private:
     cs::ClusterCS cluster_;
 };
 
-// The agent "robot", a process of its own: watches the button, and counts commands. Hosts that are
-// one process are no two hosts to Fast DDS.
+// The agent "robot", a process of its own like on a host of its own: watches the button, and counts
+// commands.
 class RobotProcess {
 public:
     explicit RobotProcess(const std::string& peer);  // empty: none
@@ -81,8 +81,6 @@ public:
     std::vector<Executed> executed() const;
 
     struct Memory;  // of both processes
-    // What the process does, told by its arguments; false: it is another.
-    static bool isOne(int count, char** words);
 
 private:
     int file_ = -1;

@@ -206,9 +206,3 @@ TEST(TwoHosts, FindEachOtherWithoutMulticast) {
 
 }  // namespace
 }  // namespace cortex::test
-
-int main(int count, char** words) {
-    if (cortex::test::RobotProcess::isOne(count, words)) return 0;
-    testing::InitGoogleTest(&count, words);
-    return RUN_ALL_TESTS();
-}
