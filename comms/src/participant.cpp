@@ -205,6 +205,8 @@ Participant::Participant(const NetworkOptions& options, const std::string& name)
     if (!options.security.empty()) {
         impl_->guard = std::make_unique<SecurityGuard>(options.security, name, options.domain);
     }
+    static std::mutex joining;  // two must not choose one number
+    const std::lock_guard lock{joining};
     dds::DomainParticipantQos qos = participantQos(options, name);
     setUpFastDds();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
@@ -215,7 +217,7 @@ Participant::Participant(const NetworkOptions& options, const std::string& name)
     };
     impl_->participant = join();
     if (impl_->participant == nullptr) {
-        // The number may be that of a participant of this process whose port was taken.
+        // Perhaps one of this process has the number and not the port: whichever is free.
         qos.wire_protocol().participant_id = -1;
         impl_->participant = created(join(), "the network membership" + where);
     }

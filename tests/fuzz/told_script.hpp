@@ -114,8 +114,8 @@ private:
         }
         std::map<std::string, TypeHash> hashes;
         Report report;
-        for (const auto& [name, type] : modelOf(types, report).types())
-            hashes[name] = typeHash(type);
+        const TypeModel made = modelOf(types, report);
+        for (const auto& [name, type] : made.types()) hashes[name] = typeHash(type);
         for (const Finding& each : report.findings) {
             const std::size_t hex = each.message.rfind(", it is ");
             if (each.rule != "type-hash" || hex == std::string::npos) continue;
