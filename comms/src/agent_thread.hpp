@@ -44,6 +44,7 @@ private:
     void takeMessages(std::int64_t now);
     void changed();
     void sendEvents();
+    Presence presence(const char* state) const;
     void sendPresence(std::int64_t now);
     void fallSilent();
     void sayGoodbye();
