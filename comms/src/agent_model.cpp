@@ -102,8 +102,9 @@ void AgentModel::addSimplexes() {
     }
 }
 
-Presence AgentModel::presence(const char* state) const {
+Presence AgentModel::presence(const char* state, std::uint32_t agents) const {
     Presence presence = presence_;
+    presence.extras = {{agentsHeard, std::to_string(agents)}};
     presence.state = state;
     presence.cycle = self_.access.images->newestCycle();
     return presence;

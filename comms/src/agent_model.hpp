@@ -18,7 +18,7 @@ public:
 
     const std::vector<Model>& samples() const { return samples_; }
     const Id& structureHash() const { return presence_.structureHash; }
-    Presence presence(const char* state) const;
+    Presence presence(const char* state, std::uint32_t agents) const;  // heard, this one too
     Model sampleOf(Interest interest) const;
 
 private:

@@ -178,4 +178,10 @@ void AgentPeers::takeInto(PeerStart& start, const Model& model) {
     changed_ = true;
 }
 
+std::uint32_t AgentPeers::agents() const {
+    const auto heard = std::ranges::count_if(
+        peers_, [](const auto& each) { return each.second.heard && each.second.agent; });
+    return static_cast<std::uint32_t>(heard);
+}
+
 }  // namespace cortex::comms

@@ -55,6 +55,7 @@ public:
     bool takeChanged() { return std::exchange(changed_, false); }
     bool outranked() const { return outranked_; }  // a later start of our own name is heard
     Peers& all() { return peers_; }
+    std::uint32_t agents() const;  // that are heard
 
 private:
     bool plausible(const std::string& name, std::int64_t epoch);

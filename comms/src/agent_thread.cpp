@@ -146,16 +146,20 @@ void AgentThread::sendEvents() {
     eventsToSend_.clear();
 }
 
+Presence AgentThread::presence(const char* state) const {
+    return model_.presence(state, peers_.agents() + 1);
+}
+
 void AgentThread::sendPresence(std::int64_t now) {
     if (now < presenceDue_) return;
-    presenceOut_->write(model_.presence("running"));
+    presenceOut_->write(presence("running"));
     presenceDue_ = std::max(presenceDue_ + presenceInterval, now + presenceInterval / 2);
 }
 
 // The network belongs to the later start: the last that is heard of this one.
 void AgentThread::fallSilent() {
     if (std::exchange(silent_, true)) return;
-    presenceOut_->write(model_.presence("silent"));
+    presenceOut_->write(presence("silent"));
 }
 
 // After the last cycle. Without dispose where we fell silent: the keys are the later start's.
@@ -163,7 +167,7 @@ void AgentThread::sayGoodbye() {
     step();
     if (silent_) return;
     while (!events_.empty()) sendEvents();
-    const Presence last = model_.presence("stopping");
+    const Presence last = presence("stopping");
     presenceOut_->write(last);
     presenceOut_->dispose(last);
 }

@@ -49,6 +49,7 @@ private:
     void changed();
     void sendInterests();
     void sendEvents();
+    Presence presence(const char* state) const;
     void sendPresence(std::int64_t now);
     void fallSilent();
     void sayGoodbye();

@@ -22,6 +22,9 @@ struct Extra {
     bool operator==(const Extra&) const = default;
 };
 
+// An extra of Presence: how many agents its sender hears, itself included.
+inline constexpr const char* agentsHeard = "agents";
+
 struct NamedValue {
     std::string name, kind;
     std::vector<std::int64_t> ints;

@@ -4,6 +4,8 @@
 #include "ids.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cstddef>
 #include <utility>
 
 namespace cortex::comms {
@@ -27,6 +29,16 @@ bool showsAny(const Structure& structure, const MirrorView& view) {
     bool any = false;
     forShown(structure, view, [&](std::uint32_t) { any = true; });
     return any;
+}
+
+// 0: it does not say.
+std::ptrdiff_t heardBy(const Presence& agent) {
+    std::ptrdiff_t count = 0;
+    for (const Extra& extra : agent.extras) {
+        if (extra.name != agentsHeard) continue;
+        std::from_chars(extra.value.data(), extra.value.data() + extra.value.size(), count);
+    }
+    return count;
 }
 
 }  // namespace
@@ -238,6 +250,14 @@ std::uint32_t MirrorAgents::present() const {
 bool MirrorAgents::complete() const {
     return !agents_.empty() &&
            std::ranges::all_of(agents_, [](const auto& each) { return each.second.settled(); });
+}
+
+bool MirrorAgents::hearsAllThatTheyHear() const {
+    const auto heard = [](const auto& each) { return each.second.present() && !each.second.lost; };
+    const auto here = std::ranges::count_if(agents_, heard);
+    return std::ranges::all_of(agents_, [&](const auto& each) {
+        return !heard(each) || heardBy(*each.second.model.presence()) <= here;
+    });
 }
 
 bool MirrorAgents::valuesComplete(const MirrorView& view) const {

@@ -62,6 +62,7 @@ public:
     MirrorAgent* ownerOf(std::string_view path);  // null: nobody's
     std::uint32_t present() const;                // agents and tools that are heard
     bool complete() const;                        // somebody is there, and all of everybody
+    bool hearsAllThatTheyHear() const;            // as many agents as any of them
     bool valuesComplete(const MirrorView& view) const;
     std::uint64_t images() const;  // published, of all together
     std::uint64_t refused() const;

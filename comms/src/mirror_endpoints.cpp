@@ -109,7 +109,9 @@ void MirrorEndpoints::tell(const MirrorAgents& agents, const MirrorView& view, M
         Interest interest;
         interest.target = name;
         interest.targetEpoch = agent.model.epoch();
-        if (agent.tables) interest.views.push_back({view.rate, view.prefixes});
+        // What it has is not known at first: asked all the same, its values come with its model.
+        const bool mayShow = agent.tables || (!agent.structure && !view.prefixes.empty());
+        if (mayShow) interest.views.push_back({view.rate, view.prefixes});
         want(name, std::move(interest));
     }
 }

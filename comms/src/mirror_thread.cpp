@@ -11,8 +11,9 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::chrono::milliseconds quiet{100};
+constexpr std::chrono::seconds patience{1};  // with agents that others hear
 constexpr std::chrono::milliseconds tick{20};
-constexpr std::chrono::milliseconds commandTick{5};
+constexpr std::chrono::milliseconds shortTick{5};  // while something is waited for
 
 [[noreturn]] void throwNoSuchPath(const MirrorState& state, std::string_view path) {
     std::vector<std::string> paths;
@@ -30,8 +31,9 @@ constexpr std::chrono::milliseconds commandTick{5};
 }  // namespace
 
 bool MirrorState::everybodyIsHere() const {
-    return agents.complete() && agents.present() >= speakers &&
-           std::chrono::steady_clock::now() - news >= quiet;
+    const auto since = std::chrono::steady_clock::now() - news;
+    return since >= quiet && agents.complete() && agents.present() >= speakers &&
+           (since >= patience || agents.hearsAllThatTheyHear());
 }
 
 MirrorThread::MirrorThread(const std::string& name, const NetworkOptions& options)
@@ -59,8 +61,9 @@ void MirrorThread::run() {
 
 // False: the mirror ends.
 bool MirrorThread::turn() {
-    const auto pause =
-        read([](MirrorState& state) { return state.commands.waiting() ? commandTick : tick; });
+    const auto pause = read([](MirrorState& state) {
+        return state.commands.waiting() || !state.everybodyIsHere() ? shortTick : tick;
+    });
     const auto samples = inbox_.take(std::chrono::steady_clock::now() + pause);
     {
         const std::lock_guard lock{mutex_};

@@ -28,7 +28,8 @@ struct MirrorState {
           }},
           commands{tool} {}
 
-    // Everybody who was found has spoken and told everything, and nobody new was found for a while.
+    // Everybody who was found, or is heard by one who was, has spoken and told everything, and
+    // nobody new was found for a while.
     bool everybodyIsHere() const;
 
     MirrorAgents agents;

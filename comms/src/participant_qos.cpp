@@ -187,19 +187,28 @@ dds::DataWriterQos writerQos(Qos qos) {
     if (profile.reliable) {
         writer.reliable_writer_qos().times.heartbeatPeriod = milliseconds(profile.heartbeat);
     }
+    if (profile.lateJoiners) writer.reliable_writer_qos().times.nackResponseDelay = milliseconds(1);
     return writer;
 }
 
 dds::DataReaderQos readerQos(Qos qos) {
     dds::DataReaderQos reader;
-    apply(profileOf(qos), reader);
+    const Profile& profile = profileOf(qos);
+    apply(profile, reader);
+    if (profile.lateJoiners) {  // what was written before is asked for soon
+        reader.reliable_reader_qos().times.initialAcknackDelay = milliseconds(5);
+        reader.reliable_reader_qos().times.heartbeatResponseDelay = milliseconds(1);
+    }
     return reader;
 }
 
 void setUpFastDds() {
     static std::once_flag once;
     std::call_once(once, [] {
-        dds::DomainParticipantFactory::get_instance()->load_profiles();
+        // Kept for ever: its destructor would hold up the end of the process by 100 ms.
+        static const auto* const factory =
+            new auto{dds::DomainParticipantFactory::get_shared_instance()};
+        (*factory)->load_profiles();
         eprosima::fastrtps::LibrarySettingsAttributes settings;
         settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
         eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);

@@ -99,6 +99,27 @@ TEST_F(DdsAgent, TellsItsEventsNumberedAndThatItStops) {
     EXPECT_TRUE(hears("stopping"));
 }
 
+TEST_F(DdsAgent, SaysHowManyAgentsItHears) {
+    const auto says = [&](const char* count) {
+        return comesTrue([&] {
+            const auto presence = heard();
+            return presence && presence->extras == std::vector<Extra>{{agentsHeard, count}};
+        });
+    };
+    start();
+    ASSERT_TRUE(tool.presences->write(tool.presence()));
+    EXPECT_TRUE(says("1")) << "tools do not count";
+    Presence other = tool.presence();
+    other.name = "other";
+    other.agent = agentId(other.name);
+    other.role = "agent";
+    EXPECT_TRUE(comesTrue([&] {
+        tool.presences->write(other);
+        return heard()->extras.front().value == "2";
+    }));
+    EXPECT_TRUE(says("1")) << "it is lost";
+}
+
 TEST_F(DdsAgent, WritesAViewOnlyWhileSomebodyAsks) {
     Inbox<Block> blocks;
     const auto reader = tool.participant.reader<Block>(topics::view30, blocks.push());

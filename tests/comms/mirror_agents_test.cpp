@@ -49,6 +49,23 @@ TEST_F(MirrorAgentsTest, AreIncompleteUntilAllIsThere) {
     EXPECT_TRUE(agents.find("rig")->structure);
 }
 
+TEST_F(MirrorAgentsTest, KnowFromEachAgentHowManyThereAre) {
+    agent.presence.extras = {{"other", "9"}, {agentsHeard, "2"}};
+    tellAll();
+    EXPECT_FALSE(agents.hearsAllThatTheyHear()) << "rig hears one that is not here";
+    agent.presence.extras = {{agentsHeard, "1"}};
+    tellAll();
+    EXPECT_TRUE(agents.hearsAllThatTheyHear());
+
+    agent.presence.extras = {{agentsHeard, "2"}};
+    tellAll();
+    agents.withdraw(agent.presence.agent);
+    EXPECT_TRUE(agents.hearsAllThatTheyHear()) << "what is lost says nothing";
+    agent.presence.extras = {{agentsHeard, "x"}};
+    tellAll();
+    EXPECT_TRUE(agents.hearsAllThatTheyHear());
+}
+
 TEST_F(MirrorAgentsTest, AreLostAfterASecondAndForgottenAfterAMinute) {
     tellAll();
 

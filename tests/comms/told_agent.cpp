@@ -28,7 +28,7 @@ ToldAgent::ToldAgent() {
 
     const AgentSelf self{rig.outside.access};
     const AgentModel model{self};
-    presence = model.presence("running");
+    presence = model.presence("running", 1);
     models = model.samples();
 }
 
