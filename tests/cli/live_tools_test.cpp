@@ -273,40 +273,31 @@ TEST(CortexGraph, JoinsWhatAgentsHaveOfEachOther) {
     };
     std::optional<Background> front{
         agentCommand(systemOf("front",
-                              "<simplex path=\"/front/drive\" type=\"SimulatedAxis\">"
-                              "<relate rule=\"demand\" to=\"/front/demand\"/>"
-                              "<relate rule=\"observation\" to=\"/front/axis\"/></simplex>"
-                              "<simplex path=\"/front/demand\" type=\"RotaryAxisConcept\"/>"
-                              "<simplex path=\"/front/axis\" type=\"RotaryAxisConcept\"/>"))};
-    const Background back{
-        agentCommand(systemOf("back",
-                              "<simplex path=\"/back/hold\" type=\"HoldAxisController\">"
-                              "<relate rule=\"axes\" to=\"/front/axis\" remote=\"true\"/>"
-                              "<relate rule=\"demands\" to=\"/back/demand\"/></simplex>"
-                              "<simplex path=\"/back/demand\" type=\"RotaryAxisConcept\"/>"))};
+                              "<simplex path=\"/front/lbr\" type=\"KukaLbr\"/>"
+                              "<simplex path=\"/front/gripper\" type=\"Robotiq2Finger\"/>"))};
+    const Background back{agentCommand(
+        systemOf("back",
+                 "<simplex path=\"/back/arm\" type=\"Arm\">"
+                 "<relate rule=\"manipulator\" to=\"/front/lbr\" remote=\"true\"/>"
+                 "<relate rule=\"gripper\" to=\"/front/gripper\" remote=\"true\"/></simplex>"))};
     json graph;
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
     do {  // the second may not have begun
         graph = liveJson({"graph"}, "graph");
-    } while (graph["simplexes"].size() < 7 && std::chrono::steady_clock::now() < end);
+    } while (graph["simplexes"].size() < 20 && std::chrono::steady_clock::now() < end);
 
-    ASSERT_EQ(graph["simplexes"].size(), 7U) << graph;
+    ASSERT_EQ(graph["simplexes"].size(), 20U) << graph;
     for (const json& each : graph["simplexes"]) {
         EXPECT_EQ(each["remote"], false) << each;
         const std::string path = each["path"];
         EXPECT_EQ(each["agent"], path.starts_with("/front") ? "front" : "back") << each;
     }
-    const Outcome text = live({"graph"});
-    EXPECT_TRUE(contains(text.output, "axes     <- /front/axis (front)")) << text.output;
+    EXPECT_TRUE(contains(live({"graph"}).output, "manipulator  <- /front/lbr (front)"));
 
-    front->end(SIGKILL);
-    Outcome lost;
-    do {
-        lost = live({"graph"});
-    } while (!contains(lost.output, "(no agent)") && std::chrono::steady_clock::now() < end);
-    EXPECT_TRUE(contains(lost.output, "axes     <- /front/axis (no agent)") ||
-                contains(lost.output, "axes     <- /front/axis (another agent)"))
-        << lost.output;
+    front->end(SIGTERM);
+    const Outcome alone = live({"graph"});
+    EXPECT_TRUE(contains(alone.output, "manipulator  <- /front/lbr (another agent)"))
+        << alone.output;
 }
 
 TEST_F(CortexLive, DoctorLooksAtMachineNetworkAndAgents) {
