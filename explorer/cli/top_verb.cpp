@@ -193,8 +193,10 @@ private:
     }
     bool nobodyIsLeft() {
         if (!options_.untilGone || !seen_) return false;
-        return std::ranges::all_of(live_.mirror().agents(),
-                                   [](const auto& each) { return each.state == "lost"; });
+        TopFrame frame = view_.frame();
+        if (!frame.anyAgent()) return true;
+        alive_ = std::move(frame);
+        return false;
     }
 
     const TopOptions& options_;
