@@ -93,7 +93,7 @@ private:
             lengthOf(*value) != item->length) {
             return error(simplex.path(), "constant '" + named.name + "' does not fit its type");
         }
-        simplex.set(named.name, std::move(*value));
+        simplex.set(named.name, *value);
     }
 
     void check(const Structure& structure, const std::map<std::string, SimplexMessage>& simplexes) {
