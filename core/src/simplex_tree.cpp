@@ -87,13 +87,20 @@ Simplex& SimplexTree::add(std::string_view path, std::string_view type) {
 
 void SimplexTree::relate(Simplex& owner, std::string_view rule, const Simplex& target,
                          bool delayed) {
-    owner.relations_.push_back({std::string{rule}, target.path(), delayed, false, {}});
+    Simplex::Relation& relation = owner.relations_.emplace_back();
+    relation.rule = rule;
+    relation.target = target.path();
+    relation.delayed = delayed;
 }
 
 void SimplexTree::relateRemote(Simplex& owner, std::string_view rule, std::string_view path,
                                std::string_view type, bool delayed) {
-    owner.relations_.push_back(
-        {std::string{rule}, std::string{path}, delayed, true, {}, std::string{type}});
+    Simplex::Relation& relation = owner.relations_.emplace_back();
+    relation.rule = rule;
+    relation.target = path;
+    relation.delayed = delayed;
+    relation.remote = true;
+    relation.type = type;
 }
 
 const Simplex* SimplexTree::find(std::string_view path) const {

@@ -19,7 +19,7 @@ struct SystemDescription {
         bool delayed = false;
         bool remote = false;  // `to` may belong to another agent, bound when it appears
         Place place;
-        std::string type = {};  // that it has there; the rule's target if empty
+        std::string type{};  // that it has there; the rule's target if empty
     };
     struct Setting {
         std::string data, value;

@@ -105,7 +105,7 @@ public:
         bool delayed = false;
         bool remote = false;
         Place place;
-        std::string type = {};  // of a remote target; the rule's if empty
+        std::string type{};  // of a remote target; the rule's if empty
     };
 
     explicit Simplex(Identity identity);
