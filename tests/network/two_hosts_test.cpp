@@ -9,6 +9,7 @@
 #include <iostream>
 #include <optional>
 #include <set>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
