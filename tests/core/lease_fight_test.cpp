@@ -258,8 +258,8 @@ TEST_P(LeaseFight, NeverHasTwoWritersAndNeverRefusesAStop) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Control, LeaseFight, testing::Bool(), [](const auto& info) {
-    return std::string{info.param ? "Required" : "Open"};
+INSTANTIATE_TEST_SUITE_P(Control, LeaseFight, testing::Bool(), [](const auto& each) {
+    return std::string{each.param ? "Required" : "Open"};
 });
 
 }  // namespace

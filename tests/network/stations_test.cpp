@@ -2,6 +2,7 @@
 // Two stations, each a process, fight for one robot over real DDS; whoever holds it is killed.
 #include "cortex/comms/dds_interface.hpp"
 #include "cortex/comms/mirror.hpp"
+#include "cortex/core/error.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 
 #include "network/processes.hpp"

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <optional>
 #include <set>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -123,7 +124,7 @@ struct Plant {
         }
         std::vector<double> latest;
         for (const auto& [press, time] : late) latest.push_back(std::max(time, 0.0));
-        EXPECT_GT(latest.size(), 3U);
+        ASSERT_GT(latest.size(), 3U);
         // The cycle that reads last may itself take the place of some.
         EXPECT_LE(oldest, maxAge + 2) << "cycles";
         EXPECT_LE(*std::ranges::max_element(latest), 10 * maxAge + networkDelay) << "ms";
