@@ -28,16 +28,16 @@ class ReceivedQueue {
 public:
     // False: full; the newcomer is dropped.
     bool push(Presence&& message, std::int64_t now) {
-        return add(&ReceivedMessages::presences, std::move(message), now, 4'096);
+        return add(&ReceivedMessages::presences, message, now, 4'096);
     }
     bool push(Model&& message, std::int64_t now) {
-        return add(&ReceivedMessages::models, std::move(message), now, 300'000);
+        return add(&ReceivedMessages::models, message, now, 300'000);
     }
     bool push(Block&& message, std::int64_t now) {
-        return add(&ReceivedMessages::blocks, std::move(message), now, 1'024);
+        return add(&ReceivedMessages::blocks, message, now, 1'024);
     }
     bool push(Command&& message, std::int64_t now) {
-        return add(&ReceivedMessages::commands, std::move(message), now, 4'096);
+        return add(&ReceivedMessages::commands, message, now, 4'096);
     }
     // What is here now, in exchange for `emptied`, whose memory is used on.
     void take(ReceivedMessages& emptied) {
@@ -47,7 +47,7 @@ public:
 
 private:
     template <class Message>
-    bool add(std::vector<Arrived<Message>> ReceivedMessages::* list, Message message,
+    bool add(std::vector<Arrived<Message>> ReceivedMessages::* list, Message& message,
              std::int64_t now, std::size_t most) {
         const std::lock_guard lock{mutex_};
         if ((messages_.*list).size() >= most) return false;

@@ -59,7 +59,7 @@ void AlternatingClock::start() {
 }
 
 std::int64_t AlternatingClock::sleep() {
-    const std::int64_t deadline = origin_ + ++next_ * period_;
+    const std::int64_t deadline = origin_ + ++next_ * Period;
     timespec time{deadline / 1'000'000'000, deadline % 1'000'000'000};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) != 0) continue;
     return now() - deadline;
@@ -78,7 +78,7 @@ void AlternatingClock::finishSecond() {
 
 cs::Trigger AlternatingClock::waitForTick() {
     // Deadlines that passed while the cycle ran.
-    const std::int64_t due = (now() - origin_) / period_;
+    const std::int64_t due = (now() - origin_) / Period;
     if (due > next_) {
         missed_ += static_cast<std::uint64_t>(due - next_);
         next_ = due;
@@ -90,7 +90,7 @@ cs::Trigger AlternatingClock::waitForTick() {
         const bool returns = !sleeping_;
         if (ended) finishSecond();
         if (!returns) continue;
-        return {next_ * period_, lateness, 1, false};
+        return {next_ * Period, lateness, 1, false};
     }
     return {0, 0, 1, true};
 }

@@ -27,7 +27,7 @@ public:
     void start() override;
     cs::Trigger waitForTick() override;
     void interrupt() override { interrupted_ = true; }
-    std::int64_t period() const override { return period_; }
+    std::int64_t period() const override { return Period; }
 
     // What was measured since the last call, whole seconds only.
     struct Measured {
@@ -37,7 +37,7 @@ public:
     Measured take();
 
 private:
-    static constexpr std::int64_t period_ = 1'000'000;
+    static constexpr std::int64_t Period = 1'000'000;
     std::int64_t sleep();  // to the next deadline; its lateness
     void finishSecond();
 

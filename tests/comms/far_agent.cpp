@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// far_agent DOMAIN: an agent "far" with /axis and /probe on the loopback interface, about a thousand
-// cycles a second, until its standard input ends.
+// far_agent DOMAIN: an agent "far" with /axis and /probe on the loopback interface, about a
+// thousand cycles a second, until its standard input ends.
 #include "cortex/comms/dds_interface.hpp"
 
 #include "support/probe.hpp"

@@ -49,6 +49,7 @@ public:
         add(payloads[each++], told.presences);
         for (; each < payloads.size(); ++each) add(payloads[each], told.blocks);
         if ((agreeing & 1U) != 0) agreeModels(told);
+        if ((agreeing & 8U) != 0) agreeHashes(told);
         if ((agreeing & 2U) != 0) agreePresences(told);
         if ((agreeing & 4U) != 0) agreeBlocks(told);
         return told;
@@ -96,7 +97,9 @@ private:
                 comms::modelId(told_.name(), type ? "type" : "simplex",
                                type ? model.types.front().name : model.simplexes.front().path);
         }
-        // With the hashes of what it says: a receiver must look at all of it.
+    }
+    // With the hashes of what it says: a receiver must look at all of it.
+    static void agreeHashes(Told& told) {
         const std::map<std::string, TypeHash> hashes = hashesOf(told.models);
         for (comms::Model& model : told.models) {
             for (auto& each : model.types) {
