@@ -7,15 +7,12 @@
 #include "topic_type.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <map>
 #include <mutex>
-#include <thread>
 #include <utility>
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -101,29 +98,10 @@ private:
     bool closed_ = false;
 };
 
-// A participant announces itself a little before it listens. An answer that comes at once would be
-// missed, and the next is due only with our own announcement: so the answer waits a moment. Where
-// many join together, each of them makes us announce ourselves again, and nothing needs to wait.
-class Newcomers final : public dds::DomainParticipantListener {
-public:
-    void on_participant_discovery(
-        dds::DomainParticipant*,
-        eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& found) override {
-        if (found.status != found.DISCOVERED_PARTICIPANT) return;
-        const auto now = std::chrono::steady_clock::now();
-        if (now - std::exchange(last_, now) > rush) std::this_thread::sleep_for(moment);
-    }
-
-private:
-    static constexpr std::chrono::milliseconds moment{2}, rush{10};
-    std::chrono::steady_clock::time_point last_;  // calls come one at a time
-};
-
 }  // namespace
 
 struct Participant::Impl {
     std::string name;
-    Newcomers newcomers;
     dds::DomainParticipant* participant = nullptr;
     dds::Publisher* publisher = nullptr;
     dds::Subscriber* subscriber = nullptr;
@@ -221,8 +199,7 @@ Participant::Participant(const NetworkOptions& options, const std::string& name)
     setUpFastDds();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
     impl_->participant = created(dds::DomainParticipantFactory::get_instance()->create_participant(
-                                     static_cast<dds::DomainId_t>(options.domain), qos,
-                                     &impl_->newcomers, dds::StatusMask::none()),
+                                     static_cast<dds::DomainId_t>(options.domain), qos),
                                  "the network membership" + where);
     impl_->publisher = created(impl_->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT),
                                "the publisher" + where);
