@@ -8,15 +8,12 @@
 #include "topic_type.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <map>
 #include <mutex>
-#include <thread>
 #include <utility>
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -107,40 +104,11 @@ private:
     bool closed_ = false;
 };
 
-// A participant announces itself a little before it listens. An answer that comes at once would be
-// missed, and the next is due only with our own announcement: so the answer waits a moment. Where
-// many join together, each of them makes us announce ourselves again, and nothing needs to wait.
-class Newcomers final : public dds::DomainParticipantListener {
-public:
-    SecurityGuard* guard = nullptr;  // hears of all of them, too
-
-    void on_participant_discovery(
-        dds::DomainParticipant* participant,
-        eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& found) override {
-        const bool newcomer = found.status == found.DISCOVERED_PARTICIPANT;
-        if (guard) guard->on_participant_discovery(participant, std::move(found));
-        if (!newcomer) return;
-        const auto now = std::chrono::steady_clock::now();
-        if (now - std::exchange(last_, now) > rush) std::this_thread::sleep_for(moment);
-    }
-
-    void onParticipantAuthentication(
-        dds::DomainParticipant* participant,
-        eprosima::fastrtps::rtps::ParticipantAuthenticationInfo&& found) override {
-        if (guard) guard->onParticipantAuthentication(participant, std::move(found));
-    }
-
-private:
-    static constexpr std::chrono::milliseconds moment{2}, rush{10};
-    std::chrono::steady_clock::time_point last_;  // calls come one at a time
-};
-
 }  // namespace
 
 struct Participant::Impl {
     std::string name;
-    std::unique_ptr<SecurityGuard> guard;  // null: none; outlives the participant, as newcomers do
-    Newcomers newcomers;
+    std::unique_ptr<SecurityGuard> guard;  // outlives the participant
     dds::DomainParticipant* participant = nullptr;
     dds::Publisher* publisher = nullptr;
     dds::Subscriber* subscriber = nullptr;
@@ -242,10 +210,9 @@ Participant::Participant(const NetworkOptions& options, const std::string& name)
     dds::DomainParticipantQos qos = participantQos(options, name);
     setUpFastDds();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
-    impl_->newcomers.guard = impl_->guard.get();
     const auto join = [&] {
         return dds::DomainParticipantFactory::get_instance()->create_participant(
-            static_cast<dds::DomainId_t>(options.domain), qos, &impl_->newcomers,
+            static_cast<dds::DomainId_t>(options.domain), qos, impl_->guard.get(),
             dds::StatusMask::none());
     };
     impl_->participant = join();

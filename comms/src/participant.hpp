@@ -21,6 +21,7 @@ enum class Qos {
     Cycle,     // best effort; newest wins
     Exchange,  // reliable; the newest 64 of each key, nothing for who joins late
     Log,       // reliable; who joins late gets the newest 1000 of each key
+    Beacon,    // as State, and written so often that the next sample makes up for a lost one
 };
 
 struct Topic {
@@ -29,7 +30,7 @@ struct Topic {
 };
 
 namespace topics {
-inline constexpr Topic presence{"cortex/presence", Qos::State};
+inline constexpr Topic presence{"cortex/presence", Qos::Beacon};
 inline constexpr Topic model{"cortex/1/model", Qos::State};
 inline constexpr Topic link{"cortex/1/link", Qos::Cycle};
 inline constexpr Topic view5{"cortex/1/view/5", Qos::Cycle};

@@ -120,10 +120,8 @@ struct Profile {
 
 // In the order of Qos.
 constexpr std::array profiles{
-    Profile{true, true, 1, 100},
-    Profile{false, false, 1, 0},
-    Profile{true, false, 64, 10},
-    Profile{true, true, 1000, 100},
+    Profile{true, true, 1, 100},    Profile{false, false, 1, 0}, Profile{true, false, 64, 10},
+    Profile{true, true, 1000, 100}, Profile{true, true, 1, 300},
 };
 
 const Profile& profileOf(Qos qos) { return profiles.at(static_cast<std::size_t>(qos)); }
@@ -170,7 +168,7 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     BuiltinAttributes& builtin = qos.wire_protocol().builtin;
     builtin.mutation_tries = static_cast<std::uint32_t>(ParticipantsPerHost);
     builtin.discovery_config.leaseDuration = milliseconds(2000);
-    builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(600);
+    builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(200);
     if (options.discoveryServer.empty()) {
         addPeers(builtin, options.peers, udp->interfaceWhiteList);
     } else {
