@@ -167,7 +167,9 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     qos.wire_protocol().prefix = newPrefix();
     BuiltinAttributes& builtin = qos.wire_protocol().builtin;
     builtin.mutation_tries = static_cast<std::uint32_t>(ParticipantsPerHost);
-    builtin.discovery_config.leaseDuration = milliseconds(2000);
+    // Liveness is our own, so leases may be long: where one ends just as its participant leaves,
+    // Fast DDS 2.9 ends the process by an assertion.
+    builtin.discovery_config.leaseDuration = milliseconds(10'000);
     builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(200);
     if (options.discoveryServer.empty()) {
         addPeers(builtin, options.peers, udp->interfaceWhiteList);
