@@ -130,10 +130,23 @@ Outcome LeaseTable::handOver(Call& call, std::string_view prefix, std::string_vi
     if (to.empty() || to.size() >= lease->holder.name.size()) {
         return call.reject(Reason::Range, "'to' is not the name of an agent");
     }
-    lease->holder = {};
-    std::ranges::copy(to, lease->holder.name.begin());
-    lease->since = lease->renewed = cycle;
-    show(*lease);
+    // What it holds further down goes along; what it keeps further up would forbid the rest.
+    const Sender sender = *call.sender();
+    for (const Lease& each : leases_) {
+        if (&each == lease || !each.heldBy(sender)) continue;
+        if (!isBelow(lease->prefix.view(), each.prefix.view())) continue;
+        EventText why{"it holds "};
+        why << each.prefix.view() << " too: hand that over, or release it first";
+        return call.reject(Reason::Authority, why.view());
+    }
+    const EventText given = lease->prefix;
+    for (Lease& each : leases_) {
+        if (!each.heldBy(sender) || !isBelow(each.prefix.view(), given.view())) continue;
+        each.holder = {};
+        std::ranges::copy(to, each.holder.name.begin());
+        each.since = each.renewed = cycle;
+        show(each);
+    }
     return Outcome::Done;
 }
 

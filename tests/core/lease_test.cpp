@@ -207,6 +207,21 @@ TEST_F(Control, HandedOverIsNotLostWithAnEarlierStartOfItsNewHolder) {
     EXPECT_EQ(shown("leaseHolder"), "hall");
 }
 
+TEST_F(Control, IsHandedOverWithAllBelowAndNotFromBelowAWiderOne) {
+    take("desk", "/arm/axis");
+    take("desk", "/arm");
+    const auto give = [&](const char* prefix) {
+        return ask("desk", "/rig", "handOverControl",
+                   {{"prefix", text(prefix)}, {"to", text("hall")}});
+    };
+    EXPECT_EQ(give("/arm/axis").why, "it holds /arm too: hand that over, or release it first");
+    EXPECT_EQ(give("/arm").outcome, Outcome::Done);
+
+    EXPECT_EQ(shown("leaseHolder", 0), "hall");
+    EXPECT_EQ(shown("leaseHolder", 1), "hall");
+    EXPECT_EQ(ask("hall", "/arm/axis", "poke").outcome, Outcome::Done);
+}
+
 TEST_F(Control, IsHandedOverToANameOnly) {
     take("desk", "/arm");
     EXPECT_EQ(ask("desk", "/rig", "handOverControl", {{"prefix", text("/arm")}}).reason,

@@ -59,13 +59,13 @@ private:
     std::vector<std::string> writers_;
 };
 
-class Counter final : public cs::SimplexCS {
+class ContestedCounter final : public cs::SimplexCS {
 public:
-    Counter(Identity identity, Written& written)
+    ContestedCounter(Identity identity, Written& written)
         : SimplexCS{std::move(identity)}, written_{written} {}
 
 private:
-    void populate() override { on<&Counter::increment>("increment"); }
+    void populate() override { on<&ContestedCounter::increment>("increment"); }
     Outcome increment(Call& call) {
         if (call.sender() != nullptr) written_.add(call.sender()->nameText());
         return Outcome::Done;
@@ -116,7 +116,7 @@ TEST(Stations, AreNeverTwoWritersWhoeverIsKilled) {
     Written written;
     SimplexTree tree{
         TypeModel::load(std::filesystem::path{CORTEX_SOURCE_DIR} / "tests/data/network-rules.xml")};
-    tree.add<Counter>(counter, "Counter", written);
+    tree.add<ContestedCounter>(counter, "Counter", written);
     cs::ClusterCS robot{"robot", {.controlRequired = true}};
     robot.addSimplexTree(tree);
     robot.setTriggerSource<cs::InternalClock>(1ms);
