@@ -8,7 +8,8 @@
 
 namespace cortex {
 
-// A relation of a simplex with what its names stand for; `target` is null where another agent has it.
+// A relation of a simplex with what its names stand for; `target` is null where another agent has
+// it.
 struct ResolvedRelation {
     const Simplex::Relation* relation = nullptr;
     const Rule* rule = nullptr;

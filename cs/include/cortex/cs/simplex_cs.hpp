@@ -93,8 +93,8 @@ private:
 
     State state_ = State::Standby;
     bool faultPending_ = false;
-    bool done_ = false;        // the transitional state's function has returned true
-    bool dead_ = false;        // a hook threw: no hooks until clearFaults
+    bool done_ = false;  // the transitional state's function has returned true
+    bool dead_ = false;  // a hook threw: no hooks until clearFaults
     bool inputLost_ = false;
     bool safeByLoss_ = false;  // an onLoss="safe" input is lost: safe demands stand
     bool qualitySet_ = false;
