@@ -207,11 +207,13 @@ Participant::Participant(const NetworkOptions& options, const std::string& name)
     }
     const dds::DomainParticipantQos qos = participantQos(options, name);
     setUpFastDds();
+    // The guard hears of participants only, which no mask is about.
+    const auto mask = impl_->guard ? dds::StatusMask::none() : dds::StatusMask::all();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
-    impl_->participant = created(dds::DomainParticipantFactory::get_instance()->create_participant(
-                                     static_cast<dds::DomainId_t>(options.domain), qos,
-                                     impl_->guard.get(), dds::StatusMask::none()),
-                                 "the network membership" + where);
+    impl_->participant =
+        created(dds::DomainParticipantFactory::get_instance()->create_participant(
+                    static_cast<dds::DomainId_t>(options.domain), qos, impl_->guard.get(), mask),
+                "the network membership" + where);
     impl_->publisher = created(impl_->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT),
                                "the publisher" + where);
     impl_->subscriber = created(impl_->participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT),
