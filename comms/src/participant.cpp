@@ -209,11 +209,12 @@ Participant::Participant(const NetworkOptions& options, const std::string& name)
     const std::lock_guard lock{joining};
     dds::DomainParticipantQos qos = participantQos(options, name);
     setUpFastDds();
+    // The guard hears of participants only, which no mask is about.
+    const auto mask = impl_->guard ? dds::StatusMask::none() : dds::StatusMask::all();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
     const auto join = [&] {
         return dds::DomainParticipantFactory::get_instance()->create_participant(
-            static_cast<dds::DomainId_t>(options.domain), qos, impl_->guard.get(),
-            dds::StatusMask::none());
+            static_cast<dds::DomainId_t>(options.domain), qos, impl_->guard.get(), mask);
     };
     impl_->participant = join();
     if (impl_->participant == nullptr) {

@@ -48,6 +48,8 @@ void SecurityGuard::onParticipantAuthentication(Dds*, rtps::ParticipantAuthentic
         const std::lock_guard lock{mutex_};
         if (const auto known = found_.find(info.guid); known != found_.end()) {
             known->second.pending = false;
+            known->second.refused =
+                info.status != rtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT;
             name = known->second.name;
         }
     }
@@ -57,11 +59,15 @@ void SecurityGuard::onParticipantAuthentication(Dds*, rtps::ParticipantAuthentic
                   " is refused: it has no certificate of our authority");
 }
 
-std::uint32_t SecurityGuard::pending() const {
+// Authenticated is not yet heard: keys and endpoints are exchanged first.
+std::uint32_t SecurityGuard::pending() {
     const std::lock_guard lock{mutex_};
     const auto now = Clock::now();
     return static_cast<std::uint32_t>(std::ranges::count_if(found_, [&](const auto& each) {
-        return each.second.pending && now - each.second.since < usualHandshake;
+        GuidPrefix participant{};
+        std::copy_n(each.first.guidPrefix.value, participant.size(), participant.begin());
+        return !each.second.refused && now - each.second.since < usualHandshake &&
+               !identity_.hasSpoken(participant);
     }));
 }
 

@@ -43,8 +43,8 @@ public:
     // What was refused since the last call, in words.
     std::vector<std::string> takeRefusals();
     std::uint64_t refused() const { return refused_; }
-    // Participants found lately, neither authenticated nor refused yet.
-    std::uint32_t pending() const;
+    // Participants found lately that are not refused and have not given a name yet.
+    std::uint32_t pending();
 
     // What is claimed is a name, or the id of one.
     template <class Claim>
@@ -73,9 +73,9 @@ private:
     struct Found {
         std::string name;  // that it gives itself, unproven
         Clock::time_point since = Clock::now();
-        bool pending = true, told = false;
+        bool pending = true, refused = false, told = false;
     };
-    mutable std::mutex mutex_;
+    std::mutex mutex_;
     std::map<Guid, Found> found_;
 };
 

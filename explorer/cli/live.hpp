@@ -20,7 +20,7 @@ struct NetworkArguments {
     std::optional<int> domain;  // none: CORTEX_DOMAIN, or 0
     std::vector<std::string> interfaces, peers;
     std::optional<std::string> security;  // folder; none: CORTEX_SECURITY
-    double timeout = 3;  // s
+    double timeout = 3;                   // s
 };
 
 int domainOf(const NetworkArguments& arguments);
