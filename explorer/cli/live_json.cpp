@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <string_view>
+#include <tuple>
 
 namespace cortex::explorer {
 
@@ -40,8 +42,8 @@ void printLine(const Json& json) {
 }
 
 void sortByTime(std::vector<comms::AgentEvent>& events) {
-    std::ranges::stable_sort(events, {}, [](const comms::AgentEvent& event) {
-        return std::pair{event.wallClock, event.number};
+    std::ranges::sort(events, {}, [](const comms::AgentEvent& event) {
+        return std::tuple{event.wallClock, event.number, std::string_view{event.agent}};
     });
 }
 

@@ -82,7 +82,8 @@ TextLine TextTable::groups(const std::vector<std::size_t>& shown,
         text += group.empty() ? std::string(width, ' ')
                               : aligned(std::string(before, '-') + group, width, false);
         if (!group.empty()) {
-            for (std::size_t at = text.size(); at-- > 0 && text[at] == ' ';) text[at] = '-';
+            const std::size_t blanks = text.size() - (text.find_last_not_of(' ') + 1);
+            text.replace(text.size() - blanks, blanks, blanks, '-');
         }
         any = any || !group.empty();
     }

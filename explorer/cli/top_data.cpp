@@ -95,7 +95,7 @@ TopFrame TopView::frame() {
     TopFrame frame;
     frame.time = now();
     for (const comms::AgentStatus& each : live_.mirror().agents()) add(frame, each);
-    std::ranges::stable_sort(frame.agents, {}, [](const TopAgent& each) {  // trouble first
+    std::ranges::sort(frame.agents, {}, [](const TopAgent& each) {  // trouble first
         return std::tuple{each.status.state == "running", each.status.name};
     });
     return frame;

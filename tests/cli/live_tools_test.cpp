@@ -292,7 +292,11 @@ TEST(CortexGraph, JoinsWhatAgentsHaveOfEachOther) {
         const std::string path = each["path"];
         EXPECT_EQ(each["agent"], path.starts_with("/front") ? "front" : "back") << each;
     }
-    EXPECT_TRUE(contains(live({"graph"}).output, "manipulator  <- /front/lbr (front)"));
+    Outcome text;
+    do {
+        text = live({"graph"});
+    } while (!contains(text.output, "(front)") && std::chrono::steady_clock::now() < end);
+    EXPECT_TRUE(contains(text.output, "manipulator  <- /front/lbr (front)")) << text.output;
 
     front->end(SIGTERM);
     const Outcome alone = live({"graph"});
