@@ -388,12 +388,6 @@ TEST(Participant, RefusesADomainWhosePortsAreTaken) {
     EXPECT_TRUE(contains(text, "no UDP port is free")) << text;
 }
 
-TEST(Participant, RefusesSecurityRatherThanDoWithoutIt) {
-    NetworkOptions options = loopback();
-    options.security = "keys";
-    EXPECT_TRUE(contains(joinRefusal(options), "not available"));
-}
-
 TEST(NetworkOptions, TakesItsDomainFromTheEnvironment) {
     unsetenv("CORTEX_DOMAIN");
     EXPECT_EQ(NetworkOptions{}.domain, 0);

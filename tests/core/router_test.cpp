@@ -253,12 +253,12 @@ TEST_F(Router, TooManySendersAreRefusedUntilOneIsPastRepeating) {
                        .sender = "tool" + std::to_string(i),
                        .notAfter = notAfter};
     };
-    for (int i = 0; i < 32; ++i) answerTo(from(i, i == 7 ? 40 : 1000));
-    EXPECT_EQ(answerTo(from(32, 1000)).reason, Reason::Window);
-    rig.step(10);
+    for (int i = 0; i < 128; ++i) answerTo(from(i, i == 7 ? 140 : 1000));
+    EXPECT_EQ(answerTo(from(128, 1000)).reason, Reason::Window);
+    rig.step(15);
 
-    EXPECT_EQ(answerTo(from(32, 1000)).outcome, Outcome::Done);
-    EXPECT_EQ(answerTo(from(33, 1000)).reason, Reason::Window);
+    EXPECT_EQ(answerTo(from(128, 1000)).outcome, Outcome::Done);
+    EXPECT_EQ(answerTo(from(129, 1000)).reason, Reason::Window);
 }
 
 TEST_F(Router, WhatIsLeftWhenTheAgentStopsIsCancelled) {
@@ -320,12 +320,12 @@ TEST_F(Router, LateRepeatOfASenderThatWasForgottenIsUnknownAndNotExpired) {
             .path = "/worker", .command = "poke", .sender = sender, .notAfter = notAfter};
     };
     EXPECT_EQ(answerTo(from("early", 5)).outcome, Outcome::Done);
-    for (int i = 0; i < 31; ++i) answerTo(from("tool" + std::to_string(i), 1000));
-    EXPECT_EQ(answerTo(from("late", 40)).outcome, Outcome::Done);  // takes the place of "early"
-    rig.step(10);
+    for (int i = 0; i < 127; ++i) answerTo(from("tool" + std::to_string(i), 1000));
+    EXPECT_EQ(answerTo(from("late", 140)).outcome, Outcome::Done);  // takes the place of "early"
+    rig.step(15);
 
     EXPECT_EQ(answerTo(from("early", 5)).outcome, Outcome::Unknown);
-    EXPECT_EQ(calls, 33);
+    EXPECT_EQ(calls, 129);
 }
 
 }  // namespace
