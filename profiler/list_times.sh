@@ -18,7 +18,7 @@ while (($#)); do
         *) systems+=("$1"); shift ;;
     esac
 done
-((${#systems[@]})) || systems=(examples/lbr_teleop/*.xml)
+((${#systems[@]})) || systems=(examples/lbr_teleop/{operator,robot}.xml)
 
 export CORTEX_PATH=${CORTEX_PATH:-ontology}
 export CORTEX_DOMAIN=$((100 + $$ % 100))

@@ -61,22 +61,12 @@ Locator_t locatorOf(const Address& address, std::uint16_t port) {
     return locator;
 }
 
-bool isLoopback(const std::string& ip) { return ip.starts_with("127."); }
-
-// Peers replace the multicast address that is asked by default, so it is named beside them; on
-// loopback alone there is no multicast.
-void addPeers(BuiltinAttributes& builtin, const std::vector<std::string>& peers,
-              const std::vector<std::string>& interfaces) {
-    const bool loopback =
-        !interfaces.empty() && std::all_of(interfaces.begin(), interfaces.end(), isLoopback);
+// Peers replace the multicast address that is asked by default, so it is named beside them.
+void addPeers(BuiltinAttributes& builtin, const std::vector<std::string>& peers) {
     for (const std::string& peer : peers) {
         builtin.initialPeersList.push_back(locatorOf(addressOf(peer, "peer"), 0));
     }
-    if (loopback) {
-        builtin.initialPeersList.push_back(locatorOf({interfaces.front()}, 0));
-    } else if (!peers.empty()) {
-        builtin.initialPeersList.push_back(locatorOf({DiscoveryMulticast}, 0));
-    }
+    if (!peers.empty()) builtin.initialPeersList.push_back(locatorOf({DiscoveryMulticast}, 0));
 }
 
 // What no other participant has, of this process or another: the vendor, the host, and chance.
@@ -172,7 +162,7 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     builtin.discovery_config.leaseDuration = milliseconds(10'000);
     builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(200);
     if (options.discoveryServer.empty()) {
-        addPeers(builtin, options.peers, udp->interfaceWhiteList);
+        addPeers(builtin, options.peers);
     } else {
         addServers(builtin, options.discoveryServer);
     }
