@@ -21,7 +21,7 @@ done
 ((${#systems[@]})) || systems=(examples/lbr_teleop/{operator,robot}.xml)
 
 export CORTEX_PATH=${CORTEX_PATH:-ontology}
-export CORTEX_DOMAIN=$((100 + $$ % 100))
+export CORTEX_DOMAIN=$((1 + $$ % 99))
 agents=()
 trap '((${#agents[@]} == 0)) || kill "${agents[@]}" 2>/dev/null || true' EXIT
 for system in "${systems[@]}"; do

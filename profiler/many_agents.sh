@@ -29,7 +29,7 @@ end() {
 }
 trap end EXIT
 export CORTEX_PATH=${CORTEX_PATH:-$PWD/ontology}
-export CORTEX_DOMAIN=$((100 + $$ % 100))
+export CORTEX_DOMAIN=$((1 + $$ % 99))
 for ((i = 1; i <= count; ++i)); do
     {
         echo "<system name=\"a$i\"><morphology file=\"robotics-morphology.xml\"/>"

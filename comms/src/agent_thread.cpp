@@ -34,7 +34,7 @@ AgentThread::AgentThread(const AgentAccess& agent, const NetworkOptions& options
       streams_{self_, model_.structureHash(), participant_},
       peers_{self_, links_.any(),
              [this](const std::string& name, std::int64_t epoch) { commands_.lost(name, epoch); }},
-      presenceIn_{receive<Presence>(topics::presence)},
+      presenceIn_{receive<Presence>({topics::presence.name, Qos::Cycle})},  // the next comes soon
       modelIn_{receive<Model>(topics::model)},
       linkIn_{links_.any() ? receive<Block>(topics::link) : nullptr},
       commandIn_{receive<Command>(topics::command)},

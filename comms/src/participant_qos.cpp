@@ -37,6 +37,7 @@ using eprosima::fastrtps::rtps::Locator_t;
 
 constexpr int ParticipantsPerHost = 300;     // for which a free port is searched
 constexpr std::uint32_t PeersPerHost = 100;  // ports asked on a peer without a port
+constexpr std::uint32_t AskedOnLoopback = 8;
 constexpr std::uint32_t LargestDatagram = 65536;
 constexpr std::uint32_t LargestBuffer = 64u << 20;
 constexpr const char* DiscoveryMulticast = "239.255.0.1";
@@ -61,12 +62,24 @@ Locator_t locatorOf(const Address& address, std::uint16_t port) {
     return locator;
 }
 
-// Peers replace the multicast address that is asked by default, so it is named beside them.
-void addPeers(BuiltinAttributes& builtin, const std::vector<std::string>& peers) {
-    for (const std::string& peer : peers) {
-        builtin.initialPeersList.push_back(locatorOf(addressOf(peer, "peer"), 0));
+bool isLoopback(const std::string& ip) { return ip.starts_with("127."); }
+
+// Peers replace the multicast address that is asked by default, so it is named beside them. On
+// loopback alone other vendors hear no multicast: the first few participants are asked one by one.
+void addPeers(dds::WireProtocolConfigQos& protocol, const NetworkOptions& options,
+              const std::vector<std::string>& interfaces) {
+    auto& list = protocol.builtin.initialPeersList;
+    for (const std::string& peer : options.peers) {
+        list.push_back(locatorOf(addressOf(peer, "peer"), 0));
     }
-    if (!peers.empty()) builtin.initialPeersList.push_back(locatorOf({DiscoveryMulticast}, 0));
+    if (!interfaces.empty() && std::ranges::all_of(interfaces, isLoopback)) {
+        for (std::uint32_t i = 0; i < AskedOnLoopback; ++i) {
+            const auto port =
+                protocol.port.getUnicastPort(static_cast<std::uint32_t>(options.domain), i);
+            list.push_back(locatorOf({interfaces.front()}, static_cast<std::uint16_t>(port)));
+        }
+    }
+    if (!list.empty()) list.push_back(locatorOf({DiscoveryMulticast}, 0));
 }
 
 // What no other participant has, of this process or another: the vendor, the host, and chance.
@@ -162,7 +175,7 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     builtin.discovery_config.leaseDuration = milliseconds(10'000);
     builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(200);
     if (options.discoveryServer.empty()) {
-        addPeers(builtin, options.peers);
+        addPeers(qos.wire_protocol(), options, udp->interfaceWhiteList);
     } else {
         addServers(builtin, options.discoveryServer);
     }

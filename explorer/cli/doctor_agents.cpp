@@ -63,7 +63,7 @@ void examineSecurity(const std::vector<comms::AgentStatus>& agents, Diagnoses& f
 
 // Agents of one name follow each other with other starts; the older one says that it falls silent.
 void examineNames(const std::map<std::string, std::set<std::int64_t>>& starts,
-                  std::vector<comms::AgentEvent> events, Diagnoses& found) {
+                  const std::vector<comms::AgentEvent>& events, Diagnoses& found) {
     std::set<std::string> doubled;
     for (const auto& [agent, epochs] : starts) {
         if (epochs.size() > 1) doubled.insert(agent);

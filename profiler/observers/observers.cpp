@@ -101,7 +101,7 @@ void judge(const char* what, const AlternatingClock::Measured& with,
 }
 
 int run(const Options& options) {
-    const int domain = 100 + getpid() % 100;
+    const int domain = 1 + getpid() % 99;
     SimplexTree tree{TypeModel::load(CORTEX_SOURCE_DIR "/profiler/bench/bench-rules.xml")};
     for (int i = 0; i < 1000; ++i) tree.add("/items/n" + std::to_string(i), "TenItems");
     tree.add<Echo>("/echo", "Partner");

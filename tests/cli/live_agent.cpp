@@ -17,7 +17,7 @@ namespace cortex::test {
 
 using nlohmann::json;
 
-const std::string domain = std::to_string(100 + getpid() % 100);
+const std::string domain = std::to_string(1 + getpid() % 99);
 const std::vector<std::string> network{"--domain", domain, "--interface", "127.0.0.1"};
 
 std::vector<std::string> operator+(std::vector<std::string> left,

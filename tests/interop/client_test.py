@@ -26,7 +26,7 @@ LINE = re.compile(r'^(/\S*)\.([\w-]+) =(.*?)(?: \[([^]]*)\] (good|stale|bad|lost
 
 
 def domain(number):
-    return 100 + (os.getpid() + number) % 100
+    return 1 + (os.getpid() + number) % 99  # their ports are not handed out to others
 
 
 def build(folder):
