@@ -127,7 +127,7 @@ TEST_F(TwoClusters, ExecuteCommandsFromTheNetworkInTheirCycle) {
 
 TEST(ClusterOnTwoNetworks, ServesToolsOfBothAndTheirCommandsTogether) {
     NetworkOptions office = loopback();
-    office.domain -= 100;
+    office.domain += 100;
     ProbeCluster cluster{{}, "robot"};
     Probe& probe = cluster.probe("/probe");
     int pokes = 0;
