@@ -8,6 +8,7 @@
 #include "topic_type.hpp"
 
 #include <atomic>
+#include <cstddef>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -148,6 +149,10 @@ Writer<M>::Writer(std::unique_ptr<Impl> impl) : impl_{std::move(impl)} {}
 
 template <class M>
 Writer<M>::~Writer() {
+    // Fast DDS 2.9 frees a history while heartbeats may still read it, and can loop for ever then:
+    // an empty one is safe.
+    std::size_t removed = 0;
+    impl_->writer->clear_history(&removed);
     impl_->publisher->delete_datawriter(impl_->writer);
 }
 
