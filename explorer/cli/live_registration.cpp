@@ -2,38 +2,28 @@
 #include "live_registration.hpp"
 
 #include "live_verbs.hpp"
+#include "verb_registration.hpp"
 
 #include <memory>
 
 namespace cortex::explorer {
 namespace {
 
-// Makes verbs whose options live as long as the program runs.
+// Verbs that join the network of agents.
 class LiveVerbs {
 public:
-    LiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run)
-        : app_{app}, json_{json}, run_{run} {}
+    LiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run) : verbs_{app, json, run} {}
 
     template <class Options>
     CLI::App* add(const char* name, const char* description, const char* examples,
                   const std::shared_ptr<Options>& options, Exit (*verb)(const Options&)) {
-        CLI::App* added = app_.add_subcommand(name, description);
-        added->footer(examples);
-        added->add_flag("--json", json_, "Print JSON, as described in docs/command-line.md");
+        CLI::App* added = verbs_.add(name, description, examples, options, verb);
         addNetwork(*added, options->network);
-        added->callback([&json = json_, &run = run_, options, verb] {
-            run = [&json, options, verb] {
-                options->json = json;
-                return verb(*options);
-            };
-        });
         return added;
     }
 
 private:
-    CLI::App& app_;
-    bool& json_;
-    std::function<Exit()>& run_;
+    Verbs verbs_;
 };
 
 void addList(LiveVerbs& verbs) {

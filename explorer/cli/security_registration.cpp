@@ -2,38 +2,12 @@
 #include "security_registration.hpp"
 
 #include "security_verb.hpp"
+#include "verb_registration.hpp"
 
 #include <memory>
 
 namespace cortex::explorer {
 namespace {
-
-// Makes verbs below `security`, whose options live as long as the program runs.
-class SecurityVerbs {
-public:
-    SecurityVerbs(CLI::App& security, bool& json, std::function<Exit()>& run)
-        : security_{security}, json_{json}, run_{run} {}
-
-    CLI::App* add(const char* name, const char* description, const char* examples,
-                  const std::shared_ptr<SecurityOptions>& options,
-                  Exit (*verb)(const SecurityOptions&)) {
-        CLI::App* added = security_.add_subcommand(name, description);
-        added->footer(examples);
-        added->add_flag("--json", json_, "Print JSON, as described in docs/command-line.md");
-        added->callback([&json = json_, &run = run_, options, verb] {
-            run = [&json, options, verb] {
-                options->json = json;
-                return verb(*options);
-            };
-        });
-        return added;
-    }
-
-private:
-    CLI::App& security_;
-    bool& json_;
-    std::function<Exit()>& run_;
-};
 
 void addDays(CLI::App& verb, SecurityOptions& options, const char* description) {
     verb.add_option("--days", options.days, description)
@@ -41,7 +15,7 @@ void addDays(CLI::App& verb, SecurityOptions& options, const char* description) 
         ->check(CLI::Range(1, 36500));
 }
 
-void addAuthority(SecurityVerbs& verbs) {
+void addAuthority(Verbs& verbs) {
     const auto options = std::make_shared<SecurityOptions>();
     CLI::App* verb =
         verbs.add("create-authority", "Make the keys with which the folders of agents are made",
@@ -54,7 +28,7 @@ Example:
     addDays(*verb, *options, "How long it is valid; 3650 if not given");
 }
 
-void addAgent(SecurityVerbs& verbs) {
+void addAgent(Verbs& verbs) {
     const auto options = std::make_shared<SecurityOptions>();
     CLI::App* verb = verbs.add(
         "create-agent", "Make the folder of keys and rights of one agent or tool",
@@ -85,7 +59,7 @@ Examples:
     addDays(*verb, *options, "How long it is valid; 365 if not given");
 }
 
-void addShow(SecurityVerbs& verbs) {
+void addShow(Verbs& verbs) {
     const auto options = std::make_shared<SecurityOptions>();
     verbs
         .add("show", "Check the folder of an agent, and show whose it is and what it may",
@@ -105,7 +79,7 @@ void addSecurityVerbs(CLI::App& app, bool& json, std::function<Exit()>& run) {
         app.add_subcommand("security", "Make the keys of agents, and say what each may command");
     security->require_subcommand(1);
     security->footer("How security works: docs/security.md");
-    SecurityVerbs verbs{*security, json, run};
+    Verbs verbs{*security, json, run};
     addAuthority(verbs);
     addAgent(verbs);
     addShow(verbs);
