@@ -16,8 +16,7 @@
 namespace cortex::comms {
 namespace {
 
-constexpr std::int64_t silence = 1'000'000'000;  // ns until a sender is lost
-constexpr std::uint32_t onTheirWay = 256;        // commands
+constexpr std::uint32_t onTheirWay = 256;  // commands
 constexpr std::size_t mostSenders = 128;
 constexpr std::size_t longestName = 128;  // of what is looked up; paths are no longer
 
@@ -194,17 +193,17 @@ bool AgentCommands::remember(const Sender& sender, std::int64_t now) {
     return true;
 }
 
-void AgentCommands::heard(const std::string& sender, std::int64_t epoch, std::int64_t now) {
-    const auto known = senders_.find(sender);
-    if (known != senders_.end() && known->second.sender.epoch == epoch) {
-        known->second.lastHeard = now;
-    }
+void AgentCommands::heard(const Presence& presence, std::int64_t now) {
+    const auto known = senders_.find(presence.name);
+    if (known == senders_.end() || known->second.sender.epoch != presence.epoch) return;
+    known->second.lastHeard = now;
+    known->second.patience = patienceWith(presence);
 }
 
 void AgentCommands::lost(const std::string& sender, std::int64_t epoch) {
     const auto known = senders_.find(sender);
     if (known != senders_.end() && known->second.sender.epoch == epoch) {
-        known->second.lastHeard = steadyNow() - 2 * silence;
+        known->second.lastHeard = steadyNow() - 2 * known->second.patience;
     }
 }
 
@@ -221,7 +220,7 @@ void AgentCommands::step(std::int64_t now) {
         send_(answerFor(*answer));
     }
     std::erase_if(senders_, [&](const auto& each) {
-        return now - each.second.lastHeard > silence && tellLost(each.second.sender);
+        return now - each.second.lastHeard > each.second.patience && tellLost(each.second.sender);
     });
 }
 

@@ -6,6 +6,7 @@
 
 #include "agent_self.hpp"
 #include "messages.hpp"
+#include "presence_interval.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -28,9 +29,10 @@ public:
 
     void take(const Command& command, std::int64_t now);
     // A presence of a sender, or its end.
-    void heard(const std::string& sender, std::int64_t epoch, std::int64_t now);
+    void heard(const Presence& presence, std::int64_t now);
     void lost(const std::string& sender, std::int64_t epoch);
     void step(std::int64_t now);
+    bool knows(const std::string& sender) const { return senders_.contains(sender); }
 
     void read(Inbox& inbox) CORTEX_REALTIME;
     bool write(Outbox& outbox) CORTEX_REALTIME;  // whether there are answers to send
@@ -38,7 +40,7 @@ public:
 private:
     struct HeardSender {
         Sender sender;
-        std::int64_t lastHeard = 0;
+        std::int64_t lastHeard = 0, patience = shortestPatience;
         std::uint64_t newest = 0;              // sequence number that the loop was given
         std::set<std::uint64_t> turnedAway{};  // that it was not given, as far as unacknowledged
     };

@@ -14,8 +14,10 @@ namespace {
 constexpr std::int64_t longestTime = std::int64_t{1} << 60U;  // ns: sums do not overflow
 constexpr std::int64_t second = 1'000'000'000;                // ns
 constexpr std::int64_t longestDetour = 100'000'000;           // ns that the network may add
+constexpr std::size_t mostDelays = 1'000;
 
 bool isTime(std::int64_t time) { return time >= 0 && time < longestTime; }
+bool isWallClock(std::int64_t time) { return time >= 0 && time < std::int64_t{1} << 62U; }
 
 // Where the owner has the path as its own simplex.
 std::uint32_t indexOf(const Structure* structure, const std::string& path) {
@@ -55,15 +57,29 @@ AgentLinks::AgentLinks(AgentSelf& self) : self_{self} {
 
 AgentLinks::~AgentLinks() = default;
 
+bool AgentLinks::anyUnbound() const {
+    return std::ranges::any_of(links_, [](const auto& each) { return each->current == nullptr; });
+}
+
 void AgentLinks::update(Peers& peers) {
     if (links_.empty()) return;
-    for (auto& [name, peer] : peers) tellWhyNot(peer);
+    for (auto& [name, peer] : peers) {
+        if (hasAny(peer)) tellWhyNot(peer);
+    }
     for (const auto& link : links_) {
         std::erase_if(link->claims, [&](const auto& each) { return !peers.contains(each.first); });
         for (auto& [name, peer] : peers) claim(*link, peer);
-        choose(*link);
     }
+    const std::lock_guard lock{mutex_};
+    for (const auto& link : links_) choose(*link);
     findOwners();
+}
+
+// What others have is compared and laid out only if it concerns us.
+bool AgentLinks::hasAny(const Peer& peer) const {
+    return peer.current && std::ranges::any_of(links_, [&](const auto& link) {
+               return peer.model().has(self_.structure().simplexes[link->simplex].path);
+           });
 }
 
 // An agent whose model contradicts itself is said once, with the first of what is wrong.
@@ -91,8 +107,9 @@ void AgentLinks::claim(Link& link, Peer& peer) {
         link.claims.erase(known);
     }
     if (!peer.heard || !peer.agent) return;
-    const auto theirs = peer.current->model.structure();
     const std::string& path = self_.structure().simplexes[link.simplex].path;
+    if (!peer.model().has(path)) return;
+    const auto theirs = peer.current->model.structure();
     const std::uint32_t index = indexOf(theirs.get(), path);
     if (index == noSimplex) return;
     const Claim& made = link.claims[peer.name] = makeClaim(link, peer, index);
@@ -146,6 +163,7 @@ void AgentLinks::bind(Link& link, const std::string* agent) {
     if (claim != nullptr) {
         link.kept.push_back(std::make_unique<Bound>(++serial_, *agent, *claim));
         link.current = link.kept.back().get();
+        self_.event(Severity::Info, link.simplex, "linked to agent " + *agent);
     }
     link.offered.store(link.current);
     // What the loop starts to use from here on is the offered one.
@@ -158,6 +176,7 @@ void AgentLinks::bind(Link& link, const std::string* agent) {
 void AgentLinks::findOwners() {
     std::map<Id, Owner> before;
     before.swap(owners_);
+    if (delays_.size() > mostDelays) delays_.clear();
     for (const auto& link : links_) {
         if (link->current == nullptr) continue;
         const Claim& claim = link->current->claim;
@@ -176,49 +195,49 @@ void AgentLinks::findOwners() {
     }
 }
 
-std::vector<Interest> AgentLinks::newInterests(const Peers& peers) {
-    std::map<std::string, std::vector<std::string>> wanted;
-    for (const auto& [agent, paths] : said_) wanted[agent];  // one may have lost its claims
+std::set<std::string> AgentLinks::owners() const {
+    std::set<std::string> owners;
     for (const auto& link : links_) {
-        if (link->current == nullptr) continue;
-        wanted[link->current->agent].push_back(self_.structure().simplexes[link->simplex].path);
+        if (link->current != nullptr) owners.insert(link->current->agent);
     }
-    std::vector<Interest> changed;
-    for (auto& [agent, paths] : wanted) {
-        const auto peer = peers.find(agent);
-        // Who is not heard keeps what was said, for when he is back.
-        if (peer == peers.end() || !peer->second.heard || said_[agent] == paths) continue;
-        said_[agent] = paths;
-        Interest interest;
-        interest.target = agent;
-        interest.links = std::move(paths);
-        changed.push_back(std::move(interest));
+    return owners;
+}
+
+Interest AgentLinks::interest() const {
+    Interest interest;
+    interest.agent = self_.id;
+    interest.name = self_.name;
+    interest.epoch = self_.epoch;
+    for (const auto& link : links_) {
+        interest.links.push_back(self_.structure().simplexes[link->simplex].path);
     }
-    return changed;
+    return interest;
 }
 
 // It may have forgotten what we want, or somebody else said something in our name.
 bool AgentLinks::askAgain(std::int64_t now) {
     if (now < askDue_) return false;
     askDue_ = now + second;
-    bool any = false;
-    for (const auto& [id, owner] : owners_) {
-        if (now - owner.newestCame < second) continue;
-        any = said_.erase(owner.bounds.begin()->second->agent) > 0 || any;
-    }
-    return any;
+    const std::lock_guard lock{mutex_};
+    return std::ranges::any_of(owners_, [&](const auto& each) {
+        const Owner& owner = each.second;
+        return now - owner.newestCame > std::max(second, owner.patience);
+    });
 }
 
 bool AgentLinks::believable(const Block& block, const Owner& owner) {
     const char* wrong = nullptr;
     if (block.structureHash != owner.structureHash) wrong = "another structure";
-    if (!isTime(block.nominalTime) || block.cycle < 0) wrong = "a time that cannot be";
+    if (!isTime(block.nominalTime) || !isWallClock(block.wallClock) || block.cycle < 0) {
+        wrong = "a time that cannot be";
+    }
     if (block.simplexes.size() > owner.simplexes) wrong = "more simplexes than there are";
     if (wrong != nullptr) self_.rejections.add(std::string{"a block with "} + wrong);
     return wrong == nullptr;
 }
 
 void AgentLinks::take(const Block& block, std::int64_t came) {
+    const std::lock_guard lock{mutex_};
     const auto found = owners_.find(block.agent);
     if (found == owners_.end()) return;
     Owner& owner = found->second;
@@ -229,11 +248,14 @@ void AgentLinks::take(const Block& block, std::int64_t came) {
     if (!older && owner.newest != 0) lost_ += block.sequenceNumber - owner.newest - 1;
     owner.newest = block.sequenceNumber;
     owner.newestCame = came;
-    for (const SimplexData& data : block.simplexes) take(block, data, owner, came);
+    // What waited on its way, in queues or for a thread, is as old as if it had waited here.
+    const std::int64_t delay =
+        block.wallClock > 0 ? delays_[block.agent].next(block.wallClock, came) : 0;
+    for (const SimplexData& data : block.simplexes) take(block, data, owner, came, delay);
 }
 
 void AgentLinks::take(const Block& block, const SimplexData& data, const Owner& owner,
-                      std::int64_t came) {
+                      std::int64_t came, std::int64_t delay) {
     if (data.index >= owner.simplexes) return self_.rejections.add("values of no simplex");
     const auto found = owner.bounds.find(data.index);
     if (found == owner.bounds.end()) return;
@@ -243,7 +265,7 @@ void AgentLinks::take(const Block& block, const SimplexData& data, const Owner& 
     }
     LinkBuffer::Sample& sample = bound.buffer.writable();
     storeValues(data, bound.layout, sample.values.slice());
-    sample.age = std::max(block.nominalTime - data.time, std::int64_t{0});
+    sample.age = std::max(block.nominalTime - data.time, std::int64_t{0}) + delay;
     sample.came = came;
     bound.buffer.publish();
 }

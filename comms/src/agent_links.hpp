@@ -3,32 +3,36 @@
 
 #include "agent_link_buffer.hpp"
 #include "agent_peers.hpp"
+#include "transit_delay.hpp"
 
 #include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace cortex::comms {
 
 // The simplexes of other agents that ours name: finds their owners, binds them, and hands their
-// samples to the loop. read() in the loop, the rest on the communication thread.
+// samples to the loop. read() in the loop, take() on a thread of DDS as they come, the rest on the
+// communication thread.
 class AgentLinks {
 public:
     explicit AgentLinks(AgentSelf& self);
     ~AgentLinks();  // after the last read()
 
     bool any() const { return !links_.empty(); }
+    bool anyUnbound() const;
     void update(Peers& peers);  // after a change of them
     void take(const Block& block, std::int64_t came);
     std::uint64_t lost() const { return lost_; }  // blocks of owners that did not come; any thread
-    // What we want of others and have not said yet.
-    std::vector<Interest> newInterests(const Peers& peers);
-
-    // Whether there are any again: of an owner that is heard and sends nothing for a second.
+    std::set<std::string> owners() const;         // that we are linked to
+    Interest interest() const;                    // what we want of others
+    // Whether to say it again: an owner sends nothing for a second.
     bool askAgain(std::int64_t now);
 
     void read(Inbox& inbox) CORTEX_REALTIME;
@@ -76,6 +80,7 @@ private:
         std::map<std::uint32_t, Bound*> bounds;  // by index there
     };
 
+    bool hasAny(const Peer& peer) const;
     void tellWhyNot(Peer& peer) const;
     void claim(Link& link, Peer& peer);
     Claim makeClaim(const Link& link, Peer& peer, std::uint32_t theirs) const;
@@ -83,13 +88,15 @@ private:
     void bind(Link& link, const std::string* agent);
     void findOwners();
     bool believable(const Block& block, const Owner& owner);
-    void take(const Block& block, const SimplexData& data, const Owner& owner, std::int64_t came);
+    void take(const Block& block, const SimplexData& data, const Owner& owner, std::int64_t came,
+              std::int64_t delay);
     void readLink(Link& link, Inbox& inbox, std::int64_t now) CORTEX_REALTIME;
 
     AgentSelf& self_;
     std::vector<std::unique_ptr<Link>> links_;
+    std::mutex mutex_;  // of the next, and of what they name
     std::map<Id, Owner> owners_;
-    std::map<std::string, std::vector<std::string>> said_;  // links wanted, by agent
+    std::map<Id, TransitDelay> delays_;  // of those who are or were owners
     std::int64_t askDue_ = 0;
     std::uint64_t serial_ = 0;
     std::atomic<std::uint64_t> lost_{0};

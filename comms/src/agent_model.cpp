@@ -4,6 +4,7 @@
 #include "cortex/core/error.hpp"
 #include "cortex/core/type_description.hpp"
 
+#include "cdr.hpp"
 #include "ids.hpp"
 #include "named_values.hpp"
 #include "type_messages.hpp"
@@ -15,6 +16,8 @@
 
 namespace cortex::comms {
 namespace {
+
+constexpr std::size_t fullSample = 8'000;  // octets: few packets, of which none should be lost
 
 SimplexMessage simplexMessage(const Structure& structure, std::uint32_t index, const Image& image) {
     const SimplexInfo& info = structure.simplexes[index];
@@ -54,18 +57,25 @@ AgentModel::AgentModel(const AgentSelf& self, std::string_view security) : self_
     addSimplexes();
 }
 
-Model AgentModel::sample(const char* kind, std::string_view name) const {
-    Model model;
-    model.id = modelId(self_.name, kind, name);
-    model.agent = self_.name;
-    model.epoch = self_.epoch;
-    return model;
-}
-
-Model AgentModel::sampleOf(Interest interest) const {
-    Model model = sample("interest", interest.target);
-    model.interests.push_back(std::move(interest));
-    return model;
+// In as few samples as they fill.
+template <class Message>
+void AgentModel::pack(std::vector<Message>&& messages, std::vector<Message> Model::* list) {
+    std::size_t size = fullSample;
+    for (Message& each : messages) {
+        Model alone;
+        alone.agent = self_.name;
+        alone.epoch = self_.epoch;
+        (alone.*list).push_back(std::move(each));
+        const std::size_t more = encodedSize(alone);
+        if (size + more > fullSample) {
+            alone.id = modelId(alone);
+            samples_.push_back(std::move(alone));
+            size = more;
+        } else {
+            (samples_.back().*list).push_back(std::move((alone.*list).front()));
+            size += more;
+        }
+    }
 }
 
 // Those of our simplexes, and all that it takes to read them.
@@ -76,11 +86,12 @@ void AgentModel::addTypes() {
     }
     const std::vector<std::string> names{used.begin(), used.end()};
     std::map<std::string, TypeHash> hashes;
+    std::vector<TypeMessage> all;
     for (const Type* type : closureOf(*self_.structure().types, names)) {
-        samples_.push_back(sample("type", type->name));
-        samples_.back().types.push_back(typeMessage(describe(*type)));
-        hashes[type->name] = samples_.back().types.front().hash;
+        all.push_back(typeMessage(describe(*type)));
+        hashes[type->name] = all.back().hash;
     }
+    pack(std::move(all), &Model::types);
     presence_.types = static_cast<std::uint32_t>(hashes.size());
     presence_.typesHash = typesHash(hashes);
 }
@@ -96,15 +107,13 @@ void AgentModel::addSimplexes() {
     }
     presence_.simplexes = static_cast<std::uint32_t>(all.size());
     presence_.structureHash = comms::structureHash(all);
-    for (SimplexMessage& each : all) {
-        samples_.push_back(sample("simplex", each.path));
-        samples_.back().simplexes.push_back(std::move(each));
-    }
+    pack(std::move(all), &Model::simplexes);
 }
 
-Presence AgentModel::presence(const char* state, std::uint32_t agents) const {
+Presence AgentModel::presence(const char* state, std::uint32_t agents, std::uint64_t events) const {
     Presence presence = presence_;
-    presence.extras = {{agentsHeard, std::to_string(agents)}};
+    presence.extras = {{agentsHeard, std::to_string(agents)},
+                       {eventsWritten, std::to_string(events)}};
     presence.state = state;
     presence.cycle = self_.access.images->newestCycle();
     return presence;

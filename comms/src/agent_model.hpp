@@ -10,19 +10,20 @@
 
 namespace cortex::comms {
 
-// What this agent tells of itself: its types and simplexes, one sample each, and their counts and
-// hashes in its presence. Made by announce(); throws Error while all images are held.
+// What this agent tells of itself: its types and simplexes, several in a sample, and their counts
+// and hashes in its presence. Made by announce(); throws Error while all images are held.
 class AgentModel {
 public:
     explicit AgentModel(const AgentSelf& self, std::string_view security = {});
 
     const std::vector<Model>& samples() const { return samples_; }
     const Id& structureHash() const { return presence_.structureHash; }
-    Presence presence(const char* state, std::uint32_t agents) const;  // heard, this one too
-    Model sampleOf(Interest interest) const;
+    // `agents`: that are heard, this one too; `events`: number of the last that was written.
+    Presence presence(const char* state, std::uint32_t agents, std::uint64_t events) const;
 
 private:
-    Model sample(const char* kind, std::string_view name) const;
+    template <class Message>
+    void pack(std::vector<Message>&& messages, std::vector<Message> Model::* list);
     void addTypes();
     void addSimplexes();
 

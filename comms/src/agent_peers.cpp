@@ -2,16 +2,18 @@
 #include "agent_peers.hpp"
 
 #include "ids.hpp"
+#include "presence_interval.hpp"
 
 #include <algorithm>
 #include <chrono>
+#include <tuple>
 #include <utility>
 
 namespace cortex::comms {
 namespace {
 
-constexpr std::int64_t silence = 1'000'000'000;       // ns until one is lost
 constexpr std::int64_t longestLead = 86'400'000'000;  // us that the clock of another may be ahead
+constexpr std::int64_t longestAbsence = 600'000'000'000;  // ns that one is called for
 constexpr std::size_t mostPeers = 1'024;
 constexpr std::size_t longestName = 127;
 constexpr std::size_t mostPaths = 100'000;  // in one interest
@@ -29,9 +31,8 @@ std::size_t pathsIn(const Interest& interest) {
 
 }  // namespace
 
-AgentPeers::AgentPeers(AgentSelf& self, bool keepModels,
-                       std::function<void(const std::string&, std::int64_t)> lost)
-    : self_{self}, keepModels_{keepModels}, lost_{std::move(lost)} {}
+AgentPeers::AgentPeers(AgentSelf& self, std::function<void(const std::string&, std::int64_t)> lost)
+    : self_{self}, lost_{std::move(lost)} {}
 
 bool AgentPeers::plausible(const std::string& name, std::int64_t epoch) {
     if (name.empty() || name.size() > longestName || epoch <= 0) {
@@ -74,7 +75,8 @@ Peer* AgentPeers::place(const std::string& name) {
     if (found != peers_.end()) return &found->second;
     if (peers_.size() >= mostPeers) {
         const auto oldest = std::ranges::min_element(peers_, {}, [](const auto& each) {
-            return std::pair{each.second.heard, each.second.lastHeard};
+            const Peer& peer = each.second;  // an agent that is back does not tell its model again
+            return std::tuple{peer.heard, peer.agent, peer.lastHeard};
         });
         if (oldest->second.heard) {
             self_.rejections.add("too many agents and tools in the domain");
@@ -113,12 +115,14 @@ void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
         return self_.rejections.add("a presence of " + peer.name + " that cannot be");
     }
     changed_ = changed_ || peer.model().complete() != complete;
+    if (presence.state != "running") peer.missed = false;
     if (presence.state == "stopping") return lose(peer, "it stopped");
     if (presence.state == "silent") return lose(peer, "it fell silent");
     peer.lastHeard = now;
     const bool agent = presence.role == "agent";
     changed_ = changed_ || agent != peer.agent || !peer.heard;
     peer.agent = agent;
+    peer.missed = false;
     if (std::exchange(peer.heard, true)) return;
     if (peer.agent) {
         self_.event(Severity::Info, self_.simplex,
@@ -126,7 +130,7 @@ void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
     }
 }
 
-void AgentPeers::lose(Peer& peer, const char* why) {
+void AgentPeers::lose(Peer& peer, const std::string& why) {
     if (!std::exchange(peer.heard, false)) return;
     changed_ = true;
     if (peer.agent) {
@@ -137,45 +141,53 @@ void AgentPeers::lose(Peer& peer, const char* why) {
 
 void AgentPeers::expire(std::int64_t now) {
     for (auto& [name, peer] : peers_) {
-        if (peer.heard && now - peer.lastHeard > silence) lose(peer, "not heard for 1 s");
+        if (!peer.heard) continue;
+        const std::int64_t patience = patienceWith(*peer.model().presence());
+        if (now - peer.lastHeard <= patience) continue;
+        lose(peer, "not heard for " + std::to_string(patience / 1'000'000) + " ms");
+        peer.missed = peer.agent;
     }
+}
+
+// Null: it is refused, or was said by an earlier start than those that are heard.
+PeerStart* AgentPeers::startOf(const std::string& name, std::int64_t epoch, std::int64_t now) {
+    if (name == self_.name || !plausible(name, epoch)) return nullptr;
+    Peer* peer = place(name);
+    if (peer == nullptr) return nullptr;
+    if (peer->current && epoch == peer->epoch()) return &*peer->current;
+    std::optional<PeerStart>& other = peer->other;
+    if (!other || other->model.epoch() < epoch || now - other->spoke > shortestPatience) {
+        if (!other || other->model.epoch() != epoch) other.emplace(name, epoch);
+    }
+    if (other->model.epoch() != epoch) return nullptr;
+    other->spoke = now;
+    return &*other;
 }
 
 void AgentPeers::take(const Model& model, std::int64_t now) {
-    if (model.agent == self_.name) return;
-    if (!plausible(model.agent, model.epoch)) return;
-    Peer* peer = place(model.agent);
-    if (peer == nullptr) return;
-    if (peer->current && model.epoch == peer->epoch()) return takeInto(*peer->current, model);
-    std::optional<PeerStart>& other = peer->other;
-    if (!other || other->model.epoch() < model.epoch || now - other->spoke > silence) {
-        if (!other || other->model.epoch() != model.epoch) other.emplace(peer->name, model.epoch);
+    PeerStart* start = startOf(model.agent, model.epoch, now);
+    if (start == nullptr) return;
+    const bool complete = start->model.complete();
+    if (!start->model.add(model)) {
+        self_.rejections.add("a sample of the model of " + model.agent + " that cannot be");
     }
-    if (other->model.epoch() != model.epoch) return;
-    other->spoke = now;
-    takeInto(*other, model);
+    changed_ = changed_ || start->model.complete() != complete;
 }
 
-void AgentPeers::takeInto(PeerStart& start, const Model& model) {
-    if (model.interests.empty()) {
-        if (!keepModels_) return;
-        const bool complete = start.model.complete();
-        if (!start.model.add(model)) {
-            self_.rejections.add("a sample of the model of " + model.agent + " that cannot be");
-        }
-        changed_ = changed_ || start.model.complete() != complete;
-        return;
+void AgentPeers::take(const Interest& interest, std::int64_t now) {
+    if (interest.agent != agentId(interest.name) || pathsIn(interest) > mostPaths) {
+        return self_.rejections.add("an interest of " + interest.name + " that cannot be");
     }
-    const Interest& interest = model.interests.front();
-    if (model.interests.size() != 1 || !model.types.empty() || !model.simplexes.empty() ||
-        model.id != modelId(model.agent, "interest", interest.target) ||
-        pathsIn(interest) > mostPaths) {
-        return self_.rejections.add("an interest of " + model.agent + " that cannot be");
-    }
-    if (interest.target != self_.name) return;
-    const bool ours = interest.targetEpoch == 0 || interest.targetEpoch == self_.epoch;
-    start.interest = ours ? interest : Interest{};
+    PeerStart* start = startOf(interest.name, interest.epoch, now);
+    if (start == nullptr) return;
+    start->interest = interest;
     changed_ = true;
+}
+
+bool AgentPeers::missesAny(std::int64_t now) const {
+    return std::ranges::any_of(peers_, [&](const auto& each) {
+        return each.second.missed && now - each.second.lastHeard < longestAbsence;
+    });
 }
 
 std::uint32_t AgentPeers::agents() const {

@@ -19,7 +19,7 @@ struct Arrived {
 struct ReceivedMessages {
     std::vector<Arrived<Presence>> presences;
     std::vector<Arrived<Model>> models;
-    std::vector<Arrived<Block>> blocks;
+    std::vector<Arrived<Interest>> interests;
     std::vector<Arrived<Command>> commands;
 };
 
@@ -33,8 +33,8 @@ public:
     bool push(Model&& message, std::int64_t now) {
         return add(&ReceivedMessages::models, message, now, 300'000);
     }
-    bool push(Block&& message, std::int64_t now) {
-        return add(&ReceivedMessages::blocks, message, now, 1'024);
+    bool push(Interest&& message, std::int64_t now) {
+        return add(&ReceivedMessages::interests, message, now, 4'096);
     }
     bool push(Command&& message, std::int64_t now) {
         return add(&ReceivedMessages::commands, message, now, 4'096);

@@ -6,6 +6,7 @@
 #include "simplex_values.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace cortex::comms {
@@ -19,14 +20,24 @@ AgentStreams::AgentStreams(AgentSelf& self, const Id& structureHash, Participant
     : self_{self},
       participant_{participant},
       structureHash_{structureHash},
-      streams_{Stream{&topics::link, 0}, Stream{&topics::view5, 5}, Stream{&topics::view30, 30},
-               Stream{&topics::view100, 100}, Stream{&topics::viewEvery, 0}} {
+      streams_{Stream{topics::linkOf(self.name), 0}, Stream{topics::view5, 5},
+               Stream{topics::view30, 30}, Stream{topics::view100, 100},
+               Stream{topics::viewEvery, 0}} {
     const auto& simplexes = self.structure().simplexes;
     own_ = static_cast<std::uint32_t>(std::ranges::count(simplexes, false, &SimplexInfo::remote));
 }
 
-bool AgentStreams::any() const {
-    return std::ranges::any_of(streams_, [](const Stream& each) { return each.writer != nullptr; });
+bool AgentStreams::everyCycle() const {
+    return std::ranges::any_of(
+        streams_, [](const Stream& each) { return each.writer != nullptr && each.rate == 0; });
+}
+
+std::int64_t AgentStreams::due() const {
+    std::int64_t earliest = std::numeric_limits<std::int64_t>::max();
+    for (const Stream& each : streams_) {
+        if (each.writer != nullptr && each.rate != 0) earliest = std::min(earliest, each.due);
+    }
+    return earliest;
 }
 
 void AgentStreams::update(const Peers& peers) {
@@ -42,11 +53,7 @@ void AgentStreams::update(const Peers& peers) {
 void AgentStreams::addLinks(const Interest& interest, std::vector<bool>& wanted) {
     for (const std::string& path : interest.links) {
         const std::uint32_t simplex = self_.structure().find(path);
-        if (simplex < own_) {
-            wanted[simplex] = true;
-        } else {
-            self_.rejections.add("an interest in a simplex that is not ours");
-        }
+        if (simplex < own_) wanted[simplex] = true;  // the others are other agents'
     }
 }
 
@@ -86,7 +93,7 @@ void AgentStreams::open(Stream& stream, const std::vector<bool>& wanted) {
     }
     if (stream.writer != nullptr) return;
     try {
-        stream.writer = participant_.writer<Block>(*stream.topic);
+        stream.writer = participant_.writer<Block>(stream.topic);
     } catch (const Error& error) {
         self_.event(Severity::Error, self_.simplex, error.what());
     }

@@ -20,12 +20,13 @@ public:
     AgentStreams(AgentSelf& self, const Id& structureHash, Participant& participant);
 
     void update(const Peers& peers);  // after a change of them
-    bool any() const;                 // somebody asks for something
+    bool everyCycle() const;          // somebody asks for each
+    std::int64_t due() const;         // when the next of the other streams is; far off: never
     void step(std::int64_t now);      // writes what is due of the newest image
 
 private:
     struct Stream {
-        const Topic* topic;
+        Topic topic;
         std::uint32_t rate;  // Hz; 0: every cycle
         std::vector<std::uint32_t> simplexes = {};
         std::unique_ptr<Writer<Block>> writer = {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "agent_answers.hpp"
 #include "agent_commands.hpp"
 #include "agent_events.hpp"
 #include "agent_links.hpp"
@@ -14,6 +15,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <thread>
@@ -47,12 +49,14 @@ private:
     void takeMessages(std::int64_t now);
     void reportRefusals();
     void changed();
-    void sendInterests();
+    void listenToOwners();
+    void sendInterest();
     void sendEvents();
     Presence presence(const char* state) const;
     void sendPresence(std::int64_t now);
     void fallSilent();
-    void sayGoodbye();
+    void sendAnswer(const Answer& answer);
+    void leave();
 
     AgentSelf self_;
     AgentModel model_;
@@ -61,21 +65,24 @@ private:
     ReceivedQueue received_;
     std::unique_ptr<Writer<Presence>> presenceOut_;
     std::unique_ptr<Writer<Model>> modelOut_;
-    std::unique_ptr<Writer<Answer>> answerOut_;
     std::unique_ptr<Writer<EventMessage>> eventOut_;
     AgentEvents events_;
+    AgentAnswers answers_;
     AgentCommands commands_;
     AgentLinks links_;
+    std::unique_ptr<Writer<Interest>> interestOut_;  // null: we link nothing of others
     AgentStreams streams_;
     AgentPeers peers_;
     std::unique_ptr<Reader<Presence>> presenceIn_;
-    std::unique_ptr<Reader<Model>> modelIn_;
-    std::unique_ptr<Reader<Block>> linkIn_;
+    std::unique_ptr<Reader<Model>> modelIn_;  // null: as above
+    std::unique_ptr<Reader<Interest>> interestIn_;
+    std::map<std::string, std::unique_ptr<Reader<Block>>> linksIn_;  // by owner
     std::unique_ptr<Reader<Command>> commandIn_;
 
     // The communication thread's.
     ReceivedMessages messages_;
     std::vector<EventMessage> eventsToSend_;
+    std::uint64_t lastEvent_ = 0;  // that was written
     std::int64_t presenceDue_ = 0;
     bool silent_ = false;
 

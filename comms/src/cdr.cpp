@@ -227,6 +227,7 @@ bool decode(std::span<const std::uint8_t> payload, Message& message) {
 
 template std::size_t encodedSize(const Presence&);
 template std::size_t encodedSize(const Model&);
+template std::size_t encodedSize(const Interest&);
 template std::size_t encodedSize(const Block&);
 template std::size_t encodedSize(const Command&);
 template std::size_t encodedSize(const Answer&);
@@ -234,6 +235,7 @@ template std::size_t encodedSize(const EventMessage&);
 
 template std::size_t encode(const Presence&, std::span<std::uint8_t>);
 template std::size_t encode(const Model&, std::span<std::uint8_t>);
+template std::size_t encode(const Interest&, std::span<std::uint8_t>);
 template std::size_t encode(const Block&, std::span<std::uint8_t>);
 template std::size_t encode(const Command&, std::span<std::uint8_t>);
 template std::size_t encode(const Answer&, std::span<std::uint8_t>);
@@ -241,6 +243,7 @@ template std::size_t encode(const EventMessage&, std::span<std::uint8_t>);
 
 template bool decode(std::span<const std::uint8_t>, Presence&);
 template bool decode(std::span<const std::uint8_t>, Model&);
+template bool decode(std::span<const std::uint8_t>, Interest&);
 template bool decode(std::span<const std::uint8_t>, Block&);
 template bool decode(std::span<const std::uint8_t>, Command&);
 template bool decode(std::span<const std::uint8_t>, Answer&);

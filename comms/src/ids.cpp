@@ -54,8 +54,10 @@ Id idOf(std::initializer_list<std::string_view> parts) {
 
 Id agentId(std::string_view agent) { return idOf({agent}); }
 
-Id modelId(std::string_view agent, std::string_view kind, std::string_view name) {
-    return idOf({agent, kind, name});
+Id modelId(const Model& sample) {
+    if (!sample.types.empty()) return idOf({sample.agent, "type", sample.types.front().name});
+    if (sample.simplexes.empty()) return idOf({sample.agent});
+    return idOf({sample.agent, "simplex", sample.simplexes.front().path});
 }
 
 Id linkId(std::string_view sender, std::string_view target) { return idOf({sender, target}); }

@@ -19,8 +19,8 @@ namespace cortex::comms {
 Id idOf(std::initializer_list<std::string_view> parts);
 
 Id agentId(std::string_view agent);
-// Of one sample of cortex/1/model; `kind` is "type", "simplex" or "interest".
-Id modelId(std::string_view agent, std::string_view kind, std::string_view name);
+// Of a sample: of its agent and its first type or simplex, by name or path.
+Id modelId(const Model& sample);
 Id linkId(std::string_view sender, std::string_view target);
 
 Id typesHash(const std::map<std::string, TypeHash>& types);

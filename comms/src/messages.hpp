@@ -24,6 +24,8 @@ struct Extra {
 
 // An extra of Presence: how many agents its sender hears, itself included.
 inline constexpr const char* agentsHeard = "agents";
+// The number of the last event that it wrote.
+inline constexpr const char* eventsWritten = "events";
 
 struct NamedValue {
     std::string name, kind;
@@ -51,7 +53,7 @@ struct Presence {
     std::int64_t epoch = 0;
     std::string role, state;
     std::vector<std::uint16_t> majors;
-    std::int64_t cycle = 0, period = 0;
+    std::int64_t cycle = 0, period = 0, interval = 0;
     std::uint32_t types = 0;
     Id typesHash{};
     std::uint32_t simplexes = 0;
@@ -71,6 +73,7 @@ struct Presence {
         field(self.majors);
         field(self.cycle);
         field(self.period);
+        field(self.interval);
         field(self.types);
         field(self.typesHash);
         field(self.simplexes);
@@ -220,6 +223,28 @@ struct SimplexMessage {
     bool operator==(const SimplexMessage&) const = default;
 };
 
+struct Model {
+    static constexpr const char* typeName = "cortex::Model";
+    Id id{};
+    std::string agent;
+    std::int64_t epoch = 0;
+    std::vector<TypeMessage> types;
+    std::vector<SimplexMessage> simplexes;
+    std::vector<Extra> extras;
+
+    const Id& key() const { return id; }
+    template <class V>
+    static void visit(auto& self, V&& field) {
+        field(self.id);
+        field(self.agent);
+        field(self.epoch);
+        field(self.types);
+        field(self.simplexes);
+        field(self.extras);
+    }
+    bool operator==(const Model&) const = default;
+};
+
 struct View {
     std::uint32_t rate = 30;
     std::vector<std::string> prefixes;
@@ -232,46 +257,27 @@ struct View {
     bool operator==(const View&) const = default;
 };
 
+// What one participant wants of whoever has it.
 struct Interest {
-    std::string target;
-    std::int64_t targetEpoch = 0;
+    static constexpr const char* typeName = "cortex::Interest";
+    Id agent{};
+    std::string name;
+    std::int64_t epoch = 0;
     std::vector<std::string> links;
     std::vector<View> views;
-    std::uint32_t keyFrame = 0;
-
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.target);
-        field(self.targetEpoch);
-        field(self.links);
-        field(self.views);
-        field(self.keyFrame);
-    }
-    bool operator==(const Interest&) const = default;
-};
-
-struct Model {
-    static constexpr const char* typeName = "cortex::Model";
-    Id id{};
-    std::string agent;
-    std::int64_t epoch = 0;
-    std::vector<TypeMessage> types;
-    std::vector<SimplexMessage> simplexes;
-    std::vector<Interest> interests;
     std::vector<Extra> extras;
 
-    const Id& key() const { return id; }
+    const Id& key() const { return agent; }
     template <class V>
     static void visit(auto& self, V&& field) {
-        field(self.id);
         field(self.agent);
+        field(self.name);
         field(self.epoch);
-        field(self.types);
-        field(self.simplexes);
-        field(self.interests);
+        field(self.links);
+        field(self.views);
         field(self.extras);
     }
-    bool operator==(const Model&) const = default;
+    bool operator==(const Interest&) const = default;
 };
 
 struct SimplexData {

@@ -54,6 +54,10 @@ std::vector<AgentStatus> Mirror::agents() const {
     });
 }
 
+std::uint32_t Mirror::unheard() const {
+    return implementation_->thread.read([](MirrorState& state) { return state.agents.unheard(); });
+}
+
 bool Mirror::waitUntilComplete(Milliseconds limit) const {
     return implementation_->thread.waitFor(
         limit, [](MirrorState& state) { return state.everybodyIsHere(); });
@@ -149,6 +153,11 @@ CommandAnswer Mirror::call(std::string_view path, std::string_view command,
 void Mirror::onEvent(std::function<void(const AgentEvent&)> listener) {
     implementation_->thread.change(
         [&](MirrorState& state) { state.listeners.push_back(std::move(listener)); });
+}
+
+bool Mirror::eventsComplete() const {
+    return implementation_->thread.read(
+        [](MirrorState& state) { return state.agents.eventsComplete(); });
 }
 
 std::uint64_t Mirror::refused() const { return implementation_->thread.refused(); }

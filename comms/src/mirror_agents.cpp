@@ -2,6 +2,7 @@
 #include "mirror_agents.hpp"
 
 #include "ids.hpp"
+#include "presence_interval.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -13,7 +14,6 @@ namespace {
 
 constexpr std::uint16_t major = 1;
 constexpr std::size_t mostAgents = 10'000;
-constexpr std::chrono::seconds lostAfter{1};
 constexpr std::chrono::seconds forgottenAfter{61};
 
 // Own simplexes of an agent that a view shows.
@@ -32,19 +32,23 @@ bool showsAny(const Structure& structure, const MirrorView& view) {
 }
 
 // 0: it does not say.
-std::ptrdiff_t heardBy(const Presence& agent) {
-    std::ptrdiff_t count = 0;
-    for (const Extra& extra : agent.extras) {
-        if (extra.name != agentsHeard) continue;
-        std::from_chars(extra.value.data(), extra.value.data() + extra.value.size(), count);
+std::uint64_t numberIn(const Presence& presence, std::string_view name) {
+    std::uint64_t number = 0;
+    for (const Extra& extra : presence.extras) {
+        if (extra.name != name) continue;
+        std::from_chars(extra.value.data(), extra.value.data() + extra.value.size(), number);
     }
-    return count;
+    return number;
 }
 
 }  // namespace
 
 bool MirrorAgent::foreign() const {
     return present() && std::ranges::count(model.presence()->majors, major) == 0;
+}
+
+std::chrono::nanoseconds MirrorAgent::patience() const {
+    return std::chrono::nanoseconds{present() ? patienceWith(*model.presence()) : shortestPatience};
 }
 
 AgentStatus MirrorAgent::status(Moment now) const {
@@ -94,7 +98,9 @@ MirrorAgent* MirrorAgents::at(const std::string& name, std::int64_t epoch, Momen
         return nullptr;
     }
     names_[agentId(name)] = name;
-    return &agents_.try_emplace(name, name, epoch, now).first->second;
+    MirrorAgent& agent = agents_.try_emplace(name, name, epoch, now).first->second;
+    if (std::optional<PeerModel> aside = takeAside(name, epoch)) agent.model = std::move(*aside);
+    return &agent;
 }
 
 std::optional<PeerModel> MirrorAgents::takeAside(const std::string& name, std::int64_t epoch) {
@@ -113,9 +119,19 @@ void MirrorAgents::setAside(const Model& model) {
     place->second.add(model);
 }
 
+// It may only have been cut off, and DDS does not say again what has come.
+void MirrorAgents::forget(MirrorAgent& agent) {
+    const std::string name = agent.model.agent();
+    if (aside_.size() < mostAgents) aside_.insert_or_assign(name, std::move(agent.model));
+}
+
 void MirrorAgents::take(const Presence& presence, Moment now) {
     if (presence.role != "agent") {
-        if (tools_.size() < mostAgents) tools_[presence.agent] = now;
+        if (presence.state == "stopping") {
+            tools_.erase(presence.agent);
+        } else if (tools_.size() < mostAgents) {
+            tools_[presence.agent] = now;
+        }
         return;
     }
     MirrorAgent* agent = at(presence.name, presence.epoch, now);
@@ -124,13 +140,11 @@ void MirrorAgents::take(const Presence& presence, Moment now) {
     if (presence.state == "stopping") return lose(*agent, "the agent has ended");
     if (presence.state == "silent") return lose(*agent, "a later start of it has its name");
     agent->heard = now;
-    agent->lost = false;
+    agent->lost = agent->missed = false;
     agent->cycle = std::max(agent->cycle, presence.cycle);
 }
 
-// Of tools there are models too: what they want of whom.
 void MirrorAgents::take(const Model& model, Moment now) {
-    if (!model.interests.empty()) return;
     MirrorAgent* agent = at(model.agent, model.epoch, now);
     if (agent == nullptr) return setAside(model);
     if (agent->model.add(model)) finish(*agent);
@@ -142,7 +156,7 @@ void MirrorAgents::take(const Block& block, const MirrorView& view, Moment now) 
     if (agent == nullptr || !agent->tables || view.prefixes.empty()) return;
     if (!agent->tables->apply(block, now)) return;
     agent->heard = now;
-    agent->lost = false;
+    agent->lost = agent->missed = false;
     agent->cycle = std::max(agent->cycle, block.cycle);
 }
 
@@ -151,6 +165,10 @@ std::optional<AgentEvent> MirrorAgents::take(const EventMessage& message) {
     if (message.agent != agentId(message.name) || !severity) {
         ++refused_;
         return {};
+    }
+    if (newestEvents_.size() < mostAgents || newestEvents_.contains(message.name)) {
+        auto& newest = newestEvents_[message.name];
+        newest = std::max(newest, {message.epoch, message.number});
     }
     MirrorAgent* agent = find(message.name);
     if (agent != nullptr && agent->model.epoch() == message.epoch) {
@@ -188,14 +206,19 @@ void MirrorAgents::lose(MirrorAgent& agent, const char* why) {
 }
 
 void MirrorAgents::tick(const MirrorView& view, Moment now) {
-    std::erase_if(tools_, [&](const auto& each) { return now - each.second > lostAfter; });
+    std::erase_if(tools_, [&](const auto& each) {
+        return now - each.second > std::chrono::nanoseconds{shortestPatience};
+    });
     for (auto each = agents_.begin(); each != agents_.end();) {
         MirrorAgent& agent = each->second;
-        if (now - agent.heard > lostAfter) lose(agent, "the agent is not heard");
+        if (!agent.lost && now - agent.heard > agent.patience()) {
+            lose(agent, "the agent is not heard");
+            agent.missed = true;
+        }
         if (now - agent.heard > forgottenAfter) {
             if (agent.tables) forgottenImages_ += agent.tables->published();
             names_.erase(agentId(each->first));
-            aside_.erase(each->first);
+            forget(agent);
             each = agents_.erase(each);
             continue;
         }
@@ -247,16 +270,36 @@ std::uint32_t MirrorAgents::present() const {
     return static_cast<std::uint32_t>(static_cast<std::size_t>(heard) + tools_.size());
 }
 
+bool MirrorAgents::missesAny() const {
+    return std::ranges::any_of(agents_, [](const auto& each) { return each.second.missed; });
+}
+
 bool MirrorAgents::complete() const {
     return !agents_.empty() &&
            std::ranges::all_of(agents_, [](const auto& each) { return each.second.settled(); });
 }
 
-bool MirrorAgents::hearsAllThatTheyHear() const {
-    const auto heard = [](const auto& each) { return each.second.present() && !each.second.lost; };
-    const auto here = std::ranges::count_if(agents_, heard);
+std::uint32_t MirrorAgents::unheard() const {
+    std::uint64_t here = 0, most = 0;
+    for (const auto& [name, agent] : agents_) {
+        if (!agent.present() || agent.lost) continue;
+        ++here;
+        most = std::max(most, numberIn(*agent.model.presence(), agentsHeard));
+    }
+    return most > here
+               ? static_cast<std::uint32_t>(std::min(most - here, std::uint64_t{mostAgents}))
+               : 0;
+}
+
+// They come in order; perhaps before the agent is known.
+bool MirrorAgents::eventsComplete() const {
     return std::ranges::all_of(agents_, [&](const auto& each) {
-        return !heard(each) || heardBy(*each.second.model.presence()) <= here;
+        const auto& [name, agent] = each;
+        if (agent.lost || !agent.present()) return true;
+        const std::uint64_t last = numberIn(*agent.model.presence(), eventsWritten);
+        const auto newest = newestEvents_.find(name);
+        return last == 0 || (newest != newestEvents_.end() &&
+                             newest->second >= std::pair{agent.model.epoch(), last});
     });
 }
 

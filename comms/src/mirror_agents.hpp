@@ -22,8 +22,8 @@ struct MirrorAgent {
         : model{name, epoch}, heard{now} {}
 
     PeerModel model;
-    Moment heard;  // last
-    bool lost = false;
+    Moment heard;                                   // last
+    bool lost = false, missed = false;              // missed: lost without a word
     std::int64_t cycle = 0;                         // newest
     std::shared_ptr<const Structure> structure;     // once it is complete
     std::shared_ptr<const CommandTables> commands;  // once one was sent
@@ -34,11 +34,13 @@ struct MirrorAgent {
     // It speaks no protocol that we do; there is no more of it than its presence.
     bool foreign() const;
     bool settled() const { return lost || foreign() || (present() && model.complete()); }
+    std::chrono::nanoseconds patience() const;  // that a silence may last
     AgentStatus status(Moment now) const;
 };
 
 // The agents of the domain: of the starts of a name that are heard the greater epoch wins; what
-// is not heard for a second is lost, and forgotten after a minute. Used under the mirror's mutex.
+// is silent for longer than it said is lost, and forgotten after a minute. Used under the mirror's
+// mutex.
 class MirrorAgents {
 public:
     using Map = std::map<std::string, MirrorAgent, std::less<>>;
@@ -61,8 +63,10 @@ public:
     MirrorAgent* find(std::string_view name);
     MirrorAgent* ownerOf(std::string_view path);  // null: nobody's
     std::uint32_t present() const;                // agents and tools that are heard
+    bool missesAny() const;                       // that are lost without a word
     bool complete() const;                        // somebody is there, and all of everybody
-    bool hearsAllThatTheyHear() const;            // as many agents as any of them
+    std::uint32_t unheard() const;                // agents: so many more one of them hears
+    bool eventsComplete() const;                  // all that those who are heard have written
     bool valuesComplete(const MirrorView& view) const;
     std::uint64_t images() const;  // published, of all together
     std::uint64_t refused() const;
@@ -71,14 +75,17 @@ private:
     MirrorAgent* at(const std::string& name, std::int64_t epoch, Moment now);
     std::optional<PeerModel> takeAside(const std::string& name, std::int64_t epoch);
     void setAside(const Model& model);
+    void forget(MirrorAgent& agent);
     void lose(MirrorAgent& agent, const char* why);
     void finish(MirrorAgent& agent);
 
     OnLost onLost_;
     Map agents_;
-    std::map<std::string, PeerModel, std::less<>> aside_;  // of an earlier start that may be alive
+    std::map<std::string, PeerModel, std::less<>> aside_;  // of a start that may be alive
     std::map<Id, Moment> tools_;
     std::map<Id, std::string> names_;
+    std::map<std::string, std::pair<std::int64_t, std::uint64_t>, std::less<>>
+        newestEvents_;  // epoch and number, by agent
     std::uint64_t refused_ = 0, forgottenImages_ = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include "ids.hpp"
 #include "named_values.hpp"
+#include "presence_interval.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -18,6 +19,14 @@ constexpr std::chrono::milliseconds longestPause{200};
 // An answer that was not heard by then: the agent has let the command expire, and said so in vain.
 constexpr std::chrono::seconds grace{1};
 
+// An agent that speaks more seldom than ten times a second has gone on since its newest cycle was
+// heard: for so long, without the tenth of a second that all commands wait.
+std::int64_t unheardOf(const MirrorAgent& agent, Moment now) {
+    const std::int64_t silence =
+        std::min((now - agent.heard).count(), agent.model.presence()->interval);
+    return std::clamp(silence - shortestInterval, std::int64_t{0}, longestInterval);
+}
+
 }  // namespace
 
 std::uint64_t MirrorCommands::send(MirrorAgent& agent, std::string_view path,
@@ -30,8 +39,8 @@ std::uint64_t MirrorCommands::send(MirrorAgent& agent, std::string_view path,
     Target& target = targets_.try_emplace(name, sender_).first->second;
     const std::int64_t period = std::max<std::int64_t>(agent.model.presence()->period, 1);
     const std::int64_t cycles = std::max<std::int64_t>(budget.count() / period, 1);
-    const PreparedCommand prepared =
-        target.client.prepare(tables, path, command, arguments, agent.cycle + cycles);
+    const PreparedCommand prepared = target.client.prepare(
+        tables, path, command, arguments, agent.cycle + unheardOf(agent, now) / period + cycles);
     const OutsideCommand& head = prepared.message;
     numbers_[next_] = {name, head.sequence};
     if (numbers_.size() > keptNumbers) numbers_.erase(numbers_.begin());

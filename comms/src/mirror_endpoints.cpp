@@ -2,14 +2,13 @@
 #include "mirror_endpoints.hpp"
 
 #include "ids.hpp"
+#include "presence_interval.hpp"
 #include "security_identity.hpp"
 
 #include <utility>
 
 namespace cortex::comms {
 namespace {
-
-constexpr std::chrono::milliseconds presencePeriod{100};
 
 const Topic& viewTopic(std::uint32_t rate) {
     switch (rate) {
@@ -33,6 +32,7 @@ Presence presenceOf(const Sender& tool) {
     presence.role = "tool";
     presence.state = "running";
     presence.majors = {1};
+    presence.interval = shortestInterval;
     return presence;
 }
 
@@ -42,7 +42,7 @@ MirrorEndpoints::MirrorEndpoints(const NetworkOptions& options, const Sender& to
                                  MirrorInbox& inbox)
     : tool_{tool},
       inbox_{inbox},
-      participant_{options, std::string{tool.nameText()}},
+      participant_{options, std::string{tool.nameText()}, Participant::Speaks::WhenTold},
       self_{presenceOf(tool)} {
     if (participant_.identity() != nullptr) self_.security = securityOn;
     presences_ = participant_.reader<Presence>(
@@ -50,10 +50,14 @@ MirrorEndpoints::MirrorEndpoints(const NetworkOptions& options, const Sender& to
         [this](const Id& agent) { inbox_.push(Withdrawn{agent}); });
     models_ = participant_.reader<Model>(
         topics::model, [this](Model&& sample) { inbox_.push(std::move(sample)); });
+    participant_.speak();
 }
 
 MirrorEndpoints::~MirrorEndpoints() {
-    if (presence_) presence_->dispose(self_);
+    if (!presence_) return;
+    self_.state = "stopping";
+    presence_->write(self_);
+    presence_->dispose(self_);
 }
 
 // Before anything of us can matter to an agent: that we are here.
@@ -64,25 +68,30 @@ void MirrorEndpoints::speak() {
 }
 
 void MirrorEndpoints::view(const MirrorView& view) {
-    if (view.prefixes.empty()) {
-        blocks_.reset();
-        viewRate_.reset();
-        return;
+    if (view == view_) return;
+    const bool looks = !view.prefixes.empty();
+    if (!looks || view.rate != view_.rate) blocks_.reset();
+    view_ = view;
+    if (looks && !blocks_) {
+        speak();
+        blocks_ = participant_.reader<Block>(
+            viewTopic(view.rate), [this](Block&& sample) { inbox_.push(std::move(sample)); });
     }
-    speak();
-    if (!model_) model_ = participant_.writer<Model>(topics::model);
-    if (viewRate_ == view.rate) return;
-    viewRate_ = view.rate;
-    blocks_.reset();
-    blocks_ = participant_.reader<Block>(
-        viewTopic(view.rate), [this](Block&& sample) { inbox_.push(std::move(sample)); });
+    if (looks && !interests_) interests_ = participant_.writer<Interest>(topics::interest);
+    if (!interests_) return;
+    Interest interest;
+    interest.agent = self_.agent;
+    interest.name = self_.name;
+    interest.epoch = self_.epoch;
+    if (looks) interest.views.push_back({view.rate, view.prefixes});
+    interests_->write(interest);
 }
 
 void MirrorEndpoints::command() {
     if (commands_) return;
     speak();
     answers_ = participant_.reader<Answer>(
-        topics::answer, [this](Answer&& sample) { inbox_.push(std::move(sample)); });
+        topics::answerTo(self_.name), [this](Answer&& sample) { inbox_.push(std::move(sample)); });
     commands_ = participant_.writer<Command>(topics::command);
 }
 
@@ -99,33 +108,13 @@ void MirrorEndpoints::listen() {
         topics::event, [this](EventMessage&& sample) { inbox_.push(std::move(sample)); });
 }
 
-void MirrorEndpoints::tell(const MirrorAgents& agents, const MirrorView& view, Moment now) {
-    if (presence_ && now - spoke_ >= presencePeriod) {
+void MirrorEndpoints::tell(const MirrorAgents& agents, Moment now) {
+    if (presence_ && (now - spoke_).count() >= self_.interval) {
+        self_.interval = intervalAmong(presence_->readers());
         presence_->write(self_);
         spoke_ = now;
     }
-    if (!model_) return;
-    for (const auto& [name, agent] : agents.all()) {
-        Interest interest;
-        interest.target = name;
-        interest.targetEpoch = agent.model.epoch();
-        // What it has is not known at first: asked all the same, its values come with its model.
-        const bool mayShow = agent.tables || (!agent.structure && !view.prefixes.empty());
-        if (mayShow) interest.views.push_back({view.rate, view.prefixes});
-        want(name, std::move(interest));
-    }
-}
-
-void MirrorEndpoints::want(const std::string& agent, Interest interest) {
-    const auto told = told_.find(agent);
-    if (told == told_.end() ? interest.views.empty() : told->second == interest) return;
-    told_[agent] = interest;
-    Model model;
-    model.agent = self_.name;
-    model.id = modelId(self_.name, "interest", agent);
-    model.epoch = self_.epoch;
-    model.interests.push_back(std::move(interest));
-    model_->write(model);
+    if (agents.missesAny()) participant_.announce();
 }
 
 }  // namespace cortex::comms

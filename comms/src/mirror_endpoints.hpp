@@ -6,10 +6,7 @@
 #include "participant.hpp"
 
 #include <cstdint>
-#include <map>
 #include <memory>
-#include <optional>
-#include <string>
 
 namespace cortex::comms {
 
@@ -20,21 +17,18 @@ public:
     MirrorEndpoints(const NetworkOptions& options, const Sender& tool, MirrorInbox& inbox);
     ~MirrorEndpoints();
 
-    void view(const MirrorView& view);  // the stream of its class, or none
+    void view(const MirrorView& view);  // the stream of its class or none, and tells agents so
     void command();
     void listen();
-    // Tells each agent what we want of it, where that has changed, and that we are here.
-    void tell(const MirrorAgents& agents, const MirrorView& view, Moment now);
+    void tell(const MirrorAgents& agents, Moment now);  // that we are here
     bool write(const Command& command);
 
     // Agents and tools; with security also those that are to prove that they are.
     std::uint32_t speakers() const { return presences_->writers() + participant_.pending(); }
-    std::uint32_t eventSources() const { return events_ ? events_->writers() : 0; }
     std::uint64_t malformed() const { return participant_.malformed() + participant_.refused(); }
 
 private:
     void speak();
-    void want(const std::string& agent, Interest interest);
 
     const Sender tool_;
     MirrorInbox& inbox_;
@@ -42,15 +36,14 @@ private:
     std::unique_ptr<Reader<Presence>> presences_;
     std::unique_ptr<Reader<Model>> models_;
     std::unique_ptr<Writer<Presence>> presence_;
-    std::unique_ptr<Writer<Model>> model_;
+    std::unique_ptr<Writer<Interest>> interests_;
     std::unique_ptr<Reader<Block>> blocks_;
     std::unique_ptr<Writer<Command>> commands_;
     std::unique_ptr<Reader<Answer>> answers_;
     std::unique_ptr<Reader<EventMessage>> events_;
     Presence self_;
     Moment spoke_{};
-    std::optional<std::uint32_t> viewRate_;
-    std::map<std::string, Interest> told_;  // by agent
+    MirrorView view_;  // that agents were told of
 };
 
 }  // namespace cortex::comms

@@ -11,7 +11,6 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::chrono::milliseconds quiet{100};
-constexpr std::chrono::seconds patience{1};  // with agents that others hear
 constexpr std::chrono::milliseconds tick{20};
 constexpr std::chrono::milliseconds shortTick{5};  // while something is waited for
 
@@ -31,9 +30,8 @@ constexpr std::chrono::milliseconds shortTick{5};  // while something is waited 
 }  // namespace
 
 bool MirrorState::everybodyIsHere() const {
-    const auto since = std::chrono::steady_clock::now() - news;
-    return since >= quiet && agents.complete() && agents.present() >= speakers &&
-           (since >= patience || agents.hearsAllThatTheyHear());
+    return std::chrono::steady_clock::now() - news >= quiet && agents.complete() &&
+           agents.present() >= speakers && agents.unheard() == 0;
 }
 
 MirrorThread::MirrorThread(const std::string& name, const NetworkOptions& options)
@@ -99,7 +97,7 @@ void MirrorThread::serve(Moment now) {
     endpoints_.view(state_.view);
     if (state_.commands.waiting()) endpoints_.command();
     if (!state_.listeners.empty()) endpoints_.listen();
-    endpoints_.tell(state_.agents, state_.view, now);
+    endpoints_.tell(state_.agents, now);
     state_.commands.tick(now, [&](const Command& command) { return endpoints_.write(command); });
     if (endpoints_.speakers() != state_.speakers) state_.news = now;
     state_.speakers = endpoints_.speakers();

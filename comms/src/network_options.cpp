@@ -25,6 +25,11 @@ int defaultDomain() {
     return domain;
 }
 
+std::string defaultDiscoveryServer() {
+    const char* servers = std::getenv("CORTEX_DISCOVERY_SERVER");
+    return servers != nullptr ? servers : "";
+}
+
 std::string defaultSecurity() {
     const char* folder = std::getenv("CORTEX_SECURITY");
     return folder != nullptr ? folder : "";

@@ -3,14 +3,22 @@
 
 #include "cortex/core/error.hpp"
 
+#include "discovery_counter.hpp"
+#include "ids.hpp"
+#include "join_turn.hpp"
+#include "late_receiver.hpp"
 #include "participant_qos.hpp"
+#include "presence_interval.hpp"
 #include "security_guard.hpp"
 #include "topic_type.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -65,10 +73,9 @@ private:
     bool takeOne(dds::DataReader& reader) {
         bool taken = false;
         try {
-            Envelope<M> envelope;
             dds::SampleInfo info;
-            taken = reader.take_next_sample(&envelope, &info) == ReturnCode::RETCODE_OK;
-            if (taken) deliver(envelope, info);
+            taken = reader.take_next_sample(&envelope_, &info) == ReturnCode::RETCODE_OK;
+            if (taken) deliver(envelope_, info);
         } catch (...) {
             ++malformed_;
         }
@@ -101,20 +108,40 @@ private:
     const std::function<void(const Id&)> onDisposed_;
     std::atomic<std::uint64_t>& malformed_;
     SecurityGuard* const guard_;
+    Envelope<M> envelope_;  // keeps the memory that a callback leaves in it
     std::mutex mutex_;
     bool closed_ = false;
 };
 
 }  // namespace
 
+// Everybody hears twenty in a second at most.
+std::chrono::milliseconds announcementsAmong(std::uint32_t participants) {
+    return std::chrono::milliseconds{std::clamp(50 * participants, 100U, 3'000U)};
+}
+
+Topic topics::linkOf(const std::string& agent) {
+    return {"cortex/1/link/" + toHex(agentId(agent)), Qos::Cycle};
+}
+
+Topic topics::answerTo(const std::string& sender) {
+    return {"cortex/1/answer/" + toHex(agentId(sender)), Qos::Exchange};
+}
+
 struct Participant::Impl {
     std::string name;
-    std::unique_ptr<SecurityGuard> guard;  // outlives the participant
+    std::unique_ptr<DiscoveryCounter> listener;  // outlives the participant
+    SecurityGuard* guard = nullptr;              // the listener, with security
+    std::shared_ptr<Gate> gate;
+    std::optional<JoinTurn> turn;  // until it speaks
+    int othersOnHost = 0;
     dds::DomainParticipant* participant = nullptr;
     dds::Publisher* publisher = nullptr;
     dds::Subscriber* subscriber = nullptr;
     std::map<std::string, dds::Topic*, std::less<>> topics;
     std::atomic<std::uint64_t> malformed = 0;
+    std::uint64_t announcements = 0;
+    std::chrono::steady_clock::time_point announceDue{};
 
     ~Impl() {
         if (!participant) return;
@@ -122,17 +149,24 @@ struct Participant::Impl {
         dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
     }
 
+    // With the gate held, as all that makes and deletes endpoints.
     template <class M>
-    dds::Topic* topic(const char* topicName) {
+    dds::Topic* topic(const std::string& topicName) {
         if (const auto found = topics.find(topicName); found != topics.end()) return found->second;
         if (participant->find_type(M::typeName).empty()) {
             dds::TypeSupport{new TopicType<M>}.register_type(participant);
         }
         dds::Topic* made =
             created(participant->create_topic(topicName, M::typeName, dds::TOPIC_QOS_DEFAULT),
-                    "topic '" + std::string{topicName} + "' of '" + name + "'");
+                    "topic '" + topicName + "' of '" + name + "'");
         topics.emplace(topicName, made);
         return made;
+    }
+
+    // Only one that no endpoint uses is deleted.
+    void release(const dds::TopicDescription* used) {
+        const auto found = topics.find(used->get_name());
+        if (participant->delete_topic(found->second) == ReturnCode::RETCODE_OK) topics.erase(found);
     }
 };
 
@@ -140,6 +174,8 @@ struct Participant::Impl {
 
 template <class M>
 struct Writer<M>::Impl {
+    std::shared_ptr<Gate> gate;
+    std::function<void(const dds::TopicDescription*)> release;
     dds::Publisher* publisher;
     dds::DataWriter* writer;
 };
@@ -151,9 +187,12 @@ template <class M>
 Writer<M>::~Writer() {
     // Fast DDS 2.9 frees a history while heartbeats may still read it, and can loop for ever then:
     // an empty one is safe.
+    const auto held = impl_->gate->hold();
     std::size_t removed = 0;
     impl_->writer->clear_history(&removed);
+    const dds::TopicDescription* const topic = impl_->writer->get_topic();
     impl_->publisher->delete_datawriter(impl_->writer);
+    impl_->release(topic);
 }
 
 template <class M>
@@ -181,6 +220,8 @@ std::uint32_t Writer<M>::readers() const {
 
 template <class M>
 struct Reader<M>::Impl {
+    std::shared_ptr<Gate> gate;
+    std::function<void(const dds::TopicDescription*)> release;
     dds::Subscriber* subscriber;
     Receiver<M> receiver;
     dds::DataReader* reader;
@@ -192,7 +233,10 @@ Reader<M>::Reader(std::unique_ptr<Impl> impl) : impl_{std::move(impl)} {}
 template <class M>
 Reader<M>::~Reader() {
     impl_->receiver.close();
+    const auto held = impl_->gate->hold();
+    const dds::TopicDescription* const topic = impl_->reader->get_topicdescription();
     impl_->subscriber->delete_datareader(impl_->reader);
+    impl_->release(topic);
 }
 
 template <class M>
@@ -204,22 +248,27 @@ std::uint32_t Reader<M>::writers() const {
 
 // --- Participant --------------------------------------------------------------------------------
 
-Participant::Participant(const NetworkOptions& options, const std::string& name)
+Participant::Participant(const NetworkOptions& options, const std::string& name, Speaks speaks)
     : impl_{std::make_unique<Impl>()} {
     impl_->name = name;
     if (!options.security.empty()) {
-        impl_->guard = std::make_unique<SecurityGuard>(options.security, name, options.domain);
+        auto guard = std::make_unique<SecurityGuard>(options.security, name, options.domain);
+        impl_->guard = guard.get();
+        impl_->listener = std::move(guard);
+    } else {
+        impl_->listener = std::make_unique<DiscoveryCounter>();
     }
-    static std::mutex joining;  // two must not choose one number
+    impl_->turn.emplace(options.domain);
+    static std::mutex joining;  // Fast DDS asks who the user is, which no two threads may
     const std::lock_guard lock{joining};
     dds::DomainParticipantQos qos = participantQos(options, name);
+    impl_->gate = addGate(qos);
     setUpFastDds();
-    // The guard hears of participants only, which no mask is about.
-    const auto mask = impl_->guard ? dds::StatusMask::none() : dds::StatusMask::all();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
     const auto join = [&] {
         return dds::DomainParticipantFactory::get_instance()->create_participant(
-            static_cast<dds::DomainId_t>(options.domain), qos, impl_->guard.get(), mask);
+            static_cast<dds::DomainId_t>(options.domain), qos, impl_->listener.get(),
+            dds::StatusMask::none());  // it hears of participants, which no mask is about
     };
     impl_->participant = join();
     if (impl_->participant == nullptr) {
@@ -227,10 +276,18 @@ Participant::Participant(const NetworkOptions& options, const std::string& name)
         qos.wire_protocol().participant_id = -1;
         impl_->participant = created(join(), "the network membership" + where);
     }
+    impl_->othersOnHost = std::max(qos.wire_protocol().participant_id, 0);
     impl_->publisher = created(impl_->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT),
                                "the publisher" + where);
     impl_->subscriber = created(impl_->participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT),
                                 "the subscriber" + where);
+    if (speaks == Speaks::AtOnce) speak();
+}
+
+void Participant::speak() {
+    impl_->gate->open();
+    if (impl_->turn) impl_->turn->letAnswer(impl_->othersOnHost);
+    impl_->turn.reset();
 }
 
 Participant::~Participant() = default;
@@ -238,11 +295,15 @@ Participant::~Participant() = default;
 template <class M>
 std::unique_ptr<Writer<M>> Participant::writer(const Topic& topic) {
     using Entity = typename Writer<M>::Impl;
-    dds::DataWriter* made = created(
-        impl_->publisher->create_datawriter(impl_->topic<M>(topic.name), writerQos(topic.qos)),
-        "a writer of topic '" + std::string{topic.name} + "' of '" + impl_->name + "'");
-    return std::unique_ptr<Writer<M>>{
-        new Writer<M>{std::unique_ptr<Entity>{new Entity{impl_->publisher, made}}}};
+    const auto held = impl_->gate->hold();
+    dds::DataWriter* made =
+        created(impl_->publisher->create_datawriter(
+                    impl_->topic<M>(topic.name),
+                    writerQos(topic.qos, impl_->othersOnHost, impl_->guard != nullptr)),
+                "a writer of topic '" + topic.name + "' of '" + impl_->name + "'");
+    return std::unique_ptr<Writer<M>>{new Writer<M>{std::unique_ptr<Entity>{
+        new Entity{impl_->gate, [self = impl_.get()](auto* used) { self->release(used); },
+                   impl_->publisher, made}}}};
 }
 
 template <class M>
@@ -250,16 +311,32 @@ std::unique_ptr<Reader<M>> Participant::reader(const Topic& topic,
                                                std::function<void(M&&)> onSample,
                                                std::function<void(const Id&)> onDisposed) {
     using Entity = typename Reader<M>::Impl;
+    const auto held = impl_->gate->hold();
     dds::Topic* const made = impl_->topic<M>(topic.name);
-    std::unique_ptr<Entity> entity{new Entity{
-        impl_->subscriber,
-        {std::move(onSample), std::move(onDisposed), impl_->malformed, impl_->guard.get()},
-        nullptr}};
-    entity->reader =
-        created(impl_->subscriber->create_datareader(made, readerQos(topic.qos), &entity->receiver,
-                                                     dds::StatusMask::data_available()),
-                "a reader of topic '" + std::string{topic.name} + "' of '" + impl_->name + "'");
+    std::unique_ptr<Entity> entity{
+        new Entity{impl_->gate,
+                   [self = impl_.get()](auto* used) { self->release(used); },
+                   impl_->subscriber,
+                   {std::move(onSample), std::move(onDisposed), impl_->malformed, impl_->guard},
+                   nullptr}};
+    entity->reader = created(
+        impl_->subscriber->create_datareader(made, readerQos(topic.qos, impl_->othersOnHost),
+                                             &entity->receiver, dds::StatusMask::data_available()),
+        "a reader of topic '" + topic.name + "' of '" + impl_->name + "'");
     return std::unique_ptr<Reader<M>>{new Reader<M>{std::move(entity)}};
+}
+
+void Participant::announce() {
+    Impl& self = *impl_;
+    const auto now = std::chrono::steady_clock::now();
+    if (now < self.announceDue) return;
+    self.announceDue = now + announcementsAmong(self.listener->known());
+    // Fast DDS announces at once what has changed; it locks in another order then than where it
+    // receives.
+    const auto held = self.gate->hold();
+    dds::DomainParticipantQos qos = self.participant->get_qos();
+    qos.user_data().data_vec({static_cast<std::uint8_t>(++self.announcements)});
+    self.participant->set_qos(qos);
 }
 
 std::uint64_t Participant::malformed() const { return impl_->malformed; }
@@ -280,6 +357,7 @@ std::uint32_t Participant::pending() const { return impl_->guard ? impl_->guard-
 
 template class Writer<Presence>;
 template class Writer<Model>;
+template class Writer<Interest>;
 template class Writer<Block>;
 template class Writer<Command>;
 template class Writer<Answer>;
@@ -287,6 +365,7 @@ template class Writer<EventMessage>;
 
 template class Reader<Presence>;
 template class Reader<Model>;
+template class Reader<Interest>;
 template class Reader<Block>;
 template class Reader<Command>;
 template class Reader<Answer>;
@@ -294,6 +373,7 @@ template class Reader<EventMessage>;
 
 template std::unique_ptr<Writer<Presence>> Participant::writer(const Topic&);
 template std::unique_ptr<Writer<Model>> Participant::writer(const Topic&);
+template std::unique_ptr<Writer<Interest>> Participant::writer(const Topic&);
 template std::unique_ptr<Writer<Block>> Participant::writer(const Topic&);
 template std::unique_ptr<Writer<Command>> Participant::writer(const Topic&);
 template std::unique_ptr<Writer<Answer>> Participant::writer(const Topic&);
@@ -306,6 +386,9 @@ template std::unique_ptr<Reader<Presence>> Participant::reader(const Topic&,
 template std::unique_ptr<Reader<Model>> Participant::reader(const Topic&,
                                                             std::function<void(Model&&)>,
                                                             OnDisposed);
+template std::unique_ptr<Reader<Interest>> Participant::reader(const Topic&,
+                                                               std::function<void(Interest&&)>,
+                                                               OnDisposed);
 template std::unique_ptr<Reader<Block>> Participant::reader(const Topic&,
                                                             std::function<void(Block&&)>,
                                                             OnDisposed);

@@ -20,26 +20,27 @@ enum class Qos {
     State,     // reliable; who joins late gets the newest of each key
     Cycle,     // best effort; newest wins
     Exchange,  // reliable; the newest 64 of each key, nothing for who joins late
-    Log,       // reliable; who joins late gets the newest 1000 of each key
+    Log,       // reliable; a writer has one key, and who joins late gets the newest 1000 of it
     Beacon,    // as State, and written so often that the next sample makes up for a lost one
 };
 
 struct Topic {
-    const char* name;
+    std::string name;
     Qos qos;
 };
 
 namespace topics {
-inline constexpr Topic presence{"cortex/presence", Qos::Beacon};
-inline constexpr Topic model{"cortex/1/model", Qos::State};
-inline constexpr Topic link{"cortex/1/link", Qos::Cycle};
-inline constexpr Topic view5{"cortex/1/view/5", Qos::Cycle};
-inline constexpr Topic view30{"cortex/1/view/30", Qos::Cycle};
-inline constexpr Topic view100{"cortex/1/view/100", Qos::Cycle};
-inline constexpr Topic viewEvery{"cortex/1/view/every", Qos::Cycle};
-inline constexpr Topic command{"cortex/1/command", Qos::Exchange};
-inline constexpr Topic answer{"cortex/1/answer", Qos::Exchange};
-inline constexpr Topic event{"cortex/1/event", Qos::Log};
+inline const Topic presence{"cortex/presence", Qos::Beacon};
+inline const Topic model{"cortex/1/model", Qos::State};
+inline const Topic interest{"cortex/1/interest", Qos::State};
+inline const Topic view5{"cortex/1/view/5", Qos::Cycle};
+inline const Topic view30{"cortex/1/view/30", Qos::Cycle};
+inline const Topic view100{"cortex/1/view/100", Qos::Cycle};
+inline const Topic viewEvery{"cortex/1/view/every", Qos::Cycle};
+inline const Topic command{"cortex/1/command", Qos::Exchange};
+inline const Topic event{"cortex/1/event", Qos::Log};
+Topic linkOf(const std::string& agent);
+Topic answerTo(const std::string& sender);  // of a command
 }  // namespace topics
 
 template <class M>
@@ -87,17 +88,28 @@ private:
 // Constructor, writer() and reader() throw Error; one thread at a time.
 class Participant {
 public:
-    Participant(const NetworkOptions& options, const std::string& name);
+    enum class Speaks { AtOnce, WhenTold };
+
+    // What is made and written before it speaks is told to all who are there at once; what comes
+    // one by one later costs them all a talk about each. The next of this host waits until then.
+    Participant(const NetworkOptions& options, const std::string& name,
+                Speaks speaks = Speaks::AtOnce);
     ~Participant();
 
     template <class M>
     std::unique_ptr<Writer<M>> writer(const Topic& topic);
+
+    void speak();
 
     // The callbacks should take the sample and return: while they run, nothing else arrives.
     // A key that was never heard may be disposed too.
     template <class M>
     std::unique_ptr<Reader<M>> reader(const Topic& topic, std::function<void(M&&)> onSample,
                                       std::function<void(const Id&)> onDisposed = {});
+
+    // Others are told of us every 3 s; this, called often while somebody is missed who may have
+    // forgotten us, does so more often.
+    void announce();
 
     std::uint64_t malformed() const;  // samples that did not decode, or that a callback threw at
 

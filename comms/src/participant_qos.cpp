@@ -19,6 +19,7 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/log/Log.hpp>
 #include <fastdds/rtps/attributes/ServerAttributes.h>
+#include <fastdds/rtps/flowcontrol/FlowControllerDescriptor.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
@@ -40,6 +41,8 @@ constexpr std::uint32_t PeersPerHost = 100;  // ports asked on a peer without a 
 constexpr std::uint32_t AskedOnLoopback = 8;
 constexpr std::uint32_t LargestDatagram = 65536;
 constexpr std::uint32_t LargestBuffer = 64u << 20;
+constexpr const char* Packets = "packets of samples";  // see limitPackets()
+constexpr std::int32_t LargestPacket = 60'000;
 constexpr const char* DiscoveryMulticast = "239.255.0.1";
 
 Duration_t milliseconds(std::uint32_t count) {
@@ -79,7 +82,12 @@ void addPeers(dds::WireProtocolConfigQos& protocol, const NetworkOptions& option
             list.push_back(locatorOf({interfaces.front()}, static_cast<std::uint16_t>(port)));
         }
     }
-    if (!list.empty()) list.push_back(locatorOf({DiscoveryMulticast}, 0));
+    // With its port: without one, Fast DDS 2.9 asks it at the ports of single participants, where
+    // nobody listens.
+    const auto port = protocol.port.getMulticastPort(static_cast<std::uint32_t>(options.domain));
+    if (!list.empty()) {
+        list.push_back(locatorOf({DiscoveryMulticast}, static_cast<std::uint16_t>(port)));
+    }
 }
 
 // What no other participant has, of this process or another: the vendor, the host, and chance.
@@ -113,6 +121,16 @@ void addServers(BuiltinAttributes& builtin, std::string_view servers) {
     }
     builtin.discovery_config.discoveryProtocol =
         eprosima::fastrtps::rtps::DiscoveryProtocol_t::CLIENT;
+}
+
+// Fast DDS 2.9 packs samples that are sent one after another into messages that leave no room for
+// what security adds to a message, and then ends the process. So much is sent in a millisecond.
+void limitPackets(dds::DomainParticipantQos& qos) {
+    auto limit = std::make_shared<transport::FlowControllerDescriptor>();
+    limit->name = Packets;
+    limit->max_bytes_per_period = LargestPacket;
+    limit->period_ms = 1;
+    qos.flow_controllers().push_back(std::move(limit));
 }
 
 struct Profile {
@@ -159,7 +177,10 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
 
     dds::DomainParticipantQos qos;
     qos.name(name);
-    if (!options.security.empty()) addSecurity(options.security, qos);
+    if (!options.security.empty()) {
+        addSecurity(options.security, qos);
+        limitPackets(qos);
+    }
     qos.transport().use_builtin_transports = false;
     qos.transport().user_transports.push_back(udp);
     if (options.sharedMemory) {
@@ -169,11 +190,14 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     qos.wire_protocol().participant_id = number;
     qos.wire_protocol().prefix = newPrefix();
     BuiltinAttributes& builtin = qos.wire_protocol().builtin;
+    builtin.use_WriterLivelinessProtocol = false;  // liveliness is our own
     builtin.mutation_tries = static_cast<std::uint32_t>(ParticipantsPerHost);
     // Liveness is our own, so leases may be long: where one ends just as its participant leaves,
-    // Fast DDS 2.9 ends the process by an assertion.
-    builtin.discovery_config.leaseDuration = milliseconds(10'000);
-    builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(200);
+    // Fast DDS 2.9 ends the process by an assertion; and among many, on a busy host, what ends
+    // because it was late must be found again, which makes others late.
+    builtin.discovery_config.leaseDuration =
+        milliseconds(10'000 + 1'000 * static_cast<std::uint32_t>(number));
+    builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(3'000);
     if (options.discoveryServer.empty()) {
         addPeers(qos.wire_protocol(), options, udp->interfaceWhiteList);
     } else {
@@ -182,24 +206,38 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     return qos;
 }
 
-dds::DataWriterQos writerQos(Qos qos) {
+dds::DataWriterQos writerQos(Qos qos, int othersOnHost, bool secured) {
     const Profile& profile = profileOf(qos);
     dds::DataWriterQos writer;
     apply(profile, writer);
+    if (qos == Qos::Log) {  // of one key; all at once, so that an agent does not grow as it fills
+        auto& limits = writer.resource_limits();
+        limits.max_instances = 1;
+        limits.max_samples = limits.max_samples_per_instance = limits.allocated_samples =
+            profile.depth;
+    }
     writer.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
+    // What late joiners get is much at once; of the rest a sample is sent at a time.
+    if (secured && (qos == Qos::State || qos == Qos::Log)) {
+        writer.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
+        writer.publish_mode().flow_controller_name = Packets;
+    }
     if (profile.reliable) {
-        writer.reliable_writer_qos().times.heartbeatPeriod = milliseconds(profile.heartbeat);
+        const auto others = static_cast<std::uint32_t>(profile.lateJoiners ? othersOnHost : 0);
+        writer.reliable_writer_qos().times.heartbeatPeriod =
+            milliseconds(profile.heartbeat * (3 + others) / 3);
     }
     if (profile.lateJoiners) writer.reliable_writer_qos().times.nackResponseDelay = milliseconds(1);
     return writer;
 }
 
-dds::DataReaderQos readerQos(Qos qos) {
+dds::DataReaderQos readerQos(Qos qos, int othersOnHost) {
     dds::DataReaderQos reader;
     const Profile& profile = profileOf(qos);
     apply(profile, reader);
     if (profile.lateJoiners) {  // what was written before is asked for soon
-        reader.reliable_reader_qos().times.initialAcknackDelay = milliseconds(5);
+        reader.reliable_reader_qos().times.initialAcknackDelay =
+            milliseconds(5 + static_cast<std::uint32_t>(othersOnHost));
         reader.reliable_reader_qos().times.heartbeatResponseDelay = milliseconds(1);
     }
     return reader;

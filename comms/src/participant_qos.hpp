@@ -13,8 +13,11 @@ namespace cortex::comms {
 // Throws Error about options that cannot be had on this machine.
 eprosima::fastdds::dds::DomainParticipantQos participantQos(const NetworkOptions& options,
                                                             const std::string& name);
-eprosima::fastdds::dds::DataWriterQos writerQos(Qos qos);
-eprosima::fastdds::dds::DataReaderQos readerQos(Qos qos);
+// While one reader lacks a sample, all are sent heartbeats, and all answer: in a crowd more seldom,
+// or it comes to nothing else. `othersOnHost`: participants in the domain.
+eprosima::fastdds::dds::DataWriterQos writerQos(Qos qos, int othersOnHost = 0,
+                                                bool secured = false);
+eprosima::fastdds::dds::DataReaderQos readerQos(Qos qos, int othersOnHost = 0);
 
 // For the whole process, at the first call: its log is off unless CORTEX_DDS_LOG is set, and two
 // participants of one process talk as those of two would.

@@ -58,14 +58,14 @@ bool PeerModel::add(const Presence& presence) {
 }
 
 bool PeerModel::add(const Model& model) {
-    if (model.agent != agent_ || model.epoch != epoch_ || !model.interests.empty() ||
-        model.types.size() + model.simplexes.size() != 1) {
+    if (model.agent != agent_ || model.epoch != epoch_ || model.id != modelId(model) ||
+        model.types.empty() == model.simplexes.empty()) {
         return refuse();
     }
-    const bool isType = !model.types.empty();
-    const std::string& name = isType ? model.types.front().name : model.simplexes.front().path;
-    if (model.id != modelId(agent_, isType ? "type" : "simplex", name)) return refuse();
-    return isType ? add(model.types.front()) : add(model.simplexes.front());
+    bool all = true;
+    for (const TypeMessage& each : model.types) all = add(each) && all;
+    for (const SimplexMessage& each : model.simplexes) all = add(each) && all;
+    return all;
 }
 
 bool PeerModel::add(const TypeMessage& type) {

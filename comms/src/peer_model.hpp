@@ -24,11 +24,12 @@ public:
     const std::string& agent() const { return agent_; }
     std::int64_t epoch() const { return epoch_; }
 
-    // False: refused and counted. Of a Model the types and simplexes; interests are the caller's.
+    // False: refused and counted.
     bool add(const Presence& presence);
     bool add(const Model& model);
 
     const std::optional<Presence>& presence() const { return presence_; }
+    bool has(const std::string& path) const { return simplexes_.contains(path); }
     std::uint32_t missing() const;  // types and simplexes that were announced and are not here
     bool complete() const;          // a presence is here, and all that it counts; hashes agree
     std::uint64_t refused() const { return refused_; }

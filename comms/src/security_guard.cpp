@@ -31,6 +31,7 @@ void SecurityGuard::refuse(const Id&) {
 }
 
 void SecurityGuard::on_participant_discovery(Dds*, rtps::ParticipantDiscoveryInfo&& info) {
+    count(info);
     using Info = rtps::ParticipantDiscoveryInfo;
     const std::lock_guard lock{mutex_};
     if (info.status == Info::DISCOVERED_PARTICIPANT) {

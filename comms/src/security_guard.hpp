@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "discovery_counter.hpp"
 #include "messages.hpp"
 #include "security_identity.hpp"
 #include "security_refusals.hpp"
@@ -23,6 +24,7 @@ namespace cortex::comms {
 
 inline const std::string& claimedName(const Presence& sample) { return sample.name; }
 inline const std::string& claimedName(const Model& sample) { return sample.agent; }
+inline const std::string& claimedName(const Interest& sample) { return sample.name; }
 inline const Id& claimedName(const Block& sample) { return sample.agent; }
 inline const std::string& claimedName(const Command& sample) { return sample.sender; }
 inline const std::string& claimedName(const Answer& sample) { return sample.agent; }
@@ -30,7 +32,7 @@ inline const std::string& claimedName(const EventMessage& sample) { return sampl
 
 // Stands at the entry of a participant with security: asks Fast DDS for it, hears of participants
 // that it refused, and refuses samples with a name that is not their sender's. Any thread.
-class SecurityGuard final : public eprosima::fastdds::dds::DomainParticipantListener {
+class SecurityGuard final : public DiscoveryCounter {
     using Guid = eprosima::fastrtps::rtps::GUID_t;
     using Dds = eprosima::fastdds::dds::DomainParticipant;
 

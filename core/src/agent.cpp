@@ -44,6 +44,7 @@ double latencyOfBucket(std::uint32_t bucket) {
 void AgentRuntime::beginCycle(const Tick& tick) {
     cycle_ = tick.cycle;
     nominalTime_ = tick.nominalTime;
+    lateness_ = tick.lateness;
     for (LoopThread& thread : threads_) thread.sequence = taskSequence;
     threads_[0].sequence = 0;
     threads_[0].clock = {tick.cycle, nanosecondsNow()};

@@ -43,7 +43,7 @@ void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Sl
     apply(binding.copies, from, link->slice);
     SlotState& state = *link->slice.state;
     state = *from.state;
-    state.time = runtime_.nominalTime() - age;
+    state.time = runtime_.wokenAt() - age;
     state.cause = state.quality == Quality::Good ? noSimplex : simplex;
     link->freshTime = runtime_.nominalTime();
     link->period = std::max(binding.period, runtime_.options().period);

@@ -22,6 +22,12 @@ void merge(SlotState& sum, const SlotState& state, bool ages) {
     }
 }
 
+// ns. What comes over a network ages while this cycle was late to wake up, too.
+std::int64_t ageOf(const TaskInput& input, const Tick& tick) {
+    const std::int64_t late = input.ownerPeriod != nullptr ? tick.lateness : 0;
+    return tick.nominalTime + late - input.state->time;
+}
+
 }  // namespace
 
 SlotState TaskRunner::readInputs(Task& task, const Tick& tick) {
@@ -32,7 +38,7 @@ SlotState TaskRunner::readInputs(Task& task, const Tick& tick) {
         if (input.ownerPeriod != nullptr) {
             input.maxAge = std::max(input.maxAge, 3 * *input.ownerPeriod);
         }
-        const bool tooOld = input.ages && tick.nominalTime - input.state->time > input.maxAge;
+        const bool tooOld = input.ages && ageOf(input, tick) > input.maxAge;
         const bool lost = input.state->quality >= Quality::Bad || tooOld;
         const bool faults =
             lost && input.rule->onLoss == OnLoss::Fault && task.simplex->state_ == State::Active;
@@ -81,8 +87,8 @@ void TaskRunner::inputLost(Task& task, TaskInput& input, const Tick& tick) {
             text << ", first cause " << structure_.simplexes[cause].path;
         }
     } else {
-        text << " is " << static_cast<double>(tick.nominalTime - input.state->time) * 1e-6
-             << " ms old, allowed " << static_cast<double>(input.maxAge) * 1e-6;
+        text << " is " << static_cast<double>(ageOf(input, tick)) * 1e-6 << " ms old, allowed "
+             << static_cast<double>(input.maxAge) * 1e-6;
     }
     if (input.rule->onLoss == OnLoss::Fault && simplex.state_ == State::Active) {
         simplex.fault(InputLost, text.view());

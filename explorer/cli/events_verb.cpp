@@ -45,14 +45,16 @@ private:
     Severity least_;
 };
 
-// Nothing says that the past has come whole: it is taken to be when nothing more comes for a while.
+// Until nothing more comes for a while in which the agents said, of all that has happened by now,
+// what they have written, and that is here.
 std::vector<AgentEvent> past(Live& live, Arrivals& arrivals) {
     std::vector<AgentEvent> events;
     for (;;) {
         const auto quiet = std::min(live.left(), std::chrono::milliseconds{300});
         const auto more = arrivals.take(quiet);
         events.insert(events.end(), more.begin(), more.end());
-        if (more.empty() || live.left() <= std::chrono::milliseconds{1}) break;
+        if (live.left() <= std::chrono::milliseconds{1}) break;
+        if (more.empty() && live.mirror().eventsComplete()) break;
     }
     sortByTime(events);
     return events;

@@ -18,6 +18,7 @@ comms::NetworkOptions optionsOf(const NetworkArguments& arguments) {
     if (arguments.domain) options.domain = *arguments.domain;
     options.interfaces = arguments.interfaces;
     options.peers = arguments.peers;
+    if (arguments.discoveryServer) options.discoveryServer = *arguments.discoveryServer;
     if (arguments.security) options.security = *arguments.security;
     return options;
 }
@@ -74,6 +75,10 @@ std::string Live::incomplete() const {
                            " from " + each.name;
         if (!each.trouble.empty()) part += " (" + each.trouble + ")";
         parts.push_back(std::move(part));
+    }
+    if (const std::uint32_t unheard = mirror_->unheard(); unheard > 0) {
+        const std::size_t here = mirror_->agents().size();
+        parts.push_back(std::to_string(here) + " of " + std::to_string(here + unheard) + " agents");
     }
     return parts.empty() ? "" : "incomplete: " + joined(parts);
 }

@@ -19,8 +19,9 @@ namespace cortex::explorer {
 struct NetworkArguments {
     std::optional<int> domain;  // none: CORTEX_DOMAIN, or 0
     std::vector<std::string> interfaces, peers;
-    std::optional<std::string> security;  // folder; none: CORTEX_SECURITY
-    double timeout = 3;                   // s
+    std::optional<std::string> discoveryServer;  // none: CORTEX_DISCOVERY_SERVER
+    std::optional<std::string> security;         // folder; none: CORTEX_SECURITY
+    double timeout = 3;                          // s
 };
 
 int domainOf(const NetworkArguments& arguments);

@@ -187,6 +187,10 @@ void addNetwork(CLI::App& verb, NetworkArguments& network) {
     verb.add_option("--peer", network.peers, "Host that multicast does not reach")
         ->type_name("HOST")
         ->allow_extra_args(false);
+    verb.add_option("--discovery-server", network.discoveryServer,
+                    "HOST:PORT of a Fast DDS Discovery Server, instead of multicast and peers; "
+                    "several joined by ';'; CORTEX_DISCOVERY_SERVER, else none, if not given")
+        ->type_name("ADDR");
     verb.add_option("--security", network.security,
                     "Folder made by `cortex security create-agent`; CORTEX_SECURITY, else no "
                     "security, if not given")

@@ -53,7 +53,8 @@ void addOutput(CLI::App& verb, NewFileOptions& options, const char* description)
 void addSource(CLI::App& verb, Paths& files, NetworkArguments& network) {
     CLI::Option* file = addFiles(verb, files);
     addNetwork(verb, network);
-    for (const char* each : {"--domain", "--interface", "--peer", "--timeout"}) {
+    for (const char* each :
+         {"--domain", "--interface", "--peer", "--discovery-server", "--timeout"}) {
         verb.get_option(each)->excludes(file);
     }
 }

@@ -3,6 +3,7 @@
 #include "agent_peers.hpp"
 
 #include "comms/told_agent.hpp"
+#include "ids.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +42,7 @@ struct AgentPeersTest : testing::Test {
     ToldAgent told;
     std::vector<std::int64_t> lost;
     AgentSelf self{listener.rig.outside.access};
-    AgentPeers peers{self, true,
+    AgentPeers peers{self,
                      [this](const std::string&, std::int64_t epoch) { lost.push_back(epoch); }};
     const std::int64_t first = told.epoch();
 };
@@ -56,6 +57,27 @@ TEST_F(AgentPeersTest, OfTwoStartsThatAreHeardTheLaterCounts) {
     hear(first, 2 * millisecond);
 
     EXPECT_EQ(peer().epoch(), first + 1);
+}
+
+TEST_F(AgentPeersTest, WhoFallsSilentWithoutAWordIsMissedForTenMinutes) {
+    tell(first, 0);
+    EXPECT_FALSE(peers.missesAny(0));
+
+    peers.expire(1'001 * millisecond);
+    EXPECT_TRUE(peers.missesAny(1'001 * millisecond));
+    EXPECT_FALSE(peers.missesAny(601'000 * millisecond));
+
+    hear(first, 2'000 * millisecond);
+    EXPECT_FALSE(peers.missesAny(2'000 * millisecond));
+}
+
+TEST_F(AgentPeersTest, WhoSaysThatItStopsIsNotMissed) {
+    tell(first, 0);
+
+    hear(first, millisecond, "stopping");
+    peers.expire(2'000 * millisecond);
+
+    EXPECT_FALSE(peers.missesAny(2'000 * millisecond));
 }
 
 // Its clock was set back between two starts.
@@ -86,6 +108,25 @@ TEST_F(AgentPeersTest, ALaterStartThatIsNotHeardAgainGivesTheNameBack) {
     EXPECT_EQ(peer().epoch(), first);
     EXPECT_TRUE(peer().heard);
     EXPECT_TRUE(peer().current->model.structure()) << "its models came once";
+}
+
+// Every call of a tool is somebody new; an agent that is cut off meanwhile tells nothing twice.
+TEST_F(AgentPeersTest, AnAgentIsRememberedWhileToolsComeAndGo) {
+    tell(first, 0);
+    Presence tool = told.presence;
+    tool.role = "tool";
+    for (int i = 1; i <= 3'000; ++i) {
+        tool.name = "tool" + std::to_string(i);
+        tool.agent = agentId(tool.name);
+        peers.take(tool, i * 10 * millisecond);
+        peers.expire(i * 10 * millisecond);
+    }
+    EXPECT_EQ(peers.all().size(), 1'024U);
+
+    hear(first, 40'000 * millisecond);
+
+    EXPECT_TRUE(peer().heard);
+    EXPECT_TRUE(peer().current->model.structure());
 }
 
 TEST_F(AgentPeersTest, AGoodbyeOfAnEarlierStartChangesNothing) {

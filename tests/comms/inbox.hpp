@@ -37,10 +37,11 @@ public:
         };
     }
 
-    // The first time that the condition holds; false after a long time.
-    bool waitUntil(const std::function<bool(const std::vector<T>&)>& condition) {
+    // The first time that the condition holds; false after a long time, or that time.
+    bool waitUntil(const std::function<bool(const std::vector<T>&)>& condition,
+                   std::chrono::milliseconds within = longEnough) {
         std::unique_lock lock{mutex_};
-        return changed_.wait_for(lock, longEnough, [&] { return condition(elements_); });
+        return changed_.wait_for(lock, within, [&] { return condition(elements_); });
     }
     bool waitFor(std::size_t count) {
         return waitUntil([count](const auto& elements) { return elements.size() >= count; });

@@ -38,7 +38,7 @@ TEST_F(MirrorAgentsTest, AreIncompleteUntilAllIsThere) {
     EXPECT_FALSE(agents.complete()) << "nobody is there";
     agents.take(agent.presence, begin);
     EXPECT_EQ(status().state, "incomplete");
-    EXPECT_EQ(status().missing, agent.models.size());
+    EXPECT_EQ(status().missing, agent.presence.types + agent.presence.simplexes);
     EXPECT_FALSE(agents.complete());
 
     tellAll();
@@ -52,18 +52,18 @@ TEST_F(MirrorAgentsTest, AreIncompleteUntilAllIsThere) {
 TEST_F(MirrorAgentsTest, KnowFromEachAgentHowManyThereAre) {
     agent.presence.extras = {{"other", "9"}, {agentsHeard, "2"}};
     tellAll();
-    EXPECT_FALSE(agents.hearsAllThatTheyHear()) << "rig hears one that is not here";
+    EXPECT_EQ(agents.unheard(), 1U) << "rig hears one that is not here";
     agent.presence.extras = {{agentsHeard, "1"}};
     tellAll();
-    EXPECT_TRUE(agents.hearsAllThatTheyHear());
+    EXPECT_EQ(agents.unheard(), 0U);
 
     agent.presence.extras = {{agentsHeard, "2"}};
     tellAll();
     agents.withdraw(agent.presence.agent);
-    EXPECT_TRUE(agents.hearsAllThatTheyHear()) << "what is lost says nothing";
+    EXPECT_EQ(agents.unheard(), 0U) << "what is lost says nothing";
     agent.presence.extras = {{agentsHeard, "x"}};
     tellAll();
-    EXPECT_TRUE(agents.hearsAllThatTheyHear());
+    EXPECT_EQ(agents.unheard(), 0U);
 }
 
 TEST_F(MirrorAgentsTest, AreLostAfterASecondAndForgottenAfterAMinute) {
@@ -74,6 +74,7 @@ TEST_F(MirrorAgentsTest, AreLostAfterASecondAndForgottenAfterAMinute) {
     agents.tick(nothing, begin + 1001ms);
     EXPECT_EQ(status().state, "lost");
     EXPECT_EQ(lost, std::vector<std::string>{"rig: the agent is not heard"});
+    EXPECT_TRUE(agents.missesAny());
     agents.tick(nothing, begin + 60s);
     EXPECT_EQ(lost.size(), 1U);
     ASSERT_NE(agents.find("rig"), nullptr);
@@ -88,6 +89,18 @@ TEST_F(MirrorAgentsTest, AreBackWhenTheyAreHeardAgain) {
     agents.take(agent.presence, begin + 3s);
 
     EXPECT_EQ(status(begin + 3s).state, "running");
+    EXPECT_TRUE(agents.find("rig")->structure);
+}
+
+// Cut off for longer: nobody tells it again what has come.
+TEST_F(MirrorAgentsTest, AreBackWithTheirModelAfterTheyWereForgotten) {
+    tellAll();
+    agents.tick(nothing, begin + 62s);
+    ASSERT_EQ(agents.find("rig"), nullptr);
+
+    agents.take(agent.presence, begin + 63s);
+
+    EXPECT_EQ(status(begin + 63s).state, "running");
     EXPECT_TRUE(agents.find("rig")->structure);
 }
 
@@ -113,7 +126,7 @@ TEST_F(MirrorAgentsTest, AreReplacedByALaterStartAndNotByAnEarlierOne) {
     agents.take(later, begin);
 
     EXPECT_EQ(status().epoch, later.epoch);
-    EXPECT_EQ(status().missing, agent.models.size());
+    EXPECT_EQ(status().missing, agent.presence.types + agent.presence.simplexes);
     EXPECT_FALSE(agents.find("rig")->structure);
     EXPECT_EQ(lost.size(), 1U);
     tellAll();
@@ -193,6 +206,31 @@ TEST_F(MirrorAgentsTest, CountEventsThatDidNotCome) {
     message.agent[0] ^= 1U;
     EXPECT_FALSE(agents.take(message));
     EXPECT_EQ(agents.refused(), 2U);
+}
+
+TEST_F(MirrorAgentsTest, KnowWhetherThePastOfEachAgentHasCome) {
+    agent.presence.extras = {{eventsWritten, "12"}};
+    EventMessage message;
+    message.agent = agentId("rig");
+    message.name = "rig";
+    message.epoch = agent.epoch() - 1;
+    message.severity = "info";
+    message.number = 20;
+    EXPECT_TRUE(agents.take(message)) << "of a start before this one, and before it is known";
+    tellAll();
+    EXPECT_FALSE(agents.eventsComplete());
+    message.epoch = agent.epoch();
+    message.number = 11;
+    EXPECT_TRUE(agents.take(message));
+    EXPECT_FALSE(agents.eventsComplete());
+    message.number = 12;
+    EXPECT_TRUE(agents.take(message));
+    EXPECT_TRUE(agents.eventsComplete());
+    agent.presence.extras = {{eventsWritten, "13"}};
+    tellAll();
+    EXPECT_FALSE(agents.eventsComplete());
+    agents.withdraw(agent.presence.agent);
+    EXPECT_TRUE(agents.eventsComplete()) << "what is lost says nothing";
 }
 
 class MirrorCommandsTest : public MirrorAgentsTest {

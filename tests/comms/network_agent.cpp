@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comms/network_agent.hpp"
 
+#include <chrono>
+#include <set>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace cortex::comms {
+namespace {
+
+constexpr std::uint64_t greeting = 1'000'000'000;  // a number that no test comes to
+
+}  // namespace
 
 TypeModel changedTypes(const std::string& type, const std::function<void(DataItem&)>& change) {
     const TypeModel types = test::commandTypes();
@@ -29,9 +38,12 @@ RawTool::RawTool(std::string toolName, const NetworkOptions& options)
       participant{options, name},
       presences{participant.writer<Presence>(topics::presence)},
       models{participant.writer<Model>(topics::model)},
+      interests{participant.writer<Interest>(topics::interest)},
       commands{participant.writer<Command>(topics::command)},
       presenceReader{participant.reader<Presence>(topics::presence, heard.push())},
-      answerReader{participant.reader<Answer>(topics::answer, answers.push())} {}
+      answerReader{participant.reader<Answer>(topics::answerTo(name), [this](Answer&& answer) {
+          (answer.sequenceNumber == greeting ? greetings : answers).push()(std::move(answer));
+      })} {}
 
 Presence RawTool::presence(const std::string& state) const {
     Presence message;
@@ -45,13 +57,11 @@ Presence RawTool::presence(const std::string& state) const {
     return message;
 }
 
-Model RawTool::interest(Interest wanted) const {
-    Model model;
-    model.id = modelId(name, "interest", wanted.target);
-    model.agent = name;
-    model.epoch = epoch;
-    model.interests.push_back(std::move(wanted));
-    return model;
+Interest RawTool::interest(Interest wanted) const {
+    wanted.agent = agentId(name);
+    wanted.name = name;
+    wanted.epoch = epoch;
+    return wanted;
 }
 
 Command RawTool::command(const Structure& target, const std::string& path,
@@ -75,10 +85,33 @@ Command RawTool::command(const Structure& target, const std::string& path,
 void RawTool::connect(std::uint32_t agents) {
     const bool connected = comesTrue([&] {
         // Its own reader hears its presence too.
-        return commands->readers() >= agents && answerReader->writers() >= agents &&
-               presences->readers() > agents;
+        return commands->readers() >= agents && presences->readers() > agents;
     });
-    if (!connected) throw std::logic_error("no agent listens to the test");
+    // That its own endpoints found theirs does not say that theirs found its own already.
+    if (!connected || !comesTrue([&] { return greet() >= agents; })) {
+        throw std::logic_error("no agent listens to the test");
+    }
+}
+
+std::size_t RawTool::greet() {
+    const std::vector<Answer> answered = greetings.elements();
+    std::set<std::string> met;
+    for (const Answer& answer : answered) met.insert(answer.agent);
+    for (const Presence& agent : heard.elements()) {
+        if (agent.role == "tool" || met.contains(agent.name)) continue;
+        Command nothing;
+        nothing.link = linkId(name, agent.name);
+        nothing.sender = name;
+        nothing.senderEpoch = epoch;
+        nothing.target = agent.name;
+        nothing.targetEpoch = agent.epoch;
+        nothing.sequenceNumber = greeting;
+        commands->write(nothing);
+    }
+    // As clients repeat commands, unless an answer comes before.
+    greetings.waitUntil([&](const auto& all) { return all.size() > answered.size(); },
+                        std::chrono::milliseconds{5});
+    return met.size();
 }
 
 }  // namespace cortex::comms

@@ -51,10 +51,10 @@ public:
     explicit RawTool(std::string name, const NetworkOptions& options = loopback());
 
     Presence presence(const std::string& state = "running") const;
-    Model interest(Interest wanted) const;
+    Interest interest(Interest wanted) const;
     Command command(const Structure& target, const std::string& path, const std::string& name,
                     std::vector<NamedValue> arguments = {});
-    // Waits until so many agents listen.
+    // Waits until so many agents listen, and are heard.
     void connect(std::uint32_t agents = 1);
 
     std::string name;
@@ -62,13 +62,18 @@ public:
     Participant participant;
     std::unique_ptr<Writer<Presence>> presences;
     std::unique_ptr<Writer<Model>> models;
+    std::unique_ptr<Writer<Interest>> interests;
     std::unique_ptr<Writer<Command>> commands;
     Inbox<Presence> heard;
-    Inbox<Answer> answers;
+    Inbox<Answer> answers, greetings;
     std::unique_ptr<Reader<Presence>> presenceReader;
     std::unique_ptr<Reader<Answer>> answerReader;
 
 private:
+    // Sends those that were heard and did not answer yet a command that they do not know; the
+    // number of those that did.
+    std::size_t greet();
+
     std::uint64_t sequence_ = 0;
 };
 

@@ -90,13 +90,16 @@ TEST(Participant, GivesLateJoinersTheNewestStateOfAThousandKeys) {
 TEST(Participant, GivesLateJoinersTheLastThousandEventsOfEachAgentInOrder) {
     constexpr std::size_t agents = 12;
     Participant early{loopback(), "early"};
-    const auto writer = early.writer<EventMessage>(topics::event);
+    std::vector<std::unique_ptr<Writer<EventMessage>>> writers;
+    for (std::size_t agent = 0; agent < agents; ++agent) {
+        writers.push_back(early.writer<EventMessage>(topics::event));
+    }
     for (std::uint64_t number = 0; number < 1010; ++number) {
         for (std::size_t agent = 0; agent < agents; ++agent) {
             EventMessage event;
             event.agent = idNumber(agent);
             event.number = number;
-            ASSERT_TRUE(writer->write(event));
+            ASSERT_TRUE(writers[agent]->write(event));
         }
     }
 
@@ -143,10 +146,10 @@ TEST(Participant, DeliversAllCommandsOfALinkInOrderButNoneFromBefore) {
 TEST(Participant, DeliversTheNewestCyclesOfSeveralAgentsAlsoInManyDatagrams) {
     Participant reading{loopback(), "reading"};
     Inbox<Block> inbox;
-    const auto reader = reading.reader<Block>(topics::link, inbox.push());
+    const auto reader = reading.reader<Block>(topics::linkOf("agent"), inbox.push());
     Participant left{loopback(), "left"}, right{loopback(), "right"};
-    const auto leftWriter = left.writer<Block>(topics::link);
-    const auto rightWriter = right.writer<Block>(topics::link);
+    const auto leftWriter = left.writer<Block>(topics::linkOf("agent"));
+    const auto rightWriter = right.writer<Block>(topics::linkOf("agent"));
     Block block;
     block.simplexes.resize(1);
     block.simplexes[0].floats.assign(20'000, 0.5);
@@ -287,7 +290,7 @@ TEST(Participant, CallsBackOnThreadsOfItsOwnEvenWithinOneProcess) {
 
 TEST(Participant, CallsNobodyBackOnceAReaderIsDestroyed) {
     Participant agent{loopback(), "agent"}, tool{loopback(), "tool"};
-    const auto writer = agent.writer<Block>(topics::link);
+    const auto writer = agent.writer<Block>(topics::linkOf("agent"));
     std::atomic<bool> stop = false;
     std::thread writing{[&] {
         while (!stop) writer->write(Block{});
@@ -295,14 +298,15 @@ TEST(Participant, CallsNobodyBackOnceAReaderIsDestroyed) {
     bool called = true;
     for (int round = 0; round < 20 && called; ++round) {
         std::atomic<std::uint64_t> calls = 0;
-        auto reader = tool.reader<Block>(topics::link, [&](Block&&) { ++calls; });
+        auto reader = tool.reader<Block>(topics::linkOf("agent"), [&](Block&&) { ++calls; });
         called = comesTrue([&] { return calls > 10; });
 
         reader.reset();
 
         const std::uint64_t last = calls;
         std::atomic<bool> otherCalled = false;
-        const auto other = tool.reader<Block>(topics::link, [&](Block&&) { otherCalled = true; });
+        const auto other =
+            tool.reader<Block>(topics::linkOf("agent"), [&](Block&&) { otherCalled = true; });
         called = called && comesTrue([&] { return otherCalled.load(); });
         EXPECT_EQ(calls, last);
     }

@@ -54,6 +54,7 @@ Sample<Presence> sample() {
                         .majors = {1, 258},
                         .cycle = -1,
                         .period = 1'000'000,
+                        .interval = 100'000'000,
                         .types = 3,
                         .typesHash = idFrom(0xf8),
                         .simplexes = 4,
@@ -70,6 +71,7 @@ Sample<Presence> sample() {
                 00*2 4:2 2:1 2:258
                 00*4 8:-1
                 8:1000000
+                8:100000000
                 4:3
                 f8 f9 fa fb fc fd fe ff 00 01 02 03 04 05 06 07
                 4:4
@@ -97,14 +99,11 @@ Sample<Model> sample() {
                            .phase = -1,
                            .relationships = {{"r", "/o", true, false}},
                            .constants = {{"c", "bool", {}, {}, {true, false}, {}}}};
-    Interest interest{
-        .target = "b", .targetEpoch = 9, .links = {"/o"}, .views = {{30, {"/"}}}, .keyFrame = 6};
     return {.message = {.id = idFrom(1),
                         .agent = "a",
                         .epoch = 7,
                         .types = {type},
                         .simplexes = {simplex},
-                        .interests = {interest},
                         .extras = {}},
             .layout = R"(
                 01 02 03 04 05 06 07 08 09 0a 0b 0c 0d 0e 0f 10
@@ -147,13 +146,24 @@ Sample<Model> sample() {
                     4:-1
                     4:1 4:2 'r' 00 00*2 4:3 '/o' 00 01 00
                     00*3 4:1 4:2 'c' 00 00*2 4:5 'bool' 00 00*3 4:0 4:0 4:2 01 00 00*2 4:0
-                4:1
-                    4:2 'b' 00
-                    00*2 8:9
-                    4:1 4:3 '/o' 00
-                    00 4:1 4:30 4:1 4:2 '/' 00
-                    00*2 4:6
                 4:0)"};
+}
+
+template <>
+Sample<Interest> sample() {
+    return {.message = {.agent = idFrom(1),
+                        .name = "a",
+                        .epoch = 7,
+                        .links = {"/o"},
+                        .views = {{30, {"/"}}},
+                        .extras = {}},
+            .layout = R"(
+                01 02 03 04 05 06 07 08 09 0a 0b 0c 0d 0e 0f 10
+                4:2 'a' 00
+                00*2 8:7
+                4:1 4:3 '/o' 00
+                00 4:1 4:30 4:1 4:2 '/' 00
+                00*2 4:0)"};
 }
 
 template <>

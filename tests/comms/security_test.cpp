@@ -10,6 +10,7 @@
 #include "comms/stepped_agent.hpp"
 #include "security_guard.hpp"
 
+#include <list>
 #include <optional>
 #include <span>
 
@@ -125,6 +126,28 @@ TEST_F(Secured, CommandOfAReaderIsRefusedAndReported) {
     EXPECT_EQ(pokes, 0);
 }
 
+// More than a datagram holds, and that needs room for what security adds to it.
+TEST_F(Secured, ALateToolHearsHundredsOfEventsAtOnce) {
+    constexpr std::size_t count = 600;
+    const std::string folder = plant.make("station", {"/cell"});
+    {
+        Mirror early{"cortex", secured(folder)};
+        ASSERT_TRUE(early.waitUntilComplete(10s));
+        for (std::size_t i = 0; i < count; ++i) {
+            ASSERT_EQ(early.call("/belt", "poke", {}, 10s).outcome, Outcome::Rejected);
+        }
+    }
+    // How they are packed is a matter of luck. All stay: see docs/security.md on who leaves early.
+    std::list<Inbox<AgentEvent>> inboxes;
+    std::list<Mirror> tools;
+    for (int i = 0; i < 10; ++i) {
+        Inbox<AgentEvent>& events = inboxes.emplace_back();
+        tools.emplace_back("cortex", secured(folder)).onEvent(events.push());
+
+        ASSERT_TRUE(events.waitFor(count)) << events.elements().size();
+    }
+}
+
 TEST_F(Secured, WithoutACertificateNothingIsSeenAndTheAgentReportsIt) {
     Mirror mirror{"thief", loopback()};
     RawWriter writer{loopback(), topics::command, "cortex::Command"};
@@ -191,14 +214,16 @@ TEST_F(Secured, AnotherAgentsNameIsRefusedInEverySample) {
     lie.role = "agent";
     lie.state = "running";
     lie.majors = {1};
-    ASSERT_TRUE(writer.write(lie.agent, octetsOf(lie)));
+    const auto said = [&](std::string_view event) {  // agents read it with best effort
+        return comesTrue(
+            [&] { return writer.write(lie.agent, octetsOf(lie)) && agent.rig.hasEvent(event); });
+    };
 
-    EXPECT_TRUE(reports("uses the name station, and its certificate is that of another"));
+    EXPECT_TRUE(said("uses the name station, and its certificate is that of another"));
     EXPECT_FALSE(agent.rig.hasEvent("agent station is heard"));
     lie.name = "display";
     lie.agent = agentId(lie.name);
-    ASSERT_TRUE(writer.write(lie.agent, octetsOf(lie)));
-    EXPECT_TRUE(reports("agent display is heard"));
+    EXPECT_TRUE(said("agent display is heard"));
 }
 
 TEST_F(Secured, AgentWithAWrongFolderDoesNotStart) {

@@ -28,18 +28,18 @@ ToldAgent::ToldAgent() {
 
     const AgentSelf self{rig.outside.access};
     const AgentModel model{self};
-    presence = model.presence("running", 1);
+    presence = model.presence("running", 1, 0);
     models = model.samples();
 }
 
 void ToldAgent::lie(const std::string& path, const std::function<void(SimplexMessage&)>& change) {
     std::vector<SimplexMessage> all;
     for (Model& model : models) {
-        if (model.simplexes.empty()) continue;
-        SimplexMessage& simplex = model.simplexes.front();
-        if (simplex.path == path) change(simplex);
-        model.id = modelId(name(), "simplex", simplex.path);
-        all.push_back(simplex);
+        for (SimplexMessage& simplex : model.simplexes) {
+            if (simplex.path == path) change(simplex);
+            all.push_back(simplex);
+        }
+        model.id = modelId(model);
     }
     presence.structureHash = structureHash(all);
 }
@@ -47,10 +47,10 @@ void ToldAgent::lie(const std::string& path, const std::function<void(SimplexMes
 void ToldAgent::lie(const std::string& type, const std::function<void(TypeMessage&)>& change) {
     std::map<std::string, TypeHash> hashes;
     for (Model& model : models) {
-        if (model.types.empty()) continue;
-        TypeMessage& message = model.types.front();
-        if (message.name == type) change(message);
-        hashes[message.name] = message.hash;
+        for (TypeMessage& message : model.types) {
+            if (message.name == type) change(message);
+            hashes[message.name] = message.hash;
+        }
     }
     presence.typesHash = typesHash(hashes);
 }

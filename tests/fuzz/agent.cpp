@@ -38,13 +38,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     comms::AgentSelf self{outside.access};
     comms::AgentCommands commands{self, [](const comms::Answer&) {}};
     comms::AgentLinks links{self};
-    comms::AgentPeers peers{self, true, [](const std::string&, std::int64_t) {}};
+    comms::AgentPeers peers{self, [](const std::string&, std::int64_t) {}};
 
     const fuzz::ToldScript::Told told = script.play({data, size});
     for (const auto& model : told.models) peers.take(model, 1);
     for (const auto& presence : told.presences) peers.take(presence, 1);
     links.update(peers.all());
-    (void)links.newInterests(peers.all());
+    (void)links.interest();
     for (const auto& block : told.blocks) links.take(block, 1);
     commands.take(commandOf({data, size}, self.structure()), 1);
     outside.atRead([&](Inbox& inbox) {

@@ -28,7 +28,8 @@ void readAndWrite(Payload payload) {
 
 constexpr void (*kinds[])(Payload) = {readAndWrite<Presence>, readAndWrite<Model>,
                                       readAndWrite<Block>,    readAndWrite<Command>,
-                                      readAndWrite<Answer>,   readAndWrite<EventMessage>};
+                                      readAndWrite<Answer>,   readAndWrite<EventMessage>,
+                                      readAndWrite<Interest>};
 
 }  // namespace
 

@@ -89,13 +89,9 @@ private:
     }
     void agreeModels(Told& told) const {
         for (comms::Model& model : told.models) {
-            const bool type = !model.types.empty();
-            if (!type && model.simplexes.empty()) continue;
             model.agent = told_.name();
             model.epoch = told_.epoch();
-            model.id =
-                comms::modelId(told_.name(), type ? "type" : "simplex",
-                               type ? model.types.front().name : model.simplexes.front().path);
+            model.id = comms::modelId(model);
         }
     }
     // With the hashes of what it says: a receiver must look at all of it.

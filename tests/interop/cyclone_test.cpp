@@ -24,6 +24,7 @@ struct Pair {
 };
 using Pairs = testing::Types<Pair<Presence, cortex_Presence, &cortex_Presence_desc>,
                              Pair<Model, cortex_Model, &cortex_Model_desc>,
+                             Pair<Interest, cortex_Interest, &cortex_Interest_desc>,
                              Pair<Block, cortex_Block, &cortex_Block_desc>,
                              Pair<Command, cortex_Command, &cortex_Command_desc>,
                              Pair<Answer, cortex_Answer, &cortex_Answer_desc>,

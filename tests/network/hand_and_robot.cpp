@@ -7,13 +7,24 @@
 
 #include <algorithm>
 #include <csignal>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace cortex::test {
+
+struct RobotProcess::Memory {
+    std::atomic<std::int64_t> newest;
+    std::atomic<std::int64_t> origin;  // of the robot's time
+    std::atomic<int> presses;
+    Record<Seen> seen;
+    Record<Executed> executed;
+};
+
 namespace {
 
 using namespace std::chrono_literals;
@@ -26,8 +37,8 @@ TypeModel types() {
 
 class Finger final : public cs::SimplexCS {
 public:
-    Finger(Identity identity, Record<Press>& presses)
-        : SimplexCS{std::move(identity)}, presses_{presses} {}
+    Finger(Identity identity, HandAgent::Recorded& record)
+        : SimplexCS{std::move(identity)}, record_{record} {}
 
 private:
     void populate() override {
@@ -37,22 +48,20 @@ private:
         written_ = button.data<std::int64_t>("written");
     }
     void stateActive(const Tick& tick) override {
+        const auto now = Clock::now();
         written_ = tick.cycle;
+        record_.written.add({tick.cycle, now});
         if (tick.cycle < next_) return;
-        const bool pressed = !pressed_;
-        if (pressed) {
-            press_ = press_ + 1;
-            last_.pressed = Clock::now();
+        if (pressed_) {
+            record_.presses.add({tick.cycle, now});
         } else {
-            last_.released = Clock::now();
-            presses_.add(last_);
+            press_ = press_ + 1;
         }
-        pressed_ = pressed;
+        pressed_ = !pressed_;
         next_ = tick.cycle + 20 + press_ * 37 % 130;
     }
 
-    Record<Press>& presses_;
-    Press last_;
+    HandAgent::Recorded& record_;
     std::int64_t next_ = 0;
     Data<bool> pressed_;
     Data<std::int64_t> press_, written_;
@@ -60,7 +69,8 @@ private:
 
 class Watcher final : public cs::SimplexCS {
 public:
-    Watcher(Identity identity, Record<Seen>& seen) : SimplexCS{std::move(identity)}, seen_{seen} {}
+    Watcher(Identity identity, RobotProcess::Memory& memory)
+        : SimplexCS{std::move(identity)}, memory_{memory} {}
 
 private:
     void populate() override {
@@ -70,15 +80,23 @@ private:
         written_ = button.data<std::int64_t>("written");
     }
     void stateActive(const Tick& tick) override {
+        // Whatever stops this thread between its wake-up and here: the quickest tell the truth.
+        const std::int64_t at = tick.nominalTime + tick.lateness;
+        memory_.origin =
+            std::min<std::int64_t>(memory_.origin, Clock::now().time_since_epoch().count() - at);
+        if (first_ == 0) first_ = written_;
         if (written_ != last_) {
             last_ = written_;
-            since_ = tick.cycle;
+            came_ = at;
         }
-        if (pressed_) seen_.add({press_, tick.cycle - since_, Clock::now()});
+        // How long the first ones took nobody knows.
+        if (!pressed_ || written_ < first_ + 500) return;
+        memory_.seen.add({press_, written_, came_, at});
+        if (std::exchange(lastPress_, std::int64_t{press_}) != press_) ++memory_.presses;
     }
 
-    Record<Seen>& seen_;
-    std::int64_t last_ = 0, since_ = 0;
+    RobotProcess::Memory& memory_;
+    std::int64_t first_ = 0, last_ = 0, came_ = 0, lastPress_ = 0;
     Data<const bool> pressed_;
     Data<const std::int64_t> press_, written_;
 };
@@ -130,23 +148,14 @@ comms::NetworkOptions network(const std::string& peer) {
 
 HandAgent::HandAgent(const comms::NetworkOptions& network) : tree_{types()}, cluster_{"hand"} {
     Simplex& button = tree_.add("/hand/button", "Button");
-    tree_.relate(tree_.add<Finger>("/hand/finger", "Finger", *presses_), "button", button);
+    tree_.relate(tree_.add<Finger>("/hand/finger", "Finger", *record_), "button", button);
     start(cluster_, tree_, network);
     startUp(cluster_, "hand");
 }
 
 HandAgent::~HandAgent() = default;
 
-std::vector<Press> HandAgent::end() {
-    cluster_.stop();
-    return presses_->taken();
-}
-
-struct RobotProcess::Memory {
-    std::atomic<std::int64_t> newest;
-    Record<Seen> seen;
-    Record<Executed> executed;
-};
+void HandAgent::end() { cluster_.stop(); }
 
 namespace {
 
@@ -162,10 +171,11 @@ RobotProcess::Memory* shared(int file) {
 void runRobot(int file, const std::string& peer) {
     RobotProcess::Memory& memory = *shared(file);
     const pid_t parent = getppid();
+    memory.origin = std::numeric_limits<std::int64_t>::max();
     cs::blockStopSignals();
     SimplexTree tree{types()};
     tree.add<Counter>("/robot/counter", "Counter", memory.executed);
-    tree.relateRemote(tree.add<Watcher>("/robot/watcher", "Watcher", memory.seen), "button",
+    tree.relateRemote(tree.add<Watcher>("/robot/watcher", "Watcher", memory), "button",
                       "/hand/button");
     cs::ClusterCS cluster{"robot"};
     start(cluster, tree, network(peer));
@@ -205,7 +215,11 @@ void RobotProcess::end() {
 }
 
 std::int64_t RobotProcess::newest() const { return memory_->newest; }
+int RobotProcess::presses() const { return memory_->presses; }
 std::vector<Seen> RobotProcess::seen() const { return memory_->seen.taken(); }
+Clock::time_point RobotProcess::timeOf(std::int64_t wakeUp) const {
+    return Clock::time_point{Clock::duration{memory_->origin + wakeUp}};
+}
 std::vector<Executed> RobotProcess::executed() const { return memory_->executed.taken(); }
 
 Station::Station(const comms::NetworkOptions& network) : mirror_{"station", network} {

@@ -41,12 +41,19 @@ private:
 };
 
 struct Press {
-    Clock::time_point pressed, released;
+    std::int64_t released;  // in which cycle of the hand
+    Clock::time_point at;
 };
+struct Written {
+    std::int64_t cycle;
+    Clock::time_point at;
+};
+// The button in a cycle of its reader in which it is pressed.
 struct Seen {
     std::int64_t press;
-    std::int64_t cycles;  // of the reader, since a newer value came
-    Clock::time_point at;
+    std::int64_t written;  // in which cycle of the hand
+    std::int64_t came;     // when the reader's cycle that took it woke up, in its time
+    std::int64_t at;       // this cycle
 };
 struct Executed {
     std::int64_t number, cycle;
@@ -58,11 +65,18 @@ public:
     explicit HandAgent(const comms::NetworkOptions& network);
     ~HandAgent();
 
-    std::vector<Press> end();  // by number, from 1
+    void end();                                                              // and then:
+    std::vector<Press> presses() const { return record_->presses.taken(); }  // by number, from 1
+    std::vector<Written> written() const { return record_->written.taken(); }
+
+    struct Recorded {
+        Record<Press> presses;
+        Record<Written> written;  // the button, in every cycle
+    };
 
 private:
     SimplexTree tree_;
-    std::unique_ptr<Record<Press>> presses_ = std::make_unique<Record<Press>>();
+    std::unique_ptr<Recorded> record_ = std::make_unique<Recorded>();
     cs::ClusterCS cluster_;
 };
 
@@ -76,8 +90,10 @@ public:
     RobotProcess& operator=(const RobotProcess&) = delete;
 
     std::int64_t newest() const;  // of the button, which is good: cycle of the hand; else 0
+    int presses() const;          // that were seen
     void end();
     std::vector<Seen> seen() const;
+    Clock::time_point timeOf(std::int64_t wakeUp) const;
     std::vector<Executed> executed() const;
 
     struct Memory;  // of both processes

@@ -71,8 +71,12 @@ void AgentProcess::kill9() {
 }
 
 int AgentProcess::endInOrder() {
-    int status = 0;
     kill(pid_, SIGTERM);
+    return waitForEnd();
+}
+
+int AgentProcess::waitForEnd() {
+    int status = 0;
     waitpid(std::exchange(pid_, 0), &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }

@@ -25,6 +25,7 @@ public:
     void start();      // again, after an end
     void kill9();      // and waits for the end
     int endInOrder();  // SIGTERM; the exit code, -1 after a signal
+    int waitForEnd();  // that comes by itself
 
     pid_t pid() const { return pid_; }
     std::string output() const;  // of all its starts

@@ -79,13 +79,15 @@ TEST_F(DifferingTypes, ExtendLinkThroughTheBaseContradictRefusedLimitsListed) {
 
     EXPECT_TRUE(sees(0.25, 0)) << desk.output() << one.output();
     EXPECT_TRUE(listed("Axis position: contradiction, ours has", "deg")) << desk.output();
-    EXPECT_FALSE(station.hasEvent("/two/axis", "linked"));
+    EXPECT_TRUE(station.hasEvent("/one/axis", "linked to agent one"));
+    EXPECT_FALSE(station.hasEvent("/two/axis", "linked to"));
 
     EXPECT_EQ(contrary.endInOrder(), 0) << contrary.output();
     AgentProcess corrected{folder, plant("two-corrected", "unit='rad' min='-3' max='2.5'")};
 
     EXPECT_TRUE(sees(0.25, 0.25)) << desk.output() << corrected.output();
     EXPECT_TRUE(listed("Axis position: difference, ours has", "max=2.5")) << desk.output();
+    EXPECT_TRUE(station.hasEvent("/two/axis", "linked to agent two"));
 }
 
 }  // namespace

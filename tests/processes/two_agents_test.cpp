@@ -100,12 +100,13 @@ protected:
             return station.hears("robot") && reason && *reason != 0 && *reason != InputLost;
         });
     }
-    // Ticks that the robot says to have missed in so many cycles before that one.
+    // Ticks that the robot says to have missed in so many cycles before that one, or by it: what a
+    // late cycle misses is said in the next.
     double missedBefore(std::int64_t cycle, std::int64_t cycles) const {
         double missed = 0;
         for (const AgentEvent& each : station.events()) {
             if (each.path != "/robot" || each.text.find("missed ") != 0) continue;
-            if (each.cycle > cycle - cycles && each.cycle <= cycle)
+            if (each.cycle > cycle - cycles && each.cycle <= cycle + 1)
                 missed += std::stod(each.text.substr(7));
         }
         return missed;
@@ -123,6 +124,8 @@ protected:
     AgentProcess robot{folder, example("robot.xml"), options()};
     Station station;
     Held after10;
+    std::string memories;        // kB
+    std::vector<double> heldAt;  // s that the hand was old
 };
 
 // The selector chose hold in the first cycle in which the hand was older than its rule allows.
@@ -134,8 +137,10 @@ void TwoAgents::expectHoldInTime() {
     EXPECT_EQ(why->cycle, held->cycle);
     const Age age = ageIn(why->text);
     const double period = rounds() > 5 ? 1 : 5;  // ms
+    heldAt.push_back(age.found * 1e-3);
     EXPECT_GE(age.allowed, 50);
-    EXPECT_LE(age.found, age.allowed + period * (1 + missedBefore(held->cycle, 60))) << why->text;
+    // A cycle may begin late by up to a period before it counts as missed.
+    EXPECT_LE(age.found, age.allowed + period * (2 + missedBefore(held->cycle, 60))) << why->text;
 }
 
 void TwoAgents::expectRest() {
@@ -151,15 +156,16 @@ void TwoAgents::expectRest() {
 }
 
 void TwoAgents::expectNoGrowth(std::size_t round, pid_t survivor) {
+    if (round % 10 != 0 && round < rounds()) return;
     const Held now = heldBy(survivor);
+    memories += (memories.empty() ? "" : ", ") + std::to_string(now.memory);
     if (round == 10) after10 = now;
     if (round <= 10 || round < rounds()) return;
     EXPECT_LE(now.memory, after10.memory + 256);
     EXPECT_EQ(now.threads, after10.threads);
     EXPECT_EQ(now.files, after10.files);
-    std::cout << "the survivor: " << after10.memory << " kB after 10 rounds, " << now.memory
-              << " kB after " << round << "; " << now.threads << " threads, " << now.files
-              << " handles\n";
+    std::cout << "the survivor: " << memories << " kB after every 10 rounds up to " << round << "; "
+              << now.threads << " threads, " << now.files << " handles\n";
 }
 
 TEST_F(TwoAgents, TheArmFollowsTheHandOfTheOtherAgent) {
@@ -190,7 +196,8 @@ TEST_F(TwoAgents, TheArmHoldsWhileTheOperatorIsKilledAndFollowsWhenItIsBack) {
     }
     EXPECT_TRUE(follows()) << outputs();
     std::cout << "operator killed " << recoveries.size()
-              << " times, until linked again: " << summary(recoveries) << std::endl;
+              << " times, held when the hand was old: " << summary(heldAt)
+              << "; until linked again: " << summary(recoveries) << std::endl;
     robot.kill9();
     operator_.kill9();
     EXPECT_EQ(sharedMemory(), sharedBefore);

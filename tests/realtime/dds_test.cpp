@@ -31,9 +31,8 @@ TEST(DdsInterface, NeitherAllocatesNorLocksNorCallsTheSystemInTheLoop) {
     RawTool tool{"operator"};
     tool.connect(2);
     Interest wanted;
-    wanted.target = "near";
     wanted.views = {{0, {"/"}}};
-    ASSERT_TRUE(tool.models->write(tool.interest(wanted)));
+    ASSERT_TRUE(tool.interests->write(tool.interest(wanted)));
     ASSERT_TRUE(tool.presences->write(tool.presence()));
     test::resetOffences();
     std::atomic<bool> stop{false};

@@ -83,6 +83,11 @@ void addNetwork(CLI::App& app, CommandLine& line) {
         ->type_name("HOST")
         ->allow_extra_args(false)
         ->excludes(offline);
+    app.add_option("--discovery-server", line.discoveryServer,
+                   "HOST:PORT of a Fast DDS Discovery Server, instead of multicast and peers; "
+                   "several joined by ';'; CORTEX_DISCOVERY_SERVER, else none, if not given")
+        ->type_name("ADDR")
+        ->excludes(offline);
     app.add_option("--security", line.security,
                    "folder made by `cortex security create-agent`; CORTEX_SECURITY, else no "
                    "security, if not given")
@@ -160,6 +165,7 @@ comms::NetworkOptions networkOptions(const CommandLine& line) {
     if (line.domain) options.domain = *line.domain;
     options.interfaces = line.interfaces;
     options.peers = line.peers;
+    if (line.discoveryServer) options.discoveryServer = *line.discoveryServer;
     if (line.security) options.security = *line.security;
     return options;
 }

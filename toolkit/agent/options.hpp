@@ -27,7 +27,7 @@ struct CommandLine {
     bool offline = false;
     std::optional<int> domain;
     std::vector<std::string> interfaces, peers;
-    std::optional<std::string> security;
+    std::optional<std::string> discoveryServer, security;
 };
 
 // Empty when the program is to end at once, with `exitCode`: help was shown, or usage was wrong.

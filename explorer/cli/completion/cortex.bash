@@ -3,7 +3,7 @@
 _cortex() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
     local verb=${COMP_WORDS[1]} options i
-    local network="--domain --interface --peer --security --timeout --json --help"
+    local network="--domain --interface --peer --discovery-server --security --timeout --json --help"
     local verbs="agents list show watch call set events top save restore doctor validate diff types graph new-type new-system"
     verbs+=" security"
     COMPREPLY=()
@@ -70,8 +70,8 @@ _cortex() {
 _cortex_live() {
     local word=${COMP_WORDS[COMP_CWORD]} network=() i
     for ((i = 2; i < COMP_CWORD; ++i)); do
-        [[ ${COMP_WORDS[i]} == --domain || ${COMP_WORDS[i]} == --interface ||
-            ${COMP_WORDS[i]} == --peer || ${COMP_WORDS[i]} == --security ]] && network+=("${COMP_WORDS[i]}" "${COMP_WORDS[i + 1]}")
+        [[ ${COMP_WORDS[i]} =~ ^--(domain|interface|peer|discovery-server|security)$ ]] &&
+            network+=("${COMP_WORDS[i]}" "${COMP_WORDS[i + 1]}")
     done
     if [[ ${COMP_WORDS[1]} == call && $COMP_CWORD -eq 3 ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$("$1" show "${COMP_WORDS[2]}" --timeout 1 \

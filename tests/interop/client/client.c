@@ -96,7 +96,7 @@ static bool print(const cortex_Block* block, const Models* models, const Agent* 
 
 static int values(Tool* tool, const Models* models, const char* prefix, int blocks) {
     const Agent* agent = ownerOf(tool, models, prefix);
-    view(tool, agent, prefix);
+    view(tool, prefix);
     for (const int64_t end = now() + 20 * second; blocks > 0 && now() < end;) {
         step(tool);
         void* samples[16] = {NULL};

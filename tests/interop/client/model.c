@@ -14,8 +14,9 @@ static bool isOf(const cortex_Model* model, const Agent* agent) {
 const cortex_TypeModel* typeOf(const Models* models, const Agent* agent, const char* name) {
     for (int i = 0; i < models->count; ++i) {
         const cortex_Model* model = models->samples[i];
-        if (!isOf(model, agent) || model->types._length != 1) continue;
-        if (strcmp(model->types._buffer[0].name, name) == 0) return model->types._buffer;
+        for (uint32_t k = 0; isOf(model, agent) && k < model->types._length; ++k) {
+            if (strcmp(model->types._buffer[k].name, name) == 0) return &model->types._buffer[k];
+        }
     }
     return NULL;
 }
@@ -23,8 +24,10 @@ const cortex_TypeModel* typeOf(const Models* models, const Agent* agent, const c
 const cortex_SimplexModel* simplexAt(const Models* models, const Agent* agent, const char* path) {
     for (int i = 0; i < models->count; ++i) {
         const cortex_Model* model = models->samples[i];
-        if (!isOf(model, agent) || model->simplexes._length != 1) continue;
-        if (strcmp(model->simplexes._buffer[0].path, path) == 0) return model->simplexes._buffer;
+        for (uint32_t k = 0; isOf(model, agent) && k < model->simplexes._length; ++k) {
+            const cortex_SimplexModel* each = &model->simplexes._buffer[k];
+            if (strcmp(each->path, path) == 0) return each;
+        }
     }
     return NULL;
 }
@@ -32,8 +35,9 @@ const cortex_SimplexModel* simplexAt(const Models* models, const Agent* agent, c
 const cortex_SimplexModel* simplexOf(const Models* models, const Agent* agent, uint32_t index) {
     for (int i = 0; i < models->count; ++i) {
         const cortex_Model* model = models->samples[i];
-        if (!isOf(model, agent) || model->simplexes._length != 1) continue;
-        if (model->simplexes._buffer[0].index == index) return model->simplexes._buffer;
+        for (uint32_t k = 0; isOf(model, agent) && k < model->simplexes._length; ++k) {
+            if (model->simplexes._buffer[k].index == index) return &model->simplexes._buffer[k];
+        }
     }
     return NULL;
 }
@@ -49,12 +53,16 @@ static int byName(const void* a, const void* b) {
 }
 
 const cortex_SimplexModel** simplexesOf(const Models* models, const Agent* agent, uint32_t* count) {
-    const cortex_SimplexModel** list = calloc((size_t)models->count + 1, sizeof *list);
+    size_t most = 1;
+    for (int i = 0; i < models->count; ++i) {
+        most += ((const cortex_Model*)models->samples[i])->simplexes._length;
+    }
+    const cortex_SimplexModel** list = calloc(most, sizeof *list);
     *count = 0;
     for (int i = 0; i < models->count; ++i) {
         const cortex_Model* model = models->samples[i];
-        if (isOf(model, agent) && model->simplexes._length == 1) {
-            list[(*count)++] = model->simplexes._buffer;
+        for (uint32_t k = 0; isOf(model, agent) && k < model->simplexes._length; ++k) {
+            list[(*count)++] = &model->simplexes._buffer[k];
         }
     }
     qsort(list, *count, sizeof *list, byPath);
@@ -70,12 +78,16 @@ bool isBelow(const char* path, const char* prefix) {
 // --- the hashes of a presence --------------------------------------------------------------------
 
 static bool typesAgree(const Agent* agent, const Models* models) {
-    const cortex_TypeModel** list = calloc((size_t)models->count + 1, sizeof *list);
+    size_t most = 1;
+    for (int i = 0; i < models->count; ++i) {
+        most += ((const cortex_Model*)models->samples[i])->types._length;
+    }
+    const cortex_TypeModel** list = calloc(most, sizeof *list);
     uint32_t count = 0;
     for (int i = 0; i < models->count; ++i) {
         const cortex_Model* model = models->samples[i];
-        if (isOf(model, agent) && model->types._length == 1) {
-            list[count++] = model->types._buffer;
+        for (uint32_t k = 0; isOf(model, agent) && k < model->types._length; ++k) {
+            list[count++] = &model->types._buffer[k];
         }
     }
     qsort(list, count, sizeof *list, byName);

@@ -40,9 +40,11 @@ typedef struct {
 
 static const TopicRow presenceTopic = {"cortex/presence", &cortex_Presence_desc, true, true, 1};
 static const TopicRow modelTopic = {"cortex/1/model", &cortex_Model_desc, true, true, 1};
+static const TopicRow interestTopic = {"cortex/1/interest", &cortex_Interest_desc, true, true, 1};
 static const TopicRow viewTopic = {"cortex/1/view/30", &cortex_Block_desc, false, false, 1};
 static const TopicRow commandTopic = {"cortex/1/command", &cortex_Command_desc, true, false, 64};
-static const TopicRow answerTopic = {"cortex/1/answer", &cortex_Answer_desc, true, false, 64};
+// Each sender of commands has one of its own: its id follows.
+static const TopicRow answerTopic = {"cortex/1/answer/", &cortex_Answer_desc, true, false, 64};
 
 static dds_qos_t* qosOf(const TopicRow* row) {
     dds_qos_t* qos = dds_create_qos();
@@ -74,11 +76,15 @@ void join(Tool* tool, dds_domainid_t domain) {
     tool->participant = made(dds_create_participant(domain, NULL, NULL), "participant");
     tool->presences = endpoint(tool, &presenceTopic, true);
     tool->presenceReader = endpoint(tool, &presenceTopic, false);
-    tool->models = endpoint(tool, &modelTopic, true);
+    tool->interests = endpoint(tool, &interestTopic, true);
     tool->modelReader = endpoint(tool, &modelTopic, false);
     tool->blocks = endpoint(tool, &viewTopic, false);
     tool->commands = endpoint(tool, &commandTopic, true);
-    tool->answers = endpoint(tool, &answerTopic, false);
+    char name[64];
+    snprintf(name, sizeof name, "%s%s", answerTopic.name, hex(idOf(tool->name, NULL, NULL).octets));
+    TopicRow answers = answerTopic;
+    answers.name = name;
+    tool->answers = endpoint(tool, &answers, false);
 }
 
 static void tell(const Tool* tool, char* state) {
@@ -91,6 +97,7 @@ static void tell(const Tool* tool, char* state) {
                                 .role = "tool",
                                 .state = state,
                                 .majors = {._length = 1, ._buffer = &major},
+                                .interval = 100000000,
                                 .security = ""};
     memcpy(presence.agent, idOf(tool->name, NULL, NULL).octets, 16);
     dds_write(tool->presences, &presence);
@@ -155,15 +162,12 @@ void letGo(const Tool* tool, Models* models) {
     free(models->samples);
 }
 
-void view(Tool* tool, const Agent* agent, const char* prefix) {
+void view(Tool* tool, const char* prefix) {
     char* path = (char*)prefix;
     cortex_View wanted = {.rate = 30, .prefixes = {._length = 1, ._buffer = &path}};
-    cortex_Interest interest = {.target = (char*)agent->name,
-                                .targetEpoch = agent->epoch,
+    cortex_Interest interest = {.name = (char*)tool->name,
+                                .epoch = tool->epoch,
                                 .views = {._length = 1, ._buffer = &wanted}};
-    cortex_Model model = {.agent = tool->name,
-                          .epoch = tool->epoch,
-                          .interests = {._length = 1, ._buffer = &interest}};
-    memcpy(model.id, idOf(tool->name, "interest", agent->name).octets, 16);
-    dds_write(tool->models, &model);
+    memcpy(interest.agent, idOf(tool->name, NULL, NULL).octets, 16);
+    dds_write(tool->interests, &interest);
 }

@@ -11,7 +11,7 @@ enum { mostAgents = 64 };
 typedef struct {
     char name[64];
     int64_t epoch;
-    dds_entity_t participant, presences, presenceReader, models, modelReader, blocks, commands,
+    dds_entity_t participant, presences, presenceReader, interests, modelReader, blocks, commands,
         answers;
     int64_t presenceDue;  // ns
     Agent agents[mostAgents];
@@ -30,5 +30,5 @@ void step(Tool* tool);
 Models modelsOf(const Tool* tool);
 void letGo(const Tool* tool, Models* models);
 
-// Says what the tool wants of an agent from now on: values at and below a path, 30 times a second.
-void view(Tool* tool, const Agent* agent, const char* prefix);
+// Says what the tool wants from now on: values at and below a path, 30 times a second.
+void view(Tool* tool, const char* prefix);

@@ -86,8 +86,9 @@ public:
     const std::string& name() const;  // as agents see it: the holder of its control leases
 
     std::vector<AgentStatus> agents() const;  // by name; one lost for a minute is forgotten
-    // Waits until somebody is there, everybody has told everything, and nobody new comes. False:
-    // not within `limit`.
+    std::uint32_t unheard() const;  // so many agents are heard by one of them, and not here
+    // Waits until somebody is there, everybody has told everything, all whom they hear are here,
+    // and nobody new comes. False: not within `limit`.
     bool waitUntilComplete(Milliseconds limit) const;
     // Null until everything of the agent is here. Later starts have structures of their own.
     std::shared_ptr<const Structure> structure(const std::string& agent) const;
@@ -123,6 +124,9 @@ public:
 
     // Events of all agents, the last 1,000 of each first. Called on the mirror's thread.
     void onEvent(std::function<void(const AgentEvent&)> listener);
+    // Whether the newest event that each agent which is heard says to have written has come: it
+    // says so ten times a second.
+    bool eventsComplete() const;
 
     std::uint64_t refused() const;  // samples that were malformed or said what cannot be
 

@@ -11,13 +11,17 @@ int defaultDomain();
 // The environment variable CORTEX_SECURITY, empty where it is not set.
 std::string defaultSecurity();
 
+// The environment variable CORTEX_DISCOVERY_SERVER, empty where it is not set.
+std::string defaultDiscoveryServer();
+
 // Which network an agent or a tool joins. What it cannot have is refused when it joins, in words.
 struct NetworkOptions {
     int domain = defaultDomain();
     std::vector<std::string> interfaces;  // names or IPv4 addresses; none: all
     std::vector<std::string> peers;       // "host" or "host:port", where multicast does not reach
-    std::string discoveryServer;  // instead of peers and multicast; several are joined by ";"
-    bool sharedMemory = false;    // besides UDP
+    // "host" or "host:port", instead of peers and multicast; several are joined by ";".
+    std::string discoveryServer = defaultDiscoveryServer();
+    bool sharedMemory = false;  // besides UDP
     std::string security =
         defaultSecurity();  // folder made by `cortex security create-agent`; empty: none
 };

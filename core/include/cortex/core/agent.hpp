@@ -76,6 +76,7 @@ public:
     // Of the present or last cycle; loop's threads only, everyone else asks an image.
     std::int64_t cycle() const { return cycle_; }
     std::int64_t nominalTime() const { return nominalTime_; }
+    std::int64_t wokenAt() const { return nominalTime_ + lateness_; }
     SimplexTree& tree() { return tree_; }
     const Report& warnings() const { return report_; }  // what validation found; no errors
     const Structure& structure() const { return *structure_; }
@@ -161,7 +162,7 @@ private:
     std::unique_ptr<std::atomic<std::uint8_t>[]> lifeCycle_, lifeCycleLater_;  // bits
     std::atomic<bool> anyLater_{false};
     std::uint32_t agentSimplex_ = noSimplex;
-    std::int64_t cycle_ = 0, nominalTime_ = 0;
+    std::int64_t cycle_ = 0, nominalTime_ = 0, lateness_ = 0;
     bool started_ = false, stopped_ = false;
 };
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "join_turn.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <thread>
+
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+namespace cortex::comms {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto longestWait = 120s;
+constexpr auto pause = 2ms;
+constexpr auto timeOfADatagram = 25us;  // measured: 17 us on two cores, to send and receive it
+
+// Only one socket of a network namespace can have an abstract name, and it goes with its process.
+bool take(int socket, int domain) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    const std::string name = "cortex/join/" + std::to_string(domain);
+    std::ranges::copy(name, address.sun_path + 1);
+    const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+    return bind(socket, reinterpret_cast<const sockaddr*>(&address), size) == 0;
+}
+
+}  // namespace
+
+JoinTurn::JoinTurn(int domain) : socket_{socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)} {
+    const auto end = std::chrono::steady_clock::now() + longestWait;
+    while (socket_ >= 0 && !take(socket_, domain) && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(pause);
+    }
+}
+
+JoinTurn::~JoinTurn() {
+    if (socket_ >= 0) close(socket_);
+}
+
+// Fast DDS lets each of them, when it finds a newcomer, announce itself to all of them.
+void JoinTurn::letAnswer(int others) const {
+    std::this_thread::sleep_for(others * others * timeOfADatagram);
+}
+
+}  // namespace cortex::comms

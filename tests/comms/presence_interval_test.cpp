@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "presence_interval.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::int64_t millisecond = 1'000'000;
+
+TEST(PresenceInterval, IsATenthOfASecondAmongFewAndTwoSecondsAmongAnyNumber) {
+    EXPECT_EQ(intervalAmong(0), 100 * millisecond);
+    EXPECT_EQ(intervalAmong(5), 100 * millisecond);
+    EXPECT_EQ(intervalAmong(50), 1'000 * millisecond);
+    EXPECT_EQ(intervalAmong(std::numeric_limits<std::uint32_t>::max()), 2'000 * millisecond);
+}
+
+TEST(PresenceInterval, PatienceIsFourOfThemAndASecondAtLeast) {
+    Presence presence;
+    for (const auto& [interval, patience] :
+         {std::pair<std::int64_t, std::int64_t>{100, 1'000}, {500, 2'000}, {2'000, 8'000}}) {
+        presence.interval = interval * millisecond;
+        EXPECT_EQ(patienceWith(presence), patience * millisecond);
+    }
+}
+
+TEST(PresenceInterval, PatienceWithWhatCannotBeIsBounded) {
+    Presence presence;
+    for (const std::int64_t interval :
+         {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1}, std::int64_t{0}}) {
+        presence.interval = interval;
+        EXPECT_EQ(patienceWith(presence), 1'000 * millisecond);
+    }
+    presence.interval = std::numeric_limits<std::int64_t>::max();
+    EXPECT_EQ(patienceWith(presence), 8'000 * millisecond);
+}
+
+}  // namespace
+}  // namespace cortex::comms

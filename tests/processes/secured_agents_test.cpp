@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// The case study with security on, and who looks at it: agents and tools as processes of their own,
+// with folders that `cortex security` made.
+#include "cli/cortex_process.hpp"
+#include "comms/inbox.hpp"
+#include "comms/secured_plant.hpp"
+#include "processes/agent_process.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace cortex::test {
+namespace {
+
+using nlohmann::json;
+using Words = std::vector<std::string>;
+
+enum Exit { Done = 0, Refused = 1, NobodyFound = 3 };
+
+class SecuredAgents : public testing::Test {
+protected:
+    SecuredAgents() {
+        make({"create-authority"});
+        for (const char* agent : {"operator", "robot", "station"}) make({"create-agent", agent});
+    }
+
+    void make(Words arguments) const {
+        arguments.insert(arguments.begin(), "security");
+        const Outcome outcome = cortex(arguments, {}, folder.path().string());
+        EXPECT_EQ(outcome.exit, Done) << outcome.errors;
+    }
+    std::string keys(const std::string& name) const { return (folder.path() / name).string(); }
+
+    // An agent of the case study; slow, as busy machines with few cores run the tests too.
+    AgentProcess start(const std::string& name, Words options = {}) const {
+        const Words more{"--security", keys(name), "--startup", "--frequency", "200"};
+        options.insert(options.end(), more.begin(), more.end());
+        return {folder, CORTEX_SOURCE_DIR "/examples/lbr_teleop/" + name + ".xml", options};
+    }
+    // A tool with the keys of that folder; "": with none.
+    Outcome tool(Words arguments, const std::string& name = "station",
+                 const std::string& timeout = "20") const {
+        const comms::NetworkOptions network = comms::loopback();
+        for (const std::string& each :
+             {std::string{"--domain"}, std::to_string(network.domain), std::string{"--interface"},
+              network.interfaces.front(), std::string{"--timeout"}, timeout}) {
+            arguments.push_back(each);
+        }
+        return cortex(arguments, {{"CORTEX_SECURITY", name.empty() ? "" : keys(name)}});
+    }
+    json shown(const std::string& path) const {
+        const json simplex = json::parse(tool({"show", path, "--json"}).output, nullptr, false);
+        return simplex.is_object() ? simplex : json::object();
+    }
+    json value(const std::string& path, const std::string& item) const {
+        return shown(path)["data"][item]["value"];
+    }
+    bool isEvent(const std::string& text) const {
+        return comms::comesTrue(
+            [&] { return contains(tool({"events", "--severity", "warning"}).output, text); });
+    }
+
+    const ModelFolder folder;
+};
+
+// Moves all the time, and presses once in its two seconds.
+std::string movingHand() {
+    std::ostringstream text;
+    text << "time,x,y,z,qx,qy,qz,qw,trigger\n";
+    for (int i = 0; i <= 200; ++i) {
+        const double way = 0.03 * (1 - std::cos(std::numbers::pi * i / 50.0));
+        text << i / 100.0 << ",0.35," << way - 0.2 << ",1.05,0,0,0,1," << (i >= 20 && i < 180)
+             << '\n';
+    }
+    return text.str();
+}
+
+// Names of the agents listed, each of which has security.
+Words namesIn(const Outcome& outcome) {
+    Words names;
+    const json list = json::parse(outcome.output, nullptr, false);
+    if (!list.is_array()) return names;
+    for (const json& each : list) {
+        EXPECT_EQ(each["security"], "authenticated, encrypted") << each;
+        names.push_back(each["name"]);
+    }
+    return names;
+}
+
+TEST_F(SecuredAgents, FollowEachOtherAndAreSeenAndCommandedByTools) {
+    const std::string path = folder.write("path.csv", movingHand()).string();
+    const AgentProcess robot = start("robot");
+    const AgentProcess operator_ = start("operator", {"--set", "/playback.file=" + path});
+
+    EXPECT_TRUE(comms::comesTrue([&] { return value("/tracking", "time") > 0.1; }))
+        << robot.output() << operator_.output();
+    EXPECT_EQ(namesIn(tool({"agents", "--json"})), (Words{"operator", "robot"}));
+    EXPECT_TRUE(contains(tool({"doctor"}).output, "security authenticated, encrypted"));
+    EXPECT_EQ(tool({"set", "/control/selector", "stillTime=0.25"}).exit, Done) << robot.output();
+    EXPECT_EQ(value("/control/selector", "stillTime"), 0.25);
+    EXPECT_EQ(tool({"call", "/playback", "shutdown"}).exit, Done);
+    EXPECT_EQ(tool({"watch", "/playback.state", "/tracking.time", "--count", "2"}).exit, Done);
+}
+TEST_F(SecuredAgents, AreNotSeenOrCommandedWithoutACertificateOfTheirAuthority) {
+    make({"create-authority", "elsewhere"});
+    make({"create-agent", "stranger", "--authority", "elsewhere"});
+    const AgentProcess operator_ = start("operator");
+    ASSERT_EQ(namesIn(tool({"agents", "--json"})), Words{"operator"}) << operator_.output();
+
+    for (const char* name : {"", "stranger"}) {
+        const Outcome seen = tool({"agents"}, name, "2");
+        EXPECT_EQ(seen.exit, NobodyFound) << seen.output;
+        EXPECT_TRUE(contains(seen.errors, "no agent on domain")) << seen.errors;
+        EXPECT_EQ(tool({"call", "/playback", "shutdown"}, name, "2").exit, NobodyFound);
+    }
+    EXPECT_TRUE(isEvent("it has no certificate of our authority")) << operator_.output();
+    EXPECT_EQ(shown("/playback")["state"], "Active");
+}
+
+TEST_F(SecuredAgents, RefuseCommandsBeyondTheRightsOfATool) {
+    make({"create-agent", "eye", "--read-only"});
+    make({"create-agent", "desk", "--may-command", "/handset", "/playback"});
+    const AgentProcess operator_ = start("operator");
+    ASSERT_EQ(tool({"call", "/playback", "shutdown"}, "desk").exit, Done) << operator_.output();
+
+    const Outcome looked = tool({"call", "/playback", "startup"}, "eye");
+    EXPECT_EQ(looked.exit, Refused);
+    EXPECT_TRUE(contains(looked.output + looked.errors, "authority): it may only look"))
+        << looked.output << looked.errors;
+    const Outcome beyond = tool({"call", "/operator", "startup", "prefix=/"}, "desk");
+    EXPECT_EQ(beyond.exit, Refused);
+    EXPECT_TRUE(contains(beyond.output + beyond.errors, "ends at /handset, /playback"))
+        << beyond.output << beyond.errors;
+    EXPECT_TRUE(isEvent("refused: it may only look"));
+    EXPECT_TRUE(isEvent("refused: its authority ends at /handset, /playback"));
+    EXPECT_EQ(shown("/playback")["state"], "Standby");
+}
+
+TEST_F(SecuredAgents, DoNotStartWithAFolderThatWasChanged) {
+    const std::filesystem::path robot = keys("robot");
+    comms::tamper(robot / "permissions.smime", "cortex/*", "*");
+    std::filesystem::permissions(robot / "key.pem", std::filesystem::perms::others_read,
+                                 std::filesystem::perm_options::add);
+
+    AgentProcess agent = start("robot", {"--seconds", "20"});
+
+    EXPECT_EQ(agent.waitForEnd(), 1);
+    EXPECT_TRUE(contains(agent.output(), "permissions.smime was changed")) << agent.output();
+    EXPECT_TRUE(contains(agent.output(), "key.pem")) << agent.output();
+}
+
+}  // namespace
+}  // namespace cortex::test
