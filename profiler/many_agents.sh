@@ -1,66 +1,103 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# How long many agents on one host, started at once, take to hear each other.
-#   profiler/many_agents.sh [--build FOLDER] [--seconds S] [COUNT]
+# How long many agents on one host, started at once, take to have each other.
+#   profiler/many_agents.sh [--build FOLDER] [--seconds S] [--rounds N] [--server] [--links L] [COUNT]
 # Starts COUNT (50) agents of 20 simplexes at 100 Hz in a domain of its own. Prints when the last of
-# them had heard all others, and how long `cortex list` then takes to have all of all. Exit code 1 if
-# that did not come true within S seconds (60).
+# them had heard all others, and when `cortex list` then had all of all; beside it, where it is built
+# (-DCORTEX_BENCH=ON), what as many bare participants of Fast DDS take. N times (1); --server: with a
+# Discovery Server (fast-discovery-server, of Debian's fastdds-tools); --links: each with a
+# simplex of each of the next L linked, for which it takes the types and structures of all, and the
+# time is that of the last link. Exit code 1 if that did not come true within S seconds (60) each
+# time.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build=build/release
 seconds=60
+rounds=1
+server=
+links=0
 while [[ ${1:-} == --* ]]; do
     case $1 in
-        --build) build=$2 ;;
-        --seconds) seconds=$2 ;;
-        *) sed -n '3,7s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
+        --build) build=$2; shift ;;
+        --seconds) seconds=$2; shift ;;
+        --rounds) rounds=$2; shift ;;
+        --server) server=127.0.0.1:$((20000 + $$ % 10000)) ;;
+        --links) links=$2; shift ;;
+        *) sed -n '3,12s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
     esac
-    shift 2
+    shift
 done
 count=${1:-50}
 
 folder=$(mktemp -d)
-agents=()
-end() {
-    ((${#agents[@]} == 0)) || kill "${agents[@]}" 2>/dev/null || true
+processes=()
+endAll() {
+    ((${#processes[@]} == 0)) || kill "${processes[@]}" 2>/dev/null || true
     wait
-    rm -r "$folder"
+    processes=()
+    rm -f "$folder"/*.log
 }
-trap end EXIT
+trap 'endAll; rm -r "$folder"' EXIT
 export CORTEX_PATH=${CORTEX_PATH:-$PWD/ontology}
-export CORTEX_DOMAIN=$((1 + $$ % 99))
+bare=cortex buttons=19 said=' is heard, from '  # the 20th simplex is the cluster
+((links == 0)) || bare=cortex-links buttons=17 said='linked to agent '  # and a handset with its pose
+pairs=$((count * (links > 0 ? links : count - 1)))
 for ((i = 1; i <= count; ++i)); do
     {
         echo "<system name=\"a$i\"><morphology file=\"robotics-morphology.xml\"/>"
-        echo "<cluster name=\"a$i\" frequency=\"100\" threads=\"1\"/>"
-        for ((k = 1; k < 20; ++k)); do  # the 20th is the cluster
+        echo "<cluster name=\"a$i\" frequency=\"10\" threads=\"1\"/>"
+        for ((k = 1; k <= buttons; ++k)); do
             echo "<simplex path=\"/plant$i/button/$k\" type=\"DigitalIoConcept\"/>"
         done
+        if ((links > 0)); then
+            echo "<simplex path=\"/plant$i/hand\" type=\"HtcViveHandset\">"
+            for ((k = 0; k < links; ++k)); do
+                to=/plant$(((i + k) % count + 1))/button/1
+                echo "<relate rule=\"buttons\" to=\"$to\" remote=\"true\"/>"
+            done
+            echo "</simplex>"
+        fi
         echo "</system>"
     } >"$folder/$i.xml"
 done
 
-start=${EPOCHREALTIME/./}
 since() { echo $(((${EPOCHREALTIME/./} - start) / 1000)); }
-for ((i = 1; i <= count; ++i)); do
-    "$build/bin/cortex-agent" --log "$folder/$i.log" "$folder/$i.xml" >/dev/null 2>&1 &
-    agents+=($!)
-done
-launched=$(since)
+heard() { cat "$folder"/*.log 2>/dev/null | grep -c "$said" || true; }
 
-heard() { cat "$folder"/*.log 2>/dev/null | grep -c ' is heard, from ' || true; }
-while (($(since) < seconds * 1000)); do
-    (($(heard) < count * (count - 1))) || break
-    sleep 0.1
-done
-pairs=$(heard)
-heardAt=$(since)
-lines=$("$build/bin/cortex" list --timeout "$seconds" | wc -l) || true
-whole=$(since)
-lost=$(cat "$folder"/*.log | grep -c ' is lost' || true)
+# One round; $1: its number.
+startTogether() {
+    local found foundAt lines wholeAt lost
+    export CORTEX_DOMAIN=$((1 + ($$ + $1) % 99))
+    if [[ $server ]]; then
+        export CORTEX_DISCOVERY_SERVER=$server
+        fast-discovery-server -i 0 -l 127.0.0.1 -p "${server#*:}" >/dev/null 2>&1 &
+        processes+=($!)
+    fi
+    start=${EPOCHREALTIME/./}
+    for ((i = 1; i <= count; ++i)); do
+        "$build/bin/cortex-agent" --log "$folder/$i.log" "$folder/$i.xml" >/dev/null 2>&1 &
+        processes+=($!)
+    done
+    while (($(since) < seconds * 1000 && $(heard) < pairs)); do sleep 0.1; done
+    found=$(heard)
+    foundAt=$(since)
+    lines=$("$build/bin/cortex" list --timeout "$seconds" | wc -l) || true
+    wholeAt=$(since)
+    lost=$(cat "$folder"/*.log | grep -c ' is lost' || true)
+    endAll
+    echo "$count agents, $links links each${server:+, with a server}: $found of $pairs" \
+        "$( ((links > 0)) && echo links bound || echo pairs heard each other) after $foundAt ms" \
+        "(lost again: $lost)," \
+        "$lines of $((count * 20)) simplexes listed after $wholeAt ms"
+    ((found >= pairs && lines == count * 20))
+}
 
-echo "$count agents, load$(cut -d' ' -f1 /proc/loadavg | sed 's/^/ /'): launched within $launched ms"
-echo "$pairs of $((count * (count - 1))) pairs heard each other, $heardAt ms after the first start; lost since: $lost"
-echo "a list of $lines of $((count * 20)) simplexes was there $((whole - heardAt)) ms later"
-((pairs >= count * (count - 1) && lines == count * 20))
+echo "load before: $(cut -d' ' -f1-3 /proc/loadavg)"
+failed=0
+for ((round = 1; round <= rounds; ++round)); do
+    startTogether "$round" || failed=1
+    [[ $server || ! -x $build/bin/cortex-bare-participants ]] ||
+        "$build/bin/cortex-bare-participants" "$count" "$bare" "$seconds" || true
+done
+exit "$failed"

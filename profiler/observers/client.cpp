@@ -7,44 +7,38 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
-
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace cortex::observers {
 namespace {
 
 using namespace std::chrono_literals;
-
-bool told(int milliseconds) {
-    pollfd input{STDIN_FILENO, POLLIN, 0};
-    return poll(&input, 1, milliseconds) > 0;
-}
-
-std::string lineOf(int descriptor) {
-    std::string line;
-    for (char next = 0; read(descriptor, &next, 1) == 1 && next != '\n';) line += next;
-    return line;
-}
+using profiler::inputEnds;
 
 std::uint64_t look(comms::Mirror& mirror) {
     const std::uint64_t first = mirror.waitForImage(0, 0ms);
     std::uint64_t last = first;
-    while (!told(0)) last = mirror.waitForImage(last, 100ms);
+    while (!inputEnds(0)) last = mirror.waitForImage(last, 100ms);
     return last - first;
 }
 
-// Spread over the second.
+// One a second, whenever the answers come: the loop rests every other second. Spread over the
+// second.
 std::uint64_t command(comms::Mirror& mirror, int number) {
     std::uint64_t done = 0;
-    if (told(number * 20 % 1000)) return done;
+    std::vector<std::uint64_t> sent;
+    if (inputEnds(number * 20 % 1000)) return done;
     do {
-        const comms::CommandAnswer answer =
-            mirror.call("/echo", "ping", {{"number", std::int64_t{number}}});
-        if (answer.outcome == Outcome::Done) ++done;
-    } while (!told(1000));
+        sent.push_back(mirror.send("/echo", "ping", {{"number", std::int64_t{number}}}, 5s));
+        std::erase_if(sent, [&](std::uint64_t each) {
+            comms::CommandAnswer answer;
+            if (!mirror.poll(each, answer)) return false;
+            if (answer.outcome == Outcome::Done) ++done;
+            return true;
+        });
+    } while (!inputEnds(1000));
     return done;
 }
 
@@ -55,7 +49,7 @@ int runClient(int number, Load load, int domain) {
     network.domain = domain;
     network.interfaces = {"127.0.0.1"};
     comms::Mirror mirror{"observer" + std::to_string(number), network};
-    if (!mirror.waitForOwner("/echo", 60s)) return 1;
+    if (!mirror.waitForOwner("/echo", 60s) || !mirror.waitUntilComplete(60s)) return 1;
     if (load != Load::Command) {
         mirror.view({"/"}, load == Load::ViewEvery ? 0 : 30);
         if (!mirror.waitForValues(60s)) return 1;
@@ -67,39 +61,22 @@ int runClient(int number, Load load, int domain) {
 }
 
 void Clients::start(int number, Load load, int domain) {
-    int input[2], output[2];
-    if (pipe2(input, O_CLOEXEC) != 0 || pipe2(output, O_CLOEXEC) != 0) throw Error("no pipes");
-    const std::vector<std::string> words{"cortex-observers", "--client", std::to_string(number),
-                                         std::to_string(static_cast<int>(load)),
-                                         std::to_string(domain)};
-    std::vector<char*> arguments;
-    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    const pid_t process = fork();
-    if (process == 0) {
-        dup2(input[0], STDIN_FILENO);
-        dup2(output[1], STDOUT_FILENO);
-        execv("/proc/self/exe", arguments.data());
-        _exit(127);
-    }
-    close(input[0]);
-    close(output[1]);
-    clients_.push_back({process, input[1], output[0]});
+    clients_.push_back(std::make_unique<profiler::Child>(
+        std::vector{std::string{"--client"}, std::to_string(number),
+                    std::to_string(static_cast<int>(load)), std::to_string(domain)}));
 }
 
 void Clients::waitUntilReady() {
-    for (const Client& each : clients_) {
-        if (lineOf(each.output) != "ready") throw Error("a client was not ready in time");
+    for (const auto& each : clients_) {
+        if (each->line(150s) != "ready") throw Error("a client found nothing to look at");
     }
 }
 
 std::vector<std::uint64_t> Clients::stop() {
     std::vector<std::uint64_t> counts;
-    for (const Client& each : clients_) close(each.input);
-    for (const Client& each : clients_) {
-        counts.push_back(std::strtoull(lineOf(each.output).c_str(), nullptr, 10));
-        close(each.output);
-        waitpid(each.process, nullptr, 0);
+    for (const auto& each : clients_) each->end();
+    for (const auto& each : clients_) {
+        counts.push_back(std::strtoull(each->line().c_str(), nullptr, 10));
     }
     clients_.clear();
     return counts;

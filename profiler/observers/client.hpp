@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "child.hpp"
 
-#include <sys/types.h>
+#include <cstdint>
+#include <memory>
+#include <vector>
 
 namespace cortex::observers {
 
@@ -18,19 +18,13 @@ int runClient(int number, Load load, int domain);
 // A number of client processes of this program.
 class Clients {
 public:
-    ~Clients() { stop(); }
-
     void start(int number, Load load, int domain);
     void waitUntilReady();  // throws Error if one ended instead
     // Ends them; images that they saw, or commands that were done.
     std::vector<std::uint64_t> stop();
 
 private:
-    struct Client {
-        pid_t process;
-        int input, output;
-    };
-    std::vector<Client> clients_;
+    std::vector<std::unique_ptr<profiler::Child>> clients_;
 };
 
 }  // namespace cortex::observers
