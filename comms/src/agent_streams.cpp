@@ -13,6 +13,7 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::int64_t second = 1'000'000'000;  // ns
+constexpr std::int64_t again = second / 10;
 
 }  // namespace
 
@@ -83,10 +84,12 @@ void AgentStreams::addBelow(const std::string& prefix, std::vector<bool>& wanted
 }
 
 void AgentStreams::open(Stream& stream, const std::vector<bool>& wanted) {
-    stream.simplexes.clear();
+    std::vector<std::uint32_t> simplexes;
     for (std::uint32_t i = 0; i < own_; ++i) {
-        if (wanted[i]) stream.simplexes.push_back(i);
+        if (wanted[i]) simplexes.push_back(i);
     }
+    if (simplexes != stream.simplexes) stream.block.cycle = 0;  // the newest cycle, of these
+    stream.simplexes = std::move(simplexes);
     if (stream.simplexes.empty()) {
         stream.writer.reset();
         return;
@@ -108,15 +111,28 @@ void AgentStreams::step(std::int64_t now) {
     Image image;
     for (Stream& stream : streams_) {
         const bool due = stream.rate == 0 || now >= stream.due;
-        if (stream.writer == nullptr || !due || stream.block.cycle == cycle) continue;
+        if (stream.writer == nullptr || !due) continue;
+        if (stream.block.cycle == cycle) {
+            sayAgain(stream, now);
+            continue;
+        }
         if (!image) image = self_.access.images->newest();
         if (!image || image.cycle() == 0) return;
         write(stream, image);
+        stream.againDue = now + again;
         if (stream.rate == 0) continue;
         // On a grid of its own; from now where it was missed.
         const std::int64_t interval = second / stream.rate;
         stream.due = std::max(stream.due + interval, now + interval / 2);
     }
+}
+
+// A loop that stands still, or is slow, is seen by who begins to look meanwhile, and by whom the
+// last block did not reach. Links wait for the next cycle: what they have does not become newer.
+void AgentStreams::sayAgain(Stream& stream, std::int64_t now) {
+    if (&stream == &streams_.front() || now < stream.againDue || stream.block.cycle == 0) return;
+    stream.writer->write(stream.block);
+    stream.againDue = now + again;
 }
 
 void AgentStreams::write(Stream& stream, const Image& image) {

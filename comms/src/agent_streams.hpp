@@ -31,13 +31,14 @@ private:
         std::vector<std::uint32_t> simplexes = {};
         std::unique_ptr<Writer<Block>> writer = {};
         Block block = {};
-        std::int64_t due = 0;
+        std::int64_t due = 0, againDue = 0;
     };
 
     void addLinks(const Interest& interest, std::vector<bool>& wanted);
     void addView(const View& view);
     void addBelow(const std::string& prefix, std::vector<bool>& wanted);
     void open(Stream& stream, const std::vector<bool>& wanted);
+    void sayAgain(Stream& stream, std::int64_t now);
     void write(Stream& stream, const Image& image);
 
     AgentSelf& self_;

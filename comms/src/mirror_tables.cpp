@@ -47,6 +47,9 @@ bool MirrorTables::applySimplex(const SimplexData& data, const Block& block, Mom
     const SimplexInfo& info = structure_->simplexes[data.index];
     if (info.remote || !fits(data, *info.layout)) return false;
     const Slice slice = tables_.live(data.index);
+    // A cycle that is said again does not become newer.
+    const bool known = simplexes_[data.index].received && slice.state->quality != Quality::Lost;
+    if (known && block.cycle == cycle_) return true;
     storeValues(data, *info.layout, slice);
     if (data.cause >= simplexes_.size()) slice.state->cause = noSimplex;
     const double before = static_cast<double>(block.nominalTime) - static_cast<double>(data.time);

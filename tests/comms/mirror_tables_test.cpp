@@ -74,6 +74,7 @@ TEST_F(MirrorTablesTest, CallsLostWhatHasNotCome) {
 
 TEST_F(MirrorTablesTest, CallsStaleAfterAGapWhatHasNotComeAgain) {
     tables->apply(agent.block(1), begin);
+    agent.rig.step();
     Block block = agent.block(5);
     std::erase_if(block.simplexes, [&](const auto& each) { return each.index == reading; });
 
@@ -82,6 +83,7 @@ TEST_F(MirrorTablesTest, CallsStaleAfterAGapWhatHasNotComeAgain) {
     EXPECT_EQ(tables->loss(), 3U);
     EXPECT_EQ(quality(worker), Quality::Good);
     EXPECT_EQ(quality(reading), Quality::Stale);
+    agent.rig.step();
     tables->apply(agent.block(6), begin);
     EXPECT_EQ(quality(reading), Quality::Good);
     EXPECT_EQ(tables->loss(), 3U);
@@ -97,6 +99,22 @@ TEST_F(MirrorTablesTest, CallsStaleWhatDoesNotComeInTime) {
     tables->markStale(begin + patience, patience);
     EXPECT_EQ(quality(worker), Quality::Stale);
     EXPECT_EQ(tables->newest().state(worker).cause, worker);
+}
+
+TEST_F(MirrorTablesTest, DoesNotTakeACycleThatIsSaidAgainForNews) {
+    const auto patience = everything.patience(1'000'000);
+    tables->apply(agent.block(1), begin);
+
+    tables->apply(agent.block(1), begin + patience);
+    tables->markStale(begin + patience, patience);
+    EXPECT_EQ(quality(worker), Quality::Stale);
+    tables->apply(agent.block(1), begin + patience);
+    EXPECT_EQ(quality(worker), Quality::Stale);
+
+    tables->lose();
+    tables->apply(agent.block(1), begin + patience);
+    EXPECT_EQ(quality(worker), Quality::Good);
+    EXPECT_EQ(tables->loss(), 0U);
 }
 
 TEST_F(MirrorTablesTest, CallsAllLostWithTheAgent) {

@@ -121,6 +121,20 @@ TEST(Mirror, CallsStaleWhatAnAgentThatHangsNoLongerSays) {
     EXPECT_TRUE(comesTrue([&] { return mirror.image("robot")->quality("/arm") == Quality::Good; }));
 }
 
+TEST(Mirror, ShowsALoopThatStandsStillToAllWhoBeginToLook) {
+    const auto agent = robot();
+    agent->run();
+    agent->change([&] {
+        agent->rig.step();
+        for (int i = 0; i < 3; ++i) {
+            Mirror mirror{"test", loopback()};
+            mirror.view({i == 2 ? "/hand" : "/arm"}, 30);
+            ASSERT_TRUE(mirror.waitForOwner("/arm", longEnough));
+            EXPECT_TRUE(mirror.waitForValues(longEnough)) << i;
+        }
+    });
+}
+
 TEST(Mirror, SpeaksLessOftenTheMoreListen) {
     Participant other{loopback(), "other"};
     Inbox<Presence> heard;
