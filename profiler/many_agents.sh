@@ -7,8 +7,8 @@
 # (-DCORTEX_BENCH=ON), what as many bare participants of Fast DDS take. N times (1); --server: with a
 # Discovery Server (fast-discovery-server, of Debian's fastdds-tools); --links: each with a
 # simplex of each of the next L linked, for which it takes the types and structures of all, and the
-# time is that of the last link. Exit code 1 if that did not come true within S seconds (60) each
-# time.
+# time is that when every link is bound and every agent has said that it knows every other. Exit
+# code 1 if that did not come true within S seconds (60) each time.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -24,7 +24,7 @@ while [[ ${1:-} == --* ]]; do
         --rounds) rounds=$2; shift ;;
         --server) server=127.0.0.1:$((20000 + $$ % 10000)) ;;
         --links) links=$2; shift ;;
-        *) sed -n '3,12s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
+        *) sed -n '3,13s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
     esac
     shift
 done
@@ -40,9 +40,10 @@ endAll() {
 }
 trap 'endAll; rm -r "$folder"' EXIT
 export CORTEX_PATH=${CORTEX_PATH:-$PWD/ontology}
-bare=cortex buttons=19 said=' is heard, from '  # the 20th simplex is the cluster
-((links == 0)) || bare=cortex-links buttons=17 said='linked to agent '  # and a handset with its pose
+bare=cortex buttons=19 sign=' is heard, from '  # the 20th simplex is the cluster
+((links == 0)) || bare=cortex-links buttons=17 sign='linked to agent '  # and a handset with its pose
 pairs=$((count * (links > 0 ? links : count - 1)))
+models=$((links > 0 ? count * (count - 1) : 0))
 for ((i = 1; i <= count; ++i)); do
     {
         echo "<system name=\"a$i\"><morphology file=\"robotics-morphology.xml\"/>"
@@ -63,11 +64,11 @@ for ((i = 1; i <= count; ++i)); do
 done
 
 since() { echo $(((${EPOCHREALTIME/./} - start) / 1000)); }
-heard() { cat "$folder"/*.log 2>/dev/null | grep -c "$said" || true; }
+said() { cat "$folder"/*.log 2>/dev/null | grep -c "$1" || true; }
 
 # One round; $1: its number.
 startTogether() {
-    local found foundAt lines wholeAt lost
+    local found known foundAt lines wholeAt lost
     export CORTEX_DOMAIN=$((1 + ($$ + $1) % 99))
     if [[ $server ]]; then
         export CORTEX_DISCOVERY_SERVER=$server
@@ -79,18 +80,22 @@ startTogether() {
         "$build/bin/cortex-agent" --log "$folder/$i.log" "$folder/$i.xml" >/dev/null 2>&1 &
         processes+=($!)
     done
-    while (($(since) < seconds * 1000 && $(heard) < pairs)); do sleep 0.1; done
-    found=$(heard)
+    while (($(since) < seconds * 1000)); do
+        found=$(said "$sign") known=$(said ' is known: ')
+        ((found < pairs || known < models)) || break
+        sleep 0.1
+    done
     foundAt=$(since)
     lines=$("$build/bin/cortex" list --timeout "$seconds" | wc -l) || true
     wholeAt=$(since)
     lost=$(cat "$folder"/*.log | grep -c ' is lost' || true)
     endAll
     echo "$count agents, $links links each${server:+, with a server}: $found of $pairs" \
-        "$( ((links > 0)) && echo links bound || echo pairs heard each other) after $foundAt ms" \
+        "$( ((links > 0)) && echo "links bound, $known of $models models known" ||
+            echo pairs heard each other) after $foundAt ms" \
         "(lost again: $lost)," \
         "$lines of $((count * 20)) simplexes listed after $wholeAt ms"
-    ((found >= pairs && lines == count * 20))
+    ((found >= pairs && known >= models && lines == count * 20))
 }
 
 echo "load before: $(cut -d' ' -f1-3 /proc/loadavg)"

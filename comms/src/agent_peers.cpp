@@ -123,11 +123,20 @@ void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
     changed_ = changed_ || agent != peer.agent || !peer.heard;
     peer.agent = agent;
     peer.missed = false;
-    if (std::exchange(peer.heard, true)) return;
-    if (peer.agent) {
+    if (!std::exchange(peer.heard, true) && peer.agent) {
         self_.event(Severity::Info, self_.simplex,
                     "agent " + peer.name + " is heard, from " + presence.host);
     }
+    if (!complete) sayIfKnown(peer);
+}
+
+// Of those only that something is linked of.
+void AgentPeers::sayIfKnown(const Peer& peer) const {
+    if (!peer.agent || !peer.model().complete()) return;
+    const Presence& presence = *peer.model().presence();
+    self_.event(Severity::Info, self_.simplex,
+                "agent " + peer.name + " is known: " + std::to_string(presence.simplexes) +
+                    " simplexes of " + std::to_string(presence.types) + " types");
 }
 
 void AgentPeers::lose(Peer& peer, const std::string& why) {
@@ -171,7 +180,10 @@ void AgentPeers::take(const Model& model, std::int64_t now) {
     if (!start->model.add(model)) {
         self_.rejections.add("a sample of the model of " + model.agent + " that cannot be");
     }
-    changed_ = changed_ || start->model.complete() != complete;
+    if (complete || !start->model.complete()) return;
+    changed_ = true;
+    const Peer& peer = peers_.at(model.agent);
+    if (peer.current && start == &*peer.current) sayIfKnown(peer);
 }
 
 void AgentPeers::take(const Interest& interest, std::int64_t now) {

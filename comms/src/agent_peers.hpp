@@ -66,6 +66,7 @@ private:
     Peer* place(const std::string& name);
     void makeCurrent(Peer& peer, std::int64_t epoch);
     void hear(Peer& peer, const Presence& presence, std::int64_t now);
+    void sayIfKnown(const Peer& peer) const;
     void lose(Peer& peer, const std::string& why);
     PeerStart* startOf(const std::string& name, std::int64_t epoch, std::int64_t now);
 

@@ -59,6 +59,20 @@ TEST_F(AgentPeersTest, OfTwoStartsThatAreHeardTheLaterCounts) {
     EXPECT_EQ(peer().epoch(), first + 1);
 }
 
+TEST_F(AgentPeersTest, AnAgentIsKnownOnceAllOfItsModelIsThere) {
+    const auto known = [&] {
+        return listener.rig.hasEvent(
+            "agent rig is known: " + std::to_string(told.presence.simplexes) + " simplexes of " +
+            std::to_string(told.presence.types) + " types");
+    };
+    hear(first, 0);
+    for (const Model& model : told.models) {
+        EXPECT_FALSE(known());
+        peers.take(model, 0);
+    }
+    EXPECT_TRUE(known());
+}
+
 TEST_F(AgentPeersTest, WhoFallsSilentWithoutAWordIsMissedForTenMinutes) {
     tell(first, 0);
     EXPECT_FALSE(peers.missesAny(0));
