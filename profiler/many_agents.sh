@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # How long many agents on one host, started at once, take to have each other.
 #   profiler/many_agents.sh [--build FOLDER] [--seconds S] [--rounds N] [--server] [--links L] [COUNT]
-# Starts COUNT (50) agents of 20 simplexes at 100 Hz in a domain of its own. Prints when the last of
+# Starts COUNT (50) agents of 20 simplexes at 10 Hz in a domain of its own. Prints when the last of
 # them had heard all others, and when `cortex list` then had all of all; beside it, where it is built
 # (-DCORTEX_BENCH=ON), what as many bare participants of Fast DDS take. N times (1); --server: with a
 # Discovery Server (fast-discovery-server, of Debian's fastdds-tools); --links: each with a
@@ -83,7 +83,7 @@ startTogether() {
     while (($(since) < seconds * 1000)); do
         found=$(said "$sign") known=$(said ' is known: ')
         ((found < pairs || known < models)) || break
-        sleep 0.1
+        sleep 0.3
     done
     foundAt=$(since)
     lines=$("$build/bin/cortex" list --timeout "$seconds" | wc -l) || true

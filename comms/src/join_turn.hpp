@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <functional>
+
 namespace cortex::comms {
 
 // The participants of one host join a domain one after another: everybody who joins talks with all
-// who are there, and 100 at once on two cores would never be done, as what is lost is sent again.
+// who are there, and while one of them lacks something, Fast DDS asks all of them again.
 class JoinTurn {
 public:
-    explicit JoinTurn(
-        int domain);  // waits until it is ours; not for ever, if somebody stands still
-    ~JoinTurn();      // the next one's
+    // Waits until it is ours; not for ever, if somebody stands still.
+    explicit JoinTurn(int domain);
+    ~JoinTurn();  // the next one's
     JoinTurn(const JoinTurn&) = delete;
     JoinTurn& operator=(const JoinTurn&) = delete;
 
-    // Waits until so many others on this host should have answered; the turn is kept meanwhile.
-    void letAnswer(int others) const;
+    // Waits until so many others are met, or nobody new is met for a while; the turn is kept
+    // meanwhile.
+    void meet(std::uint32_t others, const std::function<std::uint32_t()>& met) const;
 
 private:
     int socket_;

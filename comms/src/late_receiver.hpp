@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "repeats.hpp"
+
 #include <atomic>
 #include <condition_variable>
 #include <memory>
@@ -32,7 +34,9 @@ private:
 // deals with the same participant, and with security its threads look up participants and endpoints
 // that others of them just make or delete: so what comes goes on one by one, and who makes or
 // deletes endpoints or changes the participant is to hold the gate. What is lost comes again with
-// the next announcement, and of a handshake after a second.
-std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos);
+// the next announcement, and of a handshake after a second. What is announced goes out within
+// `repeats`, if there is one.
+std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos,
+                              std::shared_ptr<Repeats> repeats = {});
 
 }  // namespace cortex::comms

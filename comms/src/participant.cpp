@@ -9,6 +9,7 @@
 #include "late_receiver.hpp"
 #include "participant_qos.hpp"
 #include "presence_interval.hpp"
+#include "repeats.hpp"
 #include "security_guard.hpp"
 #include "topic_type.hpp"
 
@@ -262,7 +263,15 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
     static std::mutex joining;  // Fast DDS asks who the user is, which no two threads may
     const std::lock_guard lock{joining};
     dds::DomainParticipantQos qos = participantQos(options, name);
-    impl_->gate = addGate(qos);
+    std::shared_ptr<Repeats> repeats;
+    if (options.discoveryServer.empty()) {
+        const auto& discovery = qos.wire_protocol().builtin.discovery_config;
+        repeats = std::make_shared<Repeats>(
+            qos.wire_protocol().prefix,
+            std::chrono::nanoseconds{discovery.leaseDuration_announcementperiod.to_ns()});
+    }
+    impl_->listener->tell(repeats);
+    impl_->gate = addGate(qos, repeats);
     setUpFastDds();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
     const auto join = [&] {
@@ -286,7 +295,9 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
 
 void Participant::speak() {
     impl_->gate->open();
-    if (impl_->turn) impl_->turn->letAnswer(impl_->othersOnHost);
+    if (!impl_->turn) return;
+    impl_->turn->meet(static_cast<std::uint32_t>(impl_->othersOnHost),
+                      [&] { return impl_->listener->met(); });
     impl_->turn.reset();
 }
 

@@ -107,8 +107,8 @@ public:
     std::unique_ptr<Reader<M>> reader(const Topic& topic, std::function<void(M&&)> onSample,
                                       std::function<void(const Id&)> onDisposed = {});
 
-    // Others are told of us every 3 s; this, called often while somebody is missed who may have
-    // forgotten us, does so more often.
+    // Others are told of us every 3 s or, in a crowd, more seldom; this, called often while
+    // somebody is missed who may have forgotten us, does so more often.
     void announce();
 
     std::uint64_t malformed() const;  // samples that did not decode, or that a callback threw at

@@ -195,9 +195,9 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     // Liveness is our own, so leases may be long: where one ends just as its participant leaves,
     // Fast DDS 2.9 ends the process by an assertion; and among many, on a busy host, what ends
     // because it was late must be found again, which makes others late.
-    builtin.discovery_config.leaseDuration =
-        milliseconds(10'000 + 1'000 * static_cast<std::uint32_t>(number));
-    builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(3'000);
+    const auto others = static_cast<std::uint32_t>(number);
+    builtin.discovery_config.leaseDuration = milliseconds(10'000 + 1'000 * others);
+    builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(3'000 + 150 * others);
     if (options.discoveryServer.empty()) {
         addPeers(qos.wire_protocol(), options, udp->interfaceWhiteList);
     } else {

@@ -11,10 +11,10 @@ namespace cortex::comms {
 // How often a participant says that it is there; how long it is believed to be. All in ns.
 
 inline constexpr std::int64_t shortestInterval = 100'000'000;
-inline constexpr std::int64_t longestInterval = 2'000'000'000;
+inline constexpr std::int64_t longestInterval = 5'000'000'000;
 inline constexpr std::int64_t shortestPatience = 1'000'000'000;
 
-// Of who is heard by so many: up to 100 of them, each hears at most 50 a second.
+// Of who is heard by so many: up to 250 of them, each hears at most 50 a second.
 constexpr std::int64_t intervalAmong(std::uint32_t listeners) {
     return std::clamp(std::int64_t{listeners} * 20'000'000, shortestInterval, longestInterval);
 }

@@ -2,6 +2,7 @@
 #include "join_turn.hpp"
 
 #include <atomic>
+#include <cstdint>
 #include <optional>
 #include <thread>
 
@@ -35,6 +36,22 @@ TEST(JoinTurn, IsOneAfterAnotherInADomain) {
 TEST(JoinTurn, OfAnotherDomainIsNotWaitedFor) {
     const JoinTurn first{ours};
     const JoinTurn second{another};
+}
+
+TEST(JoinTurn, IsKeptUntilAllOthersAreMet) {
+    const JoinTurn turn{ours};
+    std::uint32_t met = 0;
+    turn.meet(20, [&] { return met++; });
+    EXPECT_EQ(met, 21);
+    turn.meet(0, [&] { return met = 0; });
+    EXPECT_EQ(met, 0);
+}
+
+TEST(JoinTurn, IsNotKeptForThoseWhoNeverAnswer) {
+    const JoinTurn turn{ours};
+    std::uint32_t met = 0;
+    turn.meet(3, [&] { return met < 2 ? ++met : met; });
+    EXPECT_EQ(met, 2);
 }
 
 }  // namespace

@@ -10,11 +10,12 @@ namespace {
 
 constexpr std::int64_t millisecond = 1'000'000;
 
-TEST(PresenceInterval, IsATenthOfASecondAmongFewAndTwoSecondsAmongAnyNumber) {
+TEST(PresenceInterval, IsATenthOfASecondAmongFewAndFiveSecondsAmongAnyNumber) {
     EXPECT_EQ(intervalAmong(0), 100 * millisecond);
     EXPECT_EQ(intervalAmong(5), 100 * millisecond);
     EXPECT_EQ(intervalAmong(50), 1'000 * millisecond);
-    EXPECT_EQ(intervalAmong(std::numeric_limits<std::uint32_t>::max()), 2'000 * millisecond);
+    EXPECT_EQ(intervalAmong(250), 5'000 * millisecond);
+    EXPECT_EQ(intervalAmong(std::numeric_limits<std::uint32_t>::max()), 5'000 * millisecond);
 }
 
 TEST(PresenceInterval, PatienceIsFourOfThemAndASecondAtLeast) {
@@ -34,7 +35,7 @@ TEST(PresenceInterval, PatienceWithWhatCannotBeIsBounded) {
         EXPECT_EQ(patienceWith(presence), 1'000 * millisecond);
     }
     presence.interval = std::numeric_limits<std::int64_t>::max();
-    EXPECT_EQ(patienceWith(presence), 8'000 * millisecond);
+    EXPECT_EQ(patienceWith(presence), 20'000 * millisecond);
 }
 
 }  // namespace
