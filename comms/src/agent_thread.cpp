@@ -19,12 +19,14 @@
 namespace cortex::comms {
 namespace {
 
-constexpr std::chrono::milliseconds shortestWait{1}, longestWait{20};
+// To wake costs more than to take what has come: in a crowd less often.
+constexpr std::chrono::milliseconds shortestWait{1}, longestWait{20}, longestInCrowd{100};
+constexpr std::chrono::microseconds moreForEach{500};
 constexpr std::size_t mostLostOwners = 16;
 constexpr int timesStopping = 3;
 constexpr std::chrono::milliseconds pauseStopping{10};
 
-// Commands are urgent; the rest is taken at the next step, at the latest after longestWait.
+// Commands are urgent; the rest is taken at the next step.
 template <class Message>
 constexpr bool isUrgent = std::same_as<Message, Command>;
 
@@ -89,7 +91,9 @@ void AgentThread::run() {
         guarded([this] { step(); });
         // What is due waits for the next cycle where it has none.
         const std::chrono::nanoseconds untilDue{streams_.due() - steadyNow()};
-        wake_.waitFor(std::clamp<std::chrono::nanoseconds>(untilDue, shortestWait, longestWait));
+        const auto longest = std::min<std::chrono::nanoseconds>(
+            longestWait + peers_.agents() * moreForEach, longestInCrowd);
+        wake_.waitFor(std::clamp<std::chrono::nanoseconds>(untilDue, shortestWait, longest));
     }
     guarded([this] { leave(); });
 }

@@ -17,7 +17,7 @@ namespace cortex {
 
 namespace {
 
-constexpr auto pollInterval = std::chrono::milliseconds{10};
+constexpr std::chrono::milliseconds shortestPause{10}, longestPause{40};  // while nothing happens
 
 std::string padded(unsigned number, std::size_t digits) {
     const std::string text = std::to_string(number);
@@ -124,9 +124,11 @@ void EventLog::stop() {
 
 void EventLog::run() {
     std::unique_lock lock{mutex_};
-    while (!wake_.wait_for(lock, pollInterval, [this] { return stopping_; })) {
+    auto pause = shortestPause;
+    while (!wake_.wait_for(lock, pause, [this] { return stopping_; })) {
         lock.unlock();
-        flush();
+        const bool any = handOut(complete_.load(std::memory_order_acquire));
+        pause = any ? shortestPause : std::min(2 * pause, longestPause);
         lock.lock();
     }
 }
@@ -146,7 +148,7 @@ std::uint64_t EventLog::dropped() const {
 
 void EventLog::flush() { handOut(complete_.load(std::memory_order_acquire)); }
 
-void EventLog::handOut(std::int64_t upTo) {
+bool EventLog::handOut(std::int64_t upTo) {
     const std::lock_guard lock{merging_};
     Event event;
     for (const auto& ring : rings_) {
@@ -166,7 +168,9 @@ void EventLog::handOut(std::int64_t upTo) {
         each.number = ++number_;
         for (const Sink& sink : sinks_) sink(each, *structure_);
     }
+    const bool any = !batch_.empty();
     batch_.clear();
+    return any;
 }
 
 void EventLog::addDrops() {

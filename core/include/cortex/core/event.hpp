@@ -116,7 +116,7 @@ public:
 
 private:
     void run();
-    void handOut(std::int64_t upTo);
+    bool handOut(std::int64_t upTo);  // whether there were any
     void addDrops();
 
     std::shared_ptr<const Structure> structure_;
