@@ -96,6 +96,7 @@ void AgentThread::run() {
         wake_.waitFor(std::clamp<std::chrono::nanoseconds>(untilDue, shortestWait, longest));
     }
     guarded([this] { leave(); });
+    participant_.stopListening();
 }
 
 // Whatever others send, this thread goes on.

@@ -1,59 +1,79 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "participant.hpp"
 #include "repeats.hpp"
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <utility>
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/rtps/common/Guid.h>
 
 namespace cortex::comms {
 
-// Counts the other participants that are known, and those of agents and tools that have told what
-// they write. Any thread.
+// Counts the other participants that are known, and those that are met: that have told of an
+// endpoint of theirs. Any thread.
 class DiscoveryCounter : public eprosima::fastdds::dds::DomainParticipantListener {
+    using Dds = eprosima::fastdds::dds::DomainParticipant;
+    using Guid = eprosima::fastrtps::rtps::GUID_t;
+    using Prefix = eprosima::fastrtps::rtps::GuidPrefix_t;
+
 public:
     // Tells it from now on who comes and goes; before the participant is made.
     void tell(std::shared_ptr<Repeats> repeats) { repeats_ = std::move(repeats); }
 
     std::uint32_t known() const { return known_; }
-    std::uint32_t met() const { return met_; }  // others, since the start; also who has left
+    std::uint32_t met() const {
+        const std::lock_guard lock{mutex_};
+        return static_cast<std::uint32_t>(met_.size());
+    }
 
     void on_participant_discovery(
-        eprosima::fastdds::dds::DomainParticipant*,
-        eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override {
+        Dds*, eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override {
         count(info);
     }
-    void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* us,
+    void on_publisher_discovery(Dds* us,
                                 eprosima::fastrtps::rtps::WriterDiscoveryInfo&& info) override {
-        const auto& writer = info.info;
-        const bool isNew = info.status == info.DISCOVERED_WRITER &&
-                           writer.guid().guidPrefix != us->guid().guidPrefix;
-        if (isNew && writer.topicName() == topics::presence.name.c_str()) ++met_;
+        if (info.status == info.DISCOVERED_WRITER) meet(*us, info.info.guid());
+    }
+    void on_subscriber_discovery(Dds* us,
+                                 eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& info) override {
+        if (info.status == info.DISCOVERED_READER) meet(*us, info.info.guid());
     }
 
 protected:
     void count(const eprosima::fastrtps::rtps::ParticipantDiscoveryInfo& info) {
+        const Prefix& who = info.info.m_guid.guidPrefix;
         if (info.status == info.DISCOVERED_PARTICIPANT) {
             ++known_;
             if (!repeats_) return;
             for (const auto& at : info.info.metatraffic_locators.unicast) {
-                repeats_->newcomer(info.info.m_guid.guidPrefix, at);
+                repeats_->newcomer(who, at);
             }
         } else if (info.status != info.CHANGED_QOS_PARTICIPANT) {
             --known_;
-            if (repeats_) repeats_->gone(info.info.m_guid.guidPrefix);
+            if (repeats_) repeats_->gone(who);
+            const std::lock_guard lock{mutex_};
+            met_.erase(who);
         }
     }
 
 private:
+    void meet(const Dds& us, const Guid& endpoint) {
+        if (endpoint.guidPrefix == us.guid().guidPrefix) return;
+        const std::lock_guard lock{mutex_};
+        met_.insert(endpoint.guidPrefix);
+    }
+
     std::shared_ptr<Repeats> repeats_;  // null: with a discovery server
-    std::atomic<std::uint32_t> known_{0}, met_{0};
+    std::atomic<std::uint32_t> known_{0};
+    mutable std::mutex mutex_;
+    std::set<Prefix> met_;
 };
 
 }  // namespace cortex::comms

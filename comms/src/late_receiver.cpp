@@ -51,6 +51,7 @@ public:
                  std::uint32_t size, const rtps::Locator_t& local,
                  const rtps::Locator_t& remote) override {
         const std::unique_lock passing = gate_->pass();
+        if (!passing) return;
         if (repeats_) repeats_->heard({octets, size});
         upper->OnDataReceived(octets, size, local, remote);
     }
@@ -92,7 +93,9 @@ std::unique_lock<std::mutex> Gate::pass() {
         opened_.wait_for(lock, longestWait, [&] { return isOpen_.load(); });
         isOpen_ = true;
     }
-    return std::unique_lock{passing_};
+    std::unique_lock passing{passing_};
+    if (isClosed_) passing.unlock();
+    return passing;
 }
 
 std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos,

@@ -16,13 +16,16 @@ namespace cortex::comms {
 class Gate {
 public:
     void open();
-    // Waits until it is open, a quarter of a second at most; what is received passes meanwhile.
+    // Nothing passes any more.
+    void close() { isClosed_ = true; }
+    // Waits until it is open, a quarter of a second at most; what is received passes meanwhile, if
+    // it owns the lock.
     std::unique_lock<std::mutex> pass();
     // Nothing passes meanwhile. Not by a thread that something is just passed to.
     std::unique_lock<std::mutex> hold() { return std::unique_lock{passing_}; }
 
 private:
-    std::atomic<bool> isOpen_{false};
+    std::atomic<bool> isOpen_{false}, isClosed_{false};
     std::mutex mutex_;
     std::condition_variable opened_;
     static inline std::mutex passing_;  // of all participants of the process
@@ -33,9 +36,10 @@ private:
 // are lost: what comes waits at the gate. It drops a message of a handshake while another thread
 // deals with the same participant, and with security its threads look up participants and endpoints
 // that others of them just make or delete: so what comes goes on one by one, and who makes or
-// deletes endpoints or changes the participant is to hold the gate. What is lost comes again with
-// the next announcement, and of a handshake after a second. What is announced goes out within
-// `repeats`, if there is one.
+// deletes endpoints or changes the participant is to hold the gate. It ends the process where
+// somebody leaves just as his lease is looked at: who leaves himself closes the gate first. What is
+// lost comes again with the next announcement, and of a handshake after a second. What is announced
+// goes out within `repeats`, if there is one.
 std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos,
                               std::shared_ptr<Repeats> repeats = {});
 

@@ -54,6 +54,7 @@ MirrorEndpoints::MirrorEndpoints(const NetworkOptions& options, const Sender& to
 }
 
 MirrorEndpoints::~MirrorEndpoints() {
+    participant_.stopListening();
     if (!presence_) return;
     self_.state = "stopping";
     presence_->write(self_);

@@ -301,6 +301,8 @@ void Participant::speak() {
     impl_->turn.reset();
 }
 
+void Participant::stopListening() { impl_->gate->close(); }
+
 Participant::~Participant() = default;
 
 template <class M>

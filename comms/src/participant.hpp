@@ -100,6 +100,8 @@ public:
     std::unique_ptr<Writer<M>> writer(const Topic& topic);
 
     void speak();
+    // All that others say from now on is dropped; before its endpoints are destroyed.
+    void stopListening();
 
     // The callbacks should take the sample and return: while they run, nothing else arrives.
     // A key that was never heard may be disposed too.
