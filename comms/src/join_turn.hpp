@@ -16,8 +16,10 @@ public:
     JoinTurn(const JoinTurn&) = delete;
     JoinTurn& operator=(const JoinTurn&) = delete;
 
-    // Waits until so many others are met, or nobody new is met for a while; the turn is kept
-    // meanwhile.
+    // Waits as long as it takes a discovery server and so many others to talk about us.
+    void letAnswer(std::uint32_t others) const;
+    // Without a server: waits until so many others are met, or nobody new is met for a while; the
+    // turn is kept meanwhile.
     void meet(std::uint32_t others, const std::function<std::uint32_t()>& met) const;
 
 private:

@@ -136,6 +136,7 @@ struct Participant::Impl {
     std::shared_ptr<Gate> gate;
     std::optional<JoinTurn> turn;  // until it speaks
     int othersOnHost = 0;
+    bool hasServer = false;
     dds::DomainParticipant* participant = nullptr;
     dds::Publisher* publisher = nullptr;
     dds::Subscriber* subscriber = nullptr;
@@ -264,7 +265,8 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
     const std::lock_guard lock{joining};
     dds::DomainParticipantQos qos = participantQos(options, name);
     std::shared_ptr<Repeats> repeats;
-    if (options.discoveryServer.empty()) {
+    impl_->hasServer = !options.discoveryServer.empty();
+    if (!impl_->hasServer) {
         const auto& discovery = qos.wire_protocol().builtin.discovery_config;
         repeats = std::make_shared<Repeats>(
             qos.wire_protocol().prefix,
@@ -296,8 +298,12 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
 void Participant::speak() {
     impl_->gate->open();
     if (!impl_->turn) return;
-    impl_->turn->meet(static_cast<std::uint32_t>(impl_->othersOnHost),
-                      [&] { return impl_->listener->met(); });
+    const auto others = static_cast<std::uint32_t>(impl_->othersOnHost);
+    if (impl_->hasServer) {  // which tells us of the others as it finds the time
+        impl_->turn->letAnswer(others);
+    } else {
+        impl_->turn->meet(others, [&] { return impl_->listener->met(); });
+    }
     impl_->turn.reset();
 }
 
