@@ -4,9 +4,9 @@
 #include "cortex/core/error.hpp"
 
 #include "discovery_counter.hpp"
+#include "gate.hpp"
 #include "ids.hpp"
 #include "join_turn.hpp"
-#include "late_receiver.hpp"
 #include "participant_qos.hpp"
 #include "presence_interval.hpp"
 #include "repeats.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comms/raw_dds.hpp"
 
-#include "late_receiver.hpp"
+#include "gate.hpp"
 #include "participant_qos.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "late_receiver.hpp"
+#include "gate.hpp"
 
 #include <chrono>
 #include <cstdint>
