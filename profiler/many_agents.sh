@@ -82,6 +82,7 @@ startTogether() {
     done
     while (($(since) < seconds * 1000)); do
         found=$(said "$sign") known=$(said ' is known: ')
+        ((links > 0)) || found=$((found - $(said ' is lost: ')))  # and not heard again
         ((found < pairs || known < models)) || break
         sleep 0.3
     done

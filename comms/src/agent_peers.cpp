@@ -149,9 +149,11 @@ void AgentPeers::lose(Peer& peer, const std::string& why) {
 }
 
 void AgentPeers::expire(std::int64_t now) {
+    const std::uint32_t crowd = agents();
     for (auto& [name, peer] : peers_) {
         if (!peer.heard) continue;
-        const std::int64_t patience = patienceWith(*peer.model().presence());
+        const std::int64_t patience =
+            patienceWith(*peer.model().presence(), peer.agent ? crowd : 0);
         if (now - peer.lastHeard <= patience) continue;
         lose(peer, "not heard for " + std::to_string(patience / 1'000'000) + " ms");
         peer.missed = peer.agent;

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
@@ -43,7 +44,15 @@ public:
     }
     void on_subscriber_discovery(Dds* us,
                                  eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& info) override {
-        if (info.status == info.DISCOVERED_READER) meet(*us, info.info.guid());
+        if (info.status == info.DISCOVERED_READER) {
+            const bool reliable = info.info.m_qos.m_reliability.kind ==
+                                  eprosima::fastdds::dds::RELIABLE_RELIABILITY_QOS;
+            if (reliable)
+                repeats_->readerFound(info.info.guid(), info.info.topicName().to_string());
+            meet(*us, info.info.guid());
+        } else if (info.status == info.REMOVED_READER) {
+            repeats_->readerGone(info.info.guid());
+        }
     }
 
 protected:
@@ -51,13 +60,13 @@ protected:
         const Prefix& who = info.info.m_guid.guidPrefix;
         if (info.status == info.DISCOVERED_PARTICIPANT) {
             ++known_;
-            if (!repeats_) return;
-            for (const auto& at : info.info.metatraffic_locators.unicast) {
-                repeats_->newcomer(who, at);
-            }
+            std::vector<Repeats::Locator> at;
+            for (const auto& each : info.info.metatraffic_locators.unicast) at.push_back(each);
+            for (const auto& each : info.info.default_locators.unicast) at.push_back(each);
+            repeats_->newcomer(who, at);
         } else if (info.status != info.CHANGED_QOS_PARTICIPANT) {
             --known_;
-            if (repeats_) repeats_->gone(who);
+            repeats_->gone(who);
             const std::lock_guard lock{mutex_};
             met_.erase(who);
         }
@@ -70,7 +79,7 @@ private:
         met_.insert(endpoint.guidPrefix);
     }
 
-    std::shared_ptr<Repeats> repeats_;  // null: with a discovery server
+    std::shared_ptr<Repeats> repeats_;
     std::atomic<std::uint32_t> known_{0};
     mutable std::mutex mutex_;
     std::set<Prefix> met_;

@@ -16,8 +16,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto longestWait = 120s;
-constexpr auto pause = 5ms;  // of each who waits: the more they are, the sooner one of them looks
+// Not all at once if there is no turn to be had.
+const auto longestWait = 120s + 1s * (getpid() % 256);
+// Of each who waits: the more they are, the sooner one of them looks. Many wait long.
+constexpr std::chrono::nanoseconds shortestPause = 5ms, longestPause = 250ms;
+constexpr int pausesOfAWait = 100;
 constexpr auto timeOfADatagram = 25us;  // measured: 17 us on two cores, to send and receive it
 constexpr auto patience = 100ms, patienceForEach = 20ms;
 
@@ -34,9 +37,12 @@ bool take(int socket, int domain) {
 }  // namespace
 
 JoinTurn::JoinTurn(int domain) : socket_{socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)} {
-    const auto end = std::chrono::steady_clock::now() + longestWait;
-    while (socket_ >= 0 && !take(socket_, domain) && std::chrono::steady_clock::now() < end) {
-        std::this_thread::sleep_for(pause);
+    const auto start = std::chrono::steady_clock::now();
+    while (socket_ >= 0 && !take(socket_, domain)) {
+        const std::chrono::nanoseconds waited = std::chrono::steady_clock::now() - start;
+        if (waited > longestWait) return;
+        std::this_thread::sleep_for(
+            std::clamp(waited / pausesOfAWait, shortestPause, longestPause));
     }
 }
 

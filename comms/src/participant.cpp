@@ -9,6 +9,7 @@
 #include "join_turn.hpp"
 #include "participant_qos.hpp"
 #include "presence_interval.hpp"
+#include "receiver.hpp"
 #include "repeats.hpp"
 #include "security_guard.hpp"
 #include "topic_type.hpp"
@@ -27,8 +28,6 @@
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/DataReaderListener.hpp>
-#include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
@@ -49,71 +48,6 @@ Entity* created(Entity* entity, const std::string& what) {
     return entity;
 }
 
-// Takes samples out of a reader as they arrive; decides alone whether a callback may still run.
-template <class M>
-class Receiver final : public dds::DataReaderListener {
-public:
-    Receiver(std::function<void(M&&)> onSample, std::function<void(const Id&)> onDisposed,
-             std::atomic<std::uint64_t>& malformed, SecurityGuard* guard)
-        : onSample_{std::move(onSample)},
-          onDisposed_{std::move(onDisposed)},
-          malformed_{malformed},
-          guard_{guard} {}
-
-    // Fast DDS holds the reader's lock here, so ours is never held while that one is asked for.
-    void on_data_available(dds::DataReader* reader) override {
-        while (takeOne(*reader)) continue;
-    }
-
-    void close() {
-        const std::lock_guard lock{mutex_};
-        closed_ = true;
-    }
-
-private:
-    bool takeOne(dds::DataReader& reader) {
-        bool taken = false;
-        try {
-            dds::SampleInfo info;
-            taken = reader.take_next_sample(&envelope_, &info) == ReturnCode::RETCODE_OK;
-            if (taken) deliver(envelope_, info);
-        } catch (...) {
-            ++malformed_;
-        }
-        return taken;
-    }
-
-    void deliver(Envelope<M>& envelope, const dds::SampleInfo& info) {
-        const std::lock_guard lock{mutex_};
-        if (closed_) return;
-        if (!info.valid_data) {
-            disposed(info);
-        } else if (envelope.wellFormed) {
-            const M& sample = envelope.incoming;
-            if (guard_ && !guard_->admits(info.publication_handle, claimedName(sample))) return;
-            onSample_(std::move(envelope.incoming));
-        } else {
-            ++malformed_;
-        }
-    }
-
-    void disposed(const dds::SampleInfo& info) {
-        if (!onDisposed_ || info.instance_state == dds::NOT_ALIVE_NO_WRITERS_INSTANCE_STATE) return;
-        Id key;
-        for (std::size_t i = 0; i < key.size(); ++i) key[i] = info.instance_handle.value[i];
-        if (guard_ && !guard_->admits(info.publication_handle, key)) return;
-        onDisposed_(key);
-    }
-
-    const std::function<void(M&&)> onSample_;
-    const std::function<void(const Id&)> onDisposed_;
-    std::atomic<std::uint64_t>& malformed_;
-    SecurityGuard* const guard_;
-    Envelope<M> envelope_;  // keeps the memory that a callback leaves in it
-    std::mutex mutex_;
-    bool closed_ = false;
-};
-
 }  // namespace
 
 // Everybody hears twenty in a second at most.
@@ -133,6 +67,7 @@ struct Participant::Impl {
     std::string name;
     std::unique_ptr<DiscoveryCounter> listener;  // outlives the participant
     SecurityGuard* guard = nullptr;              // the listener, with security
+    std::shared_ptr<Repeats> repeats;
     std::shared_ptr<Gate> gate;
     std::optional<JoinTurn> turn;  // until it speaks
     int othersOnHost = 0;
@@ -264,16 +199,15 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
     static std::mutex joining;  // Fast DDS asks who the user is, which no two threads may
     const std::lock_guard lock{joining};
     dds::DomainParticipantQos qos = participantQos(options, name);
-    std::shared_ptr<Repeats> repeats;
     impl_->hasServer = !options.discoveryServer.empty();
+    std::optional<std::chrono::nanoseconds> interval;
     if (!impl_->hasServer) {
         const auto& discovery = qos.wire_protocol().builtin.discovery_config;
-        repeats = std::make_shared<Repeats>(
-            qos.wire_protocol().prefix,
-            std::chrono::nanoseconds{discovery.leaseDuration_announcementperiod.to_ns()});
+        interval.emplace(discovery.leaseDuration_announcementperiod.to_ns());
     }
-    impl_->listener->tell(repeats);
-    impl_->gate = addGate(qos, repeats);
+    impl_->repeats = std::make_shared<Repeats>(qos.wire_protocol().prefix, interval);
+    impl_->listener->tell(impl_->repeats);
+    impl_->gate = addGate(qos, impl_->repeats);
     setUpFastDds();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
     const auto join = [&] {
@@ -320,9 +254,14 @@ std::unique_ptr<Writer<M>> Participant::writer(const Topic& topic) {
                     impl_->topic<M>(topic.name),
                     writerQos(topic.qos, impl_->othersOnHost, impl_->guard != nullptr)),
                 "a writer of topic '" + topic.name + "' of '" + impl_->name + "'");
-    return std::unique_ptr<Writer<M>>{new Writer<M>{std::unique_ptr<Entity>{
-        new Entity{impl_->gate, [self = impl_.get()](auto* used) { self->release(used); },
-                   impl_->publisher, made}}}};
+    const eprosima::fastrtps::rtps::EntityId_t id = made->guid().entityId;
+    impl_->repeats->writerMade(id, topic.name);
+    const auto release = [self = impl_.get(), id](const dds::TopicDescription* used) {
+        self->repeats->writerGone(id);
+        self->release(used);
+    };
+    return std::unique_ptr<Writer<M>>{new Writer<M>{
+        std::unique_ptr<Entity>{new Entity{impl_->gate, release, impl_->publisher, made}}}};
 }
 
 template <class M>

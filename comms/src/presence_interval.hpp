@@ -19,10 +19,11 @@ constexpr std::int64_t intervalAmong(std::uint32_t listeners) {
     return std::clamp(std::int64_t{listeners} * 20'000'000, shortestInterval, longestInterval);
 }
 
-// Who was not heard for so long is lost.
-inline std::int64_t patienceWith(const Presence& presence) {
-    return std::max(4 * std::clamp(presence.interval, shortestInterval, longestInterval),
-                    shortestPatience);
+// Who was not heard for so long is lost. `crowd`: how many we hear, whose every presence may delay
+// the next; who joined before them has not said yet that he will take longer.
+inline std::int64_t patienceWith(const Presence& presence, std::uint32_t crowd = 0) {
+    const std::int64_t said = std::clamp(presence.interval, shortestInterval, longestInterval);
+    return std::max(4 * std::max(said, intervalAmong(crowd)), shortestPatience);
 }
 
 }  // namespace cortex::comms

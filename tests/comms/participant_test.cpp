@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "participant.hpp"
 
-#include "cortex/core/error.hpp"
-
 #include "cdr.hpp"
 #include "comms/inbox.hpp"
 #include "comms/raw_dds.hpp"
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -41,23 +38,6 @@ std::vector<std::uint8_t> encoded(const M& message) {
     std::vector<std::uint8_t> octets(encodedSize(message));
     octets.resize(encode(message, octets));
     return octets;
-}
-
-std::string refusal(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "not refused";
-}
-
-std::string joinRefusal(const NetworkOptions& options) {
-    return refusal([&] { Participant{options, "arm"}; });
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 TEST(Participant, GivesLateJoinersTheNewestStateOfAThousandKeys) {
@@ -340,6 +320,30 @@ TEST(Participant, FindsOthersThroughADiscoveryServer) {
     EXPECT_TRUE(inbox.waitFor(1));
 }
 
+TEST(Participant, HearsNothingOnceItIsToldToStopListening) {
+    constexpr std::size_t before = 1, after = 50;
+    Participant talker{loopback(), "talker"}, staying{loopback(), "staying"};
+    Participant leaving{loopback(), "leaving"};
+    Inbox<Model> stayed, left;
+    const auto staysOn = staying.reader<Model>(topics::model, stayed.push());
+    const auto leaves = leaving.reader<Model>(topics::model, left.push());
+    const auto writer = talker.writer<Model>(topics::model);
+    ASSERT_TRUE(comesTrue([&] { return writer->readers() == 2; }));
+    Model model;
+    model.id = idNumber(0);
+    ASSERT_TRUE(writer->write(model));
+    ASSERT_TRUE(stayed.waitFor(before) && left.waitFor(before));
+
+    leaving.stopListening();
+    for (std::size_t i = 1; i <= after; ++i) {
+        model.id = idNumber(i);
+        ASSERT_TRUE(writer->write(model));
+    }
+
+    EXPECT_TRUE(stayed.waitFor(before + after));
+    EXPECT_EQ(left.elements().size(), before);
+}
+
 TEST(Participant, TakesInterfacesAndPeersByName) {
     NetworkOptions options = loopback();
     options.interfaces = {"lo"};
@@ -352,58 +356,6 @@ TEST(Participant, TakesInterfacesAndPeersByName) {
     ASSERT_TRUE(writer->write(presence(1)));
 
     EXPECT_TRUE(inbox.waitFor(1));
-}
-
-TEST(Participant, RefusesUnknownInterfacesAndListsThoseThatThereAre) {
-    NetworkOptions options = loopback();
-    options.interfaces = {"192.0.2.77", "127.0.0.1", "ethernet9"};
-
-    const std::string text = joinRefusal(options);
-
-    EXPECT_TRUE(contains(text, "'192.0.2.77', 'ethernet9'")) << text;
-    EXPECT_TRUE(contains(text, "lo (127.0.0.1)")) << text;
-}
-
-TEST(Participant, RefusesPeersAndServersThatAreNoAddress) {
-    for (const char* wrong :
-         {"", "127.0.0.1:", "127.0.0.1:0", "127.0.0.1:70000", "no host", ":5"}) {
-        NetworkOptions options = loopback();
-        options.peers = {wrong};
-        EXPECT_TRUE(contains(joinRefusal(options), "peer '" + std::string{wrong} + "'")) << wrong;
-    }
-    NetworkOptions options = loopback();
-    options.discoveryServer = "127.0.0.1:11811;127.0.0.1:x";
-    EXPECT_TRUE(contains(joinRefusal(options), "discovery server '127.0.0.1:x'"));
-}
-
-TEST(Participant, RefusesADomainThatDoesNotExist) {
-    for (int domain : {-1, 231}) {
-        NetworkOptions options = loopback();
-        options.domain = domain;
-        EXPECT_TRUE(contains(joinRefusal(options), "from 0 to 230")) << domain;
-    }
-}
-
-TEST(Participant, RefusesADomainWhosePortsAreTaken) {
-    const TakenPorts ports{7410 + 250 * loopback().domain, 300};
-
-    const std::string text = joinRefusal(loopback());
-
-    EXPECT_TRUE(contains(text, "no UDP port is free")) << text;
-}
-
-TEST(NetworkOptions, TakesItsDomainFromTheEnvironment) {
-    unsetenv("CORTEX_DOMAIN");
-    EXPECT_EQ(NetworkOptions{}.domain, 0);
-    setenv("CORTEX_DOMAIN", "230", 1);
-    EXPECT_EQ(NetworkOptions{}.domain, 230);
-    for (const char* wrong : {"", "231", "-1", "7 ", "seven", "99999999999"}) {
-        setenv("CORTEX_DOMAIN", wrong, 1);
-        const std::string text = refusal([] { const NetworkOptions options; });
-        EXPECT_TRUE(contains(text, "CORTEX_DOMAIN is '" + std::string{wrong} + "'")) << text;
-        EXPECT_TRUE(contains(text, "from 0 to 230")) << text;
-    }
-    unsetenv("CORTEX_DOMAIN");
 }
 
 }  // namespace

@@ -27,6 +27,15 @@ TEST(PresenceInterval, PatienceIsFourOfThemAndASecondAtLeast) {
     }
 }
 
+TEST(PresenceInterval, PatienceInACrowdIsThatOfItsInterval) {
+    Presence presence;
+    presence.interval = 500 * millisecond;
+    EXPECT_EQ(patienceWith(presence, 25), 2'000 * millisecond);
+    EXPECT_EQ(patienceWith(presence, 100), 8'000 * millisecond);
+    presence.interval = 5'000 * millisecond;
+    EXPECT_EQ(patienceWith(presence, 100), 20'000 * millisecond);
+}
+
 TEST(PresenceInterval, PatienceWithWhatCannotBeIsBounded) {
     Presence presence;
     for (const std::int64_t interval :

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -18,11 +19,21 @@ using eprosima::fastrtps::rtps::IPLocator;
 using Octets = std::vector<std::uint8_t>;
 
 constexpr std::uint32_t participants = 0x000100c2, publications = 0x000003c2;
-constexpr std::uint32_t subscriptions = 0x000004c2, ofUser = 0x00000202;
+constexpr std::uint32_t subscriptions = 0x000004c2;
+constexpr std::uint32_t ofUser = 0x00000202, theirReader = 0x00000307, theirOther = 0x00000407;
 
 Repeats::Prefix prefix(std::uint8_t last) {
     Repeats::Prefix made;
     made.value[11] = last;
+    return made;
+}
+
+// Of discovery the reader is named as its writer.
+std::uint32_t readerOf(std::uint32_t writer) { return writer == ofUser ? theirReader : writer + 5; }
+
+Repeats::Entity entity(std::uint32_t number) {
+    Repeats::Entity made;
+    for (int i = 0; i < 4; ++i) made.value[i] = static_cast<std::uint8_t>(number >> 8 * (3 - i));
     return made;
 }
 
@@ -50,8 +61,8 @@ public:
         Datagram made = *this;
         made.begin(0x15, 20);
         made.number(0);
-        made.entity(0);
-        made.entity(writer);
+        made.append(0);
+        made.append(writer);
         made.number(0);
         made.number(content);
         return made;
@@ -59,16 +70,20 @@ public:
     Datagram heartbeat(std::uint32_t writer, std::uint32_t last) const {
         Datagram made = *this;
         made.begin(0x07, 28);
-        made.entity(0);
-        made.entity(writer);
+        made.append(0);
+        made.append(writer);
         for (const std::uint32_t each : {0U, 1U, 0U, last, 1U}) made.number(each);
         return made;
     }
     Datagram acknowledged(std::uint32_t writer, std::uint32_t next, std::uint32_t lacking) const {
+        return acknowledgedBy(readerOf(writer), writer, next, lacking);
+    }
+    Datagram acknowledgedBy(std::uint32_t reader, std::uint32_t writer, std::uint32_t next,
+                            std::uint32_t lacking) const {
         Datagram made = *this;
         made.begin(0x06, 24);
-        made.entity(0);
-        made.entity(writer);
+        made.append(reader);
+        made.append(writer);
         for (const std::uint32_t each : {0U, next, lacking, 1U}) made.number(each);
         return made;
     }
@@ -92,8 +107,8 @@ private:
             octets_.push_back(static_cast<std::uint8_t>(value >> 8 * (little_ ? i : 3 - i)));
         }
     }
-    void entity(std::uint32_t value) {
-        for (int i = 3; i >= 0; --i) octets_.push_back(static_cast<std::uint8_t>(value >> 8 * i));
+    void append(std::uint32_t entity) {
+        for (int i = 3; i >= 0; --i) octets_.push_back(static_cast<std::uint8_t>(entity >> 8 * i));
     }
     void append(const Repeats::Prefix& value) {
         octets_.insert(octets_.end(), std::begin(value.value), std::end(value.value));
@@ -105,7 +120,7 @@ private:
 
 class RepeatsTest : public testing::TestWithParam<bool> {
 protected:
-    RepeatsTest() { repeats.newcomer(prefix(2), there); }
+    RepeatsTest() { repeats.newcomer(prefix(2), {there}); }
 
     Datagram fromUs() const { return Datagram{1, GetParam()}; }
     Datagram fromThere() const { return Datagram{2, GetParam()}; }
@@ -164,7 +179,7 @@ TEST_P(RepeatsTest, TheCountAtTheEndIsNothingNew) {
 TEST_P(RepeatsTest, TellsANewcomerWhatOthersThereWereTold) {
     const Datagram us = fromUs().data(participants, 1);
     EXPECT_EQ(timesOf(10, us, there), 2);
-    repeats.newcomer(prefix(3), there);
+    repeats.newcomer(prefix(3), {there});
     EXPECT_EQ(timesOf(10, us, there), 2);
 }
 
@@ -196,16 +211,74 @@ TEST_P(RepeatsTest, AsksAgainWhoLacksSomethingOrBeganAnew) {
 
     repeats.heard(hasAll);
     ASSERT_FALSE(goes(question, there));
-    repeats.newcomer(prefix(3), there);
-    EXPECT_TRUE(goes(question, there)) << "somebody else is there now";
-    repeats.heard(hasAll);
-    EXPECT_TRUE(goes(question, there));
+    repeats.newcomer(prefix(2), {there});
+    EXPECT_TRUE(goes(question, there)) << "he is back";
 
-    repeats.newcomer(prefix(2), there);
     repeats.heard(hasAll);
     ASSERT_FALSE(goes(question, there));
     repeats.gone(prefix(2));
     EXPECT_TRUE(goes(question, there));
+}
+
+TEST_P(RepeatsTest, AsksAnAddressUntilAllWhoLiveThereHaveAll) {
+    const Datagram question = fromUs().heartbeat(publications, 4);
+    repeats.newcomer(prefix(3), {there});
+    repeats.heard(fromThere().to(1).acknowledged(publications, 5, 0).octets());
+    EXPECT_TRUE(goes(question, there));
+    repeats.heard(Datagram{3, GetParam()}.to(1).acknowledged(publications, 5, 0).octets());
+    EXPECT_FALSE(goes(question, there));
+    repeats.gone(prefix(3));
+    EXPECT_FALSE(goes(question, there));
+}
+
+TEST_P(RepeatsTest, AsksOnlyWhoHasAReliableReaderThatLacksSomething) {
+    const Datagram question = fromUs().heartbeat(ofUser, 4);
+    EXPECT_TRUE(goes(question, there)) << "a writer that is just made";
+    repeats.writerMade(entity(ofUser), "poses");
+    EXPECT_FALSE(goes(question, there)) << "nobody there listens to it";
+
+    repeats.readerFound({prefix(2), entity(theirOther)}, "other things");
+    EXPECT_FALSE(goes(question, there));
+    repeats.readerFound({prefix(2), entity(theirReader)}, "poses");
+    repeats.readerFound({prefix(2), entity(theirOther)}, "poses");
+    const Datagram back = fromThere().to(1);
+    repeats.heard(back.acknowledgedBy(theirReader, ofUser, 5, 0).octets());
+    EXPECT_TRUE(goes(question, there)) << "the other has not said so";
+    repeats.heard(back.acknowledgedBy(theirOther, ofUser, 5, 0).octets());
+    EXPECT_FALSE(goes(question, there));
+    EXPECT_TRUE(goes(fromUs().heartbeat(ofUser, 5), there));
+
+    repeats.heard(back.acknowledgedBy(theirOther, ofUser, 3, 2).octets());
+    ASSERT_TRUE(goes(question, there));
+    repeats.readerGone({prefix(2), entity(theirOther)});
+    EXPECT_FALSE(goes(question, there));
+}
+
+TEST_P(RepeatsTest, AWriterMadeLaterFindsTheReadersThatThereAre) {
+    const Datagram question = fromUs().heartbeat(ofUser, 1);
+    repeats.readerFound({prefix(2), entity(theirReader)}, "poses");
+    repeats.writerMade(entity(ofUser), "poses");
+    EXPECT_TRUE(goes(question, there));
+    repeats.heard(fromThere().to(1).acknowledged(ofUser, 2, 0).octets());
+    EXPECT_FALSE(goes(question, there));
+
+    repeats.writerGone(entity(ofUser));
+    EXPECT_TRUE(goes(question, there));
+    repeats.writerMade(entity(ofUser), "poses");
+    EXPECT_TRUE(goes(question, there)) << "the answer was to the one before";
+}
+
+TEST_P(RepeatsTest, WithADiscoveryServerDiscoverySaysAll) {
+    Repeats most{prefix(1), std::nullopt};
+    most.newcomer(prefix(2), {there});
+    most.heard(fromThere().to(1).acknowledged(publications, 5, 0).octets());
+    for (int i = 0; i < 10; ++i) {
+        EXPECT_FALSE(most.needless(fromUs().data(participants, 1).octets(), nullptr, there, now));
+        EXPECT_FALSE(
+            most.needless(fromUs().heartbeat(publications, 4).octets(), nullptr, there, now));
+    }
+    most.writerMade(entity(ofUser), "poses");
+    EXPECT_TRUE(most.needless(fromUs().heartbeat(ofUser, 4).octets(), nullptr, there, now));
 }
 
 TEST_P(RepeatsTest, BelievesNoAnswerToAnother) {
@@ -217,11 +290,12 @@ TEST_P(RepeatsTest, BelievesNoAnswerToAnother) {
     EXPECT_TRUE(goes(question, there));
 }
 
-TEST_P(RepeatsTest, ConcernsOnlyAnnouncementsAndQuestionsOfDiscovery) {
+TEST_P(RepeatsTest, ConcernsOnlyAnnouncementsAndQuestions) {
     EXPECT_TRUE(Repeats::concerns(fromUs().data(participants, 1).octets()));
     EXPECT_TRUE(Repeats::concerns(fromUs().to(2).heartbeat(publications, 1).octets()));
     EXPECT_FALSE(Repeats::concerns(fromUs().data(publications, 1).octets()));
-    EXPECT_FALSE(Repeats::concerns(fromUs().heartbeat(ofUser, 1).octets()));
+    EXPECT_TRUE(Repeats::concerns(fromUs().heartbeat(ofUser, 1).octets()));
+    EXPECT_FALSE(Repeats::concerns(fromUs().data(ofUser, 1).heartbeat(ofUser, 1).octets()));
     EXPECT_FALSE(Repeats::concerns(
         fromUs().heartbeat(publications, 1).acknowledged(subscriptions, 1, 0).octets()));
     EXPECT_FALSE(Repeats::concerns(fromUs().to(2).octets()));
@@ -234,7 +308,7 @@ TEST(Repeats, TakesWhatIsCutOrChangedInAnyPlace) {
     std::mt19937 chance{7};
     Repeats repeats{prefix(1), 3s};
     const Repeats::Locator there = at("10.0.0.2", 7410);
-    repeats.newcomer(prefix(2), there);
+    repeats.newcomer(prefix(2), {there});
     const Octets whole = Datagram{2}
                              .to(1)
                              .acknowledged(publications, 5, 0)

@@ -31,7 +31,7 @@ void readAndWrite(Payload payload) {
 // Not the payload of a message, but what DDS sends: read before anybody else does.
 void passThrough(Payload datagram) {
     Repeats repeats{{}, std::chrono::seconds{1}};
-    repeats.newcomer({}, {});
+    repeats.newcomer({}, {{}});
     repeats.heard(datagram);
     if (Repeats::concerns(datagram)) repeats.needless(datagram, nullptr, {}, {});
 }

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/comms/network_options.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "comms/inbox.hpp"
+#include "comms/raw_dds.hpp"
+#include "participant.hpp"
+
+#include <cstdlib>
+#include <functional>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace cortex::comms {
+namespace {
+
+std::string refusal(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "not refused";
+}
+
+std::string joinRefusal(const NetworkOptions& options) {
+    return refusal([&] { Participant{options, "arm"}; });
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST(NetworkOptions, RefusesUnknownInterfacesAndListsThoseThatThereAre) {
+    NetworkOptions options = loopback();
+    options.interfaces = {"192.0.2.77", "127.0.0.1", "ethernet9"};
+
+    const std::string text = joinRefusal(options);
+
+    EXPECT_TRUE(contains(text, "'192.0.2.77', 'ethernet9'")) << text;
+    EXPECT_TRUE(contains(text, "lo (127.0.0.1)")) << text;
+}
+
+TEST(NetworkOptions, RefusesPeersAndServersThatAreNoAddress) {
+    for (const char* wrong :
+         {"", "127.0.0.1:", "127.0.0.1:0", "127.0.0.1:70000", "no host", ":5"}) {
+        NetworkOptions options = loopback();
+        options.peers = {wrong};
+        EXPECT_TRUE(contains(joinRefusal(options), "peer '" + std::string{wrong} + "'")) << wrong;
+    }
+    NetworkOptions options = loopback();
+    options.discoveryServer = "127.0.0.1:11811;127.0.0.1:x";
+    EXPECT_TRUE(contains(joinRefusal(options), "discovery server '127.0.0.1:x'"));
+}
+
+TEST(NetworkOptions, RefusesADomainThatDoesNotExist) {
+    for (int domain : {-1, 231}) {
+        NetworkOptions options = loopback();
+        options.domain = domain;
+        EXPECT_TRUE(contains(joinRefusal(options), "from 0 to 230")) << domain;
+    }
+}
+
+TEST(NetworkOptions, RefusesADomainWhosePortsAreTaken) {
+    const TakenPorts ports{7410 + 250 * loopback().domain, 300};
+
+    const std::string text = joinRefusal(loopback());
+
+    EXPECT_TRUE(contains(text, "no UDP port is free")) << text;
+}
+
+TEST(NetworkOptions, TakesItsDomainFromTheEnvironment) {
+    unsetenv("CORTEX_DOMAIN");
+    EXPECT_EQ(NetworkOptions{}.domain, 0);
+    setenv("CORTEX_DOMAIN", "230", 1);
+    EXPECT_EQ(NetworkOptions{}.domain, 230);
+    for (const char* wrong : {"", "231", "-1", "7 ", "seven", "99999999999"}) {
+        setenv("CORTEX_DOMAIN", wrong, 1);
+        const std::string text = refusal([] { const NetworkOptions options; });
+        EXPECT_TRUE(contains(text, "CORTEX_DOMAIN is '" + std::string{wrong} + "'")) << text;
+        EXPECT_TRUE(contains(text, "from 0 to 230")) << text;
+    }
+    unsetenv("CORTEX_DOMAIN");
+}
+
+}  // namespace
+}  // namespace cortex::comms
