@@ -132,7 +132,7 @@ protected:
 void TwoAgents::expectHoldInTime() {
     ASSERT_TRUE(station.waitFor([&] { return station.hasEvent(selector, "otherwise: the hand"); }));
     const auto held = station.event(selector, "otherwise: the hand");
-    const auto why = station.event(selector, "hand /handset/pose is ");
+    const auto why = station.event(selector, " ms old, allowed ");
     ASSERT_TRUE(why);
     EXPECT_EQ(why->cycle, held->cycle);
     const Age age = ageIn(why->text);
