@@ -62,8 +62,9 @@ void Live::failWithNobody() const {
     throw Failure{
         NotFound,
         "no agent on domain " + domain + "; start one (cortex-agent FILE --domain " + domain +
-            "), look at another domain (--domain N or CORTEX_DOMAIN), or name a host that "
-            "multicast does not reach (--peer HOST)"};
+            "), look at another domain (--domain N or CORTEX_DOMAIN), name the interface that the "
+            "agents are kept to (--interface lo), or a host that multicast does not reach "
+            "(--peer HOST)"};
 }
 
 std::string Live::incomplete() const {
