@@ -39,7 +39,7 @@ private:
 // deletes endpoints or changes the participant is to hold the gate. It ends the process where
 // somebody leaves just as his lease is looked at: who leaves himself closes the gate first. What is
 // lost comes again with the next announcement, and of a handshake after a second. What is announced
-// goes out within `repeats`, if there is one.
+// or asked goes out unless `repeats`, if there is one, finds it needless.
 std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos,
                               std::shared_ptr<Repeats> repeats = {});
 
