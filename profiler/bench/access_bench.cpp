@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // Access to data through a handle and by path in an image; the copy of an image of 10,000 items.
-#include "bench_cluster.hpp"
+#include "subject/subject.hpp"
 
 #include <cstring>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
-namespace cortex::bench {
+namespace cortex::profiler {
 
 namespace {
 
 SimplexTree tenThousandItems() {
-    SimplexTree tree{benchTypes()};
+    SimplexTree tree{subjectTypes()};
     for (int i = 0; i < 1000; ++i) tree.add("/c" + std::to_string(i), "TenItems");
     return tree;
 }
 
 void throughAHandle(benchmark::State& state) {
-    BenchCluster bench{tenThousandItems(), {}};
+    SubjectCluster bench{tenThousandItems(), {}};
     std::vector<Data<double>> handles;
     for (int i = 0; i < 1000; ++i) {
         handles.push_back(bench.tree.at("/c" + std::to_string(i)).data<double>("f3"));
@@ -33,7 +33,7 @@ void throughAHandle(benchmark::State& state) {
 }
 
 void byPathInAnImage(benchmark::State& state) {
-    BenchCluster bench{tenThousandItems(), {}};
+    SubjectCluster bench{tenThousandItems(), {}};
     const Image image = bench.cluster.image();
     std::vector<std::string> paths;
     for (int i = 0; i < 1000; ++i) paths.push_back("/c" + std::to_string(i));
@@ -45,7 +45,7 @@ void byPathInAnImage(benchmark::State& state) {
 }
 
 void imageOfTenThousandItems(benchmark::State& state) {
-    BenchCluster bench{tenThousandItems(), {}};
+    SubjectCluster bench{tenThousandItems(), {}};
     ImagePool pool{bench.cluster.agent().tables(), 2};
     std::int64_t cycle = 0;
     for (auto _ : state) pool.publish(++cycle, 0, 0);
@@ -53,7 +53,7 @@ void imageOfTenThousandItems(benchmark::State& state) {
 }
 
 void memcpyOfTheSameSize(benchmark::State& state) {
-    BenchCluster bench{tenThousandItems(), {}};
+    SubjectCluster bench{tenThousandItems(), {}};
     const auto arena = bench.cluster.agent().tables().arena();
     std::vector<std::byte> copy(arena.size());
     for (auto _ : state) {
@@ -69,4 +69,4 @@ BENCHMARK(memcpyOfTheSameSize);
 
 }  // namespace
 
-}  // namespace cortex::bench
+}  // namespace cortex::profiler

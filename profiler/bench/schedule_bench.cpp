@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scheduler alone: a cycle of the thread pool over real SimplexCS tasks, and the same tasks in
 // a plain loop. The difference is the scheduling overhead of DESIGN's table of numbers.
-#include "bench_cluster.hpp"
 #include "scheduler.hpp"
+#include "subject/subject.hpp"
 #include "task_runner.hpp"
 #include "thread_pool.hpp"
 
 #include <benchmark/benchmark.h>
 
-namespace cortex::bench {
+namespace cortex::profiler {
 
 namespace {
 
@@ -93,4 +93,4 @@ BENCHMARK(poolCycle)
 
 }  // namespace
 
-}  // namespace cortex::bench
+}  // namespace cortex::profiler

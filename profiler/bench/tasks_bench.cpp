@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cost per task of a whole cycle, beside oneTBB's flow graph and a plain loop over the same work.
-#include "bench_cluster.hpp"
+#include "subject/subject.hpp"
 
 #include <memory>
 #include <vector>
@@ -12,7 +12,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
-namespace cortex::bench {
+namespace cortex::profiler {
 
 namespace {
 
@@ -32,7 +32,7 @@ void report(benchmark::State& state, std::int64_t tasks) {
 }
 
 // Runs bursts and reports their own time.
-void measure(benchmark::State& state, BenchCluster& bench, std::int64_t tasks) {
+void measure(benchmark::State& state, SubjectCluster& bench, std::int64_t tasks) {
     for (auto _ : state) {
         const auto time = bench.trigger->burst(burstCycles);
         state.SetIterationTime(std::chrono::duration<double>(time).count());
@@ -42,21 +42,21 @@ void measure(benchmark::State& state, BenchCluster& bench, std::int64_t tasks) {
 }
 
 void emptyTasks(benchmark::State& state) {
-    BenchCluster bench{emptySimplexes(static_cast<int>(state.range(0)), chainLength),
-                       withThreads(state.range(1))};
+    SubjectCluster bench{emptySimplexes(static_cast<int>(state.range(0)), chainLength),
+                         withThreads(state.range(1))};
     measure(state, bench, state.range(0));
 }
 
 void tasksWithACommand(benchmark::State& state) {
     Partner::commandsPerCycle = 1;
-    BenchCluster bench{partners(static_cast<int>(state.range(0))), withThreads(state.range(1))};
+    SubjectCluster bench{partners(static_cast<int>(state.range(0))), withThreads(state.range(1))};
     measure(state, bench, state.range(0));
 }
 
 // 10 simplexes with many commands each, as the paper's Fig. 27: time per command.
 void manyCommands(benchmark::State& state) {
     Partner::commandsPerCycle = static_cast<std::uint32_t>(state.range(0));
-    BenchCluster bench{partners(10), withThreads(1)};
+    SubjectCluster bench{partners(10), withThreads(1)};
     measure(state, bench, 10 * state.range(0));
     Partner::commandsPerCycle = 1;
 }
@@ -141,11 +141,11 @@ void bytesPerEmptySimplex(benchmark::State& state) {
         cs::ClusterOptions options;
         options.imageReaders = 1;
         const double before = used();
-        auto small = std::make_unique<BenchCluster>(emptySimplexes(few, chainLength), options);
+        auto small = std::make_unique<SubjectCluster>(emptySimplexes(few, chainLength), options);
         const double between = used();
-        auto large = std::make_unique<BenchCluster>(emptySimplexes(many, chainLength), options);
+        auto large = std::make_unique<SubjectCluster>(emptySimplexes(many, chainLength), options);
         const double after = used();
-        const auto arena = [](BenchCluster& bench) {
+        const auto arena = [](SubjectCluster& bench) {
             return static_cast<double>(bench.cluster.agent().tables().arena().size());
         };
         const double otherSlots = 2 * (arena(*large) - arena(*small));
@@ -170,4 +170,4 @@ BENCHMARK(bytesPerEmptySimplex)->Iterations(1);
 
 }  // namespace
 
-}  // namespace cortex::bench
+}  // namespace cortex::profiler

@@ -31,7 +31,7 @@ std::uint64_t command(comms::Mirror& mirror, int number) {
     std::vector<std::uint64_t> sent;
     if (inputEnds(number * 20 % 1000)) return done;
     do {
-        sent.push_back(mirror.send("/echo", "ping", {{"number", std::int64_t{number}}}, 5s));
+        sent.push_back(mirror.send("/echo", "ping", {{"number", static_cast<double>(number)}}, 5s));
         std::erase_if(sent, [&](std::uint64_t each) {
             comms::CommandAnswer answer;
             if (!mirror.poll(each, answer)) return false;

@@ -32,16 +32,16 @@ public:
 
 private:
     void populate() override {
-        asked_ = argument<std::int64_t>("ping", "number");
-        answered_ = result<std::int64_t>("ping", "number");
+        asked_ = argument<double>("ping", "number");
+        answered_ = result<double>("ping", "number");
         on<&Echo::ping>("ping");
     }
     Outcome ping(Call& call) {
-        call[answered_] = static_cast<std::int64_t>(call[asked_]);
+        call[answered_] = static_cast<double>(call[asked_]);
         return Outcome::Done;
     }
-    Argument<std::int64_t> asked_;
-    Result<std::int64_t> answered_;
+    Argument<double> asked_;
+    Result<double> answered_;
 };
 
 struct Options {
@@ -102,7 +102,7 @@ void judge(const char* what, const AlternatingClock::Measured& with,
 
 int run(const Options& options) {
     const int domain = 1 + getpid() % 99;
-    SimplexTree tree{TypeModel::load(CORTEX_SOURCE_DIR "/profiler/bench/bench-rules.xml")};
+    SimplexTree tree{TypeModel::load(CORTEX_SOURCE_DIR "/profiler/subject/subject-rules.xml")};
     for (int i = 0; i < 1000; ++i) tree.add("/items/n" + std::to_string(i), "TenItems");
     tree.add<Echo>("/echo", "Partner");
     cs::ClusterCS cluster{"subject", {.priority = 80, .watchdogPeriods = 1e6}};

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-namespace cortex::bench {
+namespace cortex::profiler {
 
 // Lets a cluster run a number of cycles one after the other, as fast as they go.
 class BurstTrigger final : public cs::TriggerSource {
@@ -49,22 +49,22 @@ private:
     Outcome ping(Call& call);
 
     CommandSender ping_;
-    Data<std::int64_t> number_;
-    Argument<std::int64_t> asked_;
-    Result<std::int64_t> answered_;
+    Data<double> number_;
+    Argument<double> asked_;
+    Result<double> answered_;
 };
 
 // A started cluster on a BurstTrigger.
-struct BenchCluster {
-    BenchCluster(SimplexTree&& simplexes, cs::ClusterOptions options);
+struct SubjectCluster {
+    SubjectCluster(SimplexTree&& simplexes, cs::ClusterOptions options);
 
     SimplexTree tree;
     cs::ClusterCS cluster;
     BurstTrigger* trigger;
 };
 
-TypeModel benchTypes();
+TypeModel subjectTypes();
 SimplexTree emptySimplexes(int count, int chain);
 SimplexTree partners(int count);
 
-}  // namespace cortex::bench
+}  // namespace cortex::profiler

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench_cluster.hpp"
+#include "subject.hpp"
 
-namespace cortex::bench {
+namespace cortex::profiler {
 
 std::chrono::nanoseconds BurstTrigger::burst(std::int64_t cycles) {
     const std::int64_t target = executed_.load() + cycles;
@@ -36,43 +36,43 @@ void BurstTrigger::interrupt() {
 
 void Partner::populate() {
     on<&Partner::ping>("ping");
-    asked_ = argument<std::int64_t>("ping", "number");
-    answered_ = result<std::int64_t>("ping", "number");
+    asked_ = argument<double>("ping", "number");
+    answered_ = result<double>("ping", "number");
     for (const char* rule : {"after", "late"}) {
         for (OutputSimplex& partner : outputs(rule)) {
             ping_ = partner.command("ping", 2 * commandsPerCycle);
-            number_ = ping_.argument<std::int64_t>("number");
+            number_ = ping_.argument<double>("number");
         }
     }
 }
 
 void Partner::loopStart(const Tick& tick) {
-    number_ = tick.cycle;
+    number_ = static_cast<double>(tick.cycle);
     for (std::uint32_t i = 0; i < commandsPerCycle; ++i) {
         if (ping_.send() != Outcome::None) ++full;
     }
 }
 
 Outcome Partner::ping(Call& call) {
-    call[answered_] = call[asked_];
+    call[answered_] = static_cast<double>(call[asked_]);
     ++executed;
     return Outcome::Done;
 }
 
-BenchCluster::BenchCluster(SimplexTree&& simplexes, cs::ClusterOptions options)
-    : tree{std::move(simplexes)}, cluster{"bench", std::move(options)} {
+SubjectCluster::SubjectCluster(SimplexTree&& simplexes, cs::ClusterOptions options)
+    : tree{std::move(simplexes)}, cluster{"subject", std::move(options)} {
     cluster.addSimplexTree(tree);
     trigger = &cluster.setTriggerSource<BurstTrigger>();
     cluster.start();
     trigger->burst(100);
 }
 
-TypeModel benchTypes() {
-    return TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/profiler/bench/bench-rules.xml");
+TypeModel subjectTypes() {
+    return TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/profiler/subject/subject-rules.xml");
 }
 
 SimplexTree emptySimplexes(int count, int chain) {
-    SimplexTree tree{benchTypes()};
+    SimplexTree tree{subjectTypes()};
     Simplex* last = nullptr;
     for (int i = 0; i < count; ++i) {
         Simplex& simplex = tree.add<Empty>("/s" + std::to_string(i), "Empty");
@@ -83,7 +83,7 @@ SimplexTree emptySimplexes(int count, int chain) {
 }
 
 SimplexTree partners(int count) {
-    SimplexTree tree{benchTypes()};
+    SimplexTree tree{subjectTypes()};
     for (int i = 0; i + 1 < count; i += 2) {
         Simplex& first = tree.add<Partner>("/p" + std::to_string(i), "Partner");
         Simplex& second = tree.add<Partner>("/p" + std::to_string(i + 1), "Partner");
@@ -93,4 +93,4 @@ SimplexTree partners(int count) {
     return tree;
 }
 
-}  // namespace cortex::bench
+}  // namespace cortex::profiler
