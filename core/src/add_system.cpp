@@ -102,11 +102,11 @@ void SimplexTree::add(const SystemDescription& system, const ClassRegistry* regi
         const Type* type = checkType(*types_, entry, report);
         if (type == nullptr) continue;
         Simplex& simplex = insert(make(entry.path, *type, registry));
-        simplex.place_ = entry.place;
-        simplex.every_ = entry.every;
-        simplex.phase_ = entry.phase;
+        simplex.description_->place = entry.place;
+        simplex.description_->every = entry.every;
+        simplex.description_->phase = entry.phase;
         for (const auto& relate : entry.relates) {
-            simplex.relations_.push_back(
+            simplex.description_->relations.push_back(
                 {relate.rule, relate.to, relate.delayed, relate.remote, relate.place, relate.type});
         }
         for (const auto& setting : entry.settings) addSetting(*types_, simplex, setting, report);

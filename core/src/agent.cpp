@@ -6,7 +6,6 @@
 #include "router.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 
 namespace cortex {
@@ -27,14 +26,6 @@ std::uint8_t bitOf(LifeCycle command) {
 
 }  // namespace
 
-std::uint32_t latencyBucket(std::int64_t nanoseconds) {
-    if (nanoseconds < 16) return nanoseconds < 0 ? 0U : static_cast<std::uint32_t>(nanoseconds);
-    const auto value = static_cast<std::uint64_t>(nanoseconds);
-    const auto octave = static_cast<std::uint32_t>(std::bit_width(value)) - 5U;
-    const auto step = static_cast<std::uint32_t>(value >> octave) & 15U;
-    return std::min((octave + 1U) * 16U + step, latencyBuckets - 1U);
-}
-
 double latencyOfBucket(std::uint32_t bucket) {
     if (bucket < 16) return (bucket + 1U) * 1e-3;
     const std::uint64_t octave = bucket / 16U - 1U;
@@ -45,7 +36,10 @@ void AgentRuntime::beginCycle(const Tick& tick) {
     cycle_ = tick.cycle;
     nominalTime_ = tick.nominalTime;
     lateness_ = tick.lateness;
-    for (LoopThread& thread : threads_) thread.sequence = taskSequence;
+    for (LoopThread& thread : threads_) {
+        thread.sequence = taskSequence;
+        thread.nominalTime = tick.nominalTime;
+    }
     threads_[0].sequence = 0;
     threads_[0].clock = {tick.cycle, nanosecondsNow()};
     tables_->latch();
@@ -77,8 +71,8 @@ void AgentRuntime::stop() {
 void AgentRuntime::releaseLifeCycles() {
     anyLater_.store(false, std::memory_order_relaxed);
     for (std::uint32_t i = 0; i < simplexes_.size(); ++i) {
-        const std::uint8_t bits = lifeCycleLater_[i].exchange(0, std::memory_order_relaxed);
-        if (bits != 0) lifeCycle_[i].fetch_or(bits, std::memory_order_relaxed);
+        const std::uint8_t bits = callsLater_[i].exchange(0, std::memory_order_relaxed);
+        if (bits != 0) calls_[i].fetch_or(bits, std::memory_order_relaxed);
     }
 }
 
@@ -98,11 +92,7 @@ void AgentRuntime::processTaskless() {
 
 void AgentRuntime::processCommands(std::uint32_t simplex, State state, LoopThread& thread,
                                    bool dead) {
-    if (ports_[simplex] != nullptr) ports_[simplex]->process(state, thread, dead);
-}
-
-bool AgentRuntime::hasCommandWork(std::uint32_t simplex) const {
-    return ports_[simplex] != nullptr && ports_[simplex]->hasWork();
+    ports_[simplex]->process(state, thread, dead);
 }
 
 bool AgentRuntime::cancelActivity(std::uint32_t simplex, LoopThread& thread, bool callHandler,
@@ -111,9 +101,9 @@ bool AgentRuntime::cancelActivity(std::uint32_t simplex, LoopThread& thread, boo
 }
 
 LifeCycle AgentRuntime::takeLifeCycle(std::uint32_t simplex, LoopThread& thread) {
-    std::atomic<std::uint8_t>& word = lifeCycle_[simplex];
-    if (word.load(std::memory_order_relaxed) == 0) return LifeCycle::None;
-    const std::uint8_t bits = word.exchange(0, std::memory_order_relaxed);
+    std::atomic<std::uint8_t>& word = calls_[simplex];
+    if (!hasLifeCycle(simplex)) return LifeCycle::None;
+    const std::uint8_t bits = word.fetch_and(commandWork, std::memory_order_relaxed);
     for (const LifeCycle command : {LifeCycle::Shutdown, LifeCycle::ClearFaults}) {
         if ((bits & bitOf(command)) == 0) continue;
         if ((bits & bitOf(LifeCycle::Startup)) != 0) {
@@ -126,7 +116,7 @@ LifeCycle AgentRuntime::takeLifeCycle(std::uint32_t simplex, LoopThread& thread)
 }
 
 void AgentRuntime::postLifeCycle(std::uint32_t simplex, LifeCycle command, bool later) {
-    auto& word = later ? lifeCycleLater_[simplex] : lifeCycle_[simplex];
+    auto& word = later ? callsLater_[simplex] : calls_[simplex];
     word.fetch_or(bitOf(command), std::memory_order_relaxed);
     if (later) anyLater_.store(true, std::memory_order_relaxed);
 }

@@ -29,6 +29,13 @@ std::vector<std::string> namesOf(const CommandTable& table) {
     return names;
 }
 
+// Life-cycle commands alone need no port.
+bool bypassesMailbox(const CommandTable& table) {
+    return std::ranges::all_of(table.entries, [](const CommandTable::Entry& entry) {
+        return lifeCycleCommand(entry.name) != LifeCycle::None;
+    });
+}
+
 [[noreturn]] void refuse(Finding finding) {
     Report report;
     report.add(std::move(finding));
@@ -93,8 +100,8 @@ void AgentRuntime::bindSimplexes() {
     ports_.resize(count);
     ranks_.resize(count);
     ownerPeriods_.assign(count, options_.period);
-    lifeCycle_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
-    lifeCycleLater_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
+    calls_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
+    callsLater_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const SimplexInfo& info = structure_->simplexes[i];
         ranks_[i] = i;
@@ -109,9 +116,10 @@ void AgentRuntime::bindSimplexes() {
         simplexes_[i] = &tree_.at(info.path);
         simplexes_[i]->index_ = i;
         simplexes_[i]->runtime_ = this;
-        if (!table->entries.empty()) portOf(i);
+        if (!bypassesMailbox(*table)) portOf(i);
     }
     agentSimplex_ = structure_->find("/" + name_);
+    portOf(agentSimplex_);
 }
 
 CommandPort& AgentRuntime::portOf(std::uint32_t simplex) {
@@ -210,6 +218,7 @@ void AgentRuntime::findTaskless() {
 
 void AgentRuntime::start() {
     if (started_) throw Error("agent " + name_ + " is started already");
+    tables_->giveUpUnusedLatches();
     makeLanes();
     findTaskless();
     router_ = std::make_unique<Router>(*this);

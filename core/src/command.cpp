@@ -176,11 +176,7 @@ LifeCycle lifeCycleCommand(std::string_view command) {
     return LifeCycle::None;
 }
 
-bool checkArgument(const ArgumentCheck& check, const std::byte* record, Words& why) {
-    if (check.kind == Kind::Float && check.length == 1) {  // the usual one
-        const double value = *reinterpret_cast<const double*>(record + check.offset);
-        if (value >= check.minFloat && value <= check.maxFloat) return true;
-    }
+bool checkElements(const ArgumentCheck& check, const std::byte* record, Words& why) {
     for (std::uint32_t i = 0; i < check.length; ++i) {
         if (!checkElement(check, record + check.offset, i, why)) return false;
     }

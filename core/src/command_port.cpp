@@ -8,6 +8,12 @@
 namespace cortex {
 namespace {
 
+Origin originOf(Lane* lane, OutsideEntry* outside) {
+    if (lane == nullptr) return {nullptr, 0, 0, outside, outside->readCycle, outside->readTime};
+    const LaneSlot& head = lane->front();
+    return {lane, lane->number(), head.handle, nullptr, head.cycles, head.time};
+}
+
 void refuse(Verdict& verdict, Reason reason, const EventText& why) {
     verdict = {Outcome::Rejected, reason, why};
 }
@@ -29,7 +35,7 @@ EventText stateRefusal(std::string_view what, StateSet needs, State state) {
 CommandPort::CommandPort(AgentRuntime& runtime, std::uint32_t simplex, const CommandTable& table)
     : thread_{&runtime.thread(0)},
       table_{table},
-      handlers_(table.entries.size()),
+      handlers_{std::make_unique<Handler[]>(table.entries.size())},
       stateless_{runtime.structure().simplexes[simplex].role != Role::Active},
       runtime_{runtime},
       simplex_{simplex} {
@@ -42,13 +48,34 @@ CommandPort::CommandPort(AgentRuntime& runtime, std::uint32_t simplex, const Com
     }
 }
 
-bool CommandPort::hasWork() const {
-    if (sending_.first != nullptr || outside_ != nullptr) return true;
-    if (activity_ != nullptr && activity_->running()) return true;
-    return receiving_.first != nullptr &&
-           (receiving_.first->pending() ||
-            std::ranges::any_of(receiving_.others,
-                                [](const Lane* lane) { return lane->pending(); }));
+void CommandPort::addReceiving(Lane& lane) {
+    if (receiving_ == nullptr)
+        receiving_ = &lane;
+    else
+        moreReceiving_.push_back(&lane);
+    callFor(true);
+}
+
+void CommandPort::addSending(Lane& lane) {
+    if (sending_ == nullptr)
+        sending_ = &lane;
+    else
+        moreSending_.push_back(&lane);
+    callFor(true);
+}
+
+void CommandPort::callFor(bool work) {
+    std::atomic<std::uint8_t>& bits = runtime_.calls_[simplex_];
+    if (work)
+        bits.fetch_or(AgentRuntime::commandWork, std::memory_order_relaxed);
+    else
+        bits.fetch_and(static_cast<std::uint8_t>(~AgentRuntime::commandWork),
+                       std::memory_order_relaxed);
+}
+
+// Beyond lanes, which always have.
+bool CommandPort::hasPassingWork() const {
+    return outside_ != nullptr || (activity_ != nullptr && activity_->running());
 }
 
 void CommandPort::process(State state, LoopThread& thread, bool dead) {
@@ -56,38 +83,36 @@ void CommandPort::process(State state, LoopThread& thread, bool dead) {
     state_ = state;
     dead_ = dead;
     startedNow_ = false;
-    if (sending_.first != nullptr) {
-        sending_.first->takeAnswers();
-        for (Lane* lane : sending_.others) lane->takeAnswers();
+    if (sending_ != nullptr) {
+        sending_->takeAnswers();
+        for (Lane* lane : moreSending_) lane->takeAnswers();
     }
-    if (receiving_.first != nullptr) {
-        if (receiving_.first->pending()) drain(*receiving_.first);
-        for (Lane* lane : receiving_.others) {
-            if (lane->pending()) drain(*lane);
-        }
+    if (receiving_ != nullptr) {
+        drain(*receiving_);
+        for (Lane* lane : moreReceiving_) drain(*lane);
     }
     if (outside_ != nullptr) drainOutside();
     if (activity_ != nullptr && activity_->running()) stepActivity();
+    if (sending_ == nullptr && receiving_ == nullptr && !hasPassingWork()) callFor(false);
 }
 
 void CommandPort::drain(Lane& lane) {
     while (lane.pending()) {
-        const LaneSlot& head = lane.front();
-        const Origin origin{&lane, lane.number(), head.handle, nullptr, head.cycles, head.time};
+        LaneSlot& head = lane.front();
         Verdict verdict;
         try {
-            execute(head.command, lane.request(), lane.response(), origin, verdict);
+            execute(head.command, lane.requestOf(head), lane.responseOf(head), &lane, nullptr,
+                    verdict);
         } catch (...) {
-            answer(lane, {Outcome::Failed, Reason::None, "its handler threw"});
+            answer(lane, head, {Outcome::Failed, Reason::None, "its handler threw"});
             throw;
         }
-        answer(lane, verdict);
+        answer(lane, head, verdict);
     }
 }
 
-void CommandPort::answer(Lane& lane, const Verdict& verdict) {
-    const LaneSlot& head = lane.front();
-    lane.answer(verdict, thread_->clock);
+void CommandPort::answer(Lane& lane, LaneSlot& head, const Verdict& verdict) {
+    lane.answer(head, verdict, thread_->clock);
     count(verdict, head.time);
     if (lane.startsRefusing(!verdict.good())) {
         EventText text{table_.entries[head.command].name};
@@ -103,13 +128,12 @@ void CommandPort::drainOutside() {
     while (outside_ != nullptr) {
         OutsideEntry& entry = *outside_;
         outside_ = entry.next;
-        const Origin origin{nullptr, 0, 0, &entry, entry.readCycle, entry.readTime};
         Verdict verdict;
         if (thread_->clock.cycle > entry.notAfter) {
             verdict = {Outcome::Expired, Reason::None, "its time was over before its turn"};
         } else {
             try {
-                execute(entry.command, entry.request, entry.response, origin, verdict);
+                execute(entry.command, entry.request, entry.response, nullptr, &entry, verdict);
             } catch (...) {
                 verdict = {Outcome::Failed, Reason::None, "its handler threw"};
                 entry.settle(verdict, thread_->clock);
@@ -123,7 +147,7 @@ void CommandPort::drainOutside() {
 }
 
 void CommandPort::execute(std::uint32_t command, const std::byte* request, std::byte* response,
-                          const Origin& origin, Verdict& verdict) {
+                          Lane* lane, OutsideEntry* outside, Verdict& verdict) {
     const CommandTable::Entry& entry = table_.entries[command];
     if (entry.command == nullptr) {
         if (entry.name == "set")
@@ -140,12 +164,12 @@ void CommandPort::execute(std::uint32_t command, const std::byte* request, std::
         return;
     }
     if (entry.command->isLong) {
-        startActivity(command, request, response, origin, verdict);
+        startActivity(command, request, response, originOf(lane, outside), verdict);
         return;
     }
     Call call{request, response};
-    call.setTime(runtime_.nominalTime(), runtime_.nominalTime());
-    if (origin.outside != nullptr) call.setSender(&origin.outside->sender);
+    call.setTime(thread_->nominalTime, thread_->nominalTime);
+    if (outside != nullptr) call.setSender(&outside->sender);
     verdict.outcome = handler(call);
     if (verdict.outcome == Outcome::Done) return;
     verdict = verdictOf(verdict.outcome, call);
@@ -267,6 +291,7 @@ void CommandPort::enqueue(OutsideEntry& entry) {
     while (*place != nullptr && (*place)->before(entry)) place = &(*place)->next;
     entry.next = *place;
     *place = &entry;
+    callFor(true);
 }
 
 const OutsideEntry* CommandPort::activityOrigin() const {

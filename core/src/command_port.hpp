@@ -27,12 +27,11 @@ public:
 
     void setHandler(std::uint32_t command, Handler handler) { handlers_[command] = handler; }
     bool handles(std::uint32_t command) const { return handlers_[command].function != nullptr; }
-    void addReceiving(Lane& lane) { receiving_.add(lane); }  // in canonical order
-    void addSending(Lane& lane) { sending_.add(lane); }
+    void addReceiving(Lane& lane);  // in canonical order
+    void addSending(Lane& lane);
 
     const CommandTable& table() const { return table_; }
-    bool hasLanes() const { return receiving_.first != nullptr; }
-    bool hasWork() const CORTEX_REALTIME;
+    bool hasLanes() const { return receiving_ != nullptr; }
     // Step (1). What a handler throws passes through, after its command was answered Failed.
     // `dead`: its commands are refused.
     void process(State state, LoopThread& thread, bool dead) CORTEX_REALTIME;
@@ -53,45 +52,37 @@ private:
 
         void store(const std::byte* record) const CORTEX_REALTIME;
     };
+    void callFor(bool work) CORTEX_REALTIME;  // sets or clears the simplex's bit
+    bool hasPassingWork() const CORTEX_REALTIME;
     void drain(Lane& lane);
     void drainOutside();
     void stepActivity();
-    void execute(std::uint32_t command, const std::byte* request, std::byte* response,
-                 const Origin& origin, Verdict& verdict);
+    // `outside`: where it came from; null: along a lane.
+    void execute(std::uint32_t command, const std::byte* request, std::byte* response, Lane* lane,
+                 OutsideEntry* outside, Verdict& verdict);
     bool accepted(const CommandTable::Entry& entry, const std::byte* request, Verdict& verdict);
     void startActivity(std::uint32_t command, const std::byte* request, std::byte* response,
                        const Origin& origin, Verdict& verdict);
     void cancel(Verdict& verdict);
     void set(const std::byte* request, Verdict& verdict);
-    void answer(Lane& lane, const Verdict& verdict);
+    void answer(Lane& lane, LaneSlot& head, const Verdict& verdict);
     void count(const Verdict& verdict, std::int64_t latency) CORTEX_REALTIME;
     bool settable(const Target& target, const std::byte* request, Verdict& verdict) const;
 
-    // Mostly one lane, then it costs no look-up.
-    struct LaneList {
-        Lane* first = nullptr;
-        std::vector<Lane*> others;
-
-        void add(Lane& lane) {
-            if (first == nullptr)
-                first = &lane;
-            else
-                others.push_back(&lane);
-        }
-    };
-
-    // What every command touches.
+    // What every command touches: one cache line.
     LoopThread* thread_ = nullptr;
     const CommandTable& table_;
     OutsideEntry* outside_ = nullptr;
     std::unique_ptr<Activity> activity_;
-    LaneList receiving_, sending_;
-
-    std::vector<Handler> handlers_;
+    Lane* receiving_ = nullptr;  // the first, mostly the only one
+    Lane* sending_ = nullptr;
+    std::unique_ptr<Handler[]> handlers_;  // by command
     State state_ = State::Standby;
     bool stateless_;           // a descriptive simplex: always settable
     bool dead_ = false;        // a hook threw: no handler may run
     bool startedNow_ = false;  // the activity had its call of this step
+
+    std::vector<Lane*> moreReceiving_, moreSending_;
     const char* cancelWhy_ = nullptr;
     std::vector<Target> targets_;
     AgentRuntime& runtime_;

@@ -61,7 +61,7 @@ Simplex* SimplexTree::createOne(const Simplex& owner, const Rule& rule, std::uin
         !type->isAbstract && pathError(path).empty() && simplexes_.size() < maxSimplexes;
     if (!possible) return nullptr;
     Simplex& created = insert(make(path, *type, registry));
-    created.place_ = owner.place();
+    created.description_->place = owner.place();
     return &created;
 }
 
@@ -74,18 +74,18 @@ void SimplexTree::createRelated(const ClassRegistry* registry) {
         for (const Rule& rule : owner.type().rules) {
             if (rule.create.empty() || relationsFor(owner, rule).size() >= rule.min) continue;
             const Slots slots = slotsOf(owner, rule);
-            std::erase_if(owner.relations_,
+            std::erase_if(owner.description_->relations,
                           [&](const auto& each) { return each.rule == rule.name; });
             for (std::uint32_t n = 1; n <= slots.size(); ++n) {
                 if (const auto& slot = slots[n - 1]) {
-                    owner.relations_.push_back(*slot);
+                    owner.description_->relations.push_back(*slot);
                     continue;
                 }
                 const std::size_t before = simplexes_.size();
                 Simplex* related = createOne(owner, rule, n, registry);
                 if (related == nullptr) continue;
                 if (simplexes_.size() > before) waiting.push_back(related);
-                owner.relations_.push_back(
+                owner.description_->relations.push_back(
                     {rule.name, related->path(), false, false, owner.place()});
             }
         }

@@ -3,12 +3,14 @@
 
 #include "cortex/core/mailbox.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace cortex {
@@ -58,7 +60,7 @@ public:
     };
     Lane(const Shape& shape, std::vector<CommandSender::State*> handles);
 
-    const Shape& shape() const { return shape_; }
+    const Shape& shape() const { return rest_->shape; }
 
     // Sender's end. `post` returns 0 when the lane is full, else the command's number.
     std::uint64_t post(std::uint16_t command, std::uint16_t handle, const std::byte* request,
@@ -66,63 +68,81 @@ public:
     void takeAnswers() CORTEX_REALTIME;  // into the states of the handles
 
     // Receiver's end: a pending command is answered, then popped.
-    bool pending() const CORTEX_REALTIME { return head_ != (delayed_ ? latchedTail_ : tail_); }
+    bool pending() const CORTEX_REALTIME {
+        return low(head_) != (delayed_ ? latchedTail_ : low(tail_));
+    }
     std::uint64_t number() const CORTEX_REALTIME { return head_ + 1; }
     LaneSlot& front() CORTEX_REALTIME { return slot(head_); }
-    const std::byte* request() CORTEX_REALTIME { return record(head_); }
-    std::byte* response() CORTEX_REALTIME { return place(head_) + responseOffset_; }
-    void answer(const Verdict& verdict, const ChunkClock& clock) CORTEX_REALTIME;
+    std::byte* requestOf(LaneSlot& head) const CORTEX_REALTIME {
+        return reinterpret_cast<std::byte*>(&head + 1);
+    }
+    std::byte* responseOf(LaneSlot& head) const CORTEX_REALTIME {
+        return requestOf(head) + std::size_t{requestWords_} * 8U;
+    }
+    void answer(LaneSlot& head, const Verdict& verdict, const ChunkClock& clock) CORTEX_REALTIME;
     void pop() CORTEX_REALTIME { ++head_; }
     // The last answer to a command that was answered Running and popped.
     void finish(const AnswerHead& answer, std::uint16_t handle, const std::byte* response,
                 std::uint32_t size) CORTEX_REALTIME;
 
     void latch() CORTEX_REALTIME;  // start of cycle, delayed lanes only
-
     // Whether this is a refusal after none: only such a one is an event.
-    bool startsRefusing(bool refused) CORTEX_REALTIME;
+    bool startsRefusing(bool refused) CORTEX_REALTIME {
+        return !std::exchange(refusing_, refused) && refused;
+    }
 
 private:
     struct Final {
         AnswerHead answer;
         std::uint16_t handle = 0;
     };
+    struct Line {
+        alignas(64) std::byte octets[64];
+    };
+    // What a usual command does not touch.
+    struct Rest {
+        Shape shape;
+        std::vector<CommandSender::State*> handles;
+        std::vector<EventText> whys;
+        std::vector<Final> finals;  // one more than commands: what runs, and all that wait
+        std::unique_ptr<std::byte[]> finalResponses;
+        std::vector<Line> memory;
+    };
+    static std::uint32_t low(std::uint64_t position) {
+        return static_cast<std::uint32_t>(position);
+    }
     std::uint32_t indexOf(std::uint64_t position) const {
-        return (static_cast<std::uint32_t>(position) - first_) & mask_;
+        return (low(position) - first_) & ((1U << bits_) - 1U);
     }
     std::byte* place(std::uint64_t position) const {
-        return slots_ + std::size_t{indexOf(position)} * stride_;
+        return slots_ + std::size_t{indexOf(position)} * lines_ * lineSize;
     }
     LaneSlot& slot(std::uint64_t position) const {
         return *reinterpret_cast<LaneSlot*>(place(position));
     }
-    std::byte* record(std::uint64_t position) const { return place(position) + sizeof(LaneSlot); }
+    void takeAnswer() CORTEX_REALTIME;
     void takeFinals() CORTEX_REALTIME;
     CommandSender::State& handle(std::uint16_t index) const {
-        return onlyHandle_ != nullptr ? *onlyHandle_ : *handles_[index];
+        return onlyHandle_ != nullptr ? *onlyHandle_ : *rest_->handles[index];
     }
 
+    static constexpr std::uint32_t lineSize = 64;
+
     // One cache line. Sender writes tail_, taken_, first_; receiver head_, refusing_. An empty lane
-    // starts again at its first slot, so that light traffic stays in one more cache line.
-    std::uint64_t tail_ = 0, taken_ = 0, head_ = 0;
+    // starts again at its first slot, so that light traffic stays in one more cache line. Positions
+    // of 32 bits are those of 64 modulo 2^32.
+    std::uint64_t tail_ = 0, head_ = 0;
+    std::uint32_t taken_ = 0, latchedTail_ = 0, latchedHead_ = 0;
+    std::uint32_t first_ = 0;  // the command in the first slot
     std::byte* slots_ = nullptr;
     CommandSender::State* onlyHandle_ = nullptr;  // where there is one
-    std::uint32_t first_ = 0;                     // the command in the first slot, modulo 2^32
-    std::uint32_t mask_ = 0, capacity_ = 0;
-    std::uint32_t stride_ = 0, responseOffset_ = 0;
+    std::uint32_t capacity_ = 0;
+    std::uint16_t lines_ = 0, requestWords_ = 0;  // of a slot, of the request in it
+    std::uint8_t bits_ = 0;                       // there are 2^bits slots
     bool delayed_ = false, hasLong_ = false, refusing_ = false;
 
-    std::uint64_t latchedTail_ = 0, latchedHead_ = 0, latchedFinalTail_ = 0;
-    std::uint64_t finalTail_ = 0, finalTaken_ = 0;
-    Shape shape_;
-    std::vector<CommandSender::State*> handles_;
-    std::vector<EventText> whys_;
-    std::vector<Final> finals_;  // one more than commands: what runs, and all that wait
-    std::unique_ptr<std::byte[]> finalResponses_;
-    struct Line {
-        alignas(64) std::byte octets[64];
-    };
-    std::vector<Line> memory_;
+    std::uint64_t finalTail_ = 0, finalTaken_ = 0, latchedFinalTail_ = 0;
+    std::unique_ptr<Rest> rest_;
 };
 
 // What a handle owns: the records that the sender's task fills and reads. Its first two cache lines
@@ -149,5 +169,55 @@ struct alignas(64) CommandSender::State {
     std::uint32_t edge = noSimplex, capacity = 0;
     std::vector<std::uint64_t> records;  // where they do not
 };
+
+inline std::uint64_t Lane::post(std::uint16_t command, std::uint16_t handle,
+                                const std::byte* request, std::uint32_t size,
+                                const ChunkClock& clock) {
+    const std::uint32_t onTheirWay = low(tail_) - taken_;
+    if (onTheirWay >= capacity_) return 0;
+    if (onTheirWay == 0) first_ = low(tail_);
+    LaneSlot& head = slot(tail_);
+    head.cycles = clock.cycle;
+    head.time = clock.nanoseconds;
+    head.command = command;
+    head.handle = handle;
+    copyRecord(requestOf(head), request, size);
+    return ++tail_;
+}
+
+inline void Lane::answer(LaneSlot& head, const Verdict& verdict, const ChunkClock& clock) {
+    head.cycles = clock.cycle - head.cycles;
+    head.time = std::max(clock.nanoseconds - head.time, std::int64_t{0});
+    head.outcome = verdict.outcome;
+    head.reason = verdict.reason;
+    head.worded = verdict.why.has_value();
+    if (head.worded) rest_->whys[indexOf(head_)] = *verdict.why;
+}
+
+inline void Lane::takeAnswers() {
+    const std::uint32_t end = delayed_ ? latchedHead_ : low(head_);
+    while (taken_ != end) takeAnswer();
+    if (hasLong_) takeFinals();
+}
+
+inline void Lane::takeAnswer() {
+    const std::uint64_t position = tail_ - (low(tail_) - taken_);
+    LaneSlot& head = slot(position);
+    CommandSender::State& state = handle(head.handle);
+    AnswerHead& answer = state.answer;
+    answer.number = position + 1;
+    answer.latencyCycles = head.cycles;
+    answer.latency = head.time;
+    answer.reason = head.reason;
+    answer.outcome = head.outcome;
+    if (head.worded)
+        answer.why = rest_->whys[indexOf(position)];
+    else if (state.worded)
+        answer.why = {};
+    state.worded = head.worded;
+    copyRecord(state.response, responseOf(head), state.responseSize);
+    ++state.answered;
+    ++taken_;
+}
 
 }  // namespace cortex

@@ -15,8 +15,6 @@
 namespace cortex {
 namespace {
 
-constexpr std::uint32_t lineSize = 64;
-
 struct Shape {
     Kind kind;
     bool array;
@@ -55,97 +53,49 @@ Verdict verdictOf(Outcome outcome, const Call& call) {
 
 Lane::Lane(const Shape& shape, std::vector<CommandSender::State*> handles)
     : onlyHandle_{handles.size() == 1 ? handles.front() : nullptr},
-      mask_{std::bit_ceil(std::max(shape.capacity, 1U)) - 1U},
       capacity_{shape.capacity},
-      responseOffset_{static_cast<std::uint32_t>(sizeof(LaneSlot)) + shape.requestSize},
+      requestWords_{static_cast<std::uint16_t>(shape.requestSize / 8U)},
+      bits_{static_cast<std::uint8_t>(std::bit_width(std::max(shape.capacity, 1U) - 1U))},
       delayed_{shape.delayed},
       hasLong_{shape.hasLong},
-      shape_{shape},
-      handles_{std::move(handles)},
-      whys_(mask_ + 1U) {
+      rest_{std::make_unique<Rest>(Rest{shape, std::move(handles), {}, {}, {}, {}})} {
     const auto octets =
         static_cast<std::uint32_t>(sizeof(LaneSlot)) + shape.requestSize + shape.responseSize;
-    const std::uint32_t lines = (octets + lineSize - 1U) / lineSize;
-    stride_ = lines * lineSize;
-    memory_.resize(std::size_t{lines} * (mask_ + 1U));
-    slots_ = memory_.front().octets;
-    for (std::uint64_t i = 0; i <= mask_; ++i) new (place(i)) LaneSlot;
+    lines_ = static_cast<std::uint16_t>((octets + lineSize - 1U) / lineSize);
+    const std::size_t slots = std::size_t{1} << bits_;
+    rest_->whys.resize(slots);
+    rest_->memory.resize(lines_ * slots);
+    slots_ = rest_->memory.front().octets;
+    for (std::uint64_t i = 0; i < slots; ++i) new (place(i)) LaneSlot;
     if (!hasLong_) return;
-    finals_.resize(capacity_ + 1U);
-    finalResponses_ = std::make_unique<std::byte[]>(finals_.size() * shape.responseSize);
-}
-
-std::uint64_t Lane::post(std::uint16_t command, std::uint16_t handle, const std::byte* request,
-                         std::uint32_t size, const ChunkClock& clock) {
-    if (tail_ - taken_ >= capacity_) return 0;
-    if (tail_ == taken_) first_ = static_cast<std::uint32_t>(tail_);
-    LaneSlot& head = slot(tail_);
-    head.cycles = clock.cycle;
-    head.time = clock.nanoseconds;
-    head.command = command;
-    head.handle = handle;
-    copyRecord(record(tail_), request, size);
-    return ++tail_;
-}
-
-void Lane::answer(const Verdict& verdict, const ChunkClock& clock) {
-    LaneSlot& head = front();
-    head.cycles = clock.cycle - head.cycles;
-    head.time = std::max(clock.nanoseconds - head.time, std::int64_t{0});
-    head.outcome = verdict.outcome;
-    head.reason = verdict.reason;
-    head.worded = verdict.why.has_value();
-    if (head.worded) whys_[indexOf(head_)] = *verdict.why;
+    rest_->finals.resize(capacity_ + 1U);
+    rest_->finalResponses =
+        std::make_unique<std::byte[]>(rest_->finals.size() * shape.responseSize);
 }
 
 void Lane::finish(const AnswerHead& answer, std::uint16_t handle, const std::byte* response,
                   std::uint32_t size) {
-    const std::size_t place = finalTail_ % finals_.size();
-    finals_[place] = {answer, handle};
-    copyRecord(&finalResponses_[place * shape_.responseSize], response, size);
+    const std::size_t place = finalTail_ % rest_->finals.size();
+    rest_->finals[place] = {answer, handle};
+    copyRecord(&rest_->finalResponses[place * rest_->shape.responseSize], response, size);
     ++finalTail_;
-}
-
-void Lane::takeAnswers() {
-    const std::uint64_t end = delayed_ ? latchedHead_ : head_;
-    while (taken_ != end) {
-        const LaneSlot& head = slot(taken_);
-        CommandSender::State& state = handle(head.handle);
-        AnswerHead& answer = state.answer;
-        answer.number = taken_ + 1;
-        answer.latencyCycles = head.cycles;
-        answer.latency = head.time;
-        answer.reason = head.reason;
-        answer.outcome = head.outcome;
-        if (head.worded)
-            answer.why = whys_[indexOf(taken_)];
-        else if (state.worded)
-            answer.why = {};
-        state.worded = head.worded;
-        copyRecord(state.response, place(taken_) + responseOffset_, state.responseSize);
-        ++state.answered;
-        ++taken_;
-    }
-    if (hasLong_) takeFinals();
 }
 
 void Lane::takeFinals() {
     const std::uint64_t end = delayed_ ? latchedFinalTail_ : finalTail_;
     for (; finalTaken_ != end; ++finalTaken_) {
-        const std::size_t place = finalTaken_ % finals_.size();
-        const Final& final = finals_[place];
+        const std::size_t place = finalTaken_ % rest_->finals.size();
+        const Final& final = rest_->finals[place];
         handle(final.handle)
-            .storeFinal(final.answer, &finalResponses_[place * shape_.responseSize]);
+            .storeFinal(final.answer, &rest_->finalResponses[place * rest_->shape.responseSize]);
     }
 }
 
 void Lane::latch() {
-    latchedTail_ = tail_;
-    latchedHead_ = head_;
+    latchedTail_ = low(tail_);
+    latchedHead_ = low(head_);
     latchedFinalTail_ = finalTail_;
 }
-
-bool Lane::startsRefusing(bool refused) { return !std::exchange(refusing_, refused) && refused; }
 
 CommandSender::State::State(const CommandTable& commands, std::uint32_t entry,
                             std::uint32_t edgeIndex, std::uint32_t room)

@@ -119,7 +119,7 @@ bool RelatedSimplex::has(std::string_view item) const { return type().findData(i
 
 void* RelatedSimplex::cell(std::string_view item, Kind kind, bool array, bool write,
                            std::size_t& length) const {
-    const Tables& tables = owner_->runtime().tables();
+    Tables& tables = owner_->runtime().tables();
     const std::uint32_t target = tables.structure().edges[edge_].target;
     const SimplexInfo& info = tables.structure().simplexes[target];
     const ItemLayout& layout = itemAt(*info.layout, info.path, item);
@@ -139,13 +139,15 @@ CommandSender RelatedSimplex::sender(std::string_view command, std::uint32_t cap
     return owner_->runtime().makeSender(edge_, command, capacity);
 }
 
-Simplex::Simplex(Identity identity) : identity_{std::move(identity)} {}
+Simplex::Simplex(Identity identity)
+    : description_{std::make_unique<Description>(Description{std::move(identity)})} {}
 
 Simplex::~Simplex() = default;
 
 void Simplex::set(std::string_view item, const GivenValue& value, Place place) {
-    const auto same = std::ranges::find(settings_, item, &Setting::item);
-    Setting& setting = same != settings_.end() ? *same : settings_.emplace_back();
+    std::vector<Setting>& settings = description_->settings;
+    const auto same = std::ranges::find(settings, item, &Setting::item);
+    Setting& setting = same != settings.end() ? *same : settings.emplace_back();
     setting = {std::string{item}, fitted(type(), item, value), std::move(place)};
 }
 
@@ -153,8 +155,8 @@ void Simplex::runEvery(int cycles, int phase) {
     if (cycles < 1 || phase < -1 || phase >= cycles) {
         throw Error(path() + ": every must be 1 or more, phase from 0 to every - 1");
     }
-    every_ = cycles;
-    phase_ = phase;
+    description_->every = cycles;
+    description_->phase = phase;
 }
 
 AgentRuntime& Simplex::startedRuntime() const {

@@ -87,7 +87,7 @@ Simplex& SimplexTree::add(std::string_view path, std::string_view type) {
 
 void SimplexTree::relate(Simplex& owner, std::string_view rule, const Simplex& target,
                          bool delayed) {
-    Simplex::Relation& relation = owner.relations_.emplace_back();
+    Simplex::Relation& relation = owner.description_->relations.emplace_back();
     relation.rule = rule;
     relation.target = target.path();
     relation.delayed = delayed;
@@ -95,7 +95,7 @@ void SimplexTree::relate(Simplex& owner, std::string_view rule, const Simplex& t
 
 void SimplexTree::relateRemote(Simplex& owner, std::string_view rule, std::string_view path,
                                std::string_view type, bool delayed) {
-    Simplex::Relation& relation = owner.relations_.emplace_back();
+    Simplex::Relation& relation = owner.description_->relations.emplace_back();
     relation.rule = rule;
     relation.target = path;
     relation.delayed = delayed;

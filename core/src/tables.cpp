@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/tables.hpp"
 
+#include "cortex/core/error.hpp"
+
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <new>
 #include <type_traits>
@@ -162,6 +165,8 @@ void Tables::initialise() {
     }
 }
 
+const SlotState* Tables::stateOfCopy(const Latch& latch) { return latch.to.state; }
+
 std::vector<Slice> Tables::makeLatches() {
     std::vector<Slice> latches(structure_->simplexes.size());
     for (const Edge& edge : structure_->edges) {
@@ -171,7 +176,26 @@ std::vector<Slice> Tables::makeLatches() {
         latches_.push_back(
             {&structure_->simplexes[edge.target].layout->cyclic, live(edge.target), latch});
     }
+    std::ranges::sort(latches_, std::less<>{}, stateOfCopy);
+    latched_ = latches_;
     return latches;
+}
+
+Slice Tables::wanted(const Slice& slice) {
+    const auto latch = std::ranges::lower_bound(latches_, slice.state, std::less<>{}, stateOfCopy);
+    const bool isLatch = latch != latches_.end() && latch->to.state == slice.state;
+    if (!isLatch) return slice;
+    if (gaveUp_ && !latch->used) {
+        throw Error("data along a delayed relationship is asked for in populate(), not later");
+    }
+    latch->used = true;
+    return slice;
+}
+
+void Tables::giveUpUnusedLatches() {
+    gaveUp_ = true;
+    latched_ = latches_;
+    std::erase_if(latched_, [](const Latch& latch) { return !latch.used; });
 }
 
 void Tables::resolveEdges(const std::vector<Slice>& latches) {
@@ -221,7 +245,7 @@ Slice Tables::sliceIn(std::byte* arena, std::uint32_t simplex) const {
 }
 
 void Tables::latch() {
-    for (const Latch& latch : latches_) copySlice(*latch.sizes, latch.from, latch.to);
+    for (const Latch& latch : latched_) copySlice(*latch.sizes, latch.from, latch.to);
 }
 
 }  // namespace cortex

@@ -111,9 +111,10 @@ bool GroupCommands::anyStandsThere() const {
 
 bool GroupCommands::belongs(const SimplexCS& simplex) const {
     const bool below = isAtOrBelow(simplex.path(), prefix_.view());
-    if (!below || command_ == LifeCycle::ClearFaults || simplex.manager_ == noSimplex) return below;
+    if (!below || command_ == LifeCycle::ClearFaults || simplex.rare_->manager == noSimplex)
+        return below;
     // A manager looks after its own while it works.
-    const auto& manager = static_cast<const SimplexCS&>(agent_.simplex(simplex.manager_));
+    const auto& manager = static_cast<const SimplexCS&>(agent_.simplex(simplex.rare_->manager));
     return command_ == LifeCycle::Shutdown && resting(manager.state_);
 }
 
@@ -150,7 +151,8 @@ void GroupCommands::addFailure(const SimplexCS& simplex) {
     if (anyFailed_) failures_ << "; ";
     anyFailed_ = true;
     failures_ << simplex.path() << " did not follow: "
-              << (simplex.text_.view().empty() ? name(simplex.state_) : simplex.text_.view());
+              << (simplex.rare_->text.view().empty() ? name(simplex.state_)
+                                                     : simplex.rare_->text.view());
 }
 
 bool GroupCommands::allResting() const {

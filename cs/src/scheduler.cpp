@@ -130,7 +130,8 @@ private:
 
     // While cutting; the open chunk is the last.
     std::vector<Index> chunkOfChain_;
-    double openCost_ = 0, openWeight_ = 0;
+    std::vector<double> chunkCost_;
+    double openWeight_ = 0;
     bool openHoldsWholeLevels_ = false;
     double serialCost_ = 0, parallelCost_ = 0;
     Index widestLevel_ = 0;
@@ -231,7 +232,8 @@ void Builder::mergeChains() {
 
 void Builder::openChunk() {
     schedule_.chunks.push_back({static_cast<Index>(schedule_.tasks.size()), 0, 0, 0});
-    openCost_ = openWeight_ = 0;
+    chunkCost_.push_back(0);
+    openWeight_ = 0;
 }
 
 void Builder::addToOpenChunk(Index chain) {
@@ -242,7 +244,7 @@ void Builder::addToOpenChunk(Index chain) {
         ++chunk.count;
     }
     chunkOfChain_[chain] = static_cast<Index>(schedule_.chunks.size()) - 1;
-    openCost_ += chainCost_[chain];
+    chunkCost_.back() += chainCost_[chain];
     openWeight_ += chainWeight_[chain];
 }
 
@@ -265,12 +267,17 @@ void Builder::cutLevel(std::span<const Index> chains) {
         const bool isFull = openWeight_ + chainWeight_[chain] > limit;
         if (!isEmpty && (isFull || isJoin || isAfterJoin)) openChunk();
         addToOpenChunk(chain);
-        largest = std::max(largest, openCost_);
+        largest = std::max(largest, chunkCost_.back());
         isEmpty = false;
         isAfterJoin = isJoin;
     }
     const auto width = static_cast<Index>(schedule_.chunks.size() - firstChunk);
     openHoldsWholeLevels_ = width == 1;
+    double before = 0;
+    for (std::size_t i = firstChunk; width > 1 && i < schedule_.chunks.size(); ++i) {
+        schedule_.chunks[i].place = static_cast<float>(before / levelCost);
+        before += chunkCost_[i];
+    }
     widestLevel_ = std::max(widestLevel_, width);
     serialCost_ += levelCost;
     const double shared = levelCost / std::max(1U, std::min(width, options_.threads));

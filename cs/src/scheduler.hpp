@@ -35,6 +35,7 @@ struct Chunk {
     std::uint32_t count = 0;             // 0: a mere join, it only waits for its predecessors
     std::uint32_t firstPredecessor = 0;  // into Schedule::predecessors
     std::uint32_t predecessorCount = 0;
+    float place = 0;  // in its level, from 0 to below 1 by cost: how threads share the level
 };
 
 /// The execution order, computed once at start() and never changed. Chunks stand in topological

@@ -8,14 +8,14 @@ namespace cortex::cs {
 void SimplexCS::fault(std::int64_t code, std::string_view text) {
     if (faultPending_) return;
     faultPending_ = true;
-    faultCode_ = code;
-    text_ = EventText{text};
+    rare_->faultCode = code;
+    rare_->text = EventText{text};
 }
 
 void SimplexCS::setQuality(Quality quality, std::int64_t measuredAt) {
     qualitySet_ = true;
     quality_ = quality;
-    measuredAt_ = measuredAt < 0 ? now_ : measuredAt;
+    rare_->measuredAt = measuredAt < 0 ? now_ : measuredAt;
 }
 
 void SimplexCS::event(Severity severity, const EventText& text) {
@@ -34,7 +34,7 @@ SimplexCS::LifeCycleSender SimplexCS::lifeCycle(const RelatedSimplex& target, bo
     sender.target_ = active->index();
     sender.later_ = target.later();
     sender.state_ = InputSimplex{target}.data<std::int64_t>("state");
-    if (manage) active->manager_ = index();
+    if (manage) active->rare_->manager = index();
     return sender;
 }
 

@@ -57,6 +57,7 @@ struct TaskBuilder {
             limitsOf[i] = runner.limits_.back().get();
         }
         runner.tasks_.resize(schedule.tasks.size());
+        runner.details_.resize(schedule.tasks.size());
         for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
             const std::uint32_t index = schedule.tasks[t];
             if (isActive(index)) buildTask(runner.tasks_[t], index);
@@ -81,11 +82,12 @@ struct TaskBuilder {
         task.lastRun = -static_cast<std::int64_t>(info.every) * runner.period_ +
                        static_cast<std::int64_t>(task.phase) * runner.period_;
         task.measures = info.layout->type->measures;
-        task.transitionTimeout = toNanoseconds(info.layout->type->transitionTimeout);
-        task.state = simplex.data<std::int64_t>("state");
-        task.faultCode = simplex.data<std::int64_t>("faultCode");
-        task.faultText = simplex.data<std::string_view>("faultText");
-        task.taskTime = simplex.data<double>("taskTime");
+        TaskDetails& details = runner.details(task);
+        details.transitionTimeout = toNanoseconds(info.layout->type->transitionTimeout);
+        details.state = simplex.data<std::int64_t>("state");
+        details.faultCode = simplex.data<std::int64_t>("faultCode");
+        details.faultText = simplex.data<std::string_view>("faultText");
+        details.taskTime = simplex.data<double>("taskTime");
         *task.own = {0, 0, index, Quality::Stale};
         task.firstInput = static_cast<std::uint32_t>(runner.inputs_.size());
         task.firstOutput = static_cast<std::uint32_t>(runner.outputs_.size());
@@ -93,7 +95,7 @@ struct TaskBuilder {
             if (edge.rule->direction == Direction::Input)
                 addInput(edge);
             else if (!isActive(edge.target))
-                addOutput(edge, simplex);
+                task.limits = addOutput(edge, simplex) || task.limits;
         }
         task.inputCount = static_cast<std::uint32_t>(runner.inputs_.size()) - task.firstInput;
         task.outputCount = static_cast<std::uint32_t>(runner.outputs_.size()) - task.firstOutput;
@@ -111,14 +113,16 @@ struct TaskBuilder {
         if (target.remote) input.ownerPeriod = &agent.ownerPeriod(edge.target);
         input.state = agent.tables().edgeSource(number).state;
         if (edge.rule->onLoss == OnLoss::Hold) {
-            input.held = &target.layout->cyclic;
-            input.heldFrom = agent.tables().edgeSource(number);
-            input.heldTo = agent.tables().edge(number);
+            runner.held_.push_back(std::make_unique<HeldInput>(
+                HeldInput{target.layout->cyclic, agent.tables().edgeSource(number),
+                          agent.tables().edge(number)}));
+            input.held = runner.held_.back().get();
         }
         runner.inputs_.push_back(input);
     }
 
-    void addOutput(const Edge& edge, SimplexCS& writer) {
+    // Whether the task itself applies limits to it.
+    bool addOutput(const Edge& edge, SimplexCS& writer) {
         TaskOutput output;
         output.target = edge.target;
         const Slice out = agent.tables().edge(numberOf(edge));
@@ -133,6 +137,7 @@ struct TaskBuilder {
         }
         runner.outputs_.push_back(output);
         if (shared) candidates[edge.target].push_back({&writer, out, &runner.outputs_.back()});
+        return output.limits != nullptr;
     }
 
     // What observes the n-th demand: the n-th relationship under the counterpart rule, or its only.
@@ -163,7 +168,7 @@ struct TaskBuilder {
             copySlice(arbiter->sizes, arbiter->candidates.front().slice, arbiter->live);
         }
         task.index = index;
-        task.arbiter = arbiter.get();
+        runner.details(task).arbiter = arbiter.get();
         runner.arbiters_.push_back(std::move(arbiter));
     }
 };

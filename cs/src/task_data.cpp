@@ -30,6 +30,34 @@ std::int64_t ageOf(const TaskInput& input, const Tick& tick) {
 
 }  // namespace
 
+// The rare case of an input: lost, back, aged, held, or not good.
+SlotState TaskRunner::readInput(Task& task, TaskInput& input, const Tick& tick) {
+    const bool tooOld = input.ages && ageOf(input, tick) > input.maxAge;
+    const bool lost = input.state->quality >= Quality::Bad || tooOld;
+    const bool faults =
+        lost && input.rule->onLoss == OnLoss::Fault && task.simplex->state_ == State::Active;
+    if (lost != input.lost || faults) {
+        input.lost = lost;
+        inputLost(task, input, tick);
+    }
+    SlotState seen = *input.state;
+    if (lost && seen.quality < Quality::Stale) {  // it is too old, which is its own doing
+        seen.quality = Quality::Stale;
+        seen.cause = input.target;
+    }
+    if (input.held == nullptr) return seen;
+    const HeldInput& held = *input.held;
+    if (!lost) {
+        copySlice(held.sizes, held.from, held.to);
+        return seen;
+    }
+    if (held.to.state->quality < Quality::Stale) {
+        held.to.state->quality = Quality::Stale;
+        held.to.state->cause = seen.cause;
+    }
+    return *held.to.state;
+}
+
 SlotState TaskRunner::readInputs(Task& task, const Tick& tick) {
     SlotState sum{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     bool anyLost = false, safe = false;
@@ -38,35 +66,23 @@ SlotState TaskRunner::readInputs(Task& task, const Tick& tick) {
         if (input.ownerPeriod != nullptr) {
             input.maxAge = std::max(input.maxAge, 3 * *input.ownerPeriod);
         }
-        const bool tooOld = input.ages && ageOf(input, tick) > input.maxAge;
-        const bool lost = input.state->quality >= Quality::Bad || tooOld;
-        const bool faults =
-            lost && input.rule->onLoss == OnLoss::Fault && task.simplex->state_ == State::Active;
-        if (lost != input.lost || faults) {
-            input.lost = lost;
-            inputLost(task, input, tick);
+        const bool fresh = !input.ages || ageOf(input, tick) <= input.maxAge;
+        if (fresh && !input.lost && input.held == nullptr &&
+            input.state->quality == Quality::Good) {
+            merge(sum, *input.state, input.ages);
+            continue;
         }
-        SlotState seen = *input.state;
-        if (lost && seen.quality < Quality::Stale) {  // it is too old, which is its own doing
-            seen.quality = Quality::Stale;
-            seen.cause = input.target;
-        }
-        if (input.held != nullptr && !lost) copySlice(*input.held, input.heldFrom, input.heldTo);
-        if (input.held != nullptr && lost) {
-            if (input.heldTo.state->quality < Quality::Stale) {
-                input.heldTo.state->quality = Quality::Stale;
-                input.heldTo.state->cause = seen.cause;
-            }
-            seen = *input.heldTo.state;
-        }
-        merge(sum, seen, input.ages);
-        anyLost = anyLost || lost;
-        safe = safe || (lost && input.rule->onLoss == OnLoss::Safe);
+        merge(sum, readInput(task, input, tick), input.ages);
+        anyLost = anyLost || input.lost;
+        safe = safe || (input.lost && input.rule->onLoss == OnLoss::Safe);
     }
-    task.simplex->inputLost_ = anyLost;
-    safe = safe && task.simplex->state_ == State::Active;
-    if (safe && !task.simplex->safeByLoss_) latchSafe(task);
-    task.simplex->safeByLoss_ = safe;
+    SimplexCS& simplex = *task.simplex;
+    simplex.inputLost_ = anyLost;
+    if (safe || simplex.safeByLoss_) {
+        safe = safe && simplex.state_ == State::Active;
+        if (safe && !simplex.safeByLoss_) latchSafe(task);
+        simplex.safeByLoss_ = safe;
+    }
     return sum;
 }
 
@@ -98,9 +114,9 @@ void TaskRunner::inputLost(Task& task, TaskInput& input, const Tick& tick) {
     }
 }
 
-void TaskRunner::finish(Task& task, const Tick& tick, SlotState state, Worker& worker) {
-    SimplexCS& simplex = *task.simplex;
-    limitOutputs(task, tick, worker);
+// What its own state, and what the task said itself, make of the quality of its inputs.
+void TaskRunner::settleQuality(const Task& task, const Tick& tick, SlotState& state) const {
+    const SimplexCS& simplex = *task.simplex;
     if (task.measures && !simplex.dead_)
         state = {tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     else if (simplex.state_ == State::Fault && state.quality < Quality::Bad) {
@@ -110,11 +126,15 @@ void TaskRunner::finish(Task& task, const Tick& tick, SlotState state, Worker& w
         state.quality = Quality::Stale;
         state.cause = task.index;
     }
-    if (simplex.qualitySet_) {
-        state.quality = simplex.quality_;
-        state.time = simplex.measuredAt_;
-        state.cause = simplex.quality_ == Quality::Good ? noSimplex : task.index;
-    }
+    if (!simplex.qualitySet_) return;
+    state.quality = simplex.quality_;
+    state.time = simplex.rare_->measuredAt;
+    state.cause = simplex.quality_ == Quality::Good ? noSimplex : task.index;
+}
+
+void TaskRunner::finish(Task& task, const Tick& tick, SlotState state, Worker& worker) {
+    if (task.limits) limitOutputs(task, tick, worker);
+    settleQuality(task, tick, state);
     *task.own = state;
     for (std::uint32_t i = 0; i < task.outputCount; ++i) {
         *outputs_[task.firstOutput + i].state = state;
@@ -178,8 +198,7 @@ void TaskRunner::reportLimits(const DemandLimits& limits, std::uint32_t simplex,
     }
 }
 
-void TaskRunner::arbitrate(Task& task, Worker& worker, LoopThread& thread) {
-    Arbiter& arbiter = *task.arbiter;
+void TaskRunner::arbitrate(Arbiter& arbiter, Worker& worker, LoopThread& thread) {
     std::uint32_t active = 0;
     for (std::uint32_t i = 0; i < arbiter.candidates.size(); ++i) {
         if (arbiter.candidates[i].writer->state_ != State::Active) continue;
@@ -191,7 +210,7 @@ void TaskRunner::arbitrate(Task& task, Worker& worker, LoopThread& thread) {
         if (!arbiter.inConflict) {
             EventText text{"several writers are Active; taken is "};
             text << chosen.writer->path();
-            agent_.post(thread, Severity::Warning, EventKind::Conflict, task.index, text);
+            agent_.post(thread, Severity::Warning, EventKind::Conflict, arbiter.target, text);
         }
     }
     arbiter.inConflict = active > 1;
@@ -202,9 +221,12 @@ void TaskRunner::arbitrate(Task& task, Worker& worker, LoopThread& thread) {
     if (result.any) ++worker.counts.limits;
     // Events here are the shared simplex's: its writer's own may come from another thread.
     const bool demands = active > 0 && !chosen.writer->safeByLoss_;
-    if (demands) reportLimits(*arbiter.limits, task.index, thread);
+    if (demands) reportLimits(*arbiter.limits, arbiter.target, thread);
     const bool faults = demands && result.faulting != nullptr;
-    if (faults) chosen.output->refused = result;
+    if (faults) {
+        chosen.output->refused = result;
+        chosen.writer->demandRefused_ = true;
+    }
     if (faults || result.notFinite) {
         chosen.output->safe->latch();
         chosen.output->safe->write();

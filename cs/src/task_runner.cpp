@@ -47,18 +47,28 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
             runTask(tasks_[i], worker, thread);
     }
     positions_[worker].simplex.store(noSimplex, std::memory_order_relaxed);
+    at(positions_[worker], Hook::None);
 }
 
 void TaskRunner::runTimed(Task& task, std::uint32_t worker, LoopThread& thread) {
     const std::int64_t start = monotonicNow();
     runTask(task, worker, thread);
     if (task.simplex != nullptr) {
-        task.taskTime = static_cast<double>(monotonicNow() - start) * 1e-3;
+        details(task).taskTime = static_cast<double>(monotonicNow() - start) * 1e-3;
     }
 }
 
+// Whether step (1) may change the state; mostly nothing has happened that could.
+bool TaskRunner::mayMove(const Task& task) const {
+    const SimplexCS& simplex = *task.simplex;
+    return halted_ || forced_ || simplex.done_ || simplex.faultPending_ || simplex.demandRefused_ ||
+           agent_.hasLifeCycle(task.index);
+}
+
 void TaskRunner::runTask(Task& task, std::uint32_t worker, LoopThread& thread) {
-    if (task.arbiter != nullptr) return arbitrate(task, workers_[worker], thread);
+    if (task.simplex == nullptr) {
+        return arbitrate(*details(task).arbiter, workers_[worker], thread);
+    }
     if (task.every != 1 && !halted_ && !forced_ &&
         static_cast<std::uint64_t>(tick_.cycle - 1) % task.every != task.phase) {
         return;
@@ -73,9 +83,9 @@ void TaskRunner::runTask(Task& task, std::uint32_t worker, LoopThread& thread) {
     Position& position = positions_[worker];
     position.simplex.store(task.index, std::memory_order_relaxed);
     SlotState state{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
-    at(position, Hook::Commands);
     try {
-        transition(task, tick);
+        at(position, Hook::Commands);
+        if (mayMove(task)) transition(task, tick);
         if (agent_.hasCommandWork(task.index)) {
             agent_.processCommands(task.index, simplex.state_, thread, simplex.dead_);
         }
@@ -88,7 +98,6 @@ void TaskRunner::runTask(Task& task, std::uint32_t worker, LoopThread& thread) {
         simplex.fault(HookThrew, "a hook threw something that is no std::exception");
         simplex.dead_ = true;
     }
-    at(position, Hook::None);
     if (simplex.faultPending_) enterFault(task, tick);
     finish(task, tick, state, workers_[worker]);
 }
@@ -123,30 +132,28 @@ void TaskRunner::runHooks(Task& task, const Tick& tick, Position& position) {
     }
     at(position, Hook::LoopEnd);
     simplex.loopEnd(tick);
-    checkTimeout(task, tick);
+    if (state == State::StartingUp || state == State::ShuttingDown) checkTimeout(task, tick);
 }
 
 void TaskRunner::checkTimeout(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
-    const bool passing =
-        simplex.state_ == State::StartingUp || simplex.state_ == State::ShuttingDown;
-    if (!passing || simplex.done_ || tick.nominalTime - task.stateSince < task.transitionTimeout) {
-        return;
-    }
+    const TaskDetails& is = details(task);
+    if (simplex.done_ || tick.nominalTime - is.stateSince < is.transitionTimeout) return;
     EventText text{name(hookOfState[static_cast<std::size_t>(simplex.state_)])};
-    text << " was not done within " << static_cast<double>(task.transitionTimeout) * 1e-9 << " s";
+    text << " was not done within " << static_cast<double>(is.transitionTimeout) * 1e-9 << " s";
     simplex.fault(TransitionTimeout, text.view());
 }
 
 void TaskRunner::transition(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
-    for (std::uint32_t i = 0; i < task.outputCount; ++i) {
+    for (std::uint32_t i = 0; simplex.demandRefused_ && i < task.outputCount; ++i) {
         TaskOutput& output = outputs_[task.firstOutput + i];
         if (output.refused.faulting == nullptr) continue;
         simplex.fault(output.refused.notFinite ? DemandNotFinite : DemandOutOfRange,
                       refusal(output.refused, output.target).view());
         output.refused = {};
     }
+    simplex.demandRefused_ = false;
     if (halted_ && simplex.state_ == State::Active) {
         simplex.fault(ClusterHalted, "the loop overran its period and overflow is \"halt\"");
     }
@@ -165,23 +172,23 @@ bool TaskRunner::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     const auto to = next(simplex.state_, moveOf(command));
     if (!to && command == LifeCycle::Shutdown) return false;  // on its way, or not running
-    simplex.text_ = EventText{};
+    simplex.rare_->text = EventText{};
     const bool tooLate = stopping_ && command == LifeCycle::Startup;
     if (tooLate) {
-        simplex.text_ << "no startup: the cluster is stopping";
+        simplex.rare_->text << "no startup: the cluster is stopping";
     } else if (!to) {
-        simplex.text_ << (command == LifeCycle::Startup ? "startup needs Standby, is "
-                                                        : "clearFaults needs Fault, is ")
-                      << name(simplex.state_);
+        simplex.rare_->text << (command == LifeCycle::Startup ? "startup needs Standby, is "
+                                                              : "clearFaults needs Fault, is ")
+                            << name(simplex.state_);
     } else if (command == LifeCycle::ClearFaults && !simplex.dead_ && !simplex.done_) {
-        simplex.text_ << "the fault is not over: stateFault has not returned true";
+        simplex.rare_->text << "the fault is not over: stateFault has not returned true";
     } else if (command != LifeCycle::Startup || mayStart(task)) {  // mayStart says why not
         enter(task, *to, tick);
         return true;
     }
     agent_.post(*simplex.thread_, tooLate ? Severity::Info : Severity::Warning, EventKind::Refusal,
-                task.index, simplex.text_);
-    agent_.refuseLifeCycle(task.index, command, simplex.text_, *simplex.thread_);
+                task.index, simplex.rare_->text);
+    agent_.refuseLifeCycle(task.index, command, simplex.rare_->text, *simplex.thread_);
     return false;
 }
 
@@ -191,16 +198,16 @@ bool TaskRunner::mayStart(Task& task) {
         const TaskInput& input = inputs_[task.firstInput + i];
         const SimplexInfo& target = structure_.simplexes[input.target];
         if (target.remote && input.rule->min > 0 && input.state->quality == Quality::Lost) {
-            simplex.text_ << "startup needs " << input.rule->name << ", but " << target.path
-                          << " of another agent is not there";
+            simplex.rare_->text << "startup needs " << input.rule->name << ", but " << target.path
+                                << " of another agent is not there";
             return false;
         }
     }
     for (std::uint32_t i = 0; i < task.outputCount; ++i) {
         const TaskOutput& output = outputs_[task.firstOutput + i];
         if (output.safe == nullptr || output.safe->observationIsGood()) continue;
-        simplex.text_ << "startup needs a good observation of what "
-                      << structure_.simplexes[output.target].path << " demands";
+        simplex.rare_->text << "startup needs a good observation of what "
+                            << structure_.simplexes[output.target].path << " demands";
         return false;
     }
     return true;
@@ -208,6 +215,7 @@ bool TaskRunner::mayStart(Task& task) {
 
 void TaskRunner::enter(Task& task, State to, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
+    TaskDetails& is = details(task);
     const State from = simplex.state_;
     const char* left = to == State::Fault ? "its simplex went to Fault" : "its simplex left Active";
     if ((from == State::Active || to == State::Fault) &&
@@ -225,13 +233,13 @@ void TaskRunner::enter(Task& task, State to, const Tick& tick) {
     }
     if (from == State::Fault) {
         simplex.dead_ = false;
-        task.faultCode = 0;
-        task.faultText = std::string_view{};
+        is.faultCode = 0;
+        is.faultText = std::string_view{};
     }
     simplex.state_ = to;
     simplex.done_ = false;
-    task.state = static_cast<std::int64_t>(to);
-    task.stateSince = tick.nominalTime;
+    is.state = static_cast<std::int64_t>(to);
+    is.stateSince = tick.nominalTime;
     if (to == State::Fault) return;  // has an event of its own
     EventText text{name(from)};
     text << " -> " << name(to);
@@ -243,12 +251,13 @@ void TaskRunner::enterFault(Task& task, const Tick& tick) {
     simplex.faultPending_ = false;
     const bool faultedBefore = simplex.state_ == State::Fault;
     if (faultedBefore) writeSafe(task);
-    if (faultedBefore && simplex.faultCode_ != HookThrew) return;
+    if (faultedBefore && simplex.rare_->faultCode != HookThrew) return;
     if (!faultedBefore) enter(task, State::Fault, tick);
-    task.faultCode = simplex.faultCode_;
-    task.faultText = simplex.text_.view();
+    TaskDetails& is = details(task);
+    is.faultCode = simplex.rare_->faultCode;
+    is.faultText = simplex.rare_->text.view();
     EventText text{"fault "};
-    text << simplex.faultCode_ << ": " << simplex.text_.view();
+    text << simplex.rare_->faultCode << ": " << simplex.rare_->text.view();
     agent_.post(*simplex.thread_, Severity::Error, EventKind::Fault, task.index, text);
 }
 

@@ -36,17 +36,22 @@ enum class Hook : std::uint8_t {
 };
 const char* name(Hook hook);
 
+// onLoss="hold": the copy of an input that stands while it is lost.
+struct HeldInput {
+    BlockSizes sizes;
+    Slice from, to;
+};
+
 // One input relationship of a task.
 struct TaskInput {
     const SlotState* state = nullptr;
-    const Rule* rule = nullptr;
-    std::uint32_t target = noSimplex;
     std::int64_t maxAge = 0;                    // ns
     const std::int64_t* ownerPeriod = nullptr;  // another agent's: 3 of them are allowed
-    bool ages = false;                          // something writes it
+    const HeldInput* held = nullptr;
+    std::uint32_t target = noSimplex;
+    bool ages = false;  // something writes it
     bool lost = false;
-    const BlockSizes* held = nullptr;  // onLoss="hold": sizes of the copy
-    Slice heldFrom, heldTo;
+    const Rule* rule = nullptr;
 };
 
 // One output relationship to a descriptive simplex.
@@ -74,16 +79,23 @@ struct Arbiter {
     bool inConflict = false;
 };
 
-struct Task {
+// What the loop looks at in every cycle: one cache line a task, in execution order.
+struct alignas(64) Task {
     SimplexCS* simplex = nullptr;  // null: an arbiter
-    Arbiter* arbiter = nullptr;
     SlotState* own = nullptr;
+    std::int64_t lastRun = 0;
     std::uint32_t index = noSimplex;
     std::uint32_t every = 1, phase = 0;
     std::uint32_t firstInput = 0, inputCount = 0;
     std::uint32_t firstOutput = 0, outputCount = 0;
     bool measures = false;
-    std::int64_t lastRun = 0, stateSince = 0;
+    bool limits = false;  // an output of its own has limits
+};
+
+// What it looks at when something happens.
+struct TaskDetails {
+    Arbiter* arbiter = nullptr;
+    std::int64_t stateSince = 0;
     std::int64_t transitionTimeout = 0;  // ns
     Data<std::int64_t> state, faultCode;
     Data<std::string_view> faultText;
@@ -129,6 +141,10 @@ private:
 
     void runTask(Task& task, std::uint32_t worker, LoopThread& thread) CORTEX_REALTIME;
     void runTimed(Task& task, std::uint32_t worker, LoopThread& thread) CORTEX_REALTIME;
+    TaskDetails& details(const Task& task) {
+        return details_[static_cast<std::size_t>(&task - tasks_.data())];
+    }
+    bool mayMove(const Task& task) const CORTEX_REALTIME;
     void runHooks(Task& task, const Tick& tick, Position& position) CORTEX_REALTIME;
     void transition(Task& task, const Tick& tick) CORTEX_REALTIME;
     bool lifeCycle(Task& task, LifeCycle command, const Tick& tick) CORTEX_REALTIME;
@@ -136,24 +152,28 @@ private:
     void enterFault(Task& task, const Tick& tick) CORTEX_REALTIME;
     bool mayStart(Task& task) CORTEX_REALTIME;
     SlotState readInputs(Task& task, const Tick& tick) CORTEX_REALTIME;
+    SlotState readInput(Task& task, TaskInput& input, const Tick& tick) CORTEX_REALTIME;
     void inputLost(Task& task, TaskInput& input, const Tick& tick) CORTEX_REALTIME;
     void finish(Task& task, const Tick& tick, SlotState state, Worker& worker) CORTEX_REALTIME;
     void limitOutputs(Task& task, const Tick& tick, Worker& worker) CORTEX_REALTIME;
     EventText refusal(const LimitResult& result, std::uint32_t target) const CORTEX_REALTIME;
     void reportLimits(const DemandLimits& limits, std::uint32_t simplex, LoopThread& thread)
         CORTEX_REALTIME;
-    void arbitrate(Task& task, Worker& worker, LoopThread& thread) CORTEX_REALTIME;
+    void arbitrate(Arbiter& arbiter, Worker& worker, LoopThread& thread) CORTEX_REALTIME;
     void latchSafe(Task& task) CORTEX_REALTIME;
     void writeSafe(Task& task) CORTEX_REALTIME;
     void checkTimeout(Task& task, const Tick& tick) CORTEX_REALTIME;
+    void settleQuality(const Task& task, const Tick& tick, SlotState& state) const CORTEX_REALTIME;
 
     AgentRuntime& agent_;
     const Structure& structure_;
     std::int64_t period_;
     std::vector<Chunk> chunks_;
-    std::vector<Task> tasks_;  // in execution order
+    std::vector<Task> tasks_;           // in execution order
+    std::vector<TaskDetails> details_;  // of the same tasks
     std::vector<TaskInput> inputs_;
     std::vector<TaskOutput> outputs_;
+    std::vector<std::unique_ptr<HeldInput>> held_;
     std::vector<std::unique_ptr<SafeDemands>> safe_;
     std::vector<std::unique_ptr<DemandLimits>> limits_;
     std::vector<std::unique_ptr<Arbiter>> arbiters_;

@@ -54,14 +54,15 @@ ThreadPool::ThreadPool(const Schedule& schedule, ChunkFunction run, void* contex
       context_(context),
       options_(std::move(options)),
       spinTime_(std::chrono::microseconds(options_.spinMicroseconds)),
-      done_(std::make_unique<DoneWord[]>(schedule.chunks.size())),
-      ticket_(schedule.chunks.size()) {
+      done_(std::make_unique<DoneWord[]>(schedule.chunks.size())) {
     for (const std::uint32_t chunk : predecessors_) isAwaited_[chunk] = true;
     std::uint32_t threads = options_.threads != 0 ? options_.threads : schedule.threads;
     if (!options_.oversubscribe) {
         threads = clampThreads(threads, options_.priority, options_.affinity, report_);
     }
     workers_ = std::vector<Worker>(chunks_.empty() ? 1 : std::max(1U, threads));
+    lists_ = std::vector<List>(workers_.size());
+    listChunks();
     try {
         startWorkers();
     } catch (...) {
@@ -71,6 +72,15 @@ ThreadPool::ThreadPool(const Schedule& schedule, ChunkFunction run, void* contex
 }
 
 ThreadPool::~ThreadPool() { stopWorkers(); }
+
+void ThreadPool::listChunks() {
+    for (std::uint32_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+        const auto home =
+            static_cast<std::size_t>(chunks_[chunk].place * static_cast<float>(threads()));
+        lists_[std::min<std::size_t>(home, threads() - 1)].chunks.push_back(chunk);
+    }
+    for (List& list : lists_) list.ticket = list.chunks.size();
+}
 
 /// Threads that share work are pinned, each to a CPU of its own: measured, the system otherwise
 /// wakes workers on the loop's own CPU, where they only slow it down.
@@ -114,18 +124,21 @@ void ThreadPool::workerMain(std::uint32_t worker) {
     if (options_.onStart != nullptr) options_.onStart(options_.onStartContext, worker);
     workers_[worker].isConfigured.store(true);
     workers_[worker].isConfigured.notify_one();
-    while (waitForCycle()) takeChunks(worker);
+    std::uint32_t seen = 0;
+    while (waitForCycle(seen)) takeChunks(worker);
 }
 
-/// False: the pool stops.
-bool ThreadPool::waitForCycle() noexcept {
+/// False: the pool stops. `seen`: the epoch that this worker was last woken for.
+bool ThreadPool::waitForCycle(std::uint32_t& seen) noexcept {
     Spin spin(spinTime_);
     for (;;) {
-        const std::uint32_t seen = started_.value();
+        const std::uint32_t epoch = started_.value();
         if (stopping_.load(std::memory_order_acquire)) return false;
-        const auto next = static_cast<std::uint32_t>(ticket_.load(std::memory_order_acquire));
-        if (next < chunks_.size()) return true;
-        if (!spin.spend()) started_.sleepWhile(seen);
+        if (epoch != seen) {
+            seen = epoch;
+            return true;
+        }
+        if (!spin.spend()) started_.sleepWhile(epoch);
     }
 }
 
@@ -139,11 +152,48 @@ void ThreadPool::cycle() noexcept {
     }
     epoch_ += EpochStep;
     remaining_.store(static_cast<std::uint32_t>(chunks_.size()), std::memory_order_relaxed);
-    ticket_.store(std::uint64_t{epoch_} << 32, std::memory_order_release);
+    for (List& list : lists_) {
+        list.ticket.store(std::uint64_t{epoch_} << 32, std::memory_order_release);
+    }
     started_.publish(epoch_);
     takeChunks(0);
-    Spin spin(spinTime_);
-    waitFor(finished_, epoch_, spin, 0);
+    for (Spin spin(spinTime_); finished_.value() != epoch_;) {
+        if (!spin.spend()) sleepFor(finished_, epoch_, 0);
+    }
+}
+
+/// The first of its predecessors that has not run in this epoch; null: it is ready.
+WakeWord* ThreadPool::unfinished(const Chunk& chunk, std::uint32_t epoch) noexcept {
+    const std::uint32_t* const first = predecessors_.data() + chunk.firstPredecessor;
+    for (std::uint32_t i = 0; i < chunk.predecessorCount; ++i) {
+        WakeWord& word = done_[first[i]].word;
+        if (word.value() != epoch) return &word;
+    }
+    return nullptr;
+}
+
+/// Takes the first chunk of a list if it is ready, of the worker's own list first.
+ThreadPool::Found ThreadPool::find(std::uint32_t worker) noexcept {
+    Found found;
+    for (std::uint32_t i = 0; i < threads(); ++i) {
+        List& list = lists_[worker + i < threads() ? worker + i : worker + i - threads()];
+        std::uint64_t ticket = list.ticket.load(std::memory_order_acquire);
+        for (;;) {
+            const auto next = static_cast<std::uint32_t>(ticket);
+            const auto epoch = static_cast<std::uint32_t>(ticket >> 32);
+            if (next >= list.chunks.size()) break;
+            const std::uint32_t chunk = list.chunks[next];
+            if (WakeWord* const awaited = unfinished(chunks_[chunk], epoch)) {
+                if (found.awaited == nullptr) found = {Found::None, awaited, epoch};
+                break;
+            }
+            if (list.ticket.compare_exchange_weak(ticket, ticket + 1, std::memory_order_acq_rel,
+                                                  std::memory_order_acquire)) {
+                return {chunk, nullptr, epoch};
+            }
+        }
+    }
+    return found;
 }
 
 /// Runs chunks until none is left to take. A cycle cannot end before those taken here are reported
@@ -152,41 +202,31 @@ void ThreadPool::takeChunks(std::uint32_t worker) noexcept {
     setFloatingPointMode();
     std::uint32_t taken = 0;
     std::uint32_t epoch = 0;
-    for (;;) {
-        const std::uint64_t ticket = ticket_.fetch_add(1, std::memory_order_acq_rel);
-        const auto index = static_cast<std::uint32_t>(ticket);
-        if (index >= chunks_.size()) break;
-        epoch = static_cast<std::uint32_t>(ticket >> 32);
-        const Chunk& chunk = chunks_[index];
-        if (chunk.predecessorCount != 0) waitForPredecessors(chunk, epoch, worker);
-        if (chunk.count != 0) run_(context_, index, worker);
-        if (isAwaited_[index]) done_[index].word.publish(epoch);
+    for (Spin spin(spinTime_);;) {
+        const Found found = find(worker);
+        if (found.chunk == Found::None) {
+            if (found.awaited == nullptr) break;
+            if (!spin.spend()) sleepFor(*found.awaited, found.epoch, worker);
+            continue;
+        }
+        epoch = found.epoch;
+        if (chunks_[found.chunk].count != 0) run_(context_, found.chunk, worker);
+        if (isAwaited_[found.chunk]) done_[found.chunk].word.publish(epoch);
         ++taken;
+        spin = Spin(spinTime_);
     }
     if (taken != 0 && remaining_.fetch_sub(taken, std::memory_order_acq_rel) == taken) {
         finished_.publish(epoch);
     }
 }
 
-void ThreadPool::waitForPredecessors(const Chunk& chunk, std::uint32_t epoch,
-                                     std::uint32_t worker) noexcept {
-    Spin spin(spinTime_);
-    const std::uint32_t* const first = predecessors_.data() + chunk.firstPredecessor;
-    for (std::uint32_t i = 0; i < chunk.predecessorCount; ++i) {
-        waitFor(done_[first[i]].word, epoch, spin, worker);
-    }
-}
-
-void ThreadPool::waitFor(WakeWord& word, std::uint32_t epoch, Spin& spin,
-                         std::uint32_t worker) noexcept {
-    for (;;) {
-        const std::uint32_t value = word.value();
-        if (value == epoch) return;
-        if (spin.spend()) continue;
-        std::atomic<std::uint64_t>& sleeps = workers_[worker].sleeps;
-        sleeps.store(sleeps.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-        word.sleepWhile(value);
-    }
+/// Returns once the word has that epoch, or earlier.
+void ThreadPool::sleepFor(WakeWord& word, std::uint32_t epoch, std::uint32_t worker) noexcept {
+    const std::uint32_t value = word.value();
+    if (value == epoch) return;
+    std::atomic<std::uint64_t>& sleeps = workers_[worker].sleeps;
+    sleeps.store(sleeps.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    word.sleepWhile(value);
 }
 
 std::uint64_t ThreadPool::sleeps(std::uint32_t worker) const noexcept {

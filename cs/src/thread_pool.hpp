@@ -30,8 +30,10 @@ struct PoolOptions {
 
 /// Runs the chunks of a schedule once in each cycle(), on the calling (loop) thread as worker 0 and
 /// on workers of its own. Made and destroyed outside the loop; cycle() neither allocates nor locks.
-/// A waiting thread spins for a bounded time and then sleeps, because a spinning real-time thread
-/// may keep the one it waits for off the CPU.
+/// Each worker has a list of chunks, the same in every cycle, so that their data stays in its
+/// caches; it takes what is ready from there, or else from the list of another. Some chunk is
+/// always ready, and first in its list. A waiting thread spins for a bounded time and then sleeps,
+/// because a spinning real-time thread may keep the one it waits for off the CPU.
 class ThreadPool {
 public:
     /// Must not throw.
@@ -67,16 +69,29 @@ private:
         std::vector<std::string> report;
         std::thread thread;
     };
+    /// Chunks in topological order, taken from the front by any worker.
+    struct alignas(64) List {
+        std::atomic<std::uint64_t> ticket{0};  // epoch << 32 | next chunk to take
+        std::vector<std::uint32_t> chunks;
+    };
+    /// What a worker can do next.
+    struct Found {
+        static constexpr std::uint32_t None = 0xffffffffU;
+        std::uint32_t chunk = None;   // taken
+        WakeWord* awaited = nullptr;  // nothing is ready before it changes; null: nothing is left
+        std::uint32_t epoch = 0;
+    };
 
     ThreadOptions threadOptions(std::uint32_t worker) const;
     void startWorkers();
     void stopWorkers() noexcept;
     void workerMain(std::uint32_t worker);
-    bool waitForCycle() noexcept;
+    void listChunks();
+    bool waitForCycle(std::uint32_t& seen) noexcept;
     void takeChunks(std::uint32_t worker) noexcept;
-    void waitForPredecessors(const Chunk& chunk, std::uint32_t epoch,
-                             std::uint32_t worker) noexcept;
-    void waitFor(WakeWord& word, std::uint32_t epoch, Spin& spin, std::uint32_t worker) noexcept;
+    Found find(std::uint32_t worker) noexcept;
+    WakeWord* unfinished(const Chunk& chunk, std::uint32_t epoch) noexcept;
+    void sleepFor(WakeWord& word, std::uint32_t epoch, std::uint32_t worker) noexcept;
 
     // Read-only in the loop.
     const std::vector<Chunk> chunks_;
@@ -88,10 +103,10 @@ private:
     const std::chrono::nanoseconds spinTime_;
     std::vector<std::string> report_;
     std::vector<Worker> workers_;
+    std::vector<List> lists_;           // by worker
     std::unique_ptr<DoneWord[]> done_;  // by chunk: the epoch in which it last ran
     std::uint32_t epoch_ = 0;           // even; loop thread only
 
-    alignas(64) std::atomic<std::uint64_t> ticket_;        // epoch << 32 | next chunk to take
     alignas(64) std::atomic<std::uint32_t> remaining_{0};  // chunks not yet reported as done
     alignas(64) WakeWord started_;   // epoch; workers sleep on it between cycles
     alignas(64) WakeWord finished_;  // epoch; the loop thread sleeps on it at the cycle's end

@@ -28,9 +28,9 @@ struct Mailbox : testing::Test {
         return lane->post(add.command, 0, add.request, add.requestSize, {cycle, cycle * 1000});
     }
     double take(std::int64_t cycle = 0) {
-        const double amount = *reinterpret_cast<const double*>(lane->request());
-        *reinterpret_cast<double*>(lane->response()) = amount * 2;
-        lane->answer({}, {cycle, cycle * 1000});
+        const double amount = *reinterpret_cast<const double*>(lane->requestOf(lane->front()));
+        *reinterpret_cast<double*>(lane->responseOf(lane->front())) = amount * 2;
+        lane->answer(lane->front(), {}, {cycle, cycle * 1000});
         lane->pop();
         return amount;
     }
@@ -68,7 +68,7 @@ TEST_F(Mailbox, CountsTheLatencyInCyclesAndNanoseconds) {
 TEST_F(Mailbox, LatencyIsNeverNegativeWhereTheReceiversChunkBeganEarlier) {
     make(4);
     post(1, 10);
-    lane->answer({}, {10, 9000});
+    lane->answer(lane->front(), {}, {10, 9000});
     lane->pop();
     lane->takeAnswers();
 
@@ -127,7 +127,7 @@ TEST_F(Mailbox, WordsOfAnAnswerGoWithIt) {
     make(4);
     post(1);
     post(2);
-    lane->answer({Outcome::Rejected, Reason::Busy, "later"}, {});
+    lane->answer(lane->front(), {Outcome::Rejected, Reason::Busy, "later"}, {});
     lane->pop();
     lane->takeAnswers();
     EXPECT_EQ(add.answer.reason, Reason::Busy);
@@ -143,7 +143,7 @@ TEST_F(Mailbox, LastAnswerOfALongCommandComesAfterOthersThatWereSentLater) {
     make(4);
     lane->post(work.command, 1, work.request, work.requestSize, {});
     post(7);
-    lane->answer({Outcome::Running, Reason::None, {}}, {});
+    lane->answer(lane->front(), {Outcome::Running, Reason::None, {}}, {});
     lane->pop();
     take();
     lane->takeAnswers();
@@ -165,7 +165,7 @@ TEST_F(Mailbox, LastAnswersOfADelayedLaneWaitForTheLatch) {
     make(4, true);
     lane->post(work.command, 1, work.request, work.requestSize, {});
     lane->latch();
-    lane->answer({Outcome::Running, Reason::None, {}}, {});
+    lane->answer(lane->front(), {Outcome::Running, Reason::None, {}}, {});
     lane->pop();
     lane->finish({1, 0, 0, Outcome::Done, Reason::None, {}}, 1, nullptr, 0);
     lane->takeAnswers();

@@ -9,7 +9,9 @@
 #include "cortex/core/tables.hpp"
 #include "cortex/core/tick.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -28,15 +30,22 @@ class Lane;
 struct alignas(64) LoopThread {
     EventRing* events = nullptr;
     ChunkClock clock;
-    std::uint32_t sequence = 0;  // of events in this cycle; beginCycle() starts it anew
-    std::uint64_t commands = 0;  // executed, since start
+    std::int64_t nominalTime = 0;  // of the present cycle, ns
+    std::uint32_t sequence = 0;    // of events in this cycle; beginCycle() starts it anew
+    std::uint64_t commands = 0;    // executed, since start
     std::uint64_t rejected = 0;
     std::int64_t lastLatency = 0;              // ns, of the last executed command
     std::vector<std::uint64_t> latencyCounts;  // histogram, ns, see latencyBucket()
 };
-std::uint32_t latencyBucket(std::int64_t nanoseconds) CORTEX_REALTIME;  // 16 per octave
-double latencyOfBucket(std::uint32_t bucket);                           // us, upper edge
 inline constexpr std::uint32_t latencyBuckets = 16 * 36;
+inline std::uint32_t latencyBucket(std::int64_t nanoseconds) CORTEX_REALTIME {  // 16 per octave
+    if (nanoseconds < 16) return nanoseconds < 0 ? 0U : static_cast<std::uint32_t>(nanoseconds);
+    const auto value = static_cast<std::uint64_t>(nanoseconds);
+    const auto octave = static_cast<std::uint32_t>(std::bit_width(value)) - 5U;
+    const auto step = static_cast<std::uint32_t>(value >> octave) & 15U;
+    return std::min((octave + 1U) * 16U + step, latencyBuckets - 1U);
+}
+double latencyOfBucket(std::uint32_t bucket);  // us, upper edge
 
 struct AgentOptions {
     std::uint32_t imageReaders = 8;
@@ -97,7 +106,13 @@ public:
     // it threw, so that no handler runs.
     void processCommands(std::uint32_t simplex, State state, LoopThread& thread, bool dead = false)
         CORTEX_REALTIME;
-    bool hasCommandWork(std::uint32_t simplex) const CORTEX_REALTIME;
+    // Whether step (1) has anything to do: a pending life-cycle word, and processCommands().
+    bool hasLifeCycle(std::uint32_t simplex) const CORTEX_REALTIME {
+        return (calls_[simplex].load(std::memory_order_relaxed) & ~commandWork) != 0;
+    }
+    bool hasCommandWork(std::uint32_t simplex) const CORTEX_REALTIME {
+        return (calls_[simplex].load(std::memory_order_relaxed) & commandWork) != 0;
+    }
     // On leaving Active and in Fault: the last call of a long command, then the answer Cancelled.
     // Without `callHandler` (a hook threw) only the answer. False: the handler threw; nothing
     // passes through.
@@ -126,6 +141,7 @@ public:
     std::vector<std::string_view> unhandledCommands(std::uint32_t simplex) const;
 
 private:
+    friend class CommandPort;
     friend class Router;
     friend class LinkTable;
 
@@ -159,7 +175,9 @@ private:
     std::vector<LoopThread> threads_;
     std::vector<std::uint32_t> ranks_;
     std::vector<std::int64_t> ownerPeriods_;
-    std::unique_ptr<std::atomic<std::uint8_t>[]> lifeCycle_, lifeCycleLater_;  // bits
+    // Per simplex, bits: pending life-cycle commands, and whether its port has work.
+    static constexpr std::uint8_t commandWork = 1U << 7U;
+    std::unique_ptr<std::atomic<std::uint8_t>[]> calls_, callsLater_;
     std::atomic<bool> anyLater_{false};
     std::uint32_t agentSimplex_ = noSimplex;
     std::int64_t cycle_ = 0, nominalTime_ = 0, lateness_ = 0;

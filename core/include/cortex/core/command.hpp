@@ -168,8 +168,16 @@ LifeCycle lifeCycleCommand(std::string_view command);
 
 std::vector<ArgumentCheck> compileChecks(const RecordLayout& layout);
 // Finite, in range, a label where only labels are valid, text that fits; else why not, in words.
-bool checkArgument(const ArgumentCheck& check, const std::byte* record,
+bool checkElements(const ArgumentCheck& check, const std::byte* record,
                    std::optional<EventText>& why) CORTEX_REALTIME;
+inline bool checkArgument(const ArgumentCheck& check, const std::byte* record,
+                          std::optional<EventText>& why) CORTEX_REALTIME {
+    if (check.kind == Kind::Float && check.length == 1) {  // the usual one
+        const double value = *reinterpret_cast<const double*>(record + check.offset);
+        if (value >= check.minFloat && value <= check.maxFloat) return true;
+    }
+    return checkElements(check, record, why);
+}
 // The whole record; "" if good.
 EventText checkArguments(const RecordLayout& layout, const std::byte* record);
 void initialiseRecord(const RecordLayout& layout, std::byte* record);

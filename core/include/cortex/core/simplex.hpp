@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -113,13 +114,13 @@ public:
     Simplex(const Simplex&) = delete;
     Simplex& operator=(const Simplex&) = delete;
 
-    const std::string& path() const { return identity_.path; }
-    const Type& type() const { return *identity_.type; }
-    const std::vector<Relation>& relations() const { return relations_; }
-    const std::vector<Setting>& settings() const { return settings_; }
-    const Place& place() const { return place_; }
-    int every() const { return every_; }
-    int phase() const { return phase_; }
+    const std::string& path() const { return description_->identity.path; }
+    const Type& type() const { return *description_->identity.type; }
+    const std::vector<Relation>& relations() const { return description_->relations; }
+    const std::vector<Setting>& settings() const { return description_->settings; }
+    const Place& place() const { return description_->place; }
+    int every() const { return description_->every; }
+    int phase() const { return description_->phase; }
     std::uint32_t index() const { return index_; }  // in the Structure, from start() on
 
     // Setup, before start(): the value an item starts with. Wrong ones are findings of validate().
@@ -185,14 +186,18 @@ private:
                                 bool request) const;
     std::vector<std::uint32_t> edgesUnder(std::string_view rule, Direction direction) const;
 
-    Identity identity_;
-    Place place_;
-    std::vector<Relation> relations_;
-    std::vector<Setting> settings_;
-    int every_ = 1;
-    int phase_ = -1;
-    std::uint32_t index_ = noSimplex;
+    // What the loop never looks at, so that what it does stands close together.
+    struct Description {
+        Identity identity;
+        Place place{};
+        std::vector<Relation> relations{};
+        std::vector<Setting> settings{};
+        int every = 1, phase = -1;
+    };
+
+    std::unique_ptr<Description> description_;
     AgentRuntime* runtime_ = nullptr;
+    std::uint32_t index_ = noSimplex;
 };
 
 }  // namespace cortex

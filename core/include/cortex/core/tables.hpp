@@ -43,12 +43,16 @@ public:
     Slice live(std::uint32_t simplex) const;
     Slice constants(std::uint32_t simplex) const;  // state is null
     // What the owner of edge `index` sees: live, latch, held copy, or its candidate to write to.
-    Slice edge(std::uint32_t index) const { return edges_[index]; }
+    // Setup: throws Error where it is a latch that was given up.
+    Slice edge(std::uint32_t index) { return wanted(edges_[index]); }
     // What that slice is filled from: for a held copy the live or latched source, else itself.
-    Slice edgeSource(std::uint32_t index) const { return sources_[index]; }
+    Slice edgeSource(std::uint32_t index) { return wanted(sources_[index]); }
 
     // Copies every simplex that has delayed readers; at the start of a cycle.
     void latch() CORTEX_REALTIME;
+    // End of setup: what nobody asked for through edge() or edgeSource() is latched no longer, as
+    // where a delayed relationship only carries commands.
+    void giveUpUnusedLatches();
 
     std::span<std::byte> arena() { return {arena_.get(), arenaSize_}; }
     std::span<const std::byte> constantArena() const { return {constants_.get(), constantSize_}; }
@@ -60,6 +64,7 @@ private:
     struct Latch {
         const BlockSizes* sizes;
         Slice from, to;
+        bool used = false;
     };
     struct AlignedDelete {
         void operator()(std::byte* memory) const;
@@ -71,13 +76,17 @@ private:
     void* cell(std::uint32_t simplex, const ItemLayout& item) const;
     void initialise();
     std::vector<Slice> makeLatches();
+    static const SlotState* stateOfCopy(const Latch& latch);
+    Slice wanted(const Slice& slice);
     void resolveEdges(const std::vector<Slice>& latches);
 
     std::shared_ptr<const Structure> structure_;
     Memory arena_, constants_;
     std::size_t arenaSize_ = 0, constantSize_ = 0;
-    std::vector<Memory> extra_;  // latches, candidates, held copies
-    std::vector<Latch> latches_;
+    std::vector<Memory> extra_;   // latches, candidates, held copies
+    std::vector<Latch> latches_;  // by the address of the copy's state
+    std::vector<Latch> latched_;  // those of them that latch() copies
+    bool gaveUp_ = false;
     std::vector<Slice> edges_, sources_;
 };
 

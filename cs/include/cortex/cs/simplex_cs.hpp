@@ -7,6 +7,7 @@
 #include "cortex/core/tick.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <string_view>
 
 namespace cortex::cs {
@@ -20,7 +21,7 @@ class ClusterCS;
 // you need. Hooks run in the tick, on the loop thread or a worker, one at a time per simplex:
 // commands, loopStart, the function of the current state, loopEnd. A hook that throws puts this
 // simplex into Fault; until clearFaults none of its hooks runs.
-class SimplexCS : public Simplex {
+class alignas(64) SimplexCS : public Simplex {
 public:
     using Simplex::Simplex;
 
@@ -91,6 +92,7 @@ private:
         return (static_cast<Self*>(static_cast<SimplexCS*>(self))->*method)(call);
     }
 
+    // Looked at in every cycle; shares a cache line with the head of the object.
     State state_ = State::Standby;
     bool faultPending_ = false;
     bool done_ = false;  // the transitional state's function has returned true
@@ -98,13 +100,17 @@ private:
     bool inputLost_ = false;
     bool safeByLoss_ = false;  // an onLoss="safe" input is lost: safe demands stand
     bool qualitySet_ = false;
+    bool demandRefused_ = false;  // by an arbiter, in the cycle before
     Quality quality_ = Quality::Good;
     LoopThread* thread_ = nullptr;
     std::int64_t now_ = 0;  // nominal time of the cycle in which it last ran
-    std::int64_t measuredAt_ = 0;
-    std::int64_t faultCode_ = 0;
-    std::uint32_t manager_ = noSimplex;  // who starts and stops it instead of group commands
-    EventText text_;                     // of the pending fault, or why startup was refused
+    struct Rare {
+        std::int64_t measuredAt = 0;
+        std::int64_t faultCode = 0;
+        std::uint32_t manager = noSimplex;  // who starts and stops it instead of group commands
+        EventText text;                     // of the pending fault, or why startup was refused
+    };
+    std::unique_ptr<Rare> rare_ = std::make_unique<Rare>();
 };
 
 }  // namespace cortex::cs
