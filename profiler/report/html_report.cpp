@@ -55,10 +55,9 @@ std::string machine(const Results& results) {
 std::string aimCell(const Quantity& quantity) {
     const std::optional<bool> reached = met(quantity);
     if (!reached) return element("td", "");
-    const std::string aim =
-        "<span class=\"n\">" + escaped(aimText(quantity, thinSpace)) + "</span>";
-    return element("td", aim + (*reached ? " <span class=\"good\">✓ met</span>"
-                                         : " <span class=\"bad\">✗ not met</span>"));
+    const std::string aim = escaped(aimText(quantity, thinSpace));
+    return element("td class=\"aim\"", aim + (*reached ? " <span class=\"good\">✓ met</span>"
+                                                       : " <span class=\"bad\">✗ not met</span>"));
 }
 
 std::string summary(const Results& results) {
@@ -76,7 +75,7 @@ std::string summary(const Results& results) {
                 element("td class=\"n\"" + repeats, escaped(valueText(each, thinSpace))) +
                 element("td class=\"n\"", escaped(baselineText(each, thinSpace))) +
                 element("td class=\"n\"", escaped(ratioText(each))) + aimCell(each) +
-                element("td", escaped(each.paper)) + "</tr>\n";
+                element("td class=\"paper\"", escaped(each.paper)) + "</tr>\n";
     }
     return text + "</tbody></table></div>\n";
 }

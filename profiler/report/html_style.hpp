@@ -30,6 +30,8 @@ table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums;font
 th,td{padding:.32rem .7rem;text-align:left;vertical-align:top;border-bottom:1px solid var(--grid)}
 th{border-bottom:2px solid var(--rule);font-weight:600}
 .n{text-align:right;white-space:nowrap}
+.aim{white-space:nowrap}
+.paper{min-width:9rem}
 .machine{width:auto}
 .machine th{font-weight:400;color:var(--faint);border-bottom:1px solid var(--grid)}
 .wide{overflow-x:auto}
@@ -60,6 +62,7 @@ path.line{fill:none;stroke-width:1.9;stroke-linejoin:round}
 .b2{stroke:var(--b2);fill:var(--page)}.b3{stroke:var(--b3);fill:var(--page)}
 .b0 path.line{stroke-dasharray:7 4}.b1 path.line{stroke-dasharray:3 3}
 .b2 path.line{stroke-dasharray:10 3 2 3}.b3 path.line{stroke-dasharray:12 5}
+g path.dense{stroke-dasharray:none;stroke-width:1;stroke-opacity:.8}
 @media print{body{max-width:none;padding:0;font-size:11px}
 figure,tr,.box{break-inside:avoid}.beside{grid-template-columns:minmax(0,1fr) 12rem}
 nav{display:none}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}

@@ -16,6 +16,7 @@ namespace {
 constexpr double width = 800, plotHeight = 320;
 constexpr double letter = 6.9, line = 15;              // of the text in a plot
 constexpr std::size_t markColumn = 20, markLines = 4;  // of texts beside the plot
+constexpr std::size_t manyPoints = 1000;               // lines cover each other
 constexpr std::size_t fewPoints = 60;                  // a marker for each
 constexpr std::size_t xTicks = 8, yTicks = 6;
 
@@ -145,11 +146,15 @@ void Drawing::layOut() {
         widest = std::max(widest, static_cast<double>(characters(tick.text)) * letter);
     }
     left_ = 34 + widest;
-    right_ = width - (beside_.empty() ? 16 : markColumn * letter + 14);
+    std::size_t column = 0;
+    for (const MarkText& each : beside_) {
+        for (const std::string& text : each.lines) column = std::max(column, characters(text));
+    }
+    right_ = width - (column == 0 ? 16 : static_cast<double>(column) * letter + 14);
     xScale_ = Scale{xSpan, figure_.x.logarithmic, left_, right_};
     placeAbove();
     top_ = 12 + static_cast<double>(rowsAbove_) * line;
-    bottom_ = top_ + plotHeight;
+    bottom_ = top_ + (empty_ ? plotHeight / 4 : plotHeight);
     yScale_ = Scale{ySpan, figure_.y.logarithmic, bottom_, top_};
     placeBeside();
 }
@@ -162,8 +167,8 @@ void Drawing::placeAbove() {
     };
     std::ranges::sort(above_, {}, [](const MarkText& each) { return each.mark->at; });
     for (MarkText& each : above_) {
-        each.at =
-            std::clamp(x(each.mark->at), half(each), std::max(half(each), width - half(each)));
+        each.at = std::clamp(x(each.mark->at), left_ + half(each),
+                             std::max(left_, width - 2 * half(each)) + half(each));
         const auto row = std::ranges::find_if(
             ends, [&](double end) { return end + letter < each.at - half(each); });
         const auto index = static_cast<std::size_t>(row - ends.begin());
@@ -256,7 +261,9 @@ void Drawing::drawSeries(const Series& series, std::size_t index) {
     end();
     svg_ += "<g class=\"" + shapes::kind(series, index) + "\"><title>" + escaped(series.name) +
             "</title>";
-    if (!path.empty()) svg_ += "<path class=\"line\" d=\"" + path + "\"/>";
+    if (!path.empty())
+        svg_ += std::string{"<path class=\"line"} +
+                (series.points.size() > manyPoints ? " dense" : "") + "\" d=\"" + path + "\"/>";
     svg_ += "</g>";
     if (series.points.size() <= fewPoints) drawMarkers(series, index);
 }
