@@ -44,12 +44,11 @@ std::string notes(const Results& results) {
 
 std::string machine(const Results& results) {
     if (results.machine.empty()) return {};
-    std::string text = "<h2>Machine</h2>\n<div class=\"wide\"><table class=\"machine\">\n";
+    std::string text = "<h2>Machine</h2>\n<dl class=\"machine\">\n";
     for (const auto& [fact, value] : results.machine) {
-        text += "<tr>" + element("th scope=\"row\"", escaped(fact)) +
-                element("td", escaped(value)) + "</tr>\n";
+        text += element("div", element("dt", escaped(fact)) + element("dd", escaped(value))) + "\n";
     }
-    return text + "</table></div>\n";
+    return text + "</dl>\n";
 }
 
 std::string aimCell(const Quantity& quantity) {
@@ -114,8 +113,8 @@ std::string htmlReport(const Results& results) {
            "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
            "<meta name=\"color-scheme\" content=\"light dark\">\n<title>CorteX profiler, " +
            escaped(results.started) + "</title>\n<style>" + htmlStyle +
-           "</style>\n</head>\n<body>\n" + head(results) + notes(results) + summary(results) +
-           figures(results) + machine(results) + "</body>\n</html>\n";
+           "</style>\n</head>\n<body>\n" + head(results) + notes(results) + machine(results) +
+           summary(results) + figures(results) + "</body>\n</html>\n";
 }
 
 }  // namespace cortex::profiler

@@ -32,8 +32,11 @@ th{border-bottom:2px solid var(--rule);font-weight:600}
 .n{text-align:right;white-space:nowrap}
 .aim{white-space:nowrap}
 .paper{min-width:9rem}
-.machine{width:auto}
-.machine th{font-weight:400;color:var(--faint);border-bottom:1px solid var(--grid)}
+.machine{display:grid;grid-template-columns:repeat(auto-fill,minmax(21rem,1fr));gap:0 2rem;
+margin:0;font-size:.9rem}
+.machine div{display:flex;gap:1rem;padding:.2rem 0;border-bottom:1px solid var(--grid)}
+.machine dt{flex:0 0 9.5rem;color:var(--faint)}
+.machine dd{margin:0}
 .wide{overflow-x:auto}
 figure{margin:1.2rem 0;padding:1rem 0;border-top:1px solid var(--rule)}
 .beside{display:grid;grid-template-columns:minmax(0,1fr) 17rem;gap:1.5rem}
@@ -62,7 +65,7 @@ path.line{fill:none;stroke-width:1.9;stroke-linejoin:round}
 .b2{stroke:var(--b2);fill:var(--page)}.b3{stroke:var(--b3);fill:var(--page)}
 .b0 path.line{stroke-dasharray:7 4}.b1 path.line{stroke-dasharray:3 3}
 .b2 path.line{stroke-dasharray:10 3 2 3}.b3 path.line{stroke-dasharray:12 5}
-g path.dense{stroke-dasharray:none;stroke-width:1;stroke-opacity:.8}
+g path.line.dense{stroke-dasharray:none;stroke-width:1;stroke-opacity:.8}
 @media print{body{max-width:none;padding:0;font-size:11px}
 figure,tr,.box{break-inside:avoid}.beside{grid-template-columns:minmax(0,1fr) 12rem}
 nav{display:none}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}

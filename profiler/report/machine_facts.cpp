@@ -28,7 +28,7 @@ std::string lineOf(const fs::path& file) {
     return line;
 }
 
-std::string otherwise(std::string text, const char* replacement) {
+std::string otherwise(const std::string& text, const char* replacement) {
     return text.empty() ? replacement : text;
 }
 
@@ -67,6 +67,12 @@ std::string caches(const fs::path& root) {
         found.insert("L" + level + kind + " " + lineOf(each.path() / "size"));
     }
     return joined(found);
+}
+
+// Whether a core of the CPU runs two threads.
+std::string simultaneous(const fs::path& root) {
+    const std::string control = lineOf(root / cpus / "smt/control");
+    return control.starts_with("not") ? "none" : control;
 }
 
 std::string governors(const fs::path& root) {
@@ -155,7 +161,7 @@ std::vector<std::pair<std::string, std::string>> machineFacts(const fs::path& ro
         {"CPU", otherwise(cpuinfo(root, "model name"), system.machine)},
         {"CPUs", usableCpus()},
         {"caches", otherwise(caches(root), "unknown")},
-        {"simultaneous threads", otherwise(lineOf(root / cpus / "smt/control"), "unknown")},
+        {"simultaneous threads", otherwise(simultaneous(root), "unknown")},
         {"virtualised", virtualised(root)},
         {"governor", otherwise(governors(root), "not set here")},
         {"isolated CPUs", otherwise(lineOf(root / cpus / "isolated"), "none")},

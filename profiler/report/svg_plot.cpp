@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 
 namespace cortex::profiler {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 constexpr double width = 800, plotHeight = 320;
 constexpr double letter = 6.9, line = 15;              // of the text in a plot
 constexpr std::size_t markColumn = 20, markLines = 4;  // of texts beside the plot
-constexpr std::size_t manyPoints = 1000;               // lines cover each other
 constexpr std::size_t fewPoints = 60;                  // a marker for each
 constexpr std::size_t xTicks = 8, yTicks = 6;
 
@@ -64,6 +64,7 @@ private:
     void placeAbove();
     void drawAxes();
     void drawMarks();
+    std::size_t indexOf(const Series& series) const;  // among those of its kind
     void drawSeries(const Series& series, std::size_t index);
     void drawMarkers(const Series& series, std::size_t index);
     double x(double value) const { return xScale_.pixel(value); }
@@ -244,6 +245,11 @@ void Drawing::drawMarks() {
     }
 }
 
+std::size_t Drawing::indexOf(const Series& series) const {
+    const std::span before{figure_.series.data(), &series};
+    return static_cast<std::size_t>(std::ranges::count(before, series.baseline, &Series::baseline));
+}
+
 void Drawing::drawSeries(const Series& series, std::size_t index) {
     std::string path;
     std::vector<Point> run;
@@ -261,9 +267,9 @@ void Drawing::drawSeries(const Series& series, std::size_t index) {
     end();
     svg_ += "<g class=\"" + shapes::kind(series, index) + "\"><title>" + escaped(series.name) +
             "</title>";
-    if (!path.empty())
-        svg_ += std::string{"<path class=\"line"} +
-                (series.points.size() > manyPoints ? " dense" : "") + "\" d=\"" + path + "\"/>";
+    if (!path.empty()) {
+        svg_ += "<path class=\"" + shapes::lineKind(series) + "\" d=\"" + path + "\"/>";
+    }
     svg_ += "</g>";
     if (series.points.size() <= fewPoints) drawMarkers(series, index);
 }
@@ -292,17 +298,14 @@ Plot Drawing::plot() && {
         drawAxes();
         drawMarks();
     }
-    std::size_t measured = 0, baselines = 0;
-    std::vector<std::pair<const Series*, std::size_t>> order;
     for (const Series& series : figure_.series) {
-        order.emplace_back(&series, series.baseline ? baselines++ : measured++);
         const bool markers = series.points.size() <= fewPoints;
-        plot_.legend += shapes::legendEntry(series, order.back().second, markers);
+        plot_.legend += shapes::legendEntry(series, indexOf(series), markers);
     }
-    std::ranges::stable_sort(order, std::greater{},
-                             [](const auto& each) { return each.first->baseline; });
-    if (!empty_) {
-        for (const auto& [series, index] : order) drawSeries(*series, index);
+    for (const bool baselines : {true, false}) {
+        for (const Series& series : figure_.series) {
+            if (series.baseline == baselines && !empty_) drawSeries(series, indexOf(series));
+        }
     }
     svg_ += "</svg>\n";
     return std::move(plot_);

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t colours = 6, dashes = 4, forms = 4;  // as in the style of the page
 
+constexpr std::size_t manyPoints = 1000;  // lines cover each other
+
 std::string number(double value) {
     std::array<char, 32> text{};
     const int length = std::snprintf(text.data(), text.size(), "%.1f", value);
@@ -58,6 +60,10 @@ std::string kind(const Series& series, std::size_t index) {
            std::to_string(index % (series.baseline ? dashes : colours));
 }
 
+std::string lineKind(const Series& series) {
+    return series.points.size() > manyPoints ? "line dense" : "line";
+}
+
 std::string marker(std::size_t index, double x, double y) {
     const std::string at = "M" + number(x) + " " + number(y);
     switch (index % forms) {
@@ -75,7 +81,7 @@ std::string marker(std::size_t index, double x, double y) {
 std::string legendEntry(const Series& series, std::size_t index, bool withMarker) {
     std::string sample =
         "<svg class=\"sample\" viewBox=\"0 0 34 12\" aria-hidden=\"true\"><g class=\"" +
-        kind(series, index) + "\"><path class=\"line\" d=\"M1 6H33\"/>";
+        kind(series, index) + "\"><path class=\"" + lineKind(series) + "\" d=\"M1 6H33\"/>";
     if (withMarker) sample += marker(index, 17, 6);
     return "<li>" + sample + "</g></svg> " + escaped(series.name) + "</li>\n";
 }

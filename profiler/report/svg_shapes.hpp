@@ -17,6 +17,7 @@ std::string path(const std::vector<Point>& pixels);  // of the attribute d
 
 // The nth series, or the nth baseline, has its own colour, dashes and marker.
 std::string kind(const Series& series, std::size_t index);
+std::string lineKind(const Series& series);
 std::string marker(std::size_t index, double x, double y);
 std::string legendEntry(const Series& series, std::size_t index, bool withMarker);
 
