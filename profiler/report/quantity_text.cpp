@@ -16,7 +16,7 @@ std::string withUnit(double value, const std::string& unit, std::string_view gro
 }  // namespace
 
 std::optional<double> ratioToBaseline(const Quantity& quantity) {
-    if (!quantity.baseline || *quantity.baseline == 0) return {};
+    if (!quantity.baseline) return {};
     const double ratio = quantity.value / *quantity.baseline;
     return std::isfinite(ratio) ? std::optional{ratio} : std::nullopt;
 }
