@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/summary_text.hpp"
+
+#include "report/quantity_text.hpp"
+#include "report/text_columns.hpp"
+
+namespace cortex::profiler {
+
+std::string summaryText(const Results& results, std::size_t width) {
+    std::vector<std::vector<std::string>> rows;
+    for (const Quantity& each : results.quantities) {
+        const std::optional<bool> reached = met(each);
+        rows.push_back({each.what, valueText(each), baselineText(each), ratioText(each),
+                        aimText(each), reached ? (*reached ? "met" : "NOT met") : "", each.paper});
+    }
+    std::string text;
+    if (rows.empty()) {
+        text = "Nothing was measured.\n";
+    } else {
+        text = textColumns({{"what", 9, false},
+                            {"here", 8},
+                            {"beside it", 3},
+                            {"ratio", 6},
+                            {"aim", 5},
+                            {"", 7, false},
+                            {"paper", 1, false}},
+                           rows, width);
+    }
+    const Aims aims = aimsOf(results);
+    if (aims.all > 0) {
+        text +=
+            "\nAims met: " + std::to_string(aims.met) + " of " + std::to_string(aims.all) + "\n";
+    }
+    if (!results.complete) text += "\nNot complete: the run was stopped, or still goes on.\n";
+    if (!results.notes.empty()) text += "\n";
+    for (const std::string& note : results.notes) {
+        std::string before = "- ";
+        for (const std::string& line :
+             wrappedText(printable(note), width - std::min<std::size_t>(width, 2))) {
+            text += before + line + "\n";
+            before = "  ";
+        }
+    }
+    return text;
+}
+
+}  // namespace cortex::profiler

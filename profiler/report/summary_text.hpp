@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "report/results.hpp"
+
+#include <cstddef>
+#include <string>
+
+namespace cortex::profiler {
+
+// The summary table of the report for a terminal: plain, aligned, "met" or "NOT met" where there is
+// an aim; then how many are met, and the notes.
+std::string summaryText(const Results& results, std::size_t width);
+
+}  // namespace cortex::profiler
