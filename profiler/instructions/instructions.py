@@ -56,10 +56,12 @@ def versions(build):
 
 
 def function_name(name, library):
-    """Stable: without what the compiler or callgrind appends; code without a name by its library."""
-    if name.startswith("0x") or name == "???":
-        return f"(unnamed code of {pathlib.Path(library).name.split('.so')[0]})"
-    return re.sub(r"( \[clone [^]]*\])+|'\d+$|@.*$", "", name)
+    """Stable: without what the compiler or callgrind appends. Other libraries count as a whole: which
+    names are known of them depends on the debug symbols that are installed."""
+    library = pathlib.Path(library).name.split(".so")[0]
+    if "cortex" not in library or name.startswith("0x"):
+        return f"({library or 'unknown'})"
+    return re.sub(r"( \[clone [^]]*\])+|'\d+$", "", name)
 
 
 def read_dump(path):
