@@ -5,6 +5,8 @@
 #include <array>
 #include <cerrno>
 #include <cfenv>
+#include <fstream>
+#include <sstream>
 #include <system_error>
 
 #include <pthread.h>
@@ -42,6 +44,13 @@ std::vector<int> allowedCpus() {
     }
     if (cpus.empty()) cpus.push_back(0);
     return cpus;
+}
+
+std::string firstLine(const char* file) {
+    std::ifstream stream{file};
+    std::string line;
+    std::getline(stream, line);
+    return line;
 }
 
 /// Those of the wanted CPUs that are there; all that are, where none was wanted or is there.
@@ -140,6 +149,57 @@ std::vector<std::string> lockMemory() {
     if (!isLimited) return {};
     return {"Only the memory in use now was locked, because the process has a limit of " +
             std::to_string(limit.rlim_cur / 1024) + " KiB. To lock all, " + remedy};
+}
+
+ThreadPlace placeOfThisThread() {
+    ThreadPlace place;
+    place.cpus = allowedCpus();
+    place.isolated = cpusOf(firstLine("/sys/devices/system/cpu/isolated"));
+    int policy = SCHED_OTHER;
+    sched_param parameter{};
+    pthread_getschedparam(pthread_self(), &policy, &parameter);
+    place.realTime = policy == SCHED_FIFO || policy == SCHED_RR;
+    place.throttled = firstLine("/proc/sys/kernel/sched_rt_runtime_us") != "-1";
+    return place;
+}
+
+std::vector<std::string> spinReport(const ThreadPlace& place, std::int64_t spin,
+                                    std::int64_t period) {
+    const std::int64_t share = 100 * spin / period;
+    std::vector<std::string> report;
+    const bool alone = std::ranges::all_of(place.cpus, [&](int cpu) {
+        return std::ranges::find(place.isolated, cpu) != place.isolated.end();
+    });
+    if (!alone) {
+        report.push_back("The clock spins for " + std::to_string(share) +
+                         " % of each period and takes that time from others on CPU " +
+                         listed(place.cpus) +
+                         ", which is not isolated. Isolate a CPU (isolcpus=…, nohz_full=…) and "
+                         "name it in 'cpus', or let the clock sleep.");
+    }
+    constexpr std::int64_t MostSpinning = 80;  // %; cycles take time, too
+    if (place.realTime && place.throttled && share > MostSpinning) {
+        report.push_back(
+            "The clock spins for " + std::to_string(share) +
+            " % of each period at real-time priority: the kernel may stop the loop for "
+            "some 50 ms of each second, on purpose. Spin for less, or "
+            "'sysctl kernel.sched_rt_runtime_us=-1'.");
+    }
+    return report;
+}
+
+std::vector<int> cpusOf(const std::string& list) {
+    std::vector<int> cpus;
+    std::istringstream in{list};
+    for (std::string range; std::getline(in, range, ',');) {
+        std::istringstream ends{range};
+        int first = 0, last = 0;
+        char dash = 0;
+        if (!(ends >> first)) continue;
+        if (!(ends >> dash >> last)) last = first;
+        for (int cpu = first; cpu <= last && cpu < CPU_SETSIZE; ++cpu) cpus.push_back(cpu);
+    }
+    return cpus;
 }
 
 [[gnu::noinline]] void prefaultStack() noexcept {

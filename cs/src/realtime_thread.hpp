@@ -36,6 +36,22 @@ std::vector<std::string> configureThisThread(const ThreadOptions& options);
 /// Keeps all memory of the process resident, what it obtains later included.
 std::vector<std::string> lockMemory();
 
+/// Where a thread runs that does not sleep.
+struct ThreadPlace {
+    std::vector<int> cpus;
+    std::vector<int> isolated;  // CPUs on which the kernel puts nothing of itself
+    bool realTime = false;      // its priority is
+    bool throttled = false;     // the kernel stops real-time threads that leave nothing to others
+};
+ThreadPlace placeOfThisThread();
+
+/// What spinning for `spin` of each `period` (ns) does to others there, and they to it.
+std::vector<std::string> spinReport(const ThreadPlace& place, std::int64_t spin,
+                                    std::int64_t period);
+
+/// CPUs as the kernel lists them: "2-3,6".
+std::vector<int> cpusOf(const std::string& list);
+
 /// Touches the calling thread's stack, so that the loop meets no page fault on it.
 void prefaultStack() noexcept;
 
