@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 #include <system_error>
+#include <thread>
 
 #include <pthread.h>
 #include <sched.h>
@@ -53,10 +54,23 @@ std::string firstLine(const char* file) {
     return line;
 }
 
-/// Those of the wanted CPUs that are there; all that are, where none was wanted or is there.
+/// Isolated CPUs are not in the mask that a process begins with, but there for who names them.
+const std::vector<int>& nameableCpus() {
+    static const std::vector<int> Cpus = [] {
+        std::vector<int> cpus = usableCpus();
+        const auto isolated = settableCpus(cpusOf(firstLine("/sys/devices/system/cpu/isolated")));
+        cpus.insert(cpus.end(), isolated.begin(), isolated.end());
+        std::ranges::sort(cpus);
+        cpus.erase(std::ranges::unique(cpus).begin(), cpus.end());
+        return cpus;
+    }();
+    return Cpus;
+}
+
+/// Those of the wanted CPUs that are there; all usable, where none was wanted or is there.
 std::vector<int> chosenCpus(const std::vector<int>& wanted) {
     std::vector<int> chosen;
-    for (const int cpu : usableCpus()) {
+    for (const int cpu : nameableCpus()) {
         if (std::find(wanted.begin(), wanted.end(), cpu) != wanted.end()) chosen.push_back(cpu);
     }
     return chosen.empty() ? usableCpus() : chosen;
@@ -78,7 +92,7 @@ void setAffinity(const ThreadOptions& options, std::vector<std::string>& report)
     if (error == 0 && isComplete) return;
     report.push_back("Thread '" + options.name + "' should run on CPU " + listed(wanted) +
                      (error == 0 ? "" : " (" + reason(error) + ")") + " and runs on CPU " +
-                     listed(got) + ". This process may use CPU " + listed(usableCpus()) +
+                     listed(got) + ". This process may use CPU " + listed(nameableCpus()) +
                      "; name only these.");
 }
 
@@ -101,6 +115,19 @@ void setPriority(const ThreadOptions& options, std::vector<std::string>& report)
 const std::vector<int>& usableCpus() {
     static const std::vector<int> Cpus = allowedCpus();
     return Cpus;
+}
+
+std::vector<int> settableCpus(const std::vector<int>& wanted) {
+    std::vector<int> got;
+    if (wanted.empty()) return got;
+    std::thread{[&] {  // not this thread: it is to stay where it is
+        cpu_set_t set;
+        CPU_ZERO(&set);
+        for (const int cpu : wanted) CPU_SET(static_cast<std::size_t>(cpu), &set);
+        if (pthread_setaffinity_np(pthread_self(), sizeof set, &set) == 0) got = allowedCpus();
+    }}
+        .join();
+    return got;
 }
 
 std::uint32_t cpuCount(const std::vector<int>& affinity) {

@@ -20,7 +20,11 @@ struct ThreadOptions {
 /// The CPUs that the process may use, as found at the first call (before any thread was pinned).
 const std::vector<int>& usableCpus();
 
-/// How many of these CPUs the process may use; empty: all usable.
+/// Those of the CPUs (below CPU_SETSIZE) that the kernel lets a thread of this process run on,
+/// whether the process has them in its mask or not.
+std::vector<int> settableCpus(const std::vector<int>& wanted);
+
+/// How many of these CPUs the process may use; empty: all usable. Isolated ones count where named.
 std::uint32_t cpuCount(const std::vector<int>& affinity);
 
 /// Where the n-th real-time thread is pinned; 0 is the loop's own.

@@ -56,6 +56,20 @@ TEST(RealtimeThread, FindsTheCpusThatTheProcessMayUse) {
     for (const int cpu : usableCpus()) EXPECT_TRUE(CPU_ISSET(static_cast<std::size_t>(cpu), &set));
 }
 
+// The mask of a process leaves isolated CPUs out, as the mask of this thread leaves out all but
+// one.
+TEST(RealtimeThread, FindsCpusOutsideOfTheMaskThatMayBeNamed) {
+    const std::vector<int> all = usableCpus();
+    inThread([&] {
+        configureThisThread({.name = "pinned", .affinity = {all.front()}});
+        EXPECT_EQ(settableCpus(all), all);
+        EXPECT_EQ(placeOfThisThread().cpus, std::vector{all.front()});
+        return Lines{};
+    });
+    EXPECT_EQ(settableCpus({CPU_SETSIZE - 1}), std::vector<int>{});
+    EXPECT_EQ(settableCpus({}), std::vector<int>{});
+}
+
 TEST(RealtimeThread, ReadsTheKernelsListsOfCpus) {
     EXPECT_EQ(cpusOf(""), std::vector<int>{});
     EXPECT_EQ(cpusOf("2-3,6"), (std::vector{2, 3, 6}));
