@@ -98,6 +98,7 @@ void ClusterLoop::run() {
         prepareThread();
         trigger_.skipMissed(options_.overflow != Overflow::CatchUp);
         trigger_.start();
+        for (std::string& line : trigger_.report()) realtimeReport_.push_back(std::move(line));
     } catch (...) {
         failure_ = std::current_exception();
         pool_.reset();

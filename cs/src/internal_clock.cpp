@@ -2,6 +2,8 @@
 #include "cortex/core/error.hpp"
 #include "cortex/cs/trigger_source.hpp"
 
+#include "realtime_thread.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <ctime>
@@ -27,10 +29,21 @@ void sleepUntil(std::int64_t deadline) {
     }
 }
 
+// Leaves the core to its other hardware thread, and to the hypervisor, while nothing is to be done.
+void pauseBriefly() noexcept {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    asm volatile("yield");
+#endif
+}
+
 }  // namespace
 
-InternalClock::InternalClock(std::chrono::nanoseconds period) : period_{period.count()} {
+InternalClock::InternalClock(std::chrono::nanoseconds period, std::chrono::nanoseconds spin)
+    : period_{period.count()}, spin_{spin.count()} {
     if (period_ <= 0) throw Error("the period of an InternalClock must be positive");
+    if (spin_ < 0) throw Error("an InternalClock cannot spin for a negative time");
 }
 
 void InternalClock::start() {
@@ -48,7 +61,10 @@ Trigger InternalClock::waitForTick() {
     const std::int64_t deadline = origin_ + next_ * period_;
     std::int64_t now = monotonicNow();
     while (now < deadline && !interrupted_.load(std::memory_order_relaxed)) {
-        sleepUntil(std::min(deadline, now + longestSleep));
+        if (now < deadline - spin_)
+            sleepUntil(std::min(deadline - spin_, now + longestSleep));
+        else
+            pauseBriefly();
         now = monotonicNow();
     }
     trigger.stopped = interrupted_.load(std::memory_order_acquire);
@@ -56,6 +72,11 @@ Trigger InternalClock::waitForTick() {
     trigger.lateness = now - deadline;
     ++next_;
     return trigger;
+}
+
+std::vector<std::string> InternalClock::report() const {
+    if (spin_ == 0) return {};
+    return spinReport(placeOfThisThread(), std::min(spin_, period_), period_);
 }
 
 void InternalClock::interrupt() { interrupted_.store(true, std::memory_order_release); }

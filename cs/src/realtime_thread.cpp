@@ -5,7 +5,10 @@
 #include <array>
 #include <cerrno>
 #include <cfenv>
+#include <fstream>
+#include <sstream>
 #include <system_error>
+#include <thread>
 
 #include <pthread.h>
 #include <sched.h>
@@ -44,10 +47,30 @@ std::vector<int> allowedCpus() {
     return cpus;
 }
 
-/// Those of the wanted CPUs that are there; all that are, where none was wanted or is there.
+std::string firstLine(const char* file) {
+    std::ifstream stream{file};
+    std::string line;
+    std::getline(stream, line);
+    return line;
+}
+
+/// Isolated CPUs are not in the mask that a process begins with, but there for who names them.
+const std::vector<int>& nameableCpus() {
+    static const std::vector<int> Cpus = [] {
+        std::vector<int> cpus = usableCpus();
+        const auto isolated = settableCpus(cpusOf(firstLine("/sys/devices/system/cpu/isolated")));
+        cpus.insert(cpus.end(), isolated.begin(), isolated.end());
+        std::ranges::sort(cpus);
+        cpus.erase(std::ranges::unique(cpus).begin(), cpus.end());
+        return cpus;
+    }();
+    return Cpus;
+}
+
+/// Those of the wanted CPUs that are there; all usable, where none was wanted or is there.
 std::vector<int> chosenCpus(const std::vector<int>& wanted) {
     std::vector<int> chosen;
-    for (const int cpu : usableCpus()) {
+    for (const int cpu : nameableCpus()) {
         if (std::find(wanted.begin(), wanted.end(), cpu) != wanted.end()) chosen.push_back(cpu);
     }
     return chosen.empty() ? usableCpus() : chosen;
@@ -69,7 +92,7 @@ void setAffinity(const ThreadOptions& options, std::vector<std::string>& report)
     if (error == 0 && isComplete) return;
     report.push_back("Thread '" + options.name + "' should run on CPU " + listed(wanted) +
                      (error == 0 ? "" : " (" + reason(error) + ")") + " and runs on CPU " +
-                     listed(got) + ". This process may use CPU " + listed(usableCpus()) +
+                     listed(got) + ". This process may use CPU " + listed(nameableCpus()) +
                      "; name only these.");
 }
 
@@ -92,6 +115,19 @@ void setPriority(const ThreadOptions& options, std::vector<std::string>& report)
 const std::vector<int>& usableCpus() {
     static const std::vector<int> Cpus = allowedCpus();
     return Cpus;
+}
+
+std::vector<int> settableCpus(const std::vector<int>& wanted) {
+    std::vector<int> got;
+    if (wanted.empty()) return got;
+    std::thread{[&] {  // not this thread: it is to stay where it is
+        cpu_set_t set;
+        CPU_ZERO(&set);
+        for (const int cpu : wanted) CPU_SET(static_cast<std::size_t>(cpu), &set);
+        if (pthread_setaffinity_np(pthread_self(), sizeof set, &set) == 0) got = allowedCpus();
+    }}
+        .join();
+    return got;
 }
 
 std::uint32_t cpuCount(const std::vector<int>& affinity) {
@@ -140,6 +176,57 @@ std::vector<std::string> lockMemory() {
     if (!isLimited) return {};
     return {"Only the memory in use now was locked, because the process has a limit of " +
             std::to_string(limit.rlim_cur / 1024) + " KiB. To lock all, " + remedy};
+}
+
+ThreadPlace placeOfThisThread() {
+    ThreadPlace place;
+    place.cpus = allowedCpus();
+    place.isolated = cpusOf(firstLine("/sys/devices/system/cpu/isolated"));
+    int policy = SCHED_OTHER;
+    sched_param parameter{};
+    pthread_getschedparam(pthread_self(), &policy, &parameter);
+    place.realTime = policy == SCHED_FIFO || policy == SCHED_RR;
+    place.throttled = firstLine("/proc/sys/kernel/sched_rt_runtime_us") != "-1";
+    return place;
+}
+
+std::vector<std::string> spinReport(const ThreadPlace& place, std::int64_t spin,
+                                    std::int64_t period) {
+    const std::int64_t share = 100 * spin / period;
+    std::vector<std::string> report;
+    const bool alone = std::ranges::all_of(place.cpus, [&](int cpu) {
+        return std::ranges::find(place.isolated, cpu) != place.isolated.end();
+    });
+    if (!alone) {
+        report.push_back("The clock spins for " + std::to_string(share) +
+                         " % of each period and takes that time from others on CPU " +
+                         listed(place.cpus) +
+                         ", which is not isolated. Isolate a CPU (isolcpus=…, nohz_full=…) and "
+                         "name it in 'cpus', or let the clock sleep.");
+    }
+    constexpr std::int64_t MostSpinning = 80;  // %; cycles take time, too
+    if (place.realTime && place.throttled && share > MostSpinning) {
+        report.push_back(
+            "The clock spins for " + std::to_string(share) +
+            " % of each period at real-time priority: the kernel may stop the loop for "
+            "some 50 ms of each second, on purpose. Spin for less, or "
+            "'sysctl kernel.sched_rt_runtime_us=-1'.");
+    }
+    return report;
+}
+
+std::vector<int> cpusOf(const std::string& list) {
+    std::vector<int> cpus;
+    std::istringstream in{list};
+    for (std::string range; std::getline(in, range, ',');) {
+        std::istringstream ends{range};
+        int first = 0, last = 0;
+        char dash = 0;
+        if (!(ends >> first)) continue;
+        if (!(ends >> dash >> last)) last = first;
+        for (int cpu = first; cpu <= last && cpu < CPU_SETSIZE; ++cpu) cpus.push_back(cpu);
+    }
+    return cpus;
 }
 
 [[gnu::noinline]] void prefaultStack() noexcept {

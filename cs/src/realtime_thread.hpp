@@ -20,7 +20,11 @@ struct ThreadOptions {
 /// The CPUs that the process may use, as found at the first call (before any thread was pinned).
 const std::vector<int>& usableCpus();
 
-/// How many of these CPUs the process may use; empty: all usable.
+/// Those of the CPUs (below CPU_SETSIZE) that the kernel lets a thread of this process run on,
+/// whether the process has them in its mask or not.
+std::vector<int> settableCpus(const std::vector<int>& wanted);
+
+/// How many of these CPUs the process may use; empty: all usable. Isolated ones count where named.
 std::uint32_t cpuCount(const std::vector<int>& affinity);
 
 /// Where the n-th real-time thread is pinned; 0 is the loop's own.
@@ -35,6 +39,22 @@ std::vector<std::string> configureThisThread(const ThreadOptions& options);
 
 /// Keeps all memory of the process resident, what it obtains later included.
 std::vector<std::string> lockMemory();
+
+/// Where a thread runs that does not sleep.
+struct ThreadPlace {
+    std::vector<int> cpus;
+    std::vector<int> isolated;  // CPUs on which the kernel puts nothing of itself
+    bool realTime = false;      // its priority is
+    bool throttled = false;     // the kernel stops real-time threads that leave nothing to others
+};
+ThreadPlace placeOfThisThread();
+
+/// What spinning for `spin` of each `period` (ns) does to others there, and they to it.
+std::vector<std::string> spinReport(const ThreadPlace& place, std::int64_t spin,
+                                    std::int64_t period);
+
+/// CPUs as the kernel lists them: "2-3,6".
+std::vector<int> cpusOf(const std::string& list);
 
 /// Touches the calling thread's stack, so that the loop meets no page fault on it.
 void prefaultStack() noexcept;

@@ -185,18 +185,11 @@ void examineSharedMemory(Diagnoses& found) {
 
 }  // namespace
 
-std::string lineOf(const std::string& file) {
-    std::ifstream stream{file};
-    std::string line;
-    std::getline(stream, line);
-    line.erase(line.find_last_not_of(" \t\r\n") + 1);
-    return line;
-}
-
 void examineMachine(Diagnoses& found) {
     examineCpus(found);
     examineGovernor(found);
     examineKernel(found);
+    examineRealTime("/", found);
     examinePriority(found);
     examineMemory(found);
     examineClocks(found);

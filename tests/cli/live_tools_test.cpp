@@ -317,8 +317,9 @@ TEST_F(CortexLive, DoctorLooksAtMachineNetworkAndAgents) {
         EXPECT_EQ(each["level"] == "ok", each["remedy"] == "") << each;
     }
     EXPECT_EQ(outcome.exit, errors ? 1 : 0);
-    for (const char* each : {"cpu", "kernel", "priority", "memory", "clock", "timer",
-                             "shared memory", "interface", "ports", "firewall", "agent"}) {
+    for (const char* each :
+         {"cpu", "kernel", "priority", "memory", "clock", "timer", "shared memory", "preemption",
+          "isolation", "idle", "hypervisor", "interface", "ports", "firewall", "agent"}) {
         EXPECT_EQ(std::ranges::count(subjects, each) > 0, true) << each << outcome.output;
     }
     const Outcome text = live({"doctor"});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/error.hpp"
 
+#include "realtime_thread.hpp"
 #include "support/probe.hpp"
 
 #include <atomic>
@@ -223,6 +224,21 @@ TEST(ClusterCS, RunsOnTheInternalClockUntilStopped) {
     EXPECT_EQ(result.outcome, Outcome::Done) << result.text();
     EXPECT_TRUE(cluster.stop());
     EXPECT_EQ(cluster.image().get<std::int64_t>("/a", "state"), 0);
+}
+
+TEST(ClusterCS, ReportsWhatSpeaksAgainstASpinningClock) {
+    std::atomic<int> runs{0};
+    SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};
+    tree.add<Probe>("/a", "Probe").onStandby = [&](Probe&, const Tick&) { ++runs; };
+    cs::ClusterCS cluster{"live"};
+    cluster.addSimplexTree(tree);
+    cluster.setTriggerSource<cs::InternalClock>(1ms, 100us);
+    cluster.start();
+    while (runs.load() < 5) std::this_thread::yield();
+
+    EXPECT_EQ(cluster.realtimeReport(),
+              cs::spinReport(cs::placeOfThisThread(), 100'000, 1'000'000));
+    EXPECT_TRUE(cluster.stop());
 }
 
 TEST(StopSignals, EndTheWaitAndAreNotLost) {

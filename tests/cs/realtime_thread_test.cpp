@@ -56,6 +56,52 @@ TEST(RealtimeThread, FindsTheCpusThatTheProcessMayUse) {
     for (const int cpu : usableCpus()) EXPECT_TRUE(CPU_ISSET(static_cast<std::size_t>(cpu), &set));
 }
 
+// The mask of a process leaves isolated CPUs out, as the mask of this thread leaves out all but
+// one.
+TEST(RealtimeThread, FindsCpusOutsideOfTheMaskThatMayBeNamed) {
+    const std::vector<int> all = usableCpus();
+    inThread([&] {
+        configureThisThread({.name = "pinned", .affinity = {all.front()}});
+        EXPECT_EQ(settableCpus(all), all);
+        EXPECT_EQ(placeOfThisThread().cpus, std::vector{all.front()});
+        return Lines{};
+    });
+    EXPECT_EQ(settableCpus({CPU_SETSIZE - 1}), std::vector<int>{});
+    EXPECT_EQ(settableCpus({}), std::vector<int>{});
+}
+
+TEST(RealtimeThread, ReadsTheKernelsListsOfCpus) {
+    EXPECT_EQ(cpusOf(""), std::vector<int>{});
+    EXPECT_EQ(cpusOf("2-3,6"), (std::vector{2, 3, 6}));
+    EXPECT_EQ(cpusOf("(null)"), std::vector<int>{});
+}
+
+TEST(RealtimeThread, SpinningIsFreeOnIsolatedCpusAlone) {
+    ThreadPlace place;
+    place.cpus = {2, 3};
+    place.isolated = {3};
+    Lines report = spinReport(place, 50, 1000);
+    ASSERT_EQ(report.size(), 1U);
+    EXPECT_NE(report[0].find("5 % of each period"), std::string::npos) << report[0];
+    EXPECT_NE(report[0].find("CPU 2, 3, which is not isolated"), std::string::npos) << report[0];
+
+    place.isolated = {2, 3};
+    EXPECT_EQ(spinReport(place, 1000, 1000), Lines{});
+}
+
+TEST(RealtimeThread, SpinningForAWholePeriodMeetsTheThrottle) {
+    ThreadPlace place;
+    place.cpus = place.isolated = {2};
+    place.realTime = place.throttled = true;
+    const Lines report = spinReport(place, 1000, 1000);
+    ASSERT_EQ(report.size(), 1U);
+    EXPECT_NE(report[0].find("sched_rt_runtime_us=-1"), std::string::npos) << report[0];
+
+    EXPECT_EQ(spinReport(place, 500, 1000), Lines{});
+    place.throttled = false;
+    EXPECT_EQ(spinReport(place, 1000, 1000), Lines{});
+}
+
 TEST(RealtimeThread, DealsCpusInTurn) {
     const auto& cpus = usableCpus();
     const auto count = static_cast<std::uint32_t>(cpus.size());

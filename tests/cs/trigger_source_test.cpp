@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/cs/trigger_source.hpp"
 
+#include "cortex/core/error.hpp"
+
+#include "realtime_thread.hpp"
+
 #include <chrono>
 #include <thread>
 
@@ -12,8 +16,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(InternalClock, KeepsItsGridWithoutDrift) {
-    cs::InternalClock clock{1ms};
+// Spinning for nothing, a part of a period, all of it: what is returned is the same.
+class InternalClock : public testing::TestWithParam<std::chrono::nanoseconds> {};
+
+INSTANTIATE_TEST_SUITE_P(Spinning, InternalClock, testing::Values(0ns, 300us, 1h));
+
+TEST_P(InternalClock, KeepsItsGridWithoutDrift) {
+    cs::InternalClock clock{1ms, GetParam()};
     clock.start();
     std::int64_t expected = 0;
     for (int i = 0; i < 50; ++i) {
@@ -24,13 +33,33 @@ TEST(InternalClock, KeepsItsGridWithoutDrift) {
     }
 }
 
-TEST(InternalClock, IsInterruptedFromAnotherThread) {
-    cs::InternalClock clock{1h};
+TEST_P(InternalClock, IsInterruptedFromAnotherThread) {
+    cs::InternalClock clock{1h, GetParam()};
     clock.start();
     clock.waitForTick();
     std::thread interrupting{[&] { clock.interrupt(); }};
     EXPECT_TRUE(clock.waitForTick().stopped);
     interrupting.join();
+}
+
+TEST_P(InternalClock, CountsTheDeadlinesThatItWasNotAskedFor) {
+    cs::InternalClock clock{1ms, GetParam()};
+    clock.start();
+    clock.waitForTick();
+    while (clock.missed() < 2) std::this_thread::yield();
+
+    const cs::Trigger late = clock.waitForTick();
+
+    EXPECT_GE(late.periods, 3);
+    EXPECT_EQ(late.nominalTime, late.periods * 1'000'000);
+}
+
+TEST(SpinningClock, SaysWhatSpinningCostsOthersAndTheSleepingOneNothing) {
+    EXPECT_TRUE(cs::InternalClock{1ms}.report().empty());
+    const auto place = cs::placeOfThisThread();
+    const auto lines = cs::InternalClock(1ms, 1h).report();
+    EXPECT_EQ(lines, cs::spinReport(place, 1'000'000, 1'000'000));
+    EXPECT_THROW(cs::InternalClock(1ms, -1ns), Error);
 }
 
 TEST(ExternalTrigger, RunsACycleForEachNotificationAndCountsWhatItMissed) {

@@ -124,6 +124,20 @@ TEST(CortexAgent, PrintsADashForWhatItHasNotComputed) {
     EXPECT_TRUE(std::regex_search(ended.output, latency)) << ended.output;
 }
 
+TEST(CortexAgent, SpinsForPartOfEachPeriod) {
+    const TeleopFile file;
+
+    const Ended ended = agent(file.path().string() + " --priority 0 --spin 100 --seconds 0.1");
+
+    EXPECT_EQ(ended.exitCode, 0) << ended.output;
+    std::string isolated;
+    std::ifstream{"/sys/devices/system/cpu/isolated"} >> isolated;
+    if (isolated.empty()) {
+        EXPECT_TRUE(says(ended, "real time: The clock spins for 10 % of each period"))
+            << ended.output;
+    }
+}
+
 TEST(CortexAgent, RefusesASettingOutOfItsRange) {
     const TeleopFile file;
 

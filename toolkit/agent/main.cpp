@@ -143,7 +143,7 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     cs::ClusterCS cluster{settings.name, settings.options};
     cluster.addSimplexTree(tree);
     cluster.useClasses(registry);
-    cluster.setTriggerSource<cs::InternalClock>(settings.period);
+    cluster.setTriggerSource<cs::InternalClock>(settings.period, settings.spin);
     cluster.addEventSink(line.log.empty() ? printEvents(std::cerr) : logEvents(line.log));
     const comms::DdsInterface* network =
         line.offline ? nullptr : &cluster.addInterface<comms::DdsInterface>(networkOptions(line));

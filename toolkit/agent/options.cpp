@@ -140,6 +140,12 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
     app.add_option("--priority", line.priority, "real-time priority (SCHED_FIFO); 0: none")
         ->type_name("P")
         ->check(CLI::Range(0, 99));
+    app.add_option(
+           "--spin", line.spin,
+           "polls the clock for so long before each cycle instead of sleeping; for isolated "
+           "CPUs")
+        ->type_name("US")
+        ->check(CLI::Range(0.0, 1e8));
     app.add_option("--seconds", line.seconds, "ends after this time; else with SIGINT or SIGTERM")
         ->type_name("S")
         ->check(CLI::Range(1e-3, 1e9));
@@ -181,6 +187,7 @@ ClusterSettings clusterSettings(const SystemDescription& system, const CommandLi
     ClusterSettings settings;
     settings.name = entry.name;
     settings.period = std::chrono::nanoseconds{std::llround(1e9 / frequency)};
+    settings.spin = std::chrono::nanoseconds{std::llround(1e3 * line.spin)};
     settings.options = optionsOf(entry.attributes, line);
     return settings;
 }

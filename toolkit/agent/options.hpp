@@ -21,6 +21,7 @@ struct CommandLine {
     std::optional<double> frequency;
     std::optional<std::uint32_t> threads;
     std::optional<int> priority;
+    double spin = 0;     // us
     double seconds = 0;  // 0: until SIGINT or SIGTERM
     bool startup = false;
     std::filesystem::path log;
@@ -35,7 +36,7 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
 
 struct ClusterSettings {
     std::string name;
-    std::chrono::nanoseconds period{};
+    std::chrono::nanoseconds period{}, spin{};
     cs::ClusterOptions options;
 };
 

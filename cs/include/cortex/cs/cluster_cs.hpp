@@ -101,7 +101,8 @@ public:
                     std::chrono::milliseconds timeout = std::chrono::seconds{5});
     ProgramInterface& program();
 
-    // What the system refused of priority, pinning, memory locking; one sentence each.
+    // What the system refused of priority, pinning, memory locking, and what speaks against the way
+    // in which the trigger waits; one sentence each.
     const std::vector<std::string>& realtimeReport() const;
     std::uint32_t threadsInUse() const;
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cortex::explorer {
+
+// One thing that was looked at: what is so, and if it should not be, what to do.
+struct Diagnosis {
+    enum class Level { Ok, Warning, Error };
+    Level level = Level::Ok;
+    std::string subject, message, remedy;
+};
+using Diagnoses = std::vector<Diagnosis>;
+
+// How the kernel of this machine treats a loop that is never to wait: preemption, isolated CPUs and
+// who else uses them, idle states, pages, hypervisor. `root` has its proc, sys and dev.
+void examineRealTime(const std::filesystem::path& root, Diagnoses& found);
+
+// The first line of a file, without blanks at its end; "" if it cannot be read.
+std::string lineOf(const std::filesystem::path& file);
+
+// "2-3,6" as the kernel has it; what is no number ends the list.
+std::vector<int> cpusOf(const std::string& list);
+
+}  // namespace cortex::explorer
