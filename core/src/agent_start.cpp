@@ -99,6 +99,7 @@ void AgentRuntime::bindSimplexes() {
     simplexes_.resize(count);
     ports_.resize(count);
     ranks_.resize(count);
+    tableOf_.reserve(count);
     ownerPeriods_.assign(count, options_.period);
     calls_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
     callsLater_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);

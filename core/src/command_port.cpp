@@ -53,6 +53,7 @@ void CommandPort::addReceiving(Lane& lane) {
         receiving_ = &lane;
     else
         moreReceiving_.push_back(&lane);
+    hasMore_ = hasMore_ || !moreReceiving_.empty();
     callFor(true);
 }
 
@@ -61,6 +62,7 @@ void CommandPort::addSending(Lane& lane) {
         sending_ = &lane;
     else
         moreSending_.push_back(&lane);
+    hasMore_ = hasMore_ || !moreSending_.empty();
     callFor(true);
 }
 
@@ -83,14 +85,12 @@ void CommandPort::process(State state, LoopThread& thread, bool dead) {
     state_ = state;
     dead_ = dead;
     startedNow_ = false;
-    if (sending_ != nullptr) {
-        sending_->takeAnswers();
-        for (Lane* lane : moreSending_) lane->takeAnswers();
+    if (sending_ != nullptr) sending_->takeAnswers();
+    for (std::size_t i = 0; hasMore_ && i < moreSending_.size(); ++i) {
+        moreSending_[i]->takeAnswers();
     }
-    if (receiving_ != nullptr) {
-        drain(*receiving_);
-        for (Lane* lane : moreReceiving_) drain(*lane);
-    }
+    if (receiving_ != nullptr) drain(*receiving_);
+    for (std::size_t i = 0; hasMore_ && i < moreReceiving_.size(); ++i) drain(*moreReceiving_[i]);
     if (outside_ != nullptr) drainOutside();
     if (activity_ != nullptr && activity_->running()) stepActivity();
     if (sending_ == nullptr && receiving_ == nullptr && !hasPassingWork()) callFor(false);

@@ -81,6 +81,7 @@ private:
     bool stateless_;           // a descriptive simplex: always settable
     bool dead_ = false;        // a hook threw: no handler may run
     bool startedNow_ = false;  // the activity had its call of this step
+    bool hasMore_ = false;     // lanes than the first ones
 
     std::vector<Lane*> moreReceiving_, moreSending_;
     const char* cancelWhy_ = nullptr;

@@ -17,6 +17,7 @@ namespace cortex {
 
 namespace {
 
+constexpr std::size_t usualBatch = 256;  // events handed out at once; more grow the buffer
 constexpr std::chrono::milliseconds shortestPause{10}, longestPause{40};  // while nothing happens
 
 std::string padded(unsigned number, std::size_t digits) {
@@ -107,6 +108,7 @@ void EventLog::addSink(Sink sink) { sinks_.push_back(std::move(sink)); }
 
 void EventLog::start() {
     stopping_ = false;
+    batch_.reserve(usualBatch);
     thread_ = std::thread{[this] { run(); }};
 }
 

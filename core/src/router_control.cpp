@@ -127,6 +127,7 @@ void Router::controlLost(const Lease& lease, std::string_view how) {
 }
 
 void Router::findStates() {
+    states_.reserve(structure_.simplexes.size());
     for (std::uint32_t i = 0; i < structure_.simplexes.size(); ++i) {
         const SimplexInfo& info = structure_.simplexes[i];
         const ItemLayout* item = info.layout->find("state");

@@ -10,6 +10,8 @@
 #include "system_findings.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -43,6 +45,7 @@ const TypeLayout* layoutFor(Structure& structure, const Type& type, bool remote 
 }
 
 void addSimplexes(Structure& structure, const SimplexTree& tree) {
+    structure.simplexes.reserve(tree.simplexes().size());
     for (const auto& [path, simplex] : tree.simplexes()) {
         SimplexInfo info;
         info.path = path;
@@ -97,13 +100,6 @@ void checkSize(const Structure& structure) {
     }
 }
 
-void indexPaths(Structure& structure) {
-    structure.byPath.reserve(structure.simplexes.size());
-    for (std::uint32_t index = 0; index < structure.simplexes.size(); ++index) {
-        structure.byPath.emplace(structure.simplexes[index].path, index);
-    }
-}
-
 void addEdges(Structure& structure, const SimplexTree& tree) {
     std::uint32_t owner = 0;
     for (const auto& [path, simplex] : tree.simplexes()) {
@@ -117,6 +113,7 @@ void addEdges(Structure& structure, const SimplexTree& tree) {
         info.edgeCount = static_cast<std::uint32_t>(structure.edges.size()) - info.firstEdge;
         ++owner;
     }
+    structure.edges.shrink_to_fit();
 }
 
 // Who writes a descriptive simplex, and so what an instance is whose type leaves its role open.
@@ -206,9 +203,25 @@ RecordLayout recordLayout(const std::vector<DataItem>& parameters) {
     return layout;
 }
 
+// Open addressing, at most half full; of equal paths the first is found.
+void Structure::indexPaths() {
+    pathTable.assign(std::bit_ceil(2 * simplexes.size() + 1), noSimplex);
+    const std::size_t mask = pathTable.size() - 1;
+    for (std::uint32_t index = 0; index < simplexes.size(); ++index) {
+        std::size_t place = std::hash<std::string_view>{}(simplexes[index].path) & mask;
+        while (pathTable[place] != noSimplex) place = (place + 1) & mask;
+        pathTable[place] = index;
+    }
+}
+
 std::uint32_t Structure::find(std::string_view path) const {
-    const auto found = byPath.find(path);
-    return found != byPath.end() ? found->second : noSimplex;
+    if (pathTable.empty()) return noSimplex;
+    const std::size_t mask = pathTable.size() - 1;
+    std::size_t place = std::hash<std::string_view>{}(path)&mask;
+    while (pathTable[place] != noSimplex && simplexes[pathTable[place]].path != path) {
+        place = (place + 1) & mask;
+    }
+    return pathTable[place];
 }
 
 std::uint32_t Structure::writtenEvery(std::uint32_t simplex) const {
@@ -228,7 +241,7 @@ std::shared_ptr<Structure> makeStructure(const std::string& agent, const Simplex
     addSimplexes(*structure, tree);
     addRemotes(*structure, tree);
     checkSize(*structure);
-    indexPaths(*structure);
+    structure->indexPaths();
     addEdges(*structure, tree);
     decideWritersAndRoles(*structure);
     placeSlices(*structure);

@@ -200,6 +200,7 @@ void Tables::giveUpUnusedLatches() {
 
 void Tables::resolveEdges(const std::vector<Slice>& latches) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, Slice> candidates;
+    viewOfEdge_.reserve(structure_->edges.size());
     for (const Edge& edge : structure_->edges) {
         const SimplexInfo& target = structure_->simplexes[edge.target];
         const bool ownerActs = structure_->simplexes[edge.owner].role == Role::Active;
@@ -213,9 +214,17 @@ void Tables::resolveEdges(const std::vector<Slice>& latches) {
                    edge.rule->onLoss == OnLoss::Hold) {
             seen = extraSlice(edge.target);
         }
-        edges_.push_back(seen);
-        sources_.push_back(source);
+        const bool isLive = seen.state == live(edge.target).state;
+        viewOfEdge_.push_back(isLive ? noSimplex : static_cast<std::uint32_t>(views_.size()));
+        if (!isLive) views_.push_back({seen, source});
     }
+    views_.shrink_to_fit();
+}
+
+Tables::View Tables::viewOf(std::uint32_t edge) const {
+    if (viewOfEdge_[edge] != noSimplex) return views_[viewOfEdge_[edge]];
+    const Slice slice = live(structure_->edges[edge].target);
+    return {slice, slice};
 }
 
 Slice Tables::extraSlice(std::uint32_t simplex) {

@@ -35,7 +35,7 @@ ClusterLoop::ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const Clus
       heartbeats_{std::move(heartbeats)},
       realtimeReport_{std::move(realtimeReport)},
       runner_{agent, schedule, trigger.period()},
-      group_{agent, std::move(simplexes)},
+      group_{agent, runner_, std::move(simplexes)},
       metrics_{agent, trigger.period(), schedule.threads} {}
 
 ClusterLoop::~ClusterLoop() { stop(); }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "group_commands.hpp"
 
+#include "task_runner.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -17,8 +19,8 @@ bool isAtOrBelow(std::string_view path, std::string_view prefix) {
 
 }  // namespace
 
-GroupCommands::GroupCommands(AgentRuntime& agent, std::vector<SimplexCS*> order)
-    : agent_{agent}, order_{std::move(order)} {
+GroupCommands::GroupCommands(AgentRuntime& agent, TaskRunner& runner, std::vector<SimplexCS*> order)
+    : agent_{agent}, runner_{runner}, order_{std::move(order)} {
     registerHandler<LifeCycle::Startup>("startup");
     registerHandler<LifeCycle::Shutdown>("shutdown");
     registerHandler<LifeCycle::ClearFaults>("clearFaults");
@@ -78,6 +80,7 @@ bool GroupCommands::step() {
         if (!posted_) {
             posted_ = true;
             postedAfter_ = simplex.now_;
+            runner_.listenTo(simplex.index());
             agent_.postLifeCycle(simplex.index(), command_, false);
             return true;
         }
@@ -111,10 +114,9 @@ bool GroupCommands::anyStandsThere() const {
 
 bool GroupCommands::belongs(const SimplexCS& simplex) const {
     const bool below = isAtOrBelow(simplex.path(), prefix_.view());
-    if (!below || command_ == LifeCycle::ClearFaults || simplex.rare_->manager == noSimplex)
-        return below;
+    if (!below || command_ == LifeCycle::ClearFaults || simplex.manager_ == noSimplex) return below;
     // A manager looks after its own while it works.
-    const auto& manager = static_cast<const SimplexCS&>(agent_.simplex(simplex.rare_->manager));
+    const auto& manager = static_cast<const SimplexCS&>(agent_.simplex(simplex.manager_));
     return command_ == LifeCycle::Shutdown && resting(manager.state_);
 }
 
@@ -150,9 +152,9 @@ bool GroupCommands::failed(const SimplexCS& simplex) const {
 void GroupCommands::addFailure(const SimplexCS& simplex) {
     if (anyFailed_) failures_ << "; ";
     anyFailed_ = true;
+    const EventText& heard = runner_.heard();
     failures_ << simplex.path() << " did not follow: "
-              << (simplex.rare_->text.view().empty() ? name(simplex.state_)
-                                                     : simplex.rare_->text.view());
+              << (heard.view().empty() ? name(simplex.state_) : heard.view());
 }
 
 bool GroupCommands::allResting() const {

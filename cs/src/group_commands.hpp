@@ -15,7 +15,7 @@ namespace cortex::cs {
 class GroupCommands {
 public:
     // `order`: all active simplexes in canonical order. Registers the handlers on /<cluster>.
-    GroupCommands(AgentRuntime& agent, std::vector<SimplexCS*> order);
+    GroupCommands(AgentRuntime& agent, TaskRunner& runner, std::vector<SimplexCS*> order);
     GroupCommands(const GroupCommands&) = delete;
     GroupCommands& operator=(const GroupCommands&) = delete;
 
@@ -42,6 +42,7 @@ private:
     SimplexCS& member(std::size_t at) const CORTEX_REALTIME;
 
     AgentRuntime& agent_;
+    TaskRunner& runner_;
     std::vector<SimplexCS*> order_;
     std::array<Argument<std::string_view>, 4> prefixes_{};  // by LifeCycle
     LifeCycle command_ = LifeCycle::None;

@@ -3,24 +3,27 @@
 
 #include "cortex/core/error.hpp"
 
+#include "task_thread.hpp"
+
 namespace cortex::cs {
 
 void SimplexCS::fault(std::int64_t code, std::string_view text) {
+    if (thread_ == nullptr) throw Error(path() + ": fault() is for hooks; to refuse, throw");
     if (faultPending_) return;
     faultPending_ = true;
-    rare_->faultCode = code;
-    rare_->text = EventText{text};
+    thread_->faultCode = code;
+    thread_->text = EventText{text};
 }
 
 void SimplexCS::setQuality(Quality quality, std::int64_t measuredAt) {
     qualitySet_ = true;
     quality_ = quality;
-    rare_->measuredAt = measuredAt < 0 ? now_ : measuredAt;
+    if (thread_ != nullptr) thread_->measuredAt = measuredAt < 0 ? now_ : measuredAt;
 }
 
 void SimplexCS::event(Severity severity, const EventText& text) {
     if (thread_ == nullptr) return;  // not in a tick
-    runtime().post(*thread_, severity, EventKind::Message, index(), text);
+    runtime().post(*thread_->loop, severity, EventKind::Message, index(), text);
 }
 
 SimplexCS::LifeCycleSender SimplexCS::lifeCycle(const RelatedSimplex& target, bool manage) {
@@ -34,7 +37,7 @@ SimplexCS::LifeCycleSender SimplexCS::lifeCycle(const RelatedSimplex& target, bo
     sender.target_ = active->index();
     sender.later_ = target.later();
     sender.state_ = InputSimplex{target}.data<std::int64_t>("state");
-    if (manage) active->rare_->manager = index();
+    if (manage) active->manager_ = index();
     return sender;
 }
 

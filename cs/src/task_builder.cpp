@@ -44,10 +44,15 @@ struct TaskBuilder {
     void build(const Schedule& schedule) {
         limitsOf.assign(structure.simplexes.size(), nullptr);
         candidates.resize(structure.simplexes.size());
-        std::size_t outputs = 0;
+        std::size_t inputs = 0, outputs = 0;
         for (const Edge& edge : structure.edges) {
-            if (edge.rule->direction == Direction::Output) ++outputs;
+            const bool isInput = edge.rule->direction == Direction::Input;
+            if (isInput)
+                ++inputs;
+            else if (!isActive(edge.target))
+                ++outputs;
         }
+        runner.inputs_.reserve(inputs);
         runner.outputs_.reserve(outputs);  // pointers to elements are kept
         agent.tables().latch();
         for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
@@ -178,8 +183,9 @@ TaskRunner::TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64
       structure_{agent.structure()},
       period_{period},
       chunks_{schedule.chunks},
-      workers_(agent.threadCount()),
+      threads_(agent.threadCount()),
       positions_{std::make_unique<Position[]>(agent.threadCount())} {
+    for (std::uint32_t i = 0; i < agent.threadCount(); ++i) threads_[i].loop = &agent.thread(i);
     TaskBuilder{*this, agent, structure_, {}, {}}.build(schedule);
 }
 

@@ -93,7 +93,7 @@ void TaskRunner::inputLost(Task& task, TaskInput& input, const Tick& tick) {
     text << " " << structure_.simplexes[input.target].path;
     if (!input.lost) {
         text << " is back";
-        agent_.post(*simplex.thread_, Severity::Info, EventKind::Message, task.index, text);
+        agent_.post(*simplex.thread_->loop, Severity::Info, EventKind::Message, task.index, text);
         return;
     }
     if (input.state->quality >= Quality::Bad) {
@@ -110,7 +110,8 @@ void TaskRunner::inputLost(Task& task, TaskInput& input, const Tick& tick) {
         simplex.fault(InputLost, text.view());
     } else {
         text << "; " << name(input.rule->onLoss);
-        agent_.post(*simplex.thread_, Severity::Warning, EventKind::Message, task.index, text);
+        agent_.post(*simplex.thread_->loop, Severity::Warning, EventKind::Message, task.index,
+                    text);
     }
 }
 
@@ -128,12 +129,12 @@ void TaskRunner::settleQuality(const Task& task, const Tick& tick, SlotState& st
     }
     if (!simplex.qualitySet_) return;
     state.quality = simplex.quality_;
-    state.time = simplex.rare_->measuredAt;
+    state.time = simplex.thread_->measuredAt;
     state.cause = simplex.quality_ == Quality::Good ? noSimplex : task.index;
 }
 
-void TaskRunner::finish(Task& task, const Tick& tick, SlotState state, Worker& worker) {
-    if (task.limits) limitOutputs(task, tick, worker);
+void TaskRunner::finish(Task& task, const Tick& tick, SlotState state) {
+    if (task.limits) limitOutputs(task, tick);
     settleQuality(task, tick, state);
     *task.own = state;
     for (std::uint32_t i = 0; i < task.outputCount; ++i) {
@@ -143,7 +144,7 @@ void TaskRunner::finish(Task& task, const Tick& tick, SlotState state, Worker& w
 
 // Each demand that this task alone writes. What is not a number or faults the task becomes safe,
 // and no demand moves further than its rate allows, safe or not.
-void TaskRunner::limitOutputs(Task& task, const Tick& tick, Worker& worker) {
+void TaskRunner::limitOutputs(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     const std::span outputs{outputs_.data() + task.firstOutput, task.outputCount};
     const double elapsed = tick.elapsedSeconds();
@@ -153,13 +154,13 @@ void TaskRunner::limitOutputs(Task& task, const Tick& tick, Worker& worker) {
         if (output.limits == nullptr) continue;
         const LimitResult result = output.limits->apply(elapsed);
         if (!result.any) continue;
-        ++worker.counts.limits;
+        ++simplex.thread_->limits;
         if (result.notFinite) {
             output.safe->write();
             again = true;
         }
         if (!demands) continue;
-        reportLimits(*output.limits, task.index, *simplex.thread_);
+        reportLimits(*output.limits, task.index, *simplex.thread_->loop);
         if (result.faulting == nullptr) continue;
         simplex.fault(result.notFinite ? DemandNotFinite : DemandOutOfRange,
                       refusal(result, output.target).view());
@@ -198,7 +199,7 @@ void TaskRunner::reportLimits(const DemandLimits& limits, std::uint32_t simplex,
     }
 }
 
-void TaskRunner::arbitrate(Arbiter& arbiter, Worker& worker, LoopThread& thread) {
+void TaskRunner::arbitrate(Arbiter& arbiter, TaskThread& thread) {
     std::uint32_t active = 0;
     for (std::uint32_t i = 0; i < arbiter.candidates.size(); ++i) {
         if (arbiter.candidates[i].writer->state_ != State::Active) continue;
@@ -206,11 +207,11 @@ void TaskRunner::arbitrate(Arbiter& arbiter, Worker& worker, LoopThread& thread)
     }
     Arbiter::Candidate& chosen = arbiter.candidates[arbiter.selected];
     if (active > 1) {
-        ++worker.counts.conflicts;
+        ++thread.conflicts;
         if (!arbiter.inConflict) {
             EventText text{"several writers are Active; taken is "};
             text << chosen.writer->path();
-            agent_.post(thread, Severity::Warning, EventKind::Conflict, arbiter.target, text);
+            agent_.post(*thread.loop, Severity::Warning, EventKind::Conflict, arbiter.target, text);
         }
     }
     arbiter.inConflict = active > 1;
@@ -218,10 +219,10 @@ void TaskRunner::arbitrate(Arbiter& arbiter, Worker& worker, LoopThread& thread)
     if (arbiter.limits == nullptr) return;
     const double elapsed = static_cast<double>(cycleElapsed_) * 1e-9;
     const LimitResult result = arbiter.limits->apply(elapsed);
-    if (result.any) ++worker.counts.limits;
+    if (result.any) ++thread.limits;
     // Events here are the shared simplex's: its writer's own may come from another thread.
     const bool demands = active > 0 && !chosen.writer->safeByLoss_;
-    if (demands) reportLimits(*arbiter.limits, arbiter.target, thread);
+    if (demands) reportLimits(*arbiter.limits, arbiter.target, *thread.loop);
     const bool faults = demands && result.faulting != nullptr;
     if (faults) {
         chosen.output->refused = result;

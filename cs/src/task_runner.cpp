@@ -37,22 +37,23 @@ void TaskRunner::beginCycle(const Tick& tick) {
 }
 
 void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
-    LoopThread& thread = agent_.thread(worker);
-    thread.clock = {tick_.cycle, monotonicNow()};
+    TaskThread& thread = threads_[worker];
+    Position& position = positions_[worker];
+    thread.loop->clock = {tick_.cycle, monotonicNow()};
     const Chunk& work = chunks_[chunk];
     for (std::uint32_t i = work.first; i < work.first + work.count; ++i) {
         if (chunk == timedChunk_)
-            runTimed(tasks_[i], worker, thread);
+            runTimed(tasks_[i], thread, position);
         else
-            runTask(tasks_[i], worker, thread);
+            runTask(tasks_[i], thread, position);
     }
-    positions_[worker].simplex.store(noSimplex, std::memory_order_relaxed);
-    at(positions_[worker], Hook::None);
+    position.simplex.store(noSimplex, std::memory_order_relaxed);
+    at(position, Hook::None);
 }
 
-void TaskRunner::runTimed(Task& task, std::uint32_t worker, LoopThread& thread) {
+void TaskRunner::runTimed(Task& task, TaskThread& thread, Position& position) {
     const std::int64_t start = monotonicNow();
-    runTask(task, worker, thread);
+    runTask(task, thread, position);
     if (task.simplex != nullptr) {
         details(task).taskTime = static_cast<double>(monotonicNow() - start) * 1e-3;
     }
@@ -65,10 +66,8 @@ bool TaskRunner::mayMove(const Task& task) const {
            agent_.hasLifeCycle(task.index);
 }
 
-void TaskRunner::runTask(Task& task, std::uint32_t worker, LoopThread& thread) {
-    if (task.simplex == nullptr) {
-        return arbitrate(*details(task).arbiter, workers_[worker], thread);
-    }
+void TaskRunner::runTask(Task& task, TaskThread& thread, Position& position) {
+    if (task.simplex == nullptr) return arbitrate(*details(task).arbiter, thread);
     if (task.every != 1 && !halted_ && !forced_ &&
         static_cast<std::uint64_t>(tick_.cycle - 1) % task.every != task.phase) {
         return;
@@ -80,14 +79,13 @@ void TaskRunner::runTask(Task& task, std::uint32_t worker, LoopThread& thread) {
     simplex.now_ = tick.nominalTime;
     simplex.thread_ = &thread;
     simplex.qualitySet_ = false;
-    Position& position = positions_[worker];
     position.simplex.store(task.index, std::memory_order_relaxed);
     SlotState state{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     try {
         at(position, Hook::Commands);
         if (mayMove(task)) transition(task, tick);
         if (agent_.hasCommandWork(task.index)) {
-            agent_.processCommands(task.index, simplex.state_, thread, simplex.dead_);
+            agent_.processCommands(task.index, simplex.state_, *thread.loop, simplex.dead_);
         }
         if (task.inputCount != 0) state = readInputs(task, tick);
         if (!simplex.faultPending_) runHooks(task, tick, position);
@@ -99,7 +97,7 @@ void TaskRunner::runTask(Task& task, std::uint32_t worker, LoopThread& thread) {
         simplex.dead_ = true;
     }
     if (simplex.faultPending_) enterFault(task, tick);
-    finish(task, tick, state, workers_[worker]);
+    finish(task, tick, state);
 }
 
 void TaskRunner::runHooks(Task& task, const Tick& tick, Position& position) {
@@ -161,7 +159,7 @@ void TaskRunner::transition(Task& task, const Tick& tick) {
     const bool resting = simplex.state_ == State::Standby || simplex.state_ == State::Fault;
     if (forced_ && !resting) return enter(task, State::Standby, tick);
     if (forced_) return;
-    const LifeCycle command = agent_.takeLifeCycle(task.index, *simplex.thread_);
+    const LifeCycle command = agent_.takeLifeCycle(task.index, *simplex.thread_->loop);
     if (command != LifeCycle::None && lifeCycle(task, command, tick)) return;
     if (!simplex.done_) return;
     if (const auto to = next(simplex.state_, Move::Done)) enter(task, *to, tick);
@@ -172,23 +170,24 @@ bool TaskRunner::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     const auto to = next(simplex.state_, moveOf(command));
     if (!to && command == LifeCycle::Shutdown) return false;  // on its way, or not running
-    simplex.rare_->text = EventText{};
+    simplex.thread_->text = EventText{};
     const bool tooLate = stopping_ && command == LifeCycle::Startup;
     if (tooLate) {
-        simplex.rare_->text << "no startup: the cluster is stopping";
+        simplex.thread_->text << "no startup: the cluster is stopping";
     } else if (!to) {
-        simplex.rare_->text << (command == LifeCycle::Startup ? "startup needs Standby, is "
-                                                              : "clearFaults needs Fault, is ")
-                            << name(simplex.state_);
+        simplex.thread_->text << (command == LifeCycle::Startup ? "startup needs Standby, is "
+                                                                : "clearFaults needs Fault, is ")
+                              << name(simplex.state_);
     } else if (command == LifeCycle::ClearFaults && !simplex.dead_ && !simplex.done_) {
-        simplex.rare_->text << "the fault is not over: stateFault has not returned true";
+        simplex.thread_->text << "the fault is not over: stateFault has not returned true";
     } else if (command != LifeCycle::Startup || mayStart(task)) {  // mayStart says why not
         enter(task, *to, tick);
         return true;
     }
-    agent_.post(*simplex.thread_, tooLate ? Severity::Info : Severity::Warning, EventKind::Refusal,
-                task.index, simplex.rare_->text);
-    agent_.refuseLifeCycle(task.index, command, simplex.rare_->text, *simplex.thread_);
+    agent_.post(*simplex.thread_->loop, tooLate ? Severity::Info : Severity::Warning,
+                EventKind::Refusal, task.index, simplex.thread_->text);
+    agent_.refuseLifeCycle(task.index, command, simplex.thread_->text, *simplex.thread_->loop);
+    tell(task);
     return false;
 }
 
@@ -198,16 +197,16 @@ bool TaskRunner::mayStart(Task& task) {
         const TaskInput& input = inputs_[task.firstInput + i];
         const SimplexInfo& target = structure_.simplexes[input.target];
         if (target.remote && input.rule->min > 0 && input.state->quality == Quality::Lost) {
-            simplex.rare_->text << "startup needs " << input.rule->name << ", but " << target.path
-                                << " of another agent is not there";
+            simplex.thread_->text << "startup needs " << input.rule->name << ", but " << target.path
+                                  << " of another agent is not there";
             return false;
         }
     }
     for (std::uint32_t i = 0; i < task.outputCount; ++i) {
         const TaskOutput& output = outputs_[task.firstOutput + i];
         if (output.safe == nullptr || output.safe->observationIsGood()) continue;
-        simplex.rare_->text << "startup needs a good observation of what "
-                            << structure_.simplexes[output.target].path << " demands";
+        simplex.thread_->text << "startup needs a good observation of what "
+                              << structure_.simplexes[output.target].path << " demands";
         return false;
     }
     return true;
@@ -219,7 +218,7 @@ void TaskRunner::enter(Task& task, State to, const Tick& tick) {
     const State from = simplex.state_;
     const char* left = to == State::Fault ? "its simplex went to Fault" : "its simplex left Active";
     if ((from == State::Active || to == State::Fault) &&
-        !agent_.cancelActivity(task.index, *simplex.thread_, !simplex.dead_, left)) {
+        !agent_.cancelActivity(task.index, *simplex.thread_->loop, !simplex.dead_, left)) {
         if (to != State::Fault) {
             simplex.fault(HookThrew,
                           "the handler of its long command threw while it was cancelled");
@@ -243,7 +242,7 @@ void TaskRunner::enter(Task& task, State to, const Tick& tick) {
     if (to == State::Fault) return;  // has an event of its own
     EventText text{name(from)};
     text << " -> " << name(to);
-    agent_.post(*simplex.thread_, Severity::Info, EventKind::StateChange, task.index, text);
+    agent_.post(*simplex.thread_->loop, Severity::Info, EventKind::StateChange, task.index, text);
 }
 
 void TaskRunner::enterFault(Task& task, const Tick& tick) {
@@ -251,14 +250,19 @@ void TaskRunner::enterFault(Task& task, const Tick& tick) {
     simplex.faultPending_ = false;
     const bool faultedBefore = simplex.state_ == State::Fault;
     if (faultedBefore) writeSafe(task);
-    if (faultedBefore && simplex.rare_->faultCode != HookThrew) return;
+    if (faultedBefore && simplex.thread_->faultCode != HookThrew) return;
     if (!faultedBefore) enter(task, State::Fault, tick);
     TaskDetails& is = details(task);
-    is.faultCode = simplex.rare_->faultCode;
-    is.faultText = simplex.rare_->text.view();
+    is.faultCode = simplex.thread_->faultCode;
+    is.faultText = simplex.thread_->text.view();
     EventText text{"fault "};
-    text << simplex.rare_->faultCode << ": " << simplex.rare_->text.view();
-    agent_.post(*simplex.thread_, Severity::Error, EventKind::Fault, task.index, text);
+    text << simplex.thread_->faultCode << ": " << simplex.thread_->text.view();
+    tell(task);
+    agent_.post(*simplex.thread_->loop, Severity::Error, EventKind::Fault, task.index, text);
+}
+
+void TaskRunner::tell(const Task& task) {
+    if (task.index == listenedTo_) heard_ = task.simplex->thread_->text;
 }
 
 void TaskRunner::latchSafe(Task& task) {
@@ -277,9 +281,9 @@ void TaskRunner::writeSafe(Task& task) {
 
 RunnerCounts TaskRunner::counts() const {
     RunnerCounts sum;
-    for (const Worker& worker : workers_) {
-        sum.limits += worker.counts.limits;
-        sum.conflicts += worker.counts.conflicts;
+    for (const TaskThread& thread : threads_) {
+        sum.limits += thread.limits;
+        sum.conflicts += thread.conflicts;
     }
     return sum;
 }

@@ -5,6 +5,7 @@
 
 #include "demands.hpp"
 #include "scheduler.hpp"
+#include "task_thread.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -133,14 +134,18 @@ public:
     const Position& position(std::uint32_t worker) const { return positions_[worker]; }
     RunnerCounts counts() const;
 
+    // From now on: why that simplex refuses or faults. Loop thread, between cycles.
+    void listenTo(std::uint32_t simplex) CORTEX_REALTIME {
+        listenedTo_ = simplex;
+        heard_ = {};
+    }
+    const EventText& heard() const { return heard_; }
+
 private:
     friend struct TaskBuilder;
-    struct alignas(64) Worker {
-        RunnerCounts counts;
-    };
 
-    void runTask(Task& task, std::uint32_t worker, LoopThread& thread) CORTEX_REALTIME;
-    void runTimed(Task& task, std::uint32_t worker, LoopThread& thread) CORTEX_REALTIME;
+    void runTask(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
+    void runTimed(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
     TaskDetails& details(const Task& task) {
         return details_[static_cast<std::size_t>(&task - tasks_.data())];
     }
@@ -154,15 +159,16 @@ private:
     SlotState readInputs(Task& task, const Tick& tick) CORTEX_REALTIME;
     SlotState readInput(Task& task, TaskInput& input, const Tick& tick) CORTEX_REALTIME;
     void inputLost(Task& task, TaskInput& input, const Tick& tick) CORTEX_REALTIME;
-    void finish(Task& task, const Tick& tick, SlotState state, Worker& worker) CORTEX_REALTIME;
-    void limitOutputs(Task& task, const Tick& tick, Worker& worker) CORTEX_REALTIME;
+    void finish(Task& task, const Tick& tick, SlotState state) CORTEX_REALTIME;
+    void limitOutputs(Task& task, const Tick& tick) CORTEX_REALTIME;
     EventText refusal(const LimitResult& result, std::uint32_t target) const CORTEX_REALTIME;
     void reportLimits(const DemandLimits& limits, std::uint32_t simplex, LoopThread& thread)
         CORTEX_REALTIME;
-    void arbitrate(Arbiter& arbiter, Worker& worker, LoopThread& thread) CORTEX_REALTIME;
+    void arbitrate(Arbiter& arbiter, TaskThread& thread) CORTEX_REALTIME;
     void latchSafe(Task& task) CORTEX_REALTIME;
     void writeSafe(Task& task) CORTEX_REALTIME;
     void checkTimeout(Task& task, const Tick& tick) CORTEX_REALTIME;
+    void tell(const Task& task) CORTEX_REALTIME;  // who listens: the text of its thread
     void settleQuality(const Task& task, const Tick& tick, SlotState& state) const CORTEX_REALTIME;
 
     AgentRuntime& agent_;
@@ -177,9 +183,11 @@ private:
     std::vector<std::unique_ptr<SafeDemands>> safe_;
     std::vector<std::unique_ptr<DemandLimits>> limits_;
     std::vector<std::unique_ptr<Arbiter>> arbiters_;
-    std::vector<Worker> workers_;
+    std::vector<TaskThread> threads_;
     std::unique_ptr<Position[]> positions_;
     Tick tick_;
+    std::uint32_t listenedTo_ = noSimplex;
+    EventText heard_;                // written by the task of that simplex
     std::int64_t cycleElapsed_ = 0;  // ns of nominal time since the last cycle
     std::uint32_t timedChunk_ = 0;
     bool haltNext_ = false, halted_ = false, forced_ = false, stopping_ = false;

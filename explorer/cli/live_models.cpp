@@ -47,7 +47,7 @@ std::vector<std::pair<std::string, Member>> membersOf(const Live& live, Merged& 
 void join(Merged& merged, std::uint32_t simplex, const Member& member) {
     const SimplexInfo& old = member.structure->simplexes[member.simplex];
     const auto indexOf = [&](std::uint32_t other) {
-        return merged.structure.byPath.at(member.structure->simplexes[other].path);
+        return merged.structure.find(member.structure->simplexes[other].path);
     };
     SimplexInfo& info = merged.structure.simplexes[simplex];
     info.writers.clear();
@@ -103,9 +103,7 @@ Graph graphOf(Live& live) {
         agents.push_back(info.remote ? "" : member.structure->agent);
         merged->structure.simplexes.push_back(std::move(info));
     }
-    for (std::uint32_t i = 0; i < members.size(); ++i) {
-        merged->structure.byPath.emplace(merged->structure.simplexes[i].path, i);
-    }
+    merged->structure.indexPaths();
     for (std::uint32_t i = 0; i < members.size(); ++i) join(*merged, i, members[i].second);
     std::vector<std::string> names;
     std::set<std::string> lost;

@@ -76,14 +76,13 @@ void SmallStructure::set(std::uint32_t simplex, std::string_view name, Value val
 
 std::shared_ptr<const Structure> SmallStructure::build() {
     structure_->agent = "robot";
-    std::uint32_t index = 0;
     for (SimplexInfo& each : structure_->simplexes) {
         each.base = structure_->cyclic;
         each.constantBase = structure_->constant;
         structure_->cyclic += each.layout->cyclic;
         structure_->constant += each.layout->constant;
-        structure_->byPath.emplace(each.path, index++);
     }
+    structure_->indexPaths();
     decideWriters(*structure_);
     return structure_;
 }

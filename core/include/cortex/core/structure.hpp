@@ -8,7 +8,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace cortex {
@@ -88,10 +87,11 @@ public:
     std::vector<SimplexInfo> simplexes;  // sorted by path, then remote ones
     std::vector<Edge> edges;             // by owner, then rule, in the order related
     std::vector<std::unique_ptr<TypeLayout>> layouts;
-    std::vector<InitialValue> initial;  // settings of the tree; a later one outranks
-    BlockSizes cyclic, constant;        // totals
-    std::unordered_map<std::string_view, std::uint32_t> byPath;
+    std::vector<InitialValue> initial;     // settings of the tree; a later one outranks
+    BlockSizes cyclic, constant;           // totals
+    std::vector<std::uint32_t> pathTable;  // indexes into `simplexes` at the hash of their paths
 
+    void indexPaths();  // fills pathTable, once all simplexes are there
     std::uint32_t find(std::string_view path) const;          // noSimplex if there is none
     std::uint32_t writtenEvery(std::uint32_t simplex) const;  // cycles between two writings
 };

@@ -44,9 +44,9 @@ public:
     Slice constants(std::uint32_t simplex) const;  // state is null
     // What the owner of edge `index` sees: live, latch, held copy, or its candidate to write to.
     // Setup: throws Error where it is a latch that was given up.
-    Slice edge(std::uint32_t index) { return wanted(edges_[index]); }
+    Slice edge(std::uint32_t index) { return wanted(viewOf(index).seen); }
     // What that slice is filled from: for a held copy the live or latched source, else itself.
-    Slice edgeSource(std::uint32_t index) { return wanted(sources_[index]); }
+    Slice edgeSource(std::uint32_t index) { return wanted(viewOf(index).source); }
 
     // Copies every simplex that has delayed readers; at the start of a cycle.
     void latch() CORTEX_REALTIME;
@@ -76,6 +76,11 @@ private:
     void* cell(std::uint32_t simplex, const ItemLayout& item) const;
     void initialise();
     std::vector<Slice> makeLatches();
+    // What the owner of an edge sees, and what that is filled from.
+    struct View {
+        Slice seen, source;
+    };
+    View viewOf(std::uint32_t edge) const;
     static const SlotState* stateOfCopy(const Latch& latch);
     Slice wanted(const Slice& slice);
     void resolveEdges(const std::vector<Slice>& latches);
@@ -87,7 +92,8 @@ private:
     std::vector<Latch> latches_;  // by the address of the copy's state
     std::vector<Latch> latched_;  // those of them that latch() copies
     bool gaveUp_ = false;
-    std::vector<Slice> edges_, sources_;
+    std::vector<std::uint32_t> viewOfEdge_;  // index into views_, or noSimplex: the live slice
+    std::vector<View> views_;
 };
 
 }  // namespace cortex

@@ -7,7 +7,6 @@
 #include "cortex/core/tick.hpp"
 
 #include <cstdint>
-#include <memory>
 #include <string_view>
 
 namespace cortex::cs {
@@ -15,6 +14,7 @@ namespace cortex::cs {
 class TaskRunner;
 struct TaskBuilder;
 class GroupCommands;
+struct TaskThread;
 class ClusterCS;
 
 // A simplex with a task and a state machine. Derive, get handles in populate(), override the hooks
@@ -45,7 +45,8 @@ protected:
     virtual bool stateFault(const Tick&) CORTEX_REALTIME { return true; }
     virtual void loopEnd(const Tick&) CORTEX_REALTIME {}
 
-    // In a hook: enter Fault when this task ends. The first fault of a cycle is kept.
+    // In a hook: enter Fault when this task ends. The first fault of a cycle is kept. Throws Error
+    // elsewhere.
     void fault(std::int64_t code, std::string_view text) CORTEX_REALTIME;
     // In a hook: own quality and that of the outputs in this cycle, instead of what follows from
     // the inputs; `measuredAt`: nominal time of the measurement, default this cycle.
@@ -92,7 +93,8 @@ private:
         return (static_cast<Self*>(static_cast<SimplexCS*>(self))->*method)(call);
     }
 
-    // Looked at in every cycle; shares a cache line with the head of the object.
+    // With the head of the object this is one cache line; what derives from it begins the next.
+    std::uint32_t manager_ = noSimplex;  // who starts and stops it instead of group commands
     State state_ = State::Standby;
     bool faultPending_ = false;
     bool done_ = false;  // the transitional state's function has returned true
@@ -102,15 +104,8 @@ private:
     bool qualitySet_ = false;
     bool demandRefused_ = false;  // by an arbiter, in the cycle before
     Quality quality_ = Quality::Good;
-    LoopThread* thread_ = nullptr;
+    TaskThread* thread_ = nullptr;
     std::int64_t now_ = 0;  // nominal time of the cycle in which it last ran
-    struct Rare {
-        std::int64_t measuredAt = 0;
-        std::int64_t faultCode = 0;
-        std::uint32_t manager = noSimplex;  // who starts and stops it instead of group commands
-        EventText text;                     // of the pending fault, or why startup was refused
-    };
-    std::unique_ptr<Rare> rare_ = std::make_unique<Rare>();
 };
 
 }  // namespace cortex::cs
