@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/data.hpp"
 
+#include <atomic>
 #include <cstring>
 #include <limits>
 
 namespace cortex {
+
+namespace {
+
+std::atomic<std::uint64_t> changes{0};
+
+}  // namespace
+
+std::uint64_t textChanges() { return changes.load(std::memory_order_relaxed); }
+
+void countTextChange() { changes.fetch_add(1, std::memory_order_relaxed); }
 
 std::size_t fittingLength(std::string_view text, std::size_t capacity) {
     if (text.size() <= capacity) return text.size();
@@ -19,9 +30,11 @@ std::size_t fittingLength(std::string_view text, std::size_t capacity) {
 
 void StringCell::assign(std::string_view value) {
     const std::size_t fitting = fittingLength(value, capacity);
+    if (fitting == value.size() && value == view()) return;
     if (fitting < value.size() && cuts < std::numeric_limits<std::uint32_t>::max()) ++cuts;
     if (fitting > 0) std::memmove(text(), value.data(), fitting);
     length = static_cast<std::uint16_t>(fitting);
+    countTextChange();
 }
 
 }  // namespace cortex

@@ -104,6 +104,16 @@ ImagePool::ImagePool(Tables& tables, std::uint32_t readers)
     publish(0, 0, 0);
 }
 
+void ImagePool::copyArena(Slot& slot) {
+    const auto arena = tables_.arena();
+    const auto [texts, octets] = tables_.textsInArena();
+    const std::uint64_t changes = textChanges();
+    const std::size_t rest = std::exchange(slot.textChanges, changes) == changes ? octets : 0;
+    std::memcpy(slot.memory, arena.data(), texts);
+    std::memcpy(slot.memory + texts + rest, arena.data() + texts + rest,
+                arena.size() - texts - rest);
+}
+
 void ImagePool::publish(std::int64_t cycle, std::int64_t nominalTime, std::int64_t wallClock) {
     // Of readers + 1 slots that are not the newest each reader keeps at most one: one is free.
     const std::uint32_t newest = newest_.load();
@@ -113,8 +123,7 @@ void ImagePool::publish(std::int64_t cycle, std::int64_t nominalTime, std::int64
     slot.cycle = cycle;
     slot.nominalTime = nominalTime;
     slot.wallClock = wallClock;
-    const auto arena = tables_.arena();
-    std::memcpy(slot.memory, arena.data(), arena.size());
+    copyArena(slot);
     newest_.store(free);
     cycle_.store(cycle, std::memory_order_release);
 }

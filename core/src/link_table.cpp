@@ -2,7 +2,6 @@
 #include "link_table.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace cortex {
 namespace {
@@ -17,7 +16,8 @@ std::size_t octetsOf(const LinkBinding::Copy& copy) {
 
 void apply(const std::vector<LinkBinding::Copy>& copies, const Slice& from, const Slice& to) {
     for (const LinkBinding::Copy& copy : copies) {
-        std::memcpy(to.at(copy.kind, copy.to), from.at(copy.kind, copy.from), octetsOf(copy));
+        copyCells(copy.kind, from.at(copy.kind, copy.from), to.at(copy.kind, copy.to),
+                  octetsOf(copy));
     }
 }
 

@@ -78,11 +78,21 @@ void* Slice::at(Kind kind, std::uint32_t offset) const {
     return strings + offset;
 }
 
+void copyCells(Kind kind, const void* from, void* to, std::size_t octets) {
+    if (octets == 0) return;
+    if (kind != Kind::String) {
+        std::memcpy(to, from, octets);
+    } else if (std::memcmp(to, from, octets) != 0) {
+        std::memcpy(to, from, octets);
+        countTextChange();
+    }
+}
+
 void copySlice(const BlockSizes& sizes, const Slice& from, const Slice& to) {
     copyBlock(from.floats, to.floats, sizes.floats);
     copyBlock(from.ints, to.ints, sizes.ints);
     copyBlock(from.bools, to.bools, sizes.bools);
-    copyBlock(from.strings, to.strings, sizes.strings);
+    copyCells(Kind::String, from.strings, to.strings, sizes.strings);
     *to.state = *from.state;
 }
 
@@ -98,6 +108,7 @@ void storeValue(const DataItem& item, const Value& value, void* cells) {
                                                                i * StringCell::size(item.capacity));
                     *cell = {static_cast<std::uint16_t>(item.capacity), 0, 0};
                     cell->assign(element);
+                    countTextChange();
                 } else {
                     static_cast<Element*>(cells)[i] = element;
                 }
@@ -238,6 +249,10 @@ Slice Tables::extraSlice(std::uint32_t simplex) {
 void* Tables::cell(std::uint32_t simplex, const ItemLayout& item) const {
     const Slice slice = item.constant ? constants(simplex) : live(simplex);
     return slice.at(item.item->kind, item.offset);
+}
+
+std::pair<std::size_t, std::size_t> Tables::textsInArena() const {
+    return {BlockOffsets{structure_->cyclic}.strings, structure_->cyclic.strings};
 }
 
 Slice Tables::live(std::uint32_t simplex) const { return sliceIn(arena_.get(), simplex); }

@@ -69,6 +69,7 @@ DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, std::uin
     }
     memory_.resize(size);
     std::byte* next = memory_.data();
+    constexpr double greatest = std::numeric_limits<double>::max();
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (const ItemLayout& entry : layout.items) {
         const DataItem& item = *entry.item;
@@ -76,7 +77,7 @@ DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, std::uin
         const bool limited =
             item.kind == Kind::Float || (item.kind == Kind::Int && (item.min || item.max));
         items_.push_back({&item, cellOf(live, entry), next, sizeOf(item),
-                          asDouble(item.min, -infinity), asDouble(item.max, infinity),
+                          asDouble(item.min, -greatest), asDouble(item.max, greatest),
                           item.rate.value_or(infinity), limited, false});
         next += alignedSize(item);
     }
@@ -94,7 +95,9 @@ void DemandLimits::accept() {
 }
 
 void DemandLimits::restore() {
-    for (const Item& item : items_) std::memcpy(item.live, item.previous, item.size);
+    for (const Item& item : items_) {
+        copyCells(item.item->kind, item.previous, item.live, item.size);
+    }
 }
 
 LimitResult DemandLimits::apply(double elapsedSeconds) {
@@ -121,9 +124,12 @@ bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
     auto* values = reinterpret_cast<double*>(item.live);
     const auto* previous = reinterpret_cast<const double*>(item.previous);
     const double step = item.rate * elapsed;
+    const bool rated = step < std::numeric_limits<double>::infinity();
     bool any = false;
-    for (std::uint32_t i = 0; i < item.item->length; ++i) {
+    const std::uint32_t length = item.size / sizeof(double);
+    for (std::uint32_t i = 0; i < length; ++i) {
         const double written = values[i];
+        if (!rated && written >= item.min && written <= item.max) continue;
         if (!std::isfinite(written)) {
             result = {true, true, item.item};
             beginnings_.push_back({item.item, written, previous[i], true, false});
@@ -131,7 +137,7 @@ bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
         }
         const double inRange = std::clamp(written, item.min, item.max);
         const double limited =
-            item.item->rate ? std::clamp(inRange, previous[i] - step, previous[i] + step) : inRange;
+            rated ? std::clamp(inRange, previous[i] - step, previous[i] + step) : inRange;
         if (limited == written) continue;
         values[i] = limited;
         found(item, !any, written, limited, limited != inRange, result);
@@ -183,7 +189,7 @@ SafeDemands::SafeDemands(const TypeLayout& layout, const Slice& out, const Deman
         if (source != nullptr) observedState_ = observed.state;
         items_.push_back({cellOf(out, entry), next, limits.previous(item),
                           source != nullptr ? cellOf(observed, *source) : nullptr, sizeOf(item),
-                          given});
+                          item.kind, given});
         std::memcpy(next, items_.back().out, items_.back().size);
         if (given) store(item, item.safe.value, next);
         next += alignedSize(item);
@@ -205,7 +211,7 @@ void SafeDemands::latch() {
 }
 
 void SafeDemands::write() {
-    for (const Item& item : items_) std::memcpy(item.out, item.safe, item.size);
+    for (const Item& item : items_) copyCells(item.kind, item.safe, item.out, item.size);
 }
 
 bool SafeDemands::observationIsGood() const {

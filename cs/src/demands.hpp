@@ -86,6 +86,7 @@ private:
         const std::byte* previous;
         const std::byte* observed;  // null: not observed
         std::uint32_t size;
+        Kind kind;
         bool given;
     };
     std::vector<Item> items_;

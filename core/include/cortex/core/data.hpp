@@ -14,6 +14,12 @@ namespace cortex {
 // Octets of `text` that fit into `capacity` without splitting a UTF-8 character.
 std::size_t fittingLength(std::string_view text, std::size_t capacity) CORTEX_REALTIME;
 
+// How often a text in any table has changed. Images copy texts only where it has moved: texts are
+// mostly more than half of the octets and change least. Whoever writes the cells of a text by other
+// means than assign() counts it here, after writing. Any thread.
+std::uint64_t textChanges() CORTEX_REALTIME;
+void countTextChange() CORTEX_REALTIME;
+
 // Head of a string element in a table; `capacity` octets of UTF-8 follow it.
 struct StringCell {
     std::uint16_t capacity;
@@ -23,7 +29,7 @@ struct StringCell {
     char* text() { return reinterpret_cast<char*>(this + 1); }
     const char* text() const { return reinterpret_cast<const char*>(this + 1); }
     std::string_view view() const { return {text(), length}; }
-    void assign(std::string_view value) CORTEX_REALTIME;  // cut at a character if too long
+    void assign(std::string_view value) CORTEX_REALTIME;  // cut at a character if too long; counted
 
     // Octets that a cell of this capacity takes in a table, a multiple of 8.
     static constexpr std::uint32_t size(std::uint32_t capacity) {

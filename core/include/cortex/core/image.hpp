@@ -75,7 +75,9 @@ private:
         std::atomic<std::uint32_t> pins{0};
         std::int64_t cycle = 0, nominalTime = 0, wallClock = 0;
         std::byte* memory = nullptr;
+        std::uint64_t textChanges = ~std::uint64_t{0};  // when its texts were copied; none yet
     };
+    void copyArena(Slot& slot) CORTEX_REALTIME;
 
     Tables& tables_;
     std::uint32_t readers_;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cortex {
@@ -23,6 +24,8 @@ struct Slice {
     void* at(Kind kind, std::uint32_t offset) const CORTEX_REALTIME;
 };
 
+// Octets of an item's cells.
+void copyCells(Kind kind, const void* from, void* to, std::size_t octets) CORTEX_REALTIME;
 void copySlice(const BlockSizes& sizes, const Slice& from, const Slice& to) CORTEX_REALTIME;
 
 // Between values outside the tables and the cells of an item; storing sets strings' capacities. A
@@ -55,6 +58,8 @@ public:
     void giveUpUnusedLatches();
 
     std::span<std::byte> arena() { return {arena_.get(), arenaSize_}; }
+    // Where the texts are in it: an offset and a number of octets.
+    std::pair<std::size_t, std::size_t> textsInArena() const;
     std::span<const std::byte> constantArena() const { return {constants_.get(), constantSize_}; }
 
     // The slice of a simplex in a copy of the arena (an image).
