@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "subject.hpp"
 
+#include <tuple>
+#include <utility>
+
 namespace cortex::profiler {
 
 std::chrono::nanoseconds BurstTrigger::burst(std::int64_t cycles) {
@@ -59,6 +62,14 @@ Outcome Partner::ping(Call& call) {
     return Outcome::Done;
 }
 
+void TimedPartner::loopStart(const Tick& tick) {
+    if (recording_ && samples_.size() < samples_.capacity()) {
+        const auto now = std::chrono::steady_clock::now().time_since_epoch();
+        samples_.push_back({std::chrono::nanoseconds{now}.count(), newestAnswer().latencyCycles});
+    }
+    Partner::loopStart(tick);
+}
+
 SubjectCluster::SubjectCluster(SimplexTree&& simplexes, cs::ClusterOptions options)
     : tree{std::move(simplexes)}, cluster{"subject", std::move(options)} {
     cluster.addSimplexTree(tree);
@@ -82,15 +93,35 @@ SimplexTree emptySimplexes(int count, int chain) {
     return tree;
 }
 
+namespace {
+
+template <class T>
+std::pair<T*, T*> addPair(SimplexTree& tree, int number) {
+    T& first = tree.add<T>("/p" + std::to_string(number), "Partner");
+    T& second = tree.add<T>("/p" + std::to_string(number + 1), "Partner");
+    tree.relate(first, "after", second);
+    tree.relate(second, "late", first);
+    return {&first, &second};
+}
+
+}  // namespace
+
 SimplexTree partners(int count) {
     SimplexTree tree{subjectTypes()};
-    for (int i = 0; i + 1 < count; i += 2) {
-        Simplex& first = tree.add<Partner>("/p" + std::to_string(i), "Partner");
-        Simplex& second = tree.add<Partner>("/p" + std::to_string(i + 1), "Partner");
-        tree.relate(first, "after", second);
-        tree.relate(second, "late", first);
-    }
+    for (int i = 0; i + 1 < count; i += 2) addPair<Partner>(tree, i);
     return tree;
+}
+
+TimedPartners timedPartners(int count) {
+    TimedPartners made{SimplexTree{subjectTypes()}, nullptr, nullptr};
+    const int middle = count / 4 * 2;
+    for (int i = 0; i + 1 < count; i += 2) {
+        if (i != middle)
+            addPair<Partner>(made.tree, i);
+        else
+            std::tie(made.first, made.second) = addPair<TimedPartner>(made.tree, i);
+    }
+    return made;
 }
 
 }  // namespace cortex::profiler

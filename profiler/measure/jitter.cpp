@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jitter of 50 empty simplexes against the frequency of the loop, the paper's Fig. 30, and the
+// lateness at 1 kHz judged against a bare sleeper.
+#include "measure/measurements.hpp"
+#include "measure/sweep.hpp"
+#include "observers/alternating_clock.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cortex::profiler {
+namespace {
+
+using observers::Lateness;
+using Value = std::function<double(const Measured&)>;
+
+constexpr int simplexes = 50;
+constexpr double judgedFrequency = 1000;
+
+std::vector<double> frequencies() {
+    return {50, 100, 200, 400, 700, 1000, 2000, 3000, 5000, 10'000};
+}
+
+double secondsEach(const RunOptions& options) { return options.quick ? 0.25 : 4; }
+int judgedSeconds(const RunOptions& options) { return options.quick ? 4 : 60; }
+
+double seconds(const RunOptions& options) {
+    const double slow = options.quick ? 1.5 : 0;  // at least 50 periods each
+    return static_cast<double>(frequencies().size()) * (2 * secondsEach(options) + 0.05) + slow +
+           2 * judgedSeconds(options);
+}
+
+Figure jitterFigure(const RunOptions& options, const Sweep& sweep) {
+    Figure figure;
+    figure.id = "fig30-jitter";
+    figure.title = "Jitter against the frequency of the loop";
+    figure.paper =
+        "Fig. 30: with 50 empty simplexes jitter stays between -0.02 and 0.01 (no unit is given) "
+        "below 400 Hz, and grows and varies more above.";
+    figure.setup = "50 empty simplexes; " + conditions(options, sweep.threads, 0) + "; " +
+                   number(secondsEach(options)) +
+                   " s a point in turn with a bare sleeper on the same thread. Jitter: how late "
+                   "a cycle begins after its deadline.";
+    figure.x = {"loop frequency", "Hz", true};
+    figure.y = {"jitter", "us", true};
+    const auto add = [&](const char* name, const Value& value, bool baseline = false) {
+        figure.series.push_back(lineOf(sweep, name, value, {}, baseline));
+    };
+    for (const auto& [name, part] : {std::pair{"p50", 0.5}, {"p99", 0.99}, {"p99.9", 0.999}}) {
+        add(name, [part](const Measured& m) { return m.lateness.percentile(part); });
+    }
+    add("max", [](const Measured& m) { return m.lateness.max(); });
+    add("standard deviation", [](const Measured& m) { return m.lateness.deviation(); });
+    add("sleeper, p50", [](const Measured& m) { return m.sleeperLateness.percentile(0.5); }, true);
+    add("sleeper, p99", [](const Measured& m) { return m.sleeperLateness.percentile(0.99); }, true);
+    add("sleeper, max", [](const Measured& m) { return m.sleeperLateness.max(); }, true);
+    figure.marks.push_back({Mark::Along::X, 400, "paper: larger above 400 Hz"});
+    return figure;
+}
+
+bool measureJitter(const RunOptions& options, Steps& steps, Results& results) {
+    Sweep sweep;
+    for (const double frequency : frequencies()) {
+        if (!steps.next(number(frequency) + " Hz")) break;
+        const auto loop = MeasuredLoop::ofEmpty(simplexes, frequency, options);
+        sweep.threads = loop->threads();
+        noteRefusals(loop->refusals(), results);
+        const auto periods =
+            std::max<std::int64_t>(50, std::llround(frequency * secondsEach(options) / 2));
+        Measured measured =
+            loop->run({2, periods / 2, periods / 2}, [&] { return !steps.keepsOn(); });
+        if (!measured.complete) break;
+        sweep.points.push_back({frequency, std::move(measured)});
+    }
+    if (!sweep.points.empty()) results.figures.push_back(jitterFigure(options, sweep));
+    return !steps.stopped();
+}
+
+template <class Wakes>
+Lateness bySeconds(const Wakes& wakes, int blocks) {
+    Lateness lateness;
+    lateness.seconds.resize(static_cast<std::size_t>(blocks));
+    for (const auto& wake : wakes) {
+        lateness.seconds[static_cast<std::size_t>(wake.block)].push_back(wake.lateness);
+    }
+    std::erase_if(lateness.seconds, [](const auto& second) { return second.empty(); });
+    return lateness;
+}
+
+Figure latenessFigure(const RunOptions& options, const Measured& measured, std::uint32_t threads) {
+    Figure figure;
+    figure.id = "fig30-lateness-1khz";
+    figure.title = "Lateness of single cycles at 1 kHz";
+    figure.setup = "50 empty simplexes; " + conditions(options, threads, judgedFrequency) +
+                   "; loop and bare sleeper in turn, a second each, " +
+                   number(judgedSeconds(options)) + " s of each.";
+    figure.x = {"lateness", "us", true};
+    figure.y = {"share of cycles that are later", "", true};
+    figure.series.push_back({"loop", measured.lateness.shareAbove(), false});
+    figure.series.push_back({"bare sleeper", measured.sleeperLateness.shareAbove(), true});
+    figure.marks.push_back({Mark::Along::Y, 0.01, "p99"});
+    return figure;
+}
+
+// DESIGN's judgement: the ratio of the medians of each second's p99, and the sleeper's to itself.
+void judge(const Recording& recording, const Measured& measured, int blocks, Results& results) {
+    const Lateness loop = bySeconds(recording.cycles, blocks);
+    const Lateness sleeper = bySeconds(recording.sleeps, blocks);
+    if (sleeper.seconds.size() < 2) return;
+    const double even = sleeper.every(0).medianOfP99(), odd = sleeper.every(1).medianOfP99();
+    const double null = std::max(even, odd) / std::min(even, odd);
+    results.quantities.push_back({.id = "jitter/lateness-ratio",
+                                  .what = "lateness of the loop over that of a bare sleeper, 1 kHz "
+                                          "(medians of the seconds' p99)",
+                                  .unit = "",
+                                  .value = loop.medianOfP99() / sleeper.medianOfP99(),
+                                  .baseline = null,
+                                  .baselineName = "sleeper over itself",
+                                  .aim = Aim::AtMost,
+                                  .limit = 1.2});
+    results.quantities.push_back({.id = "jitter/lateness-null-ratio",
+                                  .what = "the sleeper over itself; above 1.3 it is too noisy here",
+                                  .unit = "",
+                                  .value = null,
+                                  .aim = Aim::AtMost,
+                                  .limit = 1.3});
+    if (null > 1.3) results.notes.push_back("Lateness was too noisy to be judged: run it again.");
+    const auto add = [&](const char* id, const char* what, double ours, double floor) {
+        results.quantities.push_back({.id = id,
+                                      .what = what,
+                                      .unit = "us",
+                                      .value = ours,
+                                      .baseline = floor,
+                                      .baselineName = "bare sleeper",
+                                      .paper = "below 40 us, no percentile given"});
+    };
+    add("jitter/lateness-p99", "median of the seconds' p99 of lateness, 1 kHz", loop.medianOfP99(),
+        sleeper.medianOfP99());
+    add("jitter/lateness-p99.9", "p99.9 of lateness, 1 kHz", measured.lateness.percentile(0.999),
+        measured.sleeperLateness.percentile(0.999));
+    add("jitter/lateness-p99.99", "p99.99 of lateness, 1 kHz", measured.lateness.percentile(0.9999),
+        measured.sleeperLateness.percentile(0.9999));
+    add("jitter/lateness-max", "greatest lateness, 1 kHz", measured.lateness.max(),
+        measured.sleeperLateness.max());
+}
+
+void addMissed(const Measured& measured, Results& results) {
+    results.quantities.push_back({.id = "jitter/missed-ticks",
+                                  .what = "ticks missed by 50 empty simplexes at 1 kHz",
+                                  .unit = "ticks",
+                                  .value = static_cast<double>(measured.missed),
+                                  .baseline = static_cast<double>(measured.sleeperMissed),
+                                  .baselineName = "bare sleeper"});
+}
+
+void judgeLateness(const RunOptions& options, Steps& steps, Results& results) {
+    if (!steps.next("lateness at 1 kHz beside a bare sleeper")) return;
+    const auto loop = MeasuredLoop::ofEmpty(simplexes, judgedFrequency, options);
+    const int blocks = judgedSeconds(options);
+    int asked = 0;
+    const Measured measured = loop->run({blocks, 1000, 1000}, [&] {
+        // A step for each part of this longest one, so that it is seen to go on.
+        return ++asked % (2 * blocks) == 0 ? !steps.next("lateness at 1 kHz beside a bare sleeper")
+                                           : !steps.keepsOn();
+    });
+    if (measured.cycles == 0 || measured.sleeps == 0) return;
+    results.figures.push_back(latenessFigure(options, measured, loop->threads()));
+    judge(loop->recording(), measured, blocks, results);
+    addMissed(measured, results);
+}
+
+void run(const RunOptions& options, Progress& progress, Results& results) {
+    Steps steps{progress, static_cast<int>(frequencies().size()) + 11};
+    if (measureJitter(options, steps, results)) judgeLateness(options, steps, results);
+}
+
+}  // namespace
+
+Measurement jitterMeasurement() {
+    return {"jitter", "jitter against the frequency of the loop, lateness at 1 kHz (Fig. 30)",
+            seconds, run};
+}
+
+}  // namespace cortex::profiler
