@@ -164,6 +164,21 @@ std::string unknownVerb(const CLI::App& app, const std::string& verb) {
     return text;
 }
 
+// What CLI11 says, and for an unknown option the options there are.
+std::string wrongUsage(const CLI::App& app, const CLI::ParseError& error) {
+    const auto verbs = app.get_subcommands();
+    const CLI::App& verb = verbs.empty() ? app : *verbs.front();
+    for (const std::string& argument : app.remaining(true)) {
+        if (!argument.starts_with("-")) continue;
+        std::string text = "there is no option '" + argument + "'; there are";
+        for (const CLI::Option* option : verb.get_options()) {
+            for (const std::string& name : option->get_lnames()) text += " --" + name;
+        }
+        return text;
+    }
+    return error.what();
+}
+
 int refuse(const CLI::App& app, const std::string& wrong) {
     const auto verbs = app.get_subcommands();
     std::cerr << "cortex-profiler: " << wrong << "\nhelp: cortex-profiler "
@@ -184,7 +199,7 @@ int parse(CLI::App& app, int count, char** values) {
     } catch (const CLI::Success& asked) {
         app.exit(asked);
     } catch (const CLI::ParseError& error) {
-        return refuse(app, error.what());
+        return refuse(app, wrongUsage(app, error));
     }
     return 0;
 }

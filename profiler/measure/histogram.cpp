@@ -7,14 +7,14 @@
 
 namespace cortex::profiler {
 
-// Bin: octave and the next six bits.
+// Bin: octave and the next nine bits.
 void Histogram::add(std::int64_t nanoseconds, std::uint64_t times) {
     if (times == 0) return;
     const std::int64_t value = std::max<std::int64_t>(nanoseconds, 0);
     const auto shifted = static_cast<std::uint64_t>(value) + perOctave;
-    const auto octave = static_cast<std::uint64_t>(std::bit_width(shifted)) - 7;
+    const auto octave = static_cast<std::uint64_t>(std::bit_width(shifted)) - 10;
     const std::uint64_t bin = octave * perOctave + (shifted >> octave) - perOctave;
-    bins_[std::min<std::uint64_t>(bin, bins_.size() - 1)] += times;
+    bins_[std::min<std::uint64_t>(bin, bins_.size() - 1)] += static_cast<std::uint32_t>(times);
     count_ += times;
     const auto number = static_cast<double>(value);
     sum_ += number * static_cast<double>(times);
@@ -50,14 +50,16 @@ double Histogram::percentile(double part) const {
 }
 
 std::vector<Point> Histogram::shareAbove() const {
+    constexpr double apart = 1.02;
     std::vector<Point> points;
     std::uint64_t below = 0;
     for (std::size_t bin = 0; bin < bins_.size(); ++bin) {
         if (bins_[bin] == 0) continue;
         below += bins_[bin];
         if (below == count_) break;
-        points.push_back(
-            {upperEdge(bin), static_cast<double>(count_ - below) / static_cast<double>(count_)});
+        const double x = upperEdge(bin);
+        if (x <= 0 || (!points.empty() && x < points.back().x * apart)) continue;
+        points.push_back({x, static_cast<double>(count_ - below) / static_cast<double>(count_)});
     }
     return points;
 }

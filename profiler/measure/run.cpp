@@ -91,7 +91,8 @@ int runMeasurements(const RunRequest& request) {
     const std::filesystem::path folder = makeFolder(request.folder, request.force);
     double seconds = 0;
     for (const Measurement* each : list) seconds += each->seconds(request.options);
-    std::cerr << "Takes about " << durationText(seconds) << "; Ctrl-C keeps what there is.\n";
+    std::cerr << "Takes at most about " << durationText(seconds)
+              << "; Ctrl-C keeps what there is.\n";
 
     Results results = newResults(request.command);
     noteStopSignals();

@@ -17,7 +17,8 @@ std::chrono::nanoseconds BurstTrigger::burst(std::int64_t cycles) {
 }
 
 cs::Trigger BurstTrigger::waitForTick() {
-    if (cycle_ >= 0 && cycle_ + 1 == wanted_.load(std::memory_order_relaxed)) {
+    const bool ends = cycle_ >= 0 && cycle_ + 1 == wanted_.load(std::memory_order_relaxed);
+    if (ends) {
         end_ = std::chrono::steady_clock::now();
         executed_.store(cycle_ + 1);
         executed_.notify_all();
@@ -25,8 +26,9 @@ cs::Trigger BurstTrigger::waitForTick() {
     while (cycle_ + 1 >= wanted_.load(std::memory_order_relaxed)) {
         if (interrupted_.load()) return {.stopped = true};
         wanted_.wait(cycle_ + 1);
-        begin_ = std::chrono::steady_clock::now();
     }
+    // Also where the next burst was asked for before this waited.
+    if (ends || cycle_ < 0) begin_ = std::chrono::steady_clock::now();
     ++cycle_;
     return {.nominalTime = cycle_ * period(), .stopped = interrupted_.load()};
 }
@@ -115,11 +117,13 @@ SimplexTree partners(int count) {
 TimedPartners timedPartners(int count) {
     TimedPartners made{SimplexTree{subjectTypes()}, nullptr, nullptr};
     const int middle = count / 4 * 2;
+    // Numbers of one length, so that partners stand side by side, as in a plant.
+    const int start = 1'000'000;
     for (int i = 0; i + 1 < count; i += 2) {
         if (i != middle)
-            addPair<Partner>(made.tree, i);
+            addPair<Partner>(made.tree, start + i);
         else
-            std::tie(made.first, made.second) = addPair<TimedPartner>(made.tree, i);
+            std::tie(made.first, made.second) = addPair<TimedPartner>(made.tree, start + i);
     }
     return made;
 }
