@@ -5,6 +5,7 @@
 #include "cortex/core/error.hpp"
 
 #include "measure/run.hpp"
+#include "measure/sweep.hpp"
 #include "measure/terminal_progress.hpp"
 #include "report_api_stub.hpp"
 
@@ -50,7 +51,8 @@ public:
     Attached(comms::Mirror& mirror, std::string agent);
     void sample(double seconds);
     void report(const std::string& setup, Results& results);
-    bool empty() const { return samples_ == 0; }
+    bool empty() const { return overflow_.points.empty(); }
+    double lasted() const { return overflow_.points.back().x; }  // s, until the last values came
 
 private:
     void view();
@@ -64,7 +66,6 @@ private:
     Series overflow_{"missed ticks", {}, false};
     std::vector<TaskTimes> tasks_;
     std::int64_t lastCycle_ = -1;
-    int samples_ = 0;
 };
 
 Attached::Attached(comms::Mirror& mirror, std::string agent)
@@ -106,7 +107,6 @@ void Attached::sample(double seconds) {
     const Quality quality = image->quality(path_);
     if (quality == Quality::Lost || image->cycle() == lastCycle_) return;
     lastCycle_ = image->cycle();
-    ++samples_;
     for (std::size_t i = 0; i < metrics.size(); ++i) {
         for (std::size_t k = 0; k < statistics.size(); ++k) {
             const std::string item = std::string{metrics[i].item} + statistics[k];
@@ -150,7 +150,7 @@ void Attached::addTasks(const std::string& setup, Results& results) {
         figure.series.push_back(tasks_[i].series);
         results.quantities.push_back({.id = "attach/task" + tasks_[i].series.name,
                                       .what = "task of " + tasks_[i].series.name + ", mean; max " +
-                                              std::to_string(tasks_[i].greatest) + " us",
+                                              number(tasks_[i].greatest) + " us",
                                       .unit = "us",
                                       .value = tasks_[i].mean()});
     }
@@ -215,6 +215,10 @@ int attach(const AttachRequest& request) {
     if (attached.empty()) throw Error("no values of " + request.agent + " came");
     attached.report("Agent " + request.agent + " over the network, 10 samples a second.", results);
     if (!results.complete) results.notes.push_back("Stopped before its time.");
+    if (attached.lasted() < 0.8 * request.seconds && results.complete) {
+        results.notes.push_back("The values of " + request.agent + " ended after " +
+                                durationText(attached.lasted()) + ".");
+    }
     save(results, folder);
     return tellResults(results, folder);
 }

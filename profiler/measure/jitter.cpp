@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cortex::profiler {
 namespace {
@@ -102,22 +103,33 @@ Figure latenessFigure(const RunOptions& options, const Measured& measured, std::
     return figure;
 }
 
-// DESIGN's judgement: the ratio of the medians of each second's p99, and the sleeper's to itself.
-void judge(const Recording& recording, const Measured& measured, int blocks, Results& results) {
-    const Lateness loop = bySeconds(recording.cycles, blocks);
-    const Lateness sleeper = bySeconds(recording.sleeps, blocks);
-    if (sleeper.seconds.size() < 2) return;
+std::vector<double> p99OfSeconds(const Lateness& lateness) {
+    std::vector<double> values;
+    for (const auto& second : lateness.seconds) {
+        values.push_back(Lateness{{second}}.medianOfP99());
+    }
+    return values;
+}
+
+// The ratio of the medians of each second's p99, and the sleeper's to itself.
+void judge(const Lateness& loop, const Lateness& sleeper, Results& results) {
     const double even = sleeper.every(0).medianOfP99(), odd = sleeper.every(1).medianOfP99();
     const double null = std::max(even, odd) / std::min(even, odd);
-    results.quantities.push_back({.id = "jitter/lateness-ratio",
-                                  .what = "lateness of the loop over that of a bare sleeper, 1 kHz "
-                                          "(medians of the seconds' p99)",
-                                  .unit = "",
-                                  .value = loop.medianOfP99() / sleeper.medianOfP99(),
-                                  .baseline = null,
-                                  .baselineName = "sleeper over itself",
-                                  .aim = Aim::AtMost,
-                                  .limit = 1.2});
+    Quantity ratio{.id = "jitter/lateness-ratio",
+                   .what =
+                       "lateness of the loop over that of a bare sleeper, 1 kHz (medians of "
+                       "the seconds' p99)",
+                   .unit = "",
+                   .value = loop.medianOfP99() / sleeper.medianOfP99(),
+                   .baseline = null,
+                   .baselineName = "sleeper over itself",
+                   .aim = Aim::AtMost,
+                   .limit = 1.2};
+    const std::vector<double> ours = p99OfSeconds(loop), floor = p99OfSeconds(sleeper);
+    for (std::size_t i = 0; i < std::min(ours.size(), floor.size()); ++i) {
+        ratio.repeats.push_back(ours[i] / floor[i]);
+    }
+    results.quantities.push_back(std::move(ratio));
     results.quantities.push_back({.id = "jitter/lateness-null-ratio",
                                   .what = "the sleeper over itself; above 1.3 it is too noisy here",
                                   .unit = "",
@@ -125,23 +137,29 @@ void judge(const Recording& recording, const Measured& measured, int blocks, Res
                                   .aim = Aim::AtMost,
                                   .limit = 1.3});
     if (null > 1.3) results.notes.push_back("Lateness was too noisy to be judged: run it again.");
-    const auto add = [&](const char* id, const char* what, double ours, double floor) {
+}
+
+void addTails(const Lateness& loop, const Lateness& sleeper, const Measured& measured,
+              Results& results) {
+    const auto add = [&](const char* id, const char* what, double ours, double floor,
+                         std::vector<double> repeats) {
         results.quantities.push_back({.id = id,
                                       .what = what,
                                       .unit = "us",
                                       .value = ours,
+                                      .repeats = std::move(repeats),
                                       .baseline = floor,
                                       .baselineName = "bare sleeper",
                                       .paper = "below 40 us, no percentile given"});
     };
+    const Histogram &ours = measured.lateness, &floor = measured.sleeperLateness;
     add("jitter/lateness-p99", "median of the seconds' p99 of lateness, 1 kHz", loop.medianOfP99(),
-        sleeper.medianOfP99());
-    add("jitter/lateness-p99.9", "p99.9 of lateness, 1 kHz", measured.lateness.percentile(0.999),
-        measured.sleeperLateness.percentile(0.999));
-    add("jitter/lateness-p99.99", "p99.99 of lateness, 1 kHz", measured.lateness.percentile(0.9999),
-        measured.sleeperLateness.percentile(0.9999));
-    add("jitter/lateness-max", "greatest lateness, 1 kHz", measured.lateness.max(),
-        measured.sleeperLateness.max());
+        sleeper.medianOfP99(), p99OfSeconds(loop));
+    add("jitter/lateness-p99.9", "p99.9 of lateness, 1 kHz", ours.percentile(0.999),
+        floor.percentile(0.999), {});
+    add("jitter/lateness-p99.99", "p99.99 of lateness, 1 kHz", ours.percentile(0.9999),
+        floor.percentile(0.9999), {});
+    add("jitter/lateness-max", "greatest lateness, 1 kHz", ours.max(), floor.max(), {});
 }
 
 void addMissed(const Measured& measured, Results& results) {
@@ -165,7 +183,10 @@ void judgeLateness(const RunOptions& options, Steps& steps, Results& results) {
     });
     if (measured.cycles == 0 || measured.sleeps == 0) return;
     results.figures.push_back(latenessFigure(options, measured, loop->threads()));
-    judge(loop->recording(), measured, blocks, results);
+    const Lateness ours = bySeconds(loop->recording().cycles, blocks);
+    const Lateness sleeper = bySeconds(loop->recording().sleeps, blocks);
+    if (sleeper.seconds.size() >= 2) judge(ours, sleeper, results);
+    addTails(ours, sleeper, measured, results);
     addMissed(measured, results);
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <sched.h>
+#include <sys/mman.h>
 
 namespace cortex::profiler {
 namespace {
@@ -71,6 +72,8 @@ MeasuredLoop::~MeasuredLoop() {
     ending_ = true;
     if (observer_.joinable()) observer_.join();
     cluster_->stop();
+    Partner::commandsPerCycle = 1;
+    munlockall();  // a cluster with a priority locks all memory of the process
 }
 
 void MeasuredLoop::start() {
@@ -180,6 +183,7 @@ void MeasuredLoop::evaluateWakes(Measured& measured) const {
         measured.lateness.add(cycle.lateness);
         measured.missed += cycle.missed;
     }
+    evaluateBlocks(measured);
     for (std::size_t i = 0; i < found.sleeps.size(); ++i) {
         const Recording::Wake& wake = found.sleeps[i];
         measured.sleeperLateness.add(wake.lateness);
@@ -190,6 +194,17 @@ void MeasuredLoop::evaluateWakes(Measured& measured) const {
     if (measured.cycles == 0) return;
     measured.clockReadings = static_cast<double>(found.clockReadings - measured.sleeps * 2) /
                              static_cast<double>(measured.cycles);
+}
+
+void MeasuredLoop::evaluateBlocks(Measured& measured) const {
+    const auto& cycles = recording().cycles;
+    for (std::size_t i = 0; i < cycles.size();) {
+        Histogram block;
+        const int number = cycles[i].block;
+        for (; i < cycles.size() && cycles[i].block == number; ++i) block.add(cycles[i].duration);
+        measured.blockP50.push_back(block.percentile(0.5));
+        measured.blockP99.push_back(block.percentile(0.99));
+    }
 }
 
 // Between executions of one task, without the pauses of the loop.

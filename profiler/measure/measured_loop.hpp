@@ -31,9 +31,14 @@ struct Measured {
     std::uint64_t commands = 0, expectedCommands = 0, rejected = 0;
     double clockReadings = 0;  // a cycle
     std::uint64_t imagesRead = 0;
-    double seconds = 0;  // that the loop ran
+    double seconds = 0;                      // that the loop ran
+    std::vector<double> blockP50, blockP99;  // us, of the duration, block by block
     bool complete = false;
 
+    // p99 of the duty cycle in one block, or in all where there is no such block.
+    double dutyOfBlock(std::size_t block) const {
+        return block < blockP99.size() ? 100 * blockP99[block] / period : duty(0.99);
+    }
     double duty(double part) const { return 100 * duration.percentile(part) / period; }
     double meanDuty() const { return 100 * duration.mean() / period; }
     // p99 of the duration within the period, and missed ticks no more than the sleeper's and 1 in
@@ -68,6 +73,7 @@ private:
     void observe();
     void count(Counts& counts);
     void evaluateWakes(Measured& measured) const;
+    void evaluateBlocks(Measured& measured) const;
     void evaluateCommands(Measured& measured) const;
     void evaluateIntervals(Measured& measured) const;
     void evaluateLatency(Measured& measured) const;

@@ -16,6 +16,8 @@
 namespace cortex::profiler {
 namespace {
 
+constexpr std::string_view dutyName = "duty", intervalName = "interval";
+
 std::string utcTime(const char* format) {
     const std::time_t now = std::time(nullptr);
     std::tm parts{};
@@ -32,6 +34,14 @@ std::vector<const Measurement*> chosen(const std::vector<std::string>& names) {
         if (all || std::ranges::count(names, each.name) > 0) found.push_back(&each);
     }
     return found;
+}
+
+// `interval` looks at what `duty` has measured just before.
+double secondsOf(const Measurement& each, const std::vector<const Measurement*>& list,
+                 const RunOptions& options) {
+    const auto isDuty = [](const Measurement* other) { return other->name == dutyName; };
+    const bool shared = each.name == intervalName && std::ranges::any_of(list, isDuty);
+    return shared ? 0.1 : each.seconds(options);
 }
 
 void runOne(const Measurement& measurement, const RunOptions& options, TerminalProgress& progress,
@@ -90,16 +100,15 @@ int runMeasurements(const RunRequest& request) {
     const std::vector<const Measurement*> list = chosen(request.names);
     const std::filesystem::path folder = makeFolder(request.folder, request.force);
     double seconds = 0;
-    for (const Measurement* each : list) seconds += each->seconds(request.options);
-    std::cerr << "Takes at most about " << durationText(seconds)
-              << "; Ctrl-C keeps what there is.\n";
+    for (const Measurement* each : list) seconds += secondsOf(*each, list, request.options);
+    std::cerr << "Takes about " << durationText(seconds) << "; Ctrl-C keeps what there is.\n";
 
     Results results = newResults(request.command);
     noteStopSignals();
     {
         TerminalProgress progress{seconds};
         for (const Measurement* each : list) {
-            progress.begin(each->name, each->seconds(request.options));
+            progress.begin(each->name, secondsOf(*each, list, request.options));
             runOne(*each, request.options, progress, results);
             results.complete = each == list.back() && !stopAsked();
             if (stopAsked()) results.notes.push_back("Stopped: not everything was measured.");

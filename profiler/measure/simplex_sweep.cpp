@@ -15,7 +15,7 @@ struct Portion {
 };
 
 Portion portion(const RunOptions& options) {
-    if (options.quick) return {1, 300, 100};
+    if (options.quick) return {3, 120, 40};
     return {5, paperCycles / 5, 400};
 }
 

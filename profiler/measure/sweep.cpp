@@ -50,6 +50,21 @@ private:
     const std::function<Measured(double)>& measure_;
 };
 
+double crossing(const Sweep& sweep, double duty,
+                const std::function<double(const Measured&)>& dutyOf) {
+    const auto& points = sweep.points;
+    double found = 0;
+    for (std::size_t i = 0; i < points.size() && points[i].x <= sweep.withoutOverflow; ++i) {
+        const double here = dutyOf(points[i].measured);
+        if (here > duty) continue;
+        found = points[i].x;
+        if (i + 1 == points.size()) continue;
+        const double next = dutyOf(points[i + 1].measured);
+        if (next > duty) found += (points[i + 1].x - found) * (duty - here) / (next - here);
+    }
+    return found;
+}
+
 bool raise(const SweepPlan& plan, Sweep& sweep, Sweeper& sweeper) {
     const auto far = [&] {
         return !sweep.points.empty() && sweep.points.back().measured.duty(0.5) > 100;
@@ -91,14 +106,18 @@ void Sweep::judge() {
 }
 
 double Sweep::atDuty(double duty) const {
-    double found = 0;
-    for (std::size_t i = 0; i < points.size() && points[i].x <= withoutOverflow; ++i) {
-        const double here = points[i].measured.duty(0.99);
-        if (here > duty) continue;
-        found = points[i].x;
-        if (i + 1 == points.size()) continue;
-        const double next = points[i + 1].measured.duty(0.99);
-        if (next > duty) found += (points[i + 1].x - found) * (duty - here) / (next - here);
+    return crossing(*this, duty, [](const Measured& measured) { return measured.duty(0.99); });
+}
+
+std::vector<double> Sweep::atDutyOfBlocks(double duty) const {
+    std::size_t blocks = 0;
+    for (const SweepPoint& point : points) {
+        blocks = std::max(blocks, point.measured.blockP99.size());
+    }
+    std::vector<double> found;
+    for (std::size_t i = 0; i < blocks && blocks > 1; ++i) {
+        found.push_back(crossing(
+            *this, duty, [i](const Measured& measured) { return measured.dutyOfBlock(i); }));
     }
     return found;
 }

@@ -25,7 +25,8 @@ struct Sweep {
 
     // Greatest x at which p99 of the duty cycle is at most `duty` %, interpolated; 0: none.
     double atDuty(double duty) const;
-    void judge();  // after a point was added
+    std::vector<double> atDutyOfBlocks(double duty) const;  // the same by each block alone
+    void judge();                                           // after a point was added
 };
 
 struct SweepPlan {
