@@ -22,13 +22,21 @@ std::vector<double> frequencies() {
     return {50, 100, 200, 400, 700, 1000, 2000, 3000, 5000, 10'000};
 }
 
-double secondsEach(const RunOptions& options) { return options.quick ? 0.25 : 4; }
+double secondsEach(const RunOptions& options) { return options.quick ? 0.5 : 8; }  // both
 int judgedSeconds(const RunOptions& options) { return options.quick ? 4 : 60; }
 
+// Of the loop at one frequency, and as many of the sleeper.
+std::int64_t periodsEach(const RunOptions& options, double frequency) {
+    return std::max<std::int64_t>(50, std::llround(frequency * secondsEach(options) / 2));
+}
+
 double seconds(const RunOptions& options) {
-    const double slow = options.quick ? 1.5 : 0;  // at least 50 periods each
-    return static_cast<double>(frequencies().size()) * (2 * secondsEach(options) + 0.05) + slow +
-           2 * judgedSeconds(options);
+    double sum = 2 * judgedSeconds(options);
+    for (const double frequency : frequencies()) {
+        const std::int64_t periods = 2 * periodsEach(options, frequency) + RecordingPlan{}.runIn;
+        sum += static_cast<double>(periods) / frequency + 0.05;
+    }
+    return sum;
 }
 
 Figure jitterFigure(const RunOptions& options, const Sweep& sweep) {
@@ -38,10 +46,11 @@ Figure jitterFigure(const RunOptions& options, const Sweep& sweep) {
     figure.paper =
         "Fig. 30: with 50 empty simplexes jitter stays between -0.02 and 0.01 (no unit is given) "
         "below 400 Hz, and grows and varies more above.";
-    figure.setup = "50 empty simplexes; " + conditions(options, sweep.threads, 0) + "; " +
-                   number(secondsEach(options)) +
-                   " s a point in turn with a bare sleeper on the same thread. Jitter: how late "
-                   "a cycle begins after its deadline.";
+    figure.setup =
+        "50 empty simplexes; " + conditions(options, sweep.threads, 0) + "; " +
+        number(secondsEach(options)) +
+        " s a point, half of it a bare sleeper on the same thread in turn. Jitter: how late "
+        "a cycle begins after its deadline.";
     figure.x = {"loop frequency", "Hz", true};
     figure.y = {"jitter", "us", true};
     const auto add = [&](const char* name, const Value& value, bool baseline = false) {
@@ -66,10 +75,8 @@ bool measureJitter(const RunOptions& options, Steps& steps, Results& results) {
         const auto loop = MeasuredLoop::ofEmpty(simplexes, frequency, options);
         sweep.threads = loop->threads();
         noteRefusals(loop->refusals(), results);
-        const auto periods =
-            std::max<std::int64_t>(50, std::llround(frequency * secondsEach(options) / 2));
-        Measured measured =
-            loop->run({2, periods / 2, periods / 2}, [&] { return !steps.keepsOn(); });
+        const std::int64_t half = periodsEach(options, frequency) / 2;
+        Measured measured = loop->run({2, half, half}, [&] { return !steps.keepsOn(); });
         if (!measured.complete) break;
         sweep.points.push_back({frequency, std::move(measured)});
     }

@@ -25,6 +25,11 @@ cs::ClusterOptions clusterOptions(const RunOptions& options) {
     return made;
 }
 
+// Whether a cycle comes right after the one before, with nothing of a pause in either.
+bool follows(const std::vector<Recording::Cycle>& cycles, std::size_t i) {
+    return i > 0 && cycles[i].block == cycles[i - 1].block && !cycles[i - 1].settling;
+}
+
 void addAll(std::vector<std::int64_t>& exact, Histogram& values, Histogram& errors) {
     if (exact.empty()) return;
     const auto middle = exact.begin() + static_cast<std::ptrdiff_t>(exact.size() / 2);
@@ -52,7 +57,7 @@ bool Measured::overflows() const {
                                        : static_cast<double>(sleeperMissed) *
                                              static_cast<double>(cycles + missed) /
                                              static_cast<double>(sleeps + sleeperMissed);
-    const double allowed = std::max(1.0, static_cast<double>(cycles) / 10'000);
+    const double allowed = std::max(3.0, static_cast<double>(cycles) / 10'000);
     return static_cast<double>(missed) > sleeper + allowed;
 }
 
@@ -136,7 +141,7 @@ void MeasuredLoop::count(Counts& counts) {
 }
 
 Measured MeasuredLoop::run(const RecordingPlan& plan, const std::function<bool()>& stop) {
-    const auto samples = static_cast<std::size_t>(plan.blocks * plan.loopPeriods);
+    const auto samples = static_cast<std::size_t>(plan.blocks * (plan.loopPeriods + plan.settling));
     for (TimedPartner* each : {first_, second_}) {
         if (each != nullptr) each->prepare(std::min(samples, mostSamples));
     }
@@ -176,9 +181,10 @@ void MeasuredLoop::evaluateWakes(Measured& measured) const {
     measured.period = period_ * 1e-3;
     measured.simplexes = simplexes_;
     measured.complete = found.complete;
-    measured.cycles = static_cast<std::int64_t>(found.cycles.size());
     measured.sleeps = static_cast<std::int64_t>(found.sleeps.size());
     for (const Recording::Cycle& cycle : found.cycles) {
+        if (cycle.settling) continue;
+        ++measured.cycles;
         measured.duration.add(cycle.duration);
         measured.lateness.add(cycle.lateness);
         measured.missed += cycle.missed;
@@ -193,7 +199,7 @@ void MeasuredLoop::evaluateWakes(Measured& measured) const {
     }
     if (measured.cycles == 0) return;
     measured.clockReadings = static_cast<double>(found.clockReadings - measured.sleeps * 2) /
-                             static_cast<double>(measured.cycles);
+                             static_cast<double>(found.cycles.size());
 }
 
 void MeasuredLoop::evaluateBlocks(Measured& measured) const {
@@ -201,7 +207,9 @@ void MeasuredLoop::evaluateBlocks(Measured& measured) const {
     for (std::size_t i = 0; i < cycles.size();) {
         Histogram block;
         const int number = cycles[i].block;
-        for (; i < cycles.size() && cycles[i].block == number; ++i) block.add(cycles[i].duration);
+        for (; i < cycles.size() && cycles[i].block == number; ++i) {
+            if (!cycles[i].settling) block.add(cycles[i].duration);
+        }
         measured.blockP50.push_back(block.percentile(0.5));
         measured.blockP99.push_back(block.percentile(0.99));
     }
@@ -213,7 +221,7 @@ void MeasuredLoop::evaluateIntervals(Measured& measured) const {
     const auto& samples = first_->samples();
     const auto period = static_cast<std::int64_t>(period_);
     for (std::size_t i = 1; i < std::min(samples.size(), found.cycles.size()); ++i) {
-        if (found.cycles[i].block != found.cycles[i - 1].block) continue;
+        if (!follows(found.cycles, i)) continue;
         const std::int64_t interval = samples[i].begun - samples[i - 1].begun;
         measured.interval.add(interval);
         measured.intervalError.add(std::abs(interval - period));
@@ -229,7 +237,7 @@ void MeasuredLoop::evaluateLatency(Measured& measured) const {
         same.push_back(second[i].begun - first[i].begun);
         measured.greatestLatencyCycles = std::max(
             {measured.greatestLatencyCycles, first[i].latencyCycles, second[i].latencyCycles});
-        if (i == 0 || cycles[i].block != cycles[i - 1].block) continue;
+        if (!follows(cycles, i)) continue;
         next.push_back(first[i].begun - second[i - 1].begun);
     }
     addAll(same, measured.sameCycle, measured.sameCycleError);
@@ -239,7 +247,7 @@ void MeasuredLoop::evaluateLatency(Measured& measured) const {
 void MeasuredLoop::evaluateCommands(Measured& measured) const {
     measured.commands = after_.commands - before_.commands;
     measured.rejected = after_.rejected - before_.rejected;
-    measured.expectedCommands = static_cast<std::uint64_t>(measured.cycles) *
+    measured.expectedCommands = static_cast<std::uint64_t>(recording().cycles.size()) *
                                 static_cast<std::uint64_t>(simplexes_) * commands_;
     for (std::uint32_t bin = 0; bin < latencyBuckets; ++bin) {
         const std::uint64_t times = after_.latencies[bin] - before_.latencies[bin];

@@ -42,7 +42,7 @@ struct Measured {
     double duty(double part) const { return 100 * duration.percentile(part) / period; }
     double meanDuty() const { return 100 * duration.mean() / period; }
     // p99 of the duration within the period, and missed ticks no more than the sleeper's and 1 in
-    // 10,000 (one at least).
+    // 10,000; three at least, as fewer say nothing at the length of a sweep's points.
     bool overflows() const;
 };
 

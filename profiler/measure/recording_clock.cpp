@@ -30,7 +30,7 @@ void RecordingClock::record(const RecordingPlan& plan, std::function<void()> beg
     ends_ = std::move(ends);
     recording_ = {};
     const auto blocks = static_cast<std::size_t>(plan.blocks);
-    recording_.cycles.reserve(blocks * static_cast<std::size_t>(plan.loopPeriods));
+    recording_.cycles.reserve(blocks * static_cast<std::size_t>(plan.loopPeriods + plan.settling));
     recording_.sleeps.reserve(blocks * static_cast<std::size_t>(plan.sleeperPeriods));
     abandoned_ = false;
     done_ = false;
@@ -88,7 +88,8 @@ void RecordingClock::finishCycle(std::int64_t end) {
 
 void RecordingClock::enterBlock() {
     phase_ = Phase::Looping;
-    phaseEnds_ = next_ + plan_.loopPeriods;
+    settled_ = block_ == 0 ? next_ : next_ + plan_.settling;
+    phaseEnds_ = settled_ + plan_.loopPeriods;
 }
 
 void RecordingClock::endCounting() {
@@ -153,9 +154,10 @@ cs::Trigger RecordingClock::waitForTick() {
         }
         const std::int64_t periods = 1 + std::exchange(skipped_, 0);
         const std::int64_t nominal = next_ * period_;
+        const bool settling = next_ < settled_;
         const std::int64_t lateness = sleep();
         if (phase_ == Phase::Looping)
-            recording_.cycles.push_back({{wokenAt_, lateness, 0, block_}, 0});
+            recording_.cycles.push_back({{wokenAt_, lateness, 0, block_}, 0, settling});
         return {nominal, lateness, periods, false};
     }
     if (!done_) finish(false);

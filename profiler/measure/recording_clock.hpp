@@ -12,10 +12,11 @@
 namespace cortex::profiler {
 
 // What a RecordingClock does: in each block the loop runs for `loopPeriods`, then its thread only
-// sleeps to `sleeperPeriods` deadlines. Before the first block the loop runs in.
+// sleeps to `sleeperPeriods` deadlines. Before the first block the loop runs in; the first cycles
+// of each later block, when caches are cold from the pause, are marked as settling.
 struct RecordingPlan {
     int blocks = 1;
-    std::int64_t loopPeriods = 1000, sleeperPeriods = 0, runIn = 20;
+    std::int64_t loopPeriods = 1000, sleeperPeriods = 0, runIn = 20, settling = 0;
 };
 
 // All times in ns on the monotonic clock.
@@ -27,6 +28,7 @@ struct Recording {
     };
     struct Cycle : Wake {
         std::int64_t duration = 0;  // from the return of waitForTick to its next call
+        bool settling = false;
     };
     std::vector<Cycle> cycles;
     std::vector<Wake> sleeps;
@@ -68,7 +70,7 @@ private:
     void recordSleep();
 
     const std::int64_t period_;
-    std::int64_t origin_ = 0, next_ = 0, phaseEnds_ = 0;
+    std::int64_t origin_ = 0, next_ = 0, phaseEnds_ = 0, settled_ = 0;
     std::int64_t wokenAt_ = 0, skipped_ = 0;
     int block_ = 0;
     bool counting_ = false;  // from begins_ to ends_

@@ -8,6 +8,7 @@ namespace cortex::profiler {
 namespace {
 
 constexpr double paperCycles = 5000;
+constexpr std::int64_t settling = 10;  // periods
 
 struct Portion {
     int blocks;
@@ -50,7 +51,9 @@ std::string simplexSweepSetup(const RunOptions& options, const Sweep& sweep) {
            conditions(options, sweep.threads, options.frequency) + "; " +
            number(each.blocks * each.loop) + " periods a point in turn with a bare sleeper of " +
            number(each.blocks * each.sleeper) +
-           "; an observer reads the newest image 30 times a second.";
+           "; an observer reads the newest image 30 times a second. Overflow: p99 of the cycle is "
+           "longer "
+           "than the period, or more ticks are missed than the sleeper misses and 3.";
 }
 
 const Sweep& simplexSweep(const RunOptions& options, Progress& progress, Results& results) {
@@ -70,8 +73,9 @@ const Sweep& simplexSweep(const RunOptions& options, Progress& progress, Results
             MeasuredLoop::ofPartners(std::llround(count), 1, options.frequency, options);
         threads = std::max(threads, loop->threads());
         refusals = loop->refusals();
-        return loop->run({each.blocks, std::llround(each.loop), std::llround(each.sleeper)},
-                         [&] { return !counted.keepsOn(); });
+        RecordingPlan recording{each.blocks, std::llround(each.loop), std::llround(each.sleeper)};
+        recording.settling = settling;
+        return loop->run(recording, [&] { return !counted.keepsOn(); });
     });
     made.threads = threads;
     made.refusals = refusals;
