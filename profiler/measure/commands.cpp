@@ -83,20 +83,18 @@ void addQuantities(const Sweep& sweep, Results& results) {
 }
 
 void run(const RunOptions& options, Progress& progress, Results& results) {
-    const SweepPlan steps = plan(options);
-    Steps counted{progress, expectedSteps(steps)};
-    std::uint32_t threads = 1;
-    std::vector<std::string> refusals;
-    Sweep sweep = sweepUpwards(steps, counted, "Hz", [&](double frequency) {
-        const auto loop = MeasuredLoop::ofPartners(simplexes, 1, frequency, options);
-        threads = std::max(threads, loop->threads());
-        refusals = loop->refusals();
-        const auto periods =
-            std::max<std::int64_t>(50, std::llround(frequency * loopSeconds(options)));
-        return loop->run({1, periods, periods / 5}, [&] { return !counted.keepsOn(); });
-    });
-    sweep.threads = threads;
-    noteRefusals(refusals, results);
+    const auto periods = [&](double frequency) {
+        return std::max<std::int64_t>(50, std::llround(frequency * loopSeconds(options)));
+    };
+    const SweepSubject subject{
+        "Hz",
+        [&](double frequency) {
+            return MeasuredLoop::ofPartners(simplexes, 1, frequency, options);
+        },
+        [&](double frequency) {
+            return RecordingPlan{1, periods(frequency), periods(frequency) / 5};
+        }};
+    const Sweep sweep = sweepUpwards(plan(options), subject, progress, results);
     if (sweep.points.empty()) return;
     results.figures.push_back(latencyFigure(options, sweep));
     addQuantities(sweep, results);

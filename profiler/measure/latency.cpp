@@ -168,26 +168,15 @@ void addLatency(const Sweep& sweep, Results& results) {
          .lessIsBetter = false});
 }
 
-Sweep sweepCommands(const RunOptions& options, Progress& progress) {
-    const SweepPlan steps = plan(options);
-    Steps counted{progress, expectedSteps(steps)};
-    std::uint32_t threads = 1;
-    std::vector<std::string> refusals;
-    Sweep sweep = sweepUpwards(steps, counted, "commands per simplex", [&](double commands) {
-        const auto loop = MeasuredLoop::ofPartners(simplexes, static_cast<std::uint32_t>(commands),
-                                                   options.frequency, options);
-        threads = std::max(threads, loop->threads());
-        refusals = loop->refusals();
-        return loop->run(portion(options), [&] { return !counted.keepsOn(); });
-    });
-    sweep.threads = threads;
-    sweep.refusals = std::move(refusals);
-    return sweep;
-}
-
 void run(const RunOptions& options, Progress& progress, Results& results) {
-    const Sweep sweep = sweepCommands(options, progress);
-    noteRefusals(sweep.refusals, results);
+    const SweepSubject subject{"commands per simplex",
+                               [&](double commands) {
+                                   return MeasuredLoop::ofPartners(
+                                       simplexes, static_cast<std::uint32_t>(commands),
+                                       options.frequency, options);
+                               },
+                               [&](double) { return portion(options); }};
+    const Sweep sweep = sweepUpwards(plan(options), subject, progress, results);
     if (sweep.points.empty()) return;
     const Holds below = [&](const SweepPoint& point) { return point.x <= sweep.withoutOverflow; };
     const Holds above = [&](const SweepPoint& point) { return point.x > sweep.withoutOverflow; };

@@ -63,24 +63,17 @@ const Sweep& simplexSweep(const RunOptions& options, Progress& progress, Results
     const Key key{options.quick, options.threads, options.frequency, options.priority};
     if (made.complete && key == madeFor) return made;
 
-    const SweepPlan steps = plan(options);
-    Steps counted{progress, expectedSteps(steps)};
-    std::uint32_t threads = 1;
-    std::vector<std::string> refusals;
     const Portion each = portion(options);
-    made = sweepUpwards(steps, counted, "simplexes", [&](double count) {
-        const auto loop =
-            MeasuredLoop::ofPartners(std::llround(count), 1, options.frequency, options);
-        threads = std::max(threads, loop->threads());
-        refusals = loop->refusals();
-        RecordingPlan recording{each.blocks, std::llround(each.loop), std::llround(each.sleeper)};
-        recording.settling = settling;
-        return loop->run(recording, [&] { return !counted.keepsOn(); });
-    });
-    made.threads = threads;
-    made.refusals = refusals;
+    RecordingPlan recording{each.blocks, std::llround(each.loop), std::llround(each.sleeper)};
+    recording.settling = settling;
+    const SweepSubject subject{"simplexes",
+                               [&](double count) {
+                                   return MeasuredLoop::ofPartners(std::llround(count), 1,
+                                                                   options.frequency, options);
+                               },
+                               [&](double) { return recording; }};
+    made = sweepUpwards(plan(options), subject, progress, results);
     madeFor = key;
-    noteRefusals(refusals, results);
     if (options.priority > 0) {
         noteRefusals({"Above 95 % duty cycle the kernel holds real-time threads back for 50 ms of "
                       "each second: the overflow points at real-time priority include that."},

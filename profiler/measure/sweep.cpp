@@ -19,20 +19,24 @@ bool known(const Sweep& sweep, double x) {
 // Adds points to a sweep as long as nobody stops it.
 class Sweeper {
 public:
-    Sweeper(Sweep& sweep, Steps& steps, std::string_view doing, double grain,
-            const std::function<Measured(double)>& measure)
-        : sweep_{sweep}, steps_{steps}, doing_{doing}, grain_{grain}, measure_{measure} {}
+    Sweeper(Sweep& sweep, const SweepPlan& plan, const SweepSubject& subject, Progress& progress,
+            Results& results)
+        : sweep_{sweep},
+          grain_{plan.grain},
+          subject_{subject},
+          steps_{progress, expectedSteps(plan)},
+          results_{results} {}
 
     bool add(double wanted) {
         const double x = rounded(wanted, grain_);
         if (known(sweep_, x)) return true;
-        const std::string text = number(x) + " " + doing_;
+        const std::string text = number(x) + " " + std::string{subject_.unit};
         if (!steps_.next(text)) return false;
-        Measured measured = measure_(x);
+        Measured measured = measure(x);
         // A disturbance of the machine is no overflow: another try where it is not clear.
         if (measured.complete && measured.overflows() && measured.duty(0.5) < 95) {
             if (!steps_.next(text + ", again")) return false;
-            Measured again = measure_(x);
+            Measured again = measure(x);
             if (again.complete && again.duty(0.99) < measured.duty(0.99)) measured = again;
         }
         if (!measured.complete) return false;
@@ -43,11 +47,18 @@ public:
     }
 
 private:
+    Measured measure(double x) {
+        const auto loop = subject_.make(x);
+        sweep_.threads = std::max(sweep_.threads, loop->threads());
+        noteRefusals(loop->refusals(), results_);
+        return loop->run(subject_.plan(x), [this] { return !steps_.keepsOn(); });
+    }
+
     Sweep& sweep_;
-    Steps& steps_;
-    std::string doing_;
     double grain_;
-    const std::function<Measured(double)>& measure_;
+    const SweepSubject& subject_;
+    Steps steps_;
+    Results& results_;
 };
 
 double crossing(const Sweep& sweep, double duty,
@@ -138,10 +149,10 @@ int expectedSteps(const SweepPlan& plan) {
     return static_cast<int>(plan.first.size() + plan.around.size()) + plan.bisections + 2;
 }
 
-Sweep sweepUpwards(const SweepPlan& plan, Steps& steps, std::string_view doing,
-                   const std::function<Measured(double x)>& measure) {
+Sweep sweepUpwards(const SweepPlan& plan, const SweepSubject& subject, Progress& progress,
+                   Results& results) {
     Sweep sweep;
-    Sweeper sweeper{sweep, steps, doing, plan.grain, measure};
+    Sweeper sweeper{sweep, plan, subject, progress, results};
     sweep.complete = raise(plan, sweep, sweeper) && refine(plan, sweep, sweeper);
     return sweep;
 }

@@ -20,7 +20,6 @@ struct Sweep {
     double withoutOverflow = 0;      // greatest x
     double overflow = 0;             // least x above it that did; 0: not reached
     std::uint32_t threads = 1;
-    std::vector<std::string> refusals;
     bool complete = false;
 
     // Greatest x at which p99 of the duty cycle is at most `duty` %, interpolated; 0: none.
@@ -53,9 +52,16 @@ private:
 };
 
 int expectedSteps(const SweepPlan& plan);
-// `measure` says in `doing` what it does, and what a stopped progress left is kept.
-Sweep sweepUpwards(const SweepPlan& plan, Steps& steps, std::string_view doing,
-                   const std::function<Measured(double x)>& measure);
+
+// How each point of a sweep is measured.
+struct SweepSubject {
+    std::string_view unit;  // of x, for the progress: "simplexes"
+    std::function<std::unique_ptr<MeasuredLoop>(double x)> make;
+    std::function<RecordingPlan(double x)> plan;
+};
+// What there is when the progress is stopped is kept; refusals go to the notes.
+Sweep sweepUpwards(const SweepPlan& plan, const SweepSubject& subject, Progress& progress,
+                   Results& results);
 
 // A line of all points for which `holds`.
 Series lineOf(const Sweep& sweep, std::string name,
