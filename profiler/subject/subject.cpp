@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "subject.hpp"
 
+#include <tuple>
+#include <utility>
+
 namespace cortex::profiler {
 
 std::chrono::nanoseconds BurstTrigger::burst(std::int64_t cycles) {
@@ -14,7 +17,8 @@ std::chrono::nanoseconds BurstTrigger::burst(std::int64_t cycles) {
 }
 
 cs::Trigger BurstTrigger::waitForTick() {
-    if (cycle_ >= 0 && cycle_ + 1 == wanted_.load(std::memory_order_relaxed)) {
+    const bool ends = cycle_ >= 0 && cycle_ + 1 == wanted_.load(std::memory_order_relaxed);
+    if (ends) {
         end_ = std::chrono::steady_clock::now();
         executed_.store(cycle_ + 1);
         executed_.notify_all();
@@ -22,8 +26,9 @@ cs::Trigger BurstTrigger::waitForTick() {
     while (cycle_ + 1 >= wanted_.load(std::memory_order_relaxed)) {
         if (interrupted_.load()) return {.stopped = true};
         wanted_.wait(cycle_ + 1);
-        begin_ = std::chrono::steady_clock::now();
     }
+    // Also where the next burst was asked for before this waited.
+    if (ends || cycle_ < 0) begin_ = std::chrono::steady_clock::now();
     ++cycle_;
     return {.nominalTime = cycle_ * period(), .stopped = interrupted_.load()};
 }
@@ -59,6 +64,14 @@ Outcome Partner::ping(Call& call) {
     return Outcome::Done;
 }
 
+void TimedPartner::loopStart(const Tick& tick) {
+    if (recording_ && samples_.size() < samples_.capacity()) {
+        const auto now = std::chrono::steady_clock::now().time_since_epoch();
+        samples_.push_back({std::chrono::nanoseconds{now}.count(), newestAnswer().latencyCycles});
+    }
+    Partner::loopStart(tick);
+}
+
 SubjectCluster::SubjectCluster(SimplexTree&& simplexes, cs::ClusterOptions options)
     : tree{std::move(simplexes)}, cluster{"subject", std::move(options)} {
     cluster.addSimplexTree(tree);
@@ -82,15 +95,37 @@ SimplexTree emptySimplexes(int count, int chain) {
     return tree;
 }
 
+namespace {
+
+template <class T>
+std::pair<T*, T*> addPair(SimplexTree& tree, int number) {
+    T& first = tree.add<T>("/p" + std::to_string(number), "Partner");
+    T& second = tree.add<T>("/p" + std::to_string(number + 1), "Partner");
+    tree.relate(first, "after", second);
+    tree.relate(second, "late", first);
+    return {&first, &second};
+}
+
+}  // namespace
+
 SimplexTree partners(int count) {
     SimplexTree tree{subjectTypes()};
-    for (int i = 0; i + 1 < count; i += 2) {
-        Simplex& first = tree.add<Partner>("/p" + std::to_string(i), "Partner");
-        Simplex& second = tree.add<Partner>("/p" + std::to_string(i + 1), "Partner");
-        tree.relate(first, "after", second);
-        tree.relate(second, "late", first);
-    }
+    for (int i = 0; i + 1 < count; i += 2) addPair<Partner>(tree, i);
     return tree;
+}
+
+TimedPartners timedPartners(int count) {
+    TimedPartners made{SimplexTree{subjectTypes()}, nullptr, nullptr};
+    const int middle = count / 4 * 2;
+    // Numbers of one length, so that partners stand side by side, as in a plant.
+    const int start = 1'000'000;
+    for (int i = 0; i + 1 < count; i += 2) {
+        if (i != middle)
+            addPair<Partner>(made.tree, start + i);
+        else
+            std::tie(made.first, made.second) = addPair<TimedPartner>(made.tree, start + i);
+    }
+    return made;
 }
 
 }  // namespace cortex::profiler

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace cortex::profiler {
 
@@ -35,7 +36,7 @@ struct Empty : cs::SimplexCS {
 };
 
 // Sends one command to its partner in each cycle and answers the partner's.
-class Partner final : public cs::SimplexCS {
+class Partner : public cs::SimplexCS {
 public:
     using SimplexCS::SimplexCS;
     static inline std::uint32_t commandsPerCycle = 1;
@@ -43,15 +44,51 @@ public:
     std::int64_t executed = 0;
     std::int64_t full = 0;
 
+protected:
+    void loopStart(const Tick& tick) override;
+    const AnswerHead& newestAnswer() const { return ping_.answer(); }
+
 private:
     void populate() override;
-    void loopStart(const Tick& tick) override;
     Outcome ping(Call& call);
 
     CommandSender ping_;
     Data<double> number_;
     Argument<double> asked_;
     Result<double> answered_;
+};
+
+// A partner that also notes when its task began, which is before it sends its commands and after it
+// executed those that it got.
+class TimedPartner final : public Partner {
+public:
+    using Partner::Partner;
+    struct Sample {
+        std::int64_t begun = 0;          // ns, monotonic
+        std::int64_t latencyCycles = 0;  // as the newest answer says
+    };
+
+    void prepare(std::size_t capacity) { samples_.reserve(capacity); }
+    // Between two cycles.
+    void begin() {
+        samples_.clear();
+        recording_ = true;
+    }
+    void end() { recording_ = false; }
+    const std::vector<Sample>& samples() const { return samples_; }
+
+private:
+    void loopStart(const Tick& tick) override;
+
+    std::vector<Sample> samples_;
+    bool recording_ = false;
+};
+
+// Partners of which the pair in the middle is timed. The commands of `first` are executed in the
+// same cycle, those of `second` in the next.
+struct TimedPartners {
+    SimplexTree tree;
+    TimedPartner *first, *second;
 };
 
 // A started cluster on a BurstTrigger.
@@ -66,5 +103,6 @@ struct SubjectCluster {
 TypeModel subjectTypes();
 SimplexTree emptySimplexes(int count, int chain);
 SimplexTree partners(int count);
+TimedPartners timedPartners(int count);
 
 }  // namespace cortex::profiler

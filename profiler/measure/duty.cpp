@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Duty cycle against the number of simplexes, each with one command per cycle: the paper's Fig. 23.
+#include "measure/measurements.hpp"
+#include "measure/simplex_sweep.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cortex::profiler {
+namespace {
+
+constexpr double paperSimplexes = 105;
+
+Figure dutyFigure(const RunOptions& options, const Sweep& sweep) {
+    Figure figure{.id = "fig23-duty-cycle",
+                  .title = "Duty cycle against the number of simplexes",
+                  .paper =
+                      "Fig. 23: the duty cycle rises in proportion to the number of simplexes, "
+                      "each of which sends one command per cycle; about 105 of them fill the "
+                      "period of 1 kHz on 4 threads.",
+                  .setup = simplexSweepSetup(options, sweep),
+                  .x = {"simplexes", "", true},
+                  .y = {"duty cycle", "%", true},
+                  .series = {},
+                  .marks = {}};
+    figure.series.push_back(lineOf(sweep, "mean", [](const Measured& m) { return m.meanDuty(); }));
+    figure.series.push_back(lineOf(sweep, "p50", [](const Measured& m) { return m.duty(0.5); }));
+    figure.series.push_back(lineOf(sweep, "p99", [](const Measured& m) { return m.duty(0.99); }));
+    figure.marks.push_back({Mark::Along::X, paperSimplexes, "paper: 105 simplexes, nearly 100 %"});
+    figure.marks.push_back({Mark::Along::Y, 100, "the whole period"});
+    figure.marks.push_back({Mark::Along::Y, 70, "70 %"});
+    markOverflow(sweep, figure);
+    return figure;
+}
+
+void addTimePerSimplex(const SweepPoint& point, Results& results) {
+    const double nanoseconds = 1e3 / point.x;
+    Quantity time{.id = "duty/time-per-simplex",
+                  .what = "time of the cycle per simplex with its command, at that number (median)",
+                  .unit = "ns",
+                  .value = point.measured.duration.percentile(0.5) * nanoseconds};
+    for (const double block : point.measured.blockP50) time.repeats.push_back(block * nanoseconds);
+    results.quantities.push_back(std::move(time));
+}
+
+void addCapacity(const Sweep& sweep, Results& results) {
+    if (sweep.points.empty()) return;
+    Quantity atSeventy{.id = "duty/simplexes-at-70",
+                       .what = "simplexes with a command per cycle each at 70 % duty cycle (p99)",
+                       .unit = "simplexes",
+                       .value = sweep.atDuty(70),
+                       .repeats = sweep.atDutyOfBlocks(70),
+                       .aim = Aim::AtLeast,
+                       .limit = 20'000,
+                       .paper = "105 at nearly 100 %",
+                       .lessIsBetter = false};
+    results.quantities.push_back(std::move(atSeventy));
+    if (sweep.overflow == 0) return;
+    results.quantities.push_back({.id = "duty/simplexes-without-overflow",
+                                  .what = "most simplexes without overflow",
+                                  .unit = "simplexes",
+                                  .value = sweep.withoutOverflow,
+                                  .paper = "105",
+                                  .lessIsBetter = false});
+    for (const SweepPoint& point : sweep.points) {
+        if (point.x == sweep.withoutOverflow) addTimePerSimplex(point, results);
+    }
+}
+
+void addCommands(const Sweep& sweep, Results& results) {
+    std::uint64_t executed = 0, expected = 0, rejected = 0;
+    for (const auto& [x, measured] : sweep.points) {
+        executed += measured.commands;
+        expected += measured.expectedCommands;
+        rejected += measured.rejected;
+    }
+    if (expected == 0) return;
+    const auto difference =
+        static_cast<double>(executed > expected ? executed - expected : expected - executed);
+    results.quantities.push_back(
+        {.id = "duty/commands-executed",
+         .what = "executed commands per cycle and simplex, all points",
+         .unit = "",
+         .value = static_cast<double>(executed) / static_cast<double>(expected),
+         .aim = Aim::AtLeast,
+         .limit = 1,
+         .lessIsBetter = false});
+    results.quantities.push_back({.id = "duty/commands-missing",
+                                  .what = "commands more or less than cycles × simplexes",
+                                  .unit = "commands",
+                                  .value = difference,
+                                  .aim = Aim::AtMost,
+                                  .limit = 0});
+    results.quantities.push_back({.id = "duty/commands-rejected",
+                                  .what = "rejected commands",
+                                  .unit = "commands",
+                                  .value = static_cast<double>(rejected),
+                                  .aim = Aim::AtMost,
+                                  .limit = 0});
+}
+
+// What the measurement itself does beside the loop and in it.
+void addOwnCost(const Sweep& sweep, Results& results) {
+    std::uint64_t images = 0;
+    double seconds = 0;
+    for (const auto& [x, measured] : sweep.points) {
+        images += measured.imagesRead;
+        seconds += measured.seconds;
+    }
+    const double readings = sweep.points.back().measured.clockReadings;
+    results.quantities.push_back({.id = "duty/observer-images",
+                                  .what = "images that the observer read",
+                                  .unit = "1/s",
+                                  .value = static_cast<double>(images) / seconds,
+                                  .lessIsBetter = false});
+    Quantity cost{
+        .id = "duty/recording-cost",
+        .what = "cost of recording a cycle: " + number(readings) + " readings of the clock",
+        .unit = "ns"};
+    for (int i = 0; i < 5; ++i) cost.repeats.push_back(readings * clockReadingCost());
+    std::ranges::sort(cost.repeats);
+    cost.value = cost.repeats[2];
+    results.quantities.push_back(std::move(cost));
+}
+
+void run(const RunOptions& options, Progress& progress, Results& results) {
+    const Sweep& sweep = simplexSweep(options, progress, results);
+    if (sweep.points.empty()) return;
+    results.figures.push_back(dutyFigure(options, sweep));
+    addCapacity(sweep, results);
+    addCommands(sweep, results);
+    addOwnCost(sweep, results);
+}
+
+}  // namespace
+
+Measurement dutyMeasurement() {
+    return {"duty", "duty cycle against the number of simplexes (paper: Fig. 23)",
+            simplexSweepSeconds, run};
+}
+
+}  // namespace cortex::profiler

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording_clock.hpp"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include <time.h>
+
+namespace cortex::profiler {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::int64_t second = 1'000'000'000;
+constexpr std::int64_t longestSleep = second / 10;  // an interrupt is seen after at most this
+
+std::int64_t monotonicNow() {
+    timespec time{};
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return static_cast<std::int64_t>(time.tv_sec) * second + time.tv_nsec;
+}
+
+}  // namespace
+
+void RecordingClock::record(const RecordingPlan& plan, std::function<void()> begins,
+                            std::function<void()> ends) {
+    plan_ = plan;
+    begins_ = std::move(begins);
+    ends_ = std::move(ends);
+    recording_ = {};
+    const auto blocks = static_cast<std::size_t>(plan.blocks);
+    recording_.cycles.reserve(blocks * static_cast<std::size_t>(plan.loopPeriods + plan.settling));
+    recording_.sleeps.reserve(blocks * static_cast<std::size_t>(plan.sleeperPeriods));
+    abandoned_ = false;
+    done_ = false;
+    asked_ = true;
+    asked_.notify_all();
+}
+
+bool RecordingClock::waitUntilDone(std::chrono::milliseconds limit) const {
+    const auto end = std::chrono::steady_clock::now() + limit;
+    while (!done_.load(std::memory_order_acquire)) {
+        if (std::chrono::steady_clock::now() >= end) return false;
+        std::this_thread::sleep_for(1ms);
+    }
+    return true;
+}
+
+std::int64_t RecordingClock::now() {
+    ++readings_;
+    return monotonicNow();
+}
+
+std::int64_t RecordingClock::sleep() {
+    const std::int64_t until = deadline();
+    std::int64_t time = now();
+    while (time < until && !interrupted_.load(std::memory_order_relaxed)) {
+        const std::int64_t end = std::min(until, time + longestSleep);
+        const timespec target{static_cast<time_t>(end / second), static_cast<long>(end % second)};
+        clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &target, nullptr);
+        time = now();
+    }
+    wokenAt_ = time;
+    ++next_;
+    return time - until;
+}
+
+// Until there is a plan: nobody counts the deadlines of this time.
+void RecordingClock::rest() {
+    while (!asked_.exchange(false) && !interrupted_) asked_.wait(false);
+    origin_ = now() - (next_ - 1) * period_;
+    skipped_ = 0;
+    phaseEnds_ = next_ + plan_.runIn;
+    block_ = 0;
+    phase_ = Phase::RunningIn;
+}
+
+void RecordingClock::finishCycle(std::int64_t end) {
+    const std::int64_t late = end - deadline();
+    skipped_ = late < 0 ? 0 : late / period_ + 1;
+    next_ += skipped_;
+    if (phase_ != Phase::Looping) return;
+    Recording::Cycle& cycle = recording_.cycles.back();
+    cycle.duration = end - cycle.at;
+    cycle.missed = skipped_;
+}
+
+void RecordingClock::enterBlock() {
+    phase_ = Phase::Looping;
+    settled_ = block_ == 0 ? next_ : next_ + plan_.settling;
+    phaseEnds_ = settled_ + plan_.loopPeriods;
+}
+
+void RecordingClock::endCounting() {
+    if (std::exchange(counting_, false)) ends_();
+}
+
+void RecordingClock::finish(bool complete) {
+    endCounting();
+    recording_.complete = complete;
+    recording_.clockReadings = readings_ - readingsBefore_;
+    phase_ = Phase::Resting;
+    done_.store(true, std::memory_order_release);
+}
+
+void RecordingClock::advance() {
+    if (abandoned_.load(std::memory_order_relaxed)) {
+        finish(false);
+        return;
+    }
+    if (next_ < phaseEnds_) return;
+    if (phase_ == Phase::RunningIn) {
+        begins_();
+        counting_ = true;
+        readingsBefore_ = readings_;
+        enterBlock();
+        return;
+    }
+    if (phase_ == Phase::Looping) {
+        if (block_ + 1 == plan_.blocks) endCounting();
+        phase_ = Phase::Sleeping;
+        phaseEnds_ = next_ + plan_.sleeperPeriods;
+        if (plan_.sleeperPeriods > 0) return;
+    }
+    if (++block_ < plan_.blocks)
+        enterBlock();
+    else
+        finish(true);
+}
+
+void RecordingClock::recordSleep() {
+    const std::int64_t lateness = sleep();
+    const std::int64_t late = std::max<std::int64_t>(lateness, 0) / period_;
+    if (recording_.sleeps.size() < recording_.sleeps.capacity()) {
+        recording_.sleeps.push_back({wokenAt_, lateness, late, block_});
+    }
+    next_ += late;
+    skipped_ = 0;
+}
+
+cs::Trigger RecordingClock::waitForTick() {
+    const std::int64_t end = now();
+    if (phase_ != Phase::Resting) finishCycle(end);
+    while (!interrupted_.load(std::memory_order_acquire)) {
+        if (phase_ != Phase::Resting) advance();
+        if (phase_ == Phase::Resting) {
+            rest();
+            continue;
+        }
+        if (phase_ == Phase::Sleeping) {
+            recordSleep();
+            continue;
+        }
+        const std::int64_t periods = 1 + std::exchange(skipped_, 0);
+        const std::int64_t nominal = next_ * period_;
+        const bool settling = next_ < settled_;
+        const std::int64_t lateness = sleep();
+        if (phase_ == Phase::Looping)
+            recording_.cycles.push_back({{wokenAt_, lateness, 0, block_}, 0, settling});
+        return {nominal, lateness, periods, false};
+    }
+    if (!done_) finish(false);
+    return {next_ * period_, 0, 1, true};
+}
+
+void RecordingClock::interrupt() {
+    interrupted_ = true;
+    asked_ = true;
+    asked_.notify_all();
+}
+
+std::int64_t RecordingClock::missed() {
+    const std::int64_t late = now() - deadline();
+    return late < 0 ? 0 : late / period_ + 1;
+}
+
+double clockReadingCost() {
+    constexpr int readings = 200'000;
+    const std::int64_t begin = monotonicNow();
+    for (int i = 1; i < readings; ++i) monotonicNow();
+    return static_cast<double>(monotonicNow() - begin) / readings;
+}
+
+}  // namespace cortex::profiler

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/cs/trigger_source.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace cortex::profiler {
+
+// What a RecordingClock does: in each block the loop runs for `loopPeriods`, then its thread only
+// sleeps to `sleeperPeriods` deadlines. Before the first block the loop runs in; the first cycles
+// of each later block, when caches are cold from the pause, are marked as settling.
+struct RecordingPlan {
+    int blocks = 1;
+    std::int64_t loopPeriods = 1000, sleeperPeriods = 0, runIn = 20, settling = 0;
+};
+
+// All times in ns on the monotonic clock.
+struct Recording {
+    struct Wake {
+        std::int64_t at = 0, lateness = 0;
+        std::int64_t missed = 0;  // deadlines that passed from this one to the next wake-up
+        int block = 0;
+    };
+    struct Cycle : Wake {
+        std::int64_t duration = 0;  // from the return of waitForTick to its next call
+        bool settling = false;
+    };
+    std::vector<Cycle> cycles;
+    std::vector<Wake> sleeps;
+    std::int64_t clockReadings = 0;  // the clock's own, while the cycles were recorded
+    bool complete = false;
+};
+
+// Absolute deadlines, like cs::InternalClock, that records each cycle without allocating, in turn
+// with a bare sleeper on the same thread. Between plans the loop rests.
+class RecordingClock final : public cs::TriggerSource {
+public:
+    explicit RecordingClock(std::chrono::nanoseconds period) : period_{period.count()} {}
+
+    // Program's thread. `begins` and `ends` run on the loop's thread, between two cycles, before
+    // the first and after the last that is recorded.
+    void record(const RecordingPlan& plan, std::function<void()> begins,
+                std::function<void()> ends);
+    bool waitUntilDone(std::chrono::milliseconds limit) const;
+    void abandon() { abandoned_ = true; }  // ends the plan early; waitUntilDone() tells when
+    const Recording& recording() const { return recording_; }  // when it is done
+
+    void start() override {}
+    cs::Trigger waitForTick() override;
+    void interrupt() override;
+    std::int64_t period() const override { return period_; }
+    std::int64_t missed() override;
+
+private:
+    enum class Phase { Resting, RunningIn, Looping, Sleeping };
+    std::int64_t now();
+    std::int64_t deadline() const { return origin_ + next_ * period_; }
+    std::int64_t sleep();  // to the next deadline; its lateness
+    void rest();
+    void finishCycle(std::int64_t end);
+    void advance();  // to the phase of the next deadline
+    void enterBlock();
+    void finish(bool complete);
+    void endCounting();
+    void recordSleep();
+
+    const std::int64_t period_;
+    std::int64_t origin_ = 0, next_ = 0, phaseEnds_ = 0, settled_ = 0;
+    std::int64_t wokenAt_ = 0, skipped_ = 0;
+    int block_ = 0;
+    bool counting_ = false;  // from begins_ to ends_
+    Phase phase_ = Phase::Resting;
+    RecordingPlan plan_;
+    std::function<void()> begins_, ends_;
+    Recording recording_;
+    std::int64_t readings_ = 0, readingsBefore_ = 0;
+    std::atomic<bool> asked_{false}, done_{true}, abandoned_{false}, interrupted_{false};
+};
+
+// ns that one reading of the monotonic clock takes here.
+double clockReadingCost();
+
+}  // namespace cortex::profiler

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "measure/terminal_progress.hpp"
+#include "report_api_stub.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <iostream>
+
+#include <unistd.h>
+
+namespace cortex::profiler {
+namespace {
+
+constexpr std::string_view dutyName = "duty", intervalName = "interval";
+
+std::string utcTime(const char* format) {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, format, &parts);
+    return text;
+}
+
+std::vector<const Measurement*> chosen(const std::vector<std::string>& names) {
+    const bool all = names.empty() || std::ranges::count(names, "all") > 0;
+    std::vector<const Measurement*> found;
+    for (const Measurement& each : measurements()) {
+        if (all || std::ranges::count(names, each.name) > 0) found.push_back(&each);
+    }
+    return found;
+}
+
+// `interval` looks at what `duty` has measured just before.
+double secondsOf(const Measurement& each, const std::vector<const Measurement*>& list,
+                 const RunOptions& options) {
+    const auto isDuty = [](const Measurement* other) { return other->name == dutyName; };
+    const bool shared = each.name == intervalName && std::ranges::any_of(list, isDuty);
+    return shared ? 0.1 : each.seconds(options);
+}
+
+void runOne(const Measurement& measurement, const RunOptions& options, TerminalProgress& progress,
+            Results& results) {
+    try {
+        measurement.run(options, progress, results);
+    } catch (const std::exception& error) {
+        results.notes.push_back(std::string{measurement.name} + " failed: " + error.what());
+    }
+}
+
+}  // namespace
+
+std::string unknownName(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        const auto is = [&](const Measurement& each) { return each.name == name; };
+        if (name == "all" || std::ranges::any_of(measurements(), is)) continue;
+        std::string text = "there is no measurement '" + name + "'; there are all";
+        for (const Measurement& each : measurements()) text += std::string{", "} + each.name;
+        return text;
+    }
+    return {};
+}
+
+std::filesystem::path makeFolder(const std::filesystem::path& wanted, bool force) {
+    namespace fs = std::filesystem;
+    const fs::path folder = wanted.empty() ? fs::path{utcTime("profile-%Y%m%dT%H%M%SZ")} : wanted;
+    std::error_code error;
+    const bool exists = fs::exists(folder, error);
+    if (exists && !fs::is_directory(folder)) throw Error(folder.string() + " is not a folder");
+    if (exists && !force && !fs::is_empty(folder)) {
+        throw Error(folder.string() +
+                    " is not empty; name another folder, or give --force to replace its results");
+    }
+    fs::create_directories(folder, error);
+    if (error) throw Error("cannot make " + folder.string() + ": " + error.message());
+    return folder;
+}
+
+Results newResults(const std::string& command) {
+    Results results;
+    results.started = utcTime("%Y-%m-%dT%H:%M:%SZ");
+    results.command = command;
+    results.version = CORTEX_VERSION;
+    results.machine = machineFacts();
+    return results;
+}
+
+int tellResults(const Results& results, const std::filesystem::path& folder) {
+    std::cout << summaryText(results, terminalWidth(STDOUT_FILENO))
+              << "Results: " << (folder / "report.html").string() << std::endl;
+    return results.complete ? 0 : 1;
+}
+
+int runMeasurements(const RunRequest& request) {
+    const std::vector<const Measurement*> list = chosen(request.names);
+    const std::filesystem::path folder = makeFolder(request.folder, request.force);
+    double seconds = 0;
+    for (const Measurement* each : list) seconds += secondsOf(*each, list, request.options);
+    std::cerr << "Takes about " << durationText(seconds) << "; Ctrl-C keeps what there is.\n";
+
+    Results results = newResults(request.command);
+    noteStopSignals();
+    {
+        TerminalProgress progress{seconds};
+        for (const Measurement* each : list) {
+            progress.begin(each->name, secondsOf(*each, list, request.options));
+            runOne(*each, request.options, progress, results);
+            results.complete = each == list.back() && !stopAsked();
+            if (stopAsked()) results.notes.push_back("Stopped: not everything was measured.");
+            save(results, folder);
+            if (stopAsked()) break;
+        }
+    }
+    return tellResults(results, folder);
+}
+
+}  // namespace cortex::profiler
