@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comms_roles.hpp"
 
+#include "measure/endurance_role.hpp"
 #include "measure/memory_roles.hpp"
+#include "observers/client.hpp"
 
 #include <exception>
 #include <iostream>
@@ -18,7 +20,16 @@ struct Role {
     std::size_t words;
     int (*play)(const Words& words);
 };
-constexpr Role roles[]{{"--memory", 5, playMemoryRole}, {"--size", 2, playSizeRole}};
+int client(const Words& words) {
+    return observers::runClient(std::stoi(words[1]),
+                                static_cast<observers::Load>(std::stoi(words[2])),
+                                std::stoi(words[3]));
+}
+
+constexpr Role roles[]{{"--memory", 5, playMemoryRole},
+                       {"--size", 2, playSizeRole},
+                       {"--endure", 5, playEnduranceRole},
+                       {"--client", 4, client}};
 
 }  // namespace
 

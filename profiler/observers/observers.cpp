@@ -8,6 +8,7 @@
 
 #include "alternating_clock.hpp"
 #include "client.hpp"
+#include "subject/echo.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -23,26 +24,9 @@
 
 using namespace cortex;
 using namespace cortex::observers;
+using profiler::Echo;
 
 namespace {
-
-class Echo final : public cs::SimplexCS {
-public:
-    using SimplexCS::SimplexCS;
-
-private:
-    void populate() override {
-        asked_ = argument<double>("ping", "number");
-        answered_ = result<double>("ping", "number");
-        on<&Echo::ping>("ping");
-    }
-    Outcome ping(Call& call) {
-        call[answered_] = static_cast<double>(call[asked_]);
-        return Outcome::Done;
-    }
-    Argument<double> asked_;
-    Result<double> answered_;
-};
 
 struct Options {
     int seconds = 120, clients = 50;
