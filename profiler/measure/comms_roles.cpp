@@ -3,6 +3,7 @@
 
 #include "measure/endurance_role.hpp"
 #include "measure/memory_roles.hpp"
+#include "network/roles.hpp"
 #include "observers/client.hpp"
 
 #include <exception>
@@ -26,10 +27,10 @@ int client(const Words& words) {
                                 std::stoi(words[3]));
 }
 
-constexpr Role roles[]{{"--memory", 5, playMemoryRole},
-                       {"--size", 2, playSizeRole},
-                       {"--endure", 5, playEnduranceRole},
-                       {"--client", 4, client}};
+constexpr Role roles[]{{"--memory", 5, playMemoryRole},    {"--size", 2, playSizeRole},
+                       {"--endure", 5, playEnduranceRole}, {"--client", 4, client},
+                       {"--agent", 6, network::playRole},  {"--sender", 4, network::playRole},
+                       {"--viewer", 4, network::playRole}, {"--bare", 2, network::playRole}};
 
 }  // namespace
 

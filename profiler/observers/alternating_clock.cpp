@@ -30,12 +30,21 @@ double percentile(std::vector<std::int64_t> values, double part) {
 
 }  // namespace
 
+std::vector<double> Lateness::p99s() const {
+    std::vector<double> all;
+    for (const auto& second : seconds) all.push_back(percentile(second, 0.99));
+    return all;
+}
+
 double Lateness::medianOfP99() const {
     std::vector<std::int64_t> all;
-    for (const auto& second : seconds) {
-        all.push_back(static_cast<std::int64_t>(percentile(second, 0.99) * 1e3));
-    }
+    for (const double each : p99s()) all.push_back(static_cast<std::int64_t>(each * 1e3));
     return percentile(all, 0.5);
+}
+
+double Lateness::nullRatio() const {
+    const double even = every(0).medianOfP99(), odd = every(1).medianOfP99();
+    return std::min(even, odd) > 0 ? std::max(even, odd) / std::min(even, odd) : 1;
 }
 
 std::string Lateness::tail() const {

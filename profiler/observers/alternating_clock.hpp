@@ -15,8 +15,13 @@ namespace cortex::observers {
 struct Lateness {
     std::vector<std::vector<std::int64_t>> seconds;
 
-    double medianOfP99() const;                // us
-    std::string tail() const;                  // p99.9, p99.99 and maximum of all
+    std::vector<double> p99s() const;  // us, second by second
+    double medianOfP99() const;        // us
+    std::string tail() const;          // p99.9, p99.99 and maximum of all
+    // How much of every two seconds the first differ from the others, 1 or more.
+    double nullRatio() const;
+
+private:
     Lateness every(std::size_t second) const;  // of two: 0 or 1
 };
 

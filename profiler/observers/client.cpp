@@ -4,6 +4,8 @@
 #include "cortex/comms/mirror.hpp"
 #include "cortex/core/error.hpp"
 
+#include "measure/comms_domain.hpp"
+
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
@@ -44,10 +46,7 @@ std::uint64_t command(comms::Mirror& mirror, int number, int period) {
 }  // namespace
 
 int runClient(int number, Load load, int domain) {
-    comms::NetworkOptions network;
-    network.domain = domain;
-    network.interfaces = {"127.0.0.1"};
-    comms::Mirror mirror{"observer" + std::to_string(number), network};
+    comms::Mirror mirror{"observer" + std::to_string(number), profiler::loopback(domain)};
     if (!mirror.waitForOwner("/echo", 60s) || !mirror.waitUntilComplete(60s)) return 1;
     const bool commands = load == Load::Command || load == Load::CommandOften;
     if (!commands) {
