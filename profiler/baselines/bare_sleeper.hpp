@@ -15,6 +15,7 @@ public:
     // Sleeps to the next deadline; ns from it to the wake-up. Deadlines that have passed already
     // are counted and skipped.
     std::int64_t sleep();
+    std::int64_t tick() const { return next_; }  // deadlines that have passed
     std::int64_t missed() const { return missed_; }
 
 private:

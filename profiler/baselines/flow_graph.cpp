@@ -11,52 +11,42 @@
 
 namespace cortex::profiler {
 
-namespace flow = oneapi::tbb::flow;
-using flow::continue_msg;
+using namespace oneapi::tbb::flow;
 
 struct FlowGraph::Implementation {
-    explicit Implementation(int threads)
-        : limit{oneapi::tbb::global_control::max_allowed_parallelism,
-                static_cast<std::size_t>(threads)},
-          arena{threads} {}
-
     template <class Node>
     void build(const TaskEdges& edges, TaskFunction task) {
         start.emplace(graph.emplace());
-        std::vector<Node*> made;
+        std::vector<bool> first(edges.count, true);
+        std::vector<std::shared_ptr<Node>> made;
         for (std::uint32_t i = 0; i < edges.count; ++i) {
-            auto node = std::make_shared<Node>(
-                *graph, [task, i](const continue_msg&) noexcept { task.run(task.context, i); });
-            made.push_back(node.get());
-            nodes.push_back(std::move(node));
+            made.push_back(std::make_shared<Node>(
+                *graph, [task, i](const continue_msg&) noexcept { task.run(task.context, i); }));
         }
-        std::vector<bool> waits(edges.count);
         for (const auto& [before, after] : edges.edges) {
-            flow::make_edge(*made[before], *made[after]);
-            waits[after] = true;
+            make_edge(*made[before], *made[after]);
+            first[after] = false;
         }
         for (std::uint32_t i = 0; i < edges.count; ++i) {
-            if (!waits[i]) flow::make_edge(*start, *made[i]);
+            if (first[i]) make_edge(*start, *made[i]);
         }
+        nodes.assign(made.begin(), made.end());
     }
 
-    oneapi::tbb::global_control limit;
-    oneapi::tbb::task_arena arena;
-    std::optional<flow::graph> graph;  // made in the arena, to which it then belongs
-    std::optional<flow::broadcast_node<continue_msg>> start;
-    std::vector<std::shared_ptr<void>> nodes;
+    int threads;
+    oneapi::tbb::global_control limit{oneapi::tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(threads)};
+    oneapi::tbb::task_arena arena{threads};
+    std::optional<oneapi::tbb::flow::graph> graph{};  // of the arena in which it is made
+    std::optional<broadcast_node<continue_msg>> start{};
+    std::vector<std::shared_ptr<void>> nodes{};
 };
 
 FlowGraph::FlowGraph(const TaskEdges& edges, int threads, TaskFunction task, bool light)
-    : implementation_{std::make_unique<Implementation>(threads)} {
+    : implementation_{new Implementation{threads}} {
     implementation_->arena.execute([&] {
-        using Plain = flow::continue_node<continue_msg>;
-        using Light = flow::continue_node<continue_msg, flow::lightweight>;
-        if (light) {
-            implementation_->build<Light>(edges, task);
-        } else {
-            implementation_->build<Plain>(edges, task);
-        }
+        if (light) implementation_->build<continue_node<continue_msg, lightweight>>(edges, task);
+        if (!light) implementation_->build<continue_node<continue_msg>>(edges, task);
     });
 }
 
@@ -69,10 +59,6 @@ void FlowGraph::run(const std::function<void()>& inItsArena) {
 void FlowGraph::cycle() {
     implementation_->start->try_put(continue_msg{});
     implementation_->graph->wait_for_all();
-}
-
-std::uint32_t arenaThread() {
-    return static_cast<std::uint32_t>(oneapi::tbb::this_task_arena::current_thread_index());
 }
 
 }  // namespace cortex::profiler

@@ -27,7 +27,4 @@ private:
     std::unique_ptr<Implementation> implementation_;
 };
 
-// Of a task that runs in a flow graph: which of its threads runs it.
-std::uint32_t arenaThread();
-
 }  // namespace cortex::profiler

@@ -20,13 +20,14 @@ std::chrono::nanoseconds timed(const Function& function) {
 struct Contender {
     std::string name;
     std::function<std::chrono::nanoseconds(std::int64_t cycles)> run;
-    std::vector<double> rounds{};  // ns of one cycle, mean of each round
+    std::vector<double> rounds{};  // ns of one cycle: the best tenth of each round
 
     double best() const;
 };
 
 // Warms each up, then measures each for about so long in each round. Cycles with a pause before
-// each are timed one by one, so that threads that wait for the next one fall asleep.
+// each are timed one by one, so that threads that wait for the next one fall asleep: of those the
+// median counts.
 struct Rounds {
     int count = 5;
     double seconds = 0.02;

@@ -154,7 +154,9 @@ void Observation::add(const Part& part, const AlternatingClock::Measured& measur
     results_.quantities.push_back({.id = id + "/missed",
                                    .what = what + "ticks that the loop missed",
                                    .unit = "ticks",
-                                   .value = static_cast<double>(measured.missed)});
+                                   .value = static_cast<double>(measured.missed),
+                                   .baseline = static_cast<double>(measured.missedBySleeper),
+                                   .baselineName = "bare sleeper"});
     results_.quantities.push_back({.id = id + "/cpu",
                                    .what = what + "CPU that the process took",
                                    .unit = "%",

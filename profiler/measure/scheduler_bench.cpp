@@ -9,6 +9,8 @@
 
 #include <sched.h>
 
+#include <oneapi/tbb/task_arena.h>
+
 namespace cortex::profiler {
 namespace {
 
@@ -117,6 +119,11 @@ std::chrono::nanoseconds SchedulerBench::plainly(std::int64_t count) {
             }
         }
     });
+}
+
+// Of a task of a flow graph: which of its threads runs it.
+std::uint32_t arenaThread() {
+    return static_cast<std::uint32_t>(oneapi::tbb::this_task_arena::current_thread_index());
 }
 
 TaskFunction SchedulerBench::task() {

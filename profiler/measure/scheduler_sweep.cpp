@@ -26,9 +26,9 @@ std::vector<std::uint32_t> threadCounts() {
 
 // One graph on so many threads: ns of one task of a cycle.
 struct Cost {
-    std::vector<double> pool, overPlain;  // by round
+    std::vector<double> pool{}, overPlain{};  // by round
     double best = 0, plain = 0, peer = 0, peerPlain = 0;
-    const char* policy = "";
+    std::string policy{};  // of the peer, the better one
     std::uint32_t used = 1;
 };
 
@@ -38,51 +38,53 @@ struct Case {
     double work = 0;  // ns
 };
 
+template <class Peer>
+auto cyclesOf(SchedulerBench& bench, Peer& peer) {
+    return [&bench, &peer](std::int64_t count) {
+        return timed([&] {
+            for (std::int64_t i = 0; i < count; ++i) {
+                bench.beginCycle();
+                peer.cycle();
+            }
+        });
+    };
+}
+
+auto inArena(SchedulerBench& bench, FlowGraph& graph) {
+    return [&graph, run = cyclesOf(bench, graph)](std::int64_t count) {
+        std::chrono::nanoseconds time{};
+        graph.run([&] { time = run(count); });
+        return time;
+    };
+}
+
 Cost measure(const Case& which, const Rounds& rounds) {
     const TaskEdges edges = makeEdges(which.shape, which.count);
     SchedulerBench bench{edges, which.threads, which.work};
     PlainLoop loop{which.count, bench.task()};
     const auto threads = static_cast<int>(which.threads);
-    FlowGraph plain{edges, threads, bench.task(), false};
+    FlowGraph heavy{edges, threads, bench.task(), false};
     FlowGraph light{edges, threads, bench.task(), true};
-    const auto cyclesOf = [&bench](auto& peer) {
-        return [&bench, &peer](std::int64_t count) {
-            return timed([&] {
-                for (std::int64_t i = 0; i < count; ++i) {
-                    bench.beginCycle();
-                    peer.cycle();
-                }
-            });
-        };
-    };
-    const auto inArena = [&cyclesOf](FlowGraph& graph) {
-        return [&graph, run = cyclesOf(graph)](std::int64_t count) {
-            std::chrono::nanoseconds time{};
-            graph.run([&] { time = run(count); });
-            return time;
-        };
-    };
     std::vector<Contender> all{
         {"pool", [&](std::int64_t count) { return bench.cycles(count); }},
         {"chunks in a plain loop", [&](std::int64_t count) { return bench.plainly(count); }},
-        {"plain loop", cyclesOf(loop)},
-        {"flow graph", inArena(plain)},
-        {"lightweight flow graph", inArena(light)}};
+        {"plain loop", cyclesOf(bench, loop)},
+        {"flow graph", inArena(bench, heavy)},
+        {"lightweight flow graph", inArena(bench, light)}};
     measureInTurn(all, rounds);
 
     const double count = which.count;
     const Contender& peer = all[3].best() <= all[4].best() ? all[3] : all[4];
-    Cost cost;
-    for (std::size_t i = 0; i < all[0].rounds.size(); ++i) {
-        cost.pool.push_back(all[0].rounds[i] / count);
-        cost.overPlain.push_back((all[0].rounds[i] - all[1].best()) / count);
+    Cost cost{.best = all[0].best() / count,
+              .plain = all[1].best() / count,
+              .peer = peer.best() / count,
+              .peerPlain = all[2].best() / count,
+              .policy = "oneTBB " + peer.name,
+              .used = bench.threadsInUse()};
+    for (const double each : all[0].rounds) {
+        cost.pool.push_back(each / count);
+        cost.overPlain.push_back(each / count - cost.plain);
     }
-    cost.best = all[0].best() / count;
-    cost.plain = all[1].best() / count;
-    cost.peerPlain = all[2].best() / count;
-    cost.peer = peer.best() / count;
-    cost.policy = &peer == &all[3] ? "flow graph" : "lightweight flow graph";
-    cost.used = bench.threadsInUse();
     return cost;
 }
 
@@ -106,7 +108,7 @@ void addOverhead(const Case& which, const Cost& cost, Results& results) {
                       .value = cost.best - cost.plain,
                       .repeats = cost.overPlain,
                       .baseline = peer,
-                      .baselineName = std::string{"oneTBB "} + cost.policy};
+                      .baselineName = cost.policy};
     if (which.count == 1024) {
         overhead.aim = Aim::AtMost;
         overhead.limit = std::min(5.0, peer / 10);
@@ -122,7 +124,7 @@ void addShared(const Case& which, const Cost& cost, double oneThread, Results& r
                   .value = cost.best * count * 1e-3,
                   .repeats = cost.pool,
                   .baseline = cost.peer * count * 1e-3,
-                  .baselineName = std::string{"oneTBB "} + cost.policy};
+                  .baselineName = cost.policy};
     for (double& each : time.repeats) each *= count * 1e-3;
     if (which.count == 1024) {
         time.aim = Aim::AtMost;
@@ -207,7 +209,7 @@ bool measureWoken(const RunOptions& options, Progress& progress, Results& result
                  .value = cost.best * scale,
                  .repeats = cost.pool,
                  .baseline = cost.peer * scale,
-                 .baselineName = std::string{"oneTBB "} + cost.policy});
+                 .baselineName = cost.policy});
             for (double& each : results.quantities.back().repeats) each *= scale;
         }
     }
@@ -239,7 +241,7 @@ bool measureSpeedUp(const Rounds& rounds, Progress& progress, Results& results) 
                            .unit = "times",
                            .value = one / cost.best,
                            .baseline = one / cost.peer,
-                           .baselineName = std::string{"oneTBB "} + cost.policy,
+                           .baselineName = cost.policy,
                            .lessIsBetter = false};
             if (threads == 16) {
                 speed.aim = Aim::AtLeast;

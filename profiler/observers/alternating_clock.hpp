@@ -3,9 +3,12 @@
 
 #include "cortex/cs/trigger_source.hpp"
 
+#include "baselines/bare_sleeper.hpp"
+
 #include <atomic>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,22 +40,21 @@ public:
     // What was measured since the last call, whole seconds only.
     struct Measured {
         Lateness loop, sleeper;
-        std::uint64_t missed = 0;  // ticks of the loop
+        std::int64_t missed = 0, missedBySleeper = 0;  // ticks
     };
     Measured take();
 
 private:
     static constexpr std::int64_t Period = 1'000'000;
-    std::int64_t sleep();  // to the next deadline; its lateness
     void finishSecond();
 
-    std::int64_t origin_ = 0, next_ = 0;
+    std::optional<profiler::BareSleeper> sleeper_;
+    std::int64_t loopMissed_ = 0, sleeperMissed_ = 0;  // in this second
     bool sleeping_ = false;
     std::vector<std::int64_t> second_;
     std::atomic<bool> interrupted_{false};
     std::mutex mutex_;
     Measured measured_;
-    std::uint64_t missed_ = 0;
 };
 
 }  // namespace cortex::observers
