@@ -4,6 +4,7 @@
 
 #include "measure/comms_domain.hpp"
 #include "measure/endurance_role.hpp"
+#include "measure/scheduler_bench.hpp"
 #include "observers/client.hpp"
 
 #include <algorithm>
@@ -28,8 +29,9 @@ struct Run {
 
 Run observe(const RunOptions& options, Progress& progress) {
     const Domain domain = measurementDomain();
-    EnduranceRole role{domain.number, std::max(1U, options.threads), options.frequency,
-                       options.priority};
+    const std::uint32_t threads =
+        options.threads != 0 ? options.threads : std::min(4U, usableCpus());
+    EnduranceRole role{domain.number, threads, options.frequency, options.priority};
     Child subject{wordsOf(role)};
     subject.line();
     const auto begin = std::chrono::steady_clock::now();

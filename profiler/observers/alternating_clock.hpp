@@ -23,8 +23,6 @@ struct Lateness {
     std::string tail() const;          // p99.9, p99.99 and maximum of all
     // How much of every two seconds the first differ from the others, 1 or more.
     double nullRatio() const;
-
-private:
     Lateness every(std::size_t second) const;  // of two: 0 or 1
 };
 
