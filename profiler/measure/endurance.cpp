@@ -125,7 +125,7 @@ void addQuantities(const Run& run, double settledAfter, Results& results) {
         all.push_back(limited("endurance/tables", "range of the size of its tables", "octets",
                               range(settled, &EnduranceSample::tables), 0));
     }
-    const double time = std::max(1.0, last.time);
+    const double time = std::max(1.0, last.time - run.samples.front().time);
     const auto rate = [&](const char* id, const char* what, double count) {
         all.push_back(
             {.id = id, .what = what, .unit = "1/s", .value = count / time, .lessIsBetter = false});

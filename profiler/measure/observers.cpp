@@ -186,7 +186,7 @@ void Observation::judge(const Part& part, const Found& with, const Found& withou
 }
 
 double seconds(const RunOptions& options) {
-    return 3 * (partSeconds(options) + 2) + clientCount(options) / 2;
+    return 3 * (partSeconds(options) + 2) + 0.5 * clientCount(options);
 }
 
 void run(const RunOptions& options, Progress& progress, Results& results) {
