@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scheduler_bench.hpp"
 
-#include "baselines/flow_graph.hpp"
 #include "realtime_thread.hpp"
 
 #include <map>
@@ -36,6 +35,11 @@ AgentOptions optionsFor(std::uint32_t threads) {
     AgentOptions options;
     options.loopThreads = threads;
     return options;
+}
+
+// Of a task of a flow graph: which of its threads runs it.
+std::uint32_t arenaThread() {
+    return static_cast<std::uint32_t>(oneapi::tbb::this_task_arena::current_thread_index());
 }
 
 // Where threads share work a cluster pins them, its loop's own too.
@@ -119,11 +123,6 @@ std::chrono::nanoseconds SchedulerBench::plainly(std::int64_t count) {
             }
         }
     });
-}
-
-// Of a task of a flow graph: which of its threads runs it.
-std::uint32_t arenaThread() {
-    return static_cast<std::uint32_t>(oneapi::tbb::this_task_arena::current_thread_index());
 }
 
 TaskFunction SchedulerBench::task() {
