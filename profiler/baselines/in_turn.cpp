@@ -8,6 +8,8 @@
 namespace cortex::profiler {
 namespace {
 
+constexpr double partSeconds = 1e-3;  // short enough that some are left alone by all else
+
 double nanoseconds(const Contender& contender, std::int64_t cycles) {
     return static_cast<double>(contender.run(cycles).count());
 }
@@ -18,16 +20,18 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-double oneRound(const Contender& contender, std::int64_t cycles, double pauseMicroseconds) {
-    if (pauseMicroseconds <= 0) {
-        const std::int64_t part = std::max<std::int64_t>(1, cycles / 10);
+double oneRound(const Contender& contender, std::int64_t cycles, const Rounds& rounds) {
+    if (rounds.pauseMicroseconds <= 0) {
+        const double parts = std::max(1.0, rounds.seconds / partSeconds);
+        const auto fit = static_cast<std::int64_t>(static_cast<double>(cycles) / parts);
+        const std::int64_t part = std::max<std::int64_t>(1, fit);
         double best = nanoseconds(contender, part);
         for (std::int64_t i = 2 * part; i <= cycles; i += part) {
             best = std::min(best, nanoseconds(contender, part));
         }
         return best / static_cast<double>(part);
     }
-    const timespec pause{0, static_cast<long>(pauseMicroseconds * 1e3)};
+    const timespec pause{0, static_cast<long>(rounds.pauseMicroseconds * 1e3)};
     std::vector<double> times;
     for (std::int64_t i = 0; i < cycles; ++i) {
         nanosleep(&pause, nullptr);
@@ -51,8 +55,7 @@ void measureInTurn(std::vector<Contender>& contenders, const Rounds& rounds) {
     for (int round = 0; round < rounds.count; ++round) {
         for (std::size_t i = 0; i < contenders.size(); ++i) {
             contenders[i].run(2);  // what the others drove out of the caches
-            contenders[i].rounds.push_back(
-                oneRound(contenders[i], cycles[i], rounds.pauseMicroseconds));
+            contenders[i].rounds.push_back(oneRound(contenders[i], cycles[i], rounds));
         }
     }
 }

@@ -20,7 +20,7 @@ std::chrono::nanoseconds timed(const Function& function) {
 struct Contender {
     std::string name;
     std::function<std::chrono::nanoseconds(std::int64_t cycles)> run;
-    std::vector<double> rounds{};  // ns of one cycle: the best tenth of each round
+    std::vector<double> rounds{};  // ns of one cycle: the best millisecond of each round
 
     double best() const;
 };
