@@ -4,9 +4,13 @@
 #include "cortex/core/error.hpp"
 
 #include "measure/attach.hpp"
+#include "measure/comms_roles.hpp"
 #include "measure/run.hpp"
 #include "measure/terminal_progress.hpp"
-#include "report_api_stub.hpp"
+#include "report/comparison.hpp"
+#include "report/machine_facts.hpp"
+#include "report/results_files.hpp"
+#include "report/summary_text.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -232,4 +236,7 @@ Help on a verb: cortex-profiler VERB --help)");
 }  // namespace
 }  // namespace cortex::profiler
 
-int main(int count, char** values) { return cortex::profiler::runProgram(count, values); }
+int main(int count, char** values) {
+    if (const auto ended = cortex::profiler::playChildRole(count, values)) return *ended;
+    return cortex::profiler::runProgram(count, values);
+}

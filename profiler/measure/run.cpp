@@ -4,7 +4,10 @@
 #include "cortex/core/error.hpp"
 
 #include "measure/terminal_progress.hpp"
-#include "report_api_stub.hpp"
+#include "report/comparison.hpp"
+#include "report/machine_facts.hpp"
+#include "report/results_files.hpp"
+#include "report/summary_text.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -8,9 +8,9 @@
 #include "roles.hpp"
 #include "statistics.hpp"
 
-#include <array>
 #include <atomic>
 #include <chrono>
+#include <deque>
 #include <map>
 #include <thread>
 
@@ -20,7 +20,6 @@ namespace {
 using namespace std::chrono_literals;
 using bare::Stream;
 
-constexpr int rounds = 10;
 constexpr int samples = 18;  // with the worker and the agent itself: 20 simplexes
 
 std::string nameOf(int round) { return "far" + std::to_string(round); }
@@ -53,10 +52,10 @@ Times measure(const Options& options) {
     std::atomic<std::int64_t> matched = 0;
     const Stream stream{
         options.domain + 1, Stream::Role::Reader, {{}, [&] { matched = steadyNow(); }}};
-    std::array<std::atomic<std::int64_t>, rounds> bound{};
+    std::deque<std::atomic<std::int64_t>> bound(static_cast<std::size_t>(options.rounds));
     std::map<std::uint32_t, int> roundOf;  // by simplex
     Plant::Options linking{.name = "near", .network = loopback(options.domain)};
-    for (int i = 0; i < rounds; ++i) linking.links.push_back(samplePath(nameOf(i), 0));
+    for (int i = 0; i < options.rounds; ++i) linking.links.push_back(samplePath(nameOf(i), 0));
     linking.onLink = [&](std::uint32_t simplex, const Slice&) {
         auto& time = bound.at(static_cast<std::size_t>(roundOf.at(simplex)));
         if (time == 0) time = steadyNow();
@@ -64,14 +63,15 @@ Times measure(const Options& options) {
     Plant plant{linking};
     plant.cluster.setTriggerSource<cs::InternalClock>(1ms);
     plant.start();
-    for (int i = 0; i < rounds; ++i) {
+    for (int i = 0; i < options.rounds; ++i) {
         roundOf[plant.indexOf(linking.links[static_cast<std::size_t>(i)])] = i;
     }
     comms::Mirror mirror{"figures", loopback(options.domain)};
     whenKnown(mirror, "/near");
 
     Times times;
-    for (int i = 0; i < rounds; ++i) {
+    for (int i = 0; i < options.rounds; ++i) {
+        options.step(0.6, "discovery");
         {
             Child far{wordsOf({nameOf(i), options.domain, samples})};
             const std::int64_t mirrored = whenKnown(mirror, samplePath(nameOf(i), 0));
@@ -87,15 +87,30 @@ Times measure(const Options& options) {
     return times;
 }
 
+void add(const Options& options, const char* id, const char* what,
+         const std::vector<std::int64_t>& times, const std::vector<std::int64_t>& bare) {
+    profiler::Quantity quantity{.id = std::string{"comms/discovery/"} + id,
+                                .what = what,
+                                .unit = "ms",
+                                .value = median(times) * 1e-3,
+                                .baseline = median(bare) * 1e-3,
+                                .baselineName = "two bare participants matched"};
+    for (const std::int64_t each : times) {
+        quantity.repeats.push_back(static_cast<double>(each) * 1e-6);
+    }
+    options.add(std::move(quantity));
+}
+
 }  // namespace
 
 void discovery(const Options& options) {
-    heading("Discovery: from when an agent of 20 simplexes begins to join, 10 rounds");
-    progress("discovery");
     const Times times = measure(options);
-    const std::string beside = "bare, matched: " + medianAndWorst(times.bare);
-    row("its values are in the loop of one that links it", medianAndWorst(times.linked), beside);
-    row("a tool has all types and simplexes of it", medianAndWorst(times.mirrored), beside);
+    add(options, "linked",
+        "an agent of 20 simplexes begins to join until its values are in the loop of one that "
+        "links it",
+        times.linked, times.bare);
+    add(options, "mirrored", "the same until a tool has all its types and simplexes",
+        times.mirrored, times.bare);
 }
 
 }  // namespace cortex::network

@@ -28,22 +28,39 @@ double numbersOf(pid_t process, const char* file, std::initializer_list<std::str
     return sum;
 }
 
-std::string of(const Child& child) {
+struct Footprint {
+    double resident, own, threads, handles;  // MB, MB not shared
+};
+
+Footprint of(const Child& child) {
     const pid_t process = child.process();
     const auto handles = std::distance(
         std::filesystem::directory_iterator{"/proc/" + std::to_string(process) + "/fd"}, {});
-    const double resident = numbersOf(process, "smaps_rollup", {"Rss:"});
-    const double own = numbersOf(process, "smaps_rollup", {"Private_Clean:", "Private_Dirty:"});
-    return text("%.1f MB, ", resident / 1024) + text("%.1f MB of its own, ", own / 1024) +
-           text("%.0f threads, ", numbersOf(process, "status", {"Threads:"})) +
-           text("%.0f handles", static_cast<double>(handles));
+    return {numbersOf(process, "smaps_rollup", {"Rss:"}) / 1024,
+            numbersOf(process, "smaps_rollup", {"Private_Clean:", "Private_Dirty:"}) / 1024,
+            numbersOf(process, "status", {"Threads:"}), static_cast<double>(handles)};
+}
+
+void add(const Options& options, const std::string& id, const std::string& what,
+         const Footprint& found, const Footprint& bare) {
+    const auto one = [&](const char* part, const char* unit, double Footprint::* field) {
+        options.add({.id = "comms/footprint/" + id + "/" + part,
+                     .what = what + ": " + part,
+                     .unit = unit,
+                     .value = found.*field,
+                     .baseline = bare.*field,
+                     .baselineName = "a bare participant with one writer"});
+    };
+    one("resident", "MB", &Footprint::resident);
+    one("own", "MB", &Footprint::own);
+    one("threads", "threads", &Footprint::threads);
+    one("handles", "handles", &Footprint::handles);
 }
 
 }  // namespace
 
 void footprint(const Options& options) {
-    heading("Memory (resident, of it not shared), threads and file handles of a process");
-    progress("memory");
+    options.step(0.95, "memory");
     AgentRole role{"a", options.domain, 18};
     Child first{wordsOf(role)};
     role.name = "b";
@@ -53,9 +70,10 @@ void footprint(const Options& options) {
     Child bare{bareWords(options.domain + 1)};
     for (Child* each : {&first, &second, &without, &bare}) each->line();
     std::this_thread::sleep_for(std::chrono::seconds{options.seconds});
-    row("an agent of 20 simplexes, beside another one", of(first));
-    row("the same without a network", of(without));
-    row("a bare participant with one writer", of(bare));
+    const Footprint other = of(bare);
+    add(options, "agent", "a process with an agent of 20 simplexes, beside another one", of(first),
+        other);
+    add(options, "alone", "the same without a network", of(without), other);
 }
 
 }  // namespace cortex::network

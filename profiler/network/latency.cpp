@@ -108,18 +108,27 @@ Latencies measure(const Options& options, int samples) {
 }  // namespace
 
 void latency(const Options& options) {
-    heading(
-        "A value at 1 kHz, from the task that writes it until the polling loop of another process"
-        " takes it, each on a CPU of its own;\nevery other second bare Fast DDS with as many "
-        "octets,"
-        " from write() to callback");
     for (const int samples : {1, 100}) {
-        const std::string what = std::to_string(samples * itemsPerSample) + " items, " +
-                                 std::to_string(octetsOf(samples)) + " octets";
-        progress(what);
+        const std::string items = std::to_string(samples * itemsPerSample);
+        options.step(0.35, items + " items from loop to loop");
         const Latencies all = measure(options, samples);
-        row(what, medianAndP99(all.taken), "bare: " + medianAndP99(all.bare),
-            text("ratio %.2f, aim <= 1.5", median(all.taken) / median(all.bare)));
+        const double bare = median(all.bare);
+        addTimes(options,
+                 {.id = "comms/latency/" + items,
+                  .what = "a value at 1 kHz from the task that writes it to the polling loop of "
+                          "another process: " +
+                          items + " items, " + std::to_string(octetsOf(samples)) + " octets",
+                  .unit = "us",
+                  .baseline = bare,
+                  .baselineName = "raw Fast DDS, from write() to callback",
+                  .aim = profiler::Aim::AtMost,
+                  .limit = 1.5 * bare},
+                 all.taken);
+        addTimes(options,
+                 {.id = "comms/latency/" + items + "/raw",
+                  .what = "raw Fast DDS with as many octets, every other second",
+                  .unit = "us"},
+                 all.bare);
     }
 }
 

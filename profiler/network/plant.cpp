@@ -78,12 +78,4 @@ std::vector<std::string> samplePaths(const std::string& agent, int count) {
     return paths;
 }
 
-comms::NetworkOptions loopback(int domain) {
-    comms::NetworkOptions network;
-    network.domain = domain;
-    network.interfaces = {"127.0.0.1"};
-    network.security.clear();
-    return network;
-}
-
 }  // namespace cortex::network

@@ -4,6 +4,7 @@
 #include "cortex/comms/dds_interface.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 
+#include "measure/comms_domain.hpp"
 #include "timed_interface.hpp"
 
 #include <optional>
@@ -40,6 +41,6 @@ struct Plant {
 
 std::string samplePath(const std::string& agent, int number);
 std::vector<std::string> samplePaths(const std::string& agent, int count);
-comms::NetworkOptions loopback(int domain);
+using profiler::loopback;
 
 }  // namespace cortex::network

@@ -6,18 +6,10 @@
 #include <cstdio>
 #include <utility>
 
-#include <time.h>
-
 namespace cortex::observers {
 namespace {
 
 constexpr std::int64_t perSecond = 1000;  // ticks
-
-std::int64_t now() {
-    timespec time{};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return time.tv_sec * 1'000'000'000 + time.tv_nsec;
-}
 
 double percentile(std::vector<std::int64_t> values, double part) {
     if (values.empty()) return 0;
@@ -30,12 +22,21 @@ double percentile(std::vector<std::int64_t> values, double part) {
 
 }  // namespace
 
+std::vector<double> Lateness::p99s() const {
+    std::vector<double> all;
+    for (const auto& second : seconds) all.push_back(percentile(second, 0.99));
+    return all;
+}
+
 double Lateness::medianOfP99() const {
     std::vector<std::int64_t> all;
-    for (const auto& second : seconds) {
-        all.push_back(static_cast<std::int64_t>(percentile(second, 0.99) * 1e3));
-    }
+    for (const double each : p99s()) all.push_back(static_cast<std::int64_t>(each * 1e3));
     return percentile(all, 0.5);
+}
+
+double Lateness::nullRatio() const {
+    const double even = every(0).medianOfP99(), odd = every(1).medianOfP99();
+    return std::min(even, odd) > 0 ? std::max(even, odd) / std::min(even, odd) : 1;
 }
 
 std::string Lateness::tail() const {
@@ -54,15 +55,8 @@ Lateness Lateness::every(std::size_t second) const {
 }
 
 void AlternatingClock::start() {
-    origin_ = now();
+    sleeper_.emplace(Period);
     second_.reserve(perSecond);
-}
-
-std::int64_t AlternatingClock::sleep() {
-    const std::int64_t deadline = origin_ + ++next_ * Period;
-    timespec time{deadline / 1'000'000'000, deadline % 1'000'000'000};
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) != 0) continue;
-    return now() - deadline;
 }
 
 void AlternatingClock::finishSecond() {
@@ -70,27 +64,22 @@ void AlternatingClock::finishSecond() {
         const std::lock_guard lock{mutex_};
         Lateness& to = sleeping_ ? measured_.sleeper : measured_.loop;
         to.seconds.push_back(second_);
-        measured_.missed += std::exchange(missed_, 0);
+        measured_.missed += std::exchange(loopMissed_, 0);
+        measured_.missedBySleeper += std::exchange(sleeperMissed_, 0);
     }
     second_.clear();
     sleeping_ = !sleeping_;
 }
 
 cs::Trigger AlternatingClock::waitForTick() {
-    // Deadlines that passed while the cycle ran.
-    const std::int64_t due = (now() - origin_) / Period;
-    if (due > next_) {
-        missed_ += static_cast<std::uint64_t>(due - next_);
-        next_ = due;
-    }
-    while (!interrupted_) {
-        const std::int64_t lateness = sleep();
+    for (bool afterCycle = true; !interrupted_; afterCycle = false) {
+        const std::int64_t before = sleeper_->missed();
+        const std::int64_t second = sleeper_->tick() / perSecond;
+        const std::int64_t lateness = sleeper_->sleep();
+        (afterCycle ? loopMissed_ : sleeperMissed_) += sleeper_->missed() - before;
+        if (sleeper_->tick() / perSecond != second) finishSecond();
         second_.push_back(lateness);
-        const bool ended = next_ % perSecond == 0;
-        const bool returns = !sleeping_;
-        if (ended) finishSecond();
-        if (!returns) continue;
-        return {next_ * Period, lateness, 1, false};
+        if (!sleeping_) return {sleeper_->tick() * Period, lateness, 1, false};
     }
     return {0, 0, 1, true};
 }

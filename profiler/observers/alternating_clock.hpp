@@ -3,9 +3,12 @@
 
 #include "cortex/cs/trigger_source.hpp"
 
+#include "baselines/bare_sleeper.hpp"
+
 #include <atomic>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +18,11 @@ namespace cortex::observers {
 struct Lateness {
     std::vector<std::vector<std::int64_t>> seconds;
 
-    double medianOfP99() const;                // us
-    std::string tail() const;                  // p99.9, p99.99 and maximum of all
+    std::vector<double> p99s() const;  // us, second by second
+    double medianOfP99() const;        // us
+    std::string tail() const;          // p99.9, p99.99 and maximum of all
+    // How much of every two seconds the first differ from the others, 1 or more.
+    double nullRatio() const;
     Lateness every(std::size_t second) const;  // of two: 0 or 1
 };
 
@@ -32,22 +38,21 @@ public:
     // What was measured since the last call, whole seconds only.
     struct Measured {
         Lateness loop, sleeper;
-        std::uint64_t missed = 0;  // ticks of the loop
+        std::int64_t missed = 0, missedBySleeper = 0;  // ticks
     };
     Measured take();
 
 private:
     static constexpr std::int64_t Period = 1'000'000;
-    std::int64_t sleep();  // to the next deadline; its lateness
     void finishSecond();
 
-    std::int64_t origin_ = 0, next_ = 0;
+    std::optional<profiler::BareSleeper> sleeper_;
+    std::int64_t loopMissed_ = 0, sleeperMissed_ = 0;  // in this second
     bool sleeping_ = false;
     std::vector<std::int64_t> second_;
     std::atomic<bool> interrupted_{false};
     std::mutex mutex_;
     Measured measured_;
-    std::uint64_t missed_ = 0;
 };
 
 }  // namespace cortex::observers

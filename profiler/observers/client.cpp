@@ -4,6 +4,8 @@
 #include "cortex/comms/mirror.hpp"
 #include "cortex/core/error.hpp"
 
+#include "measure/comms_domain.hpp"
+
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
@@ -24,9 +26,8 @@ std::uint64_t look(comms::Mirror& mirror) {
     return last - first;
 }
 
-// One a second, whenever the answers come: the loop rests every other second. Spread over the
-// second.
-std::uint64_t command(comms::Mirror& mirror, int number) {
+// Whenever the answers come: the loop may rest every other second. Spread over the second.
+std::uint64_t command(comms::Mirror& mirror, int number, int period) {
     std::uint64_t done = 0;
     std::vector<std::uint64_t> sent;
     if (inputEnds(number * 20 % 1000)) return done;
@@ -38,24 +39,23 @@ std::uint64_t command(comms::Mirror& mirror, int number) {
             if (answer.outcome == Outcome::Done) ++done;
             return true;
         });
-    } while (!inputEnds(1000));
+    } while (!inputEnds(period));
     return done;
 }
 
 }  // namespace
 
 int runClient(int number, Load load, int domain) {
-    comms::NetworkOptions network;
-    network.domain = domain;
-    network.interfaces = {"127.0.0.1"};
-    comms::Mirror mirror{"observer" + std::to_string(number), network};
+    comms::Mirror mirror{"observer" + std::to_string(number), profiler::loopback(domain)};
     if (!mirror.waitForOwner("/echo", 60s) || !mirror.waitUntilComplete(60s)) return 1;
-    if (load != Load::Command) {
+    const bool commands = load == Load::Command || load == Load::CommandOften;
+    if (!commands) {
         mirror.view({"/"}, load == Load::ViewEvery ? 0 : 30);
         if (!mirror.waitForValues(60s)) return 1;
     }
     std::cout << "ready" << std::endl;
-    const std::uint64_t count = load == Load::Command ? command(mirror, number) : look(mirror);
+    const std::uint64_t count =
+        commands ? command(mirror, number, load == Load::Command ? 1000 : 20) : look(mirror);
     std::cout << count << std::endl;
     return 0;
 }

@@ -10,8 +10,8 @@
 namespace cortex::observers {
 
 // What one client process does until its standard input ends: looks at everything so many times a
-// second (0: every cycle), or sends a command a second.
-enum class Load { View30, ViewEvery, Command };
+// second, or at every cycle, or sends a command a second, or 50.
+enum class Load { View30, ViewEvery, Command, CommandOften };
 
 int runClient(int number, Load load, int domain);
 

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Access to data through a handle and by path in an image; the copy of an image of 10,000 items.
+#include "measure/access.hpp"
+
+#include "baselines/in_turn.hpp"
+#include "baselines/plain_memcpy.hpp"
+#include "subject/subject.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cortex::profiler {
+namespace {
+
+constexpr int simplexes = 1000;  // of ten items
+
+void use(double value) { asm volatile("" : : "x"(value)); }
+void forget() { asm volatile("" : : : "memory"); }
+
+std::string pathOf(int number) { return "/c" + std::to_string(number); }
+
+SimplexTree tenThousandItems() {
+    SimplexTree tree{subjectTypes()};
+    for (int i = 0; i < simplexes; ++i) tree.add(pathOf(i), "TenItems");
+    return tree;
+}
+
+// All of them read and written once in a round.
+Contender throughHandles(SubjectCluster& subject) {
+    std::vector<Data<double>> handles;
+    for (int i = 0; i < simplexes; ++i) {
+        handles.push_back(subject.tree.at(pathOf(i)).data<double>("f3"));
+    }
+    return {"handle", [handles](std::int64_t cycles) mutable {
+                return timed([&] {
+                    for (std::int64_t i = 0; i < cycles; ++i) {
+                        for (Data<double>& item : handles) item = item + 1.0;
+                        forget();
+                    }
+                });
+            }};
+}
+
+Contender throughPointers(std::vector<double>& values) {
+    return {"pointer", [&values](std::int64_t cycles) {
+                std::vector<double*> all;
+                for (std::size_t i = 0; i < values.size(); i += 10) all.push_back(&values[i]);
+                return timed([&] {
+                    for (std::int64_t i = 0; i < cycles; ++i) {
+                        for (double* item : all) *item = *item + 1.0;
+                        forget();
+                    }
+                });
+            }};
+}
+
+Contender byPath(const Image& image) {
+    std::vector<std::string> paths;
+    for (int i = 0; i < simplexes; ++i) paths.push_back(pathOf(i));
+    return {"path", [&image, paths](std::int64_t cycles) {
+                return timed([&] {
+                    for (std::int64_t i = 0; i < cycles; ++i) {
+                        for (const std::string& path : paths) use(image.get<double>(path, "f3"));
+                    }
+                });
+            }};
+}
+
+Quantity quantityOf(const char* id, const char* what, const Contender& from, double parts,
+                    double limit) {
+    Quantity quantity{.id = id,
+                      .what = what,
+                      .unit = "ns",
+                      .value = from.best() / parts,
+                      .repeats = from.rounds,
+                      .aim = Aim::AtMost,
+                      .limit = limit};
+    for (double& each : quantity.repeats) each /= parts;
+    return quantity;
+}
+
+void measureItems(const Rounds& rounds, Results& results) {
+    SubjectCluster subject{tenThousandItems(), {}};
+    const Image image = subject.cluster.image();
+    std::vector<double> values(10 * simplexes);
+    std::vector<Contender> all{throughHandles(subject), byPath(image), throughPointers(values)};
+    measureInTurn(all, rounds);
+    Quantity handle = quantityOf("access/handle", "one item through a handle: a read or a write",
+                                 all[0], 2 * simplexes, 1);
+    handle.baseline = all[2].best() / (2 * simplexes);
+    handle.baselineName = "plain pointers";
+    results.quantities.push_back(std::move(handle));
+    results.quantities.push_back(
+        quantityOf("access/path", "one item by path and name in an image", all[1], simplexes, 100));
+}
+
+void measureImage(const Rounds& rounds, Results& results) {
+    SubjectCluster subject{tenThousandItems(), {}};
+    Tables& tables = subject.cluster.agent().tables();
+    ImagePool pool{tables, 2};
+    PlainMemcpy limit{tables.arena()};
+    std::int64_t cycle = 0;
+    std::vector<Contender> all{
+        {"image",
+         [&](std::int64_t cycles) {
+             return timed([&] {
+                 for (std::int64_t i = 0; i < cycles; ++i) pool.publish(++cycle, 0, 0);
+             });
+         }},
+        {"memcpy", [&](std::int64_t cycles) { return timed([&] { limit.copies(cycles); }); }}};
+    measureInTurn(all, rounds);
+    Quantity image{
+        .id = "access/image/10000",
+        .what = "an image of 10,000 items, " + std::to_string(tables.arena().size()) + " octets",
+        .unit = "us",
+        .value = all[0].best() * 1e-3,
+        .repeats = all[0].rounds,
+        .baseline = all[1].best() * 1e-3,
+        .baselineName = "memcpy of the same octets"};
+    for (double& each : image.repeats) each *= 1e-3;
+    results.quantities.push_back(std::move(image));
+}
+
+void run(const RunOptions& options, Progress& progress, Results& results) {
+    const Rounds rounds{5, options.quick ? 0.05 : 0.3, 0};
+    if (!progress.step(0, "items")) return;
+    measureItems(rounds, results);
+    if (!progress.step(0.6, "an image")) return;
+    measureImage(rounds, results);
+    progress.step(1, "access");
+}
+
+}  // namespace
+
+const Measurement& accessMeasurement() {
+    static constexpr Measurement measurement{
+        "access", "data through a handle, by path, and whole images",
+        [](const RunOptions& options) { return options.quick ? 2.0 : 10.0; }, run};
+    return measurement;
+}
+
+}  // namespace cortex::profiler

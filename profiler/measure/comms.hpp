@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "measure/measurement.hpp"
+
+namespace cortex::profiler {
+
+const Measurement& commsMeasurement();
+
+}  // namespace cortex::profiler

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scheduler_bench.hpp"
+
+#include "realtime_thread.hpp"
+
+#include <map>
+#include <utility>
+
+#include <sched.h>
+
+#include <oneapi/tbb/task_arena.h>
+
+namespace cortex::profiler {
+namespace {
+
+SimplexTree withAgent(SimplexTree tree) {
+    tree.add("/bench", "Cluster");
+    return tree;
+}
+
+AgentOptions optionsFor(std::uint32_t threads) {
+    AgentOptions options;
+    options.loopThreads = threads;
+    return options;
+}
+
+// Of a task of a flow graph: which of its threads runs it.
+std::uint32_t arenaThread() {
+    return static_cast<std::uint32_t>(oneapi::tbb::this_task_arena::current_thread_index());
+}
+
+// Where threads share work a cluster pins them, its loop's own too.
+class LoopPin {
+public:
+    explicit LoopPin(bool pins) : pins_{pins} {
+        if (!pins_) return;
+        sched_getaffinity(0, sizeof before_, &before_);
+        cpu_set_t one{};
+        CPU_SET(static_cast<std::size_t>(cs::cpuForThread({}, 0)), &one);
+        sched_setaffinity(0, sizeof one, &one);
+    }
+    ~LoopPin() {
+        if (pins_) sched_setaffinity(0, sizeof before_, &before_);
+    }
+    LoopPin(const LoopPin&) = delete;
+    LoopPin& operator=(const LoopPin&) = delete;
+
+private:
+    bool pins_;
+    cpu_set_t before_{};
+};
+
+}  // namespace
+
+SchedulerBench::SchedulerBench(const TaskEdges& edges, std::uint32_t threads,
+                               double workNanoseconds)
+    : tree_{withAgent(simplexesOf(edges, workNanoseconds))},
+      agent_{"bench", tree_, optionsFor(threads)} {
+    cs::TaskGraph graph;
+    for (const SimplexInfo& info : agent_.structure().simplexes) {
+        graph.nodes.push_back({info.path, info.layout->type->isA("Active"), 1, 0});
+    }
+    for (const Edge& edge : agent_.structure().edges) {
+        graph.edges.emplace_back(edge.target, edge.owner);
+    }
+    agent_.setCanonicalOrder(cs::canonicalOrder(graph));
+    schedule_ = cs::makeSchedule(graph, {.threads = threads});
+    runner_ = std::make_unique<cs::TaskRunner>(agent_, schedule_, 1'000'000);
+    std::map<std::uint32_t, std::uint32_t> slotOf;
+    for (std::uint32_t i = 0; i < schedule_.tasks.size(); ++i) slotOf[schedule_.tasks[i]] = i;
+    for (std::uint32_t i = 0; i < edges.count; ++i) {
+        slots_.push_back(slotOf.at(agent_.structure().find(taskPath(i))));
+    }
+    agent_.start();
+    pool_ = std::make_unique<cs::ThreadPool>(
+        schedule_,
+        [](void* runner, std::uint32_t chunk, std::uint32_t worker) {
+            static_cast<cs::TaskRunner*>(runner)->run(chunk, worker);
+        },
+        runner_.get(), cs::PoolOptions{});
+}
+
+SchedulerBench::~SchedulerBench() {
+    pool_.reset();
+    agent_.stop();
+}
+
+void SchedulerBench::beginCycle() {
+    ++tick_.cycle;
+    tick_.nominalTime += 1'000'000;
+    runner_->beginCycle(tick_);
+}
+
+std::chrono::nanoseconds SchedulerBench::cycles(std::int64_t count) {
+    const LoopPin pin{pool_->threads() > 1};
+    return timed([&] {
+        for (std::int64_t i = 0; i < count; ++i) {
+            beginCycle();
+            pool_->cycle();
+        }
+    });
+}
+
+std::chrono::nanoseconds SchedulerBench::plainly(std::int64_t count) {
+    return timed([&] {
+        for (std::int64_t i = 0; i < count; ++i) {
+            beginCycle();
+            for (std::uint32_t chunk = 0; chunk < schedule_.chunks.size(); ++chunk) {
+                if (schedule_.chunks[chunk].count != 0) runner_->run(chunk, 0);
+            }
+        }
+    });
+}
+
+TaskFunction SchedulerBench::task() {
+    return {[](void* context, std::uint32_t task) {
+                auto& self = *static_cast<SchedulerBench*>(context);
+                const std::uint32_t worker = self.agent_.threadCount() == 1 ? 0 : arenaThread();
+                self.runner_->runAlone(self.slots_[task], worker);
+            },
+            this};
+}
+
+std::uint32_t usableCpus() {
+    static const auto count = static_cast<std::uint32_t>(cs::usableCpus().size());
+    return count;
+}
+
+}  // namespace cortex::profiler

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "baselines/in_turn.hpp"
+#include "baselines/plain_loop.hpp"
+#include "scheduler.hpp"
+#include "subject/graphs.hpp"
+#include "task_runner.hpp"
+#include "thread_pool.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace cortex::profiler {
+
+// The schedule of real SimplexCS tasks as a cluster would have it, without the rest of a cluster:
+// cycles of its thread pool, or the same tasks in a plain loop.
+class SchedulerBench {
+public:
+    // So many threads are asked for; how many are used is up to the library.
+    SchedulerBench(const TaskEdges& edges, std::uint32_t threads, double workNanoseconds = 0);
+    ~SchedulerBench();
+    SchedulerBench(const SchedulerBench&) = delete;
+    SchedulerBench& operator=(const SchedulerBench&) = delete;
+
+    std::chrono::nanoseconds cycles(std::int64_t count);
+    std::chrono::nanoseconds plainly(std::int64_t count);
+    std::uint32_t threadsInUse() const { return pool_->threads(); }
+
+    // The same tasks one by one, for others to run them in the same order, on threads of a flow
+    // graph too. Without what the pool's run of tasks adds: it reads the clock once.
+    TaskFunction task();
+    void beginCycle();
+
+private:
+    SimplexTree tree_;
+    AgentRuntime agent_;
+    cs::Schedule schedule_;
+    std::unique_ptr<cs::TaskRunner> runner_;
+    std::unique_ptr<cs::ThreadPool> pool_;
+    std::vector<std::uint32_t> slots_;  // by task
+    Tick tick_;
+};
+
+std::uint32_t usableCpus();
+
+}  // namespace cortex::profiler

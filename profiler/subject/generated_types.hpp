@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/type_model.hpp"
+
+#include "subject.hpp"
+
+#include <string>
+
+namespace cortex::profiler {
+
+enum class Content { Nothing, Data, Relationships, Commands };
+
+// 25 simplexes with so many floats, relationships or commands each, of a type that is written to a
+// file and read from it. What relationships lead to stands beside them, 100 of it at any number.
+struct Loaded {
+    static constexpr int simplexes = 25, most = 100;
+    static SimplexTree tree(Content content, int each);
+};
+
+// A folder for files, away with this object. Throws Error.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::string& path() const { return path_; }
+
+private:
+    std::string path_;
+};
+
+}  // namespace cortex::profiler
