@@ -217,14 +217,17 @@ void ClusterCS::startAll() {
     self.agent->setCanonicalOrder(order);
     const std::vector<SimplexCS*> simplexes = self.activeInOrder(order);
     self.populate(simplexes);
-    const Schedule schedule =
+    Schedule schedule =
         makeSchedule(graph, {threads, self.options.chunkSize, {}, self.options.forceThreads});
     self.agent->addInterface(self.program);
     for (const auto& interface : self.interfaces) self.agent->addInterface(*interface);
     for (EventLog::Sink& sink : self.sinks) self.agent->events().addSink(sink);
     self.loop =
-        std::make_unique<ClusterLoop>(*self.agent, *self.trigger, self.options, schedule, simplexes,
-                                      self.heartbeats, std::move(realtimeReport));
+        std::make_unique<ClusterLoop>(*self.agent, *self.trigger, self.options, std::move(schedule),
+                                      simplexes, self.heartbeats, std::move(realtimeReport));
+    self.loop->rescheduleBy([&self, threads](std::span<const double> costs) {
+        return makeSchedule(self.graph(), {threads, self.options.chunkSize, costs, false});
+    });
     self.agent->start();
     self.loop->start();
     self.warnOfModel();

@@ -25,18 +25,18 @@ std::int64_t wallClockNow() {
 }  // namespace
 
 ClusterLoop::ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const ClusterOptions& options,
-                         const Schedule& schedule, std::vector<SimplexCS*> simplexes,
+                         Schedule schedule, std::vector<SimplexCS*> simplexes,
                          std::vector<std::function<void(const Heartbeat&)>> heartbeats,
                          std::vector<std::string> realtimeReport)
     : agent_{agent},
       trigger_{trigger},
       options_{options},
-      schedule_{schedule},
       heartbeats_{std::move(heartbeats)},
       realtimeReport_{std::move(realtimeReport)},
-      runner_{agent, schedule, trigger.period()},
+      plan_{std::make_unique<Plan>(Plan{std::move(schedule), nullptr})},
+      runner_{agent, plan_->schedule, trigger.period()},
       group_{agent, runner_, std::move(simplexes)},
-      metrics_{agent, trigger.period(), schedule.threads} {}
+      metrics_{agent, trigger.period(), plan_->schedule.threads} {}
 
 ClusterLoop::~ClusterLoop() { stop(); }
 
@@ -65,10 +65,7 @@ void ClusterLoop::start() {
     }
 }
 
-void ClusterLoop::prepareThread() {
-    const auto append = [this](const std::vector<std::string>& lines) {
-        realtimeReport_.insert(realtimeReport_.end(), lines.begin(), lines.end());
-    };
+std::unique_ptr<ThreadPool> ClusterLoop::makePool(const Schedule& schedule) {
     PoolOptions pool;
     pool.name = agent_.name();
     pool.threads = options_.forceThreads ? options_.threads : 0;
@@ -81,14 +78,22 @@ void ClusterLoop::prepareThread() {
         };
         pool.onStartContext = &options_;
     }
-    pool_ = std::make_unique<ThreadPool>(
-        schedule_,
+    return std::make_unique<ThreadPool>(
+        schedule,
         [](void* runner, std::uint32_t chunk, std::uint32_t worker) {
             static_cast<TaskRunner*>(runner)->run(chunk, worker);
         },
         &runner_, pool);
-    append(pool_->report());
-    append(pool_->configureLoopThread());
+}
+
+void ClusterLoop::prepareThread() {
+    const auto append = [this](const std::vector<std::string>& lines) {
+        realtimeReport_.insert(realtimeReport_.end(), lines.begin(), lines.end());
+    };
+    plan_->pool = makePool(plan_->schedule);
+    threads_.store(plan_->pool->threads(), std::memory_order_relaxed);
+    append(plan_->pool->report());
+    append(plan_->pool->configureLoopThread());
     if (options_.priority > 0 && options_.lockMemory) append(lockMemory());
     if (options_.onThreadStart) options_.onThreadStart(0);
 }
@@ -97,11 +102,12 @@ void ClusterLoop::run() {
     try {
         prepareThread();
         trigger_.skipMissed(options_.overflow != Overflow::CatchUp);
+        startRescheduler();
         trigger_.start();
         for (std::string& line : trigger_.report()) realtimeReport_.push_back(std::move(line));
     } catch (...) {
         failure_ = std::current_exception();
-        pool_.reset();
+        plan_->pool.reset();
     }
     const bool failed = failure_ != nullptr;
     ready_.store(true);
@@ -113,7 +119,8 @@ void ClusterLoop::run() {
         tellFailure("the trigger", error.what());
     }
     shutDown();
-    pool_.reset();
+    rescheduler_.reset();
+    plan_->pool.reset();
     if (ended() == Ended::Running) ended_.store(Ended::Stopped, std::memory_order_release);
     finished_.store(true, std::memory_order_release);
 }
@@ -162,8 +169,9 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     agent_.beginCycle(tick);
     reportMissed();
     warnDuty();
+    if (rescheduler_) adoptPlan();
     runner_.beginCycle(tick);
-    pool_->cycle();
+    plan_->pool->cycle();
     metrics_.write(runner_.counts());
     agent_.endCycle(tick, wallClockNow() - (monotonicNow() - begin) - trigger.lateness);
     metrics_.cycleEnded(lastWakeUp_ == 0 ? 0 : begin - lastWakeUp_, trigger.lateness,
@@ -172,6 +180,31 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     metrics_.hung(watchdog_->reported() == tick.cycle);
     if (!heartbeats_.empty()) beat({tick.cycle, true, {}, {}});
     watchdog_->cycleEnds();
+}
+
+// Only where threads may share work, in real time: elsewhere there is nothing to gain.
+void ClusterLoop::startRescheduler() {
+    const bool mayShare = agent_.threadCount() > 1 && !options_.forceThreads;
+    if (!mayShare || !makeSchedule_ || !trigger_.realTime()) return;
+    const auto loop = pthread_self();
+    rescheduler_ = std::make_unique<Rescheduler>(
+        agent_, plan_->schedule,
+        Rescheduler::Maker{makeSchedule_, [this, loop](Schedule schedule) {
+                               auto plan = std::make_unique<Plan>(Plan{std::move(schedule), {}});
+                               plan->pool = makePool(plan->schedule);
+                               plan->pool->placeLoopThread(loop);
+                               return plan;
+                           }});
+}
+
+void ClusterLoop::adoptPlan() {
+    Plan* plan = plan_.release();
+    const bool adopted = rescheduler_->exchange(plan);
+    plan_.reset(plan);
+    if (!adopted) return;
+    runner_.use(plan_->schedule);
+    metrics_.threads(plan_->pool->threads());
+    threads_.store(plan_->pool->threads(), std::memory_order_relaxed);
 }
 
 // About the cycle before: its own events have been handed out.

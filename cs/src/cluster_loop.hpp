@@ -5,6 +5,7 @@
 
 #include "group_commands.hpp"
 #include "metrics.hpp"
+#include "rescheduler.hpp"
 #include "task_runner.hpp"
 #include "thread_pool.hpp"
 #include "watchdog.hpp"
@@ -27,7 +28,7 @@ namespace cortex::cs {
 class ClusterLoop {
 public:
     ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const ClusterOptions& options,
-                const Schedule& schedule, std::vector<SimplexCS*> simplexes,
+                Schedule schedule, std::vector<SimplexCS*> simplexes,
                 std::vector<std::function<void(const Heartbeat&)>> heartbeats,
                 std::vector<std::string> realtimeReport);
     ~ClusterLoop();
@@ -39,11 +40,18 @@ public:
 
     Ended ended() const { return ended_.load(std::memory_order_acquire); }
     const std::vector<std::string>& realtimeReport() const { return realtimeReport_; }
-    std::uint32_t threads() const { return pool_ ? pool_->threads() : 1; }
+    std::uint32_t threads() const { return threads_.load(std::memory_order_relaxed); }
+    // Before start(): makes schedules for measured costs; with threads to share the work only.
+    void rescheduleBy(std::function<Schedule(std::span<const double>)> makeSchedule) {
+        makeSchedule_ = std::move(makeSchedule);
+    }
 
 private:
     void run();
     void prepareThread();
+    std::unique_ptr<ThreadPool> makePool(const Schedule& schedule);
+    void startRescheduler();
+    void adoptPlan() CORTEX_REALTIME;
     void loop();
     void beat(const Heartbeat& heartbeat);
     void tellFailure(const char* who, const char* what);
@@ -58,14 +66,16 @@ private:
     AgentRuntime& agent_;
     TriggerSource& trigger_;
     ClusterOptions options_;
-    Schedule schedule_;
     std::vector<std::function<void(const Heartbeat&)>> heartbeats_;
     std::vector<std::string> realtimeReport_;
+    std::unique_ptr<Plan> plan_;
     TaskRunner runner_;
     GroupCommands group_;
-    std::unique_ptr<ThreadPool> pool_;
     ClusterMetrics metrics_;
+    std::function<Schedule(std::span<const double>)> makeSchedule_;
+    std::unique_ptr<Rescheduler> rescheduler_;
     std::unique_ptr<Watchdog> watchdog_;
+    std::atomic<std::uint32_t> threads_{1};
     std::thread thread_;
     std::atomic<bool> ready_{false}, finished_{false};
     std::exception_ptr failure_;  // of the start, for start() to throw

@@ -21,6 +21,10 @@ bool isAtOrBelow(std::string_view path, std::string_view prefix) {
 
 GroupCommands::GroupCommands(AgentRuntime& agent, TaskRunner& runner, std::vector<SimplexCS*> order)
     : agent_{agent}, runner_{runner}, order_{std::move(order)} {
+    faultTexts_.reserve(order_.size());
+    for (SimplexCS* each : order_) {
+        faultTexts_.push_back(each->data<const std::string_view>("faultText"));
+    }
     registerHandler<LifeCycle::Startup>("startup");
     registerHandler<LifeCycle::Shutdown>("shutdown");
     registerHandler<LifeCycle::ClearFaults>("clearFaults");
@@ -102,8 +106,8 @@ bool GroupCommands::anyWorks() const {
     });
 }
 
-SimplexCS& GroupCommands::member(std::size_t at) const {
-    return *order_[command_ == LifeCycle::Shutdown ? order_.size() - 1 - at : at];
+std::size_t GroupCommands::place(std::size_t at) const {
+    return command_ == LifeCycle::Shutdown ? order_.size() - 1 - at : at;
 }
 
 bool GroupCommands::anyStandsThere() const {
@@ -152,9 +156,11 @@ bool GroupCommands::failed(const SimplexCS& simplex) const {
 void GroupCommands::addFailure(const SimplexCS& simplex) {
     if (anyFailed_) failures_ << "; ";
     anyFailed_ = true;
-    const EventText& heard = runner_.heard();
-    failures_ << simplex.path() << " did not follow: "
-              << (heard.view().empty() ? name(simplex.state_) : heard.view());
+    // What it said since it was asked, else what it is in.
+    std::string_view why = runner_.heard().view();
+    if (why.empty() && simplex.state_ == State::Fault) why = faultTexts_[place(at_)].get();
+    failures_ << simplex.path()
+              << " did not follow: " << (why.empty() ? name(simplex.state_) : why);
 }
 
 bool GroupCommands::allResting() const {

@@ -39,11 +39,13 @@ private:
     bool reached(const SimplexCS& simplex) const CORTEX_REALTIME;
     bool failed(const SimplexCS& simplex) const CORTEX_REALTIME;
     void addFailure(const SimplexCS& simplex) CORTEX_REALTIME;
-    SimplexCS& member(std::size_t at) const CORTEX_REALTIME;
+    std::size_t place(std::size_t at) const CORTEX_REALTIME;
+    SimplexCS& member(std::size_t at) const CORTEX_REALTIME { return *order_[place(at)]; }
 
     AgentRuntime& agent_;
     TaskRunner& runner_;
     std::vector<SimplexCS*> order_;
+    std::vector<Data<const std::string_view>> faultTexts_;  // of the same simplexes
     std::array<Argument<std::string_view>, 4> prefixes_{};  // by LifeCycle
     LifeCycle command_ = LifeCycle::None;
     EventText prefix_;

@@ -47,6 +47,7 @@ public:
     void hung(bool hung) CORTEX_REALTIME { hung_ = hung; }
     // Writes all into the tables; before the image is taken.
     void write(const RunnerCounts& counts) CORTEX_REALTIME;
+    void threads(std::uint32_t threads) CORTEX_REALTIME { threads_ = threads; }
     double lastDuty() const { return lastDuty_; }
     std::int64_t overflows() const { return overflows_; }
 

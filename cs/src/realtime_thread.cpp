@@ -77,14 +77,18 @@ std::vector<int> chosenCpus(const std::vector<int>& wanted) {
 }
 
 /// Sets all usable CPUs where none was wanted: a thread inherits the mask of the one that made it.
-void setAffinity(const ThreadOptions& options, std::vector<std::string>& report) {
-    const std::vector<int>& wanted = options.affinity.empty() ? usableCpus() : options.affinity;
+int place(pthread_t thread, const std::vector<int>& cpus) {
     cpu_set_t set;
     CPU_ZERO(&set);
-    for (const int cpu : wanted) {
+    for (const int cpu : cpus) {
         if (cpu >= 0 && cpu < CPU_SETSIZE) CPU_SET(static_cast<std::size_t>(cpu), &set);
     }
-    const int error = pthread_setaffinity_np(pthread_self(), sizeof set, &set);
+    return pthread_setaffinity_np(thread, sizeof set, &set);
+}
+
+void setAffinity(const ThreadOptions& options, std::vector<std::string>& report) {
+    const std::vector<int>& wanted = options.affinity.empty() ? usableCpus() : options.affinity;
+    const int error = place(pthread_self(), wanted);
     const std::vector<int> got = allowedCpus();
     const bool isComplete = std::all_of(wanted.begin(), wanted.end(), [&](int cpu) {
         return std::find(got.begin(), got.end(), cpu) != got.end();
@@ -158,6 +162,10 @@ std::vector<std::string> configureThisThread(const ThreadOptions& options) {
     setPriority(options, report);
     prctl(PR_SET_TIMERSLACK, 1UL);  // else sleeps of normal threads end up to 50 microseconds late
     return report;
+}
+
+void placeThread(std::thread::native_handle_type thread, const std::vector<int>& cpus) {
+    place(thread, cpus.empty() ? usableCpus() : cpus);
 }
 
 std::vector<std::string> lockMemory() {

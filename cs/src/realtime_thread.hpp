@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace cortex::cs {
@@ -36,6 +37,9 @@ std::uint32_t clampThreads(std::uint32_t wanted, int priority, const std::vector
 
 /// Sets name, CPUs and priority of the calling thread.
 std::vector<std::string> configureThisThread(const ThreadOptions& options);
+
+/// Moves another thread to these CPUs; empty: all that the process may use.
+void placeThread(std::thread::native_handle_type thread, const std::vector<int>& cpus);
 
 /// Keeps all memory of the process resident, what it obtains later included.
 std::vector<std::string> lockMemory();

@@ -51,9 +51,13 @@ struct Schedule {
 struct ScheduleOptions {
     std::uint32_t threads = 1;                   // at most
     std::uint32_t chunkSize = 0;                 // tasks in a chunk; 0: by cost
-    std::span<const double> costMicroseconds{};  // one per node; empty: 0.1 each
+    std::span<const double> costMicroseconds{};  // one per node, 0: unknown; empty: all are
     bool force = false;                          // use all threads even where one is faster
 };
+
+/// How long a cycle takes if tasks (by node) cost so much: each thread runs its chunks in order, as
+/// soon as their predecessors have run.
+double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds);
 
 /// Topological, ties by path. Throws LoopError.
 std::vector<std::uint32_t> canonicalOrder(const TaskGraph& graph);

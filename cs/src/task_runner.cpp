@@ -54,7 +54,7 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
 void TaskRunner::runTimed(Task& task, TaskThread& thread, Position& position) {
     const std::int64_t start = monotonicNow();
     runTask(task, thread, position);
-    if (task.simplex != nullptr) {
+    if (task.simplex != nullptr && task.lastRun == tick_.nominalTime) {
         details(task).taskTime = static_cast<double>(monotonicNow() - start) * 1e-3;
     }
 }

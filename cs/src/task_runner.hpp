@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace cortex::cs {
@@ -117,6 +118,7 @@ struct RunnerCounts {
 // Built once by start(); run() is called for each chunk of the schedule on the loop's threads.
 class TaskRunner {
 public:
+    // `schedule` stays as long as it is used.
     TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64_t period);
 
     // Loop thread, before the chunks of a cycle.
@@ -126,6 +128,9 @@ public:
     void runAlone(std::uint32_t task, std::uint32_t worker) CORTEX_REALTIME {
         runTask(tasks_[task], threads_[worker], positions_[worker]);
     }
+
+    // Between cycles: other chunks of the same tasks in the same order.
+    void use(const Schedule& schedule) CORTEX_REALTIME { chunks_ = schedule.chunks; }
 
     // In the next cycle all that is Active faults (overflow="halt").
     void halt() { haltNext_ = true; }
@@ -178,7 +183,7 @@ private:
     AgentRuntime& agent_;
     const Structure& structure_;
     std::int64_t period_;
-    std::vector<Chunk> chunks_;
+    std::span<const Chunk> chunks_;
     std::vector<Task> tasks_;           // in execution order
     std::vector<TaskDetails> details_;  // of the same tasks
     std::vector<TaskInput> inputs_;

@@ -4,6 +4,7 @@
 #include "realtime_thread.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace cortex::cs {
 namespace {
@@ -99,6 +100,10 @@ std::vector<std::string> ThreadPool::configureLoopThread() const {
     return configureThisThread(threadOptions(0));
 }
 
+void ThreadPool::placeLoopThread(std::thread::native_handle_type loop) const {
+    placeThread(loop, threadOptions(0).affinity);
+}
+
 void ThreadPool::startWorkers() {
     for (std::uint32_t worker = 1; worker < threads(); ++worker) {
         workers_[worker].thread = std::thread(&ThreadPool::workerMain, this, worker);
@@ -157,19 +162,20 @@ void ThreadPool::cycle() noexcept {
     }
     started_.publish(epoch_);
     takeChunks(0);
-    for (Spin spin(spinTime_); finished_.value() != epoch_;) {
-        if (!spin.spend()) sleepFor(finished_, epoch_, 0);
+    for (Spin spin(spinTime_);;) {
+        const std::uint32_t value = finished_.value();
+        if (value == epoch_) return;
+        if (spin.spend()) continue;
+        countSleep(0);
+        finished_.sleepWhile(value);
     }
 }
 
-/// The first of its predecessors that has not run in this epoch; null: it is ready.
-WakeWord* ThreadPool::unfinished(const Chunk& chunk, std::uint32_t epoch) noexcept {
-    const std::uint32_t* const first = predecessors_.data() + chunk.firstPredecessor;
-    for (std::uint32_t i = 0; i < chunk.predecessorCount; ++i) {
-        WakeWord& word = done_[first[i]].word;
-        if (word.value() != epoch) return &word;
-    }
-    return nullptr;
+bool ThreadPool::isReady(const Chunk& chunk, std::uint32_t epoch) const noexcept {
+    const std::span before{predecessors_.data() + chunk.firstPredecessor, chunk.predecessorCount};
+    return std::all_of(before.begin(), before.end(), [&](std::uint32_t each) {
+        return done_[each].epoch.load(std::memory_order_seq_cst) == epoch;
+    });
 }
 
 /// Takes the first chunk of a list if it is ready, of the worker's own list first.
@@ -183,13 +189,13 @@ ThreadPool::Found ThreadPool::find(std::uint32_t worker) noexcept {
             const auto epoch = static_cast<std::uint32_t>(ticket >> 32);
             if (next >= list.chunks.size()) break;
             const std::uint32_t chunk = list.chunks[next];
-            if (WakeWord* const awaited = unfinished(chunks_[chunk], epoch)) {
-                if (found.awaited == nullptr) found = {Found::None, awaited, epoch};
+            if (!isReady(chunks_[chunk], epoch)) {
+                found.what = Found::What::Blocked;
                 break;
             }
             if (list.ticket.compare_exchange_weak(ticket, ticket + 1, std::memory_order_acq_rel,
                                                   std::memory_order_acquire)) {
-                return {chunk, nullptr, epoch};
+                return {Found::What::Taken, chunk, epoch};
             }
         }
     }
@@ -203,15 +209,13 @@ void ThreadPool::takeChunks(std::uint32_t worker) noexcept {
     std::uint32_t taken = 0;
     std::uint32_t epoch = 0;
     for (Spin spin(spinTime_);;) {
-        const Found found = find(worker);
-        if (found.chunk == Found::None) {
-            if (found.awaited == nullptr) break;
-            if (!spin.spend()) sleepFor(*found.awaited, found.epoch, worker);
-            continue;
-        }
+        Found found = find(worker);
+        if (found.what == Found::What::Blocked && !spin.spend()) found = sleepOrFind(worker);
+        if (found.what == Found::What::Nothing) break;
+        if (found.what == Found::What::Blocked) continue;
         epoch = found.epoch;
         if (chunks_[found.chunk].count != 0) run_(context_, found.chunk, worker);
-        if (isAwaited_[found.chunk]) done_[found.chunk].word.publish(epoch);
+        if (isAwaited_[found.chunk]) complete(found.chunk, epoch);
         ++taken;
         spin = Spin(spinTime_);
     }
@@ -220,13 +224,28 @@ void ThreadPool::takeChunks(std::uint32_t worker) noexcept {
     }
 }
 
-/// Returns once the word has that epoch, or earlier.
-void ThreadPool::sleepFor(WakeWord& word, std::uint32_t epoch, std::uint32_t worker) noexcept {
-    const std::uint32_t value = word.value();
-    if (value == epoch) return;
+/// Sequentially consistent with sleepOrFind(): either this sees the sleeper, or he the chunk.
+void ThreadPool::complete(std::uint32_t chunk, std::uint32_t epoch) noexcept {
+    done_[chunk].epoch.exchange(epoch, std::memory_order_seq_cst);
+    if (sleepers_.load(std::memory_order_seq_cst) != 0) progress_.advance();
+}
+
+/// Sleeps until some chunk is complete, unless one is ready by now.
+ThreadPool::Found ThreadPool::sleepOrFind(std::uint32_t worker) noexcept {
+    sleepers_.fetch_add(1, std::memory_order_seq_cst);
+    const std::uint32_t value = progress_.value();
+    const Found found = find(worker);
+    if (found.what == Found::What::Blocked) {
+        countSleep(worker);
+        progress_.sleepWhile(value);
+    }
+    sleepers_.fetch_sub(1, std::memory_order_acq_rel);
+    return found;
+}
+
+void ThreadPool::countSleep(std::uint32_t worker) noexcept {
     std::atomic<std::uint64_t>& sleeps = workers_[worker].sleeps;
     sleeps.store(sleeps.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-    word.sleepWhile(value);
 }
 
 std::uint64_t ThreadPool::sleeps(std::uint32_t worker) const noexcept {

@@ -48,6 +48,9 @@ public:
     /// workers'. Returns what the system refused.
     std::vector<std::string> configureLoopThread() const;
 
+    /// The CPU of the loop thread alone, for a pool that takes the place of another. Any thread.
+    void placeLoopThread(std::thread::native_handle_type loop) const;
+
     void cycle() noexcept;
 
     std::uint32_t threads() const noexcept { return static_cast<std::uint32_t>(workers_.size()); }
@@ -61,7 +64,7 @@ public:
 private:
     class Spin;
     struct alignas(64) DoneWord {
-        WakeWord word;
+        std::atomic<std::uint32_t> epoch{0};  // in which the chunk last ran
     };
     struct alignas(64) Worker {
         std::atomic<std::uint64_t> sleeps{0};
@@ -76,10 +79,9 @@ private:
     };
     /// What a worker can do next.
     struct Found {
-        static constexpr std::uint32_t None = 0xffffffffU;
-        std::uint32_t chunk = None;   // taken
-        WakeWord* awaited = nullptr;  // nothing is ready before it changes; null: nothing is left
-        std::uint32_t epoch = 0;
+        enum class What : std::uint8_t { Nothing, Blocked, Taken };
+        What what = What::Nothing;
+        std::uint32_t chunk = 0, epoch = 0;  // where one was taken
     };
 
     ThreadOptions threadOptions(std::uint32_t worker) const;
@@ -90,8 +92,10 @@ private:
     bool waitForCycle(std::uint32_t& seen) noexcept;
     void takeChunks(std::uint32_t worker) noexcept;
     Found find(std::uint32_t worker) noexcept;
-    WakeWord* unfinished(const Chunk& chunk, std::uint32_t epoch) noexcept;
-    void sleepFor(WakeWord& word, std::uint32_t epoch, std::uint32_t worker) noexcept;
+    bool isReady(const Chunk& chunk, std::uint32_t epoch) const noexcept;
+    void complete(std::uint32_t chunk, std::uint32_t epoch) noexcept;
+    Found sleepOrFind(std::uint32_t worker) noexcept;
+    void countSleep(std::uint32_t worker) noexcept;
 
     // Read-only in the loop.
     const std::vector<Chunk> chunks_;
@@ -104,10 +108,12 @@ private:
     std::vector<std::string> report_;
     std::vector<Worker> workers_;
     std::vector<List> lists_;           // by worker
-    std::unique_ptr<DoneWord[]> done_;  // by chunk: the epoch in which it last ran
+    std::unique_ptr<DoneWord[]> done_;  // by chunk
     std::uint32_t epoch_ = 0;           // even; loop thread only
 
     alignas(64) std::atomic<std::uint32_t> remaining_{0};  // chunks not yet reported as done
+    alignas(64) std::atomic<std::uint32_t> sleepers_{0};   // in a cycle, for lack of a ready chunk
+    alignas(64) WakeWord progress_;                        // they sleep on it
     alignas(64) WakeWord started_;   // epoch; workers sleep on it between cycles
     alignas(64) WakeWord finished_;  // epoch; the loop thread sleeps on it at the cycle's end
     std::atomic<bool> stopping_{false};

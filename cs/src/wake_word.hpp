@@ -22,6 +22,13 @@ public:
         return wakes;
     }
 
+    /// Moves on to the next even number, from whatever threads.
+    void advance() noexcept {
+        if ((word_.fetch_add(2, std::memory_order_seq_cst) & Sleeper) == 0) return;
+        word_.fetch_and(~Sleeper, std::memory_order_acq_rel);
+        wakeAll();
+    }
+
     /// Returns when the value may have changed, sometimes earlier.
     void sleepWhile(std::uint32_t value) noexcept;
 

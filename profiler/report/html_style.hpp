@@ -26,6 +26,7 @@ a{color:var(--c0)}
 .box{background:var(--box);border-left:4px solid var(--rule);padding:.6rem 1rem;margin:1rem 0}
 .box.warn{border-color:var(--bad)}
 .box ul{margin:.2rem 0;padding-left:1.2rem}
+td:first-child,th:first-child{min-width:20em}
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums;font-size:.93rem}
 th,td{padding:.32rem .7rem;text-align:left;vertical-align:top;border-bottom:1px solid var(--grid)}
 th{border-bottom:2px solid var(--rule);font-weight:600}

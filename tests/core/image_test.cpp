@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/image.hpp"
 
+#include "cortex/core/data.hpp"
 #include "cortex/core/error.hpp"
 
 #include "support/small_structure.hpp"
@@ -44,6 +45,36 @@ TEST_F(ImageTest, ShowsTheInitialTablesBeforeTheFirstCycle) {
     ASSERT_TRUE(image);
     EXPECT_EQ(image.cycle(), 0);
     EXPECT_EQ(image.get<double>("/axis", "position"), 1.25);
+}
+
+// Texts are copied only after one has changed, into each slot of its own.
+TEST_F(ImageTest, ShowsEachTextAsItStandsInWhateverSlotItComesFrom) {
+    const ItemLayout* item = plant.structure->simplexes[plant.axis].layout->find("label");
+    auto* label = static_cast<StringCell*>(tables.live(plant.axis).at(Kind::String, item->offset));
+    std::int64_t cycle = 0;
+    for (const std::string text : {"one", "one", "two", "", "three"}) {
+        label->assign(text);
+        for (int times = 0; times < 3; ++times) {
+            pool.publish(++cycle, 0, 0);
+            EXPECT_EQ(pool.newest().get<std::string_view>("/axis", "label"), text) << cycle;
+        }
+    }
+}
+
+TEST_F(ImageTest, ShowsATextThatWasCopiedOrStoredAsAWhole) {
+    const TypeLayout& layout = *plant.structure->simplexes[plant.axis].layout;
+    const ItemLayout* item = layout.find("label");
+    const Slice live = tables.live(plant.axis);
+    pool.publish(1, 0, 0);
+    pool.publish(2, 0, 0);
+
+    storeValue(*item->item, std::vector<std::string>{""}, live.at(Kind::String, item->offset));
+    pool.publish(3, 0, 0);
+    EXPECT_EQ(pool.newest().get<std::string_view>("/axis", "label"), "");
+
+    copySlice(layout.cyclic, tables.live(plant.shared), live);
+    pool.publish(4, 0, 0);
+    EXPECT_EQ(pool.newest().get<std::string_view>("/axis", "label"), "axis");
 }
 
 TEST_F(ImageTest, ReadsEveryKindByPathAndItem) {

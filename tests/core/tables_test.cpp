@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/tables.hpp"
 
+#include "cortex/core/error.hpp"
+
 #include "support/small_structure.hpp"
 
 #include <cstdint>
@@ -102,6 +104,17 @@ TEST_F(TablesTest, LatchADelayedOutputForEveryReader) {
     EXPECT_EQ(position(tables.edge(plant.latched)), 2);
     EXPECT_EQ(tables.edge(plant.latched).state->cycle, 3);
     EXPECT_EQ(label(tables.edge(plant.latched)).view(), "moved");
+}
+
+TEST_F(TablesTest, GiveUpALatchThatNobodyAskedForAndSayWhenToAsk) {
+    const Slice kept = tables.edge(plant.latched);
+    tables.giveUpUnusedLatches();
+    position(tables.live(plant.axis)) = 2;
+    tables.latch();
+
+    EXPECT_EQ(position(kept), 2);
+    EXPECT_EQ(tables.edge(plant.latched).state, kept.state);
+    EXPECT_THROW(tables.edge(plant.activeDelayed), Error);
 }
 
 TEST_F(TablesTest, LatchOnlyForWhoReadsDelayed) {

@@ -226,6 +226,38 @@ TEST(ClusterCS, RunsOnTheInternalClockUntilStopped) {
     EXPECT_EQ(cluster.image().get<std::int64_t>("/a", "state"), 0);
 }
 
+// Tasks whose cost nobody could know before: one thread to begin with, then as many as pay.
+TEST(ClusterCS, SharesWorkAmongThreadsOnceItIsMeasuredToBeWorthIt) {
+    SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};
+    std::atomic<std::int64_t> lastCycle{0};
+    std::atomic<int> outOfOrder{0};
+    for (const char* path : {"/a", "/b", "/c", "/d"}) {
+        tree.add<Probe>(path, "Probe").onLoopStart = [&](Probe&, const Tick& tick) {
+            if (tick.cycle < lastCycle.exchange(tick.cycle)) ++outOfOrder;
+            const auto end = std::chrono::steady_clock::now() + 500us;
+            while (std::chrono::steady_clock::now() < end) {
+            }
+        };
+    }
+    cs::ClusterCS cluster{"live", {.threads = 2, .overflow = cs::Overflow::Skip}};
+    if (cs::usableCpus().size() < 2) GTEST_SKIP() << "one CPU";
+    cluster.addSimplexTree(tree);
+    cluster.setTriggerSource<cs::InternalClock>(4ms);
+    cluster.start();
+    EXPECT_EQ(cluster.threadsInUse(), 1U);
+    const auto limit = std::chrono::steady_clock::now() + 60s;
+    while (cluster.threadsInUse() == 1 && std::chrono::steady_clock::now() < limit) {
+        std::this_thread::yield();
+    }
+    EXPECT_EQ(cluster.threadsInUse(), 2U);
+    const std::int64_t before = cluster.image().cycle();
+    while (cluster.image().cycle() < before + 20) std::this_thread::yield();
+
+    EXPECT_EQ(cluster.image().get<std::int64_t>("/live", "threads"), 2);
+    EXPECT_EQ(outOfOrder.load(), 0);
+    EXPECT_TRUE(cluster.stop());
+}
+
 TEST(ClusterCS, ReportsWhatSpeaksAgainstASpinningClock) {
     std::atomic<int> runs{0};
     SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};

@@ -241,6 +241,26 @@ TEST(Scheduler, UsesOneThreadWhereNothingIsParallel) {
     EXPECT_EQ(makeSchedule(graph, {.threads = 4, .costMicroseconds = costs}).threads, 1U);
 }
 
+TEST(Scheduler, ExpectsEachThreadToRunItsShareAfterWhatItWaitsFor) {
+    const TaskGraph graph =
+        graphOf({"/a", "/b", "/c", "/d", "/e"}, {{0, 4}, {1, 4}, {2, 4}, {3, 4}});
+    const std::vector<double> costs = {100, 100, 100, 100, 50};
+    const Schedule one = makeSchedule(graph, {.threads = 1});
+    const Schedule two = makeSchedule(graph, {.threads = 2, .costMicroseconds = costs});
+    ASSERT_EQ(two.threads, 2U);
+
+    EXPECT_DOUBLE_EQ(expectedMicroseconds(one, costs), 450);
+    EXPECT_NEAR(expectedMicroseconds(two, costs), 250, 30);  // and the wake of a thread
+}
+
+TEST(Scheduler, KeepsTheOrderOfTasksWhateverTheyCost) {
+    const TaskGraph graph = graphOf({"/a", "/b", "/c", "/d"}, {{0, 2}, {1, 3}, {0, 3}});
+    const std::vector<double> costs = {1, 100, 40, 3};
+
+    EXPECT_EQ(makeSchedule(graph, {.threads = 2, .costMicroseconds = costs}).tasks,
+              makeSchedule(graph, {.threads = 2}).tasks);
+}
+
 TEST(Scheduler, WeighsATaskByItsRate) {
     TaskGraph graph = graphOf({"/a", "/b"}, {});
     const std::vector<double> costs = {60, 60};

@@ -48,6 +48,9 @@ HandMadeLoop::HandMadeLoop(const Plan& plan)
     agent_ = std::make_unique<AgentRuntime>("test", tree_, options);
     const cs::TaskGraph graph = graphOf(agent_->structure());
     schedule_ = cs::makeSchedule(graph, {.threads = threads, .chunkSize = 1, .force = true});
+    for (std::size_t i = 0; i < schedule_.chunks.size(); ++i) {  // nor behind another chunk
+        schedule_.chunks[i].place = (static_cast<float>(i) + 0.5F) / threads;
+    }
     agent_->setCanonicalOrder(schedule_.order);
     std::vector<cs::SimplexCS*> simplexes;
     for (const std::uint32_t index : schedule_.order) {
@@ -61,7 +64,7 @@ HandMadeLoop::HandMadeLoop(const Plan& plan)
         observation_.events.push_back(seen(event, structure));
     });
     runner_ = std::make_unique<cs::TaskRunner>(*agent_, schedule_, period);
-    group_ = std::make_unique<cs::GroupCommands>(*agent_, simplexes);
+    group_ = std::make_unique<cs::GroupCommands>(*agent_, *runner_, simplexes);
     agent_->start();
 }
 

@@ -149,11 +149,17 @@ private:
     struct {
         LifeCycle command = LifeCycle::None;
         std::string prefix, failures;
+        int listenedTo = -1;
+        std::string heard;  // of that simplex, since it was asked
         std::size_t at = 0;
         bool posted = false, again = false;
         std::int64_t postedAfter = 0;
     } group_;
     Observation observation_;
+
+    void tell(int simplex, const std::string& text) {
+        if (simplex == group_.listenedTo) group_.heard = text;
+    }
 };
 
 }  // namespace cortex::determinism

@@ -204,6 +204,8 @@ bool Reference::groupStep() {
         if (!group_.posted) {
             group_.posted = true;
             group_.postedAfter = task.now;
+            group_.listenedTo = simplex;
+            group_.heard.clear();
             postLifeCycle(simplex, group_.command, false);
             return true;
         }
@@ -213,8 +215,11 @@ bool Reference::groupStep() {
                     : (shutdown || ran) && task.state == State::Fault;
         if (!failed) return true;
         if (!group_.failures.empty()) group_.failures += "; ";
-        group_.failures += at(simplex).path +
-                           " did not follow: " + (task.text.empty() ? name(task.state) : task.text);
+        std::string why = group_.heard;
+        if (why.empty() && task.state == State::Fault)
+            why = item<std::string>(simplex, "faultText");
+        group_.failures +=
+            at(simplex).path + " did not follow: " + (why.empty() ? name(task.state) : why);
         group_.failures = cut(group_.failures, eventCapacity);
         group_.posted = false;
         group_.at = startup ? tasks_.size() : group_.at + 1;

@@ -122,6 +122,7 @@ bool Reference::lifeCycle(int simplex, LifeCycle command) {
     }
     post(simplex, Severity::Warning, EventKind::Refusal, task.text);
     refuseLifeCycle(simplex, command, task.text);
+    tell(simplex, task.text);
     return false;
 }
 
@@ -175,6 +176,7 @@ void Reference::enterFault(int simplex) {
     if (!faultedBefore) enter(simplex, State::Fault);
     item<std::int64_t>(simplex, "faultCode") = task.faultCode;
     item<std::string>(simplex, "faultText") = cut(task.text, 48);
+    tell(simplex, task.text);
     post(simplex, Severity::Error, EventKind::Fault,
          "fault " + std::to_string(task.faultCode) + ": " + task.text);
 }
