@@ -100,7 +100,8 @@ void AgentRuntime::bindSimplexes() {
     ports_.resize(count);
     ranks_.resize(count);
     tableOf_.reserve(count);
-    ownerPeriods_.assign(count, options_.period);
+    while (firstRemote_ < count && !structure_->simplexes[firstRemote_].remote) ++firstRemote_;
+    ownerPeriods_.assign(count - firstRemote_, options_.period);
     calls_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
     callsLater_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
     for (std::uint32_t i = 0; i < count; ++i) {

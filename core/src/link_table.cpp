@@ -47,7 +47,7 @@ void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Sl
     state.cause = state.quality == Quality::Good ? noSimplex : simplex;
     link->freshTime = runtime_.nominalTime();
     link->period = std::max(binding.period, runtime_.options().period);
-    runtime_.ownerPeriods_[simplex] = link->period;
+    runtime_.ownerPeriods_[simplex - runtime_.firstRemote_] = link->period;
     if (!link->bound) post(Severity::Info, simplex, "linked");
     link->bound = true;
     link->told = false;

@@ -78,7 +78,8 @@ DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, std::uin
             item.kind == Kind::Float || (item.kind == Kind::Int && (item.min || item.max));
         items_.push_back({&item, cellOf(live, entry), next, sizeOf(item),
                           asDouble(item.min, -greatest), asDouble(item.max, greatest),
-                          item.rate.value_or(infinity), limited, false});
+                          item.rate.value_or(infinity), limited, false,
+                          item.kind == Kind::Float && item.length == 1 && !item.rate});
         next += alignedSize(item);
     }
     beginnings_.reserve(items_.size() + 1);  // an array may begin two: a limit, then not finite
@@ -105,6 +106,13 @@ LimitResult DemandLimits::apply(double elapsedSeconds) {
     beginnings_.clear();
     for (Item& item : items_) {
         if (!item.limited) continue;
+        if (item.plain) {
+            const double value = *reinterpret_cast<const double*>(item.live);
+            if (value >= item.min && value <= item.max) {
+                item.inEpisode = false;
+                continue;
+            }
+        }
         const bool limitedNow = item.item->kind == Kind::Float
                                     ? applyFloat(item, elapsedSeconds, result)
                                     : applyInt(item, result);

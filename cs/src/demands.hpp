@@ -50,6 +50,7 @@ private:
         std::uint32_t size;  // octets
         double min, max, rate;
         bool limited, inEpisode;
+        bool plain;  // one number without a rate
     };
     bool applyFloat(Item& item, double elapsed, LimitResult& result) CORTEX_REALTIME;
     bool applyInt(Item& item, LimitResult& result) CORTEX_REALTIME;

@@ -88,7 +88,6 @@ struct TaskBuilder {
                        static_cast<std::int64_t>(task.phase) * runner.period_;
         task.measures = info.layout->type->measures;
         TaskDetails& details = runner.details(task);
-        details.transitionTimeout = toNanoseconds(info.layout->type->transitionTimeout);
         details.state = simplex.data<std::int64_t>("state");
         details.faultCode = simplex.data<std::int64_t>("faultCode");
         details.faultText = simplex.data<std::string_view>("faultText");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 
 namespace cortex::cs {
@@ -135,10 +136,11 @@ void TaskRunner::runHooks(Task& task, const Tick& tick, Position& position) {
 
 void TaskRunner::checkTimeout(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
-    const TaskDetails& is = details(task);
-    if (simplex.done_ || tick.nominalTime - is.stateSince < is.transitionTimeout) return;
+    const double timeout = simplex.type().transitionTimeout;
+    const std::int64_t passed = tick.nominalTime - details(task).stateSince;
+    if (simplex.done_ || passed < std::llround(timeout * 1e9)) return;
     EventText text{name(hookOfState[static_cast<std::size_t>(simplex.state_)])};
-    text << " was not done within " << static_cast<double>(is.transitionTimeout) * 1e-9 << " s";
+    text << " was not done within " << timeout << " s";
     simplex.fault(TransitionTimeout, text.view());
 }
 

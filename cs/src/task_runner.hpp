@@ -98,7 +98,6 @@ struct alignas(64) Task {
 struct TaskDetails {
     Arbiter* arbiter = nullptr;
     std::int64_t stateSince = 0;
-    std::int64_t transitionTimeout = 0;  // ns
     Data<std::int64_t> state, faultCode;
     Data<std::string_view> faultText;
     Data<double> taskTime;

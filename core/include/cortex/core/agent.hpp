@@ -99,7 +99,9 @@ public:
     std::uint32_t agentSimplex() const { return agentSimplex_; }  // index of /<name>
     // Of a simplex of another agent: ns between two writings by its owner, at least our period;
     // known when it is linked, from beginCycle() on.
-    const std::int64_t& ownerPeriod(std::uint32_t simplex) const { return ownerPeriods_[simplex]; }
+    const std::int64_t& ownerPeriod(std::uint32_t simplex) const {
+        return ownerPeriods_[simplex - firstRemote_];
+    }
 
     // Step (1) of a task: answers to what it sent, commands of its lanes in canonical order, then
     // from outside, then its long command. What a handler throws passes through. `dead`: a hook of
@@ -174,7 +176,8 @@ private:
     std::vector<CommunicationInterface*> interfaces_;
     std::vector<LoopThread> threads_;
     std::vector<std::uint32_t> ranks_;
-    std::vector<std::int64_t> ownerPeriods_;
+    std::vector<std::int64_t> ownerPeriods_;  // of remote simplexes, which are the last
+    std::uint32_t firstRemote_ = 0;
     // Per simplex, bits: pending life-cycle commands, and whether its port has work.
     static constexpr std::uint8_t commandWork = 1U << 7U;
     std::unique_ptr<std::atomic<std::uint8_t>[]> calls_, callsLater_;
