@@ -25,7 +25,8 @@ SweepPlan plan(const RunOptions& options) {
 double loopSeconds(const RunOptions& options) { return options.quick ? 0.25 : 2; }
 
 double seconds(const RunOptions& options) {
-    return expectedSteps(plan(options)) * (loopSeconds(options) * 1.25 + 0.1);
+    return expectedSteps(plan(options)) *
+           (loopSeconds(options) * 1.25 + settlingSeconds(options) + 0.1);
 }
 
 Figure latencyFigure(const RunOptions& options, const Sweep& sweep) {

@@ -33,7 +33,8 @@ RecordingPlan portion(const RunOptions& options) {
 double seconds(const RunOptions& options) {
     const RecordingPlan each = portion(options);
     return expectedSteps(plan(options)) *
-           (static_cast<double>(each.loopPeriods + each.sleeperPeriods) / options.frequency + 0.1);
+           (static_cast<double>(each.loopPeriods + each.sleeperPeriods) / options.frequency + 0.1 +
+            settlingSeconds(options));
 }
 
 std::string setup(const RunOptions& options, const Sweep& sweep) {

@@ -51,6 +51,10 @@ std::uint32_t loopThreads(const RunOptions& options) {
     return static_cast<std::uint32_t>(std::clamp(usable, 1, 4));
 }
 
+double settlingSeconds(const RunOptions& options) {
+    return options.quick || loopThreads(options) == 1 ? 0 : 1.3;
+}
+
 bool Measured::overflows() const {
     if (duration.percentile(0.99) > period) return true;
     const double sleeper = sleeps == 0 ? 0
@@ -94,6 +98,7 @@ std::unique_ptr<MeasuredLoop> MeasuredLoop::ofPartners(std::int64_t simplexes,
     TimedPartners partners = timedPartners(static_cast<int>(simplexes));
     std::unique_ptr<MeasuredLoop> loop{
         new MeasuredLoop{std::move(partners.tree), simplexes, commands, frequency, options}};
+    loop->settlingPeriods_ = settlingSeconds(options) * frequency;
     loop->first_ = partners.first;
     loop->second_ = partners.second;
     loop->start();
@@ -147,8 +152,10 @@ Measured MeasuredLoop::run(const RecordingPlan& plan, const std::function<bool()
     }
     imagesRead_ = 0;
     const auto begin = std::chrono::steady_clock::now();
+    RecordingPlan settled = plan;
+    settled.runIn = std::max(plan.runIn, static_cast<std::int64_t>(settlingPeriods_));
     clock_->record(
-        plan,
+        settled,
         [this] {
             count(before_);
             if (first_ != nullptr) first_->begin();

@@ -82,6 +82,7 @@ private:
     std::int64_t simplexes_;
     std::uint32_t commands_;
     double period_;  // ns
+    double settlingPeriods_ = 0;
     TimedPartner *first_ = nullptr, *second_ = nullptr;
     std::unique_ptr<cs::ClusterCS> cluster_;
     RecordingClock* clock_ = nullptr;
@@ -93,5 +94,9 @@ private:
 
 // As many as CPUs may be used, at most 4, where the options leave it open.
 std::uint32_t loopThreads(const RunOptions& options);
+
+// How long a loop of partners runs before it is measured: where threads may share its work the
+// library looks after a second at what tasks cost. Not with --quick.
+double settlingSeconds(const RunOptions& options);
 
 }  // namespace cortex::profiler

@@ -41,7 +41,8 @@ double secondsEach(const RunOptions& options) {
 double simplexSweepSeconds(const RunOptions& options) {
     // Clusters of tens of thousands take most of a second to make.
     const double making = 0.5;
-    return expectedSteps(plan(options)) * (secondsEach(options) + making);
+    return expectedSteps(plan(options)) *
+           (secondsEach(options) + settlingSeconds(options) + making);
 }
 
 std::string simplexSweepSetup(const RunOptions& options, const Sweep& sweep) {

@@ -49,9 +49,10 @@ public:
 private:
     Measured measure(double x) {
         const auto loop = subject_.make(x);
-        sweep_.threads = std::max(sweep_.threads, loop->threads());
         noteRefusals(loop->refusals(), results_);
-        return loop->run(subject_.plan(x), [this] { return !steps_.keepsOn(); });
+        Measured measured = loop->run(subject_.plan(x), [this] { return !steps_.keepsOn(); });
+        sweep_.threads = std::max(sweep_.threads, loop->threads());
+        return measured;
     }
 
     Sweep& sweep_;
