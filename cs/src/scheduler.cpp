@@ -111,6 +111,7 @@ private:
     std::span<const Index> before(Index node) const;
     void cutLevel(std::span<const Index> chains);
     void openChunk();
+    void placeChunks(std::size_t first, double levelCost);
     void addToOpenChunk(Index chain);
     void prune(Index chunk, std::vector<Index>& named, std::vector<Index>& coveredFor) const;
 
@@ -273,15 +274,21 @@ void Builder::cutLevel(std::span<const Index> chains) {
     }
     const auto width = static_cast<Index>(schedule_.chunks.size() - firstChunk);
     openHoldsWholeLevels_ = width == 1;
-    double before = 0;
-    for (std::size_t i = firstChunk; width > 1 && i < schedule_.chunks.size(); ++i) {
-        schedule_.chunks[i].place = static_cast<float>(before / levelCost);
-        before += chunkCost_[i];
-    }
+    placeChunks(firstChunk, levelCost);
     widestLevel_ = std::max(widestLevel_, width);
     serialCost_ += levelCost;
     const double shared = levelCost / std::max(1U, std::min(width, options_.threads));
     parallelCost_ += width == 1 ? levelCost : std::max(largest, shared) + LevelMicroseconds;
+}
+
+/// By the cost of those before them; a level of mere joins has none.
+void Builder::placeChunks(std::size_t first, double levelCost) {
+    constexpr double last = 0.9999;
+    double before = 0;
+    for (std::size_t i = first; levelCost > 0 && i < schedule_.chunks.size(); ++i) {
+        schedule_.chunks[i].place = static_cast<float>(std::min(before / levelCost, last));
+        before += chunkCost_[i];
+    }
 }
 
 void Builder::cutChunks() {

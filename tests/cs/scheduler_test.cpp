@@ -253,6 +253,27 @@ TEST(Scheduler, ExpectsEachThreadToRunItsShareAfterWhatItWaitsFor) {
     EXPECT_NEAR(expectedMicroseconds(two, costs), 250, 30);  // and the wake of a thread
 }
 
+// Many writers and many readers of simplexes without a task: joins, some of them a level of their
+// own.
+TEST(Scheduler, PlacesEveryChunkWithinItsLevelAlsoWhereNothingCosts) {
+    TaskGraph graph;
+    for (std::uint32_t i = 0; i < 22; ++i) {
+        graph.nodes.push_back({"/" + std::to_string(i), i < 10 || i >= 12, 1, 0});
+    }
+    for (std::uint32_t join : {10U, 11U}) {
+        for (std::uint32_t i = 0; i < 10; ++i) graph.edges.emplace_back(i, join);
+        for (std::uint32_t i = 12; i < 22; ++i) graph.edges.emplace_back(join, i);
+    }
+    const Schedule schedule = makeSchedule(graph, {.threads = 4, .chunkSize = 1, .force = true});
+
+    EXPECT_TRUE(std::ranges::any_of(schedule.chunks, [](const Chunk& c) { return c.count == 0; }));
+    for (const Chunk& chunk : schedule.chunks) {
+        EXPECT_GE(chunk.place, 0);
+        EXPECT_LT(chunk.place, 1);
+    }
+    EXPECT_GT(expectedMicroseconds(schedule, std::vector<double>(22)), 0);
+}
+
 TEST(Scheduler, KeepsTheOrderOfTasksWhateverTheyCost) {
     const TaskGraph graph = graphOf({"/a", "/b", "/c", "/d"}, {{0, 2}, {1, 3}, {0, 3}});
     const std::vector<double> costs = {1, 100, 40, 3};
