@@ -192,12 +192,15 @@ std::vector<Slice> Tables::makeLatches() {
     return latches;
 }
 
-Slice Tables::wanted(const Slice& slice) {
+Slice Tables::wanted(const Slice& slice, std::uint32_t edge) {
     const auto latch = std::ranges::lower_bound(latches_, slice.state, std::less<>{}, stateOfCopy);
     const bool isLatch = latch != latches_.end() && latch->to.state == slice.state;
     if (!isLatch) return slice;
     if (gaveUp_ && !latch->used) {
-        throw Error("data along a delayed relationship is asked for in populate(), not later");
+        const Edge& relation = structure_->edges[edge];
+        throw Error(structure_->simplexes[relation.owner].path + ": rule '" + relation.rule->name +
+                    "' is delayed: ask for data of " + structure_->simplexes[relation.target].path +
+                    " in populate(), not later");
     }
     latch->used = true;
     return slice;

@@ -206,7 +206,7 @@ void ClusterCS::startAll() {
                                       : clampThreads(self.options.threads, self.options.priority,
                                                      self.options.cpus, realtimeReport);
     AgentOptions options;
-    options.imageReaders = self.options.imageReaders;
+    options.imageReaders = self.options.imageReaders + 1;  // who looks at task times
     options.loopThreads = threads;
     options.controlRequired = self.options.controlRequired;
     options.period = self.trigger->period();

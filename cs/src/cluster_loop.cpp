@@ -47,11 +47,13 @@ void ClusterLoop::start() {
     watchdog_ = std::make_unique<Watchdog>(
         runner_, agent_, limit,
         [this](const Tick& tick, const HungHook& hook) { hung(tick, hook); });
+    startRescheduler();
     ended_.store(Ended::Running, std::memory_order_release);
     thread_ = std::thread{[this] { run(); }};
     ready_.wait(false);
     if (failure_) {
         thread_.join();
+        rescheduler_.reset();
         watchdog_.reset();
         ended_.store(Ended::NotStarted, std::memory_order_release);
         std::rethrow_exception(failure_);
@@ -99,10 +101,10 @@ void ClusterLoop::prepareThread() {
 }
 
 void ClusterLoop::run() {
+    loopThread_.store(pthread_self());
     try {
         prepareThread();
         trigger_.skipMissed(options_.overflow != Overflow::CatchUp);
-        startRescheduler();
         trigger_.start();
         for (std::string& line : trigger_.report()) realtimeReport_.push_back(std::move(line));
     } catch (...) {
@@ -182,17 +184,17 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     watchdog_->cycleEnds();
 }
 
-// Only where threads may share work, in real time: elsewhere there is nothing to gain.
+// Only where threads may share work, in real time: elsewhere there is nothing to gain. On the
+// program's thread, so that its own has neither the loop's priority nor its CPU.
 void ClusterLoop::startRescheduler() {
     const bool mayShare = agent_.threadCount() > 1 && !options_.forceThreads;
     if (!mayShare || !makeSchedule_ || !trigger_.realTime()) return;
-    const auto loop = pthread_self();
     rescheduler_ = std::make_unique<Rescheduler>(
         agent_, plan_->schedule,
-        Rescheduler::Maker{makeSchedule_, [this, loop](Schedule schedule) {
+        Rescheduler::Maker{makeSchedule_, [this](Schedule schedule) {
                                auto plan = std::make_unique<Plan>(Plan{std::move(schedule), {}});
                                plan->pool = makePool(plan->schedule);
-                               plan->pool->placeLoopThread(loop);
+                               plan->pool->placeLoopThread(loopThread_.load());
                                return plan;
                            }});
 }

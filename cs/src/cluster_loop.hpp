@@ -76,6 +76,7 @@ private:
     std::unique_ptr<Rescheduler> rescheduler_;
     std::unique_ptr<Watchdog> watchdog_;
     std::atomic<std::uint32_t> threads_{1};
+    std::atomic<std::thread::native_handle_type> loopThread_{};
     std::thread thread_;
     std::atomic<bool> ready_{false}, finished_{false};
     std::exception_ptr failure_;  // of the start, for start() to throw

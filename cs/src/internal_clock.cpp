@@ -2,6 +2,7 @@
 #include "cortex/core/error.hpp"
 #include "cortex/cs/trigger_source.hpp"
 
+#include "pause_briefly.hpp"
 #include "realtime_thread.hpp"
 
 #include <algorithm>
@@ -27,15 +28,6 @@ void sleepUntil(std::int64_t deadline) {
                         static_cast<long>(deadline % second)};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == EINTR) {
     }
-}
-
-// Leaves the core to its other hardware thread, and to the hypervisor, while nothing is to be done.
-void pauseBriefly() noexcept {
-#if defined(__x86_64__)
-    __builtin_ia32_pause();
-#elif defined(__aarch64__)
-    asm volatile("yield");
-#endif
 }
 
 }  // namespace

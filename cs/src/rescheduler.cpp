@@ -9,6 +9,7 @@ namespace cortex::cs {
 namespace {
 
 constexpr std::chrono::milliseconds longestPause{60'000};
+constexpr std::chrono::milliseconds exchangePause{100};  // until the loop has taken an offer
 constexpr double worthwhile = 0.8;  // of the time that the plan in use is expected to take
 
 // Timing a task takes two readings of the clock, of which one falls into the time.
@@ -21,6 +22,25 @@ double timingCost() {
 }
 
 }  // namespace
+
+double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds) {
+    std::vector<double> threads(std::max(1U, schedule.threads)), finished;
+    finished.reserve(schedule.chunks.size());
+    for (const Chunk& chunk : schedule.chunks) {
+        double& thread =
+            threads[static_cast<std::size_t>(chunk.place * static_cast<float>(threads.size()))];
+        for (std::uint32_t i = 0; i < chunk.predecessorCount; ++i) {
+            thread = std::max(thread, finished[schedule.predecessors[chunk.firstPredecessor + i]]);
+        }
+        for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
+            const double cost = costMicroseconds[schedule.tasks[i]];
+            thread += cost > 0 ? cost : AssumedTaskMicroseconds;
+        }
+        finished.push_back(thread);
+    }
+    return *std::max_element(threads.begin(), threads.end()) +
+           (threads.size() > 1 ? WakeMicroseconds : 0);
+}
 
 Rescheduler::Rescheduler(AgentRuntime& agent, const Schedule& inUse, Maker maker,
                          std::chrono::milliseconds first)
@@ -50,23 +70,44 @@ bool Rescheduler::exchange(Plan*& plan) {
 }
 
 void Rescheduler::run() {
+    bool offered = false;
     std::unique_lock lock{mutex_};
-    while (!wake_.wait_for(lock, pause_, [this] { return stopping_; })) {
-        delete returned_.exchange(nullptr, std::memory_order_acq_rel);
-        if (offered_.load(std::memory_order_acquire) == nullptr) look();
+    while (!wake_.wait_for(lock, offered ? exchangePause : pause_, [this] { return stopping_; })) {
+        if (offered) {
+            const std::unique_ptr<Plan> old{returned_.exchange(nullptr, std::memory_order_acq_rel)};
+            offered = old == nullptr;
+            continue;
+        }
+        look();
+        offered = offered_.load(std::memory_order_relaxed) != nullptr;
         pause_ = std::min(2 * pause_, longestPause);
     }
 }
 
+// Where the system has no thread or memory left for another plan, the one in use stays.
 void Rescheduler::look() {
+    try {
+        offer();
+    } catch (const std::exception& error) {
+        EventText text{"no other plan for the loop: "};
+        Event event;
+        event.severity = Severity::Warning;
+        event.simplex = agent_.agentSimplex();
+        event.text = text << error.what();
+        agent_.events().postOutside(event);
+    }
+}
+
+void Rescheduler::offer() {
     const std::vector<double> costs = measuredCosts();
     if (costs.empty()) return;
     Schedule schedule = maker_.schedule(costs);
     const bool better =
         expectedMicroseconds(schedule, costs) < worthwhile * expectedMicroseconds(inUse_, costs);
     if (!better || schedule.tasks != inUse_.tasks) return;
-    inUse_ = schedule;
-    offered_.store(maker_.plan(std::move(schedule)).release(), std::memory_order_release);
+    std::unique_ptr<Plan> plan = maker_.plan(schedule);
+    inUse_ = std::move(schedule);
+    offered_.store(plan.release(), std::memory_order_release);
 }
 
 // What the simplexes say of their task time, no further than a factor of two from what they said at

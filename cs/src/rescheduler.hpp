@@ -12,10 +12,15 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <thread>
 #include <vector>
 
 namespace cortex::cs {
+
+/// How long a cycle takes if tasks (by node) cost so much: each thread runs its chunks in order, as
+/// soon as their predecessors have run.
+double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds);
 
 // Which chunks the loop runs, and the threads that run them.
 struct Plan {
@@ -31,7 +36,8 @@ public:
         std::function<Schedule(std::span<const double> costs)> schedule;
         std::function<std::unique_ptr<Plan>(Schedule)> plan;
     };
-    // `first`: between the start and the first look; doubled after each, up to a minute.
+    // `first`: between the start and the first look; doubled after each, up to a minute. Made on a
+    // thread without real-time priority: its own has what the maker's has.
     Rescheduler(AgentRuntime& agent, const Schedule& inUse, Maker maker,
                 std::chrono::milliseconds first = std::chrono::seconds{1});
     ~Rescheduler();
@@ -42,6 +48,7 @@ public:
 private:
     void run();
     void look();
+    void offer();
     std::vector<double> measuredCosts();
 
     AgentRuntime& agent_;

@@ -14,10 +14,8 @@ namespace {
 using Index = std::uint32_t;
 constexpr Index None = std::numeric_limits<Index>::max();
 
-constexpr double AssumedTaskMicroseconds = 0.05;
 constexpr double LeastTaskMicroseconds = 0.01;
 constexpr double ChunkMicroseconds = 4.0;  // a ticket costs 0.05 to 0.2
-constexpr double WakeMicroseconds = 20.0;  // what a sleeping worker costs before it helps
 constexpr double LevelMicroseconds = 0.5;  // waiting for the chunks of the level before
 constexpr std::size_t MostInlinedEdges = 64;
 constexpr std::size_t MostPruningSteps = 1024;
@@ -345,25 +343,6 @@ Schedule Builder::finish() {
 }
 
 }  // namespace
-
-double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds) {
-    std::vector<double> threads(std::max<Index>(1, schedule.threads)), finished;
-    finished.reserve(schedule.chunks.size());
-    for (const Chunk& chunk : schedule.chunks) {
-        double& thread =
-            threads[static_cast<std::size_t>(chunk.place * static_cast<float>(threads.size()))];
-        for (Index i = 0; i < chunk.predecessorCount; ++i) {
-            thread = std::max(thread, finished[schedule.predecessors[chunk.firstPredecessor + i]]);
-        }
-        for (Index i = chunk.first; i < chunk.first + chunk.count; ++i) {
-            const double cost = costMicroseconds[schedule.tasks[i]];
-            thread += cost > 0 ? cost : AssumedTaskMicroseconds;
-        }
-        finished.push_back(thread);
-    }
-    return *std::max_element(threads.begin(), threads.end()) +
-           (threads.size() > 1 ? WakeMicroseconds : 0);
-}
 
 std::vector<std::uint32_t> canonicalOrder(const TaskGraph& graph) {
     const std::size_t count = graph.nodes.size();

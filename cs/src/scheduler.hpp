@@ -48,16 +48,15 @@ struct Schedule {
     std::uint32_t threads = 1;
 };
 
+inline constexpr double AssumedTaskMicroseconds = 0.05;  // of a task whose cost is not known
+inline constexpr double WakeMicroseconds = 20.0;  // what a sleeping worker costs before it helps
+
 struct ScheduleOptions {
     std::uint32_t threads = 1;                   // at most
     std::uint32_t chunkSize = 0;                 // tasks in a chunk; 0: by cost
     std::span<const double> costMicroseconds{};  // one per node, 0: unknown; empty: all are
     bool force = false;                          // use all threads even where one is faster
 };
-
-/// How long a cycle takes if tasks (by node) cost so much: each thread runs its chunks in order, as
-/// soon as their predecessors have run.
-double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds);
 
 /// Topological, ties by path. Throws LoopError.
 std::vector<std::uint32_t> canonicalOrder(const TaskGraph& graph);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "thread_pool.hpp"
 
+#include "pause_briefly.hpp"
 #include "realtime_thread.hpp"
 
 #include <algorithm>
@@ -10,14 +11,6 @@ namespace cortex::cs {
 namespace {
 
 constexpr std::uint32_t EpochStep = 2;  // WakeWord keeps the lowest bit
-
-void pauseBriefly() noexcept {
-#if defined(__x86_64__)
-    __builtin_ia32_pause();
-#elif defined(__aarch64__)
-    asm volatile("yield");
-#endif
-}
 
 }  // namespace
 

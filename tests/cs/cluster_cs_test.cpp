@@ -7,7 +7,10 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <thread>
+
+#include <sched.h>
 
 #include <gtest/gtest.h>
 
@@ -256,6 +259,29 @@ TEST(ClusterCS, SharesWorkAmongThreadsOnceItIsMeasuredToBeWorthIt) {
     EXPECT_EQ(cluster.image().get<std::int64_t>("/live", "threads"), 2);
     EXPECT_EQ(outOfOrder.load(), 0);
     EXPECT_TRUE(cluster.stop());
+}
+
+std::size_t realTimeThreads() {
+    std::size_t count = 0;
+    for (const auto& task : std::filesystem::directory_iterator{"/proc/self/task"}) {
+        if (sched_getscheduler(std::stoi(task.path().filename())) == SCHED_FIFO) ++count;
+    }
+    return count;
+}
+
+// A thread that makes plans or watches would hold the loop up at the loop's own priority.
+TEST(ClusterCS, GivesItsPriorityToTheThreadsOfTheLoopOnly) {
+    if (cs::usableCpus().size() < 2) GTEST_SKIP() << "one CPU";
+    SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};
+    tree.add<Probe>("/a", "Probe");
+    cs::ClusterCS cluster{"live", {.threads = 2, .priority = 10, .lockMemory = false}};
+    cluster.addSimplexTree(tree);
+    cluster.setTriggerSource<cs::InternalClock>(1ms);
+    cluster.start();
+    if (!cluster.realtimeReport().empty()) GTEST_SKIP() << cluster.realtimeReport().front();
+    ASSERT_EQ(cluster.threadsInUse(), 1U);
+
+    EXPECT_EQ(realTimeThreads(), 1U);
 }
 
 TEST(ClusterCS, ReportsWhatSpeaksAgainstASpinningClock) {

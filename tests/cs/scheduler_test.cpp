@@ -2,6 +2,7 @@
 #include "scheduler.hpp"
 
 #include "cs/graphs.hpp"
+#include "rescheduler.hpp"
 
 #include <algorithm>
 

@@ -47,9 +47,9 @@ public:
     Slice constants(std::uint32_t simplex) const;  // state is null
     // What the owner of edge `index` sees: live, latch, held copy, or its candidate to write to.
     // Setup: throws Error where it is a latch that was given up.
-    Slice edge(std::uint32_t index) { return wanted(viewOf(index).seen); }
+    Slice edge(std::uint32_t index) { return wanted(viewOf(index).seen, index); }
     // What that slice is filled from: for a held copy the live or latched source, else itself.
-    Slice edgeSource(std::uint32_t index) { return wanted(viewOf(index).source); }
+    Slice edgeSource(std::uint32_t index) { return wanted(viewOf(index).source, index); }
 
     // Copies every simplex that has delayed readers; at the start of a cycle.
     void latch() CORTEX_REALTIME;
@@ -87,7 +87,7 @@ private:
     };
     View viewOf(std::uint32_t edge) const;
     static const SlotState* stateOfCopy(const Latch& latch);
-    Slice wanted(const Slice& slice);
+    Slice wanted(const Slice& slice, std::uint32_t edge);
     void resolveEdges(const std::vector<Slice>& latches);
 
     std::shared_ptr<const Structure> structure_;

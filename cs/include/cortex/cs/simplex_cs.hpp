@@ -46,7 +46,7 @@ protected:
     virtual void loopEnd(const Tick&) CORTEX_REALTIME {}
 
     // In a hook: enter Fault when this task ends. The first fault of a cycle is kept. Throws Error
-    // elsewhere.
+    // before the first tick.
     void fault(std::int64_t code, std::string_view text) CORTEX_REALTIME;
     // In a hook: own quality and that of the outputs in this cycle, instead of what follows from
     // the inputs; `measuredAt`: nominal time of the measurement, default this cycle.
