@@ -43,7 +43,6 @@ void AgentRuntime::beginCycle(const Tick& tick) {
     threads_[0].sequence = 0;
     threads_[0].clock = {tick.cycle, nanosecondsNow()};
     tables_->latch();
-    for (Lane* lane : delayedLanes_) lane->latch();
     if (anyLater_.load(std::memory_order_relaxed)) releaseLifeCycles();
     router_->read(interfaces_);
     processTaskless();
@@ -78,7 +77,7 @@ void AgentRuntime::releaseLifeCycles() {
 
 void AgentRuntime::processTaskless() {
     const auto process = [&](std::uint32_t simplex) {
-        if (!hasCommandWork(simplex)) return;
+        if (!hasCommandWork(calls(simplex))) return;
         try {
             processCommands(simplex, State::Active, threads_[0]);
         } catch (...) {  // no task to put into Fault: the event and the answer must do
@@ -102,7 +101,7 @@ bool AgentRuntime::cancelActivity(std::uint32_t simplex, LoopThread& thread, boo
 
 LifeCycle AgentRuntime::takeLifeCycle(std::uint32_t simplex, LoopThread& thread) {
     std::atomic<std::uint8_t>& word = calls_[simplex];
-    if (!hasLifeCycle(simplex)) return LifeCycle::None;
+    if (!hasLifeCycle(calls(simplex))) return LifeCycle::None;
     const std::uint8_t bits = word.fetch_and(commandWork, std::memory_order_relaxed);
     for (const LifeCycle command : {LifeCycle::Shutdown, LifeCycle::ClearFaults}) {
         if ((bits & bitOf(command)) == 0) continue;

@@ -189,22 +189,25 @@ void AgentRuntime::makeLanes() {
     for (const auto& sender : senders_) {
         lanes[{rank(structure_->edges[sender->edge].owner), sender->edge}].push_back(sender.get());
     }
+    std::vector<LaneBlock::Plan> plans;
     for (auto& [key, handles] : lanes) {
         const Edge& edge = structure_->edges[key.second];
         Lane::Shape shape{
             edge.owner, edge.target, 0, 0, 0, edge.delayed, commands(edge.target).hasLong};
         for (std::uint16_t i = 0; CommandSender::State * handle : handles) {
             handle->handle = i++;
-            handle->sender = &portOf(edge.owner);
             shape.capacity += handle->capacity;
-            shape.requestSize = std::max(shape.requestSize, handle->requestSize);
-            shape.responseSize = std::max(shape.responseSize, handle->responseSize);
+            shape.requestSize = std::max(shape.requestSize, handle->requestSize());
+            shape.responseSize = std::max(shape.responseSize, handle->responseSize());
         }
-        Lane& lane = *lanes_.emplace_back(std::make_unique<Lane>(shape, handles));
-        for (CommandSender::State* handle : handles) handle->lane = &lane;
-        portOf(edge.owner).addSending(lane);
-        portOf(edge.target).addReceiving(lane);
-        if (edge.delayed) delayedLanes_.push_back(&lane);
+        plans.push_back({shape, std::move(handles)});
+    }
+    lanes_ = std::make_unique<LaneBlock>(std::move(plans));
+    for (Lane* lane : lanes_->lanes()) {
+        CommandPort& sender = portOf(lane->shape().sender);
+        lane->setSender(sender);
+        sender.addSending(*lane);
+        portOf(lane->shape().receiver).addReceiving(*lane);
     }
 }
 

@@ -145,19 +145,20 @@ CommandTable commandTable(const Type& type) {
                                  recordLayout(command.request),
                                  recordLayout(command.response),
                                  command.available,
+                                 !command.isLong,
                                  {},
                                  {}});
         table.hasLong = table.hasLong || command.isLong;
     }
     if (table.hasLong) {
-        table.entries.push_back({nullptr, "cancel", {}, {}, StateSet::always(), {}, {}});
+        table.entries.push_back({nullptr, "cancel", {}, {}, StateSet::always(), false, {}, {}});
     }
     for (const DataItem& item : type.data) {
         if (!item.settable.empty()) table.settable.push_back(&item);
     }
     if (!table.settable.empty()) {
         table.entries.push_back(
-            {nullptr, "set", setLayout(table.settable), {}, StateSet::always(), {}, {}});
+            {nullptr, "set", setLayout(table.settable), {}, StateSet::always(), false, {}, {}});
     }
     for (CommandTable::Entry& entry : table.entries) {
         entry.checks = compileChecks(entry.request);

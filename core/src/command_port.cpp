@@ -14,6 +14,13 @@ Origin originOf(Lane* lane, OutsideEntry* outside) {
     return {lane, lane->number(), head.handle, nullptr, head.cycles, head.time};
 }
 
+Verdict shortVerdict(Outcome outcome, const Call& call) {
+    if (outcome == Outcome::Running) {
+        return {Outcome::Failed, Reason::None, "only a long command may go on running"};
+    }
+    return verdictOf(outcome, call);
+}
+
 void refuse(Verdict& verdict, Reason reason, const EventText& why) {
     verdict = {Outcome::Rejected, reason, why};
 }
@@ -35,8 +42,8 @@ EventText stateRefusal(std::string_view what, StateSet needs, State state) {
 CommandPort::CommandPort(AgentRuntime& runtime, std::uint32_t simplex, const CommandTable& table)
     : thread_{&runtime.thread(0)},
       table_{table},
-      handlers_{std::make_unique<Handler[]>(table.entries.size())},
       stateless_{runtime.structure().simplexes[simplex].role != Role::Active},
+      handlers_{std::make_unique<Handler[]>(table.entries.size())},
       runtime_{runtime},
       simplex_{simplex} {
     if (table.hasLong) activity_ = std::make_unique<Activity>(runtime, simplex, table);
@@ -53,7 +60,7 @@ void CommandPort::addReceiving(Lane& lane) {
         receiving_ = &lane;
     else
         moreReceiving_.push_back(&lane);
-    hasMore_ = hasMore_ || !moreReceiving_.empty();
+    more_ = more_ || !moreReceiving_.empty();
     callFor(true);
 }
 
@@ -62,7 +69,7 @@ void CommandPort::addSending(Lane& lane) {
         sending_ = &lane;
     else
         moreSending_.push_back(&lane);
-    hasMore_ = hasMore_ || !moreSending_.empty();
+    more_ = more_ || !moreSending_.empty();
     callFor(true);
 }
 
@@ -80,35 +87,92 @@ bool CommandPort::hasPassingWork() const {
     return outside_ != nullptr || (activity_ != nullptr && activity_->running());
 }
 
-void CommandPort::process(State state, LoopThread& thread, bool dead) {
-    thread_ = &thread;
-    state_ = state;
-    dead_ = dead;
-    startedNow_ = false;
-    if (sending_ != nullptr) sending_->takeAnswers();
-    for (std::size_t i = 0; hasMore_ && i < moreSending_.size(); ++i) {
-        moreSending_[i]->takeAnswers();
+// A handler cannot add to the lane that it is called from: its sender is another.
+inline void CommandPort::drain(Lane& lane) {
+    for (std::int32_t left = lane.pending(thread_->clock.cycle); left > 0; --left) {
+        if (!takePlainly(lane)) take(lane);
     }
+}
+
+void CommandPort::process(State state, LoopThread& thread, bool dead) {
+    if (thread_ != &thread) thread_ = &thread;
+    if (state_ != state) state_ = state;
+    if (dead_ != dead) dead_ = dead;
+    if (more_) return processAll();
+    const std::int64_t cycle = thread.clock.cycle;
+    if (sending_ != nullptr) {
+        sending_->beginSending(cycle);
+        sending_->takeAnswers(cycle);
+    }
+    if (receiving_ != nullptr) {
+        receiving_->beginReceiving(cycle);
+        drain(*receiving_);
+    }
+}
+
+void CommandPort::beginLanes() {
+    const std::int64_t cycle = thread_->clock.cycle;
+    if (sending_ != nullptr) sending_->beginSending(cycle);
+    for (Lane* lane : moreSending_) lane->beginSending(cycle);
+    if (receiving_ != nullptr) receiving_->beginReceiving(cycle);
+    for (Lane* lane : moreReceiving_) lane->beginReceiving(cycle);
+}
+
+void CommandPort::processAll() {
+    startedNow_ = false;
+    beginLanes();
+    const std::int64_t cycle = thread_->clock.cycle;
+    if (sending_ != nullptr) sending_->takeAnswers(cycle);
+    for (Lane* lane : moreSending_) lane->takeAnswers(cycle);
     if (receiving_ != nullptr) drain(*receiving_);
-    for (std::size_t i = 0; hasMore_ && i < moreReceiving_.size(); ++i) drain(*moreReceiving_[i]);
+    for (Lane* lane : moreReceiving_) drain(*lane);
     if (outside_ != nullptr) drainOutside();
     if (activity_ != nullptr && activity_->running()) stepActivity();
+    more_ = !moreSending_.empty() || !moreReceiving_.empty() || hasPassingWork();
     if (sending_ == nullptr && receiving_ == nullptr && !hasPassingWork()) callFor(false);
 }
 
-void CommandPort::drain(Lane& lane) {
-    while (lane.pending()) {
-        LaneSlot& head = lane.front();
-        Verdict verdict;
-        try {
-            execute(head.command, lane.requestOf(head), lane.responseOf(head), &lane, nullptr,
-                    verdict);
-        } catch (...) {
-            answer(lane, head, {Outcome::Failed, Reason::None, "its handler threw"});
-            throw;
-        }
-        answer(lane, head, verdict);
+// Nearly every command: short, accepted, Done. False: nothing has happened yet.
+bool CommandPort::takePlainly(Lane& lane) {
+    LaneSlot& head = lane.front();
+    const CommandTable::Entry& entry = table_.entries[head.command];
+    const std::byte* request = lane.requestOf(head);
+    if (!entry.isShort || dead_ || !entry.available.has(state_)) return false;
+    for (const ArgumentCheck& check : entry.checks) {
+        if (!plainlyGood(check, request)) return false;
     }
+    const Handler& handler = handlerOf(head.command);
+    if (handler.function == nullptr) return false;
+    std::byte* response = lane.responseOf(head);
+    copyRecord(response, entry.emptyResponse.data(), entry.response.size);
+    Call call{request, response};
+    call.setTime(thread_->nominalTime, thread_->nominalTime);
+    Outcome outcome = Outcome::None;
+    try {
+        outcome = handler(call);
+    } catch (...) {
+        answer(lane, head, {Outcome::Failed, Reason::None, "its handler threw"});
+        throw;
+    }
+    if (outcome == Outcome::Done) [[likely]] {
+        lane.answerDone(head, thread_->clock);
+        countExecuted(head.time);
+    } else {
+        answer(lane, head, shortVerdict(outcome, call));
+    }
+    return true;
+}
+
+void CommandPort::take(Lane& lane) {
+    LaneSlot& head = lane.front();
+    Verdict verdict;
+    try {
+        execute(head.command, lane.requestOf(head), lane.responseOf(head), &lane, nullptr, verdict);
+    } catch (...) {
+        answer(lane, head, {Outcome::Failed, Reason::None, "its handler threw"});
+        throw;
+    }
+    answer(lane, head, verdict);
 }
 
 void CommandPort::answer(Lane& lane, LaneSlot& head, const Verdict& verdict) {
@@ -158,7 +222,7 @@ void CommandPort::execute(std::uint32_t command, const std::byte* request, std::
     }
     copyRecord(response, entry.emptyResponse.data(), entry.response.size);
     if (!accepted(entry, request, verdict)) return;
-    const Handler& handler = handlers_[command];
+    const Handler& handler = handlerOf(command);
     if (handler.function == nullptr) {
         refuse(verdict, Reason::UnknownCommand, EventText{entry.name} << " has no handler");
         return;
@@ -170,12 +234,7 @@ void CommandPort::execute(std::uint32_t command, const std::byte* request, std::
     Call call{request, response};
     call.setTime(thread_->nominalTime, thread_->nominalTime);
     if (outside != nullptr) call.setSender(&outside->sender);
-    verdict.outcome = handler(call);
-    if (verdict.outcome == Outcome::Done) return;
-    verdict = verdictOf(verdict.outcome, call);
-    if (verdict.outcome == Outcome::Running) {
-        verdict = {Outcome::Failed, Reason::None, "only a long command may go on running"};
-    }
+    verdict = shortVerdict(handler(call), call);
 }
 
 bool CommandPort::accepted(const CommandTable::Entry& entry, const std::byte* request,
@@ -208,6 +267,7 @@ void CommandPort::startActivity(std::uint32_t command, const std::byte* request,
         activity_->cancel(thread_->clock, true, "replaced by a newer request");
     }
     startedNow_ = true;
+    more_ = true;
     cancelWhy_ = nullptr;
     activity_->start(entry, handlers_[command], request, origin, verdict);
     copyRecord(response, activity_->response(), entry.response.size);
@@ -276,6 +336,8 @@ void CommandPort::stepActivity() {
 
 bool CommandPort::cancelActivity(LoopThread& thread, bool callHandler, std::string_view why) {
     if (activity_ == nullptr || !activity_->running()) return true;
+    thread_ = &thread;
+    beginLanes();  // the handler may send
     try {
         activity_->cancel(thread.clock, callHandler, why);
     } catch (...) {
@@ -291,6 +353,7 @@ void CommandPort::enqueue(OutsideEntry& entry) {
     while (*place != nullptr && (*place)->before(entry)) place = &(*place)->next;
     entry.next = *place;
     *place = &entry;
+    more_ = true;
     callFor(true);
 }
 
@@ -299,13 +362,10 @@ const OutsideEntry* CommandPort::activityOrigin() const {
 }
 
 void CommandPort::count(const Verdict& verdict, std::int64_t latency) {
-    if (verdict.outcome == Outcome::Rejected || verdict.outcome == Outcome::Expired) {
+    if (verdict.outcome == Outcome::Rejected || verdict.outcome == Outcome::Expired)
         ++thread_->rejected;
-        return;
-    }
-    ++thread_->commands;
-    thread_->lastLatency = latency;
-    ++thread_->latencyCounts[latencyBucket(latency)];
+    else
+        countExecuted(latency);
 }
 
 Outcome CommandPort::mailboxFull(CommandSender::State& state) {

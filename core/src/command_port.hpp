@@ -54,7 +54,18 @@ private:
     };
     void callFor(bool work) CORTEX_REALTIME;  // sets or clears the simplex's bit
     bool hasPassingWork() const CORTEX_REALTIME;
+    void processAll();
+    void beginLanes() CORTEX_REALTIME;
+    const Handler& handlerOf(std::uint32_t command) CORTEX_REALTIME {
+        if (command != recentCommand_) {
+            recentCommand_ = command;
+            recent_ = handlers_[command];
+        }
+        return recent_;
+    }
     void drain(Lane& lane);
+    bool takePlainly(Lane& lane);
+    void take(Lane& lane);
     void drainOutside();
     void stepActivity();
     // `outside`: where it came from; null: along a lane.
@@ -67,22 +78,29 @@ private:
     void set(const std::byte* request, Verdict& verdict);
     void answer(Lane& lane, LaneSlot& head, const Verdict& verdict);
     void count(const Verdict& verdict, std::int64_t latency) CORTEX_REALTIME;
+    void countExecuted(std::int64_t latency) CORTEX_REALTIME {
+        ++thread_->commands;
+        thread_->lastLatency = latency;
+        ++thread_->latencyCounts[latencyBucket(latency)];
+    }
     bool settable(const Target& target, const std::byte* request, Verdict& verdict) const;
 
-    // What every command touches: one cache line.
+    // What every command touches: one cache line, which nothing is written to that has not changed.
     LoopThread* thread_ = nullptr;
     const CommandTable& table_;
-    OutsideEntry* outside_ = nullptr;
-    std::unique_ptr<Activity> activity_;
     Lane* receiving_ = nullptr;  // the first, mostly the only one
     Lane* sending_ = nullptr;
-    std::unique_ptr<Handler[]> handlers_;  // by command
+    Handler recent_;  // of the command that came last
+    std::uint32_t recentCommand_ = CommandTable::none;
     State state_ = State::Standby;
     bool stateless_;           // a descriptive simplex: always settable
     bool dead_ = false;        // a hook threw: no handler may run
+    bool more_ = false;        // than the first lanes: others, from outside, a long command
     bool startedNow_ = false;  // the activity had its call of this step
-    bool hasMore_ = false;     // lanes than the first ones
 
+    OutsideEntry* outside_ = nullptr;
+    std::unique_ptr<Activity> activity_;
+    std::unique_ptr<Handler[]> handlers_;  // by command
     std::vector<Lane*> moreReceiving_, moreSending_;
     const char* cancelWhy_ = nullptr;
     std::vector<Target> targets_;

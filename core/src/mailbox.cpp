@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <memory>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -51,105 +53,150 @@ Verdict verdictOf(Outcome outcome, const Call& call) {
     return verdict;
 }
 
+namespace {
+
+constexpr std::size_t lineSize = 64;
+
+std::uint32_t slotsOf(const Lane::Shape& shape) {
+    return std::bit_ceil(std::max(shape.capacity, 1U));
+}
+
+std::size_t linesOfSlot(const Lane::Shape& shape) {
+    return (sizeof(LaneSlot) + shape.requestSize + shape.responseSize + lineSize - 1) / lineSize;
+}
+
+}  // namespace
+
 Lane::Lane(const Shape& shape, std::vector<CommandSender::State*> handles)
-    : onlyHandle_{handles.size() == 1 ? handles.front() : nullptr},
-      capacity_{shape.capacity},
+    : capacity_{shape.capacity},
+      onlyHandle_{handles.size() == 1 ? handles.front() : nullptr},
+      lines_{static_cast<std::uint16_t>(linesOfSlot(shape))},
       requestWords_{static_cast<std::uint16_t>(shape.requestSize / 8U)},
-      bits_{static_cast<std::uint8_t>(std::bit_width(std::max(shape.capacity, 1U) - 1U))},
+      bits_{static_cast<std::uint8_t>(std::bit_width(slotsOf(shape)) - 1)},
       delayed_{shape.delayed},
       hasLong_{shape.hasLong},
       rest_{std::make_unique<Rest>(Rest{shape, std::move(handles), {}, {}, {}, {}})} {
-    const auto octets =
-        static_cast<std::uint32_t>(sizeof(LaneSlot)) + shape.requestSize + shape.responseSize;
-    lines_ = static_cast<std::uint16_t>((octets + lineSize - 1U) / lineSize);
-    const std::size_t slots = std::size_t{1} << bits_;
-    rest_->whys.resize(slots);
-    rest_->memory.resize(lines_ * slots);
-    slots_ = rest_->memory.front().octets;
-    for (std::uint64_t i = 0; i < slots; ++i) new (place(i)) LaneSlot;
+    rest_->whys.resize(slotsOf(shape));
+    rest_->counts.resize(onlyHandle_ == nullptr ? rest_->handles.size() : 0);
+    for (std::uint32_t i = 0; i < slotsOf(shape); ++i) new (place(i)) LaneSlot;
     if (!hasLong_) return;
-    rest_->finals.resize(capacity_ + 1U);
+    rest_->finals.resize(std::bit_ceil(capacity_ + 1U));
     rest_->finalResponses =
         std::make_unique<std::byte[]>(rest_->finals.size() * shape.responseSize);
 }
 
-void Lane::finish(const AnswerHead& answer, std::uint16_t handle, const std::byte* response,
-                  std::uint32_t size) {
-    const std::size_t place = finalTail_ % rest_->finals.size();
-    rest_->finals[place] = {answer, handle};
-    copyRecord(&rest_->finalResponses[place * rest_->shape.responseSize], response, size);
-    ++finalTail_;
+std::size_t Lane::octets(const Shape& shape) {
+    return sizeof(Lane) + slotsOf(shape) * linesOfSlot(shape) * lineSize;
 }
 
-void Lane::takeFinals() {
-    const std::uint64_t end = delayed_ ? latchedFinalTail_ : finalTail_;
-    for (; finalTaken_ != end; ++finalTaken_) {
-        const std::size_t place = finalTaken_ % rest_->finals.size();
-        const Final& final = rest_->finals[place];
+std::uint64_t Lane::sent(std::uint16_t handle) const {
+    if (onlyHandle_ == nullptr) return rest_->counts[handle].sent;
+    return taken_ + low(now(tail_) - taken_);
+}
+
+std::uint64_t Lane::answered(std::uint16_t handle) const {
+    return onlyHandle_ != nullptr ? taken_ : rest_->counts[handle].answered;
+}
+
+LaneBlock::LaneBlock(std::vector<Plan> plans) {
+    std::size_t octets = 0;
+    for (const Plan& plan : plans) octets += Lane::octets(plan.shape);
+    memory_.resize(octets / lineSize);
+    std::byte* place = memory_.empty() ? nullptr : memory_.front().octets;
+    for (Plan& plan : plans) {
+        const std::vector<CommandSender::State*> handles = plan.handles;
+        lanes_.push_back(new (place) Lane{plan.shape, std::move(plan.handles)});
+        for (CommandSender::State* handle : handles) handle->lane = lanes_.back();
+        place += Lane::octets(plan.shape);
+    }
+}
+
+LaneBlock::~LaneBlock() {
+    for (Lane* lane : lanes_) std::destroy_at(lane);
+}
+
+void Lane::finish(const AnswerHead& answer, std::uint16_t handle, const std::byte* response,
+                  std::uint32_t size, std::int64_t cycle) {
+    note(cycle, finalTail_, finalStart_);
+    const std::size_t place = now(finalTail_) & (rest_->finals.size() - 1U);
+    rest_->finals[place] = {answer, handle};
+    copyRecord(&rest_->finalResponses[place * rest_->shape.responseSize], response, size);
+    advance(finalTail_);
+}
+
+void Lane::takeFinals(std::int64_t cycle) {
+    const std::uint32_t end = seen(cycle, finalTail_, finalStart_);
+    for (; distance(finalTaken_, end) > 0; ++finalTaken_) {
+        const std::size_t place = finalTaken_ & (rest_->finals.size() - 1U);
+        Final& final = rest_->finals[place];
+        final.answer.number = taken_ - low(taken_ - final.answer.number);  // was modulo 2^32
         handle(final.handle)
             .storeFinal(final.answer, &rest_->finalResponses[place * rest_->shape.responseSize]);
     }
 }
 
-void Lane::latch() {
-    latchedTail_ = low(tail_);
-    latchedHead_ = low(head_);
-    latchedFinalTail_ = finalTail_;
-}
-
 CommandSender::State::State(const CommandTable& commands, std::uint32_t entry,
                             std::uint32_t edgeIndex, std::uint32_t room)
-    : requestSize{commands.entries[entry].request.size},
-      responseSize{commands.entries[entry].response.size},
-      command{static_cast<std::uint16_t>(entry)},
+    : command{static_cast<std::uint16_t>(entry)},
       table{&commands},
       edge{edgeIndex},
-      capacity{room} {
-    const std::size_t words = (requestSize + responseSize) / 8U;
-    if (words > smallRecords.size()) records.resize(words);
-    request = reinterpret_cast<std::byte*>(records.empty() ? smallRecords.data() : records.data());
-    response = request + requestSize;
-    initialiseRecord(commands.entries[entry].request, request);
-    initialiseRecord(commands.entries[entry].response, response);
+      capacity{room},
+      sizes{commands.entries[entry].request.size, commands.entries[entry].response.size} {
+    const std::uint32_t words = (sizes.first + sizes.second) / 8U;
+    if (words > smallRecords.size()) {
+        records.resize(words);
+        requestWords = recordsApart;
+    } else {
+        requestWords = static_cast<std::uint8_t>(sizes.first / 8U);
+        responseWords = static_cast<std::uint8_t>(sizes.second / 8U);
+    }
+    initialiseRecord(commands.entries[entry].request, request());
+    initialiseRecord(commands.entries[entry].response, response());
 }
 
 void CommandSender::State::storeFinal(const AnswerHead& head, const std::byte* record) {
     answer = head;
     worded = true;
-    copyRecord(response, record, responseSize);
+    copyRecord(response(), record, responseSize());
 }
 
 Outcome CommandSender::send() {
     State& state = *state_;
     if (state.lane == nullptr) return Outcome::MailboxFull;  // before start()
     state.answer.outcome = Outcome::None;
-    if (state.lane->post(state.command, state.handle, state.request, state.requestSize,
-                         state.sender->thread().clock) == 0) {
-        return state.sender->mailboxFull(state);
+    CommandPort& sender = state.lane->sender();
+    if (!state.lane->post(state.command, state.handle, state.request(), state.requestSize(),
+                          sender.thread().clock)) {
+        return sender.mailboxFull(state);
     }
-    state.full = false;
-    ++state.sent;
+    if (state.full) state.full = false;
     return Outcome::None;
 }
 
 const AnswerHead& CommandSender::answer() const { return state_->answer; }
-std::uint64_t CommandSender::sent() const { return state_->sent; }
-std::uint64_t CommandSender::answered() const { return state_->answered; }
+
+std::uint64_t CommandSender::sent() const {
+    return state_->lane != nullptr ? state_->lane->sent(state_->handle) : 0;
+}
+
+std::uint64_t CommandSender::answered() const {
+    return state_->lane != nullptr ? state_->lane->answered(state_->handle) : 0;
+}
 
 std::pair<void*, std::size_t> CommandSender::argumentCells(std::string_view name, Kind kind,
                                                            bool array) {
     const ItemLayout& item = parameterAt(state_.get(), name, {kind, array}, true);
     const CommandTable::Entry& entry = state_->table->entries[state_->command];
     if (entry.command == nullptr) {  // `set`: the flag of this item
-        state_->request[&item - entry.request.items.data()] = std::byte{1};
+        state_->request()[&item - entry.request.items.data()] = std::byte{1};
     }
-    return {state_->request + item.offset, item.item->length};
+    return {state_->request() + item.offset, item.item->length};
 }
 
 std::pair<const void*, std::size_t> CommandSender::responseCells(std::string_view name, Kind kind,
                                                                  bool array) {
     const ItemLayout& item = parameterAt(state_.get(), name, {kind, array}, false);
-    return {state_->response + item.offset, item.item->length};
+    return {state_->response() + item.offset, item.item->length};
 }
 
 }  // namespace cortex

@@ -185,7 +185,7 @@ void Router::watch(OutsideEntry& entry) {
     } else if (entry.moved) {
         settle(entry, {Outcome::Failed, Reason::None, EventText{"it is back in "} << name(state)},
                clock);
-    } else if (!runtime_.hasLifeCycle(entry.simplex)) {
+    } else if (!AgentRuntime::hasLifeCycle(runtime_.calls(entry.simplex))) {
         if (entry.takenCycle == 0) entry.takenCycle = cycle();
         if (cycle() <= entry.takenCycle + 1) return;
         ++runtime_.thread(0).rejected;

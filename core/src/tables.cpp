@@ -258,6 +258,11 @@ std::pair<std::size_t, std::size_t> Tables::textsInArena() const {
     return {BlockOffsets{structure_->cyclic}.strings, structure_->cyclic.strings};
 }
 
+std::span<SlotState> Tables::states() const {
+    const std::size_t count = structure_->simplexes.size();
+    return {count > 0 ? live(0).state : nullptr, count};
+}
+
 Slice Tables::live(std::uint32_t simplex) const { return sliceIn(arena_.get(), simplex); }
 
 Slice Tables::constants(std::uint32_t simplex) const {

@@ -44,7 +44,10 @@ void GroupCommands::registerHandler(std::string_view name) {
 }
 
 Outcome GroupCommands::handle(LifeCycle command, Call& call, Argument<std::string_view> prefix) {
-    if (call.cancelling()) return Outcome::Cancelled;
+    if (call.cancelling()) {
+        runner_.listenTo(noSimplex);
+        return Outcome::Cancelled;
+    }
     if (stopping_) return call.fail("the cluster is stopping");
     if (call.first()) {
         begin(command, call[prefix]);
@@ -83,7 +86,6 @@ bool GroupCommands::step() {
         }
         if (!posted_) {
             posted_ = true;
-            postedAfter_ = simplex.now_;
             runner_.listenTo(simplex.index());
             agent_.postLifeCycle(simplex.index(), command_, false);
             return true;
@@ -94,6 +96,7 @@ bool GroupCommands::step() {
         // What comes after relies on it; a shutdown goes on all the same.
         at_ = command_ == LifeCycle::Startup ? order_.size() : at_ + 1;
     }
+    runner_.listenTo(noSimplex);
     if (command_ != LifeCycle::Shutdown || std::exchange(again_, true) || !anyWorks()) return false;
     at_ = 0;
     return step();
@@ -139,7 +142,7 @@ bool GroupCommands::reached(const SimplexCS& simplex) const {
 }
 
 bool GroupCommands::failed(const SimplexCS& simplex) const {
-    const bool ran = simplex.now_ > postedAfter_;
+    const bool ran = runner_.heardRun();
     switch (command_) {
         case LifeCycle::Startup:
             return simplex.state_ == State::Fault || (ran && simplex.state_ == State::Standby);

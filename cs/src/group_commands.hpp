@@ -55,7 +55,6 @@ private:
     bool again_ = false;  // the second round of a shutdown
     bool anyFailed_ = false;
     bool stopping_ = false;
-    std::int64_t postedAfter_ = 0;  // nominal time of the member's last run before
 };
 
 }  // namespace cortex::cs

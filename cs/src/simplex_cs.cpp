@@ -16,9 +16,10 @@ void SimplexCS::fault(std::int64_t code, std::string_view text) {
 }
 
 void SimplexCS::setQuality(Quality quality, std::int64_t measuredAt) {
+    if (thread_ == nullptr) return;  // not in a tick
     qualitySet_ = true;
     quality_ = quality;
-    if (thread_ != nullptr) thread_->measuredAt = measuredAt < 0 ? now_ : measuredAt;
+    thread_->measuredAt = measuredAt < 0 ? thread_->loop->nominalTime : measuredAt;
 }
 
 void SimplexCS::event(Severity severity, const EventText& text) {

@@ -80,19 +80,19 @@ struct TaskBuilder {
         auto& simplex = static_cast<SimplexCS&>(agent.simplex(index));
         task.simplex = &simplex;
         task.index = index;
-        task.own = agent.tables().live(index).state;
-        task.every = info.every;
-        task.phase = info.phase >= 0 ? static_cast<std::uint32_t>(info.phase) % info.every
-                                     : agent.rank(index) % info.every;
-        task.lastRun = -static_cast<std::int64_t>(info.every) * runner.period_ +
-                       static_cast<std::int64_t>(task.phase) * runner.period_;
+        task.everyCycle = info.every == 1;
         task.measures = info.layout->type->measures;
         TaskDetails& details = runner.details(task);
+        details.every = info.every;
+        details.phase = info.phase >= 0 ? static_cast<std::uint32_t>(info.phase) % info.every
+                                        : agent.rank(index) % info.every;
+        details.lastRun = -static_cast<std::int64_t>(info.every) * runner.period_ +
+                          static_cast<std::int64_t>(details.phase) * runner.period_;
         details.state = simplex.data<std::int64_t>("state");
         details.faultCode = simplex.data<std::int64_t>("faultCode");
         details.faultText = simplex.data<std::string_view>("faultText");
         details.taskTime = simplex.data<double>("taskTime");
-        *task.own = {0, 0, index, Quality::Stale};
+        runner.states_[index] = {0, 0, index, Quality::Stale};
         task.firstInput = static_cast<std::uint32_t>(runner.inputs_.size());
         task.firstOutput = static_cast<std::uint32_t>(runner.outputs_.size());
         for (const Edge& edge : edgesOf(index)) {
@@ -180,6 +180,7 @@ struct TaskBuilder {
 TaskRunner::TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64_t period)
     : agent_{agent},
       structure_{agent.structure()},
+      states_{agent.tables().states().data()},
       period_{period},
       chunks_{schedule.chunks},
       threads_(agent.threadCount()),

@@ -115,33 +115,6 @@ void TaskRunner::inputLost(Task& task, TaskInput& input, const Tick& tick) {
     }
 }
 
-// What its own state, and what the task said itself, make of the quality of its inputs.
-void TaskRunner::settleQuality(const Task& task, const Tick& tick, SlotState& state) const {
-    const SimplexCS& simplex = *task.simplex;
-    if (task.measures && !simplex.dead_)
-        state = {tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
-    else if (simplex.state_ == State::Fault && state.quality < Quality::Bad) {
-        state.quality = Quality::Bad;
-        state.cause = task.index;
-    } else if (simplex.state_ != State::Active && state.quality < Quality::Stale) {
-        state.quality = Quality::Stale;
-        state.cause = task.index;
-    }
-    if (!simplex.qualitySet_) return;
-    state.quality = simplex.quality_;
-    state.time = simplex.thread_->measuredAt;
-    state.cause = simplex.quality_ == Quality::Good ? noSimplex : task.index;
-}
-
-void TaskRunner::finish(Task& task, const Tick& tick, SlotState state) {
-    if (task.limits) limitOutputs(task, tick);
-    settleQuality(task, tick, state);
-    *task.own = state;
-    for (std::uint32_t i = 0; i < task.outputCount; ++i) {
-        *outputs_[task.firstOutput + i].state = state;
-    }
-}
-
 // Each demand that this task alone writes. What is not a number or faults the task becomes safe,
 // and no demand moves further than its rate allows, safe or not.
 void TaskRunner::limitOutputs(Task& task, const Tick& tick) {
@@ -217,7 +190,7 @@ void TaskRunner::arbitrate(Arbiter& arbiter, TaskThread& thread) {
     arbiter.inConflict = active > 1;
     copySlice(arbiter.sizes, chosen.slice, arbiter.live);
     if (arbiter.limits == nullptr) return;
-    const double elapsed = static_cast<double>(cycleElapsed_) * 1e-9;
+    const double elapsed = tick_.elapsedSeconds();
     const LimitResult result = arbiter.limits->apply(elapsed);
     if (result.any) ++thread.limits;
     // Events here are the shared simplex's: its writer's own may come from another thread.

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <span>
+#include <utility>
 
 namespace cortex::cs {
 
@@ -29,9 +31,9 @@ const char* name(Hook hook) {
 }
 
 void TaskRunner::beginCycle(const Tick& tick) {
-    cycleElapsed_ = tick.elapsed;
     halted_ = haltNext_;
     haltNext_ = false;
+    anyMayMove_ = halted_ || forced_ || listenedTo_ != noSimplex;
     tick_ = tick;
     if (!chunks_.empty())
         timedChunk_ = (timedChunk_ + 1) % static_cast<std::uint32_t>(chunks_.size());
@@ -41,12 +43,11 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
     TaskThread& thread = threads_[worker];
     Position& position = positions_[worker];
     thread.loop->clock = {tick_.cycle, monotonicNow()};
-    const Chunk& work = chunks_[chunk];
-    for (std::uint32_t i = work.first; i < work.first + work.count; ++i) {
-        if (chunk == timedChunk_)
-            runTimed(tasks_[i], thread, position);
-        else
-            runTask(tasks_[i], thread, position);
+    const std::span tasks{tasks_.data() + chunks_[chunk].first, chunks_[chunk].count};
+    if (chunk == timedChunk_) {
+        for (Task& task : tasks) runTimed(task, thread, position);
+    } else {
+        for (Task& task : tasks) runTask(task, thread, position);
     }
     position.simplex.store(noSimplex, std::memory_order_relaxed);
     at(position, Hook::None);
@@ -54,38 +55,50 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
 
 void TaskRunner::runTimed(Task& task, TaskThread& thread, Position& position) {
     const std::int64_t start = monotonicNow();
-    runTask(task, thread, position);
-    if (task.simplex != nullptr && task.lastRun == tick_.nominalTime) {
-        details(task).taskTime = static_cast<double>(monotonicNow() - start) * 1e-3;
-    }
+    if (!runTask(task, thread, position)) return;
+    details(task).taskTime = static_cast<double>(monotonicNow() - start) * 1e-3;
 }
 
 // Whether step (1) may change the state; mostly nothing has happened that could.
-bool TaskRunner::mayMove(const Task& task) const {
+bool TaskRunner::mayMove(const Task& task, std::uint8_t calls) const {
     const SimplexCS& simplex = *task.simplex;
-    return halted_ || forced_ || simplex.done_ || simplex.faultPending_ || simplex.demandRefused_ ||
-           agent_.hasLifeCycle(task.index);
+    return anyMayMove_ || simplex.done_ || simplex.faultPending_ || simplex.demandRefused_ ||
+           AgentRuntime::hasLifeCycle(calls);
 }
 
-void TaskRunner::runTask(Task& task, TaskThread& thread, Position& position) {
-    if (task.simplex == nullptr) return arbitrate(*details(task).arbiter, thread);
-    if (task.every != 1 && !halted_ && !forced_ &&
-        static_cast<std::uint64_t>(tick_.cycle - 1) % task.every != task.phase) {
-        return;
+bool TaskRunner::runTask(Task& task, TaskThread& thread, Position& position) {
+    if (!task.everyCycle) return runAtTimes(task, thread, position);
+    if (task.simplex == nullptr) {
+        arbitrate(*details(task).arbiter, thread);
+        return false;
     }
+    runSimplex(task, tick_, thread, position);
+    return true;
+}
+
+bool TaskRunner::runAtTimes(Task& task, TaskThread& thread, Position& position) {
+    TaskDetails& is = details(task);
+    const bool itsTurn = static_cast<std::uint64_t>(tick_.cycle - 1) % is.every == is.phase;
+    if (!itsTurn && !halted_ && !forced_) return false;
+    Tick tick = tick_;
+    tick.elapsed = tick.nominalTime - std::exchange(is.lastRun, tick.nominalTime);
+    runSimplex(task, tick, thread, position);
+    return true;
+}
+
+// Of the simplex and its task nothing is written here that has not changed: what is only read need
+// not go back to the memory.
+inline void TaskRunner::runSimplex(Task& task, const Tick& tick, TaskThread& thread,
+                                   Position& position) {
     SimplexCS& simplex = *task.simplex;
-    const Tick tick{tick_.cycle, tick_.nominalTime, tick_.nominalTime - task.lastRun,
-                    tick_.lateness};
-    task.lastRun = tick.nominalTime;
-    simplex.now_ = tick.nominalTime;
-    simplex.thread_ = &thread;
-    simplex.qualitySet_ = false;
+    if (simplex.thread_ != &thread) simplex.thread_ = &thread;
     position.simplex.store(task.index, std::memory_order_relaxed);
     SlotState state{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     try {
         at(position, Hook::Commands);
-        if (mayMove(task)) transition(task, tick);
-        if (agent_.hasCommandWork(task.index)) {
+        const std::uint8_t calls = agent_.calls(task.index);
+        if (mayMove(task, calls)) transition(task, tick);
+        if (AgentRuntime::hasCommandWork(calls)) {
             agent_.processCommands(task.index, simplex.state_, *thread.loop, simplex.dead_);
         }
         if (task.inputCount != 0) state = readInputs(task, tick);
@@ -98,10 +111,15 @@ void TaskRunner::runTask(Task& task, TaskThread& thread, Position& position) {
         simplex.dead_ = true;
     }
     if (simplex.faultPending_) enterFault(task, tick);
-    finish(task, tick, state);
+    if (task.limits) limitOutputs(task, tick);
+    settleQuality(task, tick, state);
+    states_[task.index] = state;
+    for (std::uint32_t i = 0; i < task.outputCount; ++i) {
+        *outputs_[task.firstOutput + i].state = state;
+    }
 }
 
-void TaskRunner::runHooks(Task& task, const Tick& tick, Position& position) {
+inline void TaskRunner::runHooks(Task& task, const Tick& tick, Position& position) {
     SimplexCS& simplex = *task.simplex;
     const State state = simplex.state_;
     if (state == State::Standby || state == State::Fault) writeSafe(task);
@@ -117,7 +135,7 @@ void TaskRunner::runHooks(Task& task, const Tick& tick, Position& position) {
             simplex.done_ = simplex.stateStartingUp(tick);
             break;
         case State::Active:
-            if (task.simplex->safeByLoss_)
+            if (simplex.safeByLoss_)
                 writeSafe(task);
             else
                 simplex.stateActive(tick);
@@ -134,6 +152,25 @@ void TaskRunner::runHooks(Task& task, const Tick& tick, Position& position) {
     if (state == State::StartingUp || state == State::ShuttingDown) checkTimeout(task, tick);
 }
 
+// What its own state, and what the task said itself, make of the quality of its inputs.
+inline void TaskRunner::settleQuality(const Task& task, const Tick& tick, SlotState& state) const {
+    SimplexCS& simplex = *task.simplex;
+    if (task.measures && !simplex.dead_)
+        state = {tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
+    else if (simplex.state_ == State::Fault && state.quality < Quality::Bad) {
+        state.quality = Quality::Bad;
+        state.cause = task.index;
+    } else if (simplex.state_ != State::Active && state.quality < Quality::Stale) {
+        state.quality = Quality::Stale;
+        state.cause = task.index;
+    }
+    if (!simplex.qualitySet_) return;
+    simplex.qualitySet_ = false;
+    state.quality = simplex.quality_;
+    state.time = simplex.thread_->measuredAt;
+    state.cause = simplex.quality_ == Quality::Good ? noSimplex : task.index;
+}
+
 void TaskRunner::checkTimeout(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     const double timeout = simplex.type().transitionTimeout;
@@ -146,6 +183,7 @@ void TaskRunner::checkTimeout(Task& task, const Tick& tick) {
 
 void TaskRunner::transition(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
+    if (task.index == listenedTo_) heardRun_ = true;
     for (std::uint32_t i = 0; simplex.demandRefused_ && i < task.outputCount; ++i) {
         TaskOutput& output = outputs_[task.firstOutput + i];
         if (output.refused.faulting == nullptr) continue;

@@ -81,22 +81,22 @@ struct Arbiter {
     bool inConflict = false;
 };
 
-// What the loop looks at in every cycle: one cache line a task, in execution order.
-struct alignas(64) Task {
+// What the loop looks at in every cycle: half a cache line a task, in execution order.
+struct alignas(32) Task {
     SimplexCS* simplex = nullptr;  // null: an arbiter
-    SlotState* own = nullptr;
-    std::int64_t lastRun = 0;
     std::uint32_t index = noSimplex;
-    std::uint32_t every = 1, phase = 0;
     std::uint32_t firstInput = 0, inputCount = 0;
     std::uint32_t firstOutput = 0, outputCount = 0;
+    bool everyCycle = true;
     bool measures = false;
     bool limits = false;  // an output of its own has limits
 };
 
-// What it looks at when something happens.
+// What it looks at when something happens, or where a task does not run in every cycle.
 struct TaskDetails {
     Arbiter* arbiter = nullptr;
+    std::uint32_t every = 1, phase = 0;
+    std::int64_t lastRun = 0;
     std::int64_t stateSince = 0;
     Data<std::int64_t> state, faultCode;
     Data<std::string_view> faultText;
@@ -142,22 +142,29 @@ public:
     const Position& position(std::uint32_t worker) const { return positions_[worker]; }
     RunnerCounts counts() const;
 
-    // From now on: why that simplex refuses or faults. Loop thread, between cycles.
+    // From now on: whether that simplex ran, and why it refuses or faults; `noSimplex`: none. Loop
+    // thread, between cycles.
     void listenTo(std::uint32_t simplex) CORTEX_REALTIME {
         listenedTo_ = simplex;
+        heardRun_ = false;
         heard_ = {};
     }
+    bool heardRun() const { return heardRun_; }
     const EventText& heard() const { return heard_; }
 
 private:
     friend struct TaskBuilder;
 
-    void runTask(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
+    // False: it is not its turn, or nobody's task.
+    bool runTask(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
+    bool runAtTimes(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
+    void runSimplex(Task& task, const Tick& tick, TaskThread& thread, Position& position)
+        CORTEX_REALTIME;
     void runTimed(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
     TaskDetails& details(const Task& task) {
         return details_[static_cast<std::size_t>(&task - tasks_.data())];
     }
-    bool mayMove(const Task& task) const CORTEX_REALTIME;
+    bool mayMove(const Task& task, std::uint8_t calls) const CORTEX_REALTIME;
     void runHooks(Task& task, const Tick& tick, Position& position) CORTEX_REALTIME;
     void transition(Task& task, const Tick& tick) CORTEX_REALTIME;
     bool lifeCycle(Task& task, LifeCycle command, const Tick& tick) CORTEX_REALTIME;
@@ -167,7 +174,6 @@ private:
     SlotState readInputs(Task& task, const Tick& tick) CORTEX_REALTIME;
     SlotState readInput(Task& task, TaskInput& input, const Tick& tick) CORTEX_REALTIME;
     void inputLost(Task& task, TaskInput& input, const Tick& tick) CORTEX_REALTIME;
-    void finish(Task& task, const Tick& tick, SlotState state) CORTEX_REALTIME;
     void limitOutputs(Task& task, const Tick& tick) CORTEX_REALTIME;
     EventText refusal(const LimitResult& result, std::uint32_t target) const CORTEX_REALTIME;
     void reportLimits(const DemandLimits& limits, std::uint32_t simplex, LoopThread& thread)
@@ -181,6 +187,7 @@ private:
 
     AgentRuntime& agent_;
     const Structure& structure_;
+    SlotState* states_;  // by simplex
     std::int64_t period_;
     std::span<const Chunk> chunks_;
     std::vector<Task> tasks_;           // in execution order
@@ -195,10 +202,11 @@ private:
     std::unique_ptr<Position[]> positions_;
     Tick tick_;
     std::uint32_t listenedTo_ = noSimplex;
-    EventText heard_;                // written by the task of that simplex
-    std::int64_t cycleElapsed_ = 0;  // ns of nominal time since the last cycle
+    bool heardRun_ = false;  // written by the task of that simplex
+    EventText heard_;        // likewise
     std::uint32_t timedChunk_ = 0;
     bool haltNext_ = false, halted_ = false, forced_ = false, stopping_ = false;
+    bool anyMayMove_ = false;  // in this cycle, without a call of its own
 };
 
 }  // namespace cortex::cs

@@ -16,50 +16,64 @@ struct Mailbox : testing::Test {
     const CommandTable table = commandTable(types.at("Worker"));
     CommandSender::State add{table, table.find("add"), 0, 4};
     CommandSender::State work{table, table.find("work"), 0, 4};
-    std::unique_ptr<Lane> lane;
+    std::unique_ptr<LaneBlock> block;
+    Lane* lane = nullptr;
 
     void make(std::uint32_t capacity, bool delayed = false) {
-        lane = std::make_unique<Lane>(
-            Lane::Shape{0, 1, capacity, add.requestSize, add.responseSize, delayed, true},
-            std::vector{&add, &work});
+        block = std::make_unique<LaneBlock>(std::vector<LaneBlock::Plan>{
+            {{0, 1, capacity, add.requestSize(), add.responseSize(), delayed, true},
+             {&add, &work}}});
+        lane = block->lanes().front();
     }
-    std::uint64_t post(double amount, std::int64_t cycle = 0) {
-        *reinterpret_cast<double*>(add.request) = amount;
-        return lane->post(add.command, 0, add.request, add.requestSize, {cycle, cycle * 1000});
+    std::int64_t cycle = 1;
+
+    ChunkClock clock() const { return {cycle, cycle * 1000}; }
+    bool post(double amount) {
+        *reinterpret_cast<double*>(add.request()) = amount;
+        lane->beginSending(cycle);
+        return lane->post(add.command, 0, add.request(), add.requestSize(), clock());
     }
-    double take(std::int64_t cycle = 0) {
+    bool pending() const { return lane->pending(cycle) > 0; }
+    void answer(const Verdict& verdict) {
+        lane->beginReceiving(cycle);
+        lane->answer(lane->front(), verdict, clock());
+        lane->pop();
+    }
+    double take() {
         const double amount = *reinterpret_cast<const double*>(lane->requestOf(lane->front()));
         *reinterpret_cast<double*>(lane->responseOf(lane->front())) = amount * 2;
-        lane->answer(lane->front(), {}, {cycle, cycle * 1000});
-        lane->pop();
+        answer({});
         return amount;
     }
-    double response() const { return *reinterpret_cast<const double*>(add.response); }
+    void takeAnswers() { lane->takeAnswers(cycle); }
+    double response() { return *reinterpret_cast<const double*>(add.response()); }
 };
 
 TEST_F(Mailbox, CarriesCommandsInOrderAndTheirAnswersBack) {
     make(4);
-    EXPECT_EQ(post(1), 1U);
-    EXPECT_EQ(post(2), 2U);
+    EXPECT_TRUE(post(1));
+    EXPECT_TRUE(post(2));
 
     EXPECT_EQ(lane->number(), 1U);
     EXPECT_EQ(take(), 1);
-    lane->takeAnswers();
+    takeAnswers();
     EXPECT_EQ(response(), 2);
     EXPECT_EQ(take(), 2);
-    EXPECT_FALSE(lane->pending());
-    lane->takeAnswers();
+    EXPECT_FALSE(pending());
+    takeAnswers();
 
     EXPECT_EQ(response(), 4);
     EXPECT_EQ(add.answer.number, 2U);
-    EXPECT_EQ(add.answered, 2U);
+    EXPECT_EQ(lane->answered(0), 2U);
 }
 
 TEST_F(Mailbox, CountsTheLatencyInCyclesAndNanoseconds) {
     make(4);
-    post(1, 10);
-    take(13);
-    lane->takeAnswers();
+    cycle = 10;
+    post(1);
+    cycle = 13;
+    take();
+    takeAnswers();
 
     EXPECT_EQ(add.answer.latencyCycles, 3);
     EXPECT_EQ(add.answer.latency, 3000);
@@ -67,23 +81,24 @@ TEST_F(Mailbox, CountsTheLatencyInCyclesAndNanoseconds) {
 
 TEST_F(Mailbox, LatencyIsNeverNegativeWhereTheReceiversChunkBeganEarlier) {
     make(4);
-    post(1, 10);
+    cycle = 10;
+    post(1);
     lane->answer(lane->front(), {}, {10, 9000});
     lane->pop();
-    lane->takeAnswers();
+    takeAnswers();
 
     EXPECT_EQ(add.answer.latency, 0);
 }
 
 TEST_F(Mailbox, HoldsItsCapacityUntilTheSenderHasTakenTheAnswers) {
     make(3);
-    for (int i = 1; i <= 3; ++i) EXPECT_NE(post(i), 0U);
-    EXPECT_EQ(post(4), 0U);
+    for (int i = 1; i <= 3; ++i) EXPECT_TRUE(post(i));
+    EXPECT_FALSE(post(4));
     take();
-    EXPECT_EQ(post(4), 0U);  // room for the answer is kept
-    lane->takeAnswers();
-    EXPECT_EQ(post(4), 4U);
-    EXPECT_EQ(post(5), 0U);
+    EXPECT_FALSE(post(4));  // room for the answer is kept
+    takeAnswers();
+    EXPECT_TRUE(post(4));
+    EXPECT_FALSE(post(5));
 }
 
 TEST_F(Mailbox, GoesRoundForEverWithoutLosingOrRepeating) {
@@ -91,35 +106,55 @@ TEST_F(Mailbox, GoesRoundForEverWithoutLosingOrRepeating) {
     std::uint64_t sent = 0, taken = 0;
     for (int round = 0; round < 200; ++round) {
         for (int i = 0; i < round % 4 + 1; ++i) {
-            if (post(static_cast<double>(sent + 1)) != 0) ++sent;
+            if (post(static_cast<double>(sent + 1))) ++sent;
         }
-        for (int i = 0; i < round % 3 + 1 && lane->pending(); ++i) {
+        for (int i = 0; i < round % 3 + 1 && pending(); ++i) {
             EXPECT_EQ(take(), static_cast<double>(++taken));
         }
-        lane->takeAnswers();
-        EXPECT_EQ(add.answered, taken);
+        takeAnswers();
+        EXPECT_EQ(lane->answered(0), taken);
     }
     EXPECT_GT(taken, 300U);
 }
 
-TEST_F(Mailbox, DelayedEndsSeeEachOtherOnlyAfterTheLatch) {
+TEST_F(Mailbox, DelayedEndsSeeEachOtherOnlyInTheNextCycle) {
     make(2, true);
     post(1);
-    EXPECT_FALSE(lane->pending());
-    lane->latch();
-    EXPECT_TRUE(lane->pending());
+    EXPECT_FALSE(pending());
+    ++cycle;
+    EXPECT_TRUE(pending());
     post(2);
     take();
-    EXPECT_FALSE(lane->pending());  // the second came after the latch
+    EXPECT_FALSE(pending());  // the second came in this cycle
 
-    lane->takeAnswers();
-    EXPECT_EQ(add.answered, 0U);
-    EXPECT_EQ(post(3), 0U);  // full, however far the receiver has come in this cycle
-    lane->latch();
-    EXPECT_EQ(post(3), 0U);
-    lane->takeAnswers();
-    EXPECT_EQ(add.answered, 1U);
-    EXPECT_EQ(post(3), 3U);
+    takeAnswers();
+    EXPECT_EQ(lane->answered(0), 0U);
+    EXPECT_FALSE(post(3));  // full, however far the receiver has come in this cycle
+    ++cycle;
+    EXPECT_FALSE(post(3));
+    takeAnswers();
+    EXPECT_EQ(lane->answered(0), 1U);
+    EXPECT_TRUE(post(3));
+    EXPECT_EQ(take(), 2);
+}
+
+// Counters of cycles are compared modulo 2^32.
+TEST_F(Mailbox, LaneThatStoodStillForAWholeTurnOfTheCycleCounterRepeatsNothing) {
+    make(2, true);
+    post(1);
+    ++cycle;
+    take();
+    ++cycle;
+    takeAnswers();
+    EXPECT_EQ(lane->answered(0), 1U);
+
+    for (cycle = 0xffff'ffff; cycle < 0x1'0000'0008; ++cycle) {
+        EXPECT_FALSE(pending()) << cycle;
+        takeAnswers();
+        EXPECT_EQ(lane->answered(0), 1U) << cycle;
+    }
+    EXPECT_TRUE(post(2));
+    ++cycle;
     EXPECT_EQ(take(), 2);
 }
 
@@ -127,60 +162,62 @@ TEST_F(Mailbox, WordsOfAnAnswerGoWithIt) {
     make(4);
     post(1);
     post(2);
-    lane->answer(lane->front(), {Outcome::Rejected, Reason::Busy, "later"}, {});
-    lane->pop();
-    lane->takeAnswers();
+    answer({Outcome::Rejected, Reason::Busy, "later"});
+    takeAnswers();
     EXPECT_EQ(add.answer.reason, Reason::Busy);
     EXPECT_EQ(add.answer.why.view(), "later");
 
     take();
-    lane->takeAnswers();
+    takeAnswers();
     EXPECT_EQ(add.answer.outcome, Outcome::Done);
     EXPECT_EQ(add.answer.why.view(), "");
 }
 
 TEST_F(Mailbox, LastAnswerOfALongCommandComesAfterOthersThatWereSentLater) {
     make(4);
-    lane->post(work.command, 1, work.request, work.requestSize, {});
+    lane->beginSending(cycle);
+    lane->post(work.command, 1, work.request(), work.requestSize(), clock());
     post(7);
-    lane->answer(lane->front(), {Outcome::Running, Reason::None, {}}, {});
-    lane->pop();
+    answer({Outcome::Running, Reason::None, {}});
     take();
-    lane->takeAnswers();
+    takeAnswers();
     EXPECT_EQ(work.answer.outcome, Outcome::Running);
     EXPECT_EQ(add.answer.outcome, Outcome::Done);
 
     const std::int64_t result = 99;
     lane->finish({1, 5, 5000, Outcome::Done, Reason::None, {}}, 1,
-                 reinterpret_cast<const std::byte*>(&result), 8);
-    lane->takeAnswers();
+                 reinterpret_cast<const std::byte*>(&result), 8, cycle);
+    takeAnswers();
 
     EXPECT_EQ(work.answer.outcome, Outcome::Done);
     EXPECT_EQ(work.answer.latencyCycles, 5);
-    EXPECT_EQ(*reinterpret_cast<const std::int64_t*>(work.response), 99);
-    EXPECT_EQ(work.answered, 1U);
+    EXPECT_EQ(*reinterpret_cast<const std::int64_t*>(work.response()), 99);
+    EXPECT_EQ(lane->answered(1), 1U);
 }
 
-TEST_F(Mailbox, LastAnswersOfADelayedLaneWaitForTheLatch) {
+TEST_F(Mailbox, LastAnswersOfADelayedLaneWaitForTheNextCycle) {
     make(4, true);
-    lane->post(work.command, 1, work.request, work.requestSize, {});
-    lane->latch();
-    lane->answer(lane->front(), {Outcome::Running, Reason::None, {}}, {});
-    lane->pop();
-    lane->finish({1, 0, 0, Outcome::Done, Reason::None, {}}, 1, nullptr, 0);
-    lane->takeAnswers();
-    EXPECT_EQ(work.answered, 0U);
+    lane->beginSending(cycle);
+    lane->post(work.command, 1, work.request(), work.requestSize(), clock());
+    ++cycle;
+    answer({Outcome::Running, Reason::None, {}});
+    lane->finish({1, 0, 0, Outcome::Done, Reason::None, {}}, 1, nullptr, 0, cycle);
+    takeAnswers();
+    EXPECT_EQ(lane->answered(1), 0U);
 
-    lane->latch();
-    lane->takeAnswers();
+    ++cycle;
+    takeAnswers();
 
-    EXPECT_EQ(work.answered, 1U);
+    EXPECT_EQ(lane->answered(1), 1U);
     EXPECT_EQ(work.answer.outcome, Outcome::Done);
 }
 
-TEST_F(Mailbox, SlotOfASmallCommandIsOneCacheLine) {
-    EXPECT_LE(sizeof(LaneSlot) + 2 * 8 + 2 * 8, 64U);
+TEST_F(Mailbox, CommandOfOneNumberAndItsAnswerTouchACacheLineAtEachEndAndOneBetween) {
+    EXPECT_LE(sizeof(LaneSlot) + 2 * 8, 64U);
     EXPECT_EQ(alignof(Lane), 64U);
+    EXPECT_FALSE(add.apart());
+    const auto* begin = reinterpret_cast<const std::byte*>(&add);
+    EXPECT_LE(reinterpret_cast<const std::byte*>(&add.answer.reason) - begin, 63);
 }
 
 TEST_F(Mailbox, RefusalsInARowStartOnce) {

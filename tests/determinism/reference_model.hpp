@@ -140,7 +140,7 @@ struct Link {  // a relationship
 struct RefTask {
     const SimplexPlan* plan = nullptr;
     int every = 1, phase = 0;
-    std::int64_t lastRun = 0, stateSince = 0, now = 0;
+    std::int64_t lastRun = 0, stateSince = 0, now = -1;
     State state = State::Standby;
     bool done = false, dead = false, faultPending = false, qualitySet = false, safeByLoss = false;
     Quality quality = Quality::Good;

@@ -131,7 +131,7 @@ void AgentRig::runTasks() {
     for (const auto& path : order) {
         auto* hand = dynamic_cast<Hand*>(tree.find(path));
         if (hand == nullptr) continue;
-        if (agent->hasCommandWork(hand->index())) {
+        if (AgentRuntime::hasCommandWork(agent->calls(hand->index()))) {
             agent->processCommands(hand->index(), hand->state, agent->thread(0));
         }
         if (hand->run) hand->run();

@@ -25,6 +25,7 @@ class Router;
 class LinkTable;
 class CommandPort;
 class Lane;
+class LaneBlock;
 
 // Per loop thread: where a task posts events, what time its chunk started, what it counted.
 struct alignas(64) LoopThread {
@@ -109,11 +110,14 @@ public:
     void processCommands(std::uint32_t simplex, State state, LoopThread& thread, bool dead = false)
         CORTEX_REALTIME;
     // Whether step (1) has anything to do: a pending life-cycle word, and processCommands().
-    bool hasLifeCycle(std::uint32_t simplex) const CORTEX_REALTIME {
-        return (calls_[simplex].load(std::memory_order_relaxed) & ~commandWork) != 0;
+    std::uint8_t calls(std::uint32_t simplex) const CORTEX_REALTIME {
+        return calls_[simplex].load(std::memory_order_relaxed);
     }
-    bool hasCommandWork(std::uint32_t simplex) const CORTEX_REALTIME {
-        return (calls_[simplex].load(std::memory_order_relaxed) & commandWork) != 0;
+    static bool hasLifeCycle(std::uint8_t calls) CORTEX_REALTIME {
+        return (calls & ~commandWork) != 0;
+    }
+    static bool hasCommandWork(std::uint8_t calls) CORTEX_REALTIME {
+        return (calls & commandWork) != 0;
     }
     // On leaving Active and in Fault: the last call of a long command, then the answer Cancelled.
     // Without `callHandler` (a hook threw) only the answer. False: the handler threw; nothing
@@ -169,8 +173,7 @@ private:
     std::vector<std::unique_ptr<CommandTable>> commandTables_;  // per type layout
     std::vector<const CommandTable*> tableOf_;                  // per simplex
     std::vector<std::unique_ptr<CommandPort>> ports_;           // per simplex that has commands
-    std::vector<std::unique_ptr<Lane>> lanes_;
-    std::vector<Lane*> delayedLanes_;
+    std::unique_ptr<LaneBlock> lanes_;
     std::vector<std::shared_ptr<CommandSender::State>> senders_;
     std::vector<std::uint32_t> taskless_;  // that lanes lead to, and the agent's own simplex
     std::vector<CommunicationInterface*> interfaces_;

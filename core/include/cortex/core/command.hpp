@@ -148,6 +148,7 @@ struct CommandTable {
         std::string_view name;
         RecordLayout request, response;
         StateSet available;
+        bool isShort = false;                  // executed by its handler in one call
         std::vector<ArgumentCheck> checks;     // of the request
         std::vector<std::byte> emptyResponse;  // initialised
     };
@@ -170,13 +171,20 @@ std::vector<ArgumentCheck> compileChecks(const RecordLayout& layout);
 // Finite, in range, a label where only labels are valid, text that fits; else why not, in words.
 bool checkElements(const ArgumentCheck& check, const std::byte* record,
                    std::optional<EventText>& why) CORTEX_REALTIME;
+// One number in its range, as most are; false: checkElements() knows.
+inline bool plainlyGood(const ArgumentCheck& check, const std::byte* record) CORTEX_REALTIME {
+    if (check.length != 1) return false;
+    if (check.kind == Kind::Float) {
+        const double value = *reinterpret_cast<const double*>(record + check.offset);
+        return value >= check.minFloat && value <= check.maxFloat;
+    }
+    if (check.kind != Kind::Int || check.closed) return false;
+    const std::int64_t value = *reinterpret_cast<const std::int64_t*>(record + check.offset);
+    return value >= check.minInt && value <= check.maxInt;
+}
 inline bool checkArgument(const ArgumentCheck& check, const std::byte* record,
                           std::optional<EventText>& why) CORTEX_REALTIME {
-    if (check.kind == Kind::Float && check.length == 1) {  // the usual one
-        const double value = *reinterpret_cast<const double*>(record + check.offset);
-        if (value >= check.minFloat && value <= check.maxFloat) return true;
-    }
-    return checkElements(check, record, why);
+    return plainlyGood(check, record) || checkElements(check, record, why);
 }
 // The whole record; "" if good.
 EventText checkArguments(const RecordLayout& layout, const std::byte* record);

@@ -44,6 +44,7 @@ public:
     std::shared_ptr<const Structure> sharedStructure() const { return structure_; }
 
     Slice live(std::uint32_t simplex) const;
+    std::span<SlotState> states() const;           // the live ones, by simplex
     Slice constants(std::uint32_t simplex) const;  // state is null
     // What the owner of edge `index` sees: live, latch, held copy, or its candidate to write to.
     // Setup: throws Error where it is a latch that was given up.

@@ -105,7 +105,6 @@ private:
     bool demandRefused_ = false;  // by an arbiter, in the cycle before
     Quality quality_ = Quality::Good;
     TaskThread* thread_ = nullptr;
-    std::int64_t now_ = 0;  // nominal time of the cycle in which it last ran
 };
 
 }  // namespace cortex::cs
