@@ -94,6 +94,10 @@ void AgentRuntime::processCommands(std::uint32_t simplex, State state, LoopThrea
     ports_[simplex]->process(state, thread, dead);
 }
 
+void AgentRuntime::fetchLanes(std::uint32_t simplex) const {
+    if (hasCommandWork(calls(simplex))) ports_[simplex]->fetchLanes();
+}
+
 bool AgentRuntime::cancelActivity(std::uint32_t simplex, LoopThread& thread, bool callHandler,
                                   std::string_view why) {
     return ports_[simplex] == nullptr || ports_[simplex]->cancelActivity(thread, callHandler, why);

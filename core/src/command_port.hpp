@@ -32,6 +32,10 @@ public:
 
     const CommandTable& table() const { return table_; }
     bool hasLanes() const { return receiving_ != nullptr; }
+    void fetchLanes() const CORTEX_REALTIME {
+        if (sending_ != nullptr) sending_->fetchFirstSlot();
+        if (receiving_ != nullptr) receiving_->fetchFirstSlot();
+    }
     // Step (1). What a handler throws passes through, after its command was answered Failed.
     // `dead`: its commands are refused.
     void process(State state, LoopThread& thread, bool dead) CORTEX_REALTIME;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/fetch.hpp"
 #include "cortex/core/mailbox.hpp"
 
 #include <algorithm>
@@ -74,6 +75,11 @@ public:
     CommandPort& sender() const CORTEX_REALTIME { return *sender_; }
     std::uint64_t sent(std::uint16_t handle) const;
     std::uint64_t answered(std::uint16_t handle) const;
+
+    void fetchFirstSlot() const CORTEX_REALTIME {
+        fetch(this);
+        fetch(this + 1);
+    }
 
     // Before an end does anything in a cycle; again does no harm.
     void beginSending(std::int64_t cycle) CORTEX_REALTIME {

@@ -47,10 +47,22 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
     if (chunk == timedChunk_) {
         for (Task& task : tasks) runTimed(task, thread, position);
     } else {
-        for (Task& task : tasks) runTask(task, thread, position);
+        for (std::size_t i = 0; i < tasks.size(); ++i) {
+            if (fetchesAhead_) fetchAhead(tasks, i);
+            runTask(tasks[i], thread, position);
+        }
     }
     position.simplex.store(noSimplex, std::memory_order_relaxed);
     at(position, Hook::None);
+}
+
+// With a memory that others use as well it is not the mean that this helps but the worst cycles.
+inline void TaskRunner::fetchAhead(std::span<const Task> tasks, std::size_t i) const {
+    const Task& far = tasks[std::min(i + 6, tasks.size() - 1)];
+    fetch(far.simplex);
+    fetch(far.simplex + 1);  // where what derives from it begins
+    agent_.fetchPort(far.index);
+    agent_.fetchLanes(tasks[std::min(i + 3, tasks.size() - 1)].index);
 }
 
 void TaskRunner::runTimed(Task& task, TaskThread& thread, Position& position) {

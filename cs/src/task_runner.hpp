@@ -160,6 +160,7 @@ private:
     bool runAtTimes(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
     void runSimplex(Task& task, const Tick& tick, TaskThread& thread, Position& position)
         CORTEX_REALTIME;
+    void fetchAhead(std::span<const Task> tasks, std::size_t i) const CORTEX_REALTIME;
     void runTimed(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
     TaskDetails& details(const Task& task) {
         return details_[static_cast<std::size_t>(&task - tasks_.data())];
@@ -206,7 +207,8 @@ private:
     EventText heard_;        // likewise
     std::uint32_t timedChunk_ = 0;
     bool haltNext_ = false, halted_ = false, forced_ = false, stopping_ = false;
-    bool anyMayMove_ = false;  // in this cycle, without a call of its own
+    bool fetchesAhead_ = false;  // there are more tasks than the caches hold
+    bool anyMayMove_ = false;    // in this cycle, without a call of its own
 };
 
 }  // namespace cortex::cs

@@ -3,6 +3,7 @@
 
 #include "cortex/core/communication_interface.hpp"
 #include "cortex/core/event.hpp"
+#include "cortex/core/fetch.hpp"
 #include "cortex/core/image.hpp"
 #include "cortex/core/mailbox.hpp"
 #include "cortex/core/simplex_tree.hpp"
@@ -109,6 +110,11 @@ public:
     // it threw, so that no handler runs.
     void processCommands(std::uint32_t simplex, State state, LoopThread& thread, bool dead = false)
         CORTEX_REALTIME;
+    // Bring what processCommands() touches into the cache: the port well before, then its lanes.
+    void fetchPort(std::uint32_t simplex) const CORTEX_REALTIME {
+        if (hasCommandWork(calls(simplex))) fetch(ports_[simplex].get());
+    }
+    void fetchLanes(std::uint32_t simplex) const CORTEX_REALTIME;
     // Whether step (1) has anything to do: a pending life-cycle word, and processCommands().
     std::uint8_t calls(std::uint32_t simplex) const CORTEX_REALTIME {
         return calls_[simplex].load(std::memory_order_relaxed);
