@@ -90,6 +90,7 @@ void SimplexTree::createRelated(const ClassRegistry* registry) {
             }
         }
     }
+    for (const auto& [path, simplex] : simplexes_) simplex->description_->relations.shrink_to_fit();
 }
 
 }  // namespace cortex

@@ -12,27 +12,23 @@
 namespace cortex::profiler {
 
 using namespace oneapi::tbb::flow;
-
 struct FlowGraph::Implementation {
     template <class Node>
     void build(const TaskEdges& edges, TaskFunction task) {
         start.emplace(graph.emplace());
         std::vector<bool> first(edges.count, true);
         std::vector<std::shared_ptr<Node>> made;
-        for (std::uint32_t i = 0; i < edges.count; ++i) {
+        for (std::uint32_t i = 0; i < edges.count; ++i)
             made.push_back(std::make_shared<Node>(
                 *graph, [task, i](const continue_msg&) noexcept { task.run(task.context, i); }));
-        }
         for (const auto& [before, after] : edges.edges) {
             make_edge(*made[before], *made[after]);
             first[after] = false;
         }
-        for (std::uint32_t i = 0; i < edges.count; ++i) {
+        for (std::uint32_t i = 0; i < edges.count; ++i)
             if (first[i]) make_edge(*start, *made[i]);
-        }
         nodes.assign(made.begin(), made.end());
     }
-
     int threads;
     oneapi::tbb::global_control limit{oneapi::tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(threads)};
@@ -53,7 +49,7 @@ FlowGraph::FlowGraph(const TaskEdges& edges, int threads, TaskFunction task, boo
 FlowGraph::~FlowGraph() = default;
 
 void FlowGraph::run(const std::function<void()>& inItsArena) {
-    implementation_->arena.execute([&] { inItsArena(); });
+    implementation_->arena.execute(inItsArena);
 }
 
 void FlowGraph::cycle() {

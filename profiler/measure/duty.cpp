@@ -2,6 +2,7 @@
 // Duty cycle against the number of simplexes, each with one command per cycle: the paper's Fig. 23.
 #include "measure/measurements.hpp"
 #include "measure/simplex_sweep.hpp"
+#include "measure/stated_load.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -130,13 +131,19 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
     addCapacity(sweep, results);
     addCommands(sweep, results);
     addOwnCost(sweep, results);
+    const StatedLoad load{"duty/20000", "20,000 simplexes with a command per cycle each", 20'000,
+                          1};
+    judgeLoad(load, options, progress, results);
+}
+
+double seconds(const RunOptions& options) {
+    return simplexSweepSeconds(options) + statedLoadSeconds(options);
 }
 
 }  // namespace
 
 Measurement dutyMeasurement() {
-    return {"duty", "duty cycle against the number of simplexes (paper: Fig. 23)",
-            simplexSweepSeconds, run};
+    return {"duty", "duty cycle against the number of simplexes (paper: Fig. 23)", seconds, run};
 }
 
 }  // namespace cortex::profiler

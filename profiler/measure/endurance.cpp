@@ -47,7 +47,7 @@ Run observe(const RunOptions& options, Progress& progress) {
         if (now.time < 0) continue;
         run.samples.push_back(now);
         if (now.time >= lengthOf(options)) break;
-        if (!progress.step(now.time / lengthOf(options), "endurance")) break;
+        if (!progress.step(now.time / lengthOf(options), "the agent runs")) break;
     }
     const std::vector<std::uint64_t> counts = clients.stop();
     run.images = counts[0];

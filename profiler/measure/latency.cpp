@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Latency of commands of 10 simplexes against how many each sends: the paper's Fig. 27 and 28.
 #include "measure/measurements.hpp"
+#include "measure/stated_load.hpp"
 #include "measure/sweep.hpp"
 
 #include <cmath>
@@ -33,8 +34,9 @@ RecordingPlan portion(const RunOptions& options) {
 double seconds(const RunOptions& options) {
     const RecordingPlan each = portion(options);
     return expectedSteps(plan(options)) *
-           (static_cast<double>(each.loopPeriods + each.sleeperPeriods) / options.frequency + 0.1 +
-            settlingSeconds(options));
+               (static_cast<double>(each.loopPeriods + each.sleeperPeriods) / options.frequency +
+                0.1 + settlingSeconds(options)) +
+           statedLoadSeconds(options);
 }
 
 std::string setup(const RunOptions& options, const Sweep& sweep) {
@@ -187,6 +189,9 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
     results.figures.push_back(deviationFigure(options, sweep, true, above));
     addCapacity(sweep, results);
     addLatency(sweep, results);
+    const StatedLoad load{"latency/2000", "10 simplexes with 2,000 commands per cycle each", 10,
+                          2000};
+    judgeLoad(load, options, progress, results);
 }
 
 }  // namespace

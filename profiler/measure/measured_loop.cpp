@@ -61,7 +61,7 @@ bool Measured::overflows() const {
                                        : static_cast<double>(sleeperMissed) *
                                              static_cast<double>(cycles + missed) /
                                              static_cast<double>(sleeps + sleeperMissed);
-    const double allowed = std::max(3.0, static_cast<double>(cycles) / 10'000);
+    const double allowed = std::max(3.0, static_cast<double>(cycles) / 100);
     return static_cast<double>(missed) > sleeper + allowed;
 }
 

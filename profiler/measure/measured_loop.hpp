@@ -41,8 +41,9 @@ struct Measured {
     }
     double duty(double part) const { return 100 * duration.percentile(part) / period; }
     double meanDuty() const { return 100 * duration.mean() / period; }
-    // p99 of the duration within the period, and missed ticks no more than the sleeper's and 1 in
-    // 10,000; three at least, as fewer say nothing at the length of a sweep's points.
+    // p99 of the duration above the period, or more ticks missed than by the sleeper and 1 in 100,
+    // as fewer say nothing at the length of a sweep's points: one pause of the machine costs
+    // several. judgeLoad() looks longer, at 1 in 10,000.
     bool overflows() const;
 };
 

@@ -119,7 +119,7 @@ void addEmptySimplex(Results& results) {
     constexpr int few = 1000, many = 11000;
     const MemorySample small = once({Content::Nothing, few, 0, 1});
     const MemorySample large = once({Content::Nothing, many, 0, 1});
-    const double otherSlots = 2 * (large.arena - small.arena);
+    const double otherSlots = (large.images - 1) * (large.arena - small.arena);
     results.quantities.push_back(
         {.id = "memory/simplex",
          .what = "an empty simplex with all indexes and one image",

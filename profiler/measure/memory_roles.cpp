@@ -35,7 +35,7 @@ std::vector<std::string> wordsOf(const MemoryRole& role) {
 MemorySample sampleFrom(Child& child) {
     std::istringstream line{child.line()};
     MemorySample sample;
-    line >> sample.allocated >> sample.dirty >> sample.arena;
+    line >> sample.allocated >> sample.dirty >> sample.arena >> sample.images;
     return sample;
 }
 
@@ -55,8 +55,9 @@ int playMemoryRole(const std::vector<std::string>& words) {
     for (int i = 0; i <= static_cast<int>(role.seconds * 10); ++i) {
         std::this_thread::sleep_until(due += 100ms);
         const MemoryUse now = memoryUse();
-        std::printf("%.0f %.0f %zu\n", now.allocated - before.allocated, now.dirty - before.dirty,
-                    cluster.agent().tables().arena().size());
+        std::printf("%.0f %.0f %zu %u\n", now.allocated - before.allocated,
+                    now.dirty - before.dirty, cluster.agent().tables().arena().size(),
+                    cluster.agent().options().imageReaders + 2U);
         if (inputEnds(0)) break;
     }
     return 0;

@@ -23,6 +23,7 @@ std::vector<std::string> wordsOf(const MemoryRole& role);
 struct MemorySample {
     double allocated = 0, dirty = 0;  // octets
     double arena = 0;                 // of one image
+    double images = 0;
 };
 MemorySample sampleFrom(Child& child);
 

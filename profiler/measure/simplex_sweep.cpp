@@ -53,8 +53,7 @@ std::string simplexSweepSetup(const RunOptions& options, const Sweep& sweep) {
            number(each.blocks * each.loop) + " periods a point in turn with a bare sleeper of " +
            number(each.blocks * each.sleeper) +
            "; an observer reads the newest image 30 times a second. Overflow: p99 of the cycle is "
-           "longer "
-           "than the period, or more ticks are missed than the sleeper misses and 3.";
+           "longer than the period, or more ticks are missed than by the sleeper and 1 in 100.";
 }
 
 const Sweep& simplexSweep(const RunOptions& options, Progress& progress, Results& results) {

@@ -46,9 +46,8 @@ void TerminalProgress::begin(std::string_view name, double seconds) {
 bool TerminalProgress::step(double part, std::string_view doing) {
     const auto now = Clock::now();
     const bool isNew = doing != doing_;
-    if (!isNew && (!terminal_ || now - written_ < std::chrono::milliseconds{200})) {
-        return !stopAsked();
-    }
+    const std::chrono::milliseconds pause{terminal_ ? 200 : 30'000};
+    if (!isNew && now - written_ < pause) return !stopAsked();
     doing_ = doing;
     written_ = now;
     const double done = std::clamp((before_ + own_ * part) / total_, 0.0, 1.0);

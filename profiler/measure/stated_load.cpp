@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stated_load.hpp"
+
+#include "measure/measured_loop.hpp"
+#include "measure/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace cortex::profiler {
+namespace {
+
+constexpr double mostDuty = 70;  // %, p99
+
+int blocks(const RunOptions& options) { return options.quick ? 5 : 60; }
+
+Figure figureOf(const StatedLoad& load, const RunOptions& options, const Measured& measured,
+                std::uint32_t threads) {
+    Figure figure;
+    figure.id = load.id;
+    std::ranges::replace(figure.id, '/', '-');
+    figure.title = "Duration of single cycles, " + load.what;
+    figure.setup = conditions(options, threads, options.frequency) +
+                   "; loop and bare sleeper in turn, a second each, " + number(blocks(options)) +
+                   " s of each; an observer reads the newest image 30 times a second.";
+    figure.x = {"duration of a cycle", "us", true};
+    figure.y = {"share of cycles that are longer", "", true};
+    figure.series.push_back({"loop", measured.duration.shareAbove(), false});
+    figure.marks.push_back({Mark::Along::X, measured.period, "the period"});
+    figure.marks.push_back({Mark::Along::Y, 0.01, "p99"});
+    return figure;
+}
+
+void addDuty(const StatedLoad& load, const Measured& measured, Results& results) {
+    const auto add = [&](const char* name, const char* what, double value,
+                         const std::vector<double>& blocks) {
+        Quantity& duty = results.quantities.emplace_back();
+        duty.id = load.id + "/duty-" + name;
+        duty.what = load.what + ": " + what;
+        duty.unit = "%";
+        duty.value = value;
+        for (const double block : blocks) duty.repeats.push_back(100 * block / measured.period);
+    };
+    add("p50", "median duty cycle", measured.duty(0.5), measured.blockP50);
+    add("p99", "p99 of the duty cycle", measured.duty(0.99), measured.blockP99);
+    results.quantities.back().aim = Aim::AtMost;
+    results.quantities.back().limit = mostDuty;
+    add("p99.9", "p99.9 of the duty cycle", measured.duty(0.999), {});
+}
+
+void addCounts(const StatedLoad& load, const Measured& measured, Results& results) {
+    const auto cycles = static_cast<double>(measured.cycles);
+    const double sleeper = static_cast<double>(measured.sleeperMissed) * cycles /
+                           std::max(1.0, static_cast<double>(measured.sleeps));
+    const auto missed = static_cast<double>(measured.missed);
+    results.quantities.push_back(
+        {.id = load.id + "/missed",
+         .what = load.what + ": ticks missed of 10,000, less those of the sleeper",
+         .unit = "ticks",
+         .value = std::max(0.0, missed - sleeper) * 10'000 / cycles,
+         .baseline = sleeper * 10'000 / cycles,
+         .baselineName = "bare sleeper",
+         .aim = Aim::AtMost,
+         .limit = 1});
+    const auto executed = static_cast<double>(measured.commands);
+    const auto expected = static_cast<double>(measured.expectedCommands);
+    results.quantities.push_back({.id = load.id + "/commands",
+                                  .what = load.what + ": commands executed more or less than sent",
+                                  .unit = "commands",
+                                  .value = std::abs(executed - expected),
+                                  .aim = Aim::AtMost,
+                                  .limit = 0});
+    results.quantities.push_back(
+        {.id = load.id + "/images",
+         .what = load.what + ": images that the observer read",
+         .unit = "1/s",
+         .value = static_cast<double>(measured.imagesRead) / measured.seconds,
+         .lessIsBetter = false});
+}
+
+}  // namespace
+
+double statedLoadSeconds(const RunOptions& options) {
+    return 2 * blocks(options) + settlingSeconds(options) + 1;
+}
+
+void judgeLoad(const StatedLoad& load, const RunOptions& options, Progress& progress,
+               Results& results) {
+    constexpr double last = 0.99;  // part of its measurement that comes before it
+    if (!progress.step(last, load.what)) return;
+    const auto loop =
+        MeasuredLoop::ofPartners(load.simplexes, load.commands, options.frequency, options);
+    noteRefusals(loop->refusals(), results);
+    const auto periods = static_cast<std::int64_t>(std::llround(options.frequency));
+    RecordingPlan plan{blocks(options), periods, periods};
+    plan.settling = periods / 100;
+    const Measured measured = loop->run(plan, [&] { return !progress.step(last, load.what); });
+    if (measured.cycles == 0 || measured.sleeps == 0) return;
+    results.figures.push_back(figureOf(load, options, measured, loop->threads()));
+    addDuty(load, measured, results);
+    addCounts(load, measured, results);
+}
+
+}  // namespace cortex::profiler
