@@ -67,6 +67,7 @@ AgentRuntime::~AgentRuntime() {
     for (Simplex* simplex : simplexes_) {
         if (simplex != nullptr) simplex->runtime_ = nullptr;
     }
+    for (const auto& sender : senders_) sender->lane = nullptr;
 }
 
 void AgentRuntime::addAgentSimplex() {
@@ -178,6 +179,9 @@ CommandSender AgentRuntime::makeSender(std::uint32_t edge, std::string_view comm
         lifeCycleCommand(command) != LifeCycle::None) {
         throw Error(what + " bypasses mailboxes: use lifeCycle()");
     }
+    if (table.entries[index].request.size > Lane::mostRequest) {
+        throw Error(what + " has more than 512 KiB of parameters, too many for a relationship");
+    }
     auto state = std::make_shared<CommandSender::State>(table, index, edge, std::max(capacity, 1U));
     senders_.push_back(state);
     return CommandSender{std::move(state)};
@@ -224,8 +228,10 @@ void AgentRuntime::findTaskless() {
 void AgentRuntime::start() {
     if (started_) throw Error("agent " + name_ + " is started already");
     tables_->giveUpUnusedLatches();
-    makeLanes();
-    findTaskless();
+    if (lanes_ == nullptr) {  // else an interface refused to be announced to before
+        makeLanes();
+        findTaskless();
+    }
     router_ = std::make_unique<Router>(*this);
     const AgentAccess access{structure_, images_.get(), events_.get(), options_.period};
     std::size_t announced = 0;

@@ -15,6 +15,7 @@ Origin originOf(Lane* lane, OutsideEntry* outside) {
 }
 
 Verdict shortVerdict(Outcome outcome, const Call& call) {
+    if (outcome == Outcome::Done) return {};
     if (outcome == Outcome::Running) {
         return {Outcome::Failed, Reason::None, "only a long command may go on running"};
     }
@@ -227,7 +228,7 @@ void CommandPort::execute(std::uint32_t command, const std::byte* request, std::
         refuse(verdict, Reason::UnknownCommand, EventText{entry.name} << " has no handler");
         return;
     }
-    if (entry.command->isLong) {
+    if (!entry.isShort) {
         startActivity(command, request, response, originOf(lane, outside), verdict);
         return;
     }

@@ -25,7 +25,10 @@ class alignas(64) CommandPort {
 public:
     CommandPort(AgentRuntime& runtime, std::uint32_t simplex, const CommandTable& table);
 
-    void setHandler(std::uint32_t command, Handler handler) { handlers_[command] = handler; }
+    void setHandler(std::uint32_t command, Handler handler) {
+        handlers_[command] = handler;
+        recentCommand_ = CommandTable::none;
+    }
     bool handles(std::uint32_t command) const { return handlers_[command].function != nullptr; }
     void addReceiving(Lane& lane);  // in canonical order
     void addSending(Lane& lane);
@@ -89,7 +92,8 @@ private:
     }
     bool settable(const Target& target, const std::byte* request, Verdict& verdict) const;
 
-    // What every command touches: one cache line, which nothing is written to that has not changed.
+    // What every command touches: one cache line. Where there is no more than the first lanes,
+    // nothing is written to it that has not changed.
     LoopThread* thread_ = nullptr;
     const CommandTable& table_;
     Lane* receiving_ = nullptr;  // the first, mostly the only one

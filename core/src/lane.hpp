@@ -59,6 +59,9 @@ inline void copyRecord(std::byte* to, const std::byte* from, std::uint32_t size)
 // notes before it moves. No load or store here is more than a plain one on x86-64.
 class alignas(64) Lane {
 public:
+    static constexpr std::uint32_t lineSize = 64;
+    static constexpr std::uint32_t mostRequest = 0xffffU * 8U;  // octets
+
     struct Shape {
         std::uint32_t sender = noSimplex, receiver = noSimplex;
         std::uint32_t capacity = 16;
@@ -183,8 +186,6 @@ private:
     CommandSender::State& handle(std::uint16_t index) const {
         return onlyHandle_ != nullptr ? *onlyHandle_ : *rest_->handles[index];
     }
-
-    static constexpr std::uint32_t lineSize = 64;
 
     // One cache line. Sender writes tail_, taken_, first_; receiver head_, refusing_. An empty lane
     // starts again at its first slot, so that light traffic stays in one more cache line.

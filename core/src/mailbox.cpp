@@ -42,6 +42,15 @@ const ItemLayout& parameterAt(const CommandSender::State* state, std::string_vie
     return *item;
 }
 
+std::uint32_t slotsOf(const Lane::Shape& shape) {
+    return std::bit_ceil(std::max(shape.capacity, 1U));
+}
+
+std::size_t linesOfSlot(const Lane::Shape& shape) {
+    const std::size_t octets = sizeof(LaneSlot) + shape.requestSize + shape.responseSize;
+    return (octets + Lane::lineSize - 1) / Lane::lineSize;
+}
+
 }  // namespace
 
 Verdict verdictOf(Outcome outcome, const Call& call) {
@@ -52,20 +61,6 @@ Verdict verdictOf(Outcome outcome, const Call& call) {
     }
     return verdict;
 }
-
-namespace {
-
-constexpr std::size_t lineSize = 64;
-
-std::uint32_t slotsOf(const Lane::Shape& shape) {
-    return std::bit_ceil(std::max(shape.capacity, 1U));
-}
-
-std::size_t linesOfSlot(const Lane::Shape& shape) {
-    return (sizeof(LaneSlot) + shape.requestSize + shape.responseSize + lineSize - 1) / lineSize;
-}
-
-}  // namespace
 
 Lane::Lane(const Shape& shape, std::vector<CommandSender::State*> handles)
     : capacity_{shape.capacity},
@@ -101,7 +96,7 @@ std::uint64_t Lane::answered(std::uint16_t handle) const {
 LaneBlock::LaneBlock(std::vector<Plan> plans) {
     std::size_t octets = 0;
     for (const Plan& plan : plans) octets += Lane::octets(plan.shape);
-    memory_.resize(octets / lineSize);
+    memory_.resize(octets / Lane::lineSize);
     std::byte* place = memory_.empty() ? nullptr : memory_.front().octets;
     for (Plan& plan : plans) {
         const std::vector<CommandSender::State*> handles = plan.handles;

@@ -45,7 +45,7 @@ void GroupCommands::registerHandler(std::string_view name) {
 
 Outcome GroupCommands::handle(LifeCycle command, Call& call, Argument<std::string_view> prefix) {
     if (call.cancelling()) {
-        runner_.listenTo(noSimplex);
+        if (!stopping_) runner_.listenTo(noSimplex);
         return Outcome::Cancelled;
     }
     if (stopping_) return call.fail("the cluster is stopping");

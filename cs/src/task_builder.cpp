@@ -14,10 +14,6 @@ namespace {
 // Tasks that a second-level cache of 1 MB holds, with a command each: about 600 octets a task.
 constexpr std::size_t tasksInCache = 1500;
 
-}  // namespace
-
-namespace {
-
 std::int64_t toNanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
 }  // namespace

@@ -44,13 +44,12 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
     Position& position = positions_[worker];
     thread.loop->clock = {tick_.cycle, monotonicNow()};
     const std::span tasks{tasks_.data() + chunks_[chunk].first, chunks_[chunk].count};
-    if (chunk == timedChunk_) {
-        for (Task& task : tasks) runTimed(task, thread, position);
-    } else {
-        for (std::size_t i = 0; i < tasks.size(); ++i) {
-            if (fetchesAhead_) fetchAhead(tasks, i);
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        if (fetchesAhead_) fetchAhead(tasks, i);
+        if (chunk == timedChunk_)
+            runTimed(tasks[i], thread, position);
+        else
             runTask(tasks[i], thread, position);
-        }
     }
     position.simplex.store(noSimplex, std::memory_order_relaxed);
     at(position, Hook::None);
@@ -60,7 +59,7 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
 inline void TaskRunner::fetchAhead(std::span<const Task> tasks, std::size_t i) const {
     const Task& far = tasks[std::min(i + 6, tasks.size() - 1)];
     fetch(far.simplex);
-    fetch(far.simplex + 1);  // where what derives from it begins
+    if (far.simplex != nullptr) fetch(far.simplex + 1);  // most of what derives from it
     agent_.fetchPort(far.index);
     agent_.fetchLanes(tasks[std::min(i + 3, tasks.size() - 1)].index);
 }
@@ -104,6 +103,7 @@ inline void TaskRunner::runSimplex(Task& task, const Tick& tick, TaskThread& thr
                                    Position& position) {
     SimplexCS& simplex = *task.simplex;
     if (simplex.thread_ != &thread) simplex.thread_ = &thread;
+    if (simplex.qualitySet_) simplex.qualitySet_ = false;
     position.simplex.store(task.index, std::memory_order_relaxed);
     SlotState state{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     try {
@@ -166,7 +166,7 @@ inline void TaskRunner::runHooks(Task& task, const Tick& tick, Position& positio
 
 // What its own state, and what the task said itself, make of the quality of its inputs.
 inline void TaskRunner::settleQuality(const Task& task, const Tick& tick, SlotState& state) const {
-    SimplexCS& simplex = *task.simplex;
+    const SimplexCS& simplex = *task.simplex;
     if (task.measures && !simplex.dead_)
         state = {tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     else if (simplex.state_ == State::Fault && state.quality < Quality::Bad) {
@@ -177,7 +177,6 @@ inline void TaskRunner::settleQuality(const Task& task, const Tick& tick, SlotSt
         state.cause = task.index;
     }
     if (!simplex.qualitySet_) return;
-    simplex.qualitySet_ = false;
     state.quality = simplex.quality_;
     state.time = simplex.thread_->measuredAt;
     state.cause = simplex.quality_ == Quality::Good ? noSimplex : task.index;

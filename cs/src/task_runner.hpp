@@ -123,7 +123,8 @@ public:
     // Loop thread, before the chunks of a cycle.
     void beginCycle(const Tick& tick) CORTEX_REALTIME;
     void run(std::uint32_t chunk, std::uint32_t worker) CORTEX_REALTIME;
-    // One task, by its place in the execution order, for who orders them otherwise (measurements).
+    // One task, by its place in the execution order, for who orders them otherwise (measurements,
+    // without delayed commands: the clock of the thread stays as it is).
     void runAlone(std::uint32_t task, std::uint32_t worker) CORTEX_REALTIME {
         runTask(tasks_[task], threads_[worker], positions_[worker]);
     }

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Counts the instructions of cortex-hot-paths under callgrind and compares them with a baseline.
+"""Counts the instructions of cortex-hot-paths under callgrind and compares them with a baseline; tells
+how many cache lines a cycle touches.
 
     instructions.py check BUILD BASELINE    exit status 1 where a cost has grown too much
     instructions.py write BUILD BASELINE    writes the baseline anew
@@ -23,9 +24,15 @@ TUNABLES = "glibc.cpu.hwcaps=" + ",".join(
     "-" + each for each in ("AVX2", "AVX512F", "AVX512VL", "AVX_Fast_Unaligned_Load", "ERMS",
                             "FSRM", "SSSE3"))
 
+# So small that what a cycle touches is gone when the next one comes to it: what it misses is the
+# number of lines that it touches, those counted twice that it comes back to.
+CACHE = ["--cache-sim=yes", "--D1=32768,8,64"]
+LINES = "cache lines of data"  # beside the functions of a scenario; not judged
+
 HEAD = """\
 # Instructions per cycle, exclusive per function, as `./run baseline` counted them; the stage
 # `instructions` of `./run test` compares with them. Functions below 1 % are in the total only.
+# Cache lines: missed in a cycle by a data cache of 32 KiB.
 """
 REMEDY = """
 Look first why: `callgrind_annotate FILE` shows more (the files are in
@@ -65,14 +72,16 @@ def function_name(name, library):
 
 
 def read_dump(path):
-    """(scenario, {function: instructions per cycle}) of a file that callgrind wrote."""
-    label, cycles, costs = "", 0, {}
+    """(scenario, {function: instructions per cycle, LINES: …}) of a file that callgrind wrote."""
+    label, cycles, costs, lines, events = "", 0, {}, 0, []
     names = {"fn": {}, "ob": {}}
     current = {"fn": "", "ob": ""}
     inclusive = False  # the next line of cost is that of a call
     for line in path.read_text().splitlines():
         if found := re.match(r"desc: Trigger: Client Request: (\S+) (\d+)$", line):
             label, cycles = found.group(1), int(found.group(2))
+        elif line.startswith("events: "):
+            events = line.split()[1:]
         elif found := re.match(r"c?(fn|ob|fi|fl|fe)=\((\d+)\)(?: (.*))?$", line):
             kind, number, name = found.groups()
             if kind in names:
@@ -85,20 +94,23 @@ def read_dump(path):
         elif re.match(r"[-+*\d]", line):
             if not inclusive:
                 name = function_name(current["fn"], current["ob"])
-                costs[name] = costs.get(name, 0) + int(line.split()[1])
+                cost = dict(zip(events, map(int, line.split()[1:])))  # those at the end may lack
+                costs[name] = costs.get(name, 0) + cost.get("Ir", 0)
+                lines += cost.get("D1mr", 0) + cost.get("D1mw", 0)
             inclusive = False
+    costs[LINES] = lines
     return label, {name: cost / cycles for name, cost in costs.items()} if cycles else {}
 
 
 def count(build, folder):
-    """{scenario: {function: instructions per cycle}}"""
+    """{scenario: {function: instructions per cycle, LINES: …}}"""
     environment = dict(os.environ, GLIBC_TUNABLES=TUNABLES)
     program = build / "bin" / "cortex-hot-paths"
     for old in folder.glob("callgrind.out*"):
         old.unlink()
     done = subprocess.run(["valgrind", "--quiet", "--tool=callgrind", "--instr-atstart=no",
                            "--collect-atstart=no", f"--callgrind-out-file={folder}/callgrind.out",
-                           str(program)], env=environment, capture_output=True, text=True,
+                           *CACHE, str(program)], env=environment, capture_output=True, text=True,
                           check=False)
     if done.returncode != 0:
         sys.exit(f"{program} ended with {done.returncode} under callgrind:\n{done.stderr}")
@@ -107,11 +119,11 @@ def count(build, folder):
 
 
 def total(functions):
-    return sum(functions.values())
+    return sum(cost for name, cost in functions.items() if name != LINES)
 
 
 def by_cost(functions):
-    return sorted(functions, key=lambda name: (-functions[name], name))
+    return sorted(functions.keys() - {LINES}, key=lambda name: (-functions[name], name))
 
 
 def write(path, described, counted):
@@ -119,6 +131,7 @@ def write(path, described, counted):
     for scenario, functions in counted.items():
         whole = total(functions)
         lines.append(f"\n[{scenario}]\n{whole:12.1f}  total\n")
+        lines.append(f"{functions[LINES]:12.1f}  {LINES}\n")
         lines += [f"{functions[name]:12.1f}  {name}\n" for name in by_cost(functions)
                   if functions[name] >= LISTED * whole]
     path.write_text("".join(lines))
@@ -164,8 +177,8 @@ def compare(scenario, before, now):
     """Prints the table of a scenario; returns what grew too much."""
     whole = total(now)
     rows = [("total", before["total"], whole, verdict(before["total"], whole, True))]
-    shown = {name for name in before if name != "total"}
-    shown |= {name for name, cost in now.items() if cost >= SHARE * whole}
+    shown = before.keys() - {"total", LINES}
+    shown |= {name for name in by_cost(now) if now[name] >= SHARE * whole}
     latest = {name: max(now.get(name, 0), before.get(name, 0)) for name in shown}
     for name in by_cost(latest):
         old, new = before.get(name, 0), now.get(name, 0)
@@ -176,6 +189,8 @@ def compare(scenario, before, now):
     print(f"\n{scenario}\n{'before':>12}{'now':>12}{'change':>10}        function")
     for name, old, new, word in rows:
         print(f"{old:12.1f}{new:12.1f}{change(old, new):>10}  {word:<4}  {shortened(name)}")
+    old, new = before.get(LINES, 0), now[LINES]
+    print(f"{old:12.1f}{new:12.1f}{change(old, new):>10}        {LINES}")
     return [f"{scenario}: {name} {change(old, new)}" for name, old, new, word in rows
             if word == "GREW"]
 

@@ -27,8 +27,8 @@ SweepPlan plan(const RunOptions& options) {
 }
 
 RecordingPlan portion(const RunOptions& options) {
-    if (options.quick) return {1, 300, 50};
-    return {1, 2500, 500};
+    if (options.quick) return {3, 100, 20};
+    return {5, 500, 100};
 }
 
 double seconds(const RunOptions& options) {
@@ -43,7 +43,7 @@ std::string setup(const RunOptions& options, const Sweep& sweep) {
     const RecordingPlan each = portion(options);
     return "10 simplexes in pairs, each sends so many commands per cycle; " +
            conditions(options, sweep.threads, options.frequency) + "; " +
-           number(static_cast<double>(each.loopPeriods)) +
+           number(static_cast<double>(each.blocks * each.loopPeriods)) +
            " periods a point. One of each pair is answered in the same cycle, the other in the "
            "next. A pair reads the clock: from before the first command is sent until the last one "
            "of the cycle has been executed.";
@@ -117,6 +117,7 @@ void addCapacity(const Sweep& sweep, Results& results) {
                                           "cycle (p99)",
                                   .unit = "commands",
                                   .value = sweep.atDuty(70),
+                                  .repeats = sweep.atDutyOfBlocks(70),
                                   .aim = Aim::AtLeast,
                                   .limit = 2000,
                                   .paper = "10 at nearly 100 %",

@@ -208,6 +208,46 @@ TEST_F(CommandPort, RejectsACommandWithoutHandler) {
     EXPECT_EQ(answer.why.view(), "mute has no handler");
 }
 
+TEST_F(CommandPort, HandlerThatIsSetLaterOrAnewTakesTheNextCommand) {
+    prepare("poke");
+    rig.start();
+    EXPECT_EQ(exchange().reason, Reason::UnknownCommand);
+
+    worker.on("poke", [&](Call&) { return calls += 1, Outcome::Done; });
+    EXPECT_EQ(exchange().outcome, Outcome::Done);
+    worker.on("poke", [&](Call&) { return calls += 10, Outcome::Done; });
+    EXPECT_EQ(exchange().outcome, Outcome::Done);
+    EXPECT_EQ(calls, 11);
+}
+
+TEST_F(CommandPort, WordsOfAHandlerThatThenIsDoneAreForgottenWhateverItsArguments) {
+    prepare("poke");
+    worker.on("poke", [](Call& call) {
+        call.fail("never mind");
+        return Outcome::Done;
+    });
+    rig.start();
+    EXPECT_EQ(exchange().why.view(), "");
+
+    rig.outside.send({.path = "/worker", .command = "poke"});
+    rig.step(2);
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Done);
+    EXPECT_EQ(rig.outside.last().why, "");
+}
+
+TEST_F(CommandPort, HandleMayOutliveTheAgentAndSendsNothingThen) {
+    prepare("poke");
+    worker.on("poke", [](Call&) { return Outcome::Done; });
+    rig.start();
+    exchange();
+    EXPECT_EQ(sender.sent(), 1U);
+    EXPECT_EQ(sender.answered(), 1U);
+
+    rig.agent.reset();
+    EXPECT_EQ(sender.sent(), 0U);
+    EXPECT_EQ(sender.send(), Outcome::MailboxFull);
+}
+
 TEST_F(CommandPort, HandlerFailsInItsOwnWordsWhichTheNextAnswerForgets) {
     prepare("poke");
     bool fail = true;

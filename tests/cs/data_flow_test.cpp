@@ -5,7 +5,9 @@
 #include "support/probe.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -83,6 +85,18 @@ TEST(DataFlow, ATaskMayOverrideItsQuality) {
 
     EXPECT_EQ(chain.cluster.quality("/s"), Quality::Stale);
     EXPECT_EQ(chain.cluster.quality("/z-writer"), Quality::Stale);
+}
+
+TEST(DataFlow, QualitySaidOutsideOfItsOwnHooksDoesNotCount) {
+    Chain chain;
+    chain.reader.onActive = [&](Probe&, const Tick&) { chain.writer.setQuality(Quality::Bad); };
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+    chain.cluster.startup(chain.reader);
+
+    chain.cluster.step(2);
+
+    EXPECT_EQ(chain.cluster.quality("/z-writer"), Quality::Good);
 }
 
 TEST(DataFlow, ALossIsSeenByTheReaderWithItsFirstCause) {
@@ -208,8 +222,12 @@ struct Shared {
     ProbeCluster cluster;
     Probe& first = cluster.probe("/w1");
     Probe& second = cluster.probe("/w2");
+    std::vector<Probe*> others;
 
-    Shared() {
+    explicit Shared(int otherProbes = 0) {
+        for (int i = 0; i < otherProbes; ++i) {
+            others.push_back(&cluster.probe("/other" + std::to_string(i)));
+        }
         Simplex& signal = cluster.tree.add("/s", "SharedSignal");
         write(first, signal, 10);
         write(second, signal, 20);
@@ -259,6 +277,23 @@ TEST(Arbitration, NoneActiveGivesSafeValues) {
 
     EXPECT_EQ(shared.cluster.number("/s", "value"), 0);
     EXPECT_EQ(shared.cluster.quality("/s"), Quality::Stale);
+}
+
+// Where there are so many, what the next ones touch is fetched; a simplex that several write has a
+// task without a simplex.
+TEST(Arbitration, HoldsAmongMoreTasksThanTheCachesHold) {
+    Shared shared{2000};
+    std::int64_t runs = 0;
+    for (Probe* each : shared.others) {
+        each->onLoopStart = [&](Probe&, const Tick&) { ++runs; };
+    }
+    shared.cluster.startup(shared.second);
+    runs = 0;
+
+    shared.cluster.step(3);
+
+    EXPECT_EQ(runs, 3 * 2000);
+    EXPECT_EQ(shared.cluster.number("/s", "value"), 20);
 }
 
 TEST(DataFlow, AnotherAgentsValueMayBeThreeOfItsOwnersPeriodsOld) {

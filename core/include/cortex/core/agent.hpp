@@ -77,7 +77,8 @@ public:
     void start();  // after populate(): sizes lanes, announces to the interfaces, first image
     void stop();   // last write(), closes interfaces, hands out the last events
 
-    // Latches, read, deliver; then the commands of simplexes without a task.
+    // Latches, read, deliver; then the commands of simplexes without a task. The cycle is another
+    // one each time: what is delayed is seen in the next.
     void beginCycle(const Tick& tick) CORTEX_REALTIME;
     // Image, write. `wallClock`: UTC ns of the tick's nominal time.
     void endCycle(const Tick& tick, std::int64_t wallClock) CORTEX_REALTIME;

@@ -93,7 +93,7 @@ private:
         return (static_cast<Self*>(static_cast<SimplexCS*>(self))->*method)(call);
     }
 
-    // With the head of the object this is one cache line; what derives from it begins the next.
+    // With the head of the object this is most of a cache line; what derives from it goes on there.
     std::uint32_t manager_ = noSimplex;  // who starts and stops it instead of group commands
     State state_ = State::Standby;
     bool faultPending_ = false;
