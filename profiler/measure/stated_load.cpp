@@ -29,6 +29,8 @@ Figure figureOf(const StatedLoad& load, const RunOptions& options, const Measure
     figure.y = {"share of cycles that are longer", "", true};
     figure.series.push_back({"loop", measured.duration.shareAbove(), false});
     figure.marks.push_back({Mark::Along::X, measured.period, "the period"});
+    figure.marks.push_back(
+        {Mark::Along::X, measured.period * mostDuty / 100, number(mostDuty) + " %"});
     figure.marks.push_back({Mark::Along::Y, 0.01, "p99"});
     return figure;
 }

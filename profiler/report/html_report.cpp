@@ -63,7 +63,7 @@ std::string summary(const Results& results) {
     if (results.quantities.empty()) return {};
     std::string text =
         "<h2>Summary</h2>\n<div class=\"wide\"><table>\n<thead><tr><th>What</th>"
-        "<th class=\"n\">Here</th><th class=\"n\">Beside it</th><th class=\"n\">Ratio</th>"
+        "<th class=\"n\">Here</th><th class=\"base\">Beside it</th><th class=\"n\">Ratio</th>"
         "<th>Aim</th><th>Paper</th></tr></thead>\n<tbody>\n";
     for (const Quantity& each : results.quantities) {
         std::string repeats;
@@ -72,7 +72,7 @@ std::string summary(const Results& results) {
         }
         text += "<tr>" + element("td", escaped(each.what)) +
                 element("td class=\"n\"" + repeats, escaped(valueText(each, thinSpace))) +
-                element("td class=\"n\"", escaped(baselineText(each, thinSpace))) +
+                element("td class=\"base\"", escaped(baselineText(each, thinSpace))) +
                 element("td class=\"n\"", escaped(ratioText(each))) + aimCell(each) +
                 element("td class=\"paper\"", escaped(each.paper)) + "</tr>\n";
     }

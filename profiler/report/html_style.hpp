@@ -21,17 +21,19 @@ h3{font-size:1.05rem;margin:0 0 .5rem}
 p{margin:.3rem 0}
 a{color:var(--c0)}
 .faint,figcaption,.said{color:var(--faint)}
+.good,.bad{white-space:nowrap}
 .good{color:var(--good);font-weight:600}
 .bad{color:var(--bad);font-weight:600}
 .box{background:var(--box);border-left:4px solid var(--rule);padding:.6rem 1rem;margin:1rem 0}
 .box.warn{border-color:var(--bad)}
 .box ul{margin:.2rem 0;padding-left:1.2rem}
-td:first-child,th:first-child{min-width:20em}
+td:first-child,th:first-child{min-width:18em}
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums;font-size:.93rem}
 th,td{padding:.32rem .7rem;text-align:left;vertical-align:top;border-bottom:1px solid var(--grid)}
 th{border-bottom:2px solid var(--rule);font-weight:600}
 .n{text-align:right;white-space:nowrap}
-.aim{white-space:nowrap}
+.base{text-align:right;max-width:15rem}
+.aim{min-width:8rem}
 .paper{min-width:9rem}
 .machine{display:grid;grid-template-columns:repeat(auto-fill,minmax(21rem,1fr));gap:0 2rem;
 margin:0;font-size:.9rem}
