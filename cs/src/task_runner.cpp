@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <exception>
 #include <span>
 #include <utility>
@@ -58,8 +59,11 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
 // With a memory that others use as well it is not the mean that this helps but the worst cycles.
 inline void TaskRunner::fetchAhead(std::span<const Task> tasks, std::size_t i) const {
     const Task& far = tasks[std::min(i + 6, tasks.size() - 1)];
-    fetch(far.simplex);
-    if (far.simplex != nullptr) fetch(far.simplex + 1);  // most of what derives from it
+    if (far.simplex != nullptr) {
+        fetch(far.simplex);
+        // Most of what derives from it.
+        fetch(reinterpret_cast<const std::byte*>(far.simplex) + sizeof(SimplexCS));
+    }
     agent_.fetchPort(far.index);
     agent_.fetchLanes(tasks[std::min(i + 3, tasks.size() - 1)].index);
 }
