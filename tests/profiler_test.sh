@@ -42,10 +42,12 @@ cmp "$out/first/report.html" "$out/report.before" || fail "the same results, ano
 # Stopped, it keeps what there is, and says so.
 "$bin/cortex-profiler" run memory access --out "$out/stopped" >"$out/stopped.log" 2>&1 &
 running=$!
-until grep -q 'memory over time' "$out/stopped.log"; do
+for ((waited = 0; waited < 1200; ++waited)); do
+    if grep -q 'memory over time' "$out/stopped.log"; then break; fi
     kill -0 "$running" 2>/dev/null || fail "it ended by itself"
     sleep 0.05
 done
+((waited < 1200)) || fail "nothing was measured within a minute"
 kill -INT "$running"
 status=0
 wait "$running" || status=$?

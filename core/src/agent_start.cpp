@@ -180,7 +180,9 @@ CommandSender AgentRuntime::makeSender(std::uint32_t edge, std::string_view comm
         throw Error(what + " bypasses mailboxes: use lifeCycle()");
     }
     if (table.entries[index].request.size > Lane::mostRequest) {
-        throw Error(what + " has more than 512 KiB of parameters, too many for a relationship");
+        throw Error(what +
+                    " has more than 512 KiB of parameters, too many for a relationship; "
+                    "send it from outside, or let fewer items be settable");
     }
     auto state = std::make_shared<CommandSender::State>(table, index, edge, std::max(capacity, 1U));
     senders_.push_back(state);

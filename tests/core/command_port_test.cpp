@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -447,6 +448,20 @@ TEST_F(CommandPort, SendersAndHandlersOfUnknownCommandsThrowWithTheNames) {
     EXPECT_THROW(CommandSender{}.argument<double>("amount"), Error);
     EXPECT_FALSE(CommandSender{}.bound());
     EXPECT_TRUE(add.bound());
+}
+
+TEST_F(CommandPort, SetOfMoreThanARelationshipCarriesHasNoSenderButARemedy) {
+    rig.tree.relate(boss, "workers", rig.hand("/bulky", "Bulky"));
+    rig.make();
+
+    EXPECT_TRUE(boss.output("workers").command("add").bound());
+    try {
+        boss.output("workers").command("set");
+        FAIL() << "more than its lane can hold";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string_view{error.what()}.find("send it from outside"), std::string::npos)
+            << error.what();
+    }
 }
 
 TEST_F(CommandPort, LifeCycleCommandsHaveNoSender) {
