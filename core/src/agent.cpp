@@ -94,8 +94,8 @@ void AgentRuntime::processCommands(std::uint32_t simplex, State state, LoopThrea
     ports_[simplex]->process(state, thread, dead);
 }
 
-void AgentRuntime::fetchLanes(std::uint32_t simplex) const {
-    if (hasCommandWork(calls(simplex))) ports_[simplex]->fetchLanes();
+AgentRuntime::CommandPlaces AgentRuntime::commandPlaces(std::uint32_t simplex) const {
+    return ports_[simplex] != nullptr ? ports_[simplex]->places() : CommandPlaces{};
 }
 
 bool AgentRuntime::cancelActivity(std::uint32_t simplex, LoopThread& thread, bool callHandler,

@@ -88,10 +88,40 @@ bool CommandPort::hasPassingWork() const {
     return outside_ != nullptr || (activity_ != nullptr && activity_->running());
 }
 
+// Nearly every command: short, accepted, Done. False: nothing has happened yet.
+[[gnu::always_inline]] inline bool CommandPort::takePlainly(Lane& lane) {
+    LaneSlot& head = lane.front();
+    const CommandTable::Entry& entry = table_.entries[head.command];
+    const std::byte* request = lane.requestOf(head);
+    if (!entry.isShort || dead_ || !entry.available.has(state_)) return false;
+    for (const ArgumentCheck& check : entry.checks) {
+        if (!plainlyGood(check, request)) return false;
+    }
+    const Handler& handler = handlerOf(head.command);
+    if (handler.function == nullptr) return false;
+    std::byte* response = lane.responseOf(head);
+    copyRecord(response, entry.emptyResponse.data(), entry.response.size);
+    Call call{request, response};
+    call.setTime(thread_->nominalTime, thread_->nominalTime);
+    const Outcome outcome = handler(call);
+    if (outcome == Outcome::Done) [[likely]] {
+        lane.answerDone(head, thread_->clock);
+        countExecuted(head.time);
+    } else {
+        answer(lane, head, shortVerdict(outcome, call));
+    }
+    return true;
+}
+
 // A handler cannot add to the lane that it is called from: its sender is another.
-inline void CommandPort::drain(Lane& lane) {
-    for (std::int32_t left = lane.pending(thread_->clock.cycle); left > 0; --left) {
-        if (!takePlainly(lane)) take(lane);
+[[gnu::always_inline]] inline void CommandPort::drain(Lane& lane) {
+    try {
+        for (std::int32_t left = lane.pending(thread_->clock.cycle); left > 0; --left) {
+            if (!takePlainly(lane)) take(lane);
+        }
+    } catch (...) {
+        answer(lane, lane.front(), {Outcome::Failed, Reason::None, "its handler threw"});
+        throw;
     }
 }
 
@@ -125,54 +155,21 @@ void CommandPort::processAll() {
     const std::int64_t cycle = thread_->clock.cycle;
     if (sending_ != nullptr) sending_->takeAnswers(cycle);
     for (Lane* lane : moreSending_) lane->takeAnswers(cycle);
-    if (receiving_ != nullptr) drain(*receiving_);
-    for (Lane* lane : moreReceiving_) drain(*lane);
+    auto next = moreReceiving_.begin();
+    for (Lane* lane = receiving_; lane != nullptr;
+         lane = next == moreReceiving_.end() ? nullptr : *next++) {
+        drain(*lane);
+    }
     if (outside_ != nullptr) drainOutside();
     if (activity_ != nullptr && activity_->running()) stepActivity();
     more_ = !moreSending_.empty() || !moreReceiving_.empty() || hasPassingWork();
     if (sending_ == nullptr && receiving_ == nullptr && !hasPassingWork()) callFor(false);
 }
 
-// Nearly every command: short, accepted, Done. False: nothing has happened yet.
-bool CommandPort::takePlainly(Lane& lane) {
-    LaneSlot& head = lane.front();
-    const CommandTable::Entry& entry = table_.entries[head.command];
-    const std::byte* request = lane.requestOf(head);
-    if (!entry.isShort || dead_ || !entry.available.has(state_)) return false;
-    for (const ArgumentCheck& check : entry.checks) {
-        if (!plainlyGood(check, request)) return false;
-    }
-    const Handler& handler = handlerOf(head.command);
-    if (handler.function == nullptr) return false;
-    std::byte* response = lane.responseOf(head);
-    copyRecord(response, entry.emptyResponse.data(), entry.response.size);
-    Call call{request, response};
-    call.setTime(thread_->nominalTime, thread_->nominalTime);
-    Outcome outcome = Outcome::None;
-    try {
-        outcome = handler(call);
-    } catch (...) {
-        answer(lane, head, {Outcome::Failed, Reason::None, "its handler threw"});
-        throw;
-    }
-    if (outcome == Outcome::Done) [[likely]] {
-        lane.answerDone(head, thread_->clock);
-        countExecuted(head.time);
-    } else {
-        answer(lane, head, shortVerdict(outcome, call));
-    }
-    return true;
-}
-
 void CommandPort::take(Lane& lane) {
     LaneSlot& head = lane.front();
     Verdict verdict;
-    try {
-        execute(head.command, lane.requestOf(head), lane.responseOf(head), &lane, nullptr, verdict);
-    } catch (...) {
-        answer(lane, head, {Outcome::Failed, Reason::None, "its handler threw"});
-        throw;
-    }
+    execute(head.command, lane.requestOf(head), lane.responseOf(head), &lane, nullptr, verdict);
     answer(lane, head, verdict);
 }
 

@@ -35,9 +35,9 @@ public:
 
     const CommandTable& table() const { return table_; }
     bool hasLanes() const { return receiving_ != nullptr; }
-    void fetchLanes() const CORTEX_REALTIME {
-        if (sending_ != nullptr) sending_->fetchFirstSlot();
-        if (receiving_ != nullptr) receiving_->fetchFirstSlot();
+    AgentRuntime::CommandPlaces places() const {
+        const auto octets = [](const auto* of) { return reinterpret_cast<const std::byte*>(of); };
+        return {octets(this), octets(sending_), octets(receiving_)};
     }
     // Step (1). What a handler throws passes through, after its command was answered Failed.
     // `dead`: its commands are refused.

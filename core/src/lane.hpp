@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/fetch.hpp"
+#include "cortex/core/agent.hpp"
 #include "cortex/core/mailbox.hpp"
 
 #include <algorithm>
@@ -78,11 +78,6 @@ public:
     CommandPort& sender() const CORTEX_REALTIME { return *sender_; }
     std::uint64_t sent(std::uint16_t handle) const;
     std::uint64_t answered(std::uint16_t handle) const;
-
-    void fetchFirstSlot() const CORTEX_REALTIME {
-        fetch(this);
-        fetch(this + 1);
-    }
 
     // Before an end does anything in a cycle; again does no harm.
     void beginSending(std::int64_t cycle) CORTEX_REALTIME {
@@ -175,8 +170,9 @@ private:
         return (position - first_) & ((1U << bits_) - 1U);
     }
     std::byte* place(std::uint32_t position) const {
-        return const_cast<std::byte*>(reinterpret_cast<const std::byte*>(this + 1)) +
-               std::size_t{indexOf(position)} * lines_ * lineSize;
+        auto* slots = const_cast<std::byte*>(reinterpret_cast<const std::byte*>(this + 1));
+        if (position == first_) return slots;  // with light traffic mostly
+        return slots + std::size_t{indexOf(position)} * lines_ * lineSize;
     }
     LaneSlot& slot(std::uint32_t position) const {
         return *reinterpret_cast<LaneSlot*>(place(position));
@@ -206,6 +202,8 @@ private:
     std::uint32_t finalTaken_ = 0;
     std::unique_ptr<Rest> rest_;
 };
+
+static_assert(sizeof(Lane) == AgentRuntime::CommandPlaces::slots);
 
 // All lanes of an agent, one behind the other with their slots, in the order given.
 class LaneBlock {
@@ -315,11 +313,10 @@ inline void Lane::takeAnswer() {
     answer.latency = head.time;
     answer.reason = head.reason;
     answer.outcome = head.outcome;
-    if (head.worded)
-        answer.why = rest_->whys[indexOf(position)];
-    else if (state.worded)
-        answer.why = {};
-    state.worded = head.worded;
+    if (head.worded || state.worded) {
+        state.worded = head.worded;
+        answer.why = head.worded ? rest_->whys[indexOf(position)] : EventText{};
+    }
     copyRecord(state.response(), responseOf(head), state.responseSize());
     if (onlyHandle_ == nullptr) ++rest_->counts[head.handle].answered;
 }

@@ -9,15 +9,15 @@ namespace cortex::cs {
 
 void SimplexCS::fault(std::int64_t code, std::string_view text) {
     if (thread_ == nullptr) throw Error(path() + ": fault() is for hooks; to refuse, throw");
-    if (faultPending_) return;
-    faultPending_ = true;
+    if (pending_.fault) return;
+    pending_.fault = true;
     thread_->faultCode = code;
     thread_->text = EventText{text};
 }
 
 void SimplexCS::setQuality(Quality quality, std::int64_t measuredAt) {
     if (thread_ == nullptr) return;  // not in a tick
-    qualitySet_ = true;
+    pending_.quality = true;
     quality_ = quality;
     thread_->measuredAt = measuredAt < 0 ? thread_->loop->nominalTime : measuredAt;
 }

@@ -11,9 +11,6 @@ namespace cortex::cs {
 
 namespace {
 
-// Tasks that a second-level cache of 1 MB holds, with a command each: about 600 octets a task.
-constexpr std::size_t tasksInCache = 1500;
-
 std::int64_t toNanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
 }  // namespace
@@ -66,7 +63,6 @@ struct TaskBuilder {
         }
         runner.tasks_.resize(schedule.tasks.size());
         runner.details_.resize(schedule.tasks.size());
-        runner.fetchesAhead_ = schedule.tasks.size() > tasksInCache;
         for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
             const std::uint32_t index = schedule.tasks[t];
             if (isActive(index)) buildTask(runner.tasks_[t], index);

@@ -138,7 +138,7 @@ void TaskRunner::limitOutputs(Task& task, const Tick& tick) {
         simplex.fault(result.notFinite ? DemandNotFinite : DemandOutOfRange,
                       refusal(result, output.target).view());
     }
-    if (simplex.faultPending_) {
+    if (simplex.pending_.fault) {
         enterFault(task, tick);
         again = true;
     }
@@ -199,7 +199,7 @@ void TaskRunner::arbitrate(Arbiter& arbiter, TaskThread& thread) {
     const bool faults = demands && result.faulting != nullptr;
     if (faults) {
         chosen.output->refused = result;
-        chosen.writer->demandRefused_ = true;
+        chosen.writer->pending_.demandRefused = true;
     }
     if (faults || result.notFinite) {
         chosen.output->safe->latch();

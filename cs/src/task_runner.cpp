@@ -17,7 +17,16 @@ namespace {
 
 std::int64_t monotonicNow() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 
+// Tasks that a second-level cache of 1 MB holds, with a command each: about 600 octets a task.
+constexpr std::size_t tasksInCache = 1500;
+// So many tasks before its turn what a task touches is fetched: about 100 ns, as a memory takes.
+constexpr std::size_t fetchedAhead = 6;
+
 void at(Position& position, Hook hook) { position.hook.store(hook, std::memory_order_relaxed); }
+
+bool isTransitional(State state) {
+    return state == State::StartingUp || state == State::ShuttingDown;
+}
 
 constexpr std::array hookOfState{Hook::Standby, Hook::StartingUp, Hook::Active, Hook::ShuttingDown,
                                  Hook::Fault};
@@ -45,27 +54,27 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
     Position& position = positions_[worker];
     thread.loop->clock = {tick_.cycle, monotonicNow()};
     const std::span tasks{tasks_.data() + chunks_[chunk].first, chunks_[chunk].count};
-    for (std::size_t i = 0; i < tasks.size(); ++i) {
-        if (fetchesAhead_) fetchAhead(tasks, i);
+    const TaskPlaces* ahead =
+        places_.empty() ? nullptr : &places_[chunks_[chunk].first + fetchedAhead];
+    for (Task& task : tasks) {
+        if (ahead != nullptr) ahead++->fetchAll();
         if (chunk == timedChunk_)
-            runTimed(tasks[i], thread, position);
+            runTimed(task, thread, position);
         else
-            runTask(tasks[i], thread, position);
+            runTask(task, thread, position);
     }
     position.simplex.store(noSimplex, std::memory_order_relaxed);
     at(position, Hook::None);
 }
 
 // With a memory that others use as well it is not the mean that this helps but the worst cycles.
-inline void TaskRunner::fetchAhead(std::span<const Task> tasks, std::size_t i) const {
-    const Task& far = tasks[std::min(i + 6, tasks.size() - 1)];
-    if (far.simplex != nullptr) {
-        fetch(far.simplex);
-        // Most of what derives from it.
-        fetch(reinterpret_cast<const std::byte*>(far.simplex) + sizeof(SimplexCS));
+void TaskRunner::findPlaces() {
+    if (tasks_.size() <= tasksInCache) return;
+    places_.resize(tasks_.size() + fetchedAhead);
+    for (std::size_t i = 0; i < tasks_.size(); ++i) {
+        places_[i] = {reinterpret_cast<const std::byte*>(tasks_[i].simplex),
+                      agent_.commandPlaces(tasks_[i].index)};
     }
-    agent_.fetchPort(far.index);
-    agent_.fetchLanes(tasks[std::min(i + 3, tasks.size() - 1)].index);
 }
 
 void TaskRunner::runTimed(Task& task, TaskThread& thread, Position& position) {
@@ -75,10 +84,8 @@ void TaskRunner::runTimed(Task& task, TaskThread& thread, Position& position) {
 }
 
 // Whether step (1) may change the state; mostly nothing has happened that could.
-bool TaskRunner::mayMove(const Task& task, std::uint8_t calls) const {
-    const SimplexCS& simplex = *task.simplex;
-    return anyMayMove_ || simplex.done_ || simplex.faultPending_ || simplex.demandRefused_ ||
-           AgentRuntime::hasLifeCycle(calls);
+bool TaskRunner::mayMove(const SimplexCS& simplex, std::uint8_t calls) const {
+    return anyMayMove_ || simplex.pending_.any() || AgentRuntime::hasLifeCycle(calls);
 }
 
 bool TaskRunner::runTask(Task& task, TaskThread& thread, Position& position) {
@@ -107,18 +114,17 @@ inline void TaskRunner::runSimplex(Task& task, const Tick& tick, TaskThread& thr
                                    Position& position) {
     SimplexCS& simplex = *task.simplex;
     if (simplex.thread_ != &thread) simplex.thread_ = &thread;
-    if (simplex.qualitySet_) simplex.qualitySet_ = false;
     position.simplex.store(task.index, std::memory_order_relaxed);
-    SlotState state{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
+    at(position, Hook::Commands);
+    states_[task.index] = {tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     try {
-        at(position, Hook::Commands);
         const std::uint8_t calls = agent_.calls(task.index);
-        if (mayMove(task, calls)) transition(task, tick);
+        if (mayMove(simplex, calls)) transition(task, tick);
         if (AgentRuntime::hasCommandWork(calls)) {
             agent_.processCommands(task.index, simplex.state_, *thread.loop, simplex.dead_);
         }
-        if (task.inputCount != 0) state = readInputs(task, tick);
-        if (!simplex.faultPending_) runHooks(task, tick, position);
+        if (task.inputCount != 0) states_[task.index] = readInputs(task, tick);
+        if (!simplex.pending_.fault) runHooks(task, simplex, tick, position);
     } catch (const std::exception& error) {
         simplex.fault(HookThrew, error.what());
         simplex.dead_ = true;
@@ -126,61 +132,62 @@ inline void TaskRunner::runSimplex(Task& task, const Tick& tick, TaskThread& thr
         simplex.fault(HookThrew, "a hook threw something that is no std::exception");
         simplex.dead_ = true;
     }
-    if (simplex.faultPending_) enterFault(task, tick);
+    if (simplex.pending_.fault) enterFault(task, tick);
     if (task.limits) limitOutputs(task, tick);
-    settleQuality(task, tick, state);
-    states_[task.index] = state;
+    settleQuality(task, simplex, tick);
     for (std::uint32_t i = 0; i < task.outputCount; ++i) {
-        *outputs_[task.firstOutput + i].state = state;
+        *outputs_[task.firstOutput + i].state = states_[task.index];
     }
 }
 
-inline void TaskRunner::runHooks(Task& task, const Tick& tick, Position& position) {
-    SimplexCS& simplex = *task.simplex;
-    const State state = simplex.state_;
-    if (state == State::Standby || state == State::Fault) writeSafe(task);
+inline void TaskRunner::runHooks(Task& task, SimplexCS& simplex, const Tick& tick,
+                                 Position& position) {
+    if (simplex.state_ == State::Standby || simplex.state_ == State::Fault) writeSafe(task);
     if (simplex.dead_) return;
     at(position, Hook::LoopStart);
     simplex.loopStart(tick);
-    at(position, hookOfState[static_cast<std::size_t>(state)]);
-    switch (state) {
-        case State::Standby:
-            simplex.stateStandby(tick);
-            break;
-        case State::StartingUp:
-            simplex.done_ = simplex.stateStartingUp(tick);
-            break;
-        case State::Active:
-            if (simplex.safeByLoss_)
-                writeSafe(task);
-            else
-                simplex.stateActive(tick);
-            break;
-        case State::ShuttingDown:
-            simplex.done_ = simplex.stateShuttingDown(tick);
-            break;
-        case State::Fault:
-            simplex.done_ = simplex.stateFault(tick);
-            break;
+    if (simplex.state_ == State::Active) {
+        at(position, Hook::Active);
+        if (simplex.safeByLoss_)
+            writeSafe(task);
+        else
+            simplex.stateActive(tick);
+    } else if (simplex.state_ == State::Standby) {
+        at(position, Hook::Standby);
+        simplex.stateStandby(tick);
+    } else {
+        runPassing(simplex, tick, position);
     }
     at(position, Hook::LoopEnd);
     simplex.loopEnd(tick);
-    if (state == State::StartingUp || state == State::ShuttingDown) checkTimeout(task, tick);
+    if (isTransitional(simplex.state_)) checkTimeout(task, tick);
+}
+
+// The functions that say when they are done.
+void TaskRunner::runPassing(SimplexCS& simplex, const Tick& tick, Position& position) {
+    at(position, hookOfState[static_cast<std::size_t>(simplex.state_)]);
+    if (simplex.state_ == State::StartingUp)
+        simplex.pending_.done = simplex.stateStartingUp(tick);
+    else if (simplex.state_ == State::ShuttingDown)
+        simplex.pending_.done = simplex.stateShuttingDown(tick);
+    else
+        simplex.pending_.done = simplex.stateFault(tick);
 }
 
 // What its own state, and what the task said itself, make of the quality of its inputs.
-inline void TaskRunner::settleQuality(const Task& task, const Tick& tick, SlotState& state) const {
-    const SimplexCS& simplex = *task.simplex;
-    if (task.measures && !simplex.dead_)
+inline void TaskRunner::settleQuality(const Task& task, const SimplexCS& simplex,
+                                      const Tick& tick) const {
+    SlotState& state = states_[task.index];
+    if (task.measures && !simplex.dead_) {
         state = {tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
-    else if (simplex.state_ == State::Fault && state.quality < Quality::Bad) {
-        state.quality = Quality::Bad;
-        state.cause = task.index;
-    } else if (simplex.state_ != State::Active && state.quality < Quality::Stale) {
-        state.quality = Quality::Stale;
-        state.cause = task.index;
+    } else if (simplex.state_ != State::Active) {
+        const Quality most = simplex.state_ == State::Fault ? Quality::Bad : Quality::Stale;
+        if (state.quality < most) {
+            state.quality = most;
+            state.cause = task.index;
+        }
     }
-    if (!simplex.qualitySet_) return;
+    if (!simplex.pending_.quality) return;
     state.quality = simplex.quality_;
     state.time = simplex.thread_->measuredAt;
     state.cause = simplex.quality_ == Quality::Good ? noSimplex : task.index;
@@ -190,7 +197,7 @@ void TaskRunner::checkTimeout(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     const double timeout = simplex.type().transitionTimeout;
     const std::int64_t passed = tick.nominalTime - details(task).stateSince;
-    if (simplex.done_ || passed < std::llround(timeout * 1e9)) return;
+    if (simplex.pending_.done || passed < std::llround(timeout * 1e9)) return;
     EventText text{name(hookOfState[static_cast<std::size_t>(simplex.state_)])};
     text << " was not done within " << timeout << " s";
     simplex.fault(TransitionTimeout, text.view());
@@ -198,25 +205,26 @@ void TaskRunner::checkTimeout(Task& task, const Tick& tick) {
 
 void TaskRunner::transition(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
+    simplex.pending_.quality = false;  // of the cycle before
     if (task.index == listenedTo_) heardRun_ = true;
-    for (std::uint32_t i = 0; simplex.demandRefused_ && i < task.outputCount; ++i) {
+    for (std::uint32_t i = 0; simplex.pending_.demandRefused && i < task.outputCount; ++i) {
         TaskOutput& output = outputs_[task.firstOutput + i];
         if (output.refused.faulting == nullptr) continue;
         simplex.fault(output.refused.notFinite ? DemandNotFinite : DemandOutOfRange,
                       refusal(output.refused, output.target).view());
         output.refused = {};
     }
-    simplex.demandRefused_ = false;
+    simplex.pending_.demandRefused = false;
     if (halted_ && simplex.state_ == State::Active) {
         simplex.fault(ClusterHalted, "the loop overran its period and overflow is \"halt\"");
     }
-    if (simplex.faultPending_) return enterFault(task, tick);
+    if (simplex.pending_.fault) return enterFault(task, tick);
     const bool resting = simplex.state_ == State::Standby || simplex.state_ == State::Fault;
     if (forced_ && !resting) return enter(task, State::Standby, tick);
     if (forced_) return;
     const LifeCycle command = agent_.takeLifeCycle(task.index, *simplex.thread_->loop);
     if (command != LifeCycle::None && lifeCycle(task, command, tick)) return;
-    if (!simplex.done_) return;
+    if (!simplex.pending_.done) return;
     if (const auto to = next(simplex.state_, Move::Done)) enter(task, *to, tick);
 }
 
@@ -233,7 +241,7 @@ bool TaskRunner::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
         simplex.thread_->text << (command == LifeCycle::Startup ? "startup needs Standby, is "
                                                                 : "clearFaults needs Fault, is ")
                               << name(simplex.state_);
-    } else if (command == LifeCycle::ClearFaults && !simplex.dead_ && !simplex.done_) {
+    } else if (command == LifeCycle::ClearFaults && !simplex.dead_ && !simplex.pending_.done) {
         simplex.thread_->text << "the fault is not over: stateFault has not returned true";
     } else if (command != LifeCycle::Startup || mayStart(task)) {  // mayStart says why not
         enter(task, *to, tick);
@@ -291,7 +299,7 @@ void TaskRunner::enter(Task& task, State to, const Tick& tick) {
         is.faultText = std::string_view{};
     }
     simplex.state_ = to;
-    simplex.done_ = false;
+    simplex.pending_.done = false;
     is.state = static_cast<std::int64_t>(to);
     is.stateSince = tick.nominalTime;
     if (to == State::Fault) return;  // has an event of its own
@@ -302,7 +310,7 @@ void TaskRunner::enter(Task& task, State to, const Tick& tick) {
 
 void TaskRunner::enterFault(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
-    simplex.faultPending_ = false;
+    simplex.pending_.fault = false;
     const bool faultedBefore = simplex.state_ == State::Fault;
     if (faultedBefore) writeSafe(task);
     if (faultedBefore && simplex.thread_->faultCode != HookThrew) return;

@@ -103,6 +103,18 @@ struct TaskDetails {
     Data<double> taskTime;
 };
 
+// What a task and its commands touch first.
+struct alignas(32) TaskPlaces {
+    const std::byte* simplex = nullptr;
+    AgentRuntime::CommandPlaces commands;
+
+    void fetchAll() const CORTEX_REALTIME {
+        fetch(simplex);
+        fetch(simplex + sizeof(SimplexCS));  // most of what derives from it
+        commands.fetchAll();
+    }
+};
+
 // What a loop thread is doing now, for the watchdog.
 struct alignas(64) Position {
     std::atomic<std::uint32_t> simplex{noSimplex};
@@ -119,6 +131,9 @@ class TaskRunner {
 public:
     // `schedule` stays as long as it is used.
     TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64_t period);
+
+    // Once lanes exist, before the first cycle.
+    void findPlaces();
 
     // Loop thread, before the chunks of a cycle.
     void beginCycle(const Tick& tick) CORTEX_REALTIME;
@@ -161,13 +176,15 @@ private:
     bool runAtTimes(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
     void runSimplex(Task& task, const Tick& tick, TaskThread& thread, Position& position)
         CORTEX_REALTIME;
-    void fetchAhead(std::span<const Task> tasks, std::size_t i) const CORTEX_REALTIME;
     void runTimed(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
     TaskDetails& details(const Task& task) {
         return details_[static_cast<std::size_t>(&task - tasks_.data())];
     }
-    bool mayMove(const Task& task, std::uint8_t calls) const CORTEX_REALTIME;
-    void runHooks(Task& task, const Tick& tick, Position& position) CORTEX_REALTIME;
+    bool mayMove(const SimplexCS& simplex, std::uint8_t calls) const CORTEX_REALTIME;
+    void runHooks(Task& task, SimplexCS& simplex, const Tick& tick, Position& position)
+        CORTEX_REALTIME;
+    static void runPassing(SimplexCS& simplex, const Tick& tick, Position& position)
+        CORTEX_REALTIME;
     void transition(Task& task, const Tick& tick) CORTEX_REALTIME;
     bool lifeCycle(Task& task, LifeCycle command, const Tick& tick) CORTEX_REALTIME;
     void enter(Task& task, State to, const Tick& tick) CORTEX_REALTIME;
@@ -185,7 +202,8 @@ private:
     void writeSafe(Task& task) CORTEX_REALTIME;
     void checkTimeout(Task& task, const Tick& tick) CORTEX_REALTIME;
     void tell(const Task& task) CORTEX_REALTIME;  // who listens: the text of its thread
-    void settleQuality(const Task& task, const Tick& tick, SlotState& state) const CORTEX_REALTIME;
+    void settleQuality(const Task& task, const SimplexCS& simplex, const Tick& tick) const
+        CORTEX_REALTIME;
 
     AgentRuntime& agent_;
     const Structure& structure_;
@@ -194,6 +212,7 @@ private:
     std::span<const Chunk> chunks_;
     std::vector<Task> tasks_;           // in execution order
     std::vector<TaskDetails> details_;  // of the same tasks
+    std::vector<TaskPlaces> places_;    // likewise, and some more; empty: the caches hold all
     std::vector<TaskInput> inputs_;
     std::vector<TaskOutput> outputs_;
     std::vector<std::unique_ptr<HeldInput>> held_;
@@ -208,8 +227,7 @@ private:
     EventText heard_;        // likewise
     std::uint32_t timedChunk_ = 0;
     bool haltNext_ = false, halted_ = false, forced_ = false, stopping_ = false;
-    bool fetchesAhead_ = false;  // there are more tasks than the caches hold
-    bool anyMayMove_ = false;    // in this cycle, without a call of its own
+    bool anyMayMove_ = false;  // in this cycle, without a call of its own
 };
 
 }  // namespace cortex::cs

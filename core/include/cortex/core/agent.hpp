@@ -111,11 +111,21 @@ public:
     // it threw, so that no handler runs.
     void processCommands(std::uint32_t simplex, State state, LoopThread& thread, bool dead = false)
         CORTEX_REALTIME;
-    // Bring what processCommands() touches into the cache: the port well before, then its lanes.
-    void fetchPort(std::uint32_t simplex) const CORTEX_REALTIME {
-        if (hasCommandWork(calls(simplex))) fetch(ports_[simplex].get());
-    }
-    void fetchLanes(std::uint32_t simplex) const CORTEX_REALTIME;
+    // The memory that processCommands() touches, for who fetches it ahead; after start(). Of the
+    // lanes the first that it sends on and receives from; null: none.
+    struct CommandPlaces {
+        const std::byte *port = nullptr, *sending = nullptr, *receiving = nullptr;
+
+        static constexpr std::ptrdiff_t slots = 128;  // from the head of a lane
+        void fetchAll() const CORTEX_REALTIME {
+            fetch(port);
+            fetch(sending);
+            fetch(sending + slots);
+            fetch(receiving);
+            fetch(receiving + slots);
+        }
+    };
+    CommandPlaces commandPlaces(std::uint32_t simplex) const;
     // Whether step (1) has anything to do: a pending life-cycle word, and processCommands().
     std::uint8_t calls(std::uint32_t simplex) const CORTEX_REALTIME {
         return calls_[simplex].load(std::memory_order_relaxed);

@@ -6,6 +6,7 @@
 #include "cortex/core/state.hpp"
 #include "cortex/core/tick.hpp"
 
+#include <bit>
 #include <cstdint>
 #include <string_view>
 
@@ -96,13 +97,18 @@ private:
     // With the head of the object this is most of a cache line; what derives from it goes on there.
     std::uint32_t manager_ = noSimplex;  // who starts and stops it instead of group commands
     State state_ = State::Standby;
-    bool faultPending_ = false;
-    bool done_ = false;  // the transitional state's function has returned true
     bool dead_ = false;  // a hook threw: no hooks until clearFaults
     bool inputLost_ = false;
     bool safeByLoss_ = false;  // an onLoss="safe" input is lost: safe demands stand
-    bool qualitySet_ = false;
-    bool demandRefused_ = false;  // by an arbiter, in the cycle before
+    // What a task has to look at before its next hooks or at its end; mostly nothing.
+    struct Pending {
+        bool fault = false;
+        bool done = false;           // the transitional state's function has returned true
+        bool demandRefused = false;  // by an arbiter, in the cycle before
+        bool quality = false;        // was set by a hook, in this cycle
+        bool any() const { return std::bit_cast<std::uint32_t>(*this) != 0; }
+    };
+    Pending pending_;
     Quality quality_ = Quality::Good;
     TaskThread* thread_ = nullptr;
 };
