@@ -174,7 +174,7 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     warnDuty();
     if (rescheduler_) adoptPlan();
     runner_.beginCycle(tick);
-    plan_->pool->cycle();
+    plan_->pool->cycle(trigger_.nextDeadline());
     metrics_.write(runner_.counts());
     agent_.endCycle(tick, wallClockNow() - (monotonicNow() - begin) - trigger.lateness);
     metrics_.cycleEnded(lastWakeUp_ == 0 ? 0 : begin - lastWakeUp_, trigger.lateness,

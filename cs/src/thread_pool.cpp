@@ -129,6 +129,7 @@ void ThreadPool::workerMain(std::uint32_t worker) {
 /// False: the pool stops. `seen`: the epoch that this worker was last woken for.
 bool ThreadPool::waitForCycle(std::uint32_t& seen) noexcept {
     Spin spin(spinTime_);
+    std::int64_t due = next_.load(std::memory_order_relaxed);
     for (;;) {
         const std::uint32_t epoch = started_.value();
         if (stopping_.load(std::memory_order_acquire)) return false;
@@ -136,11 +137,13 @@ bool ThreadPool::waitForCycle(std::uint32_t& seen) noexcept {
             seen = epoch;
             return true;
         }
-        if (!spin.spend()) started_.sleepWhile(epoch);
+        if (spin.spend() || started_.sleepWhile(epoch, due)) continue;
+        spin = Spin(spinTime_);
+        due = 0;
     }
 }
 
-void ThreadPool::cycle() noexcept {
+void ThreadPool::cycle(std::int64_t next) noexcept {
     if (threads() == 1) {
         setFloatingPointMode();
         for (std::uint32_t chunk = 0; chunk < chunks_.size(); ++chunk) {
@@ -153,6 +156,7 @@ void ThreadPool::cycle() noexcept {
     for (List& list : lists_) {
         list.ticket.store(std::uint64_t{epoch_} << 32, std::memory_order_release);
     }
+    next_.store(next, std::memory_order_relaxed);
     started_.publish(epoch_);
     takeChunks(0);
     for (Spin spin(spinTime_);;) {

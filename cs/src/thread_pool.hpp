@@ -51,7 +51,9 @@ public:
     /// The CPU of the loop thread alone, for a pool that takes the place of another. Any thread.
     void placeLoopThread(std::thread::native_handle_type loop) const;
 
-    void cycle() noexcept;
+    /// `next`: when the cycle after this one is due, ns of the monotonic clock, so that workers
+    /// wake by themselves, with the loop thread, which then need not wake them; 0: not known.
+    void cycle(std::int64_t next = 0) noexcept;
 
     std::uint32_t threads() const noexcept { return static_cast<std::uint32_t>(workers_.size()); }
 
@@ -114,8 +116,9 @@ private:
     alignas(64) std::atomic<std::uint32_t> remaining_{0};  // chunks not yet reported as done
     alignas(64) std::atomic<std::uint32_t> sleepers_{0};   // in a cycle, for lack of a ready chunk
     alignas(64) WakeWord progress_;                        // they sleep on it
-    alignas(64) WakeWord started_;   // epoch; workers sleep on it between cycles
-    alignas(64) WakeWord finished_;  // epoch; the loop thread sleeps on it at the cycle's end
+    alignas(64) WakeWord started_;       // epoch; workers sleep on it between cycles
+    std::atomic<std::int64_t> next_{0};  // when they need no longer sleep
+    alignas(64) WakeWord finished_;      // epoch; the loop thread sleeps on it at the cycle's end
     std::atomic<bool> stopping_{false};
 };
 

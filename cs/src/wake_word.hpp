@@ -29,8 +29,9 @@ public:
         wakeAll();
     }
 
-    /// Returns when the value may have changed, sometimes earlier.
-    void sleepWhile(std::uint32_t value) noexcept;
+    /// Returns when the value may have changed, sometimes earlier. False: since it is `until`, ns
+    /// of the monotonic clock (0: never).
+    bool sleepWhile(std::uint32_t value, std::int64_t until = 0) noexcept;
 
 private:
     static constexpr std::uint32_t Sleeper = 1;

@@ -18,6 +18,7 @@
 namespace cortex::cs {
 namespace {
 
+using namespace std::chrono_literals;
 using Indices = std::vector<std::uint32_t>;
 
 void waitUntil(const auto& condition) {
@@ -211,9 +212,29 @@ TEST(ThreadPool, ReturnsAtOnceWithoutChunks) {
     EXPECT_EQ(pool.threads(), 1U);
 }
 
-/// The chunks of a cycle wait for each other, so no cycle ends unless all workers come.
+std::int64_t fromNow(std::chrono::nanoseconds time) {
+    return (std::chrono::steady_clock::now().time_since_epoch() + time).count();
+}
+
+TEST(WakeWord, LetsASleeperGoWhenItsTimeHasComeOrTheValueChanges) {
+    WakeWord word;
+    const std::int64_t soon = fromNow(1ms);
+    while (word.sleepWhile(0, soon)) {
+    }
+    EXPECT_GE(fromNow(0ns), soon);
+    EXPECT_FALSE(word.sleepWhile(0, soon));
+
+    std::thread publisher{[&] { word.publish(2); }};
+    while (word.value() == 0) EXPECT_TRUE(word.sleepWhile(0, fromNow(1h)));
+    publisher.join();
+    EXPECT_TRUE(word.sleepWhile(0, soon));
+}
+
+/// The chunks of a cycle wait for each other, so no cycle ends unless all workers come: whether
+/// they are told nothing of the next cycle, or that it is due, was, or will be long after it is.
 TEST(ThreadPool, WakesEachWorkerInEachCycle) {
     constexpr std::uint32_t Threads = 4;
+    constexpr std::array<std::chrono::nanoseconds, 4> Due{0ns, -1ms, 50us, 1h};
     const Schedule schedule = flatSchedule(Threads, Threads);
     std::atomic<std::uint32_t> arrived{0};
     std::uint32_t expected = 0;
@@ -223,9 +244,12 @@ TEST(ThreadPool, WakesEachWorkerInEachCycle) {
     }};
     for (const std::uint32_t spin : {0U, 20U}) {
         ThreadPool pool(schedule, &decltype(chunks)::run, &chunks, {.spinMicroseconds = spin});
-        for (int cycle = 0; cycle < 500; ++cycle) {
+        for (std::size_t cycle = 0; cycle < 500; ++cycle) {
+            const std::chrono::nanoseconds due = Due[cycle % Due.size()];
+            const std::int64_t next = due == 0ns ? 0 : fromNow(due);
             expected += Threads;
-            pool.cycle();
+            pool.cycle(next);
+            if (due == 50us) waitUntil([&] { return fromNow(0ns) >= next; });
         }
     }
     EXPECT_EQ(arrived.load(), expected);

@@ -33,6 +33,20 @@ TEST_P(InternalClock, KeepsItsGridWithoutDrift) {
     }
 }
 
+TEST_P(InternalClock, SaysWhenTheNextTickIsDue) {
+    cs::InternalClock clock{1ms, GetParam()};
+    clock.start();
+    clock.waitForTick();
+    for (int i = 0; i < 10; ++i) {
+        const std::int64_t due = clock.nextDeadline();
+        const cs::Trigger trigger = clock.waitForTick();
+        const std::int64_t now = std::chrono::steady_clock::now().time_since_epoch().count();
+        const std::int64_t deadline = due + (trigger.periods - 1) * 1'000'000;
+        EXPECT_GE(now, deadline + trigger.lateness);
+        EXPECT_EQ(clock.nextDeadline(), deadline + 1'000'000);
+    }
+}
+
 TEST_P(InternalClock, IsInterruptedFromAnotherThread) {
     cs::InternalClock clock{1h, GetParam()};
     clock.start();

@@ -33,6 +33,9 @@ public:
     virtual std::int64_t missed() { return 0; }
     // After a late cycle: give up the missed deadlines (true) or return them at once (false).
     virtual void skipMissed(bool) {}
+    // When the next tick is due, ns of the monotonic clock, so that others can wake for it as well;
+    // 0: not known. Loop thread, in a cycle.
+    virtual std::int64_t nextDeadline() const { return 0; }
     // Whether a period takes its time; false: cycles may follow at once (stepping).
     virtual bool realTime() const { return true; }
     // What speaks against waiting as it does; one sentence each. Loop thread, after start().
@@ -51,6 +54,7 @@ public:
     void interrupt() override;
     std::int64_t period() const override { return period_; }
     std::int64_t missed() override;
+    std::int64_t nextDeadline() const override { return origin_ + next_ * period_; }
     void skipMissed(bool skip) override { skip_ = skip; }
     std::vector<std::string> report() const override;
 
