@@ -94,8 +94,10 @@ void AgentRuntime::processCommands(std::uint32_t simplex, State state, LoopThrea
     ports_[simplex]->process(state, thread, dead);
 }
 
-AgentRuntime::CommandPlaces AgentRuntime::commandPlaces(std::uint32_t simplex) const {
-    return ports_[simplex] != nullptr ? ports_[simplex]->places() : CommandPlaces{};
+std::optional<AgentRuntime::CommandPlaces> AgentRuntime::commandPlaces(
+    std::uint32_t simplex) const {
+    if (ports_[simplex] == nullptr) return std::nullopt;
+    return ports_[simplex]->places();
 }
 
 bool AgentRuntime::cancelActivity(std::uint32_t simplex, LoopThread& thread, bool callHandler,

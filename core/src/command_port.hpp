@@ -35,9 +35,12 @@ public:
 
     const CommandTable& table() const { return table_; }
     bool hasLanes() const { return receiving_ != nullptr; }
-    AgentRuntime::CommandPlaces places() const {
+    std::optional<AgentRuntime::CommandPlaces> places() const {
+        if (sending_ == nullptr && receiving_ == nullptr) return std::nullopt;
         const auto octets = [](const auto* of) { return reinterpret_cast<const std::byte*>(of); };
-        return {octets(this), octets(sending_), octets(receiving_)};
+        return AgentRuntime::CommandPlaces{octets(this),
+                                           octets(sending_ != nullptr ? sending_ : receiving_),
+                                           octets(receiving_ != nullptr ? receiving_ : sending_)};
     }
     // Step (1). What a handler throws passes through, after its command was answered Failed.
     // `dead`: its commands are refused.

@@ -54,10 +54,11 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
     Position& position = positions_[worker];
     thread.loop->clock = {tick_.cycle, monotonicNow()};
     const std::span tasks{tasks_.data() + chunks_[chunk].first, chunks_[chunk].count};
-    const TaskPlaces* ahead =
-        places_.empty() ? nullptr : &places_[chunks_[chunk].first + fetchedAhead];
+    const AgentRuntime::CommandPlaces* const places = places_.empty() ? nullptr : places_.data();
+    const std::size_t last = tasks_.size() - 1;
+    std::size_t ahead = chunks_[chunk].first + fetchedAhead;
     for (Task& task : tasks) {
-        if (ahead != nullptr) ahead++->fetchAll();
+        if (fetchesAhead_) fetchTask(std::min(ahead++, last), places);
         if (chunk == timedChunk_)
             runTimed(task, thread, position);
         else
@@ -67,14 +68,27 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
     at(position, Hook::None);
 }
 
-// With a memory that others use as well it is not the mean that this helps but the worst cycles.
 void TaskRunner::findPlaces() {
-    if (tasks_.size() <= tasksInCache) return;
-    places_.resize(tasks_.size() + fetchedAhead);
-    for (std::size_t i = 0; i < tasks_.size(); ++i) {
-        places_[i] = {reinterpret_cast<const std::byte*>(tasks_[i].simplex),
-                      agent_.commandPlaces(tasks_[i].index)};
+    fetchesAhead_ = tasks_.size() > tasksInCache;
+    places_.clear();
+    if (!fetchesAhead_) return;
+    bool any = false;
+    for (const Task& task : tasks_) {
+        const auto* simplex = reinterpret_cast<const std::byte*>(task.simplex);
+        const auto found = agent_.commandPlaces(task.index);
+        any = any || found.has_value();
+        places_.push_back(found.value_or(AgentRuntime::CommandPlaces{simplex, simplex, simplex}));
     }
+    if (!any) places_ = {};
+}
+
+// With a memory that others use as well it is not the mean that this helps but the worst cycles.
+inline void TaskRunner::fetchTask(std::size_t number,
+                                  const AgentRuntime::CommandPlaces* places) const {
+    const auto* simplex = reinterpret_cast<const std::byte*>(tasks_[number].simplex);
+    fetch(simplex);
+    fetch(simplex + sizeof(SimplexCS));  // most of what derives from it
+    if (places != nullptr) places[number].fetchAll();
 }
 
 void TaskRunner::runTimed(Task& task, TaskThread& thread, Position& position) {

@@ -124,8 +124,14 @@ void addOwnCost(const Sweep& sweep, Results& results) {
     results.quantities.push_back(std::move(cost));
 }
 
+double seconds(const RunOptions& options) {
+    return simplexSweepSeconds(options) + statedLoadSeconds(options);
+}
+
 void run(const RunOptions& options, Progress& progress, Results& results) {
-    const Sweep& sweep = simplexSweep(options, progress, results);
+    const double sweepPart = simplexSweepSeconds(options) / seconds(options);
+    PartProgress sweeping{progress, 0, sweepPart}, judging{progress, sweepPart, 1};
+    const Sweep& sweep = simplexSweep(options, sweeping, results);
     if (sweep.points.empty()) return;
     results.figures.push_back(dutyFigure(options, sweep));
     addCapacity(sweep, results);
@@ -133,11 +139,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
     addOwnCost(sweep, results);
     const StatedLoad load{"duty/20000", "20,000 simplexes with a command per cycle each", 20'000,
                           1};
-    judgeLoad(load, options, progress, results);
-}
-
-double seconds(const RunOptions& options) {
-    return simplexSweepSeconds(options) + statedLoadSeconds(options);
+    judgeLoad(load, options, judging, results);
 }
 
 }  // namespace

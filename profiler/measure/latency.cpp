@@ -31,12 +31,15 @@ RecordingPlan portion(const RunOptions& options) {
     return {5, 500, 100};
 }
 
-double seconds(const RunOptions& options) {
+double sweepSeconds(const RunOptions& options) {
     const RecordingPlan each = portion(options);
+    const auto periods = static_cast<double>(each.loopPeriods + each.sleeperPeriods);
     return expectedSteps(plan(options)) *
-               (static_cast<double>(each.loopPeriods + each.sleeperPeriods) / options.frequency +
-                0.1 + settlingSeconds(options)) +
-           statedLoadSeconds(options);
+           (periods / options.frequency + 0.1 + settlingSeconds(options));
+}
+
+double seconds(const RunOptions& options) {
+    return sweepSeconds(options) + statedLoadSeconds(options);
 }
 
 std::string setup(const RunOptions& options, const Sweep& sweep) {
@@ -180,7 +183,9 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
                                        options.frequency, options);
                                },
                                [&](double) { return portion(options); }};
-    const Sweep sweep = sweepUpwards(plan(options), subject, progress, results);
+    const double sweepPart = sweepSeconds(options) / seconds(options);
+    PartProgress sweeping{progress, 0, sweepPart}, judging{progress, sweepPart, 1};
+    const Sweep sweep = sweepUpwards(plan(options), subject, sweeping, results);
     if (sweep.points.empty()) return;
     const Holds below = [&](const SweepPoint& point) { return point.x <= sweep.withoutOverflow; };
     const Holds above = [&](const SweepPoint& point) { return point.x > sweep.withoutOverflow; };
@@ -192,7 +197,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
     addLatency(sweep, results);
     const StatedLoad load{"latency/2000", "10 simplexes with 2,000 commands per cycle each", 10,
                           2000};
-    judgeLoad(load, options, progress, results);
+    judgeLoad(load, options, judging, results);
 }
 
 }  // namespace

@@ -204,8 +204,14 @@ void MeasuredLoop::evaluateWakes(Measured& measured) const {
         if (i == 0 || found.sleeps[i - 1].block != wake.block) continue;
         measured.sleeperIntervalError.add(std::abs(wake.at - found.sleeps[i - 1].at - period));
     }
+    measured.works = std::ssize(found.works);
+    for (const Recording::Cycle& work : found.works) {
+        measured.workDuration.add(work.duration);
+        measured.workMissed += work.missed;
+    }
     if (measured.cycles == 0) return;
-    measured.clockReadings = static_cast<double>(found.clockReadings - measured.sleeps * 2) /
+    const std::int64_t others = (measured.sleeps + measured.works) * 2;
+    measured.clockReadings = static_cast<double>(found.clockReadings - others) /
                              static_cast<double>(found.cycles.size());
 }
 

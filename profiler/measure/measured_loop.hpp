@@ -20,7 +20,8 @@ struct Measured {
     double period = 0;  // us
     std::int64_t simplexes = 0, cycles = 0, missed = 0;
     std::int64_t sleeps = 0, sleeperMissed = 0;
-    Histogram duration, lateness, sleeperLateness;
+    std::int64_t works = 0, workMissed = 0;  // of RegisterWork
+    Histogram duration, lateness, sleeperLateness, workDuration;
     Histogram interval, intervalError, sleeperIntervalError;  // errors: from the period, absolute
     Histogram latency;  // of all commands as the loop counts it: steps of a chunk, bins of 6 %
     // Of the timed pair by its own clock: from before the first command is sent until the last one

@@ -24,6 +24,19 @@ public:
     virtual bool step(double part, std::string_view doing) = 0;
 };
 
+// One part of a measurement, from `from` to `to` of it.
+class PartProgress final : public Progress {
+public:
+    PartProgress(Progress& whole, double from, double to) : whole_{whole}, from_{from}, to_{to} {}
+    bool step(double part, std::string_view doing) override {
+        return whole_.step(from_ + part * (to_ - from_), doing);
+    }
+
+private:
+    Progress& whole_;
+    double from_, to_;
+};
+
 // One of those that `cortex-profiler run` can be asked for. `run` adds figures and quantities as
 // it gets them and returns early when told to stop.
 struct Measurement {

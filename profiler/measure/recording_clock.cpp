@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recording_clock.hpp"
 
+#include "baselines/register_rounds.hpp"
+
 #include <algorithm>
 #include <thread>
 #include <utility>
@@ -32,6 +34,9 @@ void RecordingClock::record(const RecordingPlan& plan, std::function<void()> beg
     const auto blocks = static_cast<std::size_t>(plan.blocks);
     recording_.cycles.reserve(blocks * static_cast<std::size_t>(plan.loopPeriods + plan.settling));
     recording_.sleeps.reserve(blocks * static_cast<std::size_t>(plan.sleeperPeriods));
+    recording_.works.reserve(blocks * static_cast<std::size_t>(plan.workingPeriods));
+    if (plan.workingPeriods > 0)
+        work_ = std::make_unique<RegisterWork>(plan.workThreads, plan.workPriority);
     abandoned_ = false;
     done_ = false;
     asked_ = true;
@@ -123,6 +128,15 @@ void RecordingClock::advance() {
         phaseEnds_ = next_ + plan_.sleeperPeriods;
         if (plan_.sleeperPeriods > 0) return;
     }
+    if (phase_ == Phase::Sleeping) {
+        phase_ = Phase::Working;
+        if (plan_.workingPeriods > 0) {
+            rounds_ = roundsOf(meanDuration());
+            skipPassed();
+            phaseEnds_ = next_ + plan_.workingPeriods;
+            return;
+        }
+    }
     if (++block_ < plan_.blocks)
         enterBlock();
     else
@@ -139,6 +153,29 @@ void RecordingClock::recordSleep() {
     skipped_ = 0;
 }
 
+std::int64_t RecordingClock::skipPassed() {
+    const std::int64_t passed = missed();
+    next_ += passed;
+    return passed;
+}
+
+void RecordingClock::recordWork() {
+    work_->prepare(deadline());
+    const std::int64_t lateness = sleep();
+    const std::int64_t begin = wokenAt_;
+    work_->cycle(rounds_);
+    const std::int64_t end = now();
+    const std::int64_t missed = skipPassed();
+    if (recording_.works.size() < recording_.works.capacity())
+        recording_.works.push_back({{begin, lateness, missed, block_}, end - begin, false});
+}
+
+std::int64_t RecordingClock::meanDuration() const {
+    std::int64_t sum = 0;
+    for (const Recording::Cycle& cycle : recording_.cycles) sum += cycle.duration;
+    return sum / std::max<std::int64_t>(1, std::ssize(recording_.cycles));
+}
+
 cs::Trigger RecordingClock::waitForTick() {
     const std::int64_t end = now();
     if (phase_ != Phase::Resting) finishCycle(end);
@@ -150,6 +187,10 @@ cs::Trigger RecordingClock::waitForTick() {
         }
         if (phase_ == Phase::Sleeping) {
             recordSleep();
+            continue;
+        }
+        if (phase_ == Phase::Working) {
+            recordWork();
             continue;
         }
         const std::int64_t periods = 1 + std::exchange(skipped_, 0);

@@ -3,20 +3,28 @@
 
 #include "cortex/cs/trigger_source.hpp"
 
+#include "baselines/register_work.hpp"
+
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace cortex::profiler {
 
 // What a RecordingClock does: in each block the loop runs for `loopPeriods`, then its thread only
-// sleeps to `sleeperPeriods` deadlines. Before the first block the loop runs in; the first cycles
-// of each later block, when caches are cold from the pause, are marked as settling.
+// sleeps to `sleeperPeriods` deadlines, then at `workingPeriods` it and as many others as the loop
+// has do RegisterWork for as long as a cycle of the loop took so far. Before the first block the
+// loop runs in; the first cycles of each later block, when caches are cold from the pause, are
+// marked as settling.
 struct RecordingPlan {
     int blocks = 1;
-    std::int64_t loopPeriods = 1000, sleeperPeriods = 0, runIn = 20, settling = 0;
+    std::int64_t loopPeriods = 1000, sleeperPeriods = 0, workingPeriods = 0, runIn = 20,
+                 settling = 0;
+    std::uint32_t workThreads = 1;
+    int workPriority = 0;
 };
 
 // All times in ns on the monotonic clock.
@@ -32,12 +40,13 @@ struct Recording {
     };
     std::vector<Cycle> cycles;
     std::vector<Wake> sleeps;
+    std::vector<Cycle> works;
     std::int64_t clockReadings = 0;  // the clock's own, while the cycles were recorded
     bool complete = false;
 };
 
 // Absolute deadlines, like cs::InternalClock, that records each cycle without allocating, in turn
-// with a bare sleeper on the same thread. Between plans the loop rests.
+// with a bare sleeper and bare work on the same thread. Between plans the loop rests.
 class RecordingClock final : public cs::TriggerSource {
 public:
     explicit RecordingClock(std::chrono::nanoseconds period) : period_{period.count()} {}
@@ -55,9 +64,10 @@ public:
     void interrupt() override;
     std::int64_t period() const override { return period_; }
     std::int64_t missed() override;
+    std::int64_t nextDeadline() const override { return deadline(); }
 
 private:
-    enum class Phase { Resting, RunningIn, Looping, Sleeping };
+    enum class Phase { Resting, RunningIn, Looping, Sleeping, Working };
     std::int64_t now();
     std::int64_t deadline() const { return origin_ + next_ * period_; }
     std::int64_t sleep();  // to the next deadline; its lateness
@@ -68,10 +78,15 @@ private:
     void finish(bool complete);
     void endCounting();
     void recordSleep();
+    void recordWork();
+    std::int64_t skipPassed();  // deadlines; how many
+    std::int64_t meanDuration() const;
 
     const std::int64_t period_;
     std::int64_t origin_ = 0, next_ = 0, phaseEnds_ = 0, settled_ = 0;
     std::int64_t wokenAt_ = 0, skipped_ = 0;
+    std::unique_ptr<RegisterWork> work_;
+    std::int64_t rounds_ = 0;  // of work
     int block_ = 0;
     bool counting_ = false;  // from begins_ to ends_
     Phase phase_ = Phase::Resting;

@@ -5,6 +5,7 @@
 #include "measure/sweep.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -23,11 +24,14 @@ Figure figureOf(const StatedLoad& load, const RunOptions& options, const Measure
     std::ranges::replace(figure.id, '/', '-');
     figure.title = "Duration of single cycles, " + load.what;
     figure.setup = conditions(options, threads, options.frequency) +
-                   "; loop and bare sleeper in turn, a second each, " + number(blocks(options)) +
+                   "; loop, bare sleeper, and as many threads that work in registers alone for as "
+                   "long as a cycle takes, in turn, a second each, " +
+                   number(blocks(options)) +
                    " s of each; an observer reads the newest image 30 times a second.";
     figure.x = {"duration of a cycle", "us", true};
     figure.y = {"share of cycles that are longer", "", true};
     figure.series.push_back({"loop", measured.duration.shareAbove(), false});
+    figure.series.push_back({"work in registers", measured.workDuration.shareAbove(), true});
     figure.marks.push_back({Mark::Along::X, measured.period, "the period"});
     figure.marks.push_back(
         {Mark::Along::X, measured.period * mostDuty / 100, number(mostDuty) + " %"});
@@ -50,22 +54,38 @@ void addDuty(const StatedLoad& load, const Measured& measured, Results& results)
     results.quantities.back().aim = Aim::AtMost;
     results.quantities.back().limit = mostDuty;
     add("p99.9", "p99.9 of the duty cycle", measured.duty(0.999), {});
+    const auto spread = [](const Histogram& of) {
+        return of.percentile(0.99) / std::max(1e-3, of.percentile(0.5));
+    };
+    results.quantities.push_back({.id = load.id + "/spread",
+                                  .what = load.what + ": p99 of the duration over its median",
+                                  .unit = "",
+                                  .value = spread(measured.duration),
+                                  .baseline = spread(measured.workDuration),
+                                  .baselineName = "work in registers"});
+}
+
+double per10000(std::int64_t missed, std::int64_t of) {
+    return static_cast<double>(missed) * 10'000 / std::max(1.0, static_cast<double>(of));
 }
 
 void addCounts(const StatedLoad& load, const Measured& measured, Results& results) {
-    const auto cycles = static_cast<double>(measured.cycles);
-    const double sleeper = static_cast<double>(measured.sleeperMissed) * cycles /
-                           std::max(1.0, static_cast<double>(measured.sleeps));
-    const auto missed = static_cast<double>(measured.missed);
-    results.quantities.push_back(
-        {.id = load.id + "/missed",
-         .what = load.what + ": ticks missed of 10,000, less those of the sleeper",
-         .unit = "ticks",
-         .value = std::max(0.0, missed - sleeper) * 10'000 / cycles,
-         .baseline = sleeper * 10'000 / cycles,
-         .baselineName = "bare sleeper",
-         .aim = Aim::AtMost,
-         .limit = 1});
+    const double sleeper = per10000(measured.sleeperMissed, measured.sleeps);
+    const auto addMissed = [&](const char* name, const char* what, double missed) -> Quantity& {
+        results.quantities.push_back({.id = load.id + name,
+                                      .what = load.what + what,
+                                      .unit = "ticks",
+                                      .value = std::max(0.0, missed - sleeper),
+                                      .baseline = sleeper,
+                                      .baselineName = "bare sleeper"});
+        return results.quantities.back();
+    };
+    Quantity& missed = addMissed("/missed", ": ticks missed of 10,000, less those of the sleeper",
+                                 per10000(measured.missed, measured.cycles));
+    missed.aim = Aim::AtMost;
+    missed.limit = 1;
+    addMissed("/work-missed", ": the same of as many threads that work in registers",
+              per10000(measured.workMissed, measured.works));
     const auto executed = static_cast<double>(measured.commands);
     const auto expected = static_cast<double>(measured.expectedCommands);
     results.quantities.push_back({.id = load.id + "/commands",
@@ -85,20 +105,26 @@ void addCounts(const StatedLoad& load, const Measured& measured, Results& result
 }  // namespace
 
 double statedLoadSeconds(const RunOptions& options) {
-    return 2 * blocks(options) + settlingSeconds(options) + 1;
+    return 3 * blocks(options) + settlingSeconds(options) + 1;
 }
 
 void judgeLoad(const StatedLoad& load, const RunOptions& options, Progress& progress,
                Results& results) {
-    constexpr double last = 0.99;  // part of its measurement that comes before it
-    if (!progress.step(last, load.what)) return;
+    if (!progress.step(0, load.what)) return;
     const auto loop =
         MeasuredLoop::ofPartners(load.simplexes, load.commands, options.frequency, options);
     noteRefusals(loop->refusals(), results);
     const auto periods = static_cast<std::int64_t>(std::llround(options.frequency));
-    RecordingPlan plan{blocks(options), periods, periods};
+    RecordingPlan plan{blocks(options), periods, periods, periods};
     plan.settling = periods / 100;
-    const Measured measured = loop->run(plan, [&] { return !progress.step(last, load.what); });
+    plan.workThreads = loop->threads();
+    plan.workPriority = options.priority;
+    const auto begin = std::chrono::steady_clock::now();
+    const Measured measured = loop->run(plan, [&] {
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+        return !progress.step(std::min(passed.count() / statedLoadSeconds(options), 1.0),
+                              load.what);
+    });
     if (measured.cycles == 0 || measured.sleeps == 0) return;
     results.figures.push_back(figureOf(load, options, measured, loop->threads()));
     addDuty(load, measured, results);

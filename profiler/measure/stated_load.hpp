@@ -16,9 +16,9 @@ struct StatedLoad {
     std::uint32_t commands = 0;  // of each simplex and cycle
 };
 
-// The loop with that load and a bare sleeper in turn, a second each: what the cycles take, what
-// ticks are missed beyond the sleeper's, whether every command was executed. Both together 120 s,
-// 10 s with --quick.
+// The loop with that load, a bare sleeper and threads that work in registers in turn, a second
+// each: what the cycles take, what ticks are missed beyond the sleeper's, whether every command was
+// executed; what the machine alone does to work of that length. Together 180 s, 15 s with --quick.
 void judgeLoad(const StatedLoad& load, const RunOptions& options, Progress& progress,
                Results& results);
 double statedLoadSeconds(const RunOptions& options);

@@ -147,7 +147,10 @@ bool Steps::keepsOn() {
 }
 
 int expectedSteps(const SweepPlan& plan) {
-    return static_cast<int>(plan.first.size() + plan.around.size()) + plan.bisections + 2;
+    // Where a loop overflows it is measured again: at what lies above, and half of the bisections.
+    const auto above = std::ranges::count_if(plan.around, [](double part) { return part > 1; });
+    return static_cast<int>(plan.first.size() + plan.around.size()) + static_cast<int>(above) +
+           plan.bisections * 3 / 2 + 2;
 }
 
 Sweep sweepUpwards(const SweepPlan& plan, const SweepSubject& subject, Progress& progress,

@@ -27,11 +27,12 @@ struct Loop {
     }
 };
 
-TEST(RecordingClock, RecordsAsManyCyclesAndSleepsAsPlanned) {
+TEST(RecordingClock, RecordsAsManyCyclesSleepsAndWorksAsPlanned) {
     Loop loop;
     int begun = 0, ended = 0;
     loop.clock.record(
-        {.blocks = 3, .loopPeriods = 20, .sleeperPeriods = 10}, [&] { ++begun; }, [&] { ++ended; });
+        {.blocks = 3, .loopPeriods = 20, .sleeperPeriods = 10, .workingPeriods = 5},
+        [&] { ++begun; }, [&] { ++ended; });
     while (!loop.clock.waitUntilDone(100ms)) {
     }
     loop.end();
@@ -43,6 +44,12 @@ TEST(RecordingClock, RecordsAsManyCyclesAndSleepsAsPlanned) {
     for (const auto& sleep : recording.sleeps) slept += 1 + sleep.missed;
     EXPECT_GE(periods, 60);
     EXPECT_GE(slept, 30);
+    std::int64_t worked = 0;
+    for (const auto& work : recording.works) {
+        worked += 1 + work.missed;
+        EXPECT_GT(work.duration, 0);
+    }
+    EXPECT_GE(worked, 15);
     EXPECT_EQ(begun, 1);
     EXPECT_EQ(ended, 1);
     EXPECT_GT(recording.clockReadings, 0);

@@ -15,6 +15,7 @@
 #include <bit>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -112,9 +113,10 @@ public:
     void processCommands(std::uint32_t simplex, State state, LoopThread& thread, bool dead = false)
         CORTEX_REALTIME;
     // The memory that processCommands() touches, for who fetches it ahead; after start(). Of the
-    // lanes the first that it sends on and receives from; null: none.
+    // lanes the first that it sends on and the first that it receives from. None where it has no
+    // lane.
     struct CommandPlaces {
-        const std::byte *port = nullptr, *sending = nullptr, *receiving = nullptr;
+        const std::byte *port, *sending, *receiving;
 
         static constexpr std::ptrdiff_t slots = 128;  // from the head of a lane
         void fetchAll() const CORTEX_REALTIME {
@@ -125,7 +127,7 @@ public:
             fetch(receiving + slots);
         }
     };
-    CommandPlaces commandPlaces(std::uint32_t simplex) const;
+    std::optional<CommandPlaces> commandPlaces(std::uint32_t simplex) const;
     // Whether step (1) has anything to do: a pending life-cycle word, and processCommands().
     std::uint8_t calls(std::uint32_t simplex) const CORTEX_REALTIME {
         return calls_[simplex].load(std::memory_order_relaxed);
