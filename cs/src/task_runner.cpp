@@ -70,22 +70,24 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
 
 void TaskRunner::findPlaces() {
     fetchesAhead_ = tasks_.size() > tasksInCache;
-    places_.clear();
     if (!fetchesAhead_) return;
+    std::vector<AgentRuntime::CommandPlaces> places;
+    places.reserve(tasks_.size());
     bool any = false;
     for (const Task& task : tasks_) {
         const auto* simplex = reinterpret_cast<const std::byte*>(task.simplex);
         const auto found = agent_.commandPlaces(task.index);
         any = any || found.has_value();
-        places_.push_back(found.value_or(AgentRuntime::CommandPlaces{simplex, simplex, simplex}));
+        places.push_back(found.value_or(AgentRuntime::CommandPlaces{simplex, simplex, simplex}));
     }
-    if (!any) places_ = {};
+    if (any) places_ = std::move(places);
 }
 
 // With a memory that others use as well it is not the mean that this helps but the worst cycles.
 inline void TaskRunner::fetchTask(std::size_t number,
                                   const AgentRuntime::CommandPlaces* places) const {
     const auto* simplex = reinterpret_cast<const std::byte*>(tasks_[number].simplex);
+    if (simplex == nullptr) return;  // an arbiter
     fetch(simplex);
     fetch(simplex + sizeof(SimplexCS));  // most of what derives from it
     if (places != nullptr) places[number].fetchAll();

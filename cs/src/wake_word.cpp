@@ -25,7 +25,7 @@ bool WakeWord::sleepWhile(std::uint32_t value, std::int64_t until) noexcept {
     const timespec time{static_cast<time_t>(until / second), static_cast<long>(until % second)};
     // Wrong value, signal, wake: whatever else ends it, the caller looks again.
     return ::syscall(SYS_futex, &word_, FUTEX_WAIT_BITSET_PRIVATE, flagged,
-                     until == 0 ? nullptr : &time, nullptr, FUTEX_BITSET_MATCH_ANY) == 0 ||
+                     until <= 0 ? nullptr : &time, nullptr, FUTEX_BITSET_MATCH_ANY) == 0 ||
            errno != ETIMEDOUT;
 }
 

@@ -30,7 +30,7 @@ public:
     }
 
     /// Returns when the value may have changed, sometimes earlier. False: since it is `until`, ns
-    /// of the monotonic clock (0: never).
+    /// of the monotonic clock (0 or less: never).
     bool sleepWhile(std::uint32_t value, std::int64_t until = 0) noexcept;
 
 private:

@@ -5,6 +5,7 @@
 
 #include <pthread.h>
 #include <sched.h>
+#include <sys/prctl.h>
 #include <time.h>
 
 namespace cortex::profiler {
@@ -47,6 +48,7 @@ void RegisterWork::help(std::uint32_t number, int priority) {
     }
     if (cpu < CPU_SETSIZE) CPU_SET(cpu, &own);
     pthread_setaffinity_np(pthread_self(), sizeof own, &own);
+    prctl(PR_SET_TIMERSLACK, 1UL);  // as the loop's threads have
     const sched_param parameters{priority};
     if (priority > 0) pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
     for (std::uint32_t seen = 0;; ++seen) {

@@ -210,7 +210,7 @@ void MeasuredLoop::evaluateWakes(Measured& measured) const {
         measured.workMissed += work.missed;
     }
     if (measured.cycles == 0) return;
-    const std::int64_t others = (measured.sleeps + measured.works) * 2;
+    const std::int64_t others = measured.sleeps * 2 + measured.works * 4;
     measured.clockReadings = static_cast<double>(found.clockReadings - others) /
                              static_cast<double>(found.cycles.size());
 }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ std::vector<std::uint32_t> threadCounts() {
 struct Cost {
     std::vector<double> pool{}, overPlain{};  // by round
     double best = 0, plain = 0, peer = 0, peerPlain = 0;
+    double oneThread = 0;  // of a cluster with one, in turn
     std::string policy{};  // of the peer, the better one
     std::uint32_t used = 1;
 };
@@ -71,6 +73,12 @@ Cost measure(const Case& which, const Rounds& rounds) {
         {"plain loop", cyclesOf(bench, loop)},
         {"flow graph", inArena(bench, heavy)},
         {"lightweight flow graph", inArena(bench, light)}};
+    std::unique_ptr<SchedulerBench> alone;
+    if (which.threads > 1) {
+        alone = std::make_unique<SchedulerBench>(edges, 1, which.work);
+        all.push_back(
+            {"pool, one thread", [&](std::int64_t count) { return alone->cycles(count); }});
+    }
     measureInTurn(all, rounds);
 
     const double count = which.count;
@@ -79,6 +87,7 @@ Cost measure(const Case& which, const Rounds& rounds) {
               .plain = all[1].best() / count,
               .peer = peer.best() / count,
               .peerPlain = all[2].best() / count,
+              .oneThread = (alone ? all.back() : all[0]).best() / count,
               .policy = "oneTBB " + peer.name,
               .used = bench.threadsInUse()};
     for (const double each : all[0].rounds) {
@@ -116,7 +125,7 @@ void addOverhead(const Case& which, const Cost& cost, Results& results) {
     results.quantities.push_back(std::move(overhead));
 }
 
-void addShared(const Case& which, const Cost& cost, double oneThread, Results& results) {
+void addShared(const Case& which, const Cost& cost, Results& results) {
     const double count = which.count;
     Quantity time{.id = idOf(which),
                   .what = "a cycle of " + described(which, cost),
@@ -132,9 +141,9 @@ void addShared(const Case& which, const Cost& cost, double oneThread, Results& r
     }
     results.quantities.push_back(std::move(time));
     results.quantities.push_back({.id = idOf(which) + "/against-one",
-                                  .what = "the same beside one thread, 1.1 being noise",
+                                  .what = "the same beside one thread in turn, 1.1 being noise",
                                   .unit = "ratio",
-                                  .value = cost.best / oneThread,
+                                  .value = cost.best / cost.oneThread,
                                   .aim = Aim::AtMost,
                                   .limit = 1.1});
 }
@@ -174,7 +183,6 @@ bool measureShape(Shape shape, const Rounds& rounds, Progress& progress, double 
         lines.peer.push_back({"oneTBB flow graph" + on, {}, true});
     }
     for (const std::uint32_t count : counts) {
-        double oneThread = 0;
         for (std::size_t i = 0; i < threads.size(); ++i) {
             const Case which{shape, count, threads[i]};
             if (!progress.step(done, idOf(which))) return false;
@@ -183,11 +191,10 @@ bool measureShape(Shape shape, const Rounds& rounds, Progress& progress, double 
             lines.pool[i].points.push_back({x, cost.best});
             lines.peer[i].points.push_back({x, cost.peer});
             if (threads[i] == 1) {
-                oneThread = cost.best;
                 lines.plain.points.push_back({x, cost.plain});
                 addOverhead(which, cost, results);
             } else {
-                addShared(which, cost, oneThread, results);
+                addShared(which, cost, results);
             }
         }
     }
@@ -230,19 +237,17 @@ bool measureSpeedUp(const Rounds& rounds, Progress& progress, Results& results) 
     for (const Shape shape : {Shape::Independent, Shape::Layered}) {
         Series pool{name(shape), {}, false};
         Series peer{std::string{"oneTBB flow graph, "} + name(shape), {}, true};
-        double one = 0;
         for (const std::uint32_t threads : threadCounts()) {
             const Case which{shape, 16384, threads, 200};
             if (!progress.step(0.85, idOf(which) + "/work")) return false;
             const Cost cost = measure(which, rounds);
-            if (threads == 1) one = cost.best;
-            pool.points.push_back({static_cast<double>(threads), one / cost.best});
-            peer.points.push_back({static_cast<double>(threads), one / cost.peer});
+            pool.points.push_back({static_cast<double>(threads), cost.oneThread / cost.best});
+            peer.points.push_back({static_cast<double>(threads), cost.oneThread / cost.peer});
             Quantity speed{.id = idOf(which) + "/speed-up",
                            .what = "speed-up of tasks of 200 ns: " + described(which, cost),
                            .unit = "times",
-                           .value = one / cost.best,
-                           .baseline = one / cost.peer,
+                           .value = cost.oneThread / cost.best,
+                           .baseline = cost.oneThread / cost.peer,
                            .baselineName = cost.policy,
                            .lessIsBetter = false};
             if (threads == 16) {

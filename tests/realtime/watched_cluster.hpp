@@ -24,6 +24,7 @@ public:
     void interrupt() override { clock_.interrupt(); }
     std::int64_t period() const override { return clock_.period(); }
     std::int64_t missed() override { return clock_.missed(); }
+    std::int64_t nextDeadline() const override { return clock_.nextDeadline(); }
     void skipMissed(bool skip) override { clock_.skipMissed(skip); }
 
 private:

@@ -141,7 +141,9 @@ public:
         auto* first = static_cast<T*>(cell(item, kindFor<T>(), true, !std::is_const_v<T>, length));
         return {first, length};
     }
-    SlotState& slot();  // own quality and stamp
+    // Own quality and stamp, of a simplex without a task; of others the framework writes them, and
+    // a hook says setQuality().
+    SlotState& slot();
 
 protected:
     // In populate(): what is related under a rule. input() and output() expect exactly one.
