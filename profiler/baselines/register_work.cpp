@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "register_work.hpp"
 
+#include "realtime_thread.hpp"
 #include "register_rounds.hpp"
 
-#include <pthread.h>
-#include <sched.h>
-#include <sys/prctl.h>
-#include <time.h>
+#include <chrono>
 
 namespace cortex::profiler {
 
@@ -38,25 +36,11 @@ void RegisterWork::cycle(std::int64_t rounds) {
 }
 
 void RegisterWork::help(std::uint32_t number, int priority) {
-    cpu_set_t usable, own;
-    CPU_ZERO(&usable);
-    CPU_ZERO(&own);
-    sched_getaffinity(0, sizeof usable, &usable);
-    int cpu = 0;
-    for (std::uint32_t seen = 0; cpu < CPU_SETSIZE; ++cpu) {
-        if (CPU_ISSET(cpu, &usable) && seen++ == number) break;
-    }
-    if (cpu < CPU_SETSIZE) CPU_SET(cpu, &own);
-    pthread_setaffinity_np(pthread_self(), sizeof own, &own);
-    prctl(PR_SET_TIMERSLACK, 1UL);  // as the loop's threads have
-    const sched_param parameters{priority};
-    if (priority > 0) pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+    cs::configureThisThread({"register-work", priority, {cs::cpuForThread({}, number)}});
     for (std::uint32_t seen = 0;; ++seen) {
         prepared_.wait(seen);
-        constexpr std::int64_t second = 1'000'000'000;
-        const std::int64_t deadline = deadline_;
-        const timespec time{deadline / second, deadline % second};
-        clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr);
+        std::this_thread::sleep_until(
+            std::chrono::steady_clock::time_point{std::chrono::nanoseconds{deadline_}});
         while (begun_ == seen && !ending_) {
         }
         if (ending_) return;
