@@ -16,6 +16,8 @@
 #include <thread>
 #include <utility>
 
+#include <sys/prctl.h>
+
 namespace cortex::comms {
 namespace {
 
@@ -83,20 +85,38 @@ void AgentThread::read(Inbox& inbox) {
 
 void AgentThread::write(Outbox& outbox) {
     const bool answers = commands_.write(outbox);
-    if (answers || everyCycle_.load(std::memory_order_relaxed)) wake_.signal();
+    const bool everyCycle = everyCycle_.load(std::memory_order_relaxed);
+    if (everyCycle) expectNext();
+    if (answers || everyCycle) wake_.signalAwaited();
+}
+
+// A period after this write(), or sooner where cycles follow each other faster than they should.
+void AgentThread::expectNext() {
+    const std::int64_t now = steadyNow();
+    const std::int64_t interval = now - std::exchange(written_, now);
+    const std::int64_t period = self_.access.period;
+    next_.store(now + (interval < period / 2 ? interval : period), std::memory_order_relaxed);
 }
 
 void AgentThread::run() {
+    prctl(PR_SET_TIMERSLACK, 1UL);  // else what it sleeps for ends up to 50 microseconds late
     while (!stopping_.load()) {
         guarded([this] { step(); });
         // What is due waits for the next cycle where it has none.
         const std::chrono::nanoseconds untilDue{streams_.due() - steadyNow()};
         const auto longest = std::min<std::chrono::nanoseconds>(
             longestWait + peers_.agents() * moreForEach, longestInCrowd);
-        wake_.waitFor(std::clamp<std::chrono::nanoseconds>(untilDue, shortestWait, longest));
+        wait(std::clamp<std::chrono::nanoseconds>(untilDue, shortestWait, longest));
     }
     guarded([this] { leave(); });
     participant_.stopListening();
+}
+
+// Where somebody wants every cycle, the loop need not wake who knows when it will have written.
+void AgentThread::wait(std::chrono::nanoseconds limit) {
+    const std::int64_t next = next_.load(std::memory_order_relaxed);
+    const bool isSoon = next <= steadyNow() + limit.count();
+    if (!isSoon || !wake_.await(next)) wake_.waitFor(limit);
 }
 
 // Whatever others send, this thread goes on.

@@ -13,17 +13,30 @@ namespace cortex::comms {
 class Wake {
 public:
     void signal() noexcept CORTEX_REALTIME {
-        if (word_.exchange(Signalled) == Sleeping) wakeSleeper();
+        if (word_.exchange(Signalled) > Signalled) wakeSleeper();
     }
+    // From who is awaited: who wakes up for it by himself is left to do so.
+    void signalAwaited() noexcept CORTEX_REALTIME {
+        if (word_.fetch_or(Signalled) == Sleeping) wakeSleeper();
+    }
+
     // Returns after a signal() since the last return, or after `limit`; sometimes earlier.
     void waitFor(std::chrono::nanoseconds limit) noexcept;
 
-private:
-    enum Word : std::uint32_t { Awake, Signalled, Sleeping };
+    // For a signalAwaited() that is expected at `time` (steadyNow()): wakes up a little before it
+    // and polls until a little after it. True: some signal came. False, perhaps at once: none did.
+    bool await(std::int64_t time) noexcept;
 
+    bool isSleeping() const noexcept { return word_.load() >= Sleeping; }
+
+private:
+    enum Word : std::uint32_t { Awake = 0, Signalled = 1, Sleeping = 2, Coming = 4 };
+
+    bool sleepUntil(Word how, std::int64_t time) noexcept;
     void wakeSleeper() noexcept CORTEX_REALTIME;
 
     std::atomic<std::uint32_t> word_{Awake};
+    std::int64_t lead_ = 0;  // ns that await() wakes up before the time; the waiting thread's
 };
 
 }  // namespace cortex::comms

@@ -25,16 +25,6 @@ cs::Trigger TakingTurns::waitForTick() {
     return {0, 0, 1, true};
 }
 
-void Polling::start() {
-    const sched_param none{};
-    if (sched_setscheduler(0, SCHED_IDLE, &none) != 0) throw Error("no idle priority");
-}
-
-cs::Trigger Polling::waitForTick() {
-    ++cycle_;
-    return {cycle_ * period(), 0, 1, interrupted_};
-}
-
 OnCpu::OnCpu(int number) {
     sched_getaffinity(0, sizeof before_, &before_);
     for (std::size_t cpu = 0; cpu < CPU_SETSIZE; ++cpu) {

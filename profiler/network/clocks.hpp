@@ -30,20 +30,6 @@ private:
     std::atomic<bool> interrupted_{false};
 };
 
-// Cycles one after the other, on a thread that runs only where a CPU has nothing else to do.
-class Polling final : public cs::TriggerSource {
-public:
-    void start() override;
-    cs::Trigger waitForTick() override;
-    void interrupt() override { interrupted_ = true; }
-    std::int64_t period() const override { return 1'000'000; }
-    bool realTime() const override { return false; }
-
-private:
-    std::int64_t cycle_ = 0;
-    std::atomic<bool> interrupted_{false};
-};
-
 // Puts this thread, and those that it makes from then on, on the n-th CPU that it may use, as long
 // as there are more than n, until the end of this object.
 class OnCpu {

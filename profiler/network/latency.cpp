@@ -5,17 +5,23 @@
 #include "cdr.hpp"
 #include "clocks.hpp"
 #include "figures.hpp"
+#include "ids.hpp"
 #include "messages.hpp"
+#include "participant.hpp"
 #include "plant.hpp"
 #include "roles.hpp"
 #include "statistics.hpp"
 
-#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <cstring>
+#include <functional>
+#include <memory>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace cortex::network {
 namespace {
@@ -24,10 +30,9 @@ using namespace std::chrono_literals;
 using bare::Octets;
 using bare::Stream;
 
-// ns from the stamp of a value.
+// ns from the stamp of a value, to the callback of a bare reader and to that of an agent's.
 struct Latencies {
-    std::vector<std::int64_t> bare;   // to the callback of a bare reader
-    std::vector<std::int64_t> taken;  // to where the loop of the linking agent takes it
+    std::vector<std::int64_t> bare, linked;
 };
 
 // What comes from the process of the sender, in turn on both ways.
@@ -37,16 +42,13 @@ public:
         std::int64_t stamp = 0;
         if (data.size() < sizeof stamp) return;
         std::memcpy(&stamp, data.data(), sizeof stamp);
-        const std::int64_t now = steadyNow();
-        const std::lock_guard lock{mutex_};
-        all_.bare.push_back(now - stamp);
+        add(all_.bare, stamp);
     }
-    void linked(std::int64_t stamp) {
-        const std::int64_t now = steadyNow();
-        const std::lock_guard lock{mutex_};
-        if (stamp == 0 || stamp == last_) return;
-        last_ = stamp;
-        all_.taken.push_back(now - stamp);
+    // One of the samples has a stamp; it comes later than the first block.
+    void linked(const comms::Block& block) {
+        for (const comms::SimplexData& each : block.simplexes) {
+            if (!each.ints.empty() && each.ints[0] != 0) add(all_.linked, each.ints[0]);
+        }
     }
     Latencies take() {
         const std::lock_guard lock{mutex_};
@@ -54,13 +56,56 @@ public:
     }
     bool both() {
         const std::lock_guard lock{mutex_};
-        return !all_.bare.empty() && !all_.taken.empty();
+        return !all_.bare.empty() && !all_.linked.empty();
     }
 
 private:
+    void add(std::vector<std::int64_t>& to, std::int64_t stamp) {
+        const std::int64_t now = steadyNow();
+        const std::lock_guard lock{mutex_};
+        to.push_back(now - stamp);
+    }
+
     std::mutex mutex_;
-    std::int64_t last_ = 0;
     Latencies all_;
+};
+
+// Links simplexes of the agent `owner` as another agent would, without its loop: a block has come
+// where the communication thread of an agent would hand it to its tables.
+class Linker {
+public:
+    Linker(int domain, const std::string& owner, std::vector<std::string> paths,
+           std::function<void(comms::Block&&)> onBlock)
+        : participant_{loopback(domain), name},
+          presenceOut_{participant_.writer<comms::Presence>(comms::topics::presence)},
+          interestOut_{participant_.writer<comms::Interest>(comms::topics::interest)},
+          blocksIn_{
+              participant_.reader<comms::Block>(comms::topics::linkOf(owner), std::move(onBlock))} {
+        presence_.agent = comms::agentId(name);
+        presence_.name = name;
+        presence_.epoch = 1;
+        presence_.role = "agent";
+        presence_.state = "running";
+        presence_.majors = {1};
+        speak();
+        comms::Interest interest;
+        interest.agent = presence_.agent;
+        interest.name = name;
+        interest.epoch = presence_.epoch;
+        interest.links = std::move(paths);
+        interestOut_->write(interest);
+    }
+
+    void speak() { presenceOut_->write(presence_); }  // else it is taken for lost after a second
+
+private:
+    static constexpr const char* name = "receiver";
+
+    comms::Participant participant_;
+    std::unique_ptr<comms::Writer<comms::Presence>> presenceOut_;
+    std::unique_ptr<comms::Writer<comms::Interest>> interestOut_;
+    std::unique_ptr<comms::Reader<comms::Block>> blocksIn_;
+    comms::Presence presence_;
 };
 
 // Of the message that brings so many samples.
@@ -82,26 +127,20 @@ Latencies measure(const Options& options, int samples) {
     const Stream stream{options.domain + 1,
                         Stream::Role::Reader,
                         {[&](const Octets::Data& data) { arrivals.bare(data); }, {}}};
-    std::atomic<std::uint32_t> stamped = noSimplex;
-    Plant::Options linking{.name = "receiver",
-                           .links = samplePaths("sender", samples),
-                           .network = loopback(options.domain),
-                           .cluster = {.watchdogPeriods = 1e6}};
-    linking.onLink = [&](std::uint32_t simplex, const Slice& values) {
-        if (simplex == stamped) arrivals.linked(values.ints[0]);
+    Linker linker{options.domain, "sender", samplePaths("sender", samples),
+                  [&](comms::Block&& block) { arrivals.linked(block); }};
+    const auto speakFor = [&](std::chrono::seconds time, auto until) {
+        const auto end = std::chrono::steady_clock::now() + time;
+        while (std::chrono::steady_clock::now() < end && !until()) {
+            linker.speak();
+            std::this_thread::sleep_for(100ms);
+        }
     };
-    Plant plant{linking};
-    plant.cluster.setTriggerSource<Polling>();
-    plant.start();
-    stamped = plant.indexOf(linking.links.back());
-    const auto end = std::chrono::steady_clock::now() + 30s;
-    while (!plant.linked() || !arrivals.both()) {
-        if (std::chrono::steady_clock::now() > end) throw Error("nothing came from the sender");
-        std::this_thread::sleep_for(10ms);
-    }
-    std::this_thread::sleep_for(1s);
+    speakFor(30s, [&] { return arrivals.both(); });
+    if (!arrivals.both()) throw Error("nothing came from the sender");
+    speakFor(1s, [] { return false; });
     arrivals.take();
-    std::this_thread::sleep_for(std::chrono::seconds{4 * options.seconds});
+    speakFor(std::chrono::seconds{4 * options.seconds}, [] { return false; });
     return arrivals.take();
 }
 
@@ -110,20 +149,20 @@ Latencies measure(const Options& options, int samples) {
 void latency(const Options& options) {
     for (const int samples : {1, 100}) {
         const std::string items = std::to_string(samples * itemsPerSample);
-        options.step(0.35, items + " items from loop to loop");
+        options.step(0.35, items + " items on their way to another agent");
         const Latencies all = measure(options, samples);
         const double bare = median(all.bare);
         addTimes(options,
                  {.id = "comms/latency/" + items,
-                  .what = "a value at 1 kHz from the task that writes it to the polling loop of "
-                          "another process: " +
+                  .what = "a value at 1 kHz from the task that writes it to the communication "
+                          "thread of another process: " +
                           items + " items, " + std::to_string(octetsOf(samples)) + " octets",
                   .unit = "us",
                   .baseline = bare,
                   .baselineName = "raw Fast DDS, from write() to callback",
                   .aim = profiler::Aim::AtMost,
                   .limit = 1.5 * bare},
-                 all.taken);
+                 all.linked);
         addTimes(options,
                  {.id = "comms/latency/" + items + "/raw",
                   .what = "raw Fast DDS with as many octets, every other second",

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent_link_buffer.hpp"
-#include "agent_wake.hpp"
 #include "support/small_structure.hpp"
 
 #include <atomic>
@@ -97,21 +96,6 @@ TEST_F(Values, BufferNeverHandsOutHalfASample) {
         newest = sample->age;
     }
     writer.join();
-}
-
-TEST(Wake, EndsAWaitAndIsNotForgotten) {
-    Wake wake;
-    wake.signal();
-    wake.waitFor(std::chrono::hours{1});  // it came before
-
-    std::atomic<bool> stop{false};
-    std::thread sleeper{[&] {
-        while (!stop) wake.waitFor(std::chrono::hours{1});
-    }};
-    for (int i = 0; i < 1000; ++i) wake.signal();
-    stop = true;
-    wake.signal();
-    sleeper.join();
 }
 
 }  // namespace
