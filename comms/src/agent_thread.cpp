@@ -25,6 +25,8 @@ namespace {
 constexpr std::chrono::milliseconds shortestWait{1}, longestWait{20}, longestInCrowd{100};
 constexpr std::chrono::microseconds moreForEach{500};
 constexpr std::size_t mostLostOwners = 16;
+constexpr std::int64_t muchTooEarly = 100'000;      // ns
+constexpr std::int64_t shortestExpected = 500'000;  // ns; else too much of them were waited awake
 constexpr int timesStopping = 3;
 constexpr std::chrono::milliseconds pauseStopping{10};
 
@@ -86,16 +88,20 @@ void AgentThread::read(Inbox& inbox) {
 void AgentThread::write(Outbox& outbox) {
     const bool answers = commands_.write(outbox);
     const bool everyCycle = everyCycle_.load(std::memory_order_relaxed);
-    if (everyCycle) expectNext();
-    if (answers || everyCycle) wake_.signalAwaited();
+    if (!answers && !everyCycle) return;
+    if (everyCycle && !expectNext()) {
+        wake_.signal();
+    } else {
+        wake_.signalAwaited();
+    }
 }
 
-// A period after this write(), or sooner where cycles follow each other faster than they should.
-void AgentThread::expectNext() {
+// The next write() in a period from now. False: this one came long before it was expected.
+bool AgentThread::expectNext() {
     const std::int64_t now = steadyNow();
-    const std::int64_t interval = now - std::exchange(written_, now);
-    const std::int64_t period = self_.access.period;
-    next_.store(now + (interval < period / 2 ? interval : period), std::memory_order_relaxed);
+    const std::int64_t expected = next_.load(std::memory_order_relaxed);
+    next_.store(now + self_.access.period, std::memory_order_relaxed);
+    return now > expected - muchTooEarly;
 }
 
 void AgentThread::run() {
@@ -114,9 +120,10 @@ void AgentThread::run() {
 
 // Where somebody wants every cycle, the loop need not wake who knows when it will have written.
 void AgentThread::wait(std::chrono::nanoseconds limit) {
+    const std::int64_t end = steadyNow() + limit.count();
     const std::int64_t next = next_.load(std::memory_order_relaxed);
-    const bool isSoon = next <= steadyNow() + limit.count();
-    if (!isSoon || !wake_.await(next)) wake_.waitFor(limit);
+    const bool comes = self_.access.period >= shortestExpected && next <= end;
+    if (!comes || !wake_.await(next)) wake_.waitUntil(end);
 }
 
 // Whatever others send, this thread goes on.

@@ -42,7 +42,7 @@ public:
 private:
     template <class Message>
     std::unique_ptr<Reader<Message>> receive(const Topic& topic);
-    void expectNext() CORTEX_REALTIME;
+    bool expectNext() CORTEX_REALTIME;
     void run();
     void wait(std::chrono::nanoseconds limit);
     template <class Function>
@@ -89,8 +89,7 @@ private:
     bool silent_ = false;
 
     std::atomic<bool> everyCycle_{false};  // somebody wants values
-    std::int64_t written_ = 0;             // when the loop last did, while somebody wants them
-    std::atomic<std::int64_t> next_{0};    // when it is expected to
+    std::atomic<std::int64_t> next_{0};    // when the loop is expected to write for them
     std::atomic<bool> stopping_{false};
     std::thread thread_;
 };

@@ -15,7 +15,7 @@ namespace cortex::comms {
 namespace {
 
 // Of await(), ns. The lead grows where it woke up too late, and shrinks a tenth as fast where it
-// was early: in nine cycles of ten it is there, however late this machine's timers are.
+// was in time: nine times of ten it is, where timers are not later than the longest lead.
 constexpr std::int64_t longestLead = 50'000, earlier = 5000, later = 500;
 constexpr std::int64_t patience = 20'000;
 
@@ -24,23 +24,24 @@ constexpr std::int64_t patience = 20'000;
 static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t));
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
 
-void Wake::waitFor(std::chrono::nanoseconds limit) noexcept {
-    sleepUntil(Sleeping, steadyNow() + limit.count());
-}
+void Wake::waitUntil(std::int64_t time) noexcept { sleepUntil(Sleeping, time); }
 
 bool Wake::await(std::int64_t time) noexcept {
-    const std::int64_t end = time + patience;
-    if (steadyNow() >= end) return false;
-    if (sleepUntil(Coming, time - lead_)) {
-        lead_ = std::min(lead_ + earlier, longestLead);
+    const std::int64_t now = steadyNow(), end = time + patience, wakeUp = time - lead_;
+    if (now >= end) return false;
+    const bool signalled = sleepUntil(Coming, wakeUp);
+    if (steadyNow() < wakeUp) return true;  // woken before: by a signal, or for nothing
+    if (signalled) {
+        if (now < wakeUp) lead_ = std::min(lead_ + earlier, longestLead);
         return true;
     }
-    lead_ = std::max<std::int64_t>(lead_ - later, 0);
     while (word_.load() == Awake) {
         if (steadyNow() >= end) return false;
         sched_yield();  // the one that is awaited may need this CPU
     }
-    return word_.exchange(Awake) != Awake;
+    lead_ = std::max<std::int64_t>(lead_ - later, 0);
+    word_.exchange(Awake);
+    return true;
 }
 
 // True: it was signalled.

@@ -4,7 +4,6 @@
 #include "cortex/core/realtime.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 
 namespace cortex::comms {
@@ -20,13 +19,16 @@ public:
         if (word_.fetch_or(Signalled) == Sleeping) wakeSleeper();
     }
 
-    // Returns after a signal() since the last return, or after `limit`; sometimes earlier.
-    void waitFor(std::chrono::nanoseconds limit) noexcept;
+    // Returns after a signal() since the last return, or at `time` (steadyNow()); sometimes
+    // earlier.
+    void waitUntil(std::int64_t time) noexcept;
 
     // For a signalAwaited() that is expected at `time` (steadyNow()): wakes up a little before it
-    // and polls until a little after it. True: some signal came. False, perhaps at once: none did.
+    // and polls until a little after it. True: some signal came, or it woke up for nothing. False,
+    // perhaps at once: none did by then.
     bool await(std::int64_t time) noexcept;
 
+    // Or is about to.
     bool isSleeping() const noexcept { return word_.load() >= Sleeping; }
 
 private:

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clocks.hpp"
 
-#include "cortex/core/error.hpp"
-
 #include "statistics.hpp"
 
 #include <cstddef>

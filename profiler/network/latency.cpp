@@ -30,7 +30,8 @@ using namespace std::chrono_literals;
 using bare::Octets;
 using bare::Stream;
 
-// ns from the stamp of a value, to the callback of a bare reader and to that of an agent's.
+// ns from the stamp of a value, to the callback of a bare reader and to that of an agent's, which
+// an agent puts it into the buffers of its links in.
 struct Latencies {
     std::vector<std::int64_t> bare, linked;
 };
@@ -47,7 +48,9 @@ public:
     // One of the samples has a stamp; it comes later than the first block.
     void linked(const comms::Block& block) {
         for (const comms::SimplexData& each : block.simplexes) {
-            if (!each.ints.empty() && each.ints[0] != 0) add(all_.linked, each.ints[0]);
+            if (each.ints.empty() || each.ints[0] == 0) continue;
+            const std::int64_t before = std::exchange(last_, each.ints[0]);
+            if (last_ != before) add(all_.linked, last_);
         }
     }
     Latencies take() {
@@ -66,12 +69,12 @@ private:
         to.push_back(now - stamp);
     }
 
+    std::int64_t last_ = 0;
     std::mutex mutex_;
     Latencies all_;
 };
 
-// Links simplexes of the agent `owner` as another agent would, without its loop: a block has come
-// where the communication thread of an agent would hand it to its tables.
+// Links simplexes of the agent `owner` as another agent would, without its loop.
 class Linker {
 public:
     Linker(int domain, const std::string& owner, std::vector<std::string> paths,
@@ -154,8 +157,8 @@ void latency(const Options& options) {
         const double bare = median(all.bare);
         addTimes(options,
                  {.id = "comms/latency/" + items,
-                  .what = "a value at 1 kHz from the task that writes it to the communication "
-                          "thread of another process: " +
+                  .what = "a value at 1 kHz from the task that writes it to where another "
+                          "agent takes it from DDS: " +
                           items + " items, " + std::to_string(octetsOf(samples)) + " octets",
                   .unit = "us",
                   .baseline = bare,

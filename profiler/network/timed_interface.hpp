@@ -20,8 +20,8 @@ struct Costs {
     std::vector<std::int64_t> image;  // a copy of all tables, made beside the agent's own
 };
 
-// Wakes a thread in each cycle, and that is all: what write() cannot do without where somebody
-// wants every cycle.
+// Wakes a thread in each cycle, and that is all: what write() would take at least, where somebody
+// wants every cycle, if the communication thread did not come by itself.
 class Waker final : public CommunicationInterface {
 public:
     void announce(const AgentAccess& agent) override;

@@ -3,7 +3,6 @@
 #include "agent_wake.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <thread>
 
@@ -18,11 +17,11 @@ constexpr std::int64_t longestLead = millisecond / 20;
 TEST(Wake, EndsAWaitAndIsNotForgotten) {
     Wake wake;
     wake.signal();
-    wake.waitFor(std::chrono::hours{1});  // it came before
+    wake.waitUntil(steadyNow() + hour);  // it came before
 
     std::atomic<bool> stop{false};
     std::thread sleeper{[&] {
-        while (!stop) wake.waitFor(std::chrono::hours{1});
+        while (!stop) wake.waitUntil(steadyNow() + hour);
     }};
     for (int i = 0; i < 1000; ++i) wake.signal();
     stop = true;
@@ -35,10 +34,10 @@ TEST(Wake, AnAwaitedSignalThatCameBeforeIsNotForgotten) {
     wake.signalAwaited();
     EXPECT_TRUE(wake.await(steadyNow() + hour));
     wake.signalAwaited();
-    wake.waitFor(std::chrono::hours{1});
+    wake.waitUntil(steadyNow() + hour);
 }
 
-// Not every time: it may come before he sleeps, or, on a busy machine, after he gave up.
+// Not every time: on a busy machine it may come before he sleeps, or after he gave up.
 TEST(Wake, AnAwaitedSignalLeavesWhoComesByHimselfAsleep) {
     Wake wake;
     int leftAsleep = 0;
@@ -49,16 +48,17 @@ TEST(Wake, AnAwaitedSignalLeavesWhoComesByHimselfAsleep) {
             if (came && steadyNow() >= time - longestLead) ++leftAsleep;
         }};
         while (!wake.isSleeping() && steadyNow() < time) std::this_thread::yield();
+        while (steadyNow() < time - 10 * millisecond) std::this_thread::yield();
         wake.signalAwaited();
         sleeper.join();
-        wake.waitFor({});
+        wake.waitUntil(0);
     }
     EXPECT_GT(leftAsleep, 0);
 }
 
 TEST(Wake, AnAwaitedSignalWakesWhoDidNotExpectIt) {
     Wake wake;
-    std::thread sleeper{[&] { wake.waitFor(std::chrono::hours{1}); }};
+    std::thread sleeper{[&] { wake.waitUntil(steadyNow() + hour); }};
     while (!wake.isSleeping()) std::this_thread::yield();
     wake.signalAwaited();
     sleeper.join();
@@ -72,16 +72,16 @@ TEST(Wake, AnyOtherSignalWakesWhoComesByHimself) {
         if (i % 2 == 0) wake.signalAwaited();  // leaves him asleep
         wake.signal();
         sleeper.join();
-        wake.waitFor({});
+        wake.waitUntil(0);
     }
 }
 
-TEST(Wake, WhatDoesNotComeIsAwaitedForMicrosecondsOnly) {
+TEST(Wake, WhatDoesNotComeEndsTheWait) {
     Wake wake;
     EXPECT_FALSE(wake.await(steadyNow() + millisecond));
     wake.signal();
     EXPECT_FALSE(wake.await(steadyNow() - millisecond));  // too late: to be waited for as usual
-    wake.waitFor(std::chrono::hours{1});
+    wake.waitUntil(steadyNow() + hour);
 }
 
 }  // namespace
