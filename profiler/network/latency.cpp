@@ -30,8 +30,8 @@ using namespace std::chrono_literals;
 using bare::Octets;
 using bare::Stream;
 
-// ns from the stamp of a value, to the callback of a bare reader and to that of an agent's, which
-// an agent puts it into the buffers of its links in.
+// ns from the stamp of a value to the callback of a bare reader, and to that in which an agent
+// hands it to its links.
 struct Latencies {
     std::vector<std::int64_t> bare, linked;
 };
