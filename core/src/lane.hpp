@@ -76,6 +76,7 @@ public:
     const Shape& shape() const { return rest_->shape; }
     void setSender(CommandPort& sender) { sender_ = &sender; }
     CommandPort& sender() const CORTEX_REALTIME { return *sender_; }
+    const CommandSender::State& firstHandle() const { return handle(0); }
     std::uint64_t sent(std::uint16_t handle) const;
     std::uint64_t answered(std::uint16_t handle) const;
 

@@ -105,6 +105,7 @@ constexpr std::array clusterAttributes{
     ClusterAttribute{"priority", between<0, 99>, "a whole number from 0, for none, to 99"},
     ClusterAttribute{"cpus", counts, "CPU numbers separated by blanks"},
     ClusterAttribute{"lockMemory", truth, "true or false"},
+    ClusterAttribute{"keepCpusAwake", truth, "true or false"},
     ClusterAttribute{"overflow", overflow, "skip, catchUp or halt"},
     ClusterAttribute{"catchUpCycles", count, "a whole number from 0 to 1000000"},
     ClusterAttribute{"warnDuty", notNegative, "a number of % from 0"},

@@ -98,6 +98,7 @@ void ClusterLoop::prepareThread() {
     append(plan_->pool->report());
     append(plan_->pool->configureLoopThread());
     if (options_.priority > 0 && options_.lockMemory) append(lockMemory());
+    if (options_.priority > 0 && options_.keepCpusAwake) awakeCpus_.emplace(realtimeReport_);
     if (options_.onThreadStart) options_.onThreadStart(0);
 }
 
@@ -124,6 +125,7 @@ void ClusterLoop::run() {
     shutDown();
     rescheduler_.reset();
     plan_->pool.reset();
+    awakeCpus_.reset();
     if (ended() == Ended::Running) ended_.store(Ended::Stopped, std::memory_order_release);
     finished_.store(true, std::memory_order_release);
 }

@@ -5,6 +5,7 @@
 
 #include "group_commands.hpp"
 #include "metrics.hpp"
+#include "realtime_thread.hpp"
 #include "rescheduler.hpp"
 #include "task_runner.hpp"
 #include "thread_pool.hpp"
@@ -68,6 +69,7 @@ private:
     ClusterOptions options_;
     std::vector<std::function<void(const Heartbeat&)>> heartbeats_;
     std::vector<std::string> realtimeReport_;
+    std::optional<AwakeCpus> awakeCpus_;
     std::unique_ptr<Plan> plan_;
     TaskRunner runner_;
     GroupCommands group_;

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <thread>
 
+#include <fcntl.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -25,6 +26,7 @@ namespace cortex::cs {
 namespace {
 
 constexpr std::size_t PrefaultedBytes = 262144;
+constexpr const char* LatencyFile = "/dev/cpu_dma_latency";
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
@@ -184,6 +186,22 @@ std::vector<std::string> lockMemory() {
     if (!isLimited) return {};
     return {"Only the memory in use now was locked, because the process has a limit of " +
             std::to_string(limit.rlim_cur / 1024) + " KiB. To lock all, " + remedy};
+}
+
+AwakeCpus::AwakeCpus(std::vector<std::string>& report)
+    : request_{open(LatencyFile, O_WRONLY | O_CLOEXEC)} {
+    // https://docs.kernel.org/power/pm_qos_interface.html: the longest wake-up in us, as 32 bits
+    constexpr std::int32_t NoSleep = 0;
+    if (request_ >= 0 && write(request_, &NoSleep, sizeof NoSleep) == sizeof NoSleep) return;
+    report.push_back("Idle CPUs sleep between cycles (" + std::string{LatencyFile} + ": " +
+                     reason(errno) +
+                     "), so a cycle can begin late. To keep them awake, let the user write that "
+                     "file: 'KERNEL==\"cpu_dma_latency\", GROUP=\"cortex\", MODE=\"0660\"' in "
+                     "/etc/udev/rules.d; or set keepCpusAwake to false.");
+}
+
+AwakeCpus::~AwakeCpus() {
+    if (request_ >= 0) close(request_);
 }
 
 ThreadPlace placeOfThisThread() {

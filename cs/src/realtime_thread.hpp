@@ -44,6 +44,20 @@ void placeThread(std::thread::native_handle_type thread, const std::vector<int>&
 /// Keeps all memory of the process resident, what it obtains later included.
 std::vector<std::string> lockMemory();
 
+/// While one exists, no idle CPU of this machine sleeps: a CPU that does needs time to wake up, and
+/// one of a virtual machine is given to others, who return it when they please. Costs power.
+class AwakeCpus {
+public:
+    /// Adds to the report if the system refuses.
+    explicit AwakeCpus(std::vector<std::string>& report);
+    ~AwakeCpus();
+    AwakeCpus(const AwakeCpus&) = delete;
+    AwakeCpus& operator=(const AwakeCpus&) = delete;
+
+private:
+    int request_;  // the kernel withdraws it when this file is closed, however the process ends
+};
+
 /// Where a thread runs that does not sleep.
 struct ThreadPlace {
     std::vector<int> cpus;

@@ -78,7 +78,8 @@ void TaskRunner::findPlaces() {
         const auto* simplex = reinterpret_cast<const std::byte*>(task.simplex);
         const auto found = agent_.commandPlaces(task.index);
         any = any || found.has_value();
-        places.push_back(found.value_or(AgentRuntime::CommandPlaces{simplex, simplex, simplex}));
+        places.push_back(
+            found.value_or(AgentRuntime::CommandPlaces{simplex, simplex, simplex, simplex}));
     }
     if (any) places_ = std::move(places);
 }

@@ -9,6 +9,8 @@
 #include <set>
 #include <sstream>
 
+#include <unistd.h>
+
 namespace cortex::explorer {
 namespace {
 
@@ -16,6 +18,7 @@ namespace fs = std::filesystem;
 using Level = Diagnosis::Level;
 
 constexpr const char* cpuFolder = "sys/devices/system/cpu";
+constexpr const char* latencyFile = "dev/cpu_dma_latency";
 constexpr int soonAwake = 20;  // us out of an idle state that a fast loop can bear
 
 std::string listed(const std::vector<int>& cpus) {
@@ -134,7 +137,7 @@ void examineCores(const fs::path& root, const std::vector<int>& isolated, Diagno
 // The longest that a CPU may be told to take to wake up, us; nothing: no limit.
 std::optional<int> latencyLimit(const fs::path& root) {
     std::int32_t limit = 0;
-    std::ifstream file{root / "dev/cpu_dma_latency", std::ios::binary};
+    std::ifstream file{root / latencyFile, std::ios::binary};
     if (!file.read(reinterpret_cast<char*>(&limit), sizeof limit)) return std::nullopt;
     return limit;
 }
@@ -160,27 +163,44 @@ IdleState deepest(const fs::path& root, const std::vector<int>& cpus) {
     return worst;
 }
 
+bool isVirtual(const fs::path& root) {
+    std::ifstream file{root / "proc/cpuinfo"};
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("flags")) return hasWord(line, "hypervisor");
+    }
+    return false;
+}
+
+// Of a virtual machine each idle state is deep: the host gives the CPU to others.
 void examineIdle(const fs::path& root, const std::vector<int>& isolated, Diagnoses& found) {
     const auto all = cpusOf(lineOf(root / cpuFolder / "online"));
     const IdleState state = deepest(root, isolated.empty() ? all : isolated);
     const std::optional<int> limit = latencyLimit(root);
     const std::string takes = state.name + ", " + std::to_string(state.latency) + " us to wake up";
-    if (state.latency <= soonAwake) {
+    const bool isGivenAway = isVirtual(root);
+    if (limit && *limit <= (isGivenAway ? 0 : soonAwake)) {
+        found.push_back(
+            {Level::Ok, "idle",
+             "a program keeps CPUs awake: at most " + std::to_string(*limit) + " us to wake up",
+             ""});
+    } else if (state.latency <= soonAwake && !isGivenAway) {
         const std::string driver = lineOf(root / cpuFolder / "cpuidle/current_driver");
         found.push_back({Level::Ok, "idle",
                          state.name.empty() ? "no deep idle state" +
                                                   (driver.empty() ? "" : " (driver " + driver + ")")
                                             : "at the deepest " + takes,
                          ""});
-    } else if (limit && *limit <= soonAwake) {
-        found.push_back(
-            {Level::Ok, "idle",
-             "a program keeps CPUs awake: at most " + std::to_string(*limit) + " us to wake up",
-             ""});
+    } else if (access((root / latencyFile).c_str(), W_OK) == 0) {
+        found.push_back({Level::Ok, "idle", "a loop with a priority will keep CPUs awake", ""});
     } else {
-        found.push_back({Level::Warning, "idle", "CPUs sleep as deeply as " + takes,
-                         "sudo cpupower idle-set -D " + std::to_string(soonAwake) +
-                             ", or boot with processor.max_cstate=1 intel_idle.max_cstate=1"});
+        found.push_back(
+            {Level::Warning, "idle",
+             isGivenAway ? "idle CPUs are given to the host, who returns them when it pleases"
+                         : "CPUs sleep as deeply as " + takes,
+             "let the user write /dev/cpu_dma_latency (udev: KERNEL==\"cpu_dma_latency\", "
+             "GROUP=\"cortex\", MODE=\"0660\"), so that a loop with a priority keeps them awake" +
+                 (isGivenAway ? std::string{}
+                              : "; or sudo cpupower idle-set -D " + std::to_string(soonAwake))});
     }
 }
 
@@ -201,15 +221,13 @@ void examinePages(const fs::path& root, Diagnoses& found) {
 }
 
 void examineHypervisor(const fs::path& root, Diagnoses& found) {
-    std::ifstream file{root / "proc/cpuinfo"};
-    for (std::string line; std::getline(file, line);) {
-        if (!line.starts_with("flags") || !hasWord(line, "hypervisor")) continue;
+    if (isVirtual(root)) {
         found.push_back({Level::Warning, "hypervisor",
                          "this is a virtual machine: its host decides when a loop runs",
                          "pin its CPUs on the host, measure, or use the machine itself"});
-        return;
+    } else {
+        found.push_back({Level::Ok, "hypervisor", "none is seen", ""});
     }
-    found.push_back({Level::Ok, "hypervisor", "none is seen", ""});
 }
 
 }  // namespace

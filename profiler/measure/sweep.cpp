@@ -187,8 +187,9 @@ void noteRefusals(const std::vector<std::string>& refusals, Results& results) {
 
 std::string conditions(const RunOptions& options, std::uint32_t threads, double frequency) {
     return std::to_string(threads) + (threads == 1 ? " thread" : " threads") + " of the loop, " +
-           (options.priority == 0 ? "no real-time priority"
-                                  : "SCHED_FIFO " + std::to_string(options.priority)) +
+           (options.priority == 0
+                ? "no real-time priority"
+                : "SCHED_FIFO " + std::to_string(options.priority) + ", CPUs kept awake") +
            (frequency > 0 ? ", " + number(frequency) + " Hz" : "");
 }
 

@@ -2,6 +2,7 @@
 #include "report/machine_facts.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -85,6 +86,16 @@ std::string governors(const fs::path& root) {
     return joined(found);
 }
 
+// What programs have asked for, this one not yet; the kernel's own default is 2000 s.
+std::string idleCpus(const fs::path& root) {
+    std::int32_t limit = 0;  // us
+    std::ifstream file{root / "dev/cpu_dma_latency", std::ios::binary};
+    if (!file.read(reinterpret_cast<char*>(&limit), sizeof limit)) return "unknown";
+    if (limit == 0) return "do not sleep";
+    constexpr std::int32_t unlimited = 2'000'000'000;
+    return limit >= unlimited ? "sleep" : "wake up within " + std::to_string(limit) + " us";
+}
+
 std::string preemption(const fs::path& root, const std::string& kernelVersion) {
     if (lineOf(root / "sys/kernel/realtime") == "1" ||
         kernelVersion.find("PREEMPT_RT") != std::string::npos) {
@@ -164,6 +175,7 @@ std::vector<std::pair<std::string, std::string>> machineFacts(const fs::path& ro
         {"simultaneous threads", otherwise(simultaneous(root), "unknown")},
         {"virtualised", virtualised(root)},
         {"governor", otherwise(governors(root), "not set here")},
+        {"idle CPUs", idleCpus(root)},
         {"isolated CPUs", otherwise(lineOf(root / cpus / "isolated"), "none")},
         {"CPUs without ticks", otherwise(lineOf(root / cpus / "nohz_full"), "none")},
         {"kernel", std::string{system.sysname} + " " + system.release + " " + system.machine},

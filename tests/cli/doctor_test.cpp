@@ -133,10 +133,23 @@ TEST(Doctor, FindsTheDeepestIdleStateThatIsAllowed) {
     EXPECT_EQ(machine.of("idle").level, Level::Ok);
 
     machine.sleeps("state3", "C10", "890");
-    expectWarning(machine.of("idle"), "C10, 890 us to wake up", "max_cstate=1");
+    expectWarning(machine.of("idle"), "C10, 890 us to wake up", "cpupower idle-set -D 20");
 
     machine.set("dev/cpu_dma_latency", std::string(4, '\0'));
-    EXPECT_EQ(machine.of("idle").level, Level::Ok);
+    EXPECT_EQ(machine.of("idle").message, "a program keeps CPUs awake: at most 0 us to wake up");
+}
+
+TEST(Doctor, SeesWhetherALoopMayKeepCpusAwake) {
+    const Machine machine;
+    machine.sleeps("state1", "C1", "2");
+    machine.set("proc/cpuinfo", "processor : 0\nflags\t\t: fpu hypervisor vme");
+    expectWarning(machine.of("idle"), "given to the host", "/dev/cpu_dma_latency");
+
+    machine.set("dev/cpu_dma_latency", std::string{"\x10\0\0\0", 4});
+    EXPECT_EQ(machine.of("idle").message, "a loop with a priority will keep CPUs awake");
+
+    machine.set("dev/cpu_dma_latency", std::string(4, '\0'));
+    EXPECT_EQ(machine.of("idle").message, "a program keeps CPUs awake: at most 0 us to wake up");
 }
 
 TEST(Doctor, WarnsOfPagesThatMoveAndOfAHypervisor) {

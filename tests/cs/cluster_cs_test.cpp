@@ -2,6 +2,7 @@
 #include "cortex/core/error.hpp"
 
 #include "realtime_thread.hpp"
+#include "support/awake_cpus.hpp"
 #include "support/probe.hpp"
 
 #include <atomic>
@@ -9,6 +10,8 @@
 #include <csignal>
 #include <filesystem>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <sched.h>
 
@@ -282,6 +285,33 @@ TEST(ClusterCS, GivesItsPriorityToTheThreadsOfTheLoopOnly) {
     ASSERT_EQ(cluster.threadsInUse(), 1U);
 
     EXPECT_EQ(realTimeThreads(), 1U);
+}
+
+int awakeCpuRequestsWhileRunning(cs::ClusterOptions options) {
+    SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};
+    tree.add<Probe>("/a", "Probe");
+    cs::ClusterCS cluster{"live", std::move(options)};
+    cluster.addSimplexTree(tree);
+    cluster.setTriggerSource<cs::InternalClock>(1ms);
+    cluster.start();
+    const int requests = test::awakeCpuRequests();
+    EXPECT_TRUE(cluster.stop());
+    EXPECT_EQ(test::awakeCpuRequests(), 0);
+    return requests;
+}
+
+TEST(ClusterCS, KeepsCpusAwakeWhileItsLoopRunsWithAPriority) {
+    std::vector<std::string> refusals;
+    {
+        const cs::AwakeCpus asked{refusals};
+    }
+    if (!refusals.empty()) GTEST_SKIP() << refusals.front();
+
+    EXPECT_EQ(awakeCpuRequestsWhileRunning({.priority = 10, .lockMemory = false}), 1);
+    EXPECT_EQ(
+        awakeCpuRequestsWhileRunning({.priority = 10, .lockMemory = false, .keepCpusAwake = false}),
+        0);
+    EXPECT_EQ(awakeCpuRequestsWhileRunning({}), 0);
 }
 
 TEST(ClusterCS, ReportsWhatSpeaksAgainstASpinningClock) {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "realtime_thread.hpp"
 
+#include "support/awake_cpus.hpp"
+
 #include <cfenv>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include <pthread.h>
@@ -232,6 +235,39 @@ TEST(RealtimeThread, LocksMemoryOrSaysHowTo) {
     }
 }
 #endif
+
+/// The longest that a CPU of this machine may take to wake up, us.
+std::int32_t wakeUpLimit() {
+    std::int32_t limit = -1;
+    std::ifstream{"/dev/cpu_dma_latency", std::ios::binary}.read(reinterpret_cast<char*>(&limit),
+                                                                 sizeof limit);
+    return limit;
+}
+
+TEST(RealtimeThread, KeepsCpusAwakeForAsLongAsSomebodyAsksForIt) {
+    Lines first, second;
+    std::optional<AwakeCpus> one{std::in_place, first}, other{std::in_place, second};
+    if (!first.empty()) GTEST_SKIP() << first.front();
+
+    EXPECT_EQ(test::awakeCpuRequests(), 2);
+    EXPECT_EQ(wakeUpLimit(), 0);
+    one.reset();
+    EXPECT_EQ(test::awakeCpuRequests(), 1);
+    EXPECT_EQ(wakeUpLimit(), 0);
+    other.reset();
+    EXPECT_EQ(test::awakeCpuRequests(), 0);
+}
+
+TEST(RealtimeThreadDeathTest, TellsAnUnprivilegedUserHowToKeepCpusAwake) {
+    if (wakeUpLimit() < 0) GTEST_SKIP() << "the system cannot keep CPUs awake";
+    const auto ask = [] {
+        Lines report;
+        const AwakeCpus awake{report};
+        return report;
+    };
+    EXPECT_EXIT(printAsUnprivileged(RLIMIT_RTPRIO, ask), ::testing::ExitedWithCode(0),
+                "Idle CPUs sleep between cycles.*udev.*keepCpusAwake");
+}
 
 TEST(RealtimeThread, RoundsToNearestWithoutFlushingToZero) {
     volatile double one = 1.0, tiny = 1e-20, smallest = std::numeric_limits<double>::min();

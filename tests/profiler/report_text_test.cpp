@@ -93,6 +93,7 @@ TEST(ReportMachineFacts, AreReadFromTheSystem) {
     }
     fs::create_directories(root.path() / "proc/sys/kernel");
     fs::create_directories(root.path() / "sys/kernel");
+    fs::create_directories(root.path() / "dev");
     root.write("proc/cpuinfo",
                "processor\t: 0\nmodel name\t: A 9000\nflags\t\t: fpu hypervisor sse\n");
     root.write("proc/loadavg", "0.33 0.42 3.20 1/200 4711\n");
@@ -109,6 +110,7 @@ TEST(ReportMachineFacts, AreReadFromTheSystem) {
     root.write(cpu + "cpu0/cache/index2/level", "2\n");
     root.write(cpu + "cpu0/cache/index2/type", "Unified\n");
     root.write(cpu + "cpu0/cache/index2/size", "1024K\n");
+    root.write("dev/cpu_dma_latency", std::string(4, '\0'));
 
     EXPECT_EQ(valueOf(root.path(), "CPU"), "A 9000");
     EXPECT_EQ(valueOf(root.path(), "virtualised"), "yes");
@@ -116,6 +118,7 @@ TEST(ReportMachineFacts, AreReadFromTheSystem) {
     EXPECT_EQ(valueOf(root.path(), "governor"), "performance, powersave");
     EXPECT_EQ(valueOf(root.path(), "isolated CPUs"), "2-3");
     EXPECT_EQ(valueOf(root.path(), "CPUs without ticks"), "none");
+    EXPECT_EQ(valueOf(root.path(), "idle CPUs"), "do not sleep");
     EXPECT_EQ(valueOf(root.path(), "preemption"), "PREEMPT_RT");
     EXPECT_EQ(valueOf(root.path(), "throttling"),
               "real-time threads have 950000 of each 1000000 us");

@@ -57,6 +57,7 @@ cs::ClusterOptions optionsOf(const Attributes& attributes, const CommandLine& li
     options.priority =
         line.priority.value_or(static_cast<int>(number(attributes, "priority", options.priority)));
     options.lockMemory = word(attributes, "lockMemory") != "false";
+    options.keepCpusAwake = word(attributes, "keepCpusAwake") != "false";
     options.cpus = cpusOf(word(attributes, "cpus"));
     options.overflow = overflowOf(word(attributes, "overflow"));
     options.catchUpCycles = count(attributes, "catchUpCycles", options.catchUpCycles);

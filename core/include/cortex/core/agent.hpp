@@ -116,13 +116,14 @@ public:
     // lanes the first that it sends on and the first that it receives from. None where it has no
     // lane.
     struct CommandPlaces {
-        const std::byte *port, *sending, *receiving;
+        const std::byte *port, *sending, *record, *receiving;
 
         static constexpr std::ptrdiff_t slots = 128;  // from the head of a lane
         void fetchAll() const CORTEX_REALTIME {
             fetch(port);
             fetch(sending);
             fetch(sending + slots);
+            fetch(record);
             fetch(receiving);
             fetch(receiving + slots);
         }

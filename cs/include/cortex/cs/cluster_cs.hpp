@@ -28,7 +28,9 @@ enum class Overflow : std::uint8_t {
 struct ClusterOptions {
     std::uint32_t threads = 1;  // loop thread included
     int priority = 0;           // SCHED_FIFO 1 to 99; 0: none
-    bool lockMemory = true;     // asked for where priority is; refusal is reported
+    // Asked for where priority is; a refusal is reported.
+    bool lockMemory = true;
+    bool keepCpusAwake = true;  // all of the machine, while the loop runs: costs power
     std::vector<int> cpus{};    // to pin threads to; empty: all that the process may use
     Overflow overflow = Overflow::Skip;
     std::uint32_t catchUpCycles = 10;
