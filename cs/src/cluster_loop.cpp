@@ -112,6 +112,7 @@ void ClusterLoop::run() {
     } catch (...) {
         failure_ = std::current_exception();
         plan_->pool.reset();
+        awakeCpus_.reset();
     }
     const bool failed = failure_ != nullptr;
     ready_.store(true);

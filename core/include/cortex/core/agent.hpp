@@ -119,6 +119,7 @@ public:
         const std::byte *port, *sending, *record, *receiving;
 
         static constexpr std::ptrdiff_t slots = 128;  // from the head of a lane
+        static constexpr std::ptrdiff_t secondSlot = slots + 64;
         void fetchAll() const CORTEX_REALTIME {
             fetch(port);
             fetch(sending);
@@ -126,6 +127,8 @@ public:
             fetch(record);
             fetch(receiving);
             fetch(receiving + slots);
+            fetch(sending + secondSlot);  // delayed: one on its way while the next is sent
+            fetch(receiving + secondSlot);
         }
     };
     std::optional<CommandPlaces> commandPlaces(std::uint32_t simplex) const;
