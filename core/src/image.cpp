@@ -90,7 +90,7 @@ Value Image::value(std::string_view path, std::string_view item) const {
 }
 
 ImagePool::ImagePool(Tables& tables, std::uint32_t readers)
-    : tables_{tables}, readers_{readers}, slotCount_{readers + 2} {
+    : tables_{tables}, readers_{readers}, slotCount_{readers + 2}, whole_{divideImage(tables, {})} {
     const std::size_t stride = strideFor(tables.arena().size());
     const std::size_t octets = stride * slotCount_ + alignment;
     memory_ = std::make_unique<std::byte[]>(octets);  // zeroed: every page is touched
@@ -104,28 +104,33 @@ ImagePool::ImagePool(Tables& tables, std::uint32_t readers)
     publish(0, 0, 0);
 }
 
-void ImagePool::copyArena(Slot& slot) {
-    const auto arena = tables_.arena();
-    const auto [texts, octets] = tables_.textsInArena();
+void ImagePool::copy(std::span<const ImageParts::Part> parts) const {
+    const std::byte* const from = tables_.arena().data();
+    std::byte* const to = slots_[next_].memory;
+    for (const auto& [offset, octets] : parts) std::memcpy(to + offset, from + offset, octets);
+}
+
+void ImagePool::copyTexts(Slot& slot) {
     const std::uint64_t changes = textChanges();
-    const std::size_t rest = std::exchange(slot.textChanges, changes) == changes ? octets : 0;
-    std::memcpy(slot.memory, arena.data(), texts);
-    std::memcpy(slot.memory + texts + rest, arena.data() + texts + rest,
-                arena.size() - texts - rest);
+    if (std::exchange(slot.textChanges, changes) == changes) return;
+    const auto [texts, octets] = tables_.textsInArena();
+    std::memcpy(slot.memory + texts, tables_.arena().data() + texts, octets);
 }
 
 void ImagePool::publish(std::int64_t cycle, std::int64_t nominalTime, std::int64_t wallClock) {
-    // Of readers + 1 slots that are not the newest each reader keeps at most one: one is free.
-    const std::uint32_t newest = newest_.load();
-    std::uint32_t free = 0;
-    while (free == newest || slots_[free].pins.load() != 0) ++free;
-    Slot& slot = slots_[free];
+    Slot& slot = slots_[next_];
     slot.cycle = cycle;
     slot.nominalTime = nominalTime;
     slot.wallClock = wallClock;
-    copyArena(slot);
-    newest_.store(free);
+    copy(parts_->rest);
+    copyTexts(slot);
+    const std::uint32_t newest = next_;
+    newest_.store(newest);
     cycle_.store(cycle, std::memory_order_release);
+    // Of readers + 1 slots that are not the newest each reader keeps at most one: one is free, and
+    // stays so, as readers pin the newest.
+    next_ = 0;
+    while (next_ == newest || slots_[next_].pins.load() != 0) ++next_;
 }
 
 Image ImagePool::newest() {

@@ -50,7 +50,7 @@ public:
 private:
     void run();
     void prepareThread();
-    std::unique_ptr<ThreadPool> makePool(const Schedule& schedule);
+    void equip(Plan& plan);
     void startRescheduler();
     void adoptPlan() CORTEX_REALTIME;
     void loop();

@@ -24,11 +24,11 @@ double timingCost() {
 }  // namespace
 
 double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds) {
-    std::vector<double> threads(std::max(1U, schedule.threads)), finished;
+    const std::uint32_t count = std::max(1U, schedule.threads);
+    std::vector<double> threads(count), finished;
     finished.reserve(schedule.chunks.size());
     for (const Chunk& chunk : schedule.chunks) {
-        double& thread =
-            threads[static_cast<std::size_t>(chunk.place * static_cast<float>(threads.size()))];
+        double& thread = threads[homeOf(chunk, count)];
         for (std::uint32_t i = 0; i < chunk.predecessorCount; ++i) {
             thread = std::max(thread, finished[schedule.predecessors[chunk.firstPredecessor + i]]);
         }

@@ -3,8 +3,8 @@
 
 #include "cortex/core/agent.hpp"
 
+#include "plan.hpp"
 #include "scheduler.hpp"
-#include "thread_pool.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -21,12 +21,6 @@ namespace cortex::cs {
 /// How long a cycle takes if tasks (by node) cost so much: each thread runs its chunks in order, as
 /// soon as their predecessors have run.
 double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds);
-
-// Which chunks the loop runs, and the threads that run them.
-struct Plan {
-    Schedule schedule;
-    std::unique_ptr<ThreadPool> pool;
-};
 
 // Looks at what tasks cost, on a thread of its own, and offers a plan made for these costs where it
 // is better by more than a fifth. The order of tasks, and so every result, stays as it is.

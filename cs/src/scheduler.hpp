@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
@@ -37,6 +38,12 @@ struct Chunk {
     std::uint32_t predecessorCount = 0;
     float place = 0;  // in its level, from 0 to below 1 by cost: how threads share the level
 };
+
+/// The thread that runs the chunk unless another one helps it.
+inline std::uint32_t homeOf(const Chunk& chunk, std::uint32_t threads) {
+    const auto home = static_cast<std::uint32_t>(chunk.place * static_cast<float>(threads));
+    return std::min(home, threads - 1);
+}
 
 /// The execution order, computed once at start() and never changed. Chunks stand in topological
 /// order: each names only earlier ones as predecessors.

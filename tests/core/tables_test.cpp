@@ -76,7 +76,8 @@ TEST_F(TablesTest, LayEachKindInOneAlignedBlock) {
 
     EXPECT_TRUE(aligned(first.floats) && aligned(first.ints) && aligned(first.strings) &&
                 aligned(first.bools) && aligned(first.state));
-    EXPECT_EQ(static_cast<void*>(first.floats), static_cast<void*>(tables.arena().data()));
+    EXPECT_EQ(static_cast<const void*>(first.floats),
+              static_cast<const void*>(tables.arena().data()));
     EXPECT_EQ(tables.live(plant.first).floats, first.floats + 4);  // behind the axis' own four
     EXPECT_EQ(tables.live(plant.first).state, first.state + 1);
     const std::byte* end = tables.arena().data() + tables.arena().size();

@@ -31,6 +31,7 @@ public:
     using SimplexCS::LifeCycleSender;
     using SimplexCS::output;
     using SimplexCS::outputs;
+    using SimplexCS::runtime;
     using SimplexCS::setQuality;
 
     // Before what the hooks refer to is gone.

@@ -34,7 +34,7 @@ void storeValue(const DataItem& item, const Value& value, void* cells);
 Value loadValue(const DataItem& item, const void* cells);
 
 // All data of an agent: one contiguous block per kind and one of slot states, in one arena that is
-// copied whole into images; constants, latches, candidates and held copies lie outside it.
+// copied into images; constants, latches, candidates and held copies lie outside it.
 // Built once at start(); the loop's threads write it, everybody else reads images.
 class Tables {
 public:
@@ -58,7 +58,7 @@ public:
     // where a delayed relationship only carries commands.
     void giveUpUnusedLatches();
 
-    std::span<std::byte> arena() { return {arena_.get(), arenaSize_}; }
+    std::span<const std::byte> arena() const { return {arena_.get(), arenaSize_}; }
     // Where the texts are in it: an offset and a number of octets.
     std::pair<std::size_t, std::size_t> textsInArena() const;
     std::span<const std::byte> constantArena() const { return {constants_.get(), constantSize_}; }

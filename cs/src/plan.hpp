@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/image_parts.hpp"
+
+#include "scheduler.hpp"
+#include "thread_pool.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace cortex::cs {
+
+// Who copies what of an image. Where threads share the tasks, a group is some chunks of one thread,
+// and who runs the last of them copies what all of them wrote, while it is in its caches. Were the
+// loop's thread to copy all at the end, half of the tables would go from core to core and back in
+// each cycle, which takes longest where the cores have no cache in common.
+struct ImageGroups {
+    std::vector<std::uint32_t> ofChunk;  // noGroup: at the end; empty: no groups
+    ImageParts parts;
+};
+
+// Setup, or beside the loop.
+ImageGroups groupImage(const Tables& tables, const Schedule& schedule);
+
+// Which chunks the loop runs, what they copy, and the threads that run them.
+struct Plan {
+    Schedule schedule;
+    ImageGroups image;
+    std::unique_ptr<ThreadPool> pool;
+};
+
+}  // namespace cortex::cs
