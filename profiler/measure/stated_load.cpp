@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stated_load.hpp"
 
+#include "bare/line_distance.hpp"
 #include "measure/measured_loop.hpp"
 #include "measure/sweep.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -107,6 +109,44 @@ void addCounts(const StatedLoad& load, const Measured& measured, Results& result
          .lessIsBetter = false});
 }
 
+// Looks once a second how far apart the first two CPUs are.
+class Distances {
+public:
+    void look() {
+        const auto now = std::chrono::steady_clock::now();
+        if (!line_ || now < next_) return;
+        next_ = now + std::chrono::seconds{1};
+        nanoseconds_.push_back(line_->measure());
+    }
+
+    void add(const StatedLoad& load, Results& results) const {
+        if (nanoseconds_.empty()) return;
+        std::vector<double> sorted = nanoseconds_;
+        std::ranges::sort(sorted);
+        results.quantities.push_back(
+            {.id = load.id + "/line",
+             .what = load.what + ": a cache line from one CPU to the next and back",
+             .unit = "ns",
+             .value = sorted[sorted.size() / 2],
+             .repeats = nanoseconds_});
+        const auto apart = std::ranges::count_if(
+            sorted, [&](double each) { return each > farther * sorted.front(); });
+        if (apart == 0) return;
+        results.notes.push_back(
+            "While " + load.what + " ran, a cache line took up to " + number(sorted.back()) +
+            " ns from one CPU to the next and back in " + number(static_cast<double>(apart)) +
+            " of " + number(static_cast<double>(sorted.size())) + " seconds, else " +
+            number(sorted.front()) +
+            " ns: the host moves its CPUs apart, and loops take longer then.");
+    }
+
+private:
+    static constexpr double farther = 3;
+    std::unique_ptr<LineDistance> line_ = LineDistance::ofFirstCpus();
+    std::chrono::steady_clock::time_point next_;
+    std::vector<double> nanoseconds_;
+};
+
 }  // namespace
 
 double statedLoadSeconds(const RunOptions& options) {
@@ -124,8 +164,10 @@ void judgeLoad(const StatedLoad& load, const RunOptions& options, Progress& prog
     plan.settling = periods / 100;
     plan.workThreads = loop->threads();
     plan.workPriority = options.priority;
+    Distances distances;
     const auto begin = std::chrono::steady_clock::now();
     const Measured measured = loop->run(plan, [&] {
+        distances.look();
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
         return !progress.step(std::min(passed.count() / statedLoadSeconds(options), 1.0),
                               load.what);
@@ -134,6 +176,7 @@ void judgeLoad(const StatedLoad& load, const RunOptions& options, Progress& prog
     results.figures.push_back(figureOf(load, options, measured, loop->threads()));
     addDuty(load, measured, results);
     addCounts(load, measured, results);
+    distances.add(load, results);
 }
 
 }  // namespace cortex::profiler
