@@ -13,9 +13,8 @@
 namespace cortex::cs {
 
 // Who copies what of an image. Where threads share the tasks, a group is some chunks of one thread,
-// and who runs the last of them copies what all of them wrote, while it is in its caches. Were the
-// loop's thread to copy all at the end, half of the tables would go from core to core and back in
-// each cycle, which takes longest where the cores have no cache in common.
+// and who runs the last of them copies what all of them wrote, while it is in its caches. Most is
+// gained where the cores have no cache in common (docs/performance.md).
 struct ImageGroups {
     std::vector<std::uint32_t> ofChunk;  // noGroup: at the end; empty: no groups
     ImageParts parts;

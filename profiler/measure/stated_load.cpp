@@ -137,7 +137,8 @@ public:
             " ns from one CPU to the next and back in " + number(static_cast<double>(apart)) +
             " of " + number(static_cast<double>(sorted.size())) + " seconds, else " +
             number(sorted.front()) +
-            " ns: the host moves its CPUs apart, and loops take longer then.");
+            " ns: the two had no cache in common then, as where the host of a "
+            "virtual machine moves them, and loops take longer.");
     }
 
 private:
