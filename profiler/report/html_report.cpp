@@ -16,6 +16,13 @@ std::string element(const std::string& name, const std::string& inner) {
     return "<" + name + ">" + inner + "</" + name.substr(0, name.find(' ')) + ">";
 }
 
+std::string list(const std::vector<std::string>& entries) {
+    if (entries.empty()) return {};
+    std::string text;
+    for (const std::string& entry : entries) text += element("li", escaped(entry)) + "\n";
+    return "<ul>\n" + text + "</ul>\n";
+}
+
 std::string head(const Results& results) {
     std::string text = "<h1>CorteX profiler</h1>\n<p class=\"faint\">" + escaped(results.started);
     if (!results.version.empty()) text += " · CorteX " + escaped(results.version);
@@ -24,8 +31,8 @@ std::string head(const Results& results) {
     const Aims aims = aimsOf(results);
     if (aims.all > 0) {
         text += "<p>Aims met: <span class=\"" + std::string{aims.met == aims.all ? "good" : "bad"} +
-                "\">" + std::to_string(aims.met) + " of " + std::to_string(aims.all) +
-                "</span>.</p>\n";
+                "\">" + std::to_string(aims.met) + " of " + std::to_string(aims.all) + "</span>" +
+                (aims.missed.empty() ? ".</p>\n" : "; not met:</p>\n") + list(aims.missed);
     }
     if (!results.complete) {
         text +=
@@ -37,9 +44,8 @@ std::string head(const Results& results) {
 
 std::string notes(const Results& results) {
     if (results.notes.empty()) return {};
-    std::string text;
-    for (const std::string& note : results.notes) text += element("li", escaped(note)) + "\n";
-    return "<div class=\"box\"><b>To be known when reading this</b><ul>" + text + "</ul></div>\n";
+    return "<div class=\"box\"><b>To be known when reading this</b>" + list(results.notes) +
+           "</div>\n";
 }
 
 std::string machine(const Results& results) {

@@ -37,8 +37,14 @@ Aims aimsOf(const Results& results) {
     Aims aims;
     for (const Quantity& each : results.quantities) {
         const std::optional<bool> found = met(each);
-        if (found) ++aims.all;
-        if (found.value_or(false)) ++aims.met;
+        if (!found) continue;
+        ++aims.all;
+        if (*found) {
+            ++aims.met;
+        } else {
+            aims.missed.push_back(each.what + ": " + valueText(each) + " (aim " + aimText(each) +
+                                  ")");
+        }
     }
     return aims;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cortex::profiler {
 
@@ -17,6 +18,7 @@ std::optional<bool> met(const Quantity& quantity);
 
 struct Aims {
     std::size_t met = 0, all = 0;
+    std::vector<std::string> missed;  // "what was measured: 3 ticks (aim ≤ 1 ticks)"
 };
 Aims aimsOf(const Results& results);
 

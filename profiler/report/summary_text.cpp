@@ -5,6 +5,22 @@
 #include "report/text_columns.hpp"
 
 namespace cortex::profiler {
+namespace {
+
+std::string listed(const std::vector<std::string>& entries, std::size_t width) {
+    std::string text;
+    for (const std::string& entry : entries) {
+        std::string before = "- ";
+        for (const std::string& line :
+             wrappedText(printable(entry), width - std::min<std::size_t>(width, 2))) {
+            text += before + line + "\n";
+            before = "  ";
+        }
+    }
+    return text;
+}
+
+}  // namespace
 
 std::string summaryText(const Results& results, std::size_t width) {
     std::vector<std::vector<std::string>> rows;
@@ -28,19 +44,11 @@ std::string summaryText(const Results& results, std::size_t width) {
     }
     const Aims aims = aimsOf(results);
     if (aims.all > 0) {
-        text +=
-            "\nAims met: " + std::to_string(aims.met) + " of " + std::to_string(aims.all) + "\n";
+        text += "\nAims met: " + std::to_string(aims.met) + " of " + std::to_string(aims.all) +
+                (aims.missed.empty() ? "\n" : "; not met:\n") + listed(aims.missed, width);
     }
     if (!results.complete) text += "\nNot complete: the run was stopped, or still goes on.\n";
-    if (!results.notes.empty()) text += "\n";
-    for (const std::string& note : results.notes) {
-        std::string before = "- ";
-        for (const std::string& line :
-             wrappedText(printable(note), width - std::min<std::size_t>(width, 2))) {
-            text += before + line + "\n";
-            before = "  ";
-        }
-    }
+    if (!results.notes.empty()) text += "\n" + listed(results.notes, width);
     return text;
 }
 

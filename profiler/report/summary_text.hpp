@@ -9,7 +9,7 @@
 namespace cortex::profiler {
 
 // The summary table of the report for a terminal: plain, aligned, "met" or "NOT met" where there is
-// an aim; then how many are met, and the notes.
+// an aim; then how many are met, those that are not, and the notes.
 std::string summaryText(const Results& results, std::size_t width);
 
 }  // namespace cortex::profiler

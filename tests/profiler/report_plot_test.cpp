@@ -235,6 +235,7 @@ TEST(ReportHtml, SaysWhichAimsAreMet) {
     EXPECT_NE(page.find(">1 of 2<"), std::string::npos);
     EXPECT_EQ(count(page, "✓ met"), 1U);
     EXPECT_EQ(count(page, "✗ not met"), 1U);
+    EXPECT_EQ(count(page, "<li>second: 41 234 (aim ≥ 50 000)</li>"), 1U);
 }
 
 TEST(ReportHtml, SaysWhenARunIsNotComplete) {

@@ -29,7 +29,7 @@ TEST(ReportSummary, IsAnAlignedTable) {
               "what        here       beside it  ratio       aim           paper\n"
               "first   0.333 ns  bare: 0.667 ns   0.5×  ≤ 0.5 ns  met      Fig. 1\n"
               "second    41 234                         ≥ 50 000  NOT met\n"
-              "\nAims met: 1 of 2\n"
+              "\nAims met: 1 of 2; not met:\n- second: 41 234 (aim ≥ 50 000)\n"
               "\n- first note\n- second \"note\", with a comma\n");
 }
 
