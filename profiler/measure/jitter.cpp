@@ -137,12 +137,13 @@ void judge(const Lateness& loop, const Lateness& sleeper, Results& results) {
         ratio.repeats.push_back(ours[i] / floor[i]);
     }
     results.quantities.push_back(std::move(ratio));
-    results.quantities.push_back({.id = "jitter/lateness-null-ratio",
-                                  .what = "the sleeper over itself; above 1.3 it is too noisy here",
-                                  .unit = "",
-                                  .value = null,
-                                  .aim = Aim::AtMost,
-                                  .limit = 1.3});
+    results.quantities.push_back(
+        {.id = "jitter/lateness-null-ratio",
+         .what = "lateness of the bare sleeper over itself; above 1.3 it is too noisy here",
+         .unit = "",
+         .value = null,
+         .aim = Aim::AtMost,
+         .limit = 1.3});
     if (null > 1.3) results.notes.push_back("Lateness was too noisy to be judged: run it again.");
 }
 

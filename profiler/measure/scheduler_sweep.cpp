@@ -141,7 +141,8 @@ void addShared(const Case& which, const Cost& cost, Results& results) {
     }
     results.quantities.push_back(std::move(time));
     results.quantities.push_back({.id = idOf(which) + "/against-one",
-                                  .what = "the same beside one thread in turn, 1.1 being noise",
+                                  .what = "a cycle of " + described(which, cost) +
+                                          ", beside one thread in turn, 1.1 being noise",
                                   .unit = "ratio",
                                   .value = cost.best / cost.oneThread,
                                   .aim = Aim::AtMost,

@@ -30,8 +30,9 @@ std::string head(const Results& results) {
     text += "</p>\n";
     const Aims aims = aimsOf(results);
     if (aims.all > 0) {
-        text += "<p>Aims met: <span class=\"" + std::string{aims.met == aims.all ? "good" : "bad"} +
-                "\">" + std::to_string(aims.met) + " of " + std::to_string(aims.all) + "</span>" +
+        text += "<p>Aims met: <span class=\"" + std::string{aims.missed.empty() ? "good" : "bad"} +
+                "\">" + std::to_string(aims.all - aims.missed.size()) + " of " +
+                std::to_string(aims.all) + "</span>" +
                 (aims.missed.empty() ? ".</p>\n" : "; not met:</p>\n") + list(aims.missed);
     }
     if (!results.complete) {

@@ -39,12 +39,8 @@ Aims aimsOf(const Results& results) {
         const std::optional<bool> found = met(each);
         if (!found) continue;
         ++aims.all;
-        if (*found) {
-            ++aims.met;
-        } else {
-            aims.missed.push_back(each.what + ": " + valueText(each) + " (aim " + aimText(each) +
-                                  ")");
-        }
+        if (*found) continue;
+        aims.missed.push_back(each.what + ": " + valueText(each) + " (aim " + aimText(each) + ")");
     }
     return aims;
 }

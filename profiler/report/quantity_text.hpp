@@ -17,7 +17,7 @@ std::optional<double> ratioToBaseline(const Quantity& quantity);
 std::optional<bool> met(const Quantity& quantity);
 
 struct Aims {
-    std::size_t met = 0, all = 0;
+    std::size_t all = 0;
     std::vector<std::string> missed;  // "what was measured: 3 ticks (aim ≤ 1 ticks)"
 };
 Aims aimsOf(const Results& results);

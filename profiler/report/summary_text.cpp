@@ -44,8 +44,9 @@ std::string summaryText(const Results& results, std::size_t width) {
     }
     const Aims aims = aimsOf(results);
     if (aims.all > 0) {
-        text += "\nAims met: " + std::to_string(aims.met) + " of " + std::to_string(aims.all) +
-                (aims.missed.empty() ? "\n" : "; not met:\n") + listed(aims.missed, width);
+        text += "\nAims met: " + std::to_string(aims.all - aims.missed.size()) + " of " +
+                std::to_string(aims.all) + (aims.missed.empty() ? "\n" : "; not met:\n") +
+                listed(aims.missed, width);
     }
     if (!results.complete) text += "\nNot complete: the run was stopped, or still goes on.\n";
     if (!results.notes.empty()) text += "\n" + listed(results.notes, width);
