@@ -6,6 +6,7 @@
 
 #include "cluster_loop.hpp"
 #include "group_commands.hpp"
+#include "line_distance.hpp"
 #include "realtime_thread.hpp"
 #include "scheduler.hpp"
 
@@ -217,16 +218,19 @@ void ClusterCS::startAll() {
     self.agent->setCanonicalOrder(order);
     const std::vector<SimplexCS*> simplexes = self.activeInOrder(order);
     self.populate(simplexes);
+    const double line =
+        self.options.forceThreads ? 0 : lineMicroseconds(self.options.cpus, threads);
     Schedule schedule =
-        makeSchedule(graph, {threads, self.options.chunkSize, {}, self.options.forceThreads});
+        makeSchedule(graph, {threads, self.options.chunkSize, {}, self.options.forceThreads, line});
     self.agent->addInterface(self.program);
     for (const auto& interface : self.interfaces) self.agent->addInterface(*interface);
     for (EventLog::Sink& sink : self.sinks) self.agent->events().addSink(sink);
     self.loop =
         std::make_unique<ClusterLoop>(*self.agent, *self.trigger, self.options, std::move(schedule),
                                       simplexes, self.heartbeats, std::move(realtimeReport));
-    self.loop->rescheduleBy([&self, threads](std::span<const double> costs) {
-        return makeSchedule(self.graph(), {threads, self.options.chunkSize, costs, false});
+    self.loop->rescheduleBy([&self, threads](std::span<const double> costs, double measured) {
+        return makeSchedule(self.graph(),
+                            {threads, self.options.chunkSize, costs, false, measured});
     });
     self.agent->start();
     self.loop->start();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cluster_loop.hpp"
 
+#include "line_distance.hpp"
 #include "realtime_thread.hpp"
 
 #include <algorithm>
@@ -203,7 +204,9 @@ void ClusterLoop::startRescheduler() {
     if (!mayShare || !makeSchedule_ || !trigger_.realTime()) return;
     rescheduler_ = std::make_unique<Rescheduler>(
         agent_, plan_->schedule,
-        Rescheduler::Maker{makeSchedule_, [this](Schedule schedule) {
+        Rescheduler::Maker{[this] { return lineMicroseconds(options_.cpus, agent_.threadCount()); },
+                           makeSchedule_,
+                           [this](Schedule schedule) {
                                auto plan = std::make_unique<Plan>();
                                plan->schedule = std::move(schedule);
                                equip(*plan);

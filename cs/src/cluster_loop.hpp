@@ -42,10 +42,8 @@ public:
     Ended ended() const { return ended_.load(std::memory_order_acquire); }
     const std::vector<std::string>& realtimeReport() const { return realtimeReport_; }
     std::uint32_t threads() const { return threads_.load(std::memory_order_relaxed); }
-    // Before start(): makes schedules for measured costs; with threads to share the work only.
-    void rescheduleBy(std::function<Schedule(std::span<const double>)> makeSchedule) {
-        makeSchedule_ = std::move(makeSchedule);
-    }
+    // Before start(): makes schedules for what is measured; with threads to share the work only.
+    void rescheduleBy(ScheduleMaker makeSchedule) { makeSchedule_ = std::move(makeSchedule); }
 
 private:
     void run();
@@ -74,7 +72,7 @@ private:
     TaskRunner runner_;
     GroupCommands group_;
     ClusterMetrics metrics_;
-    std::function<Schedule(std::span<const double>)> makeSchedule_;
+    ScheduleMaker makeSchedule_;
     std::unique_ptr<Rescheduler> rescheduler_;
     std::unique_ptr<Watchdog> watchdog_;
     std::atomic<std::uint32_t> threads_{1};

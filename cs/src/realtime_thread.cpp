@@ -170,6 +170,13 @@ void placeThread(std::thread::native_handle_type thread, const std::vector<int>&
     place(thread, cpus.empty() ? usableCpus() : cpus);
 }
 
+OnCpu::OnCpu(int cpu) : before_{allowedCpus()} {
+    usableCpus();  // found before this thread is pinned
+    place(pthread_self(), {cpu});
+}
+
+OnCpu::~OnCpu() { place(pthread_self(), before_); }
+
 std::vector<std::string> lockMemory() {
     rlimit limit{};
     getrlimit(RLIMIT_MEMLOCK, &limit);

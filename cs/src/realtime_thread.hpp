@@ -41,6 +41,18 @@ std::vector<std::string> configureThisThread(const ThreadOptions& options);
 /// Moves another thread to these CPUs; empty: all that the process may use.
 void placeThread(std::thread::native_handle_type thread, const std::vector<int>& cpus);
 
+/// The calling thread runs on this CPU while one exists; where the system refuses, where it was.
+class OnCpu {
+public:
+    explicit OnCpu(int cpu);
+    ~OnCpu();
+    OnCpu(const OnCpu&) = delete;
+    OnCpu& operator=(const OnCpu&) = delete;
+
+private:
+    std::vector<int> before_;
+};
+
 /// Keeps all memory of the process resident, what it obtains later included.
 std::vector<std::string> lockMemory();
 

@@ -23,7 +23,8 @@ double timingCost() {
 
 }  // namespace
 
-double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds) {
+double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds,
+                            double lineMicroseconds) {
     const std::uint32_t count = std::max(1U, schedule.threads);
     std::vector<double> threads(count), finished;
     finished.reserve(schedule.chunks.size());
@@ -39,7 +40,17 @@ double expectedMicroseconds(const Schedule& schedule, std::span<const double> co
         finished.push_back(thread);
     }
     return *std::max_element(threads.begin(), threads.end()) +
-           (threads.size() > 1 ? WakeMicroseconds : 0);
+           sharingMicroseconds(schedule, lineMicroseconds);
+}
+
+std::vector<double> withoutCrossings(const Schedule& schedule, std::vector<double> costMicroseconds,
+                                     double lineMicroseconds) {
+    double sum = 0;
+    for (const std::uint32_t task : schedule.tasks) sum += costMicroseconds[task];
+    if (sum <= 0) return costMicroseconds;
+    const double left = 1 - crossingMicroseconds(schedule, lineMicroseconds) / sum;
+    for (double& cost : costMicroseconds) cost *= std::max(left, 0.5);
+    return costMicroseconds;
 }
 
 Rescheduler::Rescheduler(AgentRuntime& agent, const Schedule& inUse, Maker maker,
@@ -99,11 +110,14 @@ void Rescheduler::look() {
 }
 
 void Rescheduler::offer() {
-    const std::vector<double> costs = measuredCosts();
+    std::vector<double> costs = measuredCosts();
     if (costs.empty()) return;
-    Schedule schedule = maker_.schedule(costs);
-    const bool better =
-        expectedMicroseconds(schedule, costs) < worthwhile * expectedMicroseconds(inUse_, costs);
+    const double line = maker_.lineMicroseconds();
+    if (line > 0) line_ = line;
+    costs = withoutCrossings(inUse_, std::move(costs), line_);
+    Schedule schedule = maker_.schedule(costs, line_);
+    const bool better = expectedMicroseconds(schedule, costs, line_) <
+                        worthwhile * expectedMicroseconds(inUse_, costs, line_);
     if (!better || schedule.tasks != inUse_.tasks) return;
     std::unique_ptr<Plan> plan = maker_.plan(schedule);
     inUse_ = std::move(schedule);

@@ -112,6 +112,7 @@ private:
     void placeChunks(std::size_t first, double levelCost);
     void addToOpenChunk(Index chain);
     void prune(Index chunk, std::vector<Index>& named, std::vector<Index>& coveredFor) const;
+    Index countCrossings() const;
 
     const TaskGraph& graph_;
     const ScheduleOptions& options_;
@@ -334,11 +335,31 @@ void Builder::namePredecessors() {
     }
 }
 
+Index Builder::countCrossings() const {
+    const auto home = [&](Index chain) {
+        return homeOf(schedule_.chunks[chunkOfChain_[chain]], schedule_.threads);
+    };
+    std::size_t crossings = 0;
+    for (Index chain = 0; chain < chunkOfChain_.size(); ++chain) {
+        const auto earlier = before(nodesOfChain_.of(chain).front());
+        crossings +=
+            static_cast<std::size_t>(std::count_if(earlier.begin(), earlier.end(), [&](Index node) {
+                return home(chainOf_[node]) != home(chain);
+            }));
+    }
+    return static_cast<Index>(crossings);
+}
+
 Schedule Builder::finish() {
-    const bool pays = parallelCost_ + WakeMicroseconds < serialCost_;
-    schedule_.threads = pays ? std::min(options_.threads, widestLevel_) : 1;
-    if (options_.force) schedule_.threads = options_.threads;
-    schedule_.threads = std::max<Index>(1, schedule_.threads);
+    const Index threads =
+        options_.force ? options_.threads : std::min(options_.threads, widestLevel_);
+    schedule_.threads = std::max<Index>(1, threads);
+    schedule_.crossings = countCrossings();
+    const double shared = parallelCost_ + sharingMicroseconds(schedule_, options_.lineMicroseconds);
+    if (shared >= serialCost_ && !options_.force) {
+        schedule_.threads = 1;
+        schedule_.crossings = 0;
+    }
     return std::move(schedule_);
 }
 
@@ -371,6 +392,20 @@ std::vector<std::uint32_t> canonicalOrder(const TaskGraph& graph) {
     std::vector<bool> blocked(count);
     for (Index node = 0; node < count; ++node) blocked[node] = waitsFor[node] != 0;
     throwLoop(graph, blocked);
+}
+
+double crossingMicroseconds(const Schedule& schedule, double lineMicroseconds) {
+    constexpr double linesPerCrossing = 0.3;  // one line takes 0.17, as others are on their way
+    return schedule.crossings * linesPerCrossing * lineMicroseconds;
+}
+
+double sharingMicroseconds(const Schedule& schedule, double lineMicroseconds) {
+    if (schedule.threads < 2) return 0;
+    constexpr double linesPerCycle = 20, linesPerChunk = 0.5;
+    const double chunks = linesPerChunk * static_cast<double>(schedule.chunks.size());
+    return WakeMicroseconds + linesPerCycle * lineMicroseconds +
+           (chunks * lineMicroseconds + crossingMicroseconds(schedule, lineMicroseconds)) /
+               schedule.threads;
 }
 
 Schedule makeSchedule(const TaskGraph& graph, const ScheduleOptions& options) {

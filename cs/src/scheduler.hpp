@@ -53,16 +53,26 @@ struct Schedule {
     std::vector<Chunk> chunks;
     std::vector<std::uint32_t> predecessors;
     std::uint32_t threads = 1;
+    std::uint32_t crossings = 0;  // task to task, from the home of one thread to that of another
 };
 
 inline constexpr double AssumedTaskMicroseconds = 0.05;  // of a task whose cost is not known
 inline constexpr double WakeMicroseconds = 20.0;  // what a sleeping worker costs before it helps
+
+/// Of what crosses from thread to thread in a cycle, given how long a line of the cache takes (see
+/// lineMicroseconds()): the sum over the tasks that wait for it.
+double crossingMicroseconds(const Schedule& schedule, double lineMicroseconds);
+
+/// What a cycle costs more because threads share it: the wake, and the lines that go from one to
+/// the other. Fitted to measured cycles (docs/performance.md).
+double sharingMicroseconds(const Schedule& schedule, double lineMicroseconds);
 
 struct ScheduleOptions {
     std::uint32_t threads = 1;                   // at most
     std::uint32_t chunkSize = 0;                 // tasks in a chunk; 0: by cost
     std::span<const double> costMicroseconds{};  // one per node, 0: unknown; empty: all are
     bool force = false;                          // use all threads even where one is faster
+    double lineMicroseconds = 0;                 // between the threads' CPUs; 0: not known
 };
 
 /// Topological, ties by path. Throws LoopError.

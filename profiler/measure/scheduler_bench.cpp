@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scheduler_bench.hpp"
 
+#include "line_distance.hpp"
 #include "realtime_thread.hpp"
 
 #include <map>
+#include <optional>
 #include <utility>
-
-#include <sched.h>
 
 #include <oneapi/tbb/task_arena.h>
 
@@ -29,27 +29,6 @@ std::uint32_t arenaThread() {
     return static_cast<std::uint32_t>(oneapi::tbb::this_task_arena::current_thread_index());
 }
 
-// Where threads share work a cluster pins them, its loop's own too.
-class LoopPin {
-public:
-    explicit LoopPin(bool pins) : pins_{pins} {
-        if (!pins_) return;
-        sched_getaffinity(0, sizeof before_, &before_);
-        cpu_set_t one{};
-        CPU_SET(static_cast<std::size_t>(cs::cpuForThread({}, 0)), &one);
-        sched_setaffinity(0, sizeof one, &one);
-    }
-    ~LoopPin() {
-        if (pins_) sched_setaffinity(0, sizeof before_, &before_);
-    }
-    LoopPin(const LoopPin&) = delete;
-    LoopPin& operator=(const LoopPin&) = delete;
-
-private:
-    bool pins_;
-    cpu_set_t before_{};
-};
-
 }  // namespace
 
 SchedulerBench::SchedulerBench(const TaskEdges& edges, std::uint32_t threads,
@@ -64,7 +43,8 @@ SchedulerBench::SchedulerBench(const TaskEdges& edges, std::uint32_t threads,
         graph.edges.emplace_back(edge.target, edge.owner);
     }
     agent_.setCanonicalOrder(cs::canonicalOrder(graph));
-    schedule_ = cs::makeSchedule(graph, {.threads = threads});
+    schedule_ = cs::makeSchedule(
+        graph, {.threads = threads, .lineMicroseconds = cs::lineMicroseconds({}, threads)});
     runner_ = std::make_unique<cs::TaskRunner>(agent_, schedule_, 1'000'000);
     std::map<std::uint32_t, std::uint32_t> slotOf;
     for (std::uint32_t i = 0; i < schedule_.tasks.size(); ++i) slotOf[schedule_.tasks[i]] = i;
@@ -93,7 +73,9 @@ void SchedulerBench::beginCycle() {
 }
 
 std::chrono::nanoseconds SchedulerBench::cycles(std::int64_t count) {
-    const LoopPin pin{pool_->threads() > 1};
+    // Where threads share work a cluster pins them, its loop's own too.
+    std::optional<cs::OnCpu> pinned;
+    if (pool_->threads() > 1) pinned.emplace(cs::cpuForThread({}, 0));
     return timed([&] {
         for (std::int64_t i = 0; i < count; ++i) {
             beginCycle();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stated_load.hpp"
 
-#include "bare/line_distance.hpp"
+#include "measure/distances.hpp"
 #include "measure/measured_loop.hpp"
 #include "measure/sweep.hpp"
 
@@ -109,45 +109,6 @@ void addCounts(const StatedLoad& load, const Measured& measured, Results& result
          .lessIsBetter = false});
 }
 
-// Looks once a second how far apart the first two CPUs are.
-class Distances {
-public:
-    void look() {
-        const auto now = std::chrono::steady_clock::now();
-        if (!line_ || now < next_) return;
-        next_ = now + std::chrono::seconds{1};
-        nanoseconds_.push_back(line_->measure());
-    }
-
-    void add(const StatedLoad& load, Results& results) const {
-        if (nanoseconds_.empty()) return;
-        std::vector<double> sorted = nanoseconds_;
-        std::ranges::sort(sorted);
-        results.quantities.push_back(
-            {.id = load.id + "/line",
-             .what = load.what + ": a cache line from one CPU to the next and back",
-             .unit = "ns",
-             .value = sorted[sorted.size() / 2],
-             .repeats = nanoseconds_});
-        const auto apart = std::ranges::count_if(
-            sorted, [&](double each) { return each > farther * sorted.front(); });
-        if (apart == 0) return;
-        results.notes.push_back(
-            "While " + load.what + " ran, a cache line took up to " + number(sorted.back()) +
-            " ns from one CPU to the next and back in " + number(static_cast<double>(apart)) +
-            " of " + number(static_cast<double>(sorted.size())) + " seconds, else " +
-            number(sorted.front()) +
-            " ns: the two had no cache in common then, as where the host of a "
-            "virtual machine moves them, and loops take longer.");
-    }
-
-private:
-    static constexpr double farther = 3;
-    std::unique_ptr<LineDistance> line_ = LineDistance::ofFirstCpus();
-    std::chrono::steady_clock::time_point next_;
-    std::vector<double> nanoseconds_;
-};
-
 }  // namespace
 
 double statedLoadSeconds(const RunOptions& options) {
@@ -177,7 +138,7 @@ void judgeLoad(const StatedLoad& load, const RunOptions& options, Progress& prog
     results.figures.push_back(figureOf(load, options, measured, loop->threads()));
     addDuty(load, measured, results);
     addCounts(load, measured, results);
-    distances.add(load, results);
+    distances.add(load.id, load.what, results);
 }
 
 }  // namespace cortex::profiler

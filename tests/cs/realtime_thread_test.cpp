@@ -73,6 +73,17 @@ TEST(RealtimeThread, FindsCpusOutsideOfTheMaskThatMayBeNamed) {
     EXPECT_EQ(settableCpus({}), std::vector<int>{});
 }
 
+TEST(RealtimeThread, StaysOnACpuForAWhileAndThenMayRunWhereItMightBefore) {
+    inThread([&] {
+        {
+            const OnCpu pinned{usableCpus().back()};
+            EXPECT_EQ(placeOfThisThread().cpus, std::vector{usableCpus().back()});
+        }
+        EXPECT_EQ(placeOfThisThread().cpus, usableCpus());
+        return Lines{};
+    });
+}
+
 TEST(RealtimeThread, ReadsTheKernelsListsOfCpus) {
     EXPECT_EQ(cpusOf(""), std::vector<int>{});
     EXPECT_EQ(cpusOf("2-3,6"), (std::vector{2, 3, 6}));
