@@ -282,11 +282,11 @@ void measureCluster(Results& results) {
 }
 
 double seconds(const RunOptions& options) {
-    return (options.quick ? 12.0 : 80.0) * static_cast<double>(threadCounts().size()) / 2;
+    return (options.quick ? 20.0 : 80.0) * static_cast<double>(threadCounts().size()) / 2;
 }
 
 void run(const RunOptions& options, Progress& progress, Results& results) {
-    const Rounds rounds{5, options.quick ? 0.01 : 0.05, 0};
+    const Rounds rounds{5, options.quick ? 0.02 : 0.05, 0};
     measureCluster(results);
     double done = 0;
     for (const Shape shape : allShapes) {
