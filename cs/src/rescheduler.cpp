@@ -60,6 +60,7 @@ Rescheduler::Rescheduler(AgentRuntime& agent, const Schedule& inUse, Maker maker
       maker_{std::move(maker)},
       pause_{first},
       costs_(agent.structure().simplexes.size()),
+      line_{inUse.lineMicroseconds},
       thread_{[this] { run(); }} {}
 
 Rescheduler::~Rescheduler() {

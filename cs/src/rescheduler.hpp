@@ -61,7 +61,7 @@ private:
     Maker maker_;
     std::chrono::milliseconds pause_;
     std::vector<double> costs_;  // by simplex, microseconds; 0: not timed yet
-    double line_ = 0;
+    double line_;                // between the threads' CPUs, as last known
     std::atomic<Plan*> offered_{nullptr}, returned_{nullptr};
     std::mutex mutex_;
     std::condition_variable wake_;

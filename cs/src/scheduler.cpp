@@ -112,7 +112,7 @@ private:
     void placeChunks(std::size_t first, double levelCost);
     void addToOpenChunk(Index chain);
     void prune(Index chunk, std::vector<Index>& named, std::vector<Index>& coveredFor) const;
-    Index countCrossings() const;
+    double countCrossings() const;
 
     const TaskGraph& graph_;
     const ScheduleOptions& options_;
@@ -335,24 +335,26 @@ void Builder::namePredecessors() {
     }
 }
 
-Index Builder::countCrossings() const {
+double Builder::countCrossings() const {
     const auto home = [&](Index chain) {
         return homeOf(schedule_.chunks[chunkOfChain_[chain]], schedule_.threads);
     };
-    std::size_t crossings = 0;
+    double crossings = 0;
     for (Index chain = 0; chain < chunkOfChain_.size(); ++chain) {
-        const auto earlier = before(nodesOfChain_.of(chain).front());
-        crossings +=
-            static_cast<std::size_t>(std::count_if(earlier.begin(), earlier.end(), [&](Index node) {
-                return home(chainOf_[node]) != home(chain);
-            }));
+        const Index head = nodesOfChain_.of(chain).front();
+        const auto earlier = before(head);
+        const auto count = std::count_if(earlier.begin(), earlier.end(), [&](Index node) {
+            return home(chainOf_[node]) != home(chain);
+        });
+        crossings += static_cast<double>(count) / std::max(1U, graph_.nodes[head].every);
     }
-    return static_cast<Index>(crossings);
+    return crossings;
 }
 
 Schedule Builder::finish() {
     const Index threads =
         options_.force ? options_.threads : std::min(options_.threads, widestLevel_);
+    schedule_.lineMicroseconds = options_.lineMicroseconds;
     schedule_.threads = std::max<Index>(1, threads);
     schedule_.crossings = countCrossings();
     const double shared = parallelCost_ + sharingMicroseconds(schedule_, options_.lineMicroseconds);
@@ -395,7 +397,7 @@ std::vector<std::uint32_t> canonicalOrder(const TaskGraph& graph) {
 }
 
 double crossingMicroseconds(const Schedule& schedule, double lineMicroseconds) {
-    constexpr double linesPerCrossing = 0.3;  // one line takes 0.17, as others are on their way
+    constexpr double linesPerCrossing = 0.3;  // 0.17 for an empty task, which reads one
     return schedule.crossings * linesPerCrossing * lineMicroseconds;
 }
 

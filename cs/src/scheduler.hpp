@@ -53,18 +53,19 @@ struct Schedule {
     std::vector<Chunk> chunks;
     std::vector<std::uint32_t> predecessors;
     std::uint32_t threads = 1;
-    std::uint32_t crossings = 0;  // task to task, from the home of one thread to that of another
+    double lineMicroseconds = 0;  // that it was made for
+    double crossings = 0;         // a cycle: reads of tasks, or joins, whose home is another thread
 };
 
 inline constexpr double AssumedTaskMicroseconds = 0.05;  // of a task whose cost is not known
 inline constexpr double WakeMicroseconds = 20.0;  // what a sleeping worker costs before it helps
 
-/// Of what crosses from thread to thread in a cycle, given how long a line of the cache takes (see
-/// lineMicroseconds()): the sum over the tasks that wait for it.
+/// What tasks take longer in a cycle for what they read of tasks of other threads, in sum, if a
+/// line of the cache takes so long to and fro (see lineMicroseconds()).
 double crossingMicroseconds(const Schedule& schedule, double lineMicroseconds);
 
 /// What a cycle costs more because threads share it: the wake, and the lines that go from one to
-/// the other. Fitted to measured cycles (docs/performance.md).
+/// the other. From cycles on two threads (docs/performance.md).
 double sharingMicroseconds(const Schedule& schedule, double lineMicroseconds);
 
 struct ScheduleOptions {

@@ -249,9 +249,13 @@ TEST(Scheduler, CountsWhatCrossesFromOneThreadToTheOther) {
         return makeSchedule(graphOf(paths, std::move(edges)), two).crossings;
     };
 
-    EXPECT_EQ(crossings({{0, 4}, {0, 5}, {3, 6}, {3, 7}}), 0U);
-    EXPECT_EQ(crossings({{0, 4}, {0, 7}, {3, 6}, {3, 5}}), 2U);
-    EXPECT_EQ(makeSchedule(graphOf(paths, {{0, 4}, {0, 7}, {3, 6}, {3, 5}}), {}).crossings, 0U);
+    EXPECT_EQ(crossings({{0, 4}, {0, 5}, {3, 6}, {3, 7}}), 0);
+    EXPECT_EQ(crossings({{0, 4}, {0, 7}, {3, 6}, {3, 5}}), 2);
+
+    TaskGraph graph = graphOf(paths, {{0, 4}, {0, 7}, {3, 6}, {3, 5}});
+    EXPECT_EQ(makeSchedule(graph, {}).crossings, 0);
+    graph.nodes[7].every = 10;
+    EXPECT_DOUBLE_EQ(makeSchedule(graph, two).crossings, 1.1);
 }
 
 TEST(Scheduler, UsesOneThreadWhereTheWayBetweenDistantCpusCostsMore) {
