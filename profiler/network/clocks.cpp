@@ -23,4 +23,17 @@ cs::Trigger TakingTurns::waitForTick() {
     return {0, 0, 1, true};
 }
 
+OnCpu::OnCpu(int number) {
+    sched_getaffinity(0, sizeof before_, &before_);
+    for (std::size_t cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+        if (!CPU_ISSET(cpu, &before_) || number-- > 0) continue;
+        cpu_set_t only{};
+        CPU_SET(cpu, &only);
+        sched_setaffinity(0, sizeof only, &only);
+        return;
+    }
+}
+
+OnCpu::~OnCpu() { sched_setaffinity(0, sizeof before_, &before_); }
+
 }  // namespace cortex::network

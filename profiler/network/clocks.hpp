@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <functional>
 
+#include <sched.h>
+
 namespace cortex::network {
 
 // A clock of 1 kHz that starts cycles for a second and then calls `instead` for a second, in turn,
@@ -26,6 +28,20 @@ private:
     const std::function<void()> instead_;
     std::int64_t origin_ = 0, next_ = 0;
     std::atomic<bool> interrupted_{false};
+};
+
+// Puts this thread, and those that it makes from then on, on the n-th CPU that it may use, as long
+// as there are more than n, until the end of this object. Other than cs::OnCpu it does not look up
+// which CPUs the process may use: the loop of a cluster that is made later stays there, too.
+class OnCpu {
+public:
+    explicit OnCpu(int number);
+    ~OnCpu();
+    OnCpu(const OnCpu&) = delete;
+    OnCpu& operator=(const OnCpu&) = delete;
+
+private:
+    cpu_set_t before_{};
 };
 
 }  // namespace cortex::network

@@ -3,12 +3,12 @@
 
 #include "../bare/stream.hpp"
 #include "cdr.hpp"
+#include "clocks.hpp"
 #include "figures.hpp"
 #include "ids.hpp"
 #include "messages.hpp"
 #include "participant.hpp"
 #include "plant.hpp"
-#include "realtime_thread.hpp"
 #include "roles.hpp"
 #include "statistics.hpp"
 
@@ -125,7 +125,7 @@ std::size_t octetsOf(int samples) {
 Latencies measure(const Options& options, int samples) {
     // The stream's own octets: encapsulation and length.
     const Child sender{senderWords(options.domain, samples, octetsOf(samples) - 8)};
-    const cs::OnCpu other{cs::cpuForThread({}, 1)};
+    const OnCpu other{1};
     Arrivals arrivals;
     const Stream stream{options.domain + 1,
                         Stream::Role::Reader,

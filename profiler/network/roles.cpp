@@ -7,7 +7,6 @@
 #include "../bare/stream.hpp"
 #include "clocks.hpp"
 #include "plant.hpp"
-#include "realtime_thread.hpp"
 #include "statistics.hpp"
 
 #include <chrono>
@@ -43,7 +42,7 @@ int agent(const Words& words) {
 }
 
 int sender(const Words& words) {
-    const cs::OnCpu first{cs::cpuForThread({}, 0)};
+    const OnCpu first{0};
     const int domain = std::stoi(words[1]);
     Octets::Data data(std::stoul(words[3]));
     Stream stream{domain + 1, Stream::Role::Writer};
