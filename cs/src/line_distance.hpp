@@ -12,9 +12,9 @@ namespace cortex::cs {
 /// not. The host of a virtual machine may move its CPUs from one such neighbourhood to another at
 /// any time.
 ///
-/// The least of several rounds, on two threads made for it: less than 0.1 ms on CPUs that are free,
-/// 20 ms of waiting for busy ones. 0: not known, as there is one CPU, or none of the others had
-/// time. Not for a thread of the loop.
+/// The least of several rounds, on two threads made for it: some 0.3 ms for each of the others
+/// where CPUs are free, 20 ms of waiting for busy ones. 0: not known, as there is one CPU, or none
+/// of the others had time. Not for a thread of the loop.
 double lineMicroseconds(const std::vector<int>& affinity, std::uint32_t threads);
 
 }  // namespace cortex::cs
