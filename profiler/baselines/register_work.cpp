@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "register_work.hpp"
 
-#include "realtime_thread.hpp"
 #include "register_rounds.hpp"
+#include "threads/realtime_thread.hpp"
 
 #include <chrono>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "distances.hpp"
 
-#include "line_distance.hpp"
 #include "report/number_text.hpp"
+#include "threads/line_distance.hpp"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scheduler_bench.hpp"
 
-#include "line_distance.hpp"
-#include "realtime_thread.hpp"
+#include "threads/line_distance.hpp"
+#include "threads/realtime_thread.hpp"
 
 #include <map>
 #include <optional>

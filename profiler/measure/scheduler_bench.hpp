@@ -3,10 +3,10 @@
 
 #include "baselines/in_turn.hpp"
 #include "baselines/plain_loop.hpp"
-#include "scheduler.hpp"
 #include "subject/graphs.hpp"
-#include "task_runner.hpp"
-#include "thread_pool.hpp"
+#include "tasks/task_runner.hpp"
+#include "threads/scheduler.hpp"
+#include "threads/thread_pool.hpp"
 
 #include <chrono>
 #include <cstdint>

@@ -2,15 +2,15 @@
 #include "cortex/core/error.hpp"
 
 #include "../bare/stream.hpp"
-#include "cdr.hpp"
 #include "clocks.hpp"
+#include "dds/participant.hpp"
 #include "figures.hpp"
-#include "ids.hpp"
-#include "messages.hpp"
-#include "participant.hpp"
 #include "plant.hpp"
 #include "roles.hpp"
 #include "statistics.hpp"
+#include "wire/cdr.hpp"
+#include "wire/ids.hpp"
+#include "wire/messages.hpp"
 
 #include <chrono>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `cortex doctor` says of kernels that are set up in other ways than this machine's.
 #include "core/model_folder.hpp"
-#include "diagnosis.hpp"
+#include "doctor/diagnosis.hpp"
 
 #include <algorithm>
 #include <cstdint>

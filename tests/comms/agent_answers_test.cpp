@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "agent_answers.hpp"
+#include "agent/agent_answers.hpp"
 
 #include "comms/inbox.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands from a tool of the test's own to an agent, over real DDS on the loopback interface.
 #include "comms/network_agent.hpp"
-#include "named_values.hpp"
+#include "wire/named_values.hpp"
 
 #include <optional>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands from the network on their way into the loop, without a network.
-#include "agent_commands.hpp"
+#include "agent/agent_commands.hpp"
 
-#include "ids.hpp"
 #include "support/agent_rig.hpp"
+#include "wire/ids.hpp"
 
 #include <algorithm>
 #include <map>

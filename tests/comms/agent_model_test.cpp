@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "agent_model.hpp"
+#include "agent/agent_model.hpp"
 
-#include "cdr.hpp"
 #include "support/agent_rig.hpp"
+#include "wire/cdr.hpp"
 
 #include <algorithm>
 #include <numeric>

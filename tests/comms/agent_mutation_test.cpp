@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mutated samples, replayed against a live agent over real DDS: counted, and nothing else happens.
-#include "cdr.hpp"
 #include "comms/network_agent.hpp"
 #include "comms/raw_dds.hpp"
-#include "named_values.hpp"
+#include "wire/cdr.hpp"
+#include "wire/named_values.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an agent believes of others, without a network.
-#include "agent_peers.hpp"
+#include "agent/agent_peers.hpp"
 
 #include "comms/told_agent.hpp"
-#include "ids.hpp"
+#include "wire/ids.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an agent tells of itself and what it asks for, over real DDS on the loopback interface.
 #include "comms/network_agent.hpp"
-#include "peer_model.hpp"
+#include "peers/peer_model.hpp"
 #include "toolkit/allocation_counter.hpp"
 
 #include <algorithm>

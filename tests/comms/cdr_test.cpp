@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cdr.hpp"
+#include "wire/cdr.hpp"
 
 #include "sample_messages.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Clusters on the network: the loop of cs with the interface of comms, in one process.
 #include "comms/network_agent.hpp"
-#include "named_values.hpp"
 #include "support/probe.hpp"
+#include "wire/named_values.hpp"
 
 #include <algorithm>
 #include <chrono>

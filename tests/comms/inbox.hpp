@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "participant.hpp"
+#include "dds/participant.hpp"
 
 #include <chrono>
 #include <condition_variable>

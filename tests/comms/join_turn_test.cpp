@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "join_turn.hpp"
+#include "dds/join_turn.hpp"
 
 #include <atomic>
 #include <cstdint>

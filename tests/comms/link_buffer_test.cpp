@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "agent_link_buffer.hpp"
+#include "agent/agent_link_buffer.hpp"
 #include "support/small_structure.hpp"
 
 #include <atomic>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror_agents.hpp"
+#include "mirror/mirror_agents.hpp"
 
 #include "cortex/core/error.hpp"
 
 #include "comms/told_agent.hpp"
-#include "ids.hpp"
-#include "mirror_commands.hpp"
-#include "named_values.hpp"
+#include "mirror/mirror_commands.hpp"
+#include "wire/ids.hpp"
+#include "wire/named_values.hpp"
 
 #include <gtest/gtest.h>
 

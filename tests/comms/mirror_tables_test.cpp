@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror_tables.hpp"
+#include "mirror/mirror_tables.hpp"
 
 #include "cortex/comms/mirror.hpp"
 
 #include "comms/told_agent.hpp"
-#include "simplex_values.hpp"
+#include "wire/simplex_values.hpp"
 
 #include <limits>
 

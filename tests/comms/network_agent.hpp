@@ -4,10 +4,10 @@
 #include "cortex/comms/dds_interface.hpp"
 
 #include "comms/inbox.hpp"
-#include "ids.hpp"
-#include "messages.hpp"
-#include "participant.hpp"
+#include "dds/participant.hpp"
 #include "support/agent_rig.hpp"
+#include "wire/ids.hpp"
+#include "wire/messages.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -5,7 +5,7 @@
 
 #include "comms/inbox.hpp"
 #include "comms/raw_dds.hpp"
-#include "participant.hpp"
+#include "dds/participant.hpp"
 
 #include <cstdlib>
 #include <functional>

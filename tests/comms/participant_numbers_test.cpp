@@ -2,7 +2,7 @@
 // Without multicast the first hundred participants of a host are asked; Fast DDS by itself gives no
 // number twice in a process.
 #include "comms/inbox.hpp"
-#include "participant.hpp"
+#include "dds/participant.hpp"
 
 #include <memory>
 #include <string>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "participant.hpp"
+#include "dds/participant.hpp"
 
-#include "cdr.hpp"
 #include "comms/inbox.hpp"
 #include "comms/raw_dds.hpp"
+#include "wire/cdr.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "peer_model.hpp"
+#include "peers/peer_model.hpp"
 
 #include "cortex/core/type_description.hpp"
 
 #include "comms/told_agent.hpp"
-#include "ids.hpp"
-#include "named_values.hpp"
-#include "type_messages.hpp"
+#include "wire/ids.hpp"
+#include "wire/named_values.hpp"
+#include "wire/type_messages.hpp"
 
 #include <gtest/gtest.h>
 

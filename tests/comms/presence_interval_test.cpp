@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "presence_interval.hpp"
+#include "wire/presence_interval.hpp"
 
 #include <limits>
 

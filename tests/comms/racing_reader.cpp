@@ -2,7 +2,7 @@
 // Races on purpose: a listener counts what another thread reads. ThreadSanitizer must say so, with
 // its suppressions for Fast DDS in force.
 #include "comms/inbox.hpp"
-#include "participant.hpp"
+#include "dds/participant.hpp"
 
 #include <iostream>
 #include <thread>

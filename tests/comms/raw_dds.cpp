@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comms/raw_dds.hpp"
 
-#include "gate.hpp"
-#include "participant_qos.hpp"
+#include "dds/gate.hpp"
+#include "dds/participant_qos.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "messages.hpp"
-#include "participant.hpp"
+#include "dds/participant.hpp"
+#include "wire/messages.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "repeats.hpp"
+#include "dds/repeats.hpp"
 
 #include <algorithm>
 #include <chrono>

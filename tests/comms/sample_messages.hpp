@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "messages.hpp"
+#include "wire/messages.hpp"
 
 #include <bit>
 #include <concepts>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The folders of keys and rights: how they are made, and that a wrong one is refused in words.
-#include "security_folder.hpp"
+#include "security/security_folder.hpp"
 
 #include "cortex/comms/security.hpp"
 #include "cortex/core/error.hpp"
 
 #include "comms/secured_plant.hpp"
-#include "ids.hpp"
-#include "security_documents.hpp"
-#include "security_identity.hpp"
+#include "security/security_documents.hpp"
+#include "security/security_identity.hpp"
+#include "wire/ids.hpp"
 
 #include <functional>
 

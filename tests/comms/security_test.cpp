@@ -4,11 +4,11 @@
 #include "cortex/comms/mirror.hpp"
 #include "cortex/core/error.hpp"
 
-#include "cdr.hpp"
 #include "comms/raw_dds.hpp"
 #include "comms/secured_plant.hpp"
 #include "comms/stepped_agent.hpp"
-#include "security_guard.hpp"
+#include "dds/security_guard.hpp"
+#include "wire/cdr.hpp"
 
 #include <list>
 #include <optional>

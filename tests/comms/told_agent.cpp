@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "told_agent.hpp"
 
-#include "ids.hpp"
-#include "simplex_values.hpp"
+#include "wire/ids.hpp"
+#include "wire/simplex_values.hpp"
 
 #include <ranges>
 

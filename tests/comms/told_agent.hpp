@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "agent_model.hpp"
-#include "peer_model.hpp"
+#include "agent/agent_model.hpp"
+#include "peers/peer_model.hpp"
 #include "support/agent_rig.hpp"
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "transit_delay.hpp"
+#include "agent/transit_delay.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "agent_self.hpp"
-#include "agent_wake.hpp"
+#include "agent/agent_self.hpp"
+#include "agent/agent_wake.hpp"
 
 #include <atomic>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/agreement.hpp"
 
+#include "base/sha256.hpp"
 #include "core/model_folder.hpp"
 #include "core/xml_model.hpp"
-#include "sha256.hpp"
 
 #include <algorithm>
 #include <cstdio>

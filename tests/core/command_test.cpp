@@ -4,7 +4,7 @@
 #include "cortex/core/command_exchange.hpp"
 #include "cortex/core/error.hpp"
 
-#include "record.hpp"
+#include "commands/record.hpp"
 #include "support/agent_rig.hpp"
 
 #include <cmath>

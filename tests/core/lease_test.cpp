@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lease.hpp"
+#include "agent/lease.hpp"
 
 #include "support/agent_rig.hpp"
 

@@ -7,8 +7,8 @@
 #include "cortex/core/report.hpp"
 #include "cortex/core/type_model.hpp"
 
-#include "enum_names.hpp"
-#include "text.hpp"
+#include "base/text.hpp"
+#include "types/enum_names.hpp"
 
 #include <gtest/gtest.h>
 

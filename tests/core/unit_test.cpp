@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "unit.hpp"
+#include "types/unit.hpp"
 
 #include <gtest/gtest.h>
 

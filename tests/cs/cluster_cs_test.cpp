@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/error.hpp"
 
-#include "realtime_thread.hpp"
 #include "support/awake_cpus.hpp"
 #include "support/probe.hpp"
+#include "threads/realtime_thread.hpp"
 
 #include <atomic>
 #include <chrono>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scheduler.hpp"
+#include "threads/scheduler.hpp"
 
 #include <algorithm>
 #include <cstdint>

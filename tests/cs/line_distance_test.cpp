@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "line_distance.hpp"
+#include "threads/line_distance.hpp"
 
-#include "realtime_thread.hpp"
+#include "threads/realtime_thread.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan.hpp"
+#include "loop/plan.hpp"
 
 #include "support/probe.hpp"
 #include "support/small_structure.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "realtime_thread.hpp"
+#include "threads/realtime_thread.hpp"
 
 #include "support/awake_cpus.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rescheduler.hpp"
+#include "loop/rescheduler.hpp"
 
 #include "cs/graphs.hpp"
 #include "support/probe.hpp"

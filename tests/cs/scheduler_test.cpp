@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scheduler.hpp"
+#include "threads/scheduler.hpp"
 
 #include "cs/graphs.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "thread_pool.hpp"
+#include "threads/thread_pool.hpp"
 
 #include "cs/graphs.hpp"
-#include "realtime_thread.hpp"
+#include "threads/realtime_thread.hpp"
 
 #include <algorithm>
 #include <array>

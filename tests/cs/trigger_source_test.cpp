@@ -3,7 +3,7 @@
 
 #include "cortex/core/error.hpp"
 
-#include "realtime_thread.hpp"
+#include "threads/realtime_thread.hpp"
 
 #include <chrono>
 #include <thread>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "determinism/hand_made_loop.hpp"
 
-#include "thread_pool.hpp"
+#include "threads/thread_pool.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "determinism/real_run.hpp"
-#include "group_commands.hpp"
-#include "metrics.hpp"
-#include "scheduler.hpp"
-#include "task_runner.hpp"
+#include "loop/group_commands.hpp"
+#include "loop/metrics.hpp"
+#include "tasks/task_runner.hpp"
+#include "threads/scheduler.hpp"
 
 #include <atomic>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an agent makes of the samples of a hostile one whose simplexes it links, and of commands.
-#include "agent_commands.hpp"
-#include "agent_links.hpp"
-#include "agent_peers.hpp"
+#include "agent/agent_commands.hpp"
+#include "agent/agent_links.hpp"
+#include "agent/agent_peers.hpp"
 #include "told_script.hpp"
 
 namespace {

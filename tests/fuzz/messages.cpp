@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cdr.hpp"
-#include "repeats.hpp"
+#include "dds/repeats.hpp"
+#include "wire/cdr.hpp"
 
 #include <chrono>
 #include <cstdlib>

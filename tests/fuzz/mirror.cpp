@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a tool makes of the samples of a hostile agent: structure, tables, images.
-#include "mirror_agents.hpp"
+#include "mirror/mirror_agents.hpp"
 #include "told_script.hpp"
 
 namespace {

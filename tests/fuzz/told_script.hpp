@@ -4,10 +4,10 @@
 #include "cortex/core/agreement.hpp"
 #include "cortex/core/type_description.hpp"
 
-#include "cdr.hpp"
 #include "comms/told_agent.hpp"
-#include "ids.hpp"
-#include "type_messages.hpp"
+#include "wire/cdr.hpp"
+#include "wire/ids.hpp"
+#include "wire/type_messages.hpp"
 
 #include <algorithm>
 #include <cstddef>

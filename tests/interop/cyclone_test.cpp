@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cdr.hpp"
 #include "comms/sample_messages.hpp"
+#include "wire/cdr.hpp"
 
 #include <cortex.h>
 #include <unistd.h>

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/agent_commands.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "security/security_identity.hpp"
+#include "wire/ids.hpp"
+#include "wire/named_values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::uint32_t onTheirWay = 256;  // commands
+constexpr std::size_t mostSenders = 128;
+constexpr std::size_t longestName = 128;  // of what is looked up; paths are no longer
+
+template <std::size_t Size>
+bool put(const std::string& text, std::array<char, Size>& to) {
+    if (text.size() >= Size || text.find('\0') != std::string::npos) return false;
+    std::ranges::copy(text, to.begin());
+    return true;
+}
+
+// Empty for names that are no sender's.
+std::optional<Sender> senderOf(const Command& command) {
+    Sender sender;
+    sender.epoch = command.senderEpoch;
+    const bool fits = put(command.sender, sender.name) && put(command.host, sender.host);
+    if (!fits || command.sender.empty() || command.senderEpoch <= 0) return {};
+    return sender;
+}
+
+std::string prefixOf(const Value& value) {
+    const auto* texts = std::get_if<std::vector<std::string>>(&value);
+    std::string prefix = texts != nullptr && !texts->empty() ? texts->front() : "";
+    while (prefix.ends_with('/')) prefix.pop_back();
+    return prefix.empty() ? "/" : prefix;
+}
+
+}  // namespace
+
+AgentCommands::AgentCommands(AgentSelf& self, std::function<void(const Answer&)> send,
+                             SecurityIdentity* identity)
+    : self_{self},
+      send_{std::move(send)},
+      identity_{identity},
+      pipe_{self.access, onTheirWay},
+      lostSenders_{64} {}
+
+bool AgentCommands::believable(const Command& command) {
+    const char* wrong = nullptr;
+    if (command.link != linkId(command.sender, command.target)) wrong = "with a wrong id";
+    if (!senderOf(command)) wrong = "of a sender that cannot be";
+    if (command.sequenceNumber == 0 || command.answeredBelow > command.sequenceNumber) {
+        wrong = "with a number that cannot be";
+    }
+    if (wrong != nullptr) self_.rejections.add(std::string{"a command "} + wrong);
+    return wrong == nullptr;
+}
+
+void AgentCommands::take(const Command& command, std::int64_t now) {
+    if (command.target != self_.name || !believable(command)) return;
+    const Sender sender = *senderOf(command);
+    if (!remember(sender, now)) {
+        return refuse(command, {Outcome::Rejected, Reason::Window, "too many senders"});
+    }
+    if (command.targetEpoch != self_.epoch) {
+        return refuse(command, {Outcome::Rejected, Reason::Restarted,
+                                "it is meant for another start of this agent"});
+    }
+    OutsideCommand message;
+    std::vector<std::uint64_t> record;
+    Refusal refusal{};
+    if (!encode(command, message, record, refusal)) return refuse(command, refusal);
+    if (!permitted(command, message, record, refusal)) return refuse(command, refusal);
+    message.sender = sender;
+    message.targetEpoch = command.targetEpoch;
+    message.sequence = command.sequenceNumber;
+    message.answeredBelow = command.answeredBelow;
+    message.notAfter = command.notAfter;
+    HeardSender& from = senders_[command.sender];
+    if (from.turnedAway.contains(message.sequence)) return turnAway(command, from);
+    if (pipe_.push(message, reinterpret_cast<const std::byte*>(record.data()))) {
+        from.newest = std::max(from.newest, message.sequence);
+    } else {
+        turnAway(command, from);
+    }
+}
+
+// The loop takes no more. What it may have already, and is repeated here, gets its answer from the
+// loop; what was turned away once stays so: its sender may have read the answer.
+void AgentCommands::turnAway(const Command& command, HeardSender& from) {
+    self_.rejections.add("a command of " + command.sender + ": too many are on their way");
+    auto& known = from.turnedAway;
+    known.erase(known.begin(), known.lower_bound(command.answeredBelow));
+    const bool repeated = known.contains(command.sequenceNumber);
+    if (!repeated) {
+        if (command.sequenceNumber <= from.newest || known.size() >= 2 * senderWindow) return;
+        known.insert(command.sequenceNumber);
+    }
+    refuse(command, {Outcome::MailboxFull, Reason::None, "too many commands are on their way"});
+}
+
+// Simplex, command and arguments by their names; what does not fit is said in the words of core.
+bool AgentCommands::encode(const Command& command, OutsideCommand& message,
+                           std::vector<std::uint64_t>& record, Refusal& refusal) const {
+    refusal = {Outcome::Rejected, Reason::UnknownCommand, {}};
+    try {
+        if (std::max(command.path.size(), command.command.size()) > longestName) {
+            throw Error("no path and no command has a name as long as that");
+        }
+        message = pipe_.tables().find(command.path, command.command);
+        if (self_.structure().simplexes[message.simplex].remote) {
+            throw Error(command.path + " belongs to another agent");
+        }
+        refusal.reason = Reason::Range;
+        const auto arguments = valuesOf(command.arguments);
+        if (!arguments) throw Error("its arguments are malformed, or one is given twice");
+        record.resize(message.size / 8U + 1U);
+        encodeRecord(pipe_.table(message.simplex), message.command, *arguments,
+                     reinterpret_cast<std::byte*>(record.data()));
+        return true;
+    } catch (const Error& error) {
+        refusal.why = error.what();
+        return false;
+    }
+}
+
+// With security: what is commanded must lie where the signed list of its sender says. A command to
+// the agent itself with a prefix is meant for what is at and below that.
+bool AgentCommands::permitted(const Command& command, const OutsideCommand& message,
+                              const std::vector<std::uint64_t>& record, Refusal& refusal) {
+    if (identity_ == nullptr) return true;
+    std::string path = command.path;
+    if (message.simplex == self_.simplex && command.command != "set") {
+        const auto arguments = argumentsOf(pipe_.table(message.simplex), message.command,
+                                           reinterpret_cast<const std::byte*>(record.data()));
+        if (const auto prefix = arguments.find("prefix"); prefix != arguments.end()) {
+            path = prefixOf(prefix->second);
+        }
+    }
+    std::string why;
+    const auto rights = identity_->rightsOf(command, why);
+    if (rights && mayCommand(*rights, path, why)) return true;
+    refusal = {Outcome::Rejected, Reason::Authority, why};
+    const bool repeated =
+        command.link == reportedLink_ && command.sequenceNumber == reportedNumber_;
+    reportedLink_ = command.link;
+    reportedNumber_ = command.sequenceNumber;
+    if (repeated) return false;
+    const std::string what =
+        command.command + " from " + command.sender + "@" + command.host + " refused: " + why;
+    self_.rejections.add(what);
+    self_.event(Severity::Warning, message.simplex, what);
+    return false;
+}
+
+void AgentCommands::refuse(const Command& command, const Refusal& refusal) {
+    Answer answer;
+    answer.link = command.link;
+    answer.agent = self_.name;
+    answer.epoch = self_.epoch;
+    answer.sender = command.sender;
+    answer.senderEpoch = command.senderEpoch;
+    answer.sequenceNumber = command.sequenceNumber;
+    answer.outcome = name(refusal.outcome);
+    answer.reason = name(refusal.reason);
+    answer.why = refusal.why;
+    send_(answer);
+}
+
+bool AgentCommands::remember(const Sender& sender, std::int64_t now) {
+    const std::string name{sender.nameText()};
+    const auto known = senders_.find(name);
+    if (known == senders_.end()) {
+        if (senders_.size() >= mostSenders) return false;
+        senders_[name] = {.sender = sender, .lastHeard = now};
+        return true;
+    }
+    HeardSender& before = known->second;
+    if (before.sender.epoch == sender.epoch) {
+        before.lastHeard = now;
+    } else if (before.sender.epoch < sender.epoch) {
+        // The loop itself lets go of an earlier start when a later one commands.
+        before = {.sender = sender, .lastHeard = now};
+    }
+    return true;
+}
+
+void AgentCommands::heard(const Presence& presence, std::int64_t now) {
+    const auto known = senders_.find(presence.name);
+    if (known == senders_.end() || known->second.sender.epoch != presence.epoch) return;
+    known->second.lastHeard = now;
+    known->second.patience = patienceWith(presence);
+}
+
+void AgentCommands::lost(const std::string& sender, std::int64_t epoch) {
+    const auto known = senders_.find(sender);
+    if (known != senders_.end() && known->second.sender.epoch == epoch) {
+        known->second.lastHeard = steadyNow() - 2 * known->second.patience;
+    }
+}
+
+bool AgentCommands::tellLost(const Sender& sender) {
+    Sender* place = lostSenders_.free();
+    if (place == nullptr) return false;  // the loop stands still: in the next step
+    *place = sender;
+    lostSenders_.push();
+    return true;
+}
+
+void AgentCommands::step(std::int64_t now) {
+    for (; const OutsideAnswer* answer = pipe_.answer(); pipe_.popAnswer()) {
+        send_(answerFor(*answer));
+    }
+    std::erase_if(senders_, [&](const auto& each) {
+        return now - each.second.lastHeard > each.second.patience && tellLost(each.second.sender);
+    });
+}
+
+Answer AgentCommands::answerFor(const OutsideAnswer& answer) const {
+    Answer message;
+    message.sender = answer.sender.nameText();
+    message.link = linkId(message.sender, self_.name);
+    message.agent = self_.name;
+    message.epoch = self_.epoch;
+    message.senderEpoch = answer.sender.epoch;
+    message.sequenceNumber = answer.sequence;
+    message.outcome = name(answer.outcome);
+    message.reason = name(answer.reason);
+    message.why = answer.why.view();
+    message.latencyCycles = answer.latencyCycles;
+    message.latency = answer.latency;
+    if (answer.size > 0) {
+        const auto& entry = pipe_.table(answer.simplex).entries[answer.command];
+        message.response = namedValues(decodeRecord(entry.response, answer.response));
+    }
+    return message;
+}
+
+void AgentCommands::read(Inbox& inbox) {
+    for (std::size_t i = 0; i < lostSenders_.size(); ++i) {
+        const Sender* sender = lostSenders_.front();
+        if (sender == nullptr) break;
+        inbox.senderLost(*sender);
+        lostSenders_.pop();
+    }
+    pipe_.read(inbox);
+}
+
+bool AgentCommands::write(Outbox& outbox) {
+    pipe_.write(outbox);
+    return pipe_.answer() != nullptr;
+}
+
+}  // namespace cortex::comms

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/communication_interface.hpp"
+
+#include "wire/simplex_values.hpp"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+namespace cortex::comms {
+
+// The samples of one linked simplex on their way into the loop: the newest wins. One writer thread,
+// one reader thread, both wait-free.
+class LinkBuffer {
+public:
+    struct Sample {
+        explicit Sample(const TypeLayout& layout) : values{layout} {}
+
+        SliceMemory values;
+        std::int64_t age = 0;   // ns, when it was sent
+        std::int64_t came = 0;  // steadyNow()
+    };
+
+    explicit LinkBuffer(const TypeLayout& layout)
+        : samples_{Sample{layout}, Sample{layout}, Sample{layout}} {}
+
+    Sample& writable() { return samples_[back_]; }
+    void publish() { back_ = middle_.exchange(back_ | Fresh) & Place; }
+
+    // The newest, once; null: none since the last call. Valid until the next call.
+    const Sample* take() CORTEX_REALTIME {
+        if ((middle_.load() & Fresh) == 0) return nullptr;
+        front_ = middle_.exchange(front_) & Place;
+        return &samples_[front_];
+    }
+
+private:
+    static constexpr std::uint32_t Place = 3, Fresh = 4;
+
+    std::array<Sample, 3> samples_;
+    std::uint32_t back_ = 0;   // the writer's
+    std::uint32_t front_ = 1;  // the reader's
+    std::atomic<std::uint32_t> middle_{2};
+};
+
+}  // namespace cortex::comms

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/agent_links.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "wire/ids.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::int64_t longestTime = std::int64_t{1} << 60U;  // ns: sums do not overflow
+constexpr std::int64_t second = 1'000'000'000;                // ns
+constexpr std::int64_t longestDetour = 100'000'000;           // ns that the network may add
+constexpr std::size_t mostDelays = 1'000;
+
+bool isTime(std::int64_t time) { return time >= 0 && time < longestTime; }
+bool isWallClock(std::int64_t time) { return time >= 0 && time < std::int64_t{1} << 62U; }
+
+// Where the owner has the path as its own simplex.
+std::uint32_t indexOf(const Structure* structure, const std::string& path) {
+    const std::uint32_t index = structure != nullptr ? structure->find(path) : noSimplex;
+    return index == noSimplex || structure->simplexes[index].remote ? noSimplex : index;
+}
+
+// The constants of a simplex as its agent sets them.
+void storeConstants(const Structure& structure, std::uint32_t simplex, const Slice& to) {
+    for (const InitialValue& initial : structure.initial) {
+        if (initial.simplex != simplex || !initial.item->constant) continue;
+        const DataItem& item = *initial.item->item;
+        storeValue(item, initial.value, to.at(item.kind, initial.item->offset));
+    }
+}
+
+}  // namespace
+
+AgentLinks::Bound::Bound(std::uint64_t number, const std::string& owner, const Claim& claimed)
+    : serial{number},
+      agent{owner},
+      claim{claimed},
+      layout{*claimed.structure->simplexes[claimed.theirs].layout},
+      constants{layout, true},
+      buffer{layout} {
+    storeConstants(*claim.structure, claim.theirs, constants.slice());
+}
+
+AgentLinks::AgentLinks(AgentSelf& self) : self_{self} {
+    const auto& simplexes = self.structure().simplexes;
+    for (std::uint32_t i = 0; i < simplexes.size(); ++i) {
+        if (!simplexes[i].remote) continue;
+        links_.push_back(std::make_unique<Link>());
+        links_.back()->simplex = i;
+    }
+}
+
+AgentLinks::~AgentLinks() = default;
+
+bool AgentLinks::anyUnbound() const {
+    return std::ranges::any_of(links_, [](const auto& each) { return each->current == nullptr; });
+}
+
+void AgentLinks::update(Peers& peers) {
+    if (links_.empty()) return;
+    for (auto& [name, peer] : peers) {
+        if (hasAny(peer)) tellWhyNot(peer);
+    }
+    for (const auto& link : links_) {
+        std::erase_if(link->claims, [&](const auto& each) { return !peers.contains(each.first); });
+        for (auto& [name, peer] : peers) claim(*link, peer);
+    }
+    const std::lock_guard lock{mutex_};
+    for (const auto& link : links_) choose(*link);
+    findOwners();
+}
+
+// What others have is compared and laid out only if it concerns us.
+bool AgentLinks::hasAny(const Peer& peer) const {
+    return peer.current && std::ranges::any_of(links_, [&](const auto& link) {
+               return peer.model().has(self_.structure().simplexes[link->simplex].path);
+           });
+}
+
+// An agent whose model contradicts itself is said once, with the first of what is wrong.
+void AgentLinks::tellWhyNot(Peer& peer) const {
+    if (!peer.heard || !peer.agent || peer.current->told) return;
+    PeerModel& model = peer.current->model;
+    std::string why;
+    try {
+        if (model.structure() != nullptr || model.findings().ok()) return;
+        why = std::ranges::find(model.findings().findings, Severity::Error, &Finding::severity)
+                  ->text();
+    } catch (const Error& error) {
+        why = error.what();
+    }
+    peer.current->told = true;
+    self_.rejections.add("a model of " + peer.name + " that contradicts itself");
+    self_.event(Severity::Error, self_.simplex, "nothing of " + peer.name + " is linked: " + why);
+}
+
+void AgentLinks::claim(Link& link, Peer& peer) {
+    const auto known = link.claims.find(peer.name);
+    if (known != link.claims.end()) {
+        known->second.heard = peer.heard;
+        if (peer.current && known->second.epoch == peer.epoch()) return;
+        link.claims.erase(known);
+    }
+    if (!peer.heard || !peer.agent) return;
+    const std::string& path = self_.structure().simplexes[link.simplex].path;
+    if (!peer.model().has(path)) return;
+    const auto theirs = peer.current->model.structure();
+    const std::uint32_t index = indexOf(theirs.get(), path);
+    if (index == noSimplex) return;
+    const Claim& made = link.claims[peer.name] = makeClaim(link, peer, index);
+    for (const Finding& finding : made.binding.findings.findings) {
+        self_.event(finding.severity, link.simplex, peer.name + ": " + finding.text());
+    }
+}
+
+AgentLinks::Claim AgentLinks::makeClaim(const Link& link, Peer& peer, std::uint32_t theirs) const {
+    const Presence& presence = *peer.model().presence();
+    const Structure& ours = self_.structure();
+    Claim claim;
+    claim.epoch = peer.epoch();
+    claim.theirs = theirs;
+    claim.simplexes = presence.simplexes;
+    claim.structureHash = presence.structureHash;
+    claim.structure = peer.current->model.structure();
+    claim.heard = true;
+    claim.binding = compileLink(*ours.simplexes[link.simplex].layout,
+                                *claim.structure->simplexes[theirs].layout, *ours.types,
+                                *claim.structure->types);
+    const std::int64_t every = claim.structure->writtenEvery(theirs);
+    claim.binding.period =
+        std::clamp(presence.period, std::int64_t{0}, longestTime / every) * every;
+    return claim;
+}
+
+// Of several agents that have the path the one that started first stays linked.
+void AgentLinks::choose(Link& link) {
+    const std::string* chosen = nullptr;
+    const auto usable = [](const Claim& claim) { return claim.heard && claim.binding.usable; };
+    for (const auto& [agent, claim] : link.claims) {
+        if (!usable(claim)) continue;
+        if (chosen == nullptr || claim.epoch < link.claims.at(*chosen).epoch) chosen = &agent;
+    }
+    for (auto& [agent, claim] : link.claims) {
+        if (!usable(claim) || agent == *chosen || std::exchange(claim.told, true)) continue;
+        self_.event(Severity::Error, link.simplex,
+                    agent + " claims it as well; " + *chosen + " stays linked");
+    }
+    bind(link, chosen);
+}
+
+void AgentLinks::bind(Link& link, const std::string* agent) {
+    const Claim* claim = agent != nullptr ? &link.claims.at(*agent) : nullptr;
+    const bool same = link.current == nullptr ? claim == nullptr
+                                              : claim != nullptr && link.current->agent == *agent &&
+                                                    link.current->claim.epoch == claim->epoch;
+    if (same) return;
+    link.current = nullptr;
+    if (claim != nullptr) {
+        link.kept.push_back(std::make_unique<Bound>(++serial_, *agent, *claim));
+        link.current = link.kept.back().get();
+        self_.event(Severity::Info, link.simplex, "linked to agent " + *agent);
+    }
+    link.offered.store(link.current);
+    // What the loop starts to use from here on is the offered one.
+    const Bound* used = link.inUse.load();
+    std::erase_if(link.kept, [&](const auto& each) {
+        return each.get() != link.current && each.get() != used;
+    });
+}
+
+void AgentLinks::findOwners() {
+    std::map<Id, Owner> before;
+    before.swap(owners_);
+    if (delays_.size() > mostDelays) delays_.clear();
+    for (const auto& link : links_) {
+        if (link->current == nullptr) continue;
+        const Claim& claim = link->current->claim;
+        const Id id = agentId(link->current->agent);
+        Owner& owner = owners_[id];
+        owner.epoch = claim.epoch;
+        owner.structureHash = claim.structureHash;
+        owner.simplexes = claim.simplexes;
+        owner.bounds[claim.theirs] = link->current;
+        owner.patience = std::max({owner.patience, longestDetour, 3 * claim.binding.period});
+        const auto old = before.find(id);
+        if (old != before.end() && old->second.epoch == claim.epoch) {
+            owner.newest = old->second.newest;
+            owner.newestCame = old->second.newestCame;
+        }
+    }
+}
+
+std::set<std::string> AgentLinks::owners() const {
+    std::set<std::string> owners;
+    for (const auto& link : links_) {
+        if (link->current != nullptr) owners.insert(link->current->agent);
+    }
+    return owners;
+}
+
+Interest AgentLinks::interest() const {
+    Interest interest;
+    interest.agent = self_.id;
+    interest.name = self_.name;
+    interest.epoch = self_.epoch;
+    for (const auto& link : links_) {
+        interest.links.push_back(self_.structure().simplexes[link->simplex].path);
+    }
+    return interest;
+}
+
+// It may have forgotten what we want, or somebody else said something in our name.
+bool AgentLinks::askAgain(std::int64_t now) {
+    if (now < askDue_) return false;
+    askDue_ = now + second;
+    const std::lock_guard lock{mutex_};
+    return std::ranges::any_of(owners_, [&](const auto& each) {
+        const Owner& owner = each.second;
+        return now - owner.newestCame > std::max(second, owner.patience);
+    });
+}
+
+bool AgentLinks::believable(const Block& block, const Owner& owner) {
+    const char* wrong = nullptr;
+    if (block.structureHash != owner.structureHash) wrong = "another structure";
+    if (!isTime(block.nominalTime) || !isWallClock(block.wallClock) || block.cycle < 0) {
+        wrong = "a time that cannot be";
+    }
+    if (block.simplexes.size() > owner.simplexes) wrong = "more simplexes than there are";
+    if (wrong != nullptr) self_.rejections.add(std::string{"a block with "} + wrong);
+    return wrong == nullptr;
+}
+
+void AgentLinks::take(const Block& block, std::int64_t came) {
+    const std::lock_guard lock{mutex_};
+    const auto found = owners_.find(block.agent);
+    if (found == owners_.end()) return;
+    Owner& owner = found->second;
+    if (block.epoch != owner.epoch || !believable(block, owner)) return;
+    // Overtaken on its way; or the newest was none of its owner's, and nothing follows it.
+    const bool older = block.sequenceNumber <= owner.newest;
+    if (older && came - owner.newestCame < owner.patience) return;
+    if (!older && owner.newest != 0) lost_ += block.sequenceNumber - owner.newest - 1;
+    owner.newest = block.sequenceNumber;
+    owner.newestCame = came;
+    // What waited on its way, in queues or for a thread, is as old as if it had waited here.
+    const std::int64_t delay =
+        block.wallClock > 0 ? delays_[block.agent].next(block.wallClock, came) : 0;
+    for (const SimplexData& data : block.simplexes) take(block, data, owner, came, delay);
+}
+
+void AgentLinks::take(const Block& block, const SimplexData& data, const Owner& owner,
+                      std::int64_t came, std::int64_t delay) {
+    if (data.index >= owner.simplexes) return self_.rejections.add("values of no simplex");
+    const auto found = owner.bounds.find(data.index);
+    if (found == owner.bounds.end()) return;
+    Bound& bound = *found->second;
+    if (!isTime(data.time) || !fits(data, bound.layout)) {
+        return self_.rejections.add("values of " + bound.agent + " that do not fit their simplex");
+    }
+    LinkBuffer::Sample& sample = bound.buffer.writable();
+    storeValues(data, bound.layout, sample.values.slice());
+    sample.age = std::max(block.nominalTime - data.time, std::int64_t{0}) + delay;
+    sample.came = came;
+    bound.buffer.publish();
+}
+
+void AgentLinks::read(Inbox& inbox) {
+    if (links_.empty()) return;
+    const std::int64_t now = steadyNow();
+    for (const auto& link : links_) readLink(*link, inbox, now);
+}
+
+void AgentLinks::readLink(Link& link, Inbox& inbox, std::int64_t now) {
+    // Said first, then asked again: the communication thread offers first, then looks what is used.
+    Bound* bound = link.offered.load();
+    link.inUse.store(bound);
+    if (link.offered.load() != bound) return;  // just now replaced: in the next cycle
+    const std::uint64_t serial = bound != nullptr ? bound->serial : 0;
+    const bool other = std::exchange(link.seen, serial) != serial;
+    if (other && std::exchange(link.live, false)) inbox.linkLost(link.simplex);
+    const LinkBuffer::Sample* sample = bound != nullptr ? bound->buffer.take() : nullptr;
+    if (sample == nullptr) return;
+    const LinkBinding& binding = bound->claim.binding;
+    if (!std::exchange(link.live, true)) {
+        inbox.linkConstants(link.simplex, binding, bound->constants.slice());
+    }
+    const std::int64_t underway = std::max(now - sample->came, std::int64_t{0});
+    inbox.link(link.simplex, binding, sample->values.slice(), sample->age + underway);
+}
+
+}  // namespace cortex::comms

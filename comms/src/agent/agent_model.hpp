@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "agent/agent_self.hpp"
+#include "wire/messages.hpp"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace cortex::comms {
+
+// What this agent tells of itself: its types and simplexes, several in a sample, and their counts
+// and hashes in its presence. Made by announce(); throws Error while all images are held.
+class AgentModel {
+public:
+    explicit AgentModel(const AgentSelf& self, std::string_view security = {});
+
+    const std::vector<Model>& samples() const { return samples_; }
+    const Id& structureHash() const { return presence_.structureHash; }
+    // `agents`: that are heard, this one too; `events`: number of the last that was written.
+    Presence presence(const char* state, std::uint32_t agents, std::uint64_t events) const;
+
+private:
+    template <class Message>
+    void pack(std::vector<Message>&& messages, std::vector<Message> Model::* list);
+    void addTypes();
+    void addSimplexes();
+
+    const AgentSelf& self_;
+    std::vector<Model> samples_;
+    Presence presence_;
+};
+
+}  // namespace cortex::comms

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/agent_peers.hpp"
+
+#include "wire/ids.hpp"
+#include "wire/presence_interval.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <tuple>
+#include <utility>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::int64_t longestLead = 86'400'000'000;  // us that the clock of another may be ahead
+constexpr std::int64_t longestAbsence = 600'000'000'000;  // ns that one is called for
+constexpr std::size_t mostPeers = 1'024;
+constexpr std::size_t longestName = 127;
+constexpr std::size_t mostPaths = 100'000;  // in one interest
+
+std::int64_t utcMicroseconds() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+}
+
+std::size_t pathsIn(const Interest& interest) {
+    std::size_t count = interest.links.size();
+    for (const View& view : interest.views) count += view.prefixes.size();
+    return count;
+}
+
+}  // namespace
+
+AgentPeers::AgentPeers(AgentSelf& self, std::function<void(const std::string&, std::int64_t)> lost)
+    : self_{self}, lost_{std::move(lost)} {}
+
+bool AgentPeers::plausible(const std::string& name, std::int64_t epoch) {
+    if (name.empty() || name.size() > longestName || epoch <= 0) {
+        self_.rejections.add("a name or epoch that cannot be");
+        return false;
+    }
+    if (epoch <= utcMicroseconds() + longestLead) return true;
+    self_.rejections.add(name + " started in the future");
+    if (std::exchange(early_, name) != name) {
+        self_.event(Severity::Warning, self_.simplex,
+                    name + " is not heard: its clock is more than a day ahead; set the clocks");
+    }
+    return false;
+}
+
+// A later start of our name outranks us; of an earlier one and of ourselves nothing is wanted.
+bool AgentPeers::isOurs(const Presence& presence) {
+    if (presence.name != self_.name) return false;
+    if (presence.role != "agent") {
+        self_.rejections.add("a " + presence.role + " uses our name");
+    } else if (presence.epoch > self_.epoch && !std::exchange(outranked_, true)) {
+        self_.event(Severity::Error, self_.simplex,
+                    "a later start of " + self_.name + " is heard, on " + presence.host +
+                        ": this one falls silent on the network");
+    }
+    return true;
+}
+
+void AgentPeers::take(const Presence& presence, std::int64_t now) {
+    if (!plausible(presence.name, presence.epoch)) return;
+    if (presence.agent != agentId(presence.name)) {
+        return self_.rejections.add("the id of " + presence.name + " is not that of its name");
+    }
+    if (isOurs(presence)) return;
+    if (Peer* peer = place(presence.name)) hear(*peer, presence, now);
+}
+
+Peer* AgentPeers::place(const std::string& name) {
+    const auto found = peers_.find(name);
+    if (found != peers_.end()) return &found->second;
+    if (peers_.size() >= mostPeers) {
+        const auto oldest = std::ranges::min_element(peers_, {}, [](const auto& each) {
+            const Peer& peer = each.second;  // an agent that is back does not tell its model again
+            return std::tuple{peer.heard, peer.agent, peer.lastHeard};
+        });
+        if (oldest->second.heard) {
+            self_.rejections.add("too many agents and tools in the domain");
+            return nullptr;
+        }
+        peers_.erase(oldest);
+    }
+    Peer& peer = peers_[name];
+    peer.name = name;
+    return &peer;
+}
+
+// Models come once: what a start has said is kept, it may be alive and the later one a mistake.
+void AgentPeers::makeCurrent(Peer& peer, std::int64_t epoch) {
+    if (peer.heard) lose(peer, "it started anew");
+    if (peer.other && peer.other->model.epoch() == epoch) {
+        std::swap(peer.current, peer.other);
+    } else {
+        if (peer.current && peer.current->model.complete()) peer.other = std::move(peer.current);
+        peer.current.emplace(peer.name, epoch);
+    }
+    changed_ = true;
+}
+
+// An earlier start is outranked, but only by one that is heard: clocks are set back too.
+void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
+    if (peer.current && presence.epoch < peer.epoch() &&
+        (peer.heard || presence.state != "running")) {
+        if (peer.other && peer.other->model.epoch() == presence.epoch) peer.other->spoke = now;
+        return;
+    }
+    if (!peer.current || presence.epoch != peer.epoch()) makeCurrent(peer, presence.epoch);
+    peer.current->spoke = now;
+    const bool complete = peer.model().complete();
+    if (!peer.current->model.add(presence)) {
+        return self_.rejections.add("a presence of " + peer.name + " that cannot be");
+    }
+    changed_ = changed_ || peer.model().complete() != complete;
+    if (presence.state != "running") peer.missed = false;
+    if (presence.state == "stopping") return lose(peer, "it stopped");
+    if (presence.state == "silent") return lose(peer, "it fell silent");
+    peer.lastHeard = now;
+    const bool agent = presence.role == "agent";
+    changed_ = changed_ || agent != peer.agent || !peer.heard;
+    peer.agent = agent;
+    peer.missed = false;
+    if (!std::exchange(peer.heard, true) && peer.agent) {
+        self_.event(Severity::Info, self_.simplex,
+                    "agent " + peer.name + " is heard, from " + presence.host);
+    }
+    if (!complete) sayIfKnown(peer);
+}
+
+// Of those only that something is linked of.
+void AgentPeers::sayIfKnown(const Peer& peer) const {
+    if (!peer.agent || !peer.model().complete()) return;
+    const Presence& presence = *peer.model().presence();
+    self_.event(Severity::Info, self_.simplex,
+                "agent " + peer.name + " is known: " + std::to_string(presence.simplexes) +
+                    " simplexes of " + std::to_string(presence.types) + " types");
+}
+
+void AgentPeers::lose(Peer& peer, const std::string& why) {
+    if (!std::exchange(peer.heard, false)) return;
+    changed_ = true;
+    if (peer.agent) {
+        self_.event(Severity::Warning, self_.simplex, "agent " + peer.name + " is lost: " + why);
+    }
+    lost_(peer.name, peer.epoch());
+}
+
+void AgentPeers::expire(std::int64_t now) {
+    const std::uint32_t crowd = agents();
+    for (auto& [name, peer] : peers_) {
+        if (!peer.heard) continue;
+        const std::int64_t patience =
+            patienceWith(*peer.model().presence(), peer.agent ? crowd : 0);
+        if (now - peer.lastHeard <= patience) continue;
+        lose(peer, "not heard for " + std::to_string(patience / 1'000'000) + " ms");
+        peer.missed = peer.agent;
+    }
+}
+
+// Null: it is refused, or was said by an earlier start than those that are heard.
+PeerStart* AgentPeers::startOf(const std::string& name, std::int64_t epoch, std::int64_t now) {
+    if (name == self_.name || !plausible(name, epoch)) return nullptr;
+    Peer* peer = place(name);
+    if (peer == nullptr) return nullptr;
+    if (peer->current && epoch == peer->epoch()) return &*peer->current;
+    std::optional<PeerStart>& other = peer->other;
+    if (!other || other->model.epoch() < epoch || now - other->spoke > shortestPatience) {
+        if (!other || other->model.epoch() != epoch) other.emplace(name, epoch);
+    }
+    if (other->model.epoch() != epoch) return nullptr;
+    other->spoke = now;
+    return &*other;
+}
+
+void AgentPeers::take(const Model& model, std::int64_t now) {
+    PeerStart* start = startOf(model.agent, model.epoch, now);
+    if (start == nullptr) return;
+    const bool complete = start->model.complete();
+    if (!start->model.add(model)) {
+        self_.rejections.add("a sample of the model of " + model.agent + " that cannot be");
+    }
+    if (complete || !start->model.complete()) return;
+    changed_ = true;
+    const Peer& peer = peers_.at(model.agent);
+    if (peer.current && start == &*peer.current) sayIfKnown(peer);
+}
+
+void AgentPeers::take(const Interest& interest, std::int64_t now) {
+    if (interest.agent != agentId(interest.name) || pathsIn(interest) > mostPaths) {
+        return self_.rejections.add("an interest of " + interest.name + " that cannot be");
+    }
+    PeerStart* start = startOf(interest.name, interest.epoch, now);
+    if (start == nullptr) return;
+    start->interest = interest;
+    changed_ = true;
+}
+
+bool AgentPeers::missesAny(std::int64_t now) const {
+    return std::ranges::any_of(peers_, [&](const auto& each) {
+        return each.second.missed && now - each.second.lastHeard < longestAbsence;
+    });
+}
+
+std::uint32_t AgentPeers::agents() const {
+    const auto heard = std::ranges::count_if(
+        peers_, [](const auto& each) { return each.second.heard && each.second.agent; });
+    return static_cast<std::uint32_t>(heard);
+}
+
+}  // namespace cortex::comms

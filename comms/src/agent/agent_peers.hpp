@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "agent/agent_self.hpp"
+#include "peers/peer_model.hpp"
+#include "wire/messages.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace cortex::comms {
+
+// One start of an agent or a tool: what it has and what it wants of us.
+struct PeerStart {
+    PeerStart(const std::string& name, std::int64_t epoch) : model{name, epoch} {}
+
+    PeerModel model;
+    Interest interest;
+    std::int64_t spoke = 0;  // steadyNow()
+    bool told = false;       // what is wrong with it
+};
+
+struct Peer {
+    const PeerModel& model() const { return current->model; }
+    std::int64_t epoch() const { return current->model.epoch(); }
+
+    std::string name;
+    bool heard = false;                // not long ago
+    bool agent = false;                // or a tool
+    bool missed = false;               // lost without a word
+    std::int64_t lastHeard = 0;        // steadyNow()
+    std::optional<PeerStart> current;  // whose presence was heard
+    std::optional<PeerStart> other;    // outranked, or its samples came before its presence
+};
+
+using Peers = std::map<std::string, Peer, std::less<>>;  // by name
+
+// The agents and tools in the domain, as far as they are heard: of the starts of a name that
+// are heard the greater epoch wins; what is silent for longer than it said is lost. Nothing that
+// they say is believed unchecked. Communication thread only.
+class AgentPeers {
+public:
+    // `lost` is called for each that is no longer heard.
+    AgentPeers(AgentSelf& self,
+               std::function<void(const std::string& name, std::int64_t epoch)> lost);
+
+    void take(const Presence& presence, std::int64_t now);
+    void take(const Model& model, std::int64_t now);
+    void take(const Interest& interest, std::int64_t now);
+    void expire(std::int64_t now);
+
+    // Whether anything became known or lost since the last call.
+    bool takeChanged() { return std::exchange(changed_, false); }
+    bool outranked() const { return outranked_; }  // a later start of our own name is heard
+    Peers& all() { return peers_; }
+    std::uint32_t agents() const;            // that are heard
+    bool missesAny(std::int64_t now) const;  // agents that fell silent without a word, not long ago
+
+private:
+    bool plausible(const std::string& name, std::int64_t epoch);
+    bool isOurs(const Presence& presence);
+    Peer* place(const std::string& name);
+    void makeCurrent(Peer& peer, std::int64_t epoch);
+    void hear(Peer& peer, const Presence& presence, std::int64_t now);
+    void sayIfKnown(const Peer& peer) const;
+    void lose(Peer& peer, const std::string& why);
+    PeerStart* startOf(const std::string& name, std::int64_t epoch, std::int64_t now);
+
+    AgentSelf& self_;
+    std::function<void(const std::string&, std::int64_t)> lost_;
+    Peers peers_;
+    bool changed_ = false, outranked_ = false;
+    std::string early_;  // whose clock was last said to be ahead
+};
+
+}  // namespace cortex::comms

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/agent_streams.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "wire/simplex_values.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::int64_t second = 1'000'000'000;  // ns
+constexpr std::int64_t again = second / 10;
+
+}  // namespace
+
+AgentStreams::AgentStreams(AgentSelf& self, const Id& structureHash, Participant& participant)
+    : self_{self},
+      participant_{participant},
+      structureHash_{structureHash},
+      streams_{Stream{topics::linkOf(self.name), 0}, Stream{topics::view5, 5},
+               Stream{topics::view30, 30}, Stream{topics::view100, 100},
+               Stream{topics::viewEvery, 0}} {
+    const auto& simplexes = self.structure().simplexes;
+    own_ = static_cast<std::uint32_t>(std::ranges::count(simplexes, false, &SimplexInfo::remote));
+}
+
+bool AgentStreams::everyCycle() const {
+    return std::ranges::any_of(
+        streams_, [](const Stream& each) { return each.writer != nullptr && each.rate == 0; });
+}
+
+std::int64_t AgentStreams::due() const {
+    std::int64_t earliest = std::numeric_limits<std::int64_t>::max();
+    for (const Stream& each : streams_) {
+        if (each.writer != nullptr && each.rate != 0) earliest = std::min(earliest, each.due);
+    }
+    return earliest;
+}
+
+void AgentStreams::update(const Peers& peers) {
+    for (auto& wanted : wanted_) wanted.assign(own_, false);
+    for (const auto& [name, peer] : peers) {
+        if (!peer.heard) continue;
+        addLinks(peer.current->interest, wanted_.front());
+        for (const View& view : peer.current->interest.views) addView(view);
+    }
+    for (std::size_t i = 0; i < streams_.size(); ++i) open(streams_[i], wanted_[i]);
+}
+
+void AgentStreams::addLinks(const Interest& interest, std::vector<bool>& wanted) {
+    for (const std::string& path : interest.links) {
+        const std::uint32_t simplex = self_.structure().find(path);
+        if (simplex < own_) wanted[simplex] = true;  // the others are other agents'
+    }
+}
+
+void AgentStreams::addView(const View& view) {
+    const auto stream = std::find_if(streams_.begin() + 1, streams_.end(),
+                                     [&](const Stream& each) { return each.rate == view.rate; });
+    if (stream == streams_.end()) {
+        return self_.rejections.add("an interest in " + std::to_string(view.rate) + " Hz");
+    }
+    auto& wanted = wanted_[static_cast<std::size_t>(stream - streams_.begin())];
+    for (const std::string& prefix : view.prefixes) addBelow(prefix, wanted);
+}
+
+// Simplexes are sorted by path: those below one stand together, it itself somewhere before them.
+void AgentStreams::addBelow(const std::string& prefix, std::vector<bool>& wanted) {
+    if (prefix.empty() || prefix.front() != '/') {
+        return self_.rejections.add("an interest in what is no path");
+    }
+    const std::uint32_t itself = self_.structure().find(prefix);
+    if (itself < own_) wanted[itself] = true;
+    const std::string below = prefix.back() == '/' ? prefix : prefix + '/';
+    const auto first = self_.structure().simplexes.begin();
+    auto simplex = std::ranges::lower_bound(first, first + own_, below, {}, &SimplexInfo::path);
+    for (; simplex != first + own_ && simplex->path.starts_with(below); ++simplex) {
+        wanted[static_cast<std::size_t>(simplex - first)] = true;
+    }
+}
+
+void AgentStreams::open(Stream& stream, const std::vector<bool>& wanted) {
+    std::vector<std::uint32_t> simplexes;
+    for (std::uint32_t i = 0; i < own_; ++i) {
+        if (wanted[i]) simplexes.push_back(i);
+    }
+    if (simplexes != stream.simplexes) stream.block.cycle = 0;  // the newest cycle, of these
+    stream.simplexes = std::move(simplexes);
+    if (stream.simplexes.empty()) {
+        stream.writer.reset();
+        return;
+    }
+    if (stream.writer != nullptr) return;
+    try {
+        stream.writer = participant_.writer<Block>(stream.topic);
+    } catch (const Error& error) {
+        self_.event(Severity::Error, self_.simplex, error.what());
+    }
+    stream.block.agent = self_.id;
+    stream.block.epoch = self_.epoch;
+    stream.block.structureHash = structureHash_;
+    stream.due = 0;
+}
+
+void AgentStreams::step(std::int64_t now) {
+    const std::int64_t cycle = self_.access.images->newestCycle();
+    Image image;
+    for (Stream& stream : streams_) {
+        const bool due = stream.rate == 0 || now >= stream.due;
+        if (stream.writer == nullptr || !due) continue;
+        if (stream.block.cycle == cycle) {
+            sayAgain(stream, now);
+            continue;
+        }
+        if (!image) image = self_.access.images->newest();
+        if (!image || image.cycle() == 0) return;
+        write(stream, image);
+        stream.againDue = now + again;
+        if (stream.rate == 0) continue;
+        // On a grid of its own; from now where it was missed.
+        const std::int64_t interval = second / stream.rate;
+        stream.due = std::max(stream.due + interval, now + interval / 2);
+    }
+}
+
+// A loop that stands still, or is slow, is seen by who begins to look meanwhile, and by whom the
+// last block did not reach. Links wait for the next cycle: what they have does not become newer.
+void AgentStreams::sayAgain(Stream& stream, std::int64_t now) {
+    if (&stream == &streams_.front() || now < stream.againDue || stream.block.cycle == 0) return;
+    stream.writer->write(stream.block);
+    stream.againDue = now + again;
+}
+
+void AgentStreams::write(Stream& stream, const Image& image) {
+    Block& block = stream.block;
+    ++block.sequenceNumber;
+    block.cycle = image.cycle();
+    block.nominalTime = image.nominalTime();
+    block.wallClock = image.wallClock();
+    block.simplexes.resize(stream.simplexes.size());
+    for (std::size_t i = 0; i < stream.simplexes.size(); ++i) {
+        const std::uint32_t simplex = stream.simplexes[i];
+        readValues(simplex, *self_.structure().simplexes[simplex].layout, image.slice(simplex),
+                   block.simplexes[i]);
+    }
+    stream.writer->write(block);
+}
+
+}  // namespace cortex::comms

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/agent_thread.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "security/security_identity.hpp"
+#include "wire/presence_interval.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <concepts>
+#include <cstddef>
+#include <exception>
+#include <set>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <sys/prctl.h>
+
+namespace cortex::comms {
+namespace {
+
+// To wake costs more than to take what has come: in a crowd less often.
+constexpr std::chrono::milliseconds shortestWait{1}, longestWait{20}, longestInCrowd{100};
+constexpr std::chrono::microseconds moreForEach{500};
+constexpr std::size_t mostLostOwners = 16;
+constexpr std::int64_t muchTooEarly = 100'000;      // ns
+constexpr std::int64_t shortestExpected = 500'000;  // ns; else too much of them were waited awake
+constexpr int timesStopping = 3;
+constexpr std::chrono::milliseconds pauseStopping{10};
+
+// Commands are urgent; the rest is taken at the next step.
+template <class Message>
+constexpr bool isUrgent = std::same_as<Message, Command>;
+
+}  // namespace
+
+AgentThread::AgentThread(const AgentAccess& agent, const NetworkOptions& options)
+    : self_{agent},
+      model_{self_, options.security.empty() ? "" : securityOn},
+      participant_{options, self_.name, Participant::Speaks::WhenTold},
+      presenceOut_{participant_.writer<Presence>(topics::presence)},
+      modelOut_{participant_.writer<Model>(topics::model)},
+      eventOut_{participant_.writer<EventMessage>(topics::event)},
+      events_{self_},
+      answers_{participant_},
+      commands_{self_, [this](const Answer& answer) { sendAnswer(answer); },
+                participant_.identity()},
+      links_{self_},
+      interestOut_{links_.any() ? participant_.writer<Interest>(topics::interest) : nullptr},
+      streams_{self_, model_.structureHash(), participant_},
+      peers_{self_,
+             [this](const std::string& name, std::int64_t epoch) { commands_.lost(name, epoch); }},
+      presenceIn_{receive<Presence>({topics::presence.name, Qos::Cycle})},  // the next comes soon
+      modelIn_{links_.any() ? receive<Model>(topics::model) : nullptr},
+      interestIn_{receive<Interest>(topics::interest)},
+      commandIn_{receive<Command>(topics::command)} {
+    for (const Model& sample : model_.samples()) modelOut_->write(sample);
+    sendInterest();
+    participant_.speak();
+    thread_ = std::thread{[this] { run(); }};
+}
+
+AgentThread::~AgentThread() {
+    self_.access.events->flush();
+    stopping_.store(true);
+    wake_.signal();
+    thread_.join();
+}
+
+template <class Message>
+std::unique_ptr<Reader<Message>> AgentThread::receive(const Topic& topic) {
+    return participant_.reader<Message>(topic, [this](Message&& message) {
+        if (!received_.push(std::move(message), steadyNow())) {
+            self_.rejections.add("more messages than can be taken");
+        } else if (isUrgent<Message>) {
+            wake_.signal();
+        }
+    });
+}
+
+void AgentThread::read(Inbox& inbox) {
+    links_.read(inbox);
+    commands_.read(inbox);
+}
+
+void AgentThread::write(Outbox& outbox) {
+    const bool answers = commands_.write(outbox);
+    const bool everyCycle = everyCycle_.load(std::memory_order_relaxed);
+    if (!answers && !everyCycle) return;
+    if (everyCycle && !expectNext()) {
+        wake_.signal();
+    } else {
+        wake_.signalAwaited();
+    }
+}
+
+// The next write() in a period from now. False: this one came long before it was expected.
+bool AgentThread::expectNext() {
+    const std::int64_t now = steadyNow();
+    const std::int64_t expected = next_.load(std::memory_order_relaxed);
+    next_.store(now + self_.access.period, std::memory_order_relaxed);
+    return now > expected - muchTooEarly;
+}
+
+void AgentThread::run() {
+    prctl(PR_SET_TIMERSLACK, 1UL);  // else what it sleeps for ends up to 50 microseconds late
+    while (!stopping_.load()) {
+        guarded([this] { step(); });
+        // What is due waits for the next cycle where it has none.
+        const std::chrono::nanoseconds untilDue{streams_.due() - steadyNow()};
+        const auto longest = std::min<std::chrono::nanoseconds>(
+            longestWait + peers_.agents() * moreForEach, longestInCrowd);
+        wait(std::clamp<std::chrono::nanoseconds>(untilDue, shortestWait, longest));
+    }
+    guarded([this] { leave(); });
+    participant_.stopListening();
+}
+
+// Where somebody wants every cycle, the loop need not wake who knows when it will have written.
+void AgentThread::wait(std::chrono::nanoseconds limit) {
+    const std::int64_t end = steadyNow() + limit.count();
+    const std::int64_t next = next_.load(std::memory_order_relaxed);
+    const bool comes = self_.access.period >= shortestExpected && next <= end;
+    if (!comes || !wake_.await(next)) wake_.waitUntil(end);
+}
+
+// Whatever others send, this thread goes on.
+template <class Function>
+void AgentThread::guarded(Function function) {
+    try {
+        function();
+    } catch (const std::exception& error) {
+        self_.rejections.add(error.what());
+        messages_ = {};
+    }
+}
+
+void AgentThread::step() {
+    const std::int64_t now = steadyNow();
+    if (!silent_) streams_.step(now);
+    takeMessages(now);
+    reportRefusals();
+    peers_.expire(now);
+    if (peers_.takeChanged()) changed();
+    if (links_.askAgain(now)) sendInterest();
+    commands_.step(now);
+    answers_.keep([this](const std::string& sender) { return commands_.knows(sender); }, now);
+    sendEvents();
+    if (peers_.outranked()) fallSilent();
+    if (!silent_) sendPresence(now);
+    if (links_.anyUnbound() || peers_.missesAny(now)) participant_.announce();
+}
+
+void AgentThread::takeMessages(std::int64_t now) {
+    received_.take(messages_);
+    for (auto& [presence, came] : messages_.presences) {
+        peers_.take(presence, came);
+        if (presence.state != "stopping") commands_.heard(presence, came);
+    }
+    for (auto& [model, came] : messages_.models) peers_.take(model, came);
+    for (auto& [interest, came] : messages_.interests) peers_.take(interest, came);
+    for (auto& [command, came] : messages_.commands) {
+        if (!silent_) commands_.take(command, now);
+    }
+    messages_.presences.clear();
+    messages_.models.clear();
+    messages_.interests.clear();
+    messages_.commands.clear();
+}
+
+// What cannot be sent is not kept: the loop's other answers follow, and a sender asks again.
+void AgentThread::sendAnswer(const Answer& answer) {
+    if (silent_) return;
+    try {
+        if (answers_.send(answer, steadyNow())) return;
+        self_.rejections.add("commands of too many new senders at a time");
+    } catch (const Error& error) {
+        self_.rejections.add(error.what());
+    }
+}
+
+void AgentThread::reportRefusals() {
+    for (const std::string& each : participant_.takeRefusals()) {
+        self_.event(Severity::Warning, self_.simplex, each);
+    }
+}
+
+void AgentThread::changed() {
+    links_.update(peers_.all());
+    streams_.update(peers_.all());
+    everyCycle_.store(streams_.everyCycle(), std::memory_order_relaxed);
+    listenToOwners();
+}
+
+// Those who are lost are listened to on, for when they are back.
+void AgentThread::listenToOwners() {
+    const std::set<std::string> owners = links_.owners();
+    for (const std::string& owner : owners) {
+        std::unique_ptr<Reader<Block>>& reader = linksIn_[owner];
+        if (reader) continue;
+        reader = participant_.reader<Block>(
+            topics::linkOf(owner), [this](Block&& block) { links_.take(block, steadyNow()); });
+    }
+    if (linksIn_.size() <= owners.size() + mostLostOwners) return;
+    std::erase_if(linksIn_, [&](const auto& each) { return !owners.contains(each.first); });
+}
+
+void AgentThread::sendInterest() {
+    if (interestOut_ && !silent_) interestOut_->write(links_.interest());
+}
+
+void AgentThread::sendEvents() {
+    if (!events_.take(eventsToSend_)) wake_.signal();  // the next step follows at once
+    for (const EventMessage& event : eventsToSend_) {
+        if (!silent_ && eventOut_->write(event)) lastEvent_ = event.number;
+    }
+    eventsToSend_.clear();
+}
+
+Presence AgentThread::presence(const char* state) const {
+    Presence presence = model_.presence(state, peers_.agents() + 1, lastEvent_);
+    presence.interval = intervalAmong(presenceOut_->readers());
+    return presence;
+}
+
+void AgentThread::sendPresence(std::int64_t now) {
+    if (now < presenceDue_) return;
+    const Presence said = presence("running");
+    presenceOut_->write(said);
+    presenceDue_ = std::max(presenceDue_ + said.interval, now + said.interval / 2);
+}
+
+// The network belongs to the later start: the last that is heard of this one.
+void AgentThread::fallSilent() {
+    if (std::exchange(silent_, true)) return;
+    presenceOut_->write(presence("silent"));
+}
+
+// After the last cycle. Without dispose where we fell silent: the keys are the later start's. Said
+// more than once: others take the news that a writer is gone from another socket, and under load
+// it overtakes the last sample, which is not sent again to who listens with best effort.
+void AgentThread::leave() {
+    step();
+    if (silent_) return;
+    while (!events_.empty()) sendEvents();
+    const Presence last = presence("stopping");
+    for (int said = 1; said < timesStopping; ++said) {
+        presenceOut_->write(last);
+        std::this_thread::sleep_for(pauseStopping);
+    }
+    presenceOut_->write(last);
+    presenceOut_->dispose(last);
+}
+
+}  // namespace cortex::comms

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "agent/agent_answers.hpp"
+#include "agent/agent_commands.hpp"
+#include "agent/agent_events.hpp"
+#include "agent/agent_links.hpp"
+#include "agent/agent_model.hpp"
+#include "agent/agent_peers.hpp"
+#include "agent/agent_received.hpp"
+#include "agent/agent_self.hpp"
+#include "agent/agent_streams.hpp"
+#include "agent/agent_wake.hpp"
+#include "dds/participant.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cortex::comms {
+
+// One agent on the network: its participant and the communication thread, the only one that writes
+// to DDS. The constructor joins the network, run by announce(); read() and write() in the loop.
+class AgentThread {
+public:
+    AgentThread(const AgentAccess& agent, const NetworkOptions& options);
+    ~AgentThread();  // says what is left to say and leaves the network
+
+    void read(Inbox& inbox) CORTEX_REALTIME;
+    void write(Outbox& outbox) CORTEX_REALTIME;
+
+    std::uint64_t rejected() const {
+        return self_.rejections.count() + participant_.malformed() + participant_.refused();
+    }
+    std::uint64_t lost() const { return links_.lost(); }
+    std::string lastRejection() const { return self_.rejections.last(); }
+
+private:
+    template <class Message>
+    std::unique_ptr<Reader<Message>> receive(const Topic& topic);
+    bool expectNext() CORTEX_REALTIME;
+    void run();
+    void wait(std::chrono::nanoseconds limit);
+    template <class Function>
+    void guarded(Function function);
+    void step();
+    void takeMessages(std::int64_t now);
+    void reportRefusals();
+    void changed();
+    void listenToOwners();
+    void sendInterest();
+    void sendEvents();
+    Presence presence(const char* state) const;
+    void sendPresence(std::int64_t now);
+    void fallSilent();
+    void sendAnswer(const Answer& answer);
+    void leave();
+
+    AgentSelf self_;
+    AgentModel model_;
+    Participant participant_;
+    Wake wake_;
+    ReceivedQueue received_;
+    std::unique_ptr<Writer<Presence>> presenceOut_;
+    std::unique_ptr<Writer<Model>> modelOut_;
+    std::unique_ptr<Writer<EventMessage>> eventOut_;
+    AgentEvents events_;
+    AgentAnswers answers_;
+    AgentCommands commands_;
+    AgentLinks links_;
+    std::unique_ptr<Writer<Interest>> interestOut_;  // null: we link nothing of others
+    AgentStreams streams_;
+    AgentPeers peers_;
+    std::unique_ptr<Reader<Presence>> presenceIn_;
+    std::unique_ptr<Reader<Model>> modelIn_;  // null: as above
+    std::unique_ptr<Reader<Interest>> interestIn_;
+    std::map<std::string, std::unique_ptr<Reader<Block>>> linksIn_;  // by owner
+    std::unique_ptr<Reader<Command>> commandIn_;
+
+    // The communication thread's.
+    ReceivedMessages messages_;
+    std::vector<EventMessage> eventsToSend_;
+    std::uint64_t lastEvent_ = 0;  // that was written
+    std::int64_t presenceDue_ = 0;
+    bool silent_ = false;
+
+    std::atomic<bool> everyCycle_{false};  // somebody wants values
+    std::atomic<std::int64_t> next_{0};    // when the loop is expected to write for them
+    std::atomic<bool> stopping_{false};
+    std::thread thread_;
+};
+
+}  // namespace cortex::comms

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dds/gate.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <fastdds/rtps/common/LocatorList.hpp>
+#include <fastdds/rtps/network/SenderResource.h>
+#include <fastdds/rtps/transport/ChainingTransport.h>
+#include <fastdds/rtps/transport/TransportReceiverInterface.h>
+
+namespace cortex::comms {
+namespace {
+
+namespace transport = eprosima::fastdds::rtps;
+namespace rtps = eprosima::fastrtps::rtps;
+
+constexpr std::chrono::milliseconds longestWait{250};
+
+class GatedTransport final : public transport::ChainingTransport {
+public:
+    GatedTransport(const transport::ChainingTransportDescriptor& descriptor,
+                   std::shared_ptr<Gate> gate, std::shared_ptr<Repeats> repeats)
+        : ChainingTransport{descriptor},
+          lower_{descriptor.low_level_descriptor},
+          gate_{std::move(gate)},
+          repeats_{std::move(repeats)} {}
+
+    transport::TransportDescriptorInterface* get_configuration() override { return lower_.get(); }
+
+    bool send(rtps::SenderResource* lower, const rtps::octet* octets, std::uint32_t size,
+              rtps::LocatorsIterator* begin, rtps::LocatorsIterator* end,
+              const std::chrono::steady_clock::time_point& timeout) override {
+        if (!repeats_ || !Repeats::concerns({octets, size})) {
+            return lower->send(octets, size, begin, end, timeout);
+        }
+        std::vector<rtps::Locator_t> addresses;
+        const auto now = Repeats::Clock::now();
+        for (; *begin != *end; ++*begin) {
+            const bool known = repeats_->needless({octets, size}, lower, **begin, now);
+            if (!known) addresses.push_back(**begin);
+        }
+        if (addresses.empty()) return true;
+        rtps::Locators first{addresses.cbegin()}, last{addresses.cend()};
+        return lower->send(octets, size, &first, &last, timeout);
+    }
+
+    void receive(transport::TransportReceiverInterface* upper, const rtps::octet* octets,
+                 std::uint32_t size, const rtps::Locator_t& local,
+                 const rtps::Locator_t& remote) override {
+        const std::unique_lock passing = gate_->pass();
+        if (!passing) return;
+        if (repeats_) repeats_->heard({octets, size});
+        upper->OnDataReceived(octets, size, local, remote);
+    }
+
+private:
+    const std::shared_ptr<transport::TransportDescriptorInterface> lower_;
+    const std::shared_ptr<Gate> gate_;
+    const std::shared_ptr<Repeats> repeats_;
+};
+
+struct GatedTransportDescriptor final : transport::ChainingTransportDescriptor {
+    GatedTransportDescriptor(std::shared_ptr<TransportDescriptorInterface> lower,
+                             std::shared_ptr<Gate> theGate, std::shared_ptr<Repeats> theRepeats)
+        : ChainingTransportDescriptor{std::move(lower)},
+          gate{std::move(theGate)},
+          repeats{std::move(theRepeats)} {}
+
+    transport::TransportInterface* create_transport() const override {
+        return new GatedTransport{*this, gate, repeats};
+    }
+
+    const std::shared_ptr<Gate> gate;
+    const std::shared_ptr<Repeats> repeats;
+};
+
+}  // namespace
+
+void Gate::open() {
+    {
+        const std::lock_guard lock{mutex_};
+        isOpen_ = true;
+    }
+    opened_.notify_all();
+}
+
+std::unique_lock<std::mutex> Gate::pass() {
+    if (!isOpen_) {
+        std::unique_lock lock{mutex_};
+        opened_.wait_for(lock, longestWait, [&] { return isOpen_.load(); });
+        isOpen_ = true;
+    }
+    std::unique_lock passing{passing_};
+    if (isClosed_) passing.unlock();
+    return passing;
+}
+
+std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos,
+                              std::shared_ptr<Repeats> repeats) {
+    auto gate = std::make_shared<Gate>();
+    auto& lower = qos.transport().user_transports.front();
+    lower = std::make_shared<GatedTransportDescriptor>(lower, gate, std::move(repeats));
+    return gate;
+}
+
+}  // namespace cortex::comms

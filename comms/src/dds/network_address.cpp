@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dds/network_address.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+#include <ifaddrs.h>
+#include <netdb.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <arpa/inet.h>
+#include <net/if.h>
+#include <netinet/in.h>
+
+namespace cortex::comms {
+namespace {
+
+struct Interface {
+    std::string name, ip;
+};
+
+std::string ipOf(const sockaddr* address) {
+    char ip[INET_ADDRSTRLEN] = {};
+    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(address)->sin_addr, ip, sizeof ip);
+    return ip;
+}
+
+std::vector<Interface> activeInterfaces() {
+    ifaddrs* first = nullptr;
+    if (getifaddrs(&first) != 0) throw Error{"the network interfaces cannot be listed"};
+    const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner{first, &freeifaddrs};
+    std::vector<Interface> found;
+    for (const ifaddrs* entry = first; entry; entry = entry->ifa_next) {
+        const bool usable = entry->ifa_addr && entry->ifa_addr->sa_family == AF_INET &&
+                            (entry->ifa_flags & IFF_UP) != 0;
+        if (usable) found.push_back({entry->ifa_name, ipOf(entry->ifa_addr)});
+    }
+    return found;
+}
+
+std::string listed(const std::vector<Interface>& interfaces) {
+    std::string list;
+    for (const Interface& one : interfaces) {
+        list += (list.empty() ? "" : ", ") + one.name + " (" + one.ip + ")";
+    }
+    return list.empty() ? "none" : list;
+}
+
+// Like Fast DDS, which says nothing when it gets no port, and then hears nothing.
+bool canBind(int port) {
+    const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (descriptor < 0) {
+        throw Error{std::string{"no UDP socket can be opened: "} + std::strerror(errno)};
+    }
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    const int result =
+        bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+    close(descriptor);
+    return result == 0;
+}
+
+}  // namespace
+
+std::vector<std::string> interfaceAddresses(const std::vector<std::string>& interfaces) {
+    std::vector<std::string> addresses;
+    if (interfaces.empty()) return addresses;
+    const std::vector<Interface> active = activeInterfaces();
+    std::string unknown;
+    for (const std::string& wanted : interfaces) {
+        const std::size_t before = addresses.size();
+        for (const Interface& one : active) {
+            if (one.name == wanted || one.ip == wanted) addresses.push_back(one.ip);
+        }
+        if (addresses.size() == before) unknown += (unknown.empty() ? "'" : ", '") + wanted + "'";
+    }
+    if (!unknown.empty()) {
+        throw Error{"no active network interface has the name or IPv4 address " + unknown +
+                    "; this machine has " + listed(active)};
+    }
+    return addresses;
+}
+
+int freeParticipant(int domain, int participants) {
+    const int first = 7410 + 250 * domain;  // as RTPS has it: 2 for each participant
+    const int end = first + 2 * participants;
+    for (int port = first; port < end; port += 2) {
+        if (canBind(port)) return (port - first) / 2;
+    }
+    throw Error{"no UDP port is free for domain " + std::to_string(domain) + " (every other from " +
+                std::to_string(first) + " to " + std::to_string(end - 2) +
+                "); join another domain, or end programs that hold them (`ss -ulpn` lists them)"};
+}
+
+Address addressOf(const std::string& text, const std::string& option) {
+    const std::size_t colon = text.find(':');
+    const std::string host = text.substr(0, colon);
+    Address address;
+    if (colon != std::string::npos) {
+        const std::string_view digits = std::string_view{text}.substr(colon + 1);
+        const auto [end, error] = std::from_chars(digits.begin(), digits.end(), address.port);
+        if (error != std::errc{} || end != digits.end() || address.port == 0) {
+            throw Error{option + " '" + text + "': the port must be a number from 1 to 65535"};
+        }
+    }
+    addrinfo hints{}, *first = nullptr;
+    hints.ai_family = AF_INET;
+    hints.ai_socktype = SOCK_DGRAM;
+    if (host.empty() || getaddrinfo(host.c_str(), nullptr, &hints, &first) != 0) {
+        throw Error{option + " '" + text + "': no IPv4 address is known for this host; " +
+                    "give an address such as 192.168.1.10, or a name that resolves"};
+    }
+    const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner{first, &freeaddrinfo};
+    address.ip = ipOf(first->ai_addr);
+    return address;
+}
+
+}  // namespace cortex::comms

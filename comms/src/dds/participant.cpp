@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dds/participant.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "dds/discovery_counter.hpp"
+#include "dds/gate.hpp"
+#include "dds/join_turn.hpp"
+#include "dds/participant_qos.hpp"
+#include "dds/receiver.hpp"
+#include "dds/repeats.hpp"
+#include "dds/security_guard.hpp"
+#include "dds/topic_type.hpp"
+#include "wire/ids.hpp"
+#include "wire/presence_interval.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+
+namespace cortex::comms {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
+
+template <class Entity>
+Entity* created(Entity* entity, const std::string& what) {
+    if (!entity) {
+        throw Error{what +
+                    " was refused by Fast DDS; run again with CORTEX_DDS_LOG=warning in "
+                    "the environment to see its reason"};
+    }
+    return entity;
+}
+
+}  // namespace
+
+// Everybody hears twenty in a second at most.
+std::chrono::milliseconds announcementsAmong(std::uint32_t participants) {
+    return std::chrono::milliseconds{std::clamp(50 * participants, 100U, 3'000U)};
+}
+
+Topic topics::linkOf(const std::string& agent) {
+    return {"cortex/1/link/" + toHex(agentId(agent)), Qos::Cycle};
+}
+
+Topic topics::answerTo(const std::string& sender) {
+    return {"cortex/1/answer/" + toHex(agentId(sender)), Qos::Exchange};
+}
+
+struct Participant::Impl {
+    std::string name;
+    std::unique_ptr<DiscoveryCounter> listener;  // outlives the participant
+    SecurityGuard* guard = nullptr;              // the listener, with security
+    std::shared_ptr<Repeats> repeats;
+    std::shared_ptr<Gate> gate;
+    std::optional<JoinTurn> turn;  // until it speaks
+    int othersOnHost = 0;
+    bool hasServer = false;
+    dds::DomainParticipant* participant = nullptr;
+    dds::Publisher* publisher = nullptr;
+    dds::Subscriber* subscriber = nullptr;
+    std::map<std::string, dds::Topic*, std::less<>> topics;
+    std::atomic<std::uint64_t> malformed = 0;
+    std::uint64_t announcements = 0;
+    std::chrono::steady_clock::time_point announceDue{};
+
+    ~Impl() {
+        if (!participant) return;
+        participant->delete_contained_entities();
+        dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+    }
+
+    // With the gate held, as all that makes and deletes endpoints.
+    template <class M>
+    dds::Topic* topic(const std::string& topicName) {
+        if (const auto found = topics.find(topicName); found != topics.end()) return found->second;
+        if (participant->find_type(M::typeName).empty()) {
+            dds::TypeSupport{new TopicType<M>}.register_type(participant);
+        }
+        dds::Topic* made =
+            created(participant->create_topic(topicName, M::typeName, dds::TOPIC_QOS_DEFAULT),
+                    "topic '" + topicName + "' of '" + name + "'");
+        topics.emplace(topicName, made);
+        return made;
+    }
+
+    // Only one that no endpoint uses is deleted.
+    void release(const dds::TopicDescription* used) {
+        const auto found = topics.find(used->get_name());
+        if (participant->delete_topic(found->second) == ReturnCode::RETCODE_OK) topics.erase(found);
+    }
+};
+
+// --- Writer -------------------------------------------------------------------------------------
+
+template <class M>
+struct Writer<M>::Impl {
+    std::shared_ptr<Gate> gate;
+    std::function<void(const dds::TopicDescription*)> release;
+    dds::Publisher* publisher;
+    dds::DataWriter* writer;
+};
+
+template <class M>
+Writer<M>::Writer(std::unique_ptr<Impl> impl) : impl_{std::move(impl)} {}
+
+template <class M>
+Writer<M>::~Writer() {
+    // Fast DDS 2.9 frees a history while heartbeats may still read it, and can loop for ever then:
+    // an empty one is safe.
+    const auto held = impl_->gate->hold();
+    std::size_t removed = 0;
+    impl_->writer->clear_history(&removed);
+    const dds::TopicDescription* const topic = impl_->writer->get_topic();
+    impl_->publisher->delete_datawriter(impl_->writer);
+    impl_->release(topic);
+}
+
+template <class M>
+bool Writer<M>::write(const M& message) {
+    Envelope<M> envelope{&message, {}, false};
+    return impl_->writer->write(&envelope);
+}
+
+template <class M>
+bool Writer<M>::dispose(const M& message)
+    requires Keyed<M>
+{
+    Envelope<M> envelope{&message, {}, false};
+    return impl_->writer->dispose(&envelope, dds::HANDLE_NIL) == ReturnCode::RETCODE_OK;
+}
+
+template <class M>
+std::uint32_t Writer<M>::readers() const {
+    dds::PublicationMatchedStatus status;
+    impl_->writer->get_publication_matched_status(status);
+    return static_cast<std::uint32_t>(status.current_count);
+}
+
+// --- Reader -------------------------------------------------------------------------------------
+
+template <class M>
+struct Reader<M>::Impl {
+    std::shared_ptr<Gate> gate;
+    std::function<void(const dds::TopicDescription*)> release;
+    dds::Subscriber* subscriber;
+    Receiver<M> receiver;
+    dds::DataReader* reader;
+};
+
+template <class M>
+Reader<M>::Reader(std::unique_ptr<Impl> impl) : impl_{std::move(impl)} {}
+
+template <class M>
+Reader<M>::~Reader() {
+    impl_->receiver.close();
+    const auto held = impl_->gate->hold();
+    const dds::TopicDescription* const topic = impl_->reader->get_topicdescription();
+    impl_->subscriber->delete_datareader(impl_->reader);
+    impl_->release(topic);
+}
+
+template <class M>
+std::uint32_t Reader<M>::writers() const {
+    dds::SubscriptionMatchedStatus status;
+    impl_->reader->get_subscription_matched_status(status);
+    return static_cast<std::uint32_t>(status.current_count);
+}
+
+// --- Participant --------------------------------------------------------------------------------
+
+Participant::Participant(const NetworkOptions& options, const std::string& name, Speaks speaks)
+    : impl_{std::make_unique<Impl>()} {
+    impl_->name = name;
+    if (!options.security.empty()) {
+        auto guard = std::make_unique<SecurityGuard>(options.security, name, options.domain);
+        impl_->guard = guard.get();
+        impl_->listener = std::move(guard);
+    } else {
+        impl_->listener = std::make_unique<DiscoveryCounter>();
+    }
+    impl_->turn.emplace(options.domain);
+    static std::mutex joining;  // Fast DDS asks who the user is, which no two threads may
+    const std::lock_guard lock{joining};
+    dds::DomainParticipantQos qos = participantQos(options, name);
+    impl_->hasServer = !options.discoveryServer.empty();
+    std::optional<std::chrono::nanoseconds> interval;
+    if (!impl_->hasServer) {
+        const auto& discovery = qos.wire_protocol().builtin.discovery_config;
+        interval.emplace(discovery.leaseDuration_announcementperiod.to_ns());
+    }
+    impl_->repeats = std::make_shared<Repeats>(qos.wire_protocol().prefix, interval);
+    impl_->listener->tell(impl_->repeats);
+    impl_->gate = addGate(qos, impl_->repeats);
+    setUpFastDds();
+    const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
+    const auto join = [&] {
+        return dds::DomainParticipantFactory::get_instance()->create_participant(
+            static_cast<dds::DomainId_t>(options.domain), qos, impl_->listener.get(),
+            dds::StatusMask::none());  // it hears of participants, which no mask is about
+    };
+    impl_->participant = join();
+    if (impl_->participant == nullptr) {
+        // Perhaps one of this process has the number and not the port: whichever is free.
+        qos.wire_protocol().participant_id = -1;
+        impl_->participant = created(join(), "the network membership" + where);
+    }
+    impl_->othersOnHost = std::max(qos.wire_protocol().participant_id, 0);
+    impl_->publisher = created(impl_->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT),
+                               "the publisher" + where);
+    impl_->subscriber = created(impl_->participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT),
+                                "the subscriber" + where);
+    if (speaks == Speaks::AtOnce) speak();
+}
+
+void Participant::speak() {
+    impl_->gate->open();
+    if (!impl_->turn) return;
+    const auto others = static_cast<std::uint32_t>(impl_->othersOnHost);
+    if (impl_->hasServer) {  // which tells us of the others as it finds the time
+        impl_->turn->letAnswer(others);
+    } else {
+        impl_->turn->meet(others, [&] { return impl_->listener->met(); });
+    }
+    impl_->turn.reset();
+}
+
+void Participant::stopListening() { impl_->gate->close(); }
+
+Participant::~Participant() = default;
+
+template <class M>
+std::unique_ptr<Writer<M>> Participant::writer(const Topic& topic) {
+    using Entity = typename Writer<M>::Impl;
+    const auto held = impl_->gate->hold();
+    dds::DataWriter* made =
+        created(impl_->publisher->create_datawriter(
+                    impl_->topic<M>(topic.name),
+                    writerQos(topic.qos, impl_->othersOnHost, impl_->guard != nullptr)),
+                "a writer of topic '" + topic.name + "' of '" + impl_->name + "'");
+    const eprosima::fastrtps::rtps::EntityId_t id = made->guid().entityId;
+    impl_->repeats->writerMade(id, topic.name);
+    const auto release = [self = impl_.get(), id](const dds::TopicDescription* used) {
+        self->repeats->writerGone(id);
+        self->release(used);
+    };
+    return std::unique_ptr<Writer<M>>{new Writer<M>{
+        std::unique_ptr<Entity>{new Entity{impl_->gate, release, impl_->publisher, made}}}};
+}
+
+template <class M>
+std::unique_ptr<Reader<M>> Participant::reader(const Topic& topic,
+                                               std::function<void(M&&)> onSample,
+                                               std::function<void(const Id&)> onDisposed) {
+    using Entity = typename Reader<M>::Impl;
+    const auto held = impl_->gate->hold();
+    dds::Topic* const made = impl_->topic<M>(topic.name);
+    std::unique_ptr<Entity> entity{
+        new Entity{impl_->gate,
+                   [self = impl_.get()](auto* used) { self->release(used); },
+                   impl_->subscriber,
+                   {std::move(onSample), std::move(onDisposed), impl_->malformed, impl_->guard},
+                   nullptr}};
+    entity->reader = created(
+        impl_->subscriber->create_datareader(made, readerQos(topic.qos, impl_->othersOnHost),
+                                             &entity->receiver, dds::StatusMask::data_available()),
+        "a reader of topic '" + topic.name + "' of '" + impl_->name + "'");
+    return std::unique_ptr<Reader<M>>{new Reader<M>{std::move(entity)}};
+}
+
+void Participant::announce() {
+    Impl& self = *impl_;
+    const auto now = std::chrono::steady_clock::now();
+    if (now < self.announceDue) return;
+    self.announceDue = now + announcementsAmong(self.listener->known());
+    // Fast DDS announces at once what has changed; it locks in another order then than where it
+    // receives.
+    const auto held = self.gate->hold();
+    dds::DomainParticipantQos qos = self.participant->get_qos();
+    qos.user_data().data_vec({static_cast<std::uint8_t>(++self.announcements)});
+    self.participant->set_qos(qos);
+}
+
+std::uint64_t Participant::malformed() const { return impl_->malformed; }
+
+SecurityIdentity* Participant::identity() const {
+    return impl_->guard ? &impl_->guard->identity() : nullptr;
+}
+
+std::vector<std::string> Participant::takeRefusals() {
+    return impl_->guard ? impl_->guard->takeRefusals() : std::vector<std::string>{};
+}
+
+std::uint64_t Participant::refused() const { return impl_->guard ? impl_->guard->refused() : 0; }
+
+std::uint32_t Participant::pending() const { return impl_->guard ? impl_->guard->pending() : 0; }
+
+// --- the messages -------------------------------------------------------------------------------
+
+template class Writer<Presence>;
+template class Writer<Model>;
+template class Writer<Interest>;
+template class Writer<Block>;
+template class Writer<Command>;
+template class Writer<Answer>;
+template class Writer<EventMessage>;
+
+template class Reader<Presence>;
+template class Reader<Model>;
+template class Reader<Interest>;
+template class Reader<Block>;
+template class Reader<Command>;
+template class Reader<Answer>;
+template class Reader<EventMessage>;
+
+template std::unique_ptr<Writer<Presence>> Participant::writer(const Topic&);
+template std::unique_ptr<Writer<Model>> Participant::writer(const Topic&);
+template std::unique_ptr<Writer<Interest>> Participant::writer(const Topic&);
+template std::unique_ptr<Writer<Block>> Participant::writer(const Topic&);
+template std::unique_ptr<Writer<Command>> Participant::writer(const Topic&);
+template std::unique_ptr<Writer<Answer>> Participant::writer(const Topic&);
+template std::unique_ptr<Writer<EventMessage>> Participant::writer(const Topic&);
+
+using OnDisposed = std::function<void(const Id&)>;
+template std::unique_ptr<Reader<Presence>> Participant::reader(const Topic&,
+                                                               std::function<void(Presence&&)>,
+                                                               OnDisposed);
+template std::unique_ptr<Reader<Model>> Participant::reader(const Topic&,
+                                                            std::function<void(Model&&)>,
+                                                            OnDisposed);
+template std::unique_ptr<Reader<Interest>> Participant::reader(const Topic&,
+                                                               std::function<void(Interest&&)>,
+                                                               OnDisposed);
+template std::unique_ptr<Reader<Block>> Participant::reader(const Topic&,
+                                                            std::function<void(Block&&)>,
+                                                            OnDisposed);
+template std::unique_ptr<Reader<Command>> Participant::reader(const Topic&,
+                                                              std::function<void(Command&&)>,
+                                                              OnDisposed);
+template std::unique_ptr<Reader<Answer>> Participant::reader(const Topic&,
+                                                             std::function<void(Answer&&)>,
+                                                             OnDisposed);
+template std::unique_ptr<Reader<EventMessage>> Participant::reader(
+    const Topic&, std::function<void(EventMessage&&)>, OnDisposed);
+
+}  // namespace cortex::comms

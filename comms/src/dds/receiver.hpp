@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dds/security_guard.hpp"
+#include "dds/topic_type.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <utility>
+
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+
+namespace cortex::comms {
+
+// Takes samples out of a reader as they arrive; decides alone whether a callback may still run.
+template <class M>
+class Receiver final : public eprosima::fastdds::dds::DataReaderListener {
+    using SampleInfo = eprosima::fastdds::dds::SampleInfo;
+    using DataReader = eprosima::fastdds::dds::DataReader;
+    using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
+
+public:
+    Receiver(std::function<void(M&&)> onSample, std::function<void(const Id&)> onDisposed,
+             std::atomic<std::uint64_t>& malformed, SecurityGuard* guard)
+        : onSample_{std::move(onSample)},
+          onDisposed_{std::move(onDisposed)},
+          malformed_{malformed},
+          guard_{guard} {}
+
+    // Fast DDS holds the reader's lock here, so ours is never held while that one is asked for.
+    void on_data_available(DataReader* reader) override {
+        while (takeOne(*reader)) continue;
+    }
+
+    void close() {
+        const std::lock_guard lock{mutex_};
+        closed_ = true;
+    }
+
+private:
+    bool takeOne(DataReader& reader) {
+        bool taken = false;
+        try {
+            SampleInfo info;
+            taken = reader.take_next_sample(&envelope_, &info) == ReturnCode::RETCODE_OK;
+            if (taken) deliver(envelope_, info);
+        } catch (...) {
+            ++malformed_;
+        }
+        return taken;
+    }
+
+    void deliver(Envelope<M>& envelope, const SampleInfo& info) {
+        const std::lock_guard lock{mutex_};
+        if (closed_) return;
+        if (!info.valid_data) {
+            disposed(info);
+        } else if (envelope.wellFormed) {
+            const M& sample = envelope.incoming;
+            if (guard_ && !guard_->admits(info.publication_handle, claimedName(sample))) return;
+            onSample_(std::move(envelope.incoming));
+        } else {
+            ++malformed_;
+        }
+    }
+
+    void disposed(const SampleInfo& info) {
+        if (!onDisposed_ ||
+            info.instance_state == eprosima::fastdds::dds::NOT_ALIVE_NO_WRITERS_INSTANCE_STATE)
+            return;
+        Id key;
+        for (std::size_t i = 0; i < key.size(); ++i) key[i] = info.instance_handle.value[i];
+        if (guard_ && !guard_->admits(info.publication_handle, key)) return;
+        onDisposed_(key);
+    }
+
+    const std::function<void(M&&)> onSample_;
+    const std::function<void(const Id&)> onDisposed_;
+    std::atomic<std::uint64_t>& malformed_;
+    SecurityGuard* const guard_;
+    Envelope<M> envelope_;  // keeps the memory that a callback leaves in it
+    std::mutex mutex_;
+    bool closed_ = false;
+};
+
+}  // namespace cortex::comms

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dds/discovery_counter.hpp"
+#include "dds/security_refusals.hpp"
+#include "security/security_identity.hpp"
+#include "wire/messages.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+#include <fastdds/rtps/common/Guid.h>
+
+namespace cortex::comms {
+
+inline const std::string& claimedName(const Presence& sample) { return sample.name; }
+inline const std::string& claimedName(const Model& sample) { return sample.agent; }
+inline const std::string& claimedName(const Interest& sample) { return sample.name; }
+inline const Id& claimedName(const Block& sample) { return sample.agent; }
+inline const std::string& claimedName(const Command& sample) { return sample.sender; }
+inline const std::string& claimedName(const Answer& sample) { return sample.agent; }
+inline const std::string& claimedName(const EventMessage& sample) { return sample.name; }
+
+// Stands at the entry of a participant with security: asks Fast DDS for it, hears of participants
+// that it refused, and refuses samples with a name that is not their sender's. Any thread.
+class SecurityGuard final : public DiscoveryCounter {
+    using Guid = eprosima::fastrtps::rtps::GUID_t;
+    using Dds = eprosima::fastdds::dds::DomainParticipant;
+
+public:
+    // Throws Error as SecurityIdentity.
+    SecurityGuard(const std::string& folder, const std::string& name, int domain)
+        : identity_{folder, name, domain} {}
+
+    SecurityIdentity& identity() { return identity_; }
+    // What was refused since the last call, in words.
+    std::vector<std::string> takeRefusals();
+    std::uint64_t refused() const { return refused_; }
+    // Participants found lately that are not refused and have not given a name yet.
+    std::uint32_t pending();
+
+    // What is claimed is a name, or the id of one.
+    template <class Claim>
+    bool admits(const eprosima::fastrtps::rtps::InstanceHandle_t& writer, const Claim& claim) {
+        GuidPrefix participant{};
+        for (std::size_t i = 0; i < participant.size(); ++i) participant[i] = writer.value[i];
+        if (identity_.maySpeakFor(participant, claim)) return true;
+        const bool early = std::is_same_v<Claim, Id> && !identity_.hasSpoken(participant);
+        if (!early) refuse(claim);  // else its name is still to come
+        return false;
+    }
+
+    void on_participant_discovery(
+        Dds* participant, eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
+    void onParticipantAuthentication(
+        Dds* participant, eprosima::fastrtps::rtps::ParticipantAuthenticationInfo&& info) override;
+
+private:
+    void refuse(std::string_view name);
+    void refuse(const Id& agent);
+
+    SecurityIdentity identity_;
+    Refusals refusals_;
+    std::atomic<std::uint64_t> refused_{0};
+    using Clock = std::chrono::steady_clock;
+    struct Found {
+        std::string name;  // that it gives itself, unproven
+        Clock::time_point since = Clock::now();
+        bool pending = true, refused = false, told = false;
+    };
+    std::mutex mutex_;
+    std::map<Guid, Found> found_;
+};
+
+// Asks Fast DDS for authentication, access control and encryption with the files of the folder.
+void addSecurity(const std::string& folder, eprosima::fastdds::dds::DomainParticipantQos& qos);
+
+}  // namespace cortex::comms

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/comms/mirror.hpp"
+
+#include "cortex/comms/security.hpp"
+
+#include "mirror/mirror_thread.hpp"
+
+#include <array>
+#include <atomic>
+#include <utility>
+
+#include <unistd.h>
+
+namespace cortex::comms {
+namespace {
+
+// Several of a tool may run at once, and several mirrors in one process. With security it has the
+// name that its certificate says.
+std::string ownName(const std::string& tool, const NetworkOptions& options) {
+    static std::atomic<int> made{0};
+    std::array<char, 64> host{};
+    ::gethostname(host.data(), host.size() - 1);
+    const int before = made.fetch_add(1);
+    std::string end = "." + std::to_string(::getpid());
+    if (before > 0) end += "." + std::to_string(before);
+    const std::string owner =
+        options.security.empty() ? tool : checkSecurity(options.security).agent;
+    const std::string start = owner + "@" + host.data();
+    return start.substr(0, sizeof(Sender::name) - 1 - end.size()) + end;
+}
+
+}  // namespace
+
+struct Mirror::Implementation {
+    Implementation(const std::string& tool, const NetworkOptions& options)
+        : thread{ownName(tool, options), options} {}
+
+    MirrorThread thread;
+};
+
+Mirror::Mirror(const std::string& tool, const NetworkOptions& options)
+    : implementation_{std::make_unique<Implementation>(tool, options)} {}
+
+Mirror::~Mirror() = default;
+
+const std::string& Mirror::name() const { return implementation_->thread.name(); }
+
+std::vector<AgentStatus> Mirror::agents() const {
+    return implementation_->thread.read([](MirrorState& state) {
+        std::vector<AgentStatus> list;
+        const Moment now = std::chrono::steady_clock::now();
+        for (const auto& [name, agent] : state.agents.all()) list.push_back(agent.status(now));
+        return list;
+    });
+}
+
+std::uint32_t Mirror::unheard() const {
+    return implementation_->thread.read([](MirrorState& state) { return state.agents.unheard(); });
+}
+
+bool Mirror::waitUntilComplete(Milliseconds limit) const {
+    return implementation_->thread.waitFor(
+        limit, [](MirrorState& state) { return state.everybodyIsHere(); });
+}
+
+std::shared_ptr<const Structure> Mirror::structure(const std::string& agent) const {
+    return implementation_->thread.read([&](MirrorState& state) {
+        const MirrorAgent* found = state.agents.find(agent);
+        return found != nullptr ? found->structure : nullptr;
+    });
+}
+
+std::optional<std::string> Mirror::ownerOf(std::string_view path) const {
+    return implementation_->thread.read([&](MirrorState& state) -> std::optional<std::string> {
+        const MirrorAgent* owner = state.agents.ownerOf(path);
+        if (owner == nullptr) return {};
+        return owner->model.agent();
+    });
+}
+
+std::optional<std::string> Mirror::waitForOwner(std::string_view path, Milliseconds limit) const {
+    implementation_->thread.waitFor(limit, [&](MirrorState& state) {
+        const MirrorAgent* owner = state.agents.ownerOf(path);
+        return (owner != nullptr && !owner->lost) || state.everybodyIsHere();
+    });
+    return ownerOf(path);
+}
+
+void Mirror::view(std::vector<std::string> prefixes, std::uint32_t rate) {
+    MirrorView view{std::move(prefixes), viewClass(rate)};
+    implementation_->thread.change([&](MirrorState& state) {
+        if (state.view == view) return;
+        state.view = std::move(view);
+        state.agents.view(state.view);
+    });
+}
+
+bool Mirror::waitForValues(Milliseconds limit) const {
+    return implementation_->thread.waitFor(
+        limit, [](MirrorState& state) { return state.agents.valuesComplete(state.view); });
+}
+
+AgentImage Mirror::image(const std::string& agent) const {
+    const auto tables =
+        implementation_->thread.read([&](MirrorState& state) -> std::shared_ptr<MirrorTables> {
+            const MirrorAgent* found = state.agents.find(agent);
+            return found != nullptr ? found->tables : nullptr;
+        });
+    if (!tables) return {};
+    return {tables, tables->newest()};
+}
+
+std::optional<double> Mirror::age(const std::string& agent, std::uint32_t simplex) const {
+    return implementation_->thread.read([&](MirrorState& state) -> std::optional<double> {
+        const MirrorAgent* found = state.agents.find(agent);
+        if (found == nullptr || !found->tables) return {};
+        return found->tables->age(simplex, std::chrono::steady_clock::now());
+    });
+}
+
+std::uint64_t Mirror::waitForImage(std::uint64_t last, Milliseconds limit) const {
+    std::uint64_t images = last;
+    implementation_->thread.waitFor(limit, [&](MirrorState& state) {
+        images = state.agents.images();
+        return images > last;
+    });
+    return images;
+}
+
+std::uint64_t Mirror::send(std::string_view path, std::string_view command,
+                           const Arguments& arguments, Milliseconds budget) {
+    return implementation_->thread.send(path, command, arguments, budget);
+}
+
+bool Mirror::poll(std::uint64_t number, CommandAnswer& answer) {
+    return implementation_->thread.read(
+        [&](MirrorState& state) { return state.commands.poll(number, answer); });
+}
+
+CommandAnswer Mirror::call(std::string_view path, std::string_view command,
+                           const Arguments& arguments, Milliseconds timeout) {
+    const std::uint64_t number = send(path, command, arguments, timeout);
+    CommandAnswer answer;
+    const bool answered = implementation_->thread.waitFor(
+        timeout, [&](MirrorState& state) { return state.commands.poll(number, answer); });
+    if (answered) return answer;
+    implementation_->thread.read([&](MirrorState& state) { state.commands.abandon(number); });
+    answer.outcome = Outcome::Unknown;
+    answer.why = "no answer within " + std::to_string(timeout.count()) + " ms";
+    return answer;
+}
+
+void Mirror::onEvent(std::function<void(const AgentEvent&)> listener) {
+    implementation_->thread.change(
+        [&](MirrorState& state) { state.listeners.push_back(std::move(listener)); });
+}
+
+bool Mirror::eventsComplete() const {
+    return implementation_->thread.read(
+        [](MirrorState& state) { return state.agents.eventsComplete(); });
+}
+
+std::uint64_t Mirror::refused() const { return implementation_->thread.refused(); }
+
+}  // namespace cortex::comms

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/mirror_agents.hpp"
+
+#include "wire/ids.hpp"
+#include "wire/presence_interval.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <utility>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::uint16_t major = 1;
+constexpr std::size_t mostAgents = 10'000;
+constexpr std::chrono::seconds forgottenAfter{61};
+
+// Own simplexes of an agent that a view shows.
+template <class Visit>
+void forShown(const Structure& structure, const MirrorView& view, Visit visit) {
+    for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
+        const SimplexInfo& info = structure.simplexes[i];
+        if (!info.remote && view.shows(info.path)) visit(i);
+    }
+}
+
+bool showsAny(const Structure& structure, const MirrorView& view) {
+    bool any = false;
+    forShown(structure, view, [&](std::uint32_t) { any = true; });
+    return any;
+}
+
+// 0: it does not say.
+std::uint64_t numberIn(const Presence& presence, std::string_view name) {
+    std::uint64_t number = 0;
+    for (const Extra& extra : presence.extras) {
+        if (extra.name != name) continue;
+        std::from_chars(extra.value.data(), extra.value.data() + extra.value.size(), number);
+    }
+    return number;
+}
+
+}  // namespace
+
+bool MirrorAgent::foreign() const {
+    return present() && std::ranges::count(model.presence()->majors, major) == 0;
+}
+
+std::chrono::nanoseconds MirrorAgent::patience() const {
+    return std::chrono::nanoseconds{present() ? patienceWith(*model.presence()) : shortestPatience};
+}
+
+AgentStatus MirrorAgent::status(Moment now) const {
+    AgentStatus status;
+    status.name = model.agent();
+    status.epoch = model.epoch();
+    status.age = std::chrono::duration<double>(now - heard).count();
+    status.missing = model.missing();
+    status.cycle = cycle;
+    status.loss = eventLoss + (tables ? tables->loss() : 0);
+    if (present()) {
+        const Presence& presence = *model.presence();
+        status.host = presence.host;
+        status.state = presence.state;
+        status.types = presence.types;
+        status.simplexes = presence.simplexes;
+        status.period = presence.period;
+        status.security = presence.security;
+    }
+    if (foreign()) {
+        status.trouble = "it speaks none of the protocols that this program knows";
+    } else if (!model.findings().ok()) {
+        status.trouble = model.findings().findings.front().text();
+    }
+    const bool whole = present() && !foreign() && model.complete() && status.trouble.empty();
+    if (!whole) status.state = "incomplete";
+    if (lost) status.state = "lost";
+    return status;
+}
+
+// Null: it is refused, or was sent by an earlier start while a later one is heard.
+MirrorAgent* MirrorAgents::at(const std::string& name, std::int64_t epoch, Moment now) {
+    const auto found = agents_.find(name);
+    if (found != agents_.end()) {
+        if (epoch == found->second.model.epoch()) return &found->second;
+        if (epoch < found->second.model.epoch() && !found->second.lost) return nullptr;
+        lose(found->second, "another start of it has taken its place");
+        if (found->second.tables) forgottenImages_ += found->second.tables->published();
+        std::optional<PeerModel> aside = takeAside(name, epoch);
+        aside_.insert_or_assign(name, std::move(found->second.model));
+        found->second = MirrorAgent{name, epoch, now};
+        if (aside) found->second.model = std::move(*aside);
+        return &found->second;
+    }
+    if (name.empty() || agents_.size() >= mostAgents) {
+        ++refused_;
+        return nullptr;
+    }
+    names_[agentId(name)] = name;
+    MirrorAgent& agent = agents_.try_emplace(name, name, epoch, now).first->second;
+    if (std::optional<PeerModel> aside = takeAside(name, epoch)) agent.model = std::move(*aside);
+    return &agent;
+}
+
+std::optional<PeerModel> MirrorAgents::takeAside(const std::string& name, std::int64_t epoch) {
+    const auto found = aside_.find(name);
+    if (found == aside_.end() || found->second.epoch() != epoch) return {};
+    std::optional<PeerModel> model = std::move(found->second);
+    aside_.erase(found);
+    return model;
+}
+
+// Models come once: what an earlier start says is kept for when the later one is lost.
+void MirrorAgents::setAside(const Model& model) {
+    if (!agents_.contains(model.agent)) return;
+    auto place = aside_.try_emplace(model.agent, model.agent, model.epoch).first;
+    if (place->second.epoch() < model.epoch) place->second = PeerModel{model.agent, model.epoch};
+    place->second.add(model);
+}
+
+// It may only have been cut off, and DDS does not say again what has come.
+void MirrorAgents::forget(MirrorAgent& agent) {
+    const std::string name = agent.model.agent();
+    if (aside_.size() < mostAgents) aside_.insert_or_assign(name, std::move(agent.model));
+}
+
+void MirrorAgents::take(const Presence& presence, Moment now) {
+    if (presence.role != "agent") {
+        if (presence.state == "stopping") {
+            tools_.erase(presence.agent);
+        } else if (tools_.size() < mostAgents) {
+            tools_[presence.agent] = now;
+        }
+        return;
+    }
+    MirrorAgent* agent = at(presence.name, presence.epoch, now);
+    if (agent == nullptr || !agent->model.add(presence)) return;
+    finish(*agent);
+    if (presence.state == "stopping") return lose(*agent, "the agent has ended");
+    if (presence.state == "silent") return lose(*agent, "a later start of it has its name");
+    agent->heard = now;
+    agent->lost = agent->missed = false;
+    agent->cycle = std::max(agent->cycle, presence.cycle);
+}
+
+void MirrorAgents::take(const Model& model, Moment now) {
+    MirrorAgent* agent = at(model.agent, model.epoch, now);
+    if (agent == nullptr) return setAside(model);
+    if (agent->model.add(model)) finish(*agent);
+}
+
+void MirrorAgents::take(const Block& block, const MirrorView& view, Moment now) {
+    const auto name = names_.find(block.agent);
+    MirrorAgent* agent = name != names_.end() ? find(name->second) : nullptr;
+    if (agent == nullptr || !agent->tables || view.prefixes.empty()) return;
+    if (!agent->tables->apply(block, now)) return;
+    agent->heard = now;
+    agent->lost = agent->missed = false;
+    agent->cycle = std::max(agent->cycle, block.cycle);
+}
+
+std::optional<AgentEvent> MirrorAgents::take(const EventMessage& message) {
+    const auto severity = severityFromName(message.severity);
+    if (message.agent != agentId(message.name) || !severity) {
+        ++refused_;
+        return {};
+    }
+    if (newestEvents_.size() < mostAgents || newestEvents_.contains(message.name)) {
+        auto& newest = newestEvents_[message.name];
+        newest = std::max(newest, {message.epoch, message.number});
+    }
+    MirrorAgent* agent = find(message.name);
+    if (agent != nullptr && agent->model.epoch() == message.epoch) {
+        if (agent->lastEvent != 0 && message.number > agent->lastEvent + 1) {
+            agent->eventLoss += message.number - agent->lastEvent - 1;
+        }
+        agent->lastEvent = std::max(agent->lastEvent, message.number);
+    }
+    return AgentEvent{message.name, message.epoch, message.number, message.cycle, message.wallClock,
+                      *severity,    message.kind,  message.path,   message.text};
+}
+
+// A structure once it is complete, tables once it is viewed.
+void MirrorAgents::finish(MirrorAgent& agent) {
+    if (agent.foreign() || !agent.model.complete()) return;
+    const auto structure = agent.model.structure();
+    if (structure == agent.structure) return;
+    agent.structure = structure;
+    agent.commands.reset();
+    if (agent.tables) forgottenImages_ += agent.tables->published();
+    agent.tables.reset();
+}
+
+void MirrorAgents::withdraw(const Id& agent) {
+    tools_.erase(agent);
+    const auto name = names_.find(agent);
+    MirrorAgent* found = name != names_.end() ? find(name->second) : nullptr;
+    if (found != nullptr) lose(*found, "the agent has ended");
+}
+
+void MirrorAgents::lose(MirrorAgent& agent, const char* why) {
+    if (std::exchange(agent.lost, true)) return;
+    if (agent.tables) agent.tables->lose();
+    onLost_(agent, why);
+}
+
+void MirrorAgents::tick(const MirrorView& view, Moment now) {
+    std::erase_if(tools_, [&](const auto& each) {
+        return now - each.second > std::chrono::nanoseconds{shortestPatience};
+    });
+    for (auto each = agents_.begin(); each != agents_.end();) {
+        MirrorAgent& agent = each->second;
+        if (!agent.lost && now - agent.heard > agent.patience()) {
+            lose(agent, "the agent is not heard");
+            agent.missed = true;
+        }
+        if (now - agent.heard > forgottenAfter) {
+            if (agent.tables) forgottenImages_ += agent.tables->published();
+            names_.erase(agentId(each->first));
+            forget(agent);
+            each = agents_.erase(each);
+            continue;
+        }
+        if (agent.structure && !agent.tables && showsAny(*agent.structure, view)) {
+            const Id& hash = agent.model.presence()->structureHash;
+            agent.tables = std::make_shared<MirrorTables>(agent.structure, hash);
+        }
+        if (agent.tables && !view.prefixes.empty()) {
+            agent.tables->markStale(now, view.patience(agent.model.presence()->period));
+        }
+        ++each;
+    }
+}
+
+void MirrorAgents::view(const MirrorView& view) {
+    for (auto& [name, agent] : agents_) {
+        if (!agent.tables) continue;
+        if (showsAny(*agent.structure, view)) {
+            agent.tables->restart(view);
+        } else {
+            forgottenImages_ += agent.tables->published();
+            agent.tables.reset();
+        }
+    }
+}
+
+MirrorAgent* MirrorAgents::find(std::string_view name) {
+    const auto found = agents_.find(name);
+    return found != agents_.end() ? &found->second : nullptr;
+}
+
+MirrorAgent* MirrorAgents::ownerOf(std::string_view path) {
+    MirrorAgent* owner = nullptr;
+    for (auto& [name, agent] : agents_) {
+        if (!agent.structure) continue;
+        const std::uint32_t index = agent.structure->find(path);
+        if (index == noSimplex || agent.structure->simplexes[index].remote) continue;
+        const bool before =
+            owner == nullptr || (owner->lost && !agent.lost) ||
+            (owner->lost == agent.lost && agent.model.epoch() < owner->model.epoch());
+        if (before) owner = &agent;
+    }
+    return owner;
+}
+
+std::uint32_t MirrorAgents::present() const {
+    const auto heard = std::ranges::count_if(
+        agents_, [](const auto& each) { return each.second.present() && !each.second.lost; });
+    return static_cast<std::uint32_t>(static_cast<std::size_t>(heard) + tools_.size());
+}
+
+bool MirrorAgents::missesAny() const {
+    return std::ranges::any_of(agents_, [](const auto& each) { return each.second.missed; });
+}
+
+bool MirrorAgents::complete() const {
+    return !agents_.empty() &&
+           std::ranges::all_of(agents_, [](const auto& each) { return each.second.settled(); });
+}
+
+std::uint32_t MirrorAgents::unheard() const {
+    std::uint64_t here = 0, most = 0;
+    for (const auto& [name, agent] : agents_) {
+        if (!agent.present() || agent.lost) continue;
+        ++here;
+        most = std::max(most, numberIn(*agent.model.presence(), agentsHeard));
+    }
+    return most > here
+               ? static_cast<std::uint32_t>(std::min(most - here, std::uint64_t{mostAgents}))
+               : 0;
+}
+
+// They come in order; perhaps before the agent is known.
+bool MirrorAgents::eventsComplete() const {
+    return std::ranges::all_of(agents_, [&](const auto& each) {
+        const auto& [name, agent] = each;
+        if (agent.lost || !agent.present()) return true;
+        const std::uint64_t last = numberIn(*agent.model.presence(), eventsWritten);
+        const auto newest = newestEvents_.find(name);
+        return last == 0 || (newest != newestEvents_.end() &&
+                             newest->second >= std::pair{agent.model.epoch(), last});
+    });
+}
+
+bool MirrorAgents::valuesComplete(const MirrorView& view) const {
+    bool all = true;
+    for (const auto& [name, agent] : agents_) {
+        if (agent.lost || !agent.structure) continue;
+        forShown(*agent.structure, view, [&](std::uint32_t simplex) {
+            all = all && agent.tables && agent.tables->received(simplex);
+        });
+    }
+    return all;
+}
+
+std::uint64_t MirrorAgents::images() const {
+    std::uint64_t count = forgottenImages_;
+    for (const auto& [name, agent] : agents_) {
+        if (agent.tables) count += agent.tables->published();
+    }
+    return count;
+}
+
+std::uint64_t MirrorAgents::refused() const {
+    std::uint64_t count = refused_;
+    for (const auto& [name, agent] : agents_) {
+        count += agent.model.refused() + (agent.tables ? agent.tables->refused() : 0);
+    }
+    return count;
+}
+
+}  // namespace cortex::comms

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/comms/mirror.hpp"
+#include "cortex/core/command_exchange.hpp"
+
+#include "mirror/mirror_tables.hpp"
+#include "peers/peer_model.hpp"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace cortex::comms {
+
+// One start of one agent.
+struct MirrorAgent {
+    MirrorAgent(const std::string& name, std::int64_t epoch, Moment now)
+        : model{name, epoch}, heard{now} {}
+
+    PeerModel model;
+    Moment heard;                                   // last
+    bool lost = false, missed = false;              // missed: lost without a word
+    std::int64_t cycle = 0;                         // newest
+    std::shared_ptr<const Structure> structure;     // once it is complete
+    std::shared_ptr<const CommandTables> commands;  // once one was sent
+    std::shared_ptr<MirrorTables> tables;           // once it is viewed
+    std::uint64_t lastEvent = 0, eventLoss = 0;
+
+    bool present() const { return model.presence().has_value(); }
+    // It speaks no protocol that we do; there is no more of it than its presence.
+    bool foreign() const;
+    bool settled() const { return lost || foreign() || (present() && model.complete()); }
+    std::chrono::nanoseconds patience() const;  // that a silence may last
+    AgentStatus status(Moment now) const;
+};
+
+// The agents of the domain: of the starts of a name that are heard the greater epoch wins; what
+// is silent for longer than it said is lost, and forgotten after a minute. Used under the mirror's
+// mutex.
+class MirrorAgents {
+public:
+    using Map = std::map<std::string, MirrorAgent, std::less<>>;
+    // Called for each start of an agent that is lost, withdrawn or replaced.
+    using OnLost = std::function<void(const MirrorAgent& agent, const char* why)>;
+
+    explicit MirrorAgents(OnLost onLost) : onLost_{std::move(onLost)} {}
+
+    void take(const Presence& presence, Moment now);
+    void take(const Model& model, Moment now);
+    void take(const Block& block, const MirrorView& view, Moment now);
+    // What listeners are to be told; none: it is refused.
+    std::optional<AgentEvent> take(const EventMessage& message);
+    void withdraw(const Id& agent);
+    void tick(const MirrorView& view, Moment now);
+    void view(const MirrorView& view);  // another one from now on
+
+    Map& all() { return agents_; }
+    const Map& all() const { return agents_; }
+    MirrorAgent* find(std::string_view name);
+    MirrorAgent* ownerOf(std::string_view path);  // null: nobody's
+    std::uint32_t present() const;                // agents and tools that are heard
+    bool missesAny() const;                       // that are lost without a word
+    bool complete() const;                        // somebody is there, and all of everybody
+    std::uint32_t unheard() const;                // agents: so many more one of them hears
+    bool eventsComplete() const;                  // all that those who are heard have written
+    bool valuesComplete(const MirrorView& view) const;
+    std::uint64_t images() const;  // published, of all together
+    std::uint64_t refused() const;
+
+private:
+    MirrorAgent* at(const std::string& name, std::int64_t epoch, Moment now);
+    std::optional<PeerModel> takeAside(const std::string& name, std::int64_t epoch);
+    void setAside(const Model& model);
+    void forget(MirrorAgent& agent);
+    void lose(MirrorAgent& agent, const char* why);
+    void finish(MirrorAgent& agent);
+
+    OnLost onLost_;
+    Map agents_;
+    std::map<std::string, PeerModel, std::less<>> aside_;  // of a start that may be alive
+    std::map<Id, Moment> tools_;
+    std::map<Id, std::string> names_;
+    std::map<std::string, std::pair<std::int64_t, std::uint64_t>, std::less<>>
+        newestEvents_;  // epoch and number, by agent
+    std::uint64_t refused_ = 0, forgottenImages_ = 0;
+};
+
+}  // namespace cortex::comms

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/mirror_commands.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "wire/ids.hpp"
+#include "wire/named_values.hpp"
+#include "wire/presence_interval.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::size_t keptNumbers = 1000;
+constexpr std::chrono::milliseconds longestPause{200};
+// An answer that was not heard by then: the agent has let the command expire, and said so in vain.
+constexpr std::chrono::seconds grace{1};
+
+// An agent that speaks more seldom than ten times a second has gone on since its newest cycle was
+// heard: for so long, without the tenth of a second that all commands wait.
+std::int64_t unheardOf(const MirrorAgent& agent, Moment now) {
+    const std::int64_t silence =
+        std::min((now - agent.heard).count(), agent.model.presence()->interval);
+    return std::clamp(silence - shortestInterval, std::int64_t{0}, longestInterval);
+}
+
+}  // namespace
+
+std::uint64_t MirrorCommands::send(MirrorAgent& agent, std::string_view path,
+                                   std::string_view command,
+                                   const CommandClient::Arguments& arguments,
+                                   std::chrono::nanoseconds budget, Moment now) {
+    if (!agent.commands) agent.commands = std::make_shared<CommandTables>(agent.structure);
+    const CommandTables& tables = *agent.commands;
+    const std::string& name = agent.model.agent();
+    Target& target = targets_.try_emplace(name, sender_).first->second;
+    const std::int64_t period = std::max<std::int64_t>(agent.model.presence()->period, 1);
+    const std::int64_t cycles = std::max<std::int64_t>(budget.count() / period, 1);
+    const PreparedCommand prepared = target.client.prepare(
+        tables, path, command, arguments, agent.cycle + unheardOf(agent, now) / period + cycles);
+    const OutsideCommand& head = prepared.message;
+    numbers_[next_] = {name, head.sequence};
+    if (numbers_.size() > keptNumbers) numbers_.erase(numbers_.begin());
+    if (prepared.open && agent.lost) {
+        target.client.take(head.sequence, Outcome::Expired, Reason::None,
+                           "agent " + name + " is not heard: it was not sent", 0, {});
+    }
+    if (!prepared.open || agent.lost) return next_++;
+
+    Pending pending;
+    Command& message = pending.message;
+    message.link = linkId(sender_.nameText(), name);
+    message.sender = sender_.nameText();
+    message.host = sender_.host.data();
+    message.senderEpoch = sender_.epoch;
+    message.target = name;
+    message.targetEpoch = head.targetEpoch;
+    message.sequenceNumber = head.sequence;
+    message.answeredBelow = head.answeredBelow;
+    message.notAfter = head.notAfter;
+    message.path = path;
+    message.command = command;
+    message.arguments =
+        namedValues(argumentsOf(tables.of(head.simplex), head.command, prepared.request()));
+    pending.next = now;
+    pending.end = now + budget + grace;
+    target.pending[head.sequence] = std::move(pending);
+    return next_++;
+}
+
+bool MirrorCommands::poll(std::uint64_t number, CommandAnswer& answer) {
+    const auto found = numbers_.find(number);
+    if (found == numbers_.end()) return false;
+    Target& target = targets_.at(found->second.agent);
+    if (!target.client.poll(found->second.sequence, answer)) return false;
+    const auto latency = target.latencies.find(found->second.sequence);
+    answer.latency =
+        latency != target.latencies.end() ? latency->second : std::chrono::nanoseconds{0};
+    if (latency != target.latencies.end()) target.latencies.erase(latency);
+    numbers_.erase(found);
+    return true;
+}
+
+void MirrorCommands::abandon(std::uint64_t number) {
+    const auto found = numbers_.find(number);
+    if (found == numbers_.end()) return;
+    targets_.at(found->second.agent).client.abandon(found->second.sequence);
+    numbers_.erase(found);
+}
+
+void MirrorCommands::take(const Answer& answer) {
+    if (answer.sender != sender_.nameText() || answer.senderEpoch != sender_.epoch) return;
+    const auto found = targets_.find(answer.agent);
+    if (found == targets_.end()) return;
+    Target& target = found->second;
+    const auto pending = target.pending.find(answer.sequenceNumber);
+    if (pending == target.pending.end()) return;  // a repeat
+    const auto outcome = outcomeFromName(answer.outcome);
+    const auto reason = reasonFromName(answer.reason);
+    auto response = valuesOf(answer.response);
+    if (answer.epoch != pending->second.message.targetEpoch || !outcome || !reason || !response ||
+        *outcome == Outcome::None) {
+        ++refused_;
+        return;
+    }
+    pending->second.running = *outcome == Outcome::Running;
+    target.client.take(answer.sequenceNumber, *outcome, *reason, answer.why, answer.latencyCycles,
+                       std::move(*response));
+    if (pending->second.running) return;
+    target.pending.erase(pending);
+    target.latencies[answer.sequenceNumber] = std::chrono::nanoseconds{answer.latency};
+    if (target.latencies.size() > keptNumbers) target.latencies.erase(target.latencies.begin());
+}
+
+void MirrorCommands::tick(Moment now, const Write& write) {
+    for (auto& [name, target] : targets_) {
+        for (auto each = target.pending.begin(); each != target.pending.end();) {
+            Pending& pending = each->second;
+            if (pending.running || now < pending.next) {
+                ++each;
+                continue;
+            }
+            if (now >= pending.end) {
+                target.client.take(each->first, Outcome::Unknown, Reason::None,
+                                   "no answer within the time that the command had", 0, {});
+                each = target.pending.erase(each);
+                continue;
+            }
+            write(pending.message);
+            pending.next = std::min(now + pending.pause, pending.end);
+            pending.pause = std::min(2 * pending.pause, longestPause);
+            ++each;
+        }
+    }
+}
+
+void MirrorCommands::lose(const std::string& agent, const char* why) {
+    const auto found = targets_.find(agent);
+    if (found == targets_.end()) return;
+    found->second.pending.clear();
+    found->second.client.loseAll(why);
+}
+
+bool MirrorCommands::waiting() const {
+    return std::ranges::any_of(targets_,
+                               [](const auto& each) { return !each.second.pending.empty(); });
+}
+
+}  // namespace cortex::comms

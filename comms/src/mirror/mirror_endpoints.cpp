@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/mirror_endpoints.hpp"
+
+#include "security/security_identity.hpp"
+#include "wire/ids.hpp"
+#include "wire/presence_interval.hpp"
+
+#include <utility>
+
+namespace cortex::comms {
+namespace {
+
+const Topic& viewTopic(std::uint32_t rate) {
+    switch (rate) {
+        case 5:
+            return topics::view5;
+        case 30:
+            return topics::view30;
+        case 100:
+            return topics::view100;
+        default:
+            return topics::viewEvery;
+    }
+}
+
+Presence presenceOf(const Sender& tool) {
+    Presence presence;
+    presence.name = tool.nameText();
+    presence.agent = agentId(presence.name);
+    presence.host = tool.host.data();
+    presence.epoch = tool.epoch;
+    presence.role = "tool";
+    presence.state = "running";
+    presence.majors = {1};
+    presence.interval = shortestInterval;
+    return presence;
+}
+
+}  // namespace
+
+MirrorEndpoints::MirrorEndpoints(const NetworkOptions& options, const Sender& tool,
+                                 MirrorInbox& inbox)
+    : tool_{tool},
+      inbox_{inbox},
+      participant_{options, std::string{tool.nameText()}, Participant::Speaks::WhenTold},
+      self_{presenceOf(tool)} {
+    if (participant_.identity() != nullptr) self_.security = securityOn;
+    presences_ = participant_.reader<Presence>(
+        topics::presence, [this](Presence&& sample) { inbox_.push(std::move(sample)); },
+        [this](const Id& agent) { inbox_.push(Withdrawn{agent}); });
+    models_ = participant_.reader<Model>(
+        topics::model, [this](Model&& sample) { inbox_.push(std::move(sample)); });
+    participant_.speak();
+}
+
+MirrorEndpoints::~MirrorEndpoints() {
+    participant_.stopListening();
+    if (!presence_) return;
+    self_.state = "stopping";
+    presence_->write(self_);
+    presence_->dispose(self_);
+}
+
+// Before anything of us can matter to an agent: that we are here.
+void MirrorEndpoints::speak() {
+    if (presence_) return;
+    presence_ = participant_.writer<Presence>(topics::presence);
+    presence_->write(self_);
+}
+
+void MirrorEndpoints::view(const MirrorView& view) {
+    if (view == view_) return;
+    const bool looks = !view.prefixes.empty();
+    if (!looks || view.rate != view_.rate) blocks_.reset();
+    view_ = view;
+    if (looks && !blocks_) {
+        speak();
+        blocks_ = participant_.reader<Block>(
+            viewTopic(view.rate), [this](Block&& sample) { inbox_.push(std::move(sample)); });
+    }
+    if (looks && !interests_) interests_ = participant_.writer<Interest>(topics::interest);
+    if (!interests_) return;
+    Interest interest;
+    interest.agent = self_.agent;
+    interest.name = self_.name;
+    interest.epoch = self_.epoch;
+    if (looks) interest.views.push_back({view.rate, view.prefixes});
+    interests_->write(interest);
+}
+
+void MirrorEndpoints::command() {
+    if (commands_) return;
+    speak();
+    answers_ = participant_.reader<Answer>(
+        topics::answerTo(self_.name), [this](Answer&& sample) { inbox_.push(std::move(sample)); });
+    commands_ = participant_.writer<Command>(topics::command);
+}
+
+bool MirrorEndpoints::write(const Command& command) {
+    if (participant_.identity() == nullptr) return commands_->write(command);
+    Command proven = command;
+    participant_.identity()->sign(proven);
+    return commands_->write(proven);
+}
+
+void MirrorEndpoints::listen() {
+    if (events_) return;
+    events_ = participant_.reader<EventMessage>(
+        topics::event, [this](EventMessage&& sample) { inbox_.push(std::move(sample)); });
+}
+
+void MirrorEndpoints::tell(const MirrorAgents& agents, Moment now) {
+    if (presence_ && (now - spoke_).count() >= self_.interval) {
+        self_.interval = intervalAmong(presence_->readers());
+        presence_->write(self_);
+        spoke_ = now;
+    }
+    if (agents.missesAny()) participant_.announce();
+}
+
+}  // namespace cortex::comms

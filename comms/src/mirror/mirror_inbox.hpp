@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mirror/mirror_view.hpp"
+#include "wire/messages.hpp"
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <variant>
+#include <vector>
+
+namespace cortex::comms {
+
+// The presence of this agent was withdrawn.
+struct Withdrawn {
+    Id agent;
+};
+
+using MirrorSample = std::variant<Presence, Model, Block, Answer, EventMessage, Withdrawn>;
+
+// Samples on their way from the threads of DDS to the mirror's; bounded. Any thread.
+class MirrorInbox {
+public:
+    void push(MirrorSample sample);
+    void wake();  // take() returns
+    // What has come, in order; waits for something until `limit`.
+    std::vector<MirrorSample> take(Moment limit);
+    std::uint64_t dropped() const;  // for lack of room
+
+private:
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<MirrorSample> samples_;
+    std::size_t blocks_ = 0;
+    bool woken_ = false;
+    std::uint64_t dropped_ = 0;
+};
+
+}  // namespace cortex::comms

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/mirror_tables.hpp"
+
+#include "wire/simplex_values.hpp"
+
+#include <utility>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::uint32_t imageReaders = 16;
+
+}  // namespace
+
+MirrorTables::MirrorTables(std::shared_ptr<const Structure> structure, const Id& structureHash)
+    : structure_{std::move(structure)},
+      structureHash_{structureHash},
+      tables_{structure_},
+      images_{tables_, imageReaders},
+      simplexes_(structure_->simplexes.size()) {
+    for (std::uint32_t i = 0; i < simplexes_.size(); ++i) degrade(i, Quality::Lost);
+    images_.publish(0, 0, 0);
+}
+
+bool MirrorTables::apply(const Block& block, Moment now) {
+    if (block.epoch != structure_->epoch || block.structureHash != structureHash_) {
+        ++refused_;
+        return false;
+    }
+    if (last_ != 0 && block.sequenceNumber > last_ + 1) {
+        loss_ += block.sequenceNumber - last_ - 1;
+        markStale(Moment::max(), {});
+    }
+    last_ = block.sequenceNumber;
+    for (const SimplexData& each : block.simplexes) {
+        if (!applySimplex(each, block, now)) ++refused_;
+    }
+    cycle_ = block.cycle;
+    nominalTime_ = block.nominalTime;
+    wallClock_ = block.wallClock;
+    publish();
+    return true;
+}
+
+bool MirrorTables::applySimplex(const SimplexData& data, const Block& block, Moment now) {
+    if (data.index >= simplexes_.size()) return false;
+    const SimplexInfo& info = structure_->simplexes[data.index];
+    if (info.remote || !fits(data, *info.layout)) return false;
+    const Slice slice = tables_.live(data.index);
+    // A cycle that is said again does not become newer.
+    const bool known = simplexes_[data.index].received && slice.state->quality != Quality::Lost;
+    if (known && block.cycle == cycle_) return true;
+    storeValues(data, *info.layout, slice);
+    if (data.cause >= simplexes_.size()) slice.state->cause = noSimplex;
+    const double before = static_cast<double>(block.nominalTime) - static_cast<double>(data.time);
+    simplexes_[data.index] = {true, now, before * 1e-9};
+    return true;
+}
+
+// False: its quality is as bad already.
+bool MirrorTables::degrade(std::uint32_t simplex, Quality quality) {
+    SlotState& state = *tables_.live(simplex).state;
+    if (state.quality >= quality) return false;
+    state.quality = quality;
+    state.cause = simplex;
+    return true;
+}
+
+void MirrorTables::markStale(Moment now, std::chrono::nanoseconds patience) {
+    bool changed = false;
+    for (std::uint32_t i = 0; i < simplexes_.size(); ++i) {
+        if (!simplexes_[i].received || now - patience < simplexes_[i].when) continue;
+        changed = degrade(i, Quality::Stale) || changed;
+    }
+    if (changed) publish();
+}
+
+void MirrorTables::lose() {
+    bool changed = false;
+    for (std::uint32_t i = 0; i < simplexes_.size(); ++i) {
+        changed = degrade(i, Quality::Lost) || changed;
+    }
+    if (changed) publish();
+}
+
+void MirrorTables::restart(const MirrorView& view) {
+    last_ = 0;
+    for (std::uint32_t i = 0; i < simplexes_.size(); ++i) {
+        if (view.shows(structure_->simplexes[i].path)) continue;
+        simplexes_[i].received = false;
+        degrade(i, Quality::Lost);
+    }
+    publish();
+}
+
+std::optional<double> MirrorTables::age(std::uint32_t simplex, Moment now) const {
+    if (simplex >= simplexes_.size() || !simplexes_[simplex].received) return {};
+    const Arrival& arrival = simplexes_[simplex];
+    const std::chrono::duration<double> since = now - arrival.when;
+    return since.count() + arrival.before;
+}
+
+void MirrorTables::publish() {
+    ++published_;
+    images_.publish(cycle_, nominalTime_, wallClock_);
+}
+
+}  // namespace cortex::comms

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/image.hpp"
+#include "cortex/core/tables.hpp"
+
+#include "mirror/mirror_view.hpp"
+#include "wire/messages.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace cortex::comms {
+
+// The values of one agent's simplexes, filled from the blocks of one view stream and shown as
+// images. What has not come is `lost`, what should have come again is `stale`. The mirror's thread
+// writes, any thread takes images.
+class MirrorTables {
+public:
+    MirrorTables(std::shared_ptr<const Structure> structure, const Id& structureHash);
+
+    const Structure& structure() const { return *structure_; }
+    // False: refused, it is not of this structure. Of a block that is, each simplex is applied
+    // whole or, where it does not fit its layout, not at all.
+    bool apply(const Block& block, Moment now);
+    void markStale(Moment now, std::chrono::nanoseconds patience);
+    void lose();  // the agent is not heard
+    // Another stream: sequence numbers begin anew, what it does not show is lost.
+    void restart(const MirrorView& view);
+
+    Image newest() { return images_.newest(); }
+    bool received(std::uint32_t simplex) const { return simplexes_[simplex].received; }
+    std::optional<double> age(std::uint32_t simplex, Moment now) const;  // s
+    std::uint64_t published() const { return published_; }
+    std::uint64_t loss() const { return loss_; }        // blocks that did not come
+    std::uint64_t refused() const { return refused_; }  // blocks and simplexes in them
+
+private:
+    struct Arrival {
+        bool received = false;
+        Moment when;
+        double before = 0;  // s from the measurement to the block
+    };
+    bool applySimplex(const SimplexData& data, const Block& block, Moment now);
+    bool degrade(std::uint32_t simplex, Quality quality);
+    void publish();
+
+    std::shared_ptr<const Structure> structure_;
+    Id structureHash_;
+    Tables tables_;
+    ImagePool images_;
+    std::vector<Arrival> simplexes_;
+    std::uint64_t last_ = 0;  // sequence number; 0: none
+    std::int64_t cycle_ = 0, nominalTime_ = 0, wallClock_ = 0;
+    std::uint64_t published_ = 0, loss_ = 0, refused_ = 0;
+};
+
+}  // namespace cortex::comms

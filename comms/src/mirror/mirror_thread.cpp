@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/mirror_thread.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include <exception>
+#include <utility>
+#include <variant>
+
+namespace cortex::comms {
+namespace {
+
+constexpr std::chrono::milliseconds quiet{100};
+constexpr std::chrono::milliseconds tick{20};
+constexpr std::chrono::milliseconds shortTick{5};  // while something is waited for
+
+[[noreturn]] void throwNoSuchPath(const MirrorState& state, std::string_view path) {
+    std::vector<std::string> paths;
+    for (const auto& [name, agent] : state.agents.all()) {
+        if (!agent.structure) continue;
+        for (const SimplexInfo& info : agent.structure->simplexes) {
+            if (!info.remote) paths.push_back(info.path);
+        }
+    }
+    const std::string nearest = nearestNames(path, paths);
+    throw Error("no agent has a simplex " + std::string{path} +
+                (nearest.empty() ? "" : "; " + nearest));
+}
+
+}  // namespace
+
+bool MirrorState::everybodyIsHere() const {
+    return std::chrono::steady_clock::now() - news >= quiet && agents.complete() &&
+           agents.present() >= speakers && agents.unheard() == 0;
+}
+
+MirrorThread::MirrorThread(const std::string& name, const NetworkOptions& options)
+    : name_{name},
+      tool_{makeSender(name)},
+      state_{tool_},
+      endpoints_{options, tool_, inbox_},
+      thread_{[this] { run(); }} {}
+
+MirrorThread::~MirrorThread() {
+    change([](MirrorState& state) { state.stopping = true; });
+    thread_.join();
+}
+
+void MirrorThread::run() {
+    try {
+        while (turn()) {
+        }
+    } catch (const std::exception& error) {  // the network refused an endpoint
+        const std::lock_guard lock{mutex_};
+        state_.failure = error.what();
+    }
+    changed_.notify_all();
+}
+
+// False: the mirror ends.
+bool MirrorThread::turn() {
+    const auto pause = read([](MirrorState& state) {
+        return state.commands.waiting() || !state.everybodyIsHere() ? shortTick : tick;
+    });
+    const auto samples = inbox_.take(std::chrono::steady_clock::now() + pause);
+    {
+        const std::lock_guard lock{mutex_};
+        if (state_.stopping) return false;
+        const Moment now = std::chrono::steady_clock::now();
+        for (const MirrorSample& sample : samples) take(sample, now);
+        serve(now);
+    }
+    changed_.notify_all();
+    tellListeners();
+    return true;
+}
+
+void MirrorThread::take(const MirrorSample& sample, Moment now) {
+    MirrorAgents& agents = state_.agents;
+    if (const auto* presence = std::get_if<Presence>(&sample)) {
+        agents.take(*presence, now);
+    } else if (const auto* model = std::get_if<Model>(&sample)) {
+        agents.take(*model, now);
+    } else if (const auto* block = std::get_if<Block>(&sample)) {
+        agents.take(*block, state_.view, now);
+    } else if (const auto* answer = std::get_if<Answer>(&sample)) {
+        state_.commands.take(*answer);
+    } else if (const auto* message = std::get_if<EventMessage>(&sample)) {
+        if (auto event = agents.take(*message)) events_.push_back(std::move(*event));
+    } else {
+        agents.withdraw(std::get<Withdrawn>(sample).agent);
+    }
+}
+
+void MirrorThread::serve(Moment now) {
+    state_.agents.tick(state_.view, now);
+    endpoints_.view(state_.view);
+    if (state_.commands.waiting()) endpoints_.command();
+    if (!state_.listeners.empty()) endpoints_.listen();
+    endpoints_.tell(state_.agents, now);
+    state_.commands.tick(now, [&](const Command& command) { return endpoints_.write(command); });
+    if (endpoints_.speakers() != state_.speakers) state_.news = now;
+    state_.speakers = endpoints_.speakers();
+}
+
+// Without the mutex: a listener may ask the mirror.
+void MirrorThread::tellListeners() {
+    if (events_.empty()) return;
+    const auto listeners = read([](MirrorState& state) { return state.listeners; });
+    for (const AgentEvent& event : std::exchange(events_, {})) {
+        for (const auto& listener : listeners) listener(event);
+    }
+}
+
+std::uint64_t MirrorThread::send(std::string_view path, std::string_view command,
+                                 const Mirror::Arguments& arguments, Mirror::Milliseconds budget) {
+    const std::uint64_t number = read([&](MirrorState& state) {
+        MirrorAgent* owner = state.agents.ownerOf(path);
+        if (owner == nullptr) throwNoSuchPath(state, path);
+        return state.commands.send(*owner, path, command, arguments, budget,
+                                   std::chrono::steady_clock::now());
+    });
+    inbox_.wake();
+    return number;
+}
+
+std::uint64_t MirrorThread::refused() const {
+    const std::lock_guard lock{mutex_};
+    return state_.agents.refused() + state_.commands.refused() + inbox_.dropped() +
+           endpoints_.malformed();
+}
+
+}  // namespace cortex::comms

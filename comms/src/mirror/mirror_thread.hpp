@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/comms/mirror.hpp"
+#include "cortex/core/error.hpp"
+
+#include "mirror/mirror_agents.hpp"
+#include "mirror/mirror_commands.hpp"
+#include "mirror/mirror_endpoints.hpp"
+#include "mirror/mirror_inbox.hpp"
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace cortex::comms {
+
+// All that a mirror knows and is asked for; under its mutex.
+struct MirrorState {
+    explicit MirrorState(const Sender& tool)
+        : agents{[this](const MirrorAgent& agent, const char* why) {
+              commands.lose(agent.model.agent(), why);
+          }},
+          commands{tool} {}
+
+    // Everybody who was found, or is heard by one who was, has spoken and told everything, and
+    // nobody new was found for a while.
+    bool everybodyIsHere() const;
+
+    MirrorAgents agents;
+    MirrorCommands commands;
+    MirrorView view;
+    std::vector<std::function<void(const AgentEvent&)>> listeners;
+    std::uint32_t speakers = 0;  // presences that are to come, those that have come included
+    Moment news = std::chrono::steady_clock::now();  // when the last of them was found
+    bool stopping = false;
+    std::string failure;  // why the thread has ended
+};
+
+// The mirror's thread: takes what comes, looks at the time, and writes what is to be written.
+class MirrorThread {
+public:
+    MirrorThread(const std::string& name, const NetworkOptions& options);
+    ~MirrorThread();
+
+    const std::string& name() const { return name_; }
+    std::uint64_t send(std::string_view path, std::string_view command,
+                       const Mirror::Arguments& arguments, Mirror::Milliseconds budget);
+    std::uint64_t refused() const;
+
+    template <class Function>
+    auto read(Function function) {
+        const std::lock_guard lock{mutex_};
+        return function(state_);
+    }
+    // The same, and the thread looks at it at once.
+    template <class Function>
+    void change(Function function) {
+        read(function);
+        inbox_.wake();
+    }
+    // Until `condition` holds, looked at after everything that happens. False: not within `limit`.
+    // Throws Error where the network refuses what was asked for.
+    template <class Condition>
+    bool waitFor(Mirror::Milliseconds limit, Condition condition) {
+        std::unique_lock lock{mutex_};
+        const bool held = changed_.wait_for(
+            lock, limit, [&] { return !state_.failure.empty() || condition(state_); });
+        if (!state_.failure.empty()) throw Error(state_.failure);
+        return held;
+    }
+
+private:
+    void run();
+    bool turn();
+    void take(const MirrorSample& sample, Moment now);
+    void serve(Moment now);
+    void tellListeners();
+
+    std::string name_;
+    Sender tool_;
+    MirrorInbox inbox_;
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    MirrorState state_;
+    std::vector<AgentEvent> events_;  // to tell the listeners
+    MirrorEndpoints endpoints_;
+    std::thread thread_;
+};
+
+}  // namespace cortex::comms

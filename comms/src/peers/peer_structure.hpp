@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/report.hpp"
+#include "cortex/core/structure.hpp"
+
+#include "wire/messages.hpp"
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace cortex::comms {
+
+// The structure of another agent, with the indexes and layouts that its owner has. Everything that
+// it says of its simplexes is checked; what does not hold is an error in the report.
+std::shared_ptr<Structure> buildPeerStructure(
+    const std::string& agent, TypeModel types,
+    const std::map<std::string, SimplexMessage>& simplexes, Report& report);
+
+}  // namespace cortex::comms

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "security/security_documents.hpp"
+#include "security/security_folder.hpp"
+#include "wire/messages.hpp"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cortex::comms {
+
+using GuidPrefix = std::array<std::uint8_t, 12>;  // of a participant
+
+inline constexpr const char* securityOn = "authenticated, encrypted";  // in a presence
+
+// "station@desk.42" of a tool is "station": what its certificate says.
+std::string_view certifiedName(std::string_view name);
+
+// Who a participant is and how it knows others, where security is on. Any thread.
+//
+// DDS-Security authenticates participants; 47 bits of the id of each are those of the digest of its
+// certificate's subject, which tells whether it may use a name. A command proves more: it carries
+// the list of what its sender may command, signed by the permissions authority, and a signature
+// with the key that this list names.
+class SecurityIdentity {
+public:
+    // Throws Error if the folder cannot be used, or not by that agent or tool in that domain.
+    SecurityIdentity(const std::string& folder, const std::string& name, int domain);
+
+    const SecurityFolder& folder() const { return folder_; }
+
+    bool maySpeakFor(const GuidPrefix& participant, std::string_view name);
+    // The same for the id of a name; only after a sample with the name itself.
+    bool maySpeakFor(const GuidPrefix& participant, const Id& agent);
+    bool hasSpoken(const GuidPrefix& participant);
+
+    void sign(Command& command) const;
+    // What the list of its sender says; null and `why`: it does not prove who it is.
+    std::shared_ptr<const AgentRights> rightsOf(const Command& command, std::string& why);
+
+private:
+    using Lists = std::map<std::string, std::shared_ptr<const CommandList>>;
+    std::shared_ptr<const CommandList> listOf(const std::string& smime);
+
+    SecurityFolder folder_;
+    std::mutex mutex_;
+    std::map<GuidPrefix, std::map<std::string, Id, std::less<>>> speakers_;
+    Lists lists_;  // those that were verified, by their text
+};
+
+}  // namespace cortex::comms

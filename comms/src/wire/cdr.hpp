@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "wire/messages.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+// XCDR1 (plain CDR) of the messages that are topics: Presence, Model, Block, Command, Answer and
+// EventMessage. Written little endian, read in both orders. Free of state: any thread.
+namespace cortex::comms {
+
+inline constexpr std::size_t maxTextLength = 64 * 1024;  // octets of a string
+
+template <class Message>
+std::size_t encodedSize(const Message& message);  // with the 4 octets of encapsulation
+
+// The octets written. 0: no room, or a string that is too long. A NUL ends a string.
+template <class Message>
+std::size_t encode(const Message& message, std::span<std::uint8_t> payload);
+
+// False: malformed; `message` is then of some valid value. Otherwise every field was read, and at
+// most 3 octets (padding) follow. Memory reserved is in proportion to the payload, whatever it
+// says. A message that is used again keeps its memory.
+template <class Message>
+bool decode(std::span<const std::uint8_t> payload, Message& message);
+
+}  // namespace cortex::comms

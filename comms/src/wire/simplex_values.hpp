@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/tables.hpp"
+
+#include "wire/messages.hpp"
+
+#include <cstdint>
+#include <vector>
+
+// The cyclic values of one simplex, in tables and on the wire: by kind, in the order of its layout.
+namespace cortex::comms {
+
+// Keeps the memory that `to` has.
+void readValues(std::uint32_t simplex, const TypeLayout& layout, const Slice& from,
+                SimplexData& to);
+
+// Whether it holds exactly what a simplex of this layout holds.
+bool fits(const SimplexData& data, const TypeLayout& layout);
+// What fits; a slice whose strings have their capacities (SliceMemory).
+void storeValues(const SimplexData& data, const TypeLayout& layout, const Slice& to);
+
+// A slice outside the tables, with each item's default value: the cyclic items or the constant
+// ones.
+class SliceMemory {
+public:
+    explicit SliceMemory(const TypeLayout& layout, bool constants = false);
+    SliceMemory(const SliceMemory&) = delete;
+    SliceMemory& operator=(const SliceMemory&) = delete;
+
+    const Slice& slice() const { return slice_; }
+
+private:
+    std::vector<std::uint64_t> memory_;
+    SlotState state_;
+    Slice slice_;
+};
+
+}  // namespace cortex::comms

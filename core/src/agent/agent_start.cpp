@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/agent.hpp"
+#include "cortex/core/error.hpp"
+#include "cortex/core/validation.hpp"
+
+#include "agent/router.hpp"
+#include "commands/command_port.hpp"
+#include "commands/lane.hpp"
+#include "tables/lookup.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace cortex {
+namespace {
+
+std::int64_t utcMicroseconds() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+}
+
+std::vector<std::string> namesOf(const CommandTable& table) {
+    std::vector<std::string> names;
+    for (const auto& entry : table.entries) names.emplace_back(entry.name);
+    return names;
+}
+
+// Life-cycle commands alone need no port.
+bool bypassesMailbox(const CommandTable& table) {
+    return std::ranges::all_of(table.entries, [](const CommandTable::Entry& entry) {
+        return lifeCycleCommand(entry.name) != LifeCycle::None;
+    });
+}
+
+[[noreturn]] void refuse(Finding finding) {
+    Report report;
+    report.add(std::move(finding));
+    throw ModelError(std::move(report));
+}
+
+}  // namespace
+
+AgentRuntime::AgentRuntime(std::string name, SimplexTree& tree, AgentOptions options)
+    : name_{std::move(name)}, tree_{tree}, options_{options} {
+    addAgentSimplex();
+    tree_.createRelated();
+    checkModel();
+    structure_ = makeStructure(name_, tree_);
+    structure_->epoch = utcMicroseconds();
+    tables_ = std::make_unique<Tables>(structure_);
+    images_ = std::make_unique<ImagePool>(*tables_, options_.imageReaders);
+    threads_.resize(std::max(options_.loopThreads, 1U));
+    events_ = std::make_unique<EventLog>(structure_, threadCount(), options_.eventCapacity);
+    for (std::uint32_t i = 0; i < threadCount(); ++i) {
+        threads_[i].events = &events_->ring(i);
+        threads_[i].latencyCounts.resize(latencyBuckets);
+    }
+    bindSimplexes();
+}
+
+AgentRuntime::~AgentRuntime() {
+    stop();
+    for (Simplex* simplex : simplexes_) {
+        if (simplex != nullptr) simplex->runtime_ = nullptr;
+    }
+    for (const auto& sender : senders_) sender->lane = nullptr;
+}
+
+void AgentRuntime::addAgentSimplex() {
+    const std::string path = "/" + name_;
+    const std::string wrong = SimplexTree::pathError(path);
+    if (!wrong.empty()) throw Error("agent name '" + name_ + "': " + wrong);
+    if (tree_.find(path) == nullptr) {
+        if (tree_.types().find("Agent") == nullptr) {
+            refuse({Severity::Error, path, "agent-type", Place{}, "the ontology has no type Agent",
+                    "include base.xml"});
+        }
+        tree_.add(path, "Agent");
+    }
+    const Simplex& agent = tree_.at(path);
+    if (!agent.type().isA("Agent")) {
+        refuse({Severity::Error, path, "agent-type", agent.place(),
+                "this path is the agent's own, but its type is " + agent.type().name,
+                "give it the type Agent or Cluster, or give the agent another name"});
+    }
+}
+
+void AgentRuntime::checkModel() {
+    report_ = validate(tree_);
+    if (!report_.ok()) throw ModelError(std::move(report_));
+}
+
+void AgentRuntime::bindSimplexes() {
+    const auto count = static_cast<std::uint32_t>(structure_->simplexes.size());
+    std::map<const TypeLayout*, const CommandTable*> tables;
+    simplexes_.resize(count);
+    ports_.resize(count);
+    ranks_.resize(count);
+    tableOf_.reserve(count);
+    while (firstRemote_ < count && !structure_->simplexes[firstRemote_].remote) ++firstRemote_;
+    ownerPeriods_.assign(count - firstRemote_, options_.period);
+    calls_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
+    callsLater_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const SimplexInfo& info = structure_->simplexes[i];
+        ranks_[i] = i;
+        const CommandTable*& table = tables[info.layout];
+        if (table == nullptr) {
+            commandTables_.push_back(
+                std::make_unique<CommandTable>(commandTable(*info.layout->type)));
+            table = commandTables_.back().get();
+        }
+        tableOf_.push_back(table);
+        if (info.remote) continue;
+        simplexes_[i] = &tree_.at(info.path);
+        simplexes_[i]->index_ = i;
+        simplexes_[i]->runtime_ = this;
+        if (!bypassesMailbox(*table)) portOf(i);
+    }
+    agentSimplex_ = structure_->find("/" + name_);
+    portOf(agentSimplex_);
+}
+
+CommandPort& AgentRuntime::portOf(std::uint32_t simplex) {
+    auto& port = ports_[simplex];
+    if (port == nullptr) port = std::make_unique<CommandPort>(*this, simplex, *tableOf_[simplex]);
+    return *port;
+}
+
+void AgentRuntime::addInterface(CommunicationInterface& interface) {
+    interfaces_.push_back(&interface);
+}
+
+void AgentRuntime::setCanonicalOrder(std::span<const std::uint32_t> order) {
+    auto rank = static_cast<std::uint32_t>(order.size());
+    for (std::uint32_t& each : ranks_) each = rank++;
+    for (std::uint32_t i = 0; i < order.size(); ++i) ranks_[order[i]] = i;
+}
+
+void AgentRuntime::registerHandler(std::uint32_t simplex, std::string_view command,
+                                   Handler handler) {
+    const CommandTable& table = commands(simplex);
+    const std::uint32_t index = table.find(command);
+    if (index == CommandTable::none || table.entries[index].command == nullptr) {
+        throwUnknown(structure_->simplexes[simplex].path + ": its type has no command '" +
+                         std::string{command} + "' to handle",
+                     command, namesOf(table));
+    }
+    portOf(simplex).setHandler(index, handler);
+}
+
+std::vector<std::string_view> AgentRuntime::unhandledCommands(std::uint32_t simplex) const {
+    std::vector<std::string_view> names;
+    const CommandTable& table = commands(simplex);
+    for (std::uint32_t i = 0; i < table.entries.size(); ++i) {
+        const bool builtIn = table.entries[i].command == nullptr ||
+                             lifeCycleCommand(table.entries[i].name) != LifeCycle::None;
+        if (!builtIn && !ports_[simplex]->handles(i)) names.push_back(table.entries[i].name);
+    }
+    return names;
+}
+
+CommandSender AgentRuntime::makeSender(std::uint32_t edge, std::string_view command,
+                                       std::uint32_t capacity) {
+    const SimplexInfo& target = structure_->simplexes[structure_->edges[edge].target];
+    const CommandTable& table = commands(structure_->edges[edge].target);
+    const std::uint32_t index = table.find(command);
+    const std::string what = target.path + ": command '" + std::string{command} + "'";
+    if (started_) throw Error(what + ": get its sender in populate()");
+    if (index == CommandTable::none) throwUnknown(what + " is unknown", command, namesOf(table));
+    if (target.remote) {
+        throw Error(what + ": it belongs to another agent, which takes commands from outside only");
+    }
+    if (target.layout->type->active() && target.path != "/" + name_ &&
+        lifeCycleCommand(command) != LifeCycle::None) {
+        throw Error(what + " bypasses mailboxes: use lifeCycle()");
+    }
+    if (table.entries[index].request.size > Lane::mostRequest) {
+        throw Error(what +
+                    " has more than 512 KiB of parameters, too many for a relationship; "
+                    "send it from outside, or let fewer items be settable");
+    }
+    auto state = std::make_shared<CommandSender::State>(table, index, edge, std::max(capacity, 1U));
+    senders_.push_back(state);
+    return CommandSender{std::move(state)};
+}
+
+// One lane per relationship that commands go along, in canonical order of senders.
+void AgentRuntime::makeLanes() {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<CommandSender::State*>> lanes;
+    for (const auto& sender : senders_) {
+        lanes[{rank(structure_->edges[sender->edge].owner), sender->edge}].push_back(sender.get());
+    }
+    std::vector<LaneBlock::Plan> plans;
+    for (auto& [key, handles] : lanes) {
+        const Edge& edge = structure_->edges[key.second];
+        Lane::Shape shape{
+            edge.owner, edge.target, 0, 0, 0, edge.delayed, commands(edge.target).hasLong};
+        for (std::uint16_t i = 0; CommandSender::State * handle : handles) {
+            handle->handle = i++;
+            shape.capacity += handle->capacity;
+            shape.requestSize = std::max(shape.requestSize, handle->requestSize());
+            shape.responseSize = std::max(shape.responseSize, handle->responseSize());
+        }
+        plans.push_back({shape, std::move(handles)});
+    }
+    lanes_ = std::make_unique<LaneBlock>(std::move(plans));
+    for (Lane* lane : lanes_->lanes()) {
+        CommandPort& sender = portOf(lane->shape().sender);
+        lane->setSender(sender);
+        sender.addSending(*lane);
+        portOf(lane->shape().receiver).addReceiving(*lane);
+    }
+}
+
+// The commands of a simplex without a task are executed at the start of the cycle.
+void AgentRuntime::findTaskless() {
+    for (std::uint32_t i = 0; i < ports_.size(); ++i) {
+        if (ports_[i] == nullptr) continue;
+        const bool hasTask = structure_->simplexes[i].role == Role::Active && i != agentSimplex_;
+        if (!hasTask && (ports_[i]->hasLanes() || i == agentSimplex_)) taskless_.push_back(i);
+    }
+    std::ranges::sort(taskless_, {}, [this](std::uint32_t i) { return ranks_[i]; });
+}
+
+void AgentRuntime::start() {
+    if (started_) throw Error("agent " + name_ + " is started already");
+    tables_->giveUpUnusedLatches();
+    if (lanes_ == nullptr) {  // else an interface refused to be announced to before
+        makeLanes();
+        findTaskless();
+    }
+    router_ = std::make_unique<Router>(*this);
+    const AgentAccess access{structure_, images_.get(), events_.get(), options_.period};
+    std::size_t announced = 0;
+    try {
+        for (; announced < interfaces_.size(); ++announced)
+            interfaces_[announced]->announce(access);
+    } catch (...) {  // the one that failed and those after it know no agent
+        while (announced > 0) interfaces_[--announced]->close();
+        throw;
+    }
+    started_ = true;
+    images_->publish(0, 0, utcMicroseconds() * 1000);
+    events_->start();
+}
+
+}  // namespace cortex

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/link_table.hpp"
+
+#include <algorithm>
+
+namespace cortex {
+namespace {
+
+constexpr std::int64_t stalePeriods = 3;  // missed ones
+constexpr std::int64_t toldPeriods = 20;  // fewer happen often where nothing runs in real time
+
+std::size_t octetsOf(const LinkBinding::Copy& copy) {
+    const bool octets = copy.kind == Kind::Bool || copy.kind == Kind::String;
+    return std::size_t{copy.length} * (octets ? 1U : 8U);
+}
+
+void apply(const std::vector<LinkBinding::Copy>& copies, const Slice& from, const Slice& to) {
+    for (const LinkBinding::Copy& copy : copies) {
+        copyCells(copy.kind, from.at(copy.kind, copy.from), to.at(copy.kind, copy.to),
+                  octetsOf(copy));
+    }
+}
+
+}  // namespace
+
+LinkTable::LinkTable(AgentRuntime& runtime) : runtime_{runtime} {
+    const auto& simplexes = runtime.structure().simplexes;
+    for (std::uint32_t i = 0; i < simplexes.size(); ++i) {
+        if (simplexes[i].remote) links_.push_back({i, runtime.tables().live(i)});
+    }
+    first_ = static_cast<std::uint32_t>(simplexes.size() - links_.size());
+}
+
+LinkTable::Link* LinkTable::find(std::uint32_t simplex) {
+    return simplex >= first_ && simplex - first_ < links_.size() ? &links_[simplex - first_]
+                                                                 : nullptr;
+}
+
+void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
+                     std::int64_t age) {
+    Link* link = find(simplex);
+    if (link == nullptr || !binding.usable) return;
+    apply(binding.copies, from, link->slice);
+    SlotState& state = *link->slice.state;
+    state = *from.state;
+    state.time = runtime_.wokenAt() - age;
+    state.cause = state.quality == Quality::Good ? noSimplex : simplex;
+    link->freshTime = runtime_.nominalTime();
+    link->period = std::max(binding.period, runtime_.options().period);
+    runtime_.ownerPeriods_[simplex - runtime_.firstRemote_] = link->period;
+    if (!link->bound) post(Severity::Info, simplex, "linked");
+    link->bound = true;
+    link->told = false;
+}
+
+void LinkTable::constants(std::uint32_t simplex, const LinkBinding& binding, const Slice& from) {
+    Link* link = find(simplex);
+    if (link == nullptr || !binding.usable) return;
+    apply(binding.constants, from, link->slice);
+}
+
+void LinkTable::lost(std::uint32_t simplex) {
+    Link* link = find(simplex);
+    if (link == nullptr || !link->bound) return;
+    link->bound = false;
+    link->slice.state->quality = Quality::Lost;
+    link->slice.state->cause = simplex;
+    post(Severity::Warning, simplex, "link lost: its agent is not heard");
+}
+
+void LinkTable::age() {
+    for (Link& link : links_) {
+        const std::int64_t age = runtime_.nominalTime() - link.freshTime;
+        if (!link.bound || age < stalePeriods * link.period) continue;
+        SlotState& state = *link.slice.state;
+        if (state.quality < Quality::Stale) {
+            state.quality = Quality::Stale;
+            state.cause = link.simplex;
+        }
+        if (link.told || age < toldPeriods * link.period) continue;
+        link.told = true;
+        post(Severity::Warning, link.simplex, "no fresh sample for 20 periods");
+    }
+}
+
+void LinkTable::post(Severity severity, std::uint32_t simplex, const char* text) {
+    runtime_.post(runtime_.thread(0), severity, EventKind::Agent, simplex, text);
+}
+
+}  // namespace cortex

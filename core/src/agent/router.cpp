@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/router.hpp"
+
+#include "commands/command_port.hpp"
+#include "commands/record.hpp"
+
+#include <algorithm>
+
+namespace cortex {
+namespace {
+
+constexpr std::uint32_t knownSenders = 128;
+constexpr std::int64_t longestBudget = 3'600'000'000'000;  // ns: no record is kept for longer
+
+std::uint32_t largest(const AgentRuntime& runtime, std::uint32_t CommandTable::* size) {
+    std::uint32_t result = 8;
+    for (std::uint32_t i = 0; i < runtime.structure().simplexes.size(); ++i) {
+        result = std::max(result, runtime.commands(i).*size);
+    }
+    return result;
+}
+
+}  // namespace
+
+Router::Router(AgentRuntime& runtime)
+    : runtime_{runtime},
+      structure_{runtime.structure()},
+      longestBudget_{longestBudget / std::max(runtime.options().period, std::int64_t{1})},
+      pool_(std::max(runtime.options().outsideCommands, 1U)),
+      senders_{knownSenders, largest(runtime, &CommandTable::maxResponse)},
+      leases_{runtime},
+      links_{runtime} {
+    const std::uint32_t request = largest(runtime, &CommandTable::maxRequest);
+    const std::uint32_t response = largest(runtime, &CommandTable::maxResponse);
+    records_.resize(pool_.size() * (request + response));
+    for (std::size_t i = 0; i < pool_.size(); ++i) {
+        pool_[i].request = &records_[i * (request + response)];
+        pool_[i].response = pool_[i].request + request;
+        free_.push_back(&pool_[pool_.size() - 1 - i]);
+    }
+    arrivals_.reserve(pool_.size());
+    active_.reserve(pool_.size());
+    taskless_.reserve(pool_.size());
+    for (std::size_t i = 0; i < runtime.interfaces_.size(); ++i) {
+        answers_.emplace_back(static_cast<std::uint32_t>(2 * pool_.size() + senderWindow),
+                              response);
+    }
+    findStates();
+    setControlHandlers();
+}
+
+void Router::read(std::span<CommunicationInterface* const> interfaces) {
+    taskless_.clear();
+    began_ = runtime_.thread(0).clock;
+    Lease lost;
+    while (leases_.takeExpired(cycle(), lost)) controlLost(lost, "it was not renewed for 2 s");
+    for (interface_ = 0; interface_ < interfaces.size(); ++interface_) {
+        interfaces[interface_]->read(*this);
+    }
+    links_.age();
+    deliver();
+}
+
+void Router::command(const OutsideCommand& command) {
+    Sender before;
+    std::uint32_t index = 0;
+    Verdict verdict{Outcome::Rejected, Reason::Restarted, {}};
+    if (command.targetEpoch != structure_.epoch) {
+        verdict.why.emplace("it is meant for another start of this agent");
+        return refuse(command, verdict);
+    }
+    const auto found = senders_.find(interface_, command.sender, cycle(), index, before);
+    if (found == SenderTable::Found::Older) {
+        verdict.why.emplace("a later start of its sender is known");
+        return refuse(command, verdict);
+    }
+    verdict.reason = Reason::Window;
+    if (found == SenderTable::Found::NoRoom) {
+        verdict.why.emplace("too many senders");
+        return refuse(command, verdict);
+    }
+    if (found == SenderTable::Found::Restarted) senderLost(before);
+    SenderRecord& record = senders_[index];
+    record.acknowledge(command.answeredBelow);
+    if (command.sequence < record.answeredBelow) return;  // a late repeat: its answer is known
+    if (command.sequence - record.answeredBelow >= senderWindow) {
+        verdict.why.emplace("too many of its sender are unanswered");
+        return refuse(command, verdict);
+    }
+    KeptOutcome& kept = record.kept(command.sequence);
+    if (kept.stage != Stage::Empty) return repeat(kept, command.sender);
+    verdict = {};
+    judge(command, record, verdict);
+    kept.sequence = command.sequence;
+    kept.simplex = command.simplex;
+    kept.command = command.command;
+    kept.size = 0;
+    kept.answer = {};
+    record.lastNotAfter =
+        std::max(record.lastNotAfter, std::min(command.notAfter, cycle() + longestBudget_));
+    if (verdict.outcome == Outcome::Done) {
+        kept.stage = Stage::OnItsWay;
+        ++record.onTheirWay;
+        return admit(command, index);
+    }
+    kept.stage = Stage::Final;
+    kept.answer.outcome = verdict.outcome;
+    kept.answer.reason = verdict.reason;
+    kept.answer.why = *verdict.why;
+    refuse(command, verdict);
+}
+
+// Leaves Done where the command may go on its way.
+void Router::judge(const OutsideCommand& command, const SenderRecord& sender,
+                   Verdict& verdict) const {
+    if (cycle() > command.notAfter && sender.unsure) {
+        verdict = {Outcome::Unknown, Reason::None,
+                   "its time was over when it came, and whether it had run before is forgotten"};
+    } else if (cycle() > command.notAfter) {
+        verdict = {Outcome::Expired, Reason::None, "its time was over when it came"};
+    } else if (command.notAfter - cycle() > longestBudget_) {
+        verdict = {Outcome::Rejected, Reason::Range, "its time ends later than an hour from now"};
+    } else if (command.simplex >= structure_.simplexes.size() ||
+               structure_.simplexes[command.simplex].remote ||
+               command.command >= runtime_.commands(command.simplex).entries.size()) {
+        verdict = {Outcome::Rejected, Reason::UnknownCommand, "no such command here"};
+    } else if (command.size !=
+               runtime_.commands(command.simplex).entries[command.command].request.size) {
+        verdict = {Outcome::Rejected, Reason::UnknownCommand, "its request has another size"};
+    } else if (free_.empty()) {
+        verdict = {Outcome::MailboxFull, Reason::None, "too many commands are on their way"};
+    } else {
+        authorise(command, verdict);
+    }
+}
+
+void Router::admit(const OutsideCommand& command, std::uint32_t record) {
+    OutsideEntry& entry = *free_.back();
+    free_.pop_back();
+    entry.sender = command.sender;
+    entry.sequence = command.sequence;
+    entry.notAfter = command.notAfter;
+    entry.interface = interface_;
+    entry.senderRecord = record;
+    entry.simplex = command.simplex;
+    entry.command = command.command;
+    entry.readCycle = cycle();
+    entry.readTime = runtime_.thread(0).clock.nanoseconds;
+    entry.answer = {};
+    entry.answer.outcome = Outcome::Running;
+    entry.fresh = false;
+    entry.watched = LifeCycle::None;
+    entry.moved = false;
+    std::copy_n(command.request, command.size, entry.request);
+    arrivals_.push_back(&entry);
+}
+
+void Router::repeat(const KeptOutcome& kept, const Sender& sender) {
+    if (kept.stage == Stage::OnItsWay) return;  // its answer will come
+    answer(interface_, {sender, kept.sequence, kept.simplex, kept.command, kept.answer.outcome,
+                        kept.answer.reason, kept.answer.why, kept.answer.latencyCycles,
+                        kept.answer.latency, kept.size, kept.response});
+}
+
+void Router::refuse(const OutsideCommand& command, const Verdict& verdict) {
+    AnswerHead head;
+    head.outcome = verdict.outcome;
+    head.reason = verdict.reason;
+    head.why = *verdict.why;
+    ++runtime_.thread(0).rejected;
+    report(command, head);
+    answer(interface_, {command.sender, command.sequence, command.simplex, command.command,
+                        head.outcome, head.reason, head.why, 0, 0, 0, nullptr});
+}
+
+// In canonical order: whatever the order in which interfaces handed them over.
+void Router::deliver() {
+    std::ranges::sort(arrivals_, [](const auto* a, const auto* b) { return a->before(*b); });
+    for (OutsideEntry* entry : arrivals_) {
+        active_.push_back(entry);
+        if (isLifeCycle(*entry)) {
+            deliverLifeCycle(*entry);
+            continue;
+        }
+        runtime_.ports_[entry->simplex]->enqueue(*entry);
+        const bool hasTask = structure_.simplexes[entry->simplex].role == Role::Active;
+        if (!hasTask && (taskless_.empty() || taskless_.back() != entry->simplex)) {
+            taskless_.push_back(entry->simplex);
+        }
+    }
+    arrivals_.clear();
+}
+
+void Router::collect() {
+    for (OutsideEntry* entry : active_) {
+        if (entry->watched != LifeCycle::None) watch(*entry);
+        if (entry->fresh) publish(*entry);
+    }
+    std::erase_if(active_, [](const OutsideEntry* entry) { return entry->simplex == noSimplex; });
+}
+
+void Router::publish(OutsideEntry& entry) {
+    const AnswerHead& head = entry.answer;
+    const auto& layout = runtime_.commands(entry.simplex).entries[entry.command].response;
+    const std::uint32_t size = head.outcome == Outcome::Done ? layout.size : 0;
+    SenderRecord& record = senders_[entry.senderRecord];
+    KeptOutcome& kept = record.kept(entry.sequence);
+    const bool known = record.sender == entry.sender;
+    entry.fresh = false;
+    if (known && kept.sequence == entry.sequence && kept.stage != Stage::Empty) {
+        kept.stage = entry.final() ? Stage::Final : Stage::Running;
+        kept.answer = head;
+        kept.size = size;
+        std::copy_n(entry.response, size, kept.response);
+    }
+    answer(entry.interface,
+           {entry.sender, entry.sequence, entry.simplex, entry.command, head.outcome, head.reason,
+            head.why, head.latencyCycles, head.latency, size, entry.response});
+    if (!entry.final()) return;
+    const std::uint32_t request =
+        runtime_.commands(entry.simplex).entries[entry.command].request.size;
+    report({entry.sender, 0, entry.sequence, 0, entry.notAfter, entry.simplex, entry.command,
+            request, entry.request},
+           head);
+    if (known) --record.onTheirWay;
+    entry.simplex = noSimplex;
+    free_.push_back(&entry);
+}
+
+void Router::answer(std::uint32_t interface, const OutsideAnswer& answer) {
+    if (answers_[interface].push(answer)) return;
+    event(Severity::Warning, EventKind::Command, noSimplex,
+          EventText{"an answer to "} << answer.sender.nameText() << " was dropped: too many");
+}
+
+// "operator@desk: zero(speed=0.5): Done in 2 cycles"
+void Router::report(const OutsideCommand& command, const AnswerHead& answer) {
+    EventText text{command.sender.nameText()};
+    if (command.sender.host.front() != '\0') text << "@" << command.sender.host.data();
+    text << ": ";
+    const bool here = command.simplex < structure_.simplexes.size();
+    if (here && command.command < runtime_.commands(command.simplex).entries.size()) {
+        const CommandTable& table = runtime_.commands(command.simplex);
+        const CommandTable::Entry& entry = table.entries[command.command];
+        text << entry.name << "(";
+        if (command.size == entry.request.size) {
+            describeRecord(table, command.command, command.request, text);
+        }
+        text << "): ";
+    }
+    text << name(answer.outcome);
+    if (answer.reason != Reason::None) text << " (" << name(answer.reason) << ")";
+    if (!answer.why.view().empty()) text << ", " << answer.why.view();
+    text << " in " << answer.latencyCycles << (answer.latencyCycles == 1 ? " cycle" : " cycles");
+    const bool executed = answer.outcome != Outcome::Rejected &&
+                          answer.outcome != Outcome::MailboxFull &&
+                          answer.outcome != Outcome::Expired;
+    event(answer.outcome == Outcome::Done ? Severity::Info : Severity::Warning,
+          executed ? EventKind::Command : EventKind::Refusal, here ? command.simplex : noSimplex,
+          text);
+}
+
+void Router::write(std::span<CommunicationInterface* const> interfaces) {
+    for (std::uint32_t i = 0; i < interfaces.size(); ++i)
+        interfaces[i]->write(cycle(), answers_[i]);
+}
+
+void Router::stop() {
+    for (OutsideEntry* entry : active_) {
+        if (!entry->fresh) {
+            entry->settle({Outcome::Cancelled, Reason::None, "the agent stopped"},
+                          runtime_.thread(0).clock);
+        }
+        entry->watched = LifeCycle::None;
+    }
+    collect();
+}
+
+}  // namespace cortex

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/agent.hpp"
+#include "cortex/core/communication_interface.hpp"
+
+#include "agent/answer_queue.hpp"
+#include "agent/lease.hpp"
+#include "agent/link_table.hpp"
+#include "agent/sender_table.hpp"
+#include "commands/outside_command.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace cortex {
+
+// What interfaces read into: numbers, windows, expiry, control and repeats of commands from
+// outside, and links. Everything is sized at start(). Loop thread, in beginCycle() and endCycle();
+// only refuseLifeCycle() is called by tasks.
+class Router final : public Inbox {
+public:
+    explicit Router(AgentRuntime& runtime);
+
+    void read(std::span<CommunicationInterface* const> interfaces) CORTEX_REALTIME;
+    // Simplexes without a task that got a command in this cycle.
+    std::span<const std::uint32_t> tasklessReceivers() const { return taskless_; }
+    void collect() CORTEX_REALTIME;  // answers given in this cycle
+    void write(std::span<CommunicationInterface* const> interfaces) CORTEX_REALTIME;
+    void stop();  // answers what is still on its way
+    void refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why,
+                         LoopThread& thread) CORTEX_REALTIME;
+
+    std::int64_t cycle() const override { return runtime_.cycle(); }
+    void link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
+              std::int64_t age) override {
+        links_.link(simplex, binding, from, age);
+    }
+    void linkConstants(std::uint32_t simplex, const LinkBinding& binding,
+                       const Slice& from) override {
+        links_.constants(simplex, binding, from);
+    }
+    void linkLost(std::uint32_t simplex) override { links_.lost(simplex); }
+    void command(const OutsideCommand& command) override;
+    void senderLost(const Sender& sender) override;
+    void event(Severity severity, EventKind kind, std::uint32_t simplex,
+               const EventText& text) override {
+        runtime_.post(runtime_.thread(0), severity, kind, simplex, text);
+    }
+
+private:
+    using Stage = KeptOutcome::Stage;
+
+    // router.cpp: on their way in and out.
+    void judge(const OutsideCommand& command, const SenderRecord& sender, Verdict& verdict) const;
+    void admit(const OutsideCommand& command, std::uint32_t record);
+    void repeat(const KeptOutcome& kept, const Sender& sender);
+    void refuse(const OutsideCommand& command, const Verdict& verdict);
+    void deliver();
+    void publish(OutsideEntry& entry);
+    void answer(std::uint32_t interface, const OutsideAnswer& answer);
+    void report(const OutsideCommand& command, const AnswerHead& answer);
+
+    // router_control.cpp: who may, and life-cycle commands.
+    void authorise(const OutsideCommand& command, Verdict& verdict) const;
+    void setControlHandlers();
+    template <Outcome (Router::*Method)(Call&)>
+    void setControlHandler(std::string_view command);
+    std::string_view argument(Call& call, std::string_view command, std::string_view name) const;
+    Outcome takeControl(Call& call);
+    Outcome renewControl(Call& call);
+    Outcome handOverControl(Call& call);
+    Outcome releaseControl(Call& call);
+    void controlLost(const Lease& lease, std::string_view how);
+    void findStates();
+    State stateOf(std::uint32_t simplex) const { return static_cast<State>(*states_[simplex]); }
+    bool isLifeCycle(const OutsideEntry& entry) const;
+    void deliverLifeCycle(OutsideEntry& entry);
+    void watch(OutsideEntry& entry);
+
+    AgentRuntime& runtime_;
+    const Structure& structure_;
+    std::uint32_t interface_ = 0;  // that is being read
+    std::int64_t longestBudget_;   // cycles
+    ChunkClock began_;             // the loop thread's clock when the cycle began
+    std::vector<OutsideEntry> pool_;
+    std::vector<std::byte> records_;
+    std::vector<OutsideEntry*> free_, arrivals_, active_;
+    std::vector<std::uint32_t> taskless_;
+    std::vector<const std::int64_t*> states_;  // the item `state` of each simplex, or null
+    std::vector<std::uint32_t> leaseMinded_;   // simplexes whose type minds losing control
+    std::vector<AnswerQueue> answers_;         // by interface
+    SenderTable senders_;
+    LeaseTable leases_;
+    LinkTable links_;
+};
+
+}  // namespace cortex

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "agent/sender_table.hpp"
+
+#include <algorithm>
+
+namespace cortex {
+
+void SenderRecord::acknowledge(std::uint64_t below) {
+    if (below <= answeredBelow) return;
+    for (KeptOutcome& outcome : window) {
+        if (outcome.sequence < below) outcome.stage = KeptOutcome::Stage::Empty;
+    }
+    answeredBelow = below;
+}
+
+SenderTable::SenderTable(std::uint32_t senders, std::uint32_t maxResponse)
+    : records_(senders), responses_(std::size_t{senders} * senderWindow * maxResponse) {
+    std::byte* response = responses_.data();
+    for (SenderRecord& record : records_) {
+        record.window.resize(senderWindow);
+        for (KeptOutcome& outcome : record.window) {
+            outcome.response = response;
+            response += maxResponse;
+        }
+    }
+}
+
+SenderTable::Found SenderTable::find(std::uint32_t interface, const Sender& sender,
+                                     std::int64_t cycle, std::uint32_t& record, Sender& before) {
+    SenderRecord* free = nullptr;
+    for (record = 0; record < records_.size(); ++record) {
+        SenderRecord& each = records_[record];
+        if (each.used && each.interface == interface && each.sender.name == sender.name) {
+            if (each.sender.epoch == sender.epoch) return Found::Known;
+            if (each.sender.epoch > sender.epoch) return Found::Older;
+            before = each.sender;
+            adopt(each, interface, sender);
+            return Found::Restarted;
+        }
+        // One whose commands are all over and past repeating may be forgotten.
+        if (!each.used || (each.onTheirWay == 0 && each.lastNotAfter < cycle)) {
+            if (free == nullptr || (free->used && !each.used)) free = &each;
+        }
+    }
+    if (free == nullptr) return Found::NoRoom;
+    forgot_ = forgot_ || free->used;
+    adopt(*free, interface, sender);
+    free->unsure = forgot_;
+    record = static_cast<std::uint32_t>(free - records_.data());
+    return Found::New;
+}
+
+void SenderTable::adopt(SenderRecord& record, std::uint32_t interface, const Sender& sender) {
+    record.interface = interface;
+    record.sender = sender;
+    record.answeredBelow = 1;
+    record.lastNotAfter = 0;
+    record.onTheirWay = 0;
+    record.used = true;
+    for (KeptOutcome& outcome : record.window) outcome.stage = KeptOutcome::Stage::Empty;
+}
+
+}  // namespace cortex

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/communication_interface.hpp"
+
+#include "commands/outside_command.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cortex {
+
+// What is remembered of one command until its sender has the answer, so that a repeat is answered
+// and not executed again.
+struct KeptOutcome {
+    enum class Stage : std::uint8_t { Empty, OnItsWay, Running, Final };
+    Stage stage = Stage::Empty;
+    std::uint64_t sequence = 0;
+    std::uint32_t simplex = noSimplex, command = CommandTable::none;
+    AnswerHead answer;
+    std::uint32_t size = 0;
+    std::byte* response = nullptr;
+};
+
+// One start of one sender, heard through one interface.
+struct SenderRecord {
+    std::uint32_t interface = 0;
+    Sender sender;
+    std::uint64_t answeredBelow = 1;
+    std::int64_t lastNotAfter = 0;  // after it no repeat of its commands can be executed
+    std::uint32_t onTheirWay = 0;
+    bool used = false;
+    bool unsure = false;              // it may be a forgotten sender that comes back
+    std::vector<KeptOutcome> window;  // by sequence modulo its size
+
+    KeptOutcome& kept(std::uint64_t sequence) { return window[sequence % window.size()]; }
+    void acknowledge(std::uint64_t below) CORTEX_REALTIME;
+};
+
+// The senders that are known, bounded. Loop thread only.
+class SenderTable {
+public:
+    SenderTable(std::uint32_t senders, std::uint32_t maxResponse);
+
+    enum class Found : std::uint8_t { Known, New, Restarted, Older, NoRoom };
+    // `Restarted`: the record, with `before` its former owner, is now that of a newer start.
+    Found find(std::uint32_t interface, const Sender& sender, std::int64_t cycle,
+               std::uint32_t& record, Sender& before) CORTEX_REALTIME;
+    SenderRecord& operator[](std::uint32_t record) { return records_[record]; }
+
+private:
+    void adopt(SenderRecord& record, std::uint32_t interface, const Sender& sender) CORTEX_REALTIME;
+
+    std::vector<SenderRecord> records_;
+    bool forgot_ = false;  // a sender, to make room for another
+    std::vector<std::byte> responses_;
+};
+
+}  // namespace cortex

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/findings.hpp"
+
+// What validate() and the tree find in a system, beside what its files and types are found to be.
+// Names are never changed, only added.
+namespace cortex::finding {
+
+// The agent
+inline constexpr char agentType[] = "agent-type";
+inline constexpr char clusterPath[] = "cluster-path";
+inline constexpr char dataSize[] = "data-size";
+
+// A simplex
+inline constexpr char malformedPath[] = "malformed-path";
+inline constexpr char abstractType[] = "abstract-type";
+inline constexpr char everyRange[] = "every-range";
+inline constexpr char createdPath[] = "created-path";
+
+// A relationship
+inline constexpr char unknownRule[] = "unknown-rule";
+inline constexpr char unknownPath[] = "unknown-path";
+inline constexpr char targetType[] = "target-type";
+inline constexpr char targetTwice[] = "target-twice";
+inline constexpr char belowMin[] = "below-min";
+inline constexpr char aboveMax[] = "above-max";
+inline constexpr char remoteOutput[] = "remote-output";
+inline constexpr char remoteTypes[] = "remote-types";
+
+// A setting
+inline constexpr char unknownItem[] = "unknown-item";
+inline constexpr char settingKind[] = "setting-kind";
+inline constexpr char settingLength[] = "setting-length";
+inline constexpr char settingFinite[] = "setting-finite";
+inline constexpr char settingRange[] = "setting-range";
+inline constexpr char settingFramework[] = "setting-framework";
+
+// The flow of data
+inline constexpr char severalWriters[] = "several-writers";
+inline constexpr char outputTwice[] = "output-twice";
+inline constexpr char delayedMixed[] = "delayed-mixed";
+inline constexpr char delayedDemand[] = "delayed-demand";
+inline constexpr char safeNeeded[] = "safe-needed";
+inline constexpr char observedCounterpart[] = "observed-counterpart";
+inline constexpr char loop[] = "loop";
+
+}  // namespace cortex::finding

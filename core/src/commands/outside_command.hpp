@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/communication_interface.hpp"
+
+#include "commands/lane.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace cortex {
+
+// A command from outside on its way through the agent: from the router's pool into the queue of one
+// simplex, whose task answers it in place; the router collects the answer at the end of the cycle.
+struct OutsideEntry {
+    Sender sender;
+    std::uint64_t sequence = 0;
+    std::int64_t notAfter = 0;
+    std::uint32_t interface = 0, senderRecord = 0;  // indexes in the router
+    std::uint32_t simplex = noSimplex, command = CommandTable::none;
+    std::int64_t readCycle = 0, readTime = 0;
+    std::byte* request = nullptr;
+    std::byte* response = nullptr;
+    OutsideEntry* next = nullptr;  // in the queue of the simplex
+
+    AnswerHead answer;
+    bool fresh = false;  // the router has not seen this answer
+
+    // A life-cycle command is watched by the router instead of queued.
+    LifeCycle watched = LifeCycle::None;
+    std::int64_t deadline = 0;    // nominal time
+    std::int64_t takenCycle = 0;  // when the pending word was first seen taken
+    State stateBefore = State::Standby;
+    bool moved = false;  // the state has left where it was
+
+    bool final() const { return answer.outcome != Outcome::Running; }
+    void settle(const Verdict& verdict, const ChunkClock& clock) CORTEX_REALTIME {
+        answer.number = sequence;
+        answer.outcome = verdict.outcome;
+        answer.reason = verdict.reason;
+        if (verdict.why) answer.why = *verdict.why;
+        answer.latencyCycles = clock.cycle - readCycle;
+        answer.latency = clock.nanoseconds > readTime ? clock.nanoseconds - readTime : 0;
+        fresh = true;
+    }
+    // Canonical order of commands from outside.
+    bool before(const OutsideEntry& other) const CORTEX_REALTIME {
+        if (interface != other.interface) return interface < other.interface;
+        const int names = sender.nameText().compare(other.sender.nameText());
+        if (names != 0) return names < 0;
+        if (sender.epoch != other.sender.epoch) return sender.epoch < other.sender.epoch;
+        return sequence < other.sequence;
+    }
+};
+
+}  // namespace cortex

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/registry.hpp"
+
+#include "cortex/core/agreement.hpp"
+#include "cortex/core/error.hpp"
+
+#include "model/remedies.hpp"
+
+#include <set>
+
+#include <dlfcn.h>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace cortex {
+namespace {
+
+using Library = std::unique_ptr<void, int (*)(void*)>;
+using Entry = const PluginDescription* (*)();
+
+// Rounding, flush-to-zero and exception masks; not the flags of what has happened.
+unsigned floatingPointMode() {
+#if defined(__x86_64__)
+    return _mm_getcsr() & 0xffc0U;
+#else
+    return 0;
+#endif
+}
+
+void setFloatingPointMode([[maybe_unused]] unsigned mode) {
+#if defined(__x86_64__)
+    _mm_setcsr((_mm_getcsr() & ~0xffc0U) | mode);
+#endif
+}
+
+// Loading runs the constructors of the plug-in and of what it links.
+Library open(const std::filesystem::path& file, const std::string& who) {
+    const unsigned before = floatingPointMode();
+    Library library{dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL),
+                    &dlclose};
+    const unsigned after = floatingPointMode();
+    setFloatingPointMode(before);
+    if (library == nullptr) {
+        const char* why = dlerror();
+        throw Error{who + "cannot be loaded: " + (why != nullptr ? why : "no reason given")};
+    }
+    if (after != before) {
+        throw Error{who +
+                    "changes the floating-point mode when it is loaded, and with it the "
+                    "results of every other simplex; build it without -ffast-math, "
+                    "-funsafe-math-optimizations and -mdaz-ftz"};
+    }
+    return library;
+}
+
+const PluginDescription& describe(void* library, const std::string& who) {
+    const auto entry = reinterpret_cast<Entry>(dlsym(library, "cortexPlugin"));
+    const PluginDescription* plugin = entry != nullptr ? entry() : nullptr;
+    if (plugin == nullptr) {
+        throw Error{who + "exports no cortexPlugin(); add CORTEX_PLUGIN(…) to one source file"};
+    }
+    return *plugin;
+}
+
+void checkBuild(const PluginDescription& plugin, const std::string& who) {
+    if (plugin.abi != pluginAbi) {  // what follows the number may lie elsewhere
+        throw Error{who + "has plug-in ABI " + std::to_string(plugin.abi) + ", this program has " +
+                    std::to_string(pluginAbi) + "; build it against this version of cortex"};
+    }
+    const std::string compiler = plugin.compiler, library = plugin.standardLibrary;
+    if (compiler != compilerOfThisBuild()) {
+        throw Error{who + "was built with compiler '" + compiler + "', this program with '" +
+                    compilerOfThisBuild() + "'; build it with the same compiler"};
+    }
+    if (library != standardLibraryOfThisBuild()) {
+        throw Error{who + "was built with '" + library + "', this program with '" +
+                    standardLibraryOfThisBuild() + "'; build it with the same standard library"};
+    }
+}
+
+// The types that the plug-in states. One that this model lacks is not used by it either.
+std::set<std::string> checkTypes(const PluginDescription& plugin, const TypeModel& types,
+                                 const std::string& who) {
+    std::set<std::string> stated;
+    for (const auto* each = plugin.types; each->name != nullptr; ++each) {
+        stated.insert(each->name);
+        const Type* type = types.find(each->name);
+        const std::string hash = each->hash;
+        if (type == nullptr || hash.empty()) continue;
+        const std::string ours = toHex(typeHash(*type));
+        if (hash == ours) continue;
+        throw Error{who + "implements type " + type->name + " with hash " + hash +
+                    ", this model has it with " + ours + " (" + type->place.text() +
+                    "); adapt the plug-in to the type, or load the ontology that it was made for"};
+    }
+    return stated;
+}
+
+}  // namespace
+
+void ClassRegistry::addFactory(std::string_view type, Factory factory) {
+    if (find(type) != nullptr) {
+        throw Error{"type " + std::string{type} + " has a class already; register it once"};
+    }
+    factories_.emplace(type, std::move(factory));
+}
+
+const ClassRegistry::Factory* ClassRegistry::find(std::string_view type) const {
+    const auto found = factories_.find(type);
+    return found != factories_.end() ? &found->second : nullptr;
+}
+
+std::vector<std::string> ClassRegistry::names() const {
+    std::vector<std::string> names;
+    for (const auto& [name, factory] : factories_) names.push_back(name);
+    return names;
+}
+
+void ClassRegistry::loadPlugin(const std::filesystem::path& file, const TypeModel& types) {
+    const std::string who = "plug-in " + file.string() + " ";
+    Library library = open(file, who);
+    const PluginDescription& plugin = describe(library.get(), who);
+    checkBuild(plugin, who);
+    const std::set<std::string> stated = checkTypes(plugin, types, who);
+    [[maybe_unused]] void* forGood = library.release();  // code of it may be in use from here on
+    ClassRegistry added;
+    plugin.registerClasses(added);
+    for (const auto& name : added.names()) {
+        if (!stated.contains(name)) {
+            throw Error{who + "registers a class for type " + name +
+                        ", but does not state it; add {\"" + name + "\", \"\"} to CORTEX_PLUGIN"};
+        }
+        if (find(name) != nullptr) throw Error{who + "brings a second class for type " + name};
+    }
+    factories_.merge(added.factories_);
+}
+
+const char* compilerOfThisBuild() { return __VERSION__; }
+
+const char* standardLibraryOfThisBuild() { return CORTEX_STANDARD_LIBRARY; }
+
+}  // namespace cortex

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/remedies.hpp"
+
+#include <algorithm>
+
+namespace cortex {
+namespace {
+
+std::string escaped(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            default:
+                result += c;
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+std::string relateText(std::string_view rule, std::string_view to, std::string_view more) {
+    std::string text = "<relate rule=\"" + escaped(rule) + "\" to=\"" + escaped(to) + "\"";
+    if (!more.empty()) text += " " + std::string{more};
+    return text + "/>";
+}
+
+std::string setText(std::string_view item, std::string_view value) {
+    return "<set data=\"" + escaped(item) + "\" value=\"" + escaped(value) + "\"/>";
+}
+
+std::string valueText(const Value& value) {
+    const auto* strings = std::get_if<std::vector<std::string>>(&value);
+    return strings != nullptr && strings->size() == 1 ? strings->front() : toText(value);
+}
+
+std::string nearestName(std::string_view wrong, const std::vector<std::string>& valid) {
+    const std::string names = nearestNames(wrong, valid);  // "nearest of: a, b, c"
+    const auto colon = names.find(": ");
+    if (colon == std::string::npos) return "";
+    const auto first = colon + 2;
+    return names.substr(first, names.find(',', first) - first);
+}
+
+std::string listText(const std::vector<std::string>& names, std::size_t most) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most, names.size()); ++i) {
+        text += (i == 0 ? "" : ", ") + names[i];
+    }
+    if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
+    return text;
+}
+
+std::vector<std::string> concreteTypes(const TypeModel& types, std::string_view base) {
+    std::vector<std::string> names;
+    for (const auto& [name, type] : types.types()) {
+        if (!type.isAbstract && type.isA(base)) names.push_back(name);
+    }
+    return names;
+}
+
+}  // namespace cortex

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/system_findings.hpp"
+#include "model/relationship_order.hpp"
+#include "model/remedies.hpp"
+#include "model/resolved_relations.hpp"
+#include "model/validation_checks.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace cortex {
+namespace {
+
+constexpr std::size_t mostPrinted = 10'000;
+
+// Hz as the system file says; 0 if it does not, or if the agent is one of several clusters.
+double frequencyOf(const SystemDescription& system) {
+    if (system.clusters.size() != 1) return 0;
+    const auto& attributes = system.clusters.front().attributes;
+    const auto found = attributes.find("frequency");
+    return found != attributes.end() ? toFloat(found->second).value_or(0) : 0;
+}
+
+// The edges of a structure with the relations that they come from, and the simplexes by index.
+class Flow {
+public:
+    explicit Flow(const Checked& checked) : checked_{checked} {
+        for (const auto& [path, simplex] : checked.tree.simplexes()) {
+            simplexes_.push_back(simplex.get());
+            for (const auto& resolved : resolveRelations(checked.tree, *simplex)) {
+                const auto target = checked.structure.find(resolved.relation->target);
+                if (target != noSimplex) relations_.push_back(resolved.relation);
+            }
+        }
+    }
+
+    void checkWriters();
+    void checkRemoteTypes();
+    void checkDemands();
+    void checkLoops();
+    void checkAges();
+
+private:
+    const Edge& edge(std::uint32_t index) const { return checked_.structure.edges[index]; }
+    const SimplexInfo& info(std::uint32_t index) const {
+        return checked_.structure.simplexes[index];
+    }
+    const Simplex& owner(const Edge& each) const { return *simplexes_[each.owner]; }
+    bool writes(const Edge& each) const {
+        return each.rule->direction == Direction::Output && info(each.owner).role == Role::Active &&
+               info(each.target).role != Role::Active && !info(each.target).remote;
+    }
+    std::string relateOf(std::uint32_t index, bool delayed) const {
+        return relateText(relations_[index]->rule, relations_[index]->target,
+                          delayed ? "delayed=\"true\"" : "");
+    }
+
+    void checkSecondWriter(std::uint32_t index);
+    void checkSecondRule(std::uint32_t first, std::uint32_t second);
+    void checkMixed(const std::vector<std::uint32_t>& outputs);
+    void checkSafe(const SimplexInfo& demand, const Simplex& simplex);
+    void checkObserved(std::uint32_t index);
+    int writtenEvery(std::uint32_t index) const;
+    std::span<const Edge> edgesUnder(std::uint32_t simplex, std::string_view rule) const;
+    std::string observationError(const Edge& output, std::string_view rule,
+                                 const DataItem& item) const;
+    std::string counterpartRemedy(const Edge& output, const DataItem& item) const;
+    void reportLoop(const Loop& loop);
+
+    const Checked& checked_;
+    std::vector<const Simplex*> simplexes_;
+    std::vector<const Simplex::Relation*> relations_;  // by edge
+};
+
+void Flow::checkWriters() {
+    std::vector<std::vector<std::uint32_t>> outputs(checked_.structure.simplexes.size());
+    for (std::uint32_t index = 0; index < relations_.size(); ++index) {
+        if (writes(edge(index))) outputs[edge(index).target].push_back(index);
+    }
+    for (const auto& edges : outputs) {
+        if (edges.empty()) continue;
+        if (edge(edges.front()).owner != edge(edges.back()).owner) checkMixed(edges);
+        for (std::size_t n = 1; n < edges.size(); ++n) {
+            const Edge &before = edge(edges[n - 1]), &each = edge(edges[n]);
+            if (each.owner != before.owner)
+                checkSecondWriter(edges[n]);
+            else if (each.rule != before.rule)
+                checkSecondRule(edges[n - 1], edges[n]);
+        }
+    }
+}
+
+void Flow::checkSecondWriter(std::uint32_t index) {
+    const SimplexInfo& target = info(edge(index).target);
+    const Type& type = *target.layout->type;
+    if (type.manyWriters) return;
+    checked_.report.error(target.path, finding::severalWriters, relations_[index]->place,
+                          owner(edge(index)).path() + " writes it by " +
+                              ruleText(owner(edge(index)), *edge(index).rule) + ", and so does " +
+                              info(target.writers.front()).path,
+                          "remove this <relate>, or let both write simplexes of their own and a "
+                          "third combine them; if only one of them is ever Active, write "
+                          "writers=\"many\" for type " +
+                              type.name + " (" + type.place.text() + ")");
+}
+
+// One owner would write the same data by two rules. The later <relate> is one too many; where one
+// rule refines the other, the more general.
+void Flow::checkSecondRule(std::uint32_t first, std::uint32_t second) {
+    const Simplex& writer = owner(edge(second));
+    const auto refines = [&](std::uint32_t inner, std::uint32_t general) {
+        return countsFor(writer.type(), edge(inner).rule->name, edge(general).rule->name);
+    };
+    if (relations_[second] < relations_[first]) std::swap(first, second);
+    if (refines(second, first)) std::swap(first, second);
+    const std::string remedy = refines(first, second)
+                                   ? ": one under '" + edge(first).rule->name + "' counts for '" +
+                                         edge(second).rule->name + "' too"
+                                   : ", or relate another simplex";
+    checked_.report.error(writer.path(), finding::outputTwice, relations_[second]->place,
+                          ruleText(writer, *edge(second).rule) + " writes " +
+                              info(edge(second).target).path + ", and so does " +
+                              ruleText(writer, *edge(first).rule),
+                          "remove this <relate>" + remedy);
+}
+
+// Either all writers of a simplex are delayed or none: an observation, or a demand.
+void Flow::checkMixed(const std::vector<std::uint32_t>& outputs) {
+    const auto delayed = [&](std::uint32_t index) { return edge(index).delayed; };
+    if (std::ranges::all_of(outputs, delayed) || std::ranges::none_of(outputs, delayed)) return;
+    const auto alone = std::ranges::find_if(
+        outputs, [&](std::uint32_t index) { return delayed(index) && !edge(index).rule->delayed; });
+    const bool undo = alone != outputs.end();  // delayed by its <relate> only: undo that
+    const std::uint32_t odd = undo ? *alone : *std::ranges::find_if_not(outputs, delayed);
+    checked_.report.error(
+        info(edge(odd).target).path, finding::delayedMixed, relations_[odd]->place,
+        ruleText(owner(edge(odd)), *edge(odd).rule) + " of " + owner(edge(odd)).path() +
+            " writes it " + (undo ? "delayed, others not" : "at once, others delayed"),
+        "write " + relateOf(odd, !undo));
+}
+
+// Rules that name one remote path must agree on what can be there.
+void Flow::checkRemoteTypes() {
+    for (std::uint32_t index = 0; index < relations_.size(); ++index) {
+        const SimplexInfo& target = info(edge(index).target);
+        const std::string& wanted = edge(index).rule->target;
+        if (!target.remote || target.layout->type->isA(wanted)) continue;
+        checked_.report.error(
+            owner(edge(index)).path(), finding::remoteTypes, relations_[index]->place,
+            ruleText(owner(edge(index)), *edge(index).rule) + " takes " + wanted +
+                "; as another rule has it, " + target.path + " is " + target.layout->type->name,
+            "remove this <relate>, or relate a simplex that is both");
+    }
+}
+
+void Flow::checkDemands() {
+    for (std::uint32_t index = 0; index < simplexes_.size(); ++index) {
+        if (info(index).role == Role::Modification) checkSafe(info(index), *simplexes_[index]);
+    }
+    for (std::uint32_t index = 0; index < relations_.size(); ++index) {
+        const Edge& each = edge(index);
+        const bool demand = writes(each) && info(each.target).role == Role::Modification;
+        if (demand && !each.delayed) checkObserved(index);
+        if (!demand || !each.delayed) continue;
+        checked_.report.warning(
+            owner(each).path(), finding::delayedDemand, relations_[index]->place,
+            ruleText(owner(each), *each.rule) + " delays a demand: " + info(each.target).path +
+                " is a modification",
+            "write " + relateOf(index, false));
+    }
+}
+
+void Flow::checkSafe(const SimplexInfo& demand, const Simplex& simplex) {
+    const Type& type = simplex.type();
+    std::vector<std::string> names;
+    const DataItem* first = nullptr;
+    for (const DataItem& item : type.data) {
+        if (item.safe.kind != Safe::Kind::None || item.constant || item.measured) continue;
+        if (first == nullptr) first = &item;
+        names.push_back("'" + item.name + "'");
+    }
+    if (names.empty()) return;
+    const std::string writer =
+        demand.writers.empty() ? "" : " that " + info(demand.writers.front()).path + " writes";
+    checked_.report.error(demand.path, finding::safeNeeded, simplex.place(),
+                          "it is a modification" + writer + ", but " + listText(names) +
+                              " of type " + type.name + " has no safe value",
+                          "write safe=\"" + valueText(first->initial) + "\" for '" + first->name +
+                              "' (" + first->place.text() + "), or \"hold\", or \"observed\"");
+}
+
+// Edges of a simplex lie by rule: those under one rule are neighbours.
+std::span<const Edge> Flow::edgesUnder(std::uint32_t simplex, std::string_view rule) const {
+    const std::span<const Edge> all{checked_.structure.edges};
+    const auto own = all.subspan(info(simplex).firstEdge, info(simplex).edgeCount);
+    const auto ruleName = [](const Edge& each) -> std::string_view { return each.rule->name; };
+    const auto [first, last] = std::ranges::equal_range(own, rule, {}, ruleName);
+    return {first, last};
+}
+
+// "" if the n-th simplex under `rule`, or its only one, observes the item that is demanded n-th.
+std::string Flow::observationError(const Edge& output, std::string_view rule,
+                                   const DataItem& item) const {
+    const auto demanded = edgesUnder(output.owner, output.rule->name);
+    const auto observing = edgesUnder(output.owner, rule);
+    const auto place = static_cast<std::size_t>(&output - demanded.data());
+    const std::size_t position = observing.size() == 1 ? 0 : place;
+    if (position >= observing.size()) {
+        return "has its counterpart under rule '" + std::string{rule} +
+               "', which has no simplex in place " + std::to_string(position + 1);
+    }
+    const SimplexInfo& observed = info(observing[position].target);
+    const DataItem* found = observed.layout->type->findData(item.name);
+    if (found == nullptr) return "observes " + observed.path + ", which has no '" + item.name + "'";
+    const bool same =
+        found->kind == item.kind && found->length == item.length && found->unit == item.unit;
+    return same ? "" : "observes " + observed.path + ", whose '" + item.name + "' is another value";
+}
+
+std::string Flow::counterpartRemedy(const Edge& output, const DataItem& item) const {
+    for (const Rule& rule : owner(output).type().rules) {
+        if (rule.direction != Direction::Input) continue;
+        if (!observationError(output, rule.name, item).empty()) continue;
+        return "write counterpart=\"" + rule.name + "\" for rule '" + output.rule->name + "' (" +
+               output.rule->place.text() + ")";
+    }
+    const std::string& rule = output.rule->counterpart;
+    return rule.empty() ? "add an input rule that observes it, and name it as counterpart"
+                        : "relate a simplex that has '" + item.name + "' with " +
+                              relateText(rule, "…") + ", in the order of the demands";
+}
+
+void Flow::checkObserved(std::uint32_t index) {
+    const Edge& output = edge(index);
+    for (const DataItem& item : info(output.target).layout->type->data) {
+        if (item.safe.kind != Safe::Kind::Observed) continue;
+        const std::string& rule = output.rule->counterpart;
+        const std::string wrong =
+            rule.empty() ? "states no counterpart" : observationError(output, rule, item);
+        if (wrong.empty()) continue;
+        checked_.report.error(
+            owner(output).path(), finding::observedCounterpart, relations_[index]->place,
+            "'" + item.name + "' of " + info(output.target).path + " is safe=\"observed\", but " +
+                ruleText(owner(output), *output.rule) + " " + wrong,
+            counterpartRemedy(output, item));
+        if (rule.empty()) return;  // one item says it for all
+    }
+}
+
+void Flow::checkLoops() {
+    std::size_t printed = 0;  // simplexes: many long loops are one mistake
+    for (const Loop& loop : findLoops(checked_.structure)) {
+        if (printed > mostPrinted) break;
+        reportLoop(loop);
+        printed += loop.size();
+    }
+}
+
+// To be delayed: rather what is observed than what is ordered, and never a demand.
+void Flow::reportLoop(const Loop& loop) {
+    std::string text;
+    for (const std::uint32_t index : loop) text += info(orderOf(edge(index)).first).path + " -> ";
+    text += info(orderOf(edge(loop.front())).first).path;
+    const std::uint32_t best = *std::ranges::min_element(loop, {}, [&](std::uint32_t index) {
+        const bool input = edge(index).rule->direction == Direction::Input;
+        const bool demand = info(edge(index).target).role == Role::Modification;
+        return !input ? 2 : demand ? 1 : 0;
+    });
+    checked_.report.error(info(orderOf(edge(loop.front())).first).path, finding::loop,
+                          relations_[best]->place,
+                          "each of these waits for the one before: " + text,
+                          "write " + relateOf(best, true) + " in " + owner(edge(best)).path());
+}
+
+// Cycles between two writings of what the edge reads, 0 if this agent does not write it.
+int Flow::writtenEvery(std::uint32_t index) const {
+    const std::uint32_t source = edge(index).target;
+    const bool active = info(source).role == Role::Active;
+    const bool written = !info(source).remote && (active || !info(source).writers.empty());
+    return written ? static_cast<int>(checked_.structure.writtenEvery(source)) : 0;
+}
+
+// Inputs whose maxAge the running agent raises; one finding a rule, for what is written least
+// often.
+void Flow::checkAges() {
+    const double frequency = frequencyOf(checked_.tree.description());
+    if (frequency == 0) return;
+    for (std::uint32_t index = 0; index < relations_.size();) {
+        const Edge& first = edge(index);
+        const Rule& rule = *first.rule;
+        std::uint32_t slowest = index;
+        for (++index; index < relations_.size(); ++index) {
+            if (edge(index).owner != first.owner || edge(index).rule != first.rule) break;
+            if (writtenEvery(index) > writtenEvery(slowest)) slowest = index;
+        }
+        const int every = writtenEvery(slowest);
+        const double least = 3.0 * every / frequency;
+        const bool stated = rule.maxAge != Rule{}.maxAge;
+        if (rule.direction == Direction::Output || !stated || rule.maxAge >= least) continue;
+        checked_.report.warning(
+            owner(first).path(), finding::maxAge, relations_[slowest]->place,
+            ruleText(owner(first), rule) + " has maxAge=\"" + toText(rule.maxAge) +
+                "\", which is raised to " + toText(least) + ": three periods of " +
+                info(edge(slowest).target).path + ", written " +
+                (every == 1 ? "each cycle" : "every " + std::to_string(every) + " cycles") +
+                " at " + toText(frequency) + " Hz",
+            "write maxAge=\"" + toText(least) + "\" or more, or leave it out");
+    }
+}
+
+}  // namespace
+
+void checkFlow(const Checked& checked) {
+    Flow flow{checked};
+    flow.checkWriters();
+    flow.checkRemoteTypes();
+    flow.checkDemands();
+    flow.checkLoops();
+    flow.checkAges();
+}
+
+}  // namespace cortex

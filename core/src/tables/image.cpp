@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/image.hpp"
+
+#include "cortex/core/error.hpp"
+
+#include "tables/lookup.hpp"
+
+#include <cstring>
+#include <string>
+#include <utility>
+
+namespace cortex {
+
+namespace {
+
+constexpr std::size_t alignment = 64;
+
+std::size_t strideFor(std::size_t octets) {
+    return (octets + alignment - 1) / alignment * alignment;
+}
+
+}  // namespace
+
+Image::Image(Image&& other) noexcept
+    : pool_{std::exchange(other.pool_, nullptr)}, slot_{other.slot_} {}
+
+Image& Image::operator=(Image&& other) noexcept {
+    if (this == &other) return *this;
+    release();
+    pool_ = std::exchange(other.pool_, nullptr);
+    slot_ = other.slot_;
+    return *this;
+}
+
+Image::~Image() { release(); }
+
+void Image::release() {
+    if (pool_ == nullptr) return;
+    pool_->slots_[slot_].pins.fetch_sub(1);
+    pool_->pinned_.fetch_sub(1);
+    pool_ = nullptr;
+}
+
+const ImagePool& Image::pool() const {
+    if (pool_ == nullptr) throw Error("this image is empty: check it before use");
+    return *pool_;
+}
+
+std::int64_t Image::cycle() const { return pool().slots_[slot_].cycle; }
+std::int64_t Image::nominalTime() const { return pool().slots_[slot_].nominalTime; }
+std::int64_t Image::wallClock() const { return pool().slots_[slot_].wallClock; }
+const Structure& Image::structure() const { return pool().tables_.structure(); }
+
+Slice Image::slice(std::uint32_t simplex) const {
+    return pool().tables_.sliceIn(pool().slots_[slot_].memory, simplex);
+}
+
+Slice Image::constants(std::uint32_t simplex) const { return pool().tables_.constants(simplex); }
+
+SlotState Image::state(std::uint32_t simplex) const { return *slice(simplex).state; }
+
+Quality Image::quality(std::string_view path) const {
+    return state(simplexAt(structure(), path)).quality;
+}
+
+const void* Image::cells(std::uint32_t simplex, const ItemLayout& item) const {
+    const Tables& tables = pool().tables_;
+    const Slice from = item.constant ? tables.constants(simplex)
+                                     : tables.sliceIn(pool().slots_[slot_].memory, simplex);
+    return from.at(item.item->kind, item.offset);
+}
+
+const void* Image::element(std::string_view path, std::string_view item, Kind kind) const {
+    const std::uint32_t simplex = simplexAt(structure(), path);
+    const ItemLayout& layout = itemAt(*structure().simplexes[simplex].layout, path, item);
+    if (layout.item->kind != kind || layout.item->length != 1) {
+        throw Error(std::string{path} + ": item '" + layout.item->name + "' is " +
+                    shapeOf(*layout.item) + ", not one " + name(kind));
+    }
+    return cells(simplex, layout);
+}
+
+Value Image::value(std::uint32_t simplex, const ItemLayout& item) const {
+    return loadValue(*item.item, cells(simplex, item));
+}
+
+Value Image::value(std::string_view path, std::string_view item) const {
+    const std::uint32_t simplex = simplexAt(structure(), path);
+    return value(simplex, itemAt(*structure().simplexes[simplex].layout, path, item));
+}
+
+ImagePool::ImagePool(Tables& tables, std::uint32_t readers)
+    : tables_{tables}, readers_{readers}, slotCount_{readers + 2}, whole_{divideImage(tables, {})} {
+    const std::size_t stride = strideFor(tables.arena().size());
+    const std::size_t octets = stride * slotCount_ + alignment;
+    memory_ = std::make_unique<std::byte[]>(octets);  // zeroed: every page is touched
+    slots_ = std::make_unique<Slot[]>(slotCount_);
+    void* first = memory_.get();
+    std::size_t room = octets;
+    std::align(alignment, stride * slotCount_, first, room);
+    for (std::uint32_t i = 0; i < slotCount_; ++i) {
+        slots_[i].memory = static_cast<std::byte*>(first) + i * stride;
+    }
+    publish(0, 0, 0);
+}
+
+void ImagePool::copy(std::span<const ImageParts::Part> parts) const {
+    const std::byte* const from = tables_.arena().data();
+    std::byte* const to = slots_[next_].memory;
+    for (const auto& [offset, octets] : parts) std::memcpy(to + offset, from + offset, octets);
+}
+
+void ImagePool::copyTexts(Slot& slot) {
+    const std::uint64_t changes = textChanges();
+    if (std::exchange(slot.textChanges, changes) == changes) return;
+    const auto [texts, octets] = tables_.textsInArena();
+    std::memcpy(slot.memory + texts, tables_.arena().data() + texts, octets);
+}
+
+void ImagePool::publish(std::int64_t cycle, std::int64_t nominalTime, std::int64_t wallClock) {
+    Slot& slot = slots_[next_];
+    slot.cycle = cycle;
+    slot.nominalTime = nominalTime;
+    slot.wallClock = wallClock;
+    copy(parts_->rest);
+    copyTexts(slot);
+    const std::uint32_t newest = next_;
+    newest_.store(newest);
+    cycle_.store(cycle, std::memory_order_release);
+    // Of readers + 1 slots that are not the newest each reader keeps at most one: one is free, and
+    // stays so, as readers pin the newest.
+    next_ = 0;
+    while (next_ == newest || slots_[next_].pins.load() != 0) ++next_;
+}
+
+Image ImagePool::newest() {
+    if (pinned_.fetch_add(1) >= readers_) {
+        pinned_.fetch_sub(1);
+        return {};
+    }
+    for (;;) {
+        const std::uint32_t slot = newest_.load();
+        slots_[slot].pins.fetch_add(1);
+        if (newest_.load() == slot) return {this, slot};
+        slots_[slot].pins.fetch_sub(1);
+    }
+}
+
+}  // namespace cortex

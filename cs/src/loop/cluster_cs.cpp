@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/cs/cluster_cs.hpp"
+
+#include "cortex/core/error.hpp"
+#include "cortex/core/validation.hpp"
+
+#include "loop/cluster_loop.hpp"
+#include "loop/group_commands.hpp"
+#include "threads/line_distance.hpp"
+#include "threads/realtime_thread.hpp"
+#include "threads/scheduler.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+namespace cortex::cs {
+
+struct ClusterCS::Implementation {
+    std::string name;
+    ClusterOptions options;
+    SimplexTree* tree = nullptr;
+    const ClassRegistry* registry = nullptr;
+    std::unique_ptr<TriggerSource> trigger;
+    std::vector<std::unique_ptr<CommunicationInterface>> interfaces;
+    std::vector<std::function<void(const Heartbeat&)>> heartbeats;
+    std::vector<EventLog::Sink> sinks;
+    ProgramInterface program;
+    std::unique_ptr<AgentRuntime> agent;
+    std::unique_ptr<ClusterLoop> loop;
+
+    std::vector<SimplexCS*> activeInOrder(std::span<const std::uint32_t> order) const;
+    TaskGraph graph() const;
+    void requireClasses() const;
+    void populate(std::span<SimplexCS* const> simplexes) const;
+    void warn(std::uint32_t simplex, const EventText& text) const;
+    void warnOfModel() const;
+    void warnOfUnhandled(const SimplexCS& simplex) const;
+};
+
+namespace {
+
+bool hasTask(const SimplexInfo& info) { return !info.remote && info.layout->type->isA("Active"); }
+
+[[noreturn]] void refuse(Report report) { throw ModelError(std::move(report)); }
+
+}  // namespace
+
+ClusterCS::ClusterCS(std::string name, ClusterOptions options)
+    : implementation_{std::make_unique<Implementation>()} {
+    const std::string wrong = SimplexTree::pathError("/" + name);
+    if (!wrong.empty()) throw Error("the cluster's name '" + name + "': " + wrong);
+    if (options.threads == 0) throw Error("cluster " + name + " needs at least 1 thread");
+    implementation_->name = std::move(name);
+    implementation_->options = std::move(options);
+}
+
+ClusterCS::~ClusterCS() { stop(); }
+
+void ClusterCS::addSimplexTree(SimplexTree& tree) {
+    if (implementation_->tree != nullptr) {
+        throw Error("cluster " + implementation_->name + " has a tree already; add to that one");
+    }
+    implementation_->tree = &tree;
+}
+
+void ClusterCS::useClasses(const ClassRegistry& registry) { implementation_->registry = &registry; }
+
+void ClusterCS::setTrigger(std::unique_ptr<TriggerSource> source) {
+    implementation_->trigger = std::move(source);
+}
+
+void ClusterCS::adoptInterface(std::unique_ptr<CommunicationInterface> interface) {
+    implementation_->interfaces.push_back(std::move(interface));
+}
+
+void ClusterCS::addHeartbeat(std::function<void(const Heartbeat&)> function) {
+    implementation_->heartbeats.push_back(std::move(function));
+}
+
+void ClusterCS::addEventSink(EventLog::Sink sink) {
+    implementation_->sinks.push_back(std::move(sink));
+}
+
+TaskGraph ClusterCS::Implementation::graph() const {
+    const Structure& structure = agent->structure();
+    TaskGraph graph;
+    graph.nodes.reserve(structure.simplexes.size());
+    for (const SimplexInfo& info : structure.simplexes) {
+        const bool arbitrated = info.writers.size() > 1;
+        graph.nodes.push_back({info.path, hasTask(info) || arbitrated, info.every, 0});
+    }
+    for (const Edge& edge : structure.edges) {
+        const SimplexInfo& target = structure.simplexes[edge.target];
+        // What several write is put together after the last of them, even if it is read later.
+        const bool joins = edge.rule->direction == Direction::Output && target.writers.size() > 1;
+        if ((edge.delayed && !joins) || target.remote) continue;
+        if (edge.rule->direction == Direction::Output) {
+            graph.edges.emplace_back(edge.owner, edge.target);
+        } else if (!target.delayedOutput) {
+            graph.edges.emplace_back(edge.target, edge.owner);
+        }
+    }
+    return graph;
+}
+
+void ClusterCS::Implementation::requireClasses() const {
+    Report report;
+    for (const SimplexInfo& info : agent->structure().simplexes) {
+        if (info.role != Role::Active || info.path == "/" + name) continue;
+        const Simplex& simplex = agent->tree().at(info.path);
+        if (hasTask(info) && dynamic_cast<const SimplexCS*>(&simplex) != nullptr) continue;
+        report.error(info.path, "no-class", simplex.place(),
+                     "no C++ class implements the active type " + info.layout->type->name,
+                     "load the plug-in that has it (--plugin FILE), or register a class derived "
+                     "from SimplexCS for this type");
+    }
+    if (!report.ok()) refuse(std::move(report));
+}
+
+std::vector<SimplexCS*> ClusterCS::Implementation::activeInOrder(
+    std::span<const std::uint32_t> order) const {
+    std::vector<SimplexCS*> simplexes;
+    for (const std::uint32_t index : order) {
+        if (!hasTask(agent->structure().simplexes[index])) continue;
+        simplexes.push_back(&static_cast<SimplexCS&>(agent->simplex(index)));
+    }
+    return simplexes;
+}
+
+void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) const {
+    Report report;
+    for (SimplexCS* simplex : simplexes) {
+        try {
+            simplex->populate();
+        } catch (const std::exception& error) {
+            const std::string path = simplex->path() + ": ";
+            std::string_view what = error.what();
+            if (what.starts_with(path)) what.remove_prefix(path.size());
+            report.error(simplex->path(), "populate", simplex->place(), std::string{what});
+        }
+    }
+    if (!report.ok()) refuse(std::move(report));
+}
+
+void ClusterCS::Implementation::warn(std::uint32_t simplex, const EventText& text) const {
+    Event event;
+    event.severity = Severity::Warning;
+    event.simplex = simplex;
+    event.text = text;
+    agent->events().postOutside(event);
+}
+
+void ClusterCS::Implementation::warnOfModel() const {
+    for (const Finding& finding : agent->warnings().findings) {
+        EventText text{finding.message};
+        const std::string place = finding.place.text();
+        if (!place.empty()) text << " [" << place << "]";
+        warn(agent->structure().find(finding.path), text);
+    }
+}
+
+void ClusterCS::Implementation::warnOfUnhandled(const SimplexCS& simplex) const {
+    for (const std::string_view command : agent->unhandledCommands(simplex.index())) {
+        EventText text{"no handler for the command "};
+        warn(simplex.index(), text << command << ": register one in populate()");
+    }
+}
+
+void ClusterCS::start() {
+    if (implementation_->loop)
+        throw Error("cluster " + implementation_->name + " was started before");
+    try {
+        startAll();
+    } catch (...) {
+        implementation_->loop.reset();
+        implementation_->agent.reset();
+        throw;
+    }
+}
+
+void ClusterCS::startAll() {
+    Implementation& self = *implementation_;
+    if (self.tree == nullptr) throw Error("give cluster " + self.name + " a tree: addSimplexTree");
+    if (!self.trigger) throw Error("give cluster " + self.name + " a trigger: setTriggerSource");
+    const std::string path = "/" + self.name;
+    if (self.tree->types().find("Cluster") == nullptr) {
+        Report report;
+        report.error(path, "no-cluster-type", {}, "the ontology has no type Cluster",
+                     "include base.xml: <ontology file=\"base.xml\"/>");
+        refuse(std::move(report));
+    }
+    if (self.tree->find(path) == nullptr) self.tree->add(path, "Cluster");
+    const Simplex& cluster = self.tree->at(path);
+    if (!cluster.type().isA("Cluster")) {
+        Report report;
+        report.error(path, "agent-type", cluster.place(),
+                     "a cluster's own simplex is a Cluster, here it is a " + cluster.type().name,
+                     "leave it out, or write type=\"Cluster\"");
+        refuse(std::move(report));
+    }
+    self.tree->createRelated(self.registry);
+
+    std::vector<std::string> realtimeReport;
+    const std::uint32_t threads = self.options.forceThreads
+                                      ? self.options.threads
+                                      : clampThreads(self.options.threads, self.options.priority,
+                                                     self.options.cpus, realtimeReport);
+    AgentOptions options;
+    options.imageReaders = self.options.imageReaders + 1;  // who looks at task times
+    options.loopThreads = threads;
+    options.controlRequired = self.options.controlRequired;
+    options.period = self.trigger->period();
+    self.agent = std::make_unique<AgentRuntime>(self.name, *self.tree, options);
+    self.requireClasses();
+    const TaskGraph graph = self.graph();
+    const std::vector<std::uint32_t> order = canonicalOrder(graph);
+    self.agent->setCanonicalOrder(order);
+    const std::vector<SimplexCS*> simplexes = self.activeInOrder(order);
+    self.populate(simplexes);
+    const double line =
+        self.options.forceThreads ? 0 : lineMicroseconds(self.options.cpus, threads);
+    Schedule schedule =
+        makeSchedule(graph, {threads, self.options.chunkSize, {}, self.options.forceThreads, line});
+    self.agent->addInterface(self.program);
+    for (const auto& interface : self.interfaces) self.agent->addInterface(*interface);
+    for (EventLog::Sink& sink : self.sinks) self.agent->events().addSink(sink);
+    self.loop =
+        std::make_unique<ClusterLoop>(*self.agent, *self.trigger, self.options, std::move(schedule),
+                                      simplexes, self.heartbeats, std::move(realtimeReport));
+    self.loop->rescheduleBy([&self, threads](std::span<const double> costs, double measured) {
+        return makeSchedule(self.graph(),
+                            {threads, self.options.chunkSize, costs, false, measured});
+    });
+    self.agent->start();
+    self.loop->start();
+    self.warnOfModel();
+    for (const SimplexCS* simplex : simplexes) self.warnOfUnhandled(*simplex);
+}
+
+bool ClusterCS::stop() {
+    Implementation& self = *implementation_;
+    if (!self.loop || !self.loop->joinable()) return true;
+    if (const auto hung = self.loop->stop()) {
+        // The loop's thread cannot be ended in an orderly way while a user's hook holds it.
+        std::fprintf(stderr, "cluster %s does not stop: %s; ending the process\n",
+                     self.name.c_str(), hung->text().c_str());
+        std::_Exit(3);
+    }
+    self.agent->stop();
+    return true;
+}
+
+bool ClusterCS::running() const {
+    return implementation_->loop && implementation_->loop->joinable();
+}
+
+Ended ClusterCS::ended() const {
+    return implementation_->loop ? implementation_->loop->ended() : Ended::NotStarted;
+}
+
+AgentRuntime& ClusterCS::agent() {
+    if (!implementation_->agent) {
+        throw Error("cluster " + implementation_->name + " has no tables before start()");
+    }
+    return *implementation_->agent;
+}
+
+Image ClusterCS::image() {
+    Image image = agent().images().newest();
+    if (!image) throw Error("too many images are held at once; raise ClusterOptions::imageReaders");
+    return image;
+}
+
+ProgramInterface& ClusterCS::program() { return implementation_->program; }
+
+std::uint64_t ClusterCS::send(std::string_view path, std::string_view command,
+                              const ProgramInterface::Arguments& arguments) {
+    return program().post(path, command, arguments);
+}
+
+CallResult ClusterCS::call(std::string_view path, std::string_view command,
+                           const ProgramInterface::Arguments& arguments,
+                           std::chrono::milliseconds timeout) {
+    return program().call(path, command, arguments, timeout);
+}
+
+const std::vector<std::string>& ClusterCS::realtimeReport() const {
+    static const std::vector<std::string> none;
+    return implementation_->loop ? implementation_->loop->realtimeReport() : none;
+}
+
+std::uint32_t ClusterCS::threadsInUse() const {
+    return implementation_->loop ? implementation_->loop->threads() : 0;
+}
+
+}  // namespace cortex::cs

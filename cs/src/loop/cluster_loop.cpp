@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "loop/cluster_loop.hpp"
+
+#include "threads/line_distance.hpp"
+#include "threads/realtime_thread.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace cortex::cs {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::int64_t stopBudget = 2'000'000'000;  // ns for an orderly end
+
+std::int64_t monotonicNow() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
+
+std::int64_t wallClockNow() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+}  // namespace
+
+ClusterLoop::ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const ClusterOptions& options,
+                         Schedule schedule, std::vector<SimplexCS*> simplexes,
+                         std::vector<std::function<void(const Heartbeat&)>> heartbeats,
+                         std::vector<std::string> realtimeReport)
+    : agent_{agent},
+      trigger_{trigger},
+      options_{options},
+      heartbeats_{std::move(heartbeats)},
+      realtimeReport_{std::move(realtimeReport)},
+      plan_{std::make_unique<Plan>(Plan{std::move(schedule), {}, nullptr})},
+      runner_{agent, plan_->schedule, trigger.period()},
+      group_{agent, runner_, std::move(simplexes)},
+      metrics_{agent, trigger.period(), plan_->schedule.threads} {}
+
+ClusterLoop::~ClusterLoop() { stop(); }
+
+void ClusterLoop::start() {
+    runner_.findPlaces();
+    const auto limit = std::max<std::chrono::nanoseconds>(
+        100ms, std::chrono::nanoseconds{static_cast<std::int64_t>(
+                   options_.watchdogPeriods * static_cast<double>(trigger_.period()))});
+    watchdog_ = std::make_unique<Watchdog>(
+        runner_, agent_, limit,
+        [this](const Tick& tick, const HungHook& hook) { hung(tick, hook); });
+    startRescheduler();
+    ended_.store(Ended::Running, std::memory_order_release);
+    thread_ = std::thread{[this] { run(); }};
+    ready_.wait(false);
+    if (failure_) {
+        thread_.join();
+        rescheduler_.reset();
+        watchdog_.reset();
+        ended_.store(Ended::NotStarted, std::memory_order_release);
+        std::rethrow_exception(failure_);
+    }
+    for (const std::string& refusal : realtimeReport_) {
+        Event event;
+        event.severity = Severity::Warning;
+        event.simplex = agent_.agentSimplex();
+        event.text = EventText{refusal};
+        agent_.events().postOutside(event);
+    }
+}
+
+// With threads, and what of an image each of them copies.
+void ClusterLoop::equip(Plan& plan) {
+    plan.image = groupImage(agent_.tables(), plan.schedule);
+    PoolOptions pool;
+    pool.name = agent_.name();
+    pool.threads = options_.forceThreads ? options_.threads : 0;
+    pool.priority = options_.priority;
+    pool.affinity = options_.cpus;
+    pool.oversubscribe = options_.forceThreads;
+    pool.groups = plan.image.ofChunk;
+    pool.endGroup = [](void* loop, std::uint32_t group, std::uint32_t) {
+        static_cast<ClusterLoop*>(loop)->agent_.images().copyGroup(group);
+    };
+    if (options_.onThreadStart) {
+        pool.onStart = [](void* options, std::uint32_t worker) {
+            static_cast<const ClusterOptions*>(options)->onThreadStart(worker);
+        };
+        pool.onStartContext = &options_;
+    }
+    plan.pool = std::make_unique<ThreadPool>(
+        plan.schedule,
+        [](void* loop, std::uint32_t chunk, std::uint32_t worker) {
+            static_cast<ClusterLoop*>(loop)->runner_.run(chunk, worker);
+        },
+        this, pool);
+}
+
+void ClusterLoop::prepareThread() {
+    const auto append = [this](const std::vector<std::string>& lines) {
+        realtimeReport_.insert(realtimeReport_.end(), lines.begin(), lines.end());
+    };
+    equip(*plan_);
+    threads_.store(plan_->pool->threads(), std::memory_order_relaxed);
+    append(plan_->pool->report());
+    append(plan_->pool->configureLoopThread());
+    if (options_.priority > 0 && options_.lockMemory) append(lockMemory());
+    if (options_.priority > 0 && options_.keepCpusAwake) awakeCpus_.emplace(realtimeReport_);
+    if (options_.onThreadStart) options_.onThreadStart(0);
+}
+
+void ClusterLoop::run() {
+    loopThread_.store(pthread_self());
+    try {
+        prepareThread();
+        trigger_.skipMissed(options_.overflow != Overflow::CatchUp);
+        trigger_.start();
+        for (std::string& line : trigger_.report()) realtimeReport_.push_back(std::move(line));
+    } catch (...) {
+        failure_ = std::current_exception();
+        plan_->pool.reset();
+        awakeCpus_.reset();
+    }
+    const bool failed = failure_ != nullptr;
+    ready_.store(true);
+    ready_.notify_all();
+    if (failed) return;
+    agent_.images().divide(plan_->image.parts);
+    try {
+        loop();
+    } catch (const std::exception& error) {
+        tellFailure("the trigger", error.what());
+    }
+    shutDown();
+    agent_.images().copyAtOnce();
+    rescheduler_.reset();
+    plan_->pool.reset();
+    awakeCpus_.reset();
+    if (ended() == Ended::Running) ended_.store(Ended::Stopped, std::memory_order_release);
+    finished_.store(true, std::memory_order_release);
+}
+
+void ClusterLoop::loop() {
+    lastNominal_ = -trigger_.period();
+    for (;;) {
+        const Trigger trigger = trigger_.waitForTick();
+        if (trigger.stopped) return;
+        last_ = trigger;
+        cycle(trigger);
+        checkOverflow();
+    }
+}
+
+// What code of the user's threw outside of any simplex.
+void ClusterLoop::tellFailure(const char* who, const char* what) {
+    Event event;
+    event.cycle = cycle_;
+    event.time = lastNominal_;
+    event.simplex = agent_.agentSimplex();
+    event.severity = Severity::Error;
+    event.text << who << " threw: " << what;
+    agent_.events().postOutside(event);
+}
+
+void ClusterLoop::beat(const Heartbeat& heartbeat) {
+    for (const auto& function : heartbeats_) {
+        try {
+            function(heartbeat);
+        } catch (const std::exception& error) {
+            tellFailure("a heartbeat function", error.what());
+        }
+    }
+}
+
+void ClusterLoop::cycle(const Trigger& trigger) {
+    const std::int64_t begin = monotonicNow();
+    setFloatingPointMode();
+    if (trigger.periods - 1 > counted_) countMissed(trigger.periods - 1 - counted_);
+    counted_ = trigger.periods > 1 ? 0 : std::max<std::int64_t>(counted_ - 1, 0);
+    const Tick tick{++cycle_, trigger.nominalTime, trigger.nominalTime - lastNominal_,
+                    trigger.lateness};
+    lastNominal_ = trigger.nominalTime;
+    watchdog_->cycleBegins(tick);
+    agent_.beginCycle(tick);
+    reportMissed();
+    warnDuty();
+    if (rescheduler_) adoptPlan();
+    runner_.beginCycle(tick);
+    plan_->pool->cycle(trigger_.nextDeadline());
+    metrics_.write(runner_.counts());
+    agent_.endCycle(tick, wallClockNow() - (monotonicNow() - begin) - trigger.lateness);
+    metrics_.cycleEnded(lastWakeUp_ == 0 ? 0 : begin - lastWakeUp_, trigger.lateness,
+                        monotonicNow() - begin);
+    lastWakeUp_ = begin;
+    metrics_.hung(watchdog_->reported() == tick.cycle);
+    if (!heartbeats_.empty()) beat({tick.cycle, true, {}, {}});
+    watchdog_->cycleEnds();
+}
+
+// Only where threads may share work, in real time: elsewhere there is nothing to gain. On the
+// program's thread, so that its own has neither the loop's priority nor its CPU.
+void ClusterLoop::startRescheduler() {
+    const bool mayShare = agent_.threadCount() > 1 && !options_.forceThreads;
+    if (!mayShare || !makeSchedule_ || !trigger_.realTime()) return;
+    rescheduler_ = std::make_unique<Rescheduler>(
+        agent_, plan_->schedule,
+        Rescheduler::Maker{[this] { return lineMicroseconds(options_.cpus, agent_.threadCount()); },
+                           makeSchedule_,
+                           [this](Schedule schedule) {
+                               auto plan = std::make_unique<Plan>();
+                               plan->schedule = std::move(schedule);
+                               equip(*plan);
+                               plan->pool->placeLoopThread(loopThread_.load());
+                               return plan;
+                           }});
+}
+
+void ClusterLoop::adoptPlan() {
+    Plan* plan = plan_.release();
+    const bool adopted = rescheduler_->exchange(plan);
+    plan_.reset(plan);
+    if (!adopted) return;
+    runner_.use(plan_->schedule);
+    agent_.images().divide(plan_->image.parts);
+    metrics_.threads(plan_->pool->threads());
+    threads_.store(plan_->pool->threads(), std::memory_order_relaxed);
+}
+
+// About the cycle before: its own events have been handed out.
+void ClusterLoop::warnDuty() {
+    if (options_.warnDuty <= 0 || metrics_.lastDuty() <= options_.warnDuty) return;
+    EventText text{"duty cycle "};
+    text << metrics_.lastDuty() << " % is above " << options_.warnDuty << " %";
+    agent_.post(agent_.thread(0), Severity::Warning, EventKind::Overflow, agent_.agentSimplex(),
+                text);
+}
+
+void ClusterLoop::countMissed(std::int64_t missed) {
+    metrics_.overflow(missed);
+    unreported_ += missed;
+    if (options_.overflow != Overflow::Halt) return;
+    runner_.halt();
+    ended_.store(Ended::Halted, std::memory_order_release);
+}
+
+// Events of the cycle that follows: those of the one before have been handed out.
+void ClusterLoop::reportMissed() {
+    if (unreported_ == 0) return;
+    EventText text{"missed "};
+    text << unreported_ << (unreported_ == 1 ? " tick" : " ticks") << ", " << metrics_.overflows()
+         << " since the start";
+    unreported_ = 0;
+    agent_.post(agent_.thread(0), Severity::Warning, EventKind::Overflow, agent_.agentSimplex(),
+                text);
+}
+
+// A job is never cut: this comes after it, and decides what becomes of the ticks it ran over.
+void ClusterLoop::checkOverflow() {
+    const std::int64_t missed = trigger_.missed();
+    if (missed == 0) {
+        caughtUp_ = 0;
+        trigger_.skipMissed(options_.overflow != Overflow::CatchUp);
+        return;
+    }
+    if (missed > counted_) {
+        countMissed(missed - counted_);
+        counted_ = missed;
+    }
+    const bool catchUp = options_.overflow == Overflow::CatchUp &&
+                         caughtUp_ < static_cast<std::int64_t>(options_.catchUpCycles);
+    caughtUp_ = catchUp ? caughtUp_ + 1 : 0;
+    trigger_.skipMissed(!catchUp);
+}
+
+// After the last tick: everything to Standby in order, then by force; the last write is the last
+// cycle's.
+void ClusterLoop::shutDown() {
+    const std::int64_t period = trigger_.period();
+    const std::int64_t budget = std::max<std::int64_t>(stopBudget / period, 2);
+    Trigger trigger = last_;
+    trigger.periods = 1;
+    trigger.lateness = 0;
+    const std::int64_t start = monotonicNow();
+    group_.beginStop();
+    runner_.beginStop();
+    for (std::int64_t i = 1; cycle_ > 0 && i <= budget && !group_.allResting(); ++i) {
+        trigger.nominalTime += period;
+        if (trigger_.realTime()) {
+            std::this_thread::sleep_until(std::chrono::steady_clock::time_point{
+                std::chrono::nanoseconds{start + std::min(i * period, stopBudget)}});
+        }
+        group_.step();
+        if (i == budget || monotonicNow() - start > stopBudget) {
+            i = budget;
+            runner_.forceStandby();
+        }
+        cycle(trigger);
+    }
+    reportMissed();
+}
+
+void ClusterLoop::hung(const Tick& tick, const HungHook& hook) {
+    Event event;
+    event.cycle = tick.cycle;
+    event.time = tick.nominalTime;
+    event.simplex = agent_.structure().find(hook.path);
+    event.severity = Severity::Error;
+    event.kind = EventKind::Watchdog;
+    event.text = EventText{hook.text()};
+    agent_.events().postOutside(event);
+    beat({tick.cycle, false, hook.path, hook.hook});
+}
+
+std::optional<HungHook> ClusterLoop::stop() {
+    if (!thread_.joinable()) return std::nullopt;
+    trigger_.interrupt();
+    // The loop ends by itself within its budget, unless a cycle does not end or none begins.
+    std::int64_t seen = -1;
+    auto since = std::chrono::steady_clock::now();
+    while (!finished_.load(std::memory_order_acquire)) {
+        std::this_thread::sleep_for(1ms);
+        const std::int64_t cycle = watchdog_->begun();
+        const auto now = std::chrono::steady_clock::now();
+        if (cycle != seen) {
+            seen = cycle;
+            since = now;
+        } else if (now - since >= 2s) {
+            ended_.store(Ended::Hung, std::memory_order_release);
+            return findHungHook(runner_, agent_);
+        }
+    }
+    thread_.join();
+    watchdog_.reset();
+    return std::nullopt;
+}
+
+}  // namespace cortex::cs

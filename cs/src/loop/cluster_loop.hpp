@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/cs/cluster_cs.hpp"
+
+#include "loop/group_commands.hpp"
+#include "loop/metrics.hpp"
+#include "loop/rescheduler.hpp"
+#include "loop/watchdog.hpp"
+#include "tasks/task_runner.hpp"
+#include "threads/realtime_thread.hpp"
+#include "threads/thread_pool.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cortex::cs {
+
+// The loop of a cluster: waitForTick, beginCycle, tasks, endCycle, heartbeat, on a thread of its
+// own; its overflow policy, watchdog and orderly end. start() and stop() on the program's thread.
+class ClusterLoop {
+public:
+    ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const ClusterOptions& options,
+                Schedule schedule, std::vector<SimplexCS*> simplexes,
+                std::vector<std::function<void(const Heartbeat&)>> heartbeats,
+                std::vector<std::string> realtimeReport);
+    ~ClusterLoop();
+
+    void start();
+    bool joinable() const { return thread_.joinable(); }
+    // Shuts down and joins; the hook that prevents it if there is one.
+    std::optional<HungHook> stop();
+
+    Ended ended() const { return ended_.load(std::memory_order_acquire); }
+    const std::vector<std::string>& realtimeReport() const { return realtimeReport_; }
+    std::uint32_t threads() const { return threads_.load(std::memory_order_relaxed); }
+    // Before start(): makes schedules for what is measured; with threads to share the work only.
+    void rescheduleBy(ScheduleMaker makeSchedule) { makeSchedule_ = std::move(makeSchedule); }
+
+private:
+    void run();
+    void prepareThread();
+    void equip(Plan& plan);
+    void startRescheduler();
+    void adoptPlan() CORTEX_REALTIME;
+    void loop();
+    void beat(const Heartbeat& heartbeat);
+    void tellFailure(const char* who, const char* what);
+    void cycle(const Trigger& trigger) CORTEX_REALTIME;
+    void checkOverflow() CORTEX_REALTIME;
+    void countMissed(std::int64_t missed) CORTEX_REALTIME;
+    void reportMissed() CORTEX_REALTIME;
+    void warnDuty() CORTEX_REALTIME;
+    void shutDown();
+    void hung(const Tick& tick, const HungHook& hook);
+
+    AgentRuntime& agent_;
+    TriggerSource& trigger_;
+    ClusterOptions options_;
+    std::vector<std::function<void(const Heartbeat&)>> heartbeats_;
+    std::vector<std::string> realtimeReport_;
+    std::optional<AwakeCpus> awakeCpus_;
+    std::unique_ptr<Plan> plan_;
+    TaskRunner runner_;
+    GroupCommands group_;
+    ClusterMetrics metrics_;
+    ScheduleMaker makeSchedule_;
+    std::unique_ptr<Rescheduler> rescheduler_;
+    std::unique_ptr<Watchdog> watchdog_;
+    std::atomic<std::uint32_t> threads_{1};
+    std::atomic<std::thread::native_handle_type> loopThread_{};
+    std::thread thread_;
+    std::atomic<bool> ready_{false}, finished_{false};
+    std::exception_ptr failure_;  // of the start, for start() to throw
+    std::atomic<Ended> ended_{Ended::NotStarted};
+
+    // Loop thread only.
+    Trigger last_;
+    std::int64_t cycle_ = 0;
+    std::int64_t lastNominal_ = 0;
+    std::int64_t lastWakeUp_ = 0;
+    std::int64_t counted_ = 0;     // missed ticks counted but not yet passed over or caught up
+    std::int64_t caughtUp_ = 0;    // in a row
+    std::int64_t unreported_ = 0;  // missed ticks that no event tells yet
+};
+
+}  // namespace cortex::cs

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "loop/metrics.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+namespace cortex::cs {
+
+namespace {
+
+constexpr std::array percentiles{0.5, 0.99, 0.999};
+constexpr std::array percentileNames{"P50", "P99", "P999"};
+
+// First bin at which the cumulated count reaches each percentile.
+template <class Bins, class ValueOf>
+void findPercentiles(const Bins& bins, std::uint64_t count, std::span<Data<double>> items,
+                     ValueOf valueOf) {
+    std::uint64_t below = 0;
+    std::size_t wanted = 0;
+    for (std::uint32_t bin = 0; bin < bins.size() && wanted < percentiles.size(); ++bin) {
+        below += bins[bin];
+        while (wanted < percentiles.size() &&
+               static_cast<double>(below) >= percentiles[wanted] * static_cast<double>(count)) {
+            items[wanted++] = valueOf(bin);
+        }
+    }
+}
+
+}  // namespace
+
+MetricSeries::MetricSeries(Simplex& cluster, std::string_view name, double scale)
+    : scale_{scale}, bins_(binsPerOctave * 44) {
+    const std::string prefix{name};
+    lastItem_ = cluster.data<double>(prefix + "Last");
+    meanItem_ = cluster.data<double>(prefix + "Mean");
+    maxItem_ = cluster.data<double>(prefix + "Max");
+    for (std::size_t i = 0; i < percentiles.size(); ++i) {
+        percentileItems_[i] = cluster.data<double>(prefix + percentileNames[i]);
+    }
+}
+
+void MetricSeries::add(double figure) {
+    last_ = figure;
+    sum_ += figure;
+    greatest_ = std::max(greatest_, figure);
+    ++count_;
+    // Bin: octave and the next five bits of the scaled integer.
+    const auto scaled = static_cast<std::uint64_t>(std::max(0.0, figure * scale_)) + binsPerOctave;
+    const auto octave = static_cast<unsigned>(std::bit_width(scaled)) - 6U;
+    const auto bin = static_cast<std::size_t>(octave) * binsPerOctave +
+                     static_cast<std::size_t>((scaled >> octave) - binsPerOctave);
+    ++bins_[std::min(bin, bins_.size() - 1)];
+}
+
+void MetricSeries::write() {
+    if (count_ == 0) return;
+    lastItem_ = last_;
+    meanItem_ = sum_ / static_cast<double>(count_);
+    maxItem_ = greatest_;
+}
+
+void MetricSeries::writePercentiles() {
+    if (count_ == 0) return;
+    findPercentiles(bins_, count_, percentileItems_, [this](std::uint32_t bin) {
+        const std::uint32_t octave = bin / binsPerOctave;
+        const std::uint64_t upper =
+            (static_cast<std::uint64_t>(bin % binsPerOctave) + binsPerOctave + 1) << octave;
+        const double figure = static_cast<double>(upper - binsPerOctave) / scale_;
+        return std::min(figure, greatest_);
+    });
+}
+
+ClusterMetrics::ClusterMetrics(AgentRuntime& agent, std::int64_t period, std::uint32_t threads)
+    : agent_{agent},
+      period_{static_cast<double>(period)},
+      series_{MetricSeries{agent.simplex(agent.agentSimplex()), "cycleDuration", 1000},
+              MetricSeries{agent.simplex(agent.agentSimplex()), "jitter", 1000},
+              MetricSeries{agent.simplex(agent.agentSimplex()), "dutyCycle", 10000}},
+      latencySum_(latencyBuckets),
+      threads_{threads} {
+    Simplex& cluster = agent.simplex(agent.agentSimplex());
+    constexpr std::array latencyNames{"Last", "Mean", "P50", "P99", "P999", "Max"};
+    for (std::size_t i = 0; i < latency_.size(); ++i) {
+        latency_[i] = cluster.data<double>(std::string{"commandLatency"} + latencyNames[i]);
+    }
+    overflowItem_ = cluster.data<std::int64_t>("overflowCount");
+    commandItem_ = cluster.data<std::int64_t>("commandCount");
+    rejectedItem_ = cluster.data<std::int64_t>("rejectedCount");
+    conflictItem_ = cluster.data<std::int64_t>("conflictCount");
+    limitItem_ = cluster.data<std::int64_t>("limitCount");
+    droppedItem_ = cluster.data<std::int64_t>("eventsDropped");
+    threadsItem_ = cluster.data<std::int64_t>("threads");
+    aliveItem_ = cluster.data<bool>("alive");
+}
+
+void ClusterMetrics::cycleEnded(std::int64_t sinceLastWakeUp, std::int64_t lateness,
+                                std::int64_t work) {
+    if (sinceLastWakeUp > 0) series_[0].add(static_cast<double>(sinceLastWakeUp) * 1e-3);
+    series_[1].add(static_cast<double>(std::max<std::int64_t>(lateness, 0)) * 1e-3);
+    lastDuty_ = static_cast<double>(work) / period_ * 100;
+    series_[2].add(lastDuty_);
+}
+
+void ClusterMetrics::write(const RunnerCounts& counts) {
+    for (MetricSeries& series : series_) series.write();
+    // The walks over the bins take turns: one in every 16 cycles, all within 64.
+    const std::uint64_t turn = written_++ % 64;
+    if (turn % 16 == 1) {
+        if (turn / 16 < series_.size())
+            series_[turn / 16].writePercentiles();
+        else
+            writeLatency();
+    }
+    std::uint64_t commands = 0;
+    std::uint64_t rejected = 0;
+    for (std::uint32_t i = 0; i < agent_.threadCount(); ++i) {
+        commands += agent_.thread(i).commands;
+        rejected += agent_.thread(i).rejected;
+    }
+    overflowItem_ = overflows_;
+    commandItem_ = static_cast<std::int64_t>(commands);
+    rejectedItem_ = static_cast<std::int64_t>(rejected);
+    conflictItem_ = static_cast<std::int64_t>(counts.conflicts);
+    limitItem_ = static_cast<std::int64_t>(counts.limits);
+    droppedItem_ = static_cast<std::int64_t>(agent_.events().dropped());
+    threadsItem_ = threads_;
+    aliveItem_ = !hung_;
+}
+
+void ClusterMetrics::writeLatency() {
+    std::ranges::fill(latencySum_, 0);
+    std::uint64_t count = 0;
+    double sum = 0;
+    double greatest = 0;
+    std::int64_t last = 0;
+    for (std::uint32_t i = 0; i < agent_.threadCount(); ++i) {
+        const LoopThread& thread = agent_.thread(i);
+        if (thread.commands != 0) last = std::max(last, thread.lastLatency);
+        for (std::uint32_t bin = 0; bin < thread.latencyCounts.size(); ++bin) {
+            if (thread.latencyCounts[bin] == 0) continue;
+            latencySum_[bin] += thread.latencyCounts[bin];
+            count += thread.latencyCounts[bin];
+            sum += latencyOfBucket(bin) * static_cast<double>(thread.latencyCounts[bin]);
+            greatest = std::max(greatest, latencyOfBucket(bin));
+        }
+    }
+    if (count == 0) return;
+    latency_[0] = static_cast<double>(last) * 1e-3;
+    latency_[1] = sum / static_cast<double>(count);
+    latency_[5] = greatest;
+    findPercentiles(latencySum_, count, std::span{latency_}.subspan(2, 3), latencyOfBucket);
+}
+
+}  // namespace cortex::cs

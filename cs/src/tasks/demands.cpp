@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tasks/demands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <variant>
+
+namespace cortex::cs {
+
+namespace {
+
+std::uint32_t sizeOf(const DataItem& item) {
+    switch (item.kind) {
+        case Kind::Bool:
+            return item.length;
+        case Kind::String:
+            return item.length * StringCell::size(item.capacity);
+        case Kind::Int:
+        case Kind::Float:
+            break;
+    }
+    return item.length * 8;
+}
+
+double asDouble(const std::optional<Number>& bound, double otherwise) {
+    if (!bound) return otherwise;
+    return std::visit([](auto number) { return static_cast<double>(number); }, *bound);
+}
+
+std::uint32_t alignedSize(const DataItem& item) { return (sizeOf(item) + 7U) / 8U * 8U; }
+
+std::byte* cellOf(const Slice& slice, const ItemLayout& layout) {
+    return static_cast<std::byte*>(slice.at(layout.item->kind, layout.offset));
+}
+
+// Writes a given safe value over cells that have their kind and capacity already.
+void store(const DataItem& item, const Value& value, std::byte* cells) {
+    const auto element = [&](const auto& list, std::size_t i) {
+        return list[list.size() == 1 ? 0 : i];  // one value serves a whole array
+    };
+    for (std::size_t i = 0; i < item.length; ++i) {
+        switch (item.kind) {
+            case Kind::Int:
+                reinterpret_cast<std::int64_t*>(cells)[i] = element(std::get<0>(value), i);
+                break;
+            case Kind::Float:
+                reinterpret_cast<double*>(cells)[i] = element(std::get<1>(value), i);
+                break;
+            case Kind::Bool:
+                reinterpret_cast<bool*>(cells)[i] = element(std::get<2>(value), i);
+                break;
+            case Kind::String:
+                reinterpret_cast<StringCell*>(cells + i * StringCell::size(item.capacity))
+                    ->assign(element(std::get<3>(value), i));
+                break;
+        }
+    }
+}
+
+}  // namespace
+
+DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, std::uint32_t simplex)
+    : simplex_{simplex} {
+    std::size_t size = 0;
+    for (const ItemLayout& entry : layout.items) {
+        if (!entry.item->constant) size += alignedSize(*entry.item);
+    }
+    memory_.resize(size);
+    std::byte* next = memory_.data();
+    constexpr double greatest = std::numeric_limits<double>::max();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const ItemLayout& entry : layout.items) {
+        const DataItem& item = *entry.item;
+        if (item.constant) continue;
+        const bool limited =
+            item.kind == Kind::Float || (item.kind == Kind::Int && (item.min || item.max));
+        items_.push_back({&item, cellOf(live, entry), next, sizeOf(item),
+                          asDouble(item.min, -greatest), asDouble(item.max, greatest),
+                          item.rate.value_or(infinity), limited, false,
+                          item.kind == Kind::Float && item.length == 1 && !item.rate});
+        next += alignedSize(item);
+    }
+    beginnings_.reserve(items_.size() + 1);  // an array may begin two: a limit, then not finite
+    accept();
+}
+
+const std::byte* DemandLimits::previous(const DataItem& item) const {
+    const auto found = std::ranges::find(items_, &item, &Item::item);
+    return found == items_.end() ? nullptr : found->previous;
+}
+
+void DemandLimits::accept() {
+    for (const Item& item : items_) std::memcpy(item.previous, item.live, item.size);
+}
+
+void DemandLimits::restore() {
+    for (const Item& item : items_) {
+        copyCells(item.item->kind, item.previous, item.live, item.size);
+    }
+}
+
+LimitResult DemandLimits::apply(double elapsedSeconds) {
+    LimitResult result;
+    beginnings_.clear();
+    for (Item& item : items_) {
+        if (!item.limited) continue;
+        if (item.plain) {
+            const double value = *reinterpret_cast<const double*>(item.live);
+            if (value >= item.min && value <= item.max) {
+                item.inEpisode = false;
+                continue;
+            }
+        }
+        const bool limitedNow = item.item->kind == Kind::Float
+                                    ? applyFloat(item, elapsedSeconds, result)
+                                    : applyInt(item, result);
+        if (result.notFinite) return result;
+        item.inEpisode = limitedNow;
+    }
+    return result;
+}
+
+void DemandLimits::found(const Item& item, bool first, double value, double limit, bool byRate,
+                         LimitResult& result) {
+    result.any = true;
+    if (first && !item.inEpisode) beginnings_.push_back({item.item, value, limit, false, byRate});
+}
+
+bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
+    auto* values = reinterpret_cast<double*>(item.live);
+    const auto* previous = reinterpret_cast<const double*>(item.previous);
+    const double step = item.rate * elapsed;
+    const bool rated = step < std::numeric_limits<double>::infinity();
+    bool any = false;
+    const std::uint32_t length = item.size / sizeof(double);
+    for (std::uint32_t i = 0; i < length; ++i) {
+        const double written = values[i];
+        if (!rated && written >= item.min && written <= item.max) continue;
+        if (!std::isfinite(written)) {
+            result = {true, true, item.item};
+            beginnings_.push_back({item.item, written, previous[i], true, false});
+            return true;
+        }
+        const double inRange = std::clamp(written, item.min, item.max);
+        const double limited =
+            rated ? std::clamp(inRange, previous[i] - step, previous[i] + step) : inRange;
+        if (limited == written) continue;
+        values[i] = limited;
+        found(item, !any, written, limited, limited != inRange, result);
+        any = true;
+        const bool faults = inRange != written && item.item->onLimit == OnLimit::Fault;
+        if (faults && result.faulting == nullptr) result.faulting = item.item;
+    }
+    return any;
+}
+
+bool DemandLimits::applyInt(Item& item, LimitResult& result) {
+    auto* values = reinterpret_cast<std::int64_t*>(item.live);
+    const auto bound = [](const std::optional<Number>& number, std::int64_t otherwise) {
+        const auto* value = number ? std::get_if<std::int64_t>(&*number) : nullptr;
+        return value != nullptr ? *value : otherwise;
+    };
+    const std::int64_t min = bound(item.item->min, std::numeric_limits<std::int64_t>::min());
+    const std::int64_t max = bound(item.item->max, std::numeric_limits<std::int64_t>::max());
+    bool any = false;
+    for (std::uint32_t i = 0; i < item.item->length; ++i) {
+        const std::int64_t written = values[i];
+        values[i] = std::clamp(written, min, max);
+        if (values[i] == written) continue;
+        found(item, !any, static_cast<double>(written), static_cast<double>(values[i]), false,
+              result);
+        any = true;
+        const bool faults = item.item->onLimit == OnLimit::Fault;
+        if (faults && result.faulting == nullptr) result.faulting = item.item;
+    }
+    return any;
+}
+
+SafeDemands::SafeDemands(const TypeLayout& layout, const Slice& out, const DemandLimits& limits,
+                         const TypeLayout* observedLayout, const Slice& observed) {
+    std::size_t size = 0;
+    for (const ItemLayout& entry : layout.items) {
+        if (entry.item->safe.kind != Safe::Kind::None) size += alignedSize(*entry.item);
+    }
+    memory_.resize(size);
+    std::byte* next = memory_.data();
+    for (const ItemLayout& entry : layout.items) {
+        const DataItem& item = *entry.item;
+        if (item.safe.kind == Safe::Kind::None || item.constant) continue;
+        const bool given = item.safe.kind == Safe::Kind::Given;
+        const ItemLayout* source =
+            item.safe.kind == Safe::Kind::Observed && observedLayout != nullptr
+                ? observedLayout->find(item.name)
+                : nullptr;
+        if (source != nullptr) observedState_ = observed.state;
+        items_.push_back({cellOf(out, entry), next, limits.previous(item),
+                          source != nullptr ? cellOf(observed, *source) : nullptr, sizeOf(item),
+                          item.kind, given});
+        std::memcpy(next, items_.back().out, items_.back().size);
+        if (given) store(item, item.safe.value, next);
+        next += alignedSize(item);
+    }
+    // Before the first startup a demand stands where the plant is expected to be.
+    for (const Item& item : items_) {
+        if (item.observed != nullptr) std::memcpy(item.safe, item.observed, item.size);
+    }
+    write();
+}
+
+void SafeDemands::latch() {
+    const bool usable = observedState_ != nullptr && observedState_->quality < Quality::Bad;
+    for (const Item& item : items_) {
+        if (item.given) continue;
+        const bool observe = item.observed != nullptr && usable;
+        std::memcpy(item.safe, observe ? item.observed : item.previous, item.size);
+    }
+}
+
+void SafeDemands::write() {
+    for (const Item& item : items_) copyCells(item.kind, item.safe, item.out, item.size);
+}
+
+bool SafeDemands::observationIsGood() const {
+    return observedState_ == nullptr || observedState_->quality == Quality::Good;
+}
+
+}  // namespace cortex::cs

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/error.hpp"
+
+#include "tasks/task_runner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+
+namespace cortex::cs {
+
+namespace {
+
+std::int64_t toNanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+
+}  // namespace
+
+// Fills a TaskRunner from the frozen structure; setup only.
+struct TaskBuilder {
+    TaskRunner& runner;
+    AgentRuntime& agent;
+    const Structure& structure;
+    std::vector<DemandLimits*> limitsOf;  // per simplex
+    std::vector<std::vector<Arbiter::Candidate>> candidates;
+
+    const TypeLayout& layout(std::uint32_t simplex) const {
+        return *structure.simplexes[simplex].layout;
+    }
+    std::span<const Edge> edgesOf(std::uint32_t simplex) const {
+        const SimplexInfo& info = structure.simplexes[simplex];
+        return std::span{structure.edges}.subspan(info.firstEdge, info.edgeCount);
+    }
+    std::uint32_t numberOf(const Edge& edge) const {
+        return static_cast<std::uint32_t>(&edge - structure.edges.data());
+    }
+    bool isDemand(std::uint32_t simplex) const {
+        const SimplexInfo& info = structure.simplexes[simplex];
+        return info.role == Role::Modification && !info.writers.empty();
+    }
+    bool isActive(std::uint32_t simplex) const {
+        return structure.simplexes[simplex].role == Role::Active;
+    }
+
+    void build(const Schedule& schedule) {
+        limitsOf.assign(structure.simplexes.size(), nullptr);
+        candidates.resize(structure.simplexes.size());
+        std::size_t inputs = 0, outputs = 0;
+        for (const Edge& edge : structure.edges) {
+            const bool isInput = edge.rule->direction == Direction::Input;
+            if (isInput)
+                ++inputs;
+            else if (!isActive(edge.target))
+                ++outputs;
+        }
+        runner.inputs_.reserve(inputs);
+        runner.outputs_.reserve(outputs);  // pointers to elements are kept
+        agent.tables().latch();
+        for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
+            if (!isDemand(i)) continue;
+            runner.limits_.push_back(
+                std::make_unique<DemandLimits>(layout(i), agent.tables().live(i), i));
+            limitsOf[i] = runner.limits_.back().get();
+        }
+        runner.tasks_.resize(schedule.tasks.size());
+        runner.details_.resize(schedule.tasks.size());
+        for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
+            const std::uint32_t index = schedule.tasks[t];
+            if (isActive(index)) buildTask(runner.tasks_[t], index);
+        }
+        for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
+            const std::uint32_t index = schedule.tasks[t];
+            if (!isActive(index)) buildArbiter(runner.tasks_[t], index);
+        }
+        for (const auto& limits : runner.limits_) limits->accept();
+        agent.tables().latch();
+    }
+
+    void buildTask(Task& task, std::uint32_t index) {
+        const SimplexInfo& info = structure.simplexes[index];
+        auto& simplex = static_cast<SimplexCS&>(agent.simplex(index));
+        task.simplex = &simplex;
+        task.index = index;
+        task.everyCycle = info.every == 1;
+        task.measures = info.layout->type->measures;
+        TaskDetails& details = runner.details(task);
+        details.every = info.every;
+        details.phase = info.phase >= 0 ? static_cast<std::uint32_t>(info.phase) % info.every
+                                        : agent.rank(index) % info.every;
+        details.lastRun = -static_cast<std::int64_t>(info.every) * runner.period_ +
+                          static_cast<std::int64_t>(details.phase) * runner.period_;
+        details.state = simplex.data<std::int64_t>("state");
+        details.faultCode = simplex.data<std::int64_t>("faultCode");
+        details.faultText = simplex.data<std::string_view>("faultText");
+        details.taskTime = simplex.data<double>("taskTime");
+        runner.states_[index] = {0, 0, index, Quality::Stale};
+        task.firstInput = static_cast<std::uint32_t>(runner.inputs_.size());
+        task.firstOutput = static_cast<std::uint32_t>(runner.outputs_.size());
+        for (const Edge& edge : edgesOf(index)) {
+            if (edge.rule->direction == Direction::Input)
+                addInput(edge);
+            else if (!isActive(edge.target))
+                task.limits = addOutput(edge, simplex) || task.limits;
+        }
+        task.inputCount = static_cast<std::uint32_t>(runner.inputs_.size()) - task.firstInput;
+        task.outputCount = static_cast<std::uint32_t>(runner.outputs_.size()) - task.firstOutput;
+    }
+
+    void addInput(const Edge& edge) {
+        const SimplexInfo& target = structure.simplexes[edge.target];
+        const std::uint32_t number = numberOf(edge);
+        TaskInput input;
+        input.rule = edge.rule;
+        input.target = edge.target;
+        input.ages = target.remote || target.role == Role::Active || !target.writers.empty();
+        input.maxAge = std::max(toNanoseconds(edge.rule->maxAge),
+                                3 * runner.period_ * structure.writtenEvery(edge.target));
+        if (target.remote) input.ownerPeriod = &agent.ownerPeriod(edge.target);
+        input.state = agent.tables().edgeSource(number).state;
+        if (edge.rule->onLoss == OnLoss::Hold) {
+            runner.held_.push_back(std::make_unique<HeldInput>(
+                HeldInput{target.layout->cyclic, agent.tables().edgeSource(number),
+                          agent.tables().edge(number)}));
+            input.held = runner.held_.back().get();
+        }
+        runner.inputs_.push_back(input);
+    }
+
+    // Whether the task itself applies limits to it.
+    bool addOutput(const Edge& edge, SimplexCS& writer) {
+        TaskOutput output;
+        output.target = edge.target;
+        const Slice out = agent.tables().edge(numberOf(edge));
+        output.state = out.state;
+        const bool shared = structure.simplexes[edge.target].writers.size() > 1;
+        if (isDemand(edge.target)) {
+            const auto [observedLayout, observed] = counterpart(edge);
+            runner.safe_.push_back(std::make_unique<SafeDemands>(
+                layout(edge.target), out, *limitsOf[edge.target], observedLayout, observed));
+            output.safe = runner.safe_.back().get();
+            if (!shared) output.limits = limitsOf[edge.target];
+        }
+        runner.outputs_.push_back(output);
+        if (shared) candidates[edge.target].push_back({&writer, out, &runner.outputs_.back()});
+        return output.limits != nullptr;
+    }
+
+    // What observes the n-th demand: the n-th relationship under the counterpart rule, or its only.
+    std::pair<const TypeLayout*, Slice> counterpart(const Edge& output) const {
+        if (output.rule->counterpart.empty()) return {nullptr, {}};
+        std::size_t position = 0;
+        std::vector<const Edge*> observing;
+        for (const Edge& edge : edgesOf(output.owner)) {
+            if (edge.rule == output.rule && &edge < &output) ++position;
+            if (edge.rule->name == output.rule->counterpart) observing.push_back(&edge);
+        }
+        if (observing.empty()) return {nullptr, {}};
+        const Edge& edge = *observing[position < observing.size() ? position : 0];
+        return {&layout(edge.target), agent.tables().edgeSource(numberOf(edge))};
+    }
+
+    void buildArbiter(Task& task, std::uint32_t index) {
+        auto arbiter = std::make_unique<Arbiter>();
+        arbiter->target = index;
+        arbiter->sizes = layout(index).cyclic;
+        arbiter->live = agent.tables().live(index);
+        arbiter->limits = limitsOf[index];
+        arbiter->candidates = candidates[index];
+        std::ranges::sort(arbiter->candidates, {}, [&](const Arbiter::Candidate& candidate) {
+            return agent.rank(candidate.writer->index());
+        });
+        if (!arbiter->candidates.empty()) {
+            copySlice(arbiter->sizes, arbiter->candidates.front().slice, arbiter->live);
+        }
+        task.index = index;
+        runner.details(task).arbiter = arbiter.get();
+        runner.arbiters_.push_back(std::move(arbiter));
+    }
+};
+
+TaskRunner::TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64_t period)
+    : agent_{agent},
+      structure_{agent.structure()},
+      states_{agent.tables().states().data()},
+      period_{period},
+      chunks_{schedule.chunks},
+      threads_(agent.threadCount()),
+      positions_{std::make_unique<Position[]>(agent.threadCount())} {
+    for (std::uint32_t i = 0; i < agent.threadCount(); ++i) threads_[i].loop = &agent.thread(i);
+    TaskBuilder{*this, agent, structure_, {}, {}}.build(schedule);
+}
+
+}  // namespace cortex::cs

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "threads/realtime_thread.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cfenv>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <thread>
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
+namespace cortex::cs {
+namespace {
+
+constexpr std::size_t PrefaultedBytes = 262144;
+constexpr const char* LatencyFile = "/dev/cpu_dma_latency";
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+std::string listed(const std::vector<int>& cpus) {
+    std::string text;
+    for (const int cpu : cpus) text += (text.empty() ? "" : ", ") + std::to_string(cpu);
+    return text;
+}
+
+std::vector<int> allowedCpus() {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    std::vector<int> cpus;
+    if (sched_getaffinity(0, sizeof set, &set) == 0) {
+        for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+            if (CPU_ISSET(static_cast<std::size_t>(cpu), &set)) cpus.push_back(cpu);
+        }
+    }
+    if (cpus.empty()) cpus.push_back(0);
+    return cpus;
+}
+
+std::string firstLine(const char* file) {
+    std::ifstream stream{file};
+    std::string line;
+    std::getline(stream, line);
+    return line;
+}
+
+/// Isolated CPUs are not in the mask that a process begins with, but there for who names them.
+const std::vector<int>& nameableCpus() {
+    static const std::vector<int> Cpus = [] {
+        std::vector<int> cpus = usableCpus();
+        const auto isolated = settableCpus(cpusOf(firstLine("/sys/devices/system/cpu/isolated")));
+        cpus.insert(cpus.end(), isolated.begin(), isolated.end());
+        std::ranges::sort(cpus);
+        cpus.erase(std::ranges::unique(cpus).begin(), cpus.end());
+        return cpus;
+    }();
+    return Cpus;
+}
+
+/// Those of the wanted CPUs that are there; all usable, where none was wanted or is there.
+std::vector<int> chosenCpus(const std::vector<int>& wanted) {
+    std::vector<int> chosen;
+    for (const int cpu : nameableCpus()) {
+        if (std::find(wanted.begin(), wanted.end(), cpu) != wanted.end()) chosen.push_back(cpu);
+    }
+    return chosen.empty() ? usableCpus() : chosen;
+}
+
+/// Sets all usable CPUs where none was wanted: a thread inherits the mask of the one that made it.
+int place(pthread_t thread, const std::vector<int>& cpus) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    for (const int cpu : cpus) {
+        if (cpu >= 0 && cpu < CPU_SETSIZE) CPU_SET(static_cast<std::size_t>(cpu), &set);
+    }
+    return pthread_setaffinity_np(thread, sizeof set, &set);
+}
+
+void setAffinity(const ThreadOptions& options, std::vector<std::string>& report) {
+    const std::vector<int>& wanted = options.affinity.empty() ? usableCpus() : options.affinity;
+    const int error = place(pthread_self(), wanted);
+    const std::vector<int> got = allowedCpus();
+    const bool isComplete = std::all_of(wanted.begin(), wanted.end(), [&](int cpu) {
+        return std::find(got.begin(), got.end(), cpu) != got.end();
+    });
+    if (error == 0 && isComplete) return;
+    report.push_back("Thread '" + options.name + "' should run on CPU " + listed(wanted) +
+                     (error == 0 ? "" : " (" + reason(error) + ")") + " and runs on CPU " +
+                     listed(got) + ". This process may use CPU " + listed(nameableCpus()) +
+                     "; name only these.");
+}
+
+void setPriority(const ThreadOptions& options, std::vector<std::string>& report) {
+    if (options.priority == 0) return;
+    sched_param parameter{};
+    parameter.sched_priority = options.priority;
+    const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter);
+    if (error == 0) return;
+    report.push_back("Thread '" + options.name + "' did not get priority " +
+                     std::to_string(options.priority) + " (" + reason(error) +
+                     "): its lateness is what the system's load makes it. Use 1 to 99; grant the "
+                     "program CAP_SYS_NICE, or its user 'rtprio " +
+                     std::to_string(std::clamp(options.priority, 1, 99)) +
+                     "' in /etc/security/limits.d.");
+}
+
+}  // namespace
+
+const std::vector<int>& usableCpus() {
+    static const std::vector<int> Cpus = allowedCpus();
+    return Cpus;
+}
+
+std::vector<int> settableCpus(const std::vector<int>& wanted) {
+    std::vector<int> got;
+    if (wanted.empty()) return got;
+    std::thread{[&] {  // not this thread: it is to stay where it is
+        cpu_set_t set;
+        CPU_ZERO(&set);
+        for (const int cpu : wanted) CPU_SET(static_cast<std::size_t>(cpu), &set);
+        if (pthread_setaffinity_np(pthread_self(), sizeof set, &set) == 0) got = allowedCpus();
+    }}
+        .join();
+    return got;
+}
+
+std::uint32_t cpuCount(const std::vector<int>& affinity) {
+    return static_cast<std::uint32_t>(chosenCpus(affinity).size());
+}
+
+int cpuForThread(const std::vector<int>& affinity, std::uint32_t thread) {
+    const std::vector<int> cpus = chosenCpus(affinity);
+    return cpus[thread % cpus.size()];
+}
+
+std::uint32_t clampThreads(std::uint32_t wanted, int priority, const std::vector<int>& affinity,
+                           std::vector<std::string>& report) {
+    const std::uint32_t most = cpuCount(affinity);
+    if (priority == 0 || wanted <= most) return wanted;
+    report.push_back("Only " + std::to_string(most) + " of " + std::to_string(wanted) +
+                     " real-time threads are used: each needs a CPU of its own, and CPU " +
+                     listed(chosenCpus(affinity)) +
+                     " is all there is. Name more CPUs or ask for fewer threads.");
+    return most;
+}
+
+std::vector<std::string> configureThisThread(const ThreadOptions& options) {
+    usableCpus();  // found before this thread is pinned
+    std::vector<std::string> report;
+    pthread_setname_np(pthread_self(), options.name.substr(0, 15).c_str());
+    setAffinity(options, report);
+    setPriority(options, report);
+    prctl(PR_SET_TIMERSLACK, 1UL);  // else sleeps of normal threads end up to 50 microseconds late
+    return report;
+}
+
+void placeThread(std::thread::native_handle_type thread, const std::vector<int>& cpus) {
+    place(thread, cpus.empty() ? usableCpus() : cpus);
+}
+
+OnCpu::OnCpu(int cpu) : before_{allowedCpus()} {
+    usableCpus();  // found before this thread is pinned
+    place(pthread_self(), {cpu});
+}
+
+OnCpu::~OnCpu() { place(pthread_self(), before_); }
+
+std::vector<std::string> lockMemory() {
+    rlimit limit{};
+    getrlimit(RLIMIT_MEMLOCK, &limit);
+    // Under a limit, locking later memory too would make later allocations fail instead.
+    const bool isLimited = limit.rlim_cur != RLIM_INFINITY && geteuid() != 0;
+    const int flags = isLimited ? MCL_CURRENT : MCL_CURRENT | MCL_FUTURE;
+    const std::string remedy =
+        "grant the program CAP_IPC_LOCK, or its user 'memlock unlimited' in "
+        "/etc/security/limits.d.";
+    if (mlockall(flags) != 0) {
+        return {"Memory was not locked (" + reason(errno) +
+                "): a page fault can delay a cycle. To lock it, " + remedy};
+    }
+    if (!isLimited) return {};
+    return {"Only the memory in use now was locked, because the process has a limit of " +
+            std::to_string(limit.rlim_cur / 1024) + " KiB. To lock all, " + remedy};
+}
+
+AwakeCpus::AwakeCpus(std::vector<std::string>& report)
+    : request_{open(LatencyFile, O_WRONLY | O_CLOEXEC)} {
+    // https://docs.kernel.org/power/pm_qos_interface.html: the longest wake-up in us, as 32 bits
+    constexpr std::int32_t NoSleep = 0;
+    if (request_ >= 0 && write(request_, &NoSleep, sizeof NoSleep) == sizeof NoSleep) return;
+    report.push_back("Idle CPUs sleep between cycles (" + std::string{LatencyFile} + ": " +
+                     reason(errno) +
+                     "), so a cycle can begin late. To keep them awake, let the user write that "
+                     "file: 'KERNEL==\"cpu_dma_latency\", GROUP=\"cortex\", MODE=\"0660\"' in "
+                     "/etc/udev/rules.d; or set keepCpusAwake to false.");
+}
+
+AwakeCpus::~AwakeCpus() {
+    if (request_ >= 0) close(request_);
+}
+
+ThreadPlace placeOfThisThread() {
+    ThreadPlace place;
+    place.cpus = allowedCpus();
+    place.isolated = cpusOf(firstLine("/sys/devices/system/cpu/isolated"));
+    int policy = SCHED_OTHER;
+    sched_param parameter{};
+    pthread_getschedparam(pthread_self(), &policy, &parameter);
+    place.realTime = policy == SCHED_FIFO || policy == SCHED_RR;
+    place.throttled = firstLine("/proc/sys/kernel/sched_rt_runtime_us") != "-1";
+    return place;
+}
+
+std::vector<std::string> spinReport(const ThreadPlace& place, std::int64_t spin,
+                                    std::int64_t period) {
+    const std::int64_t share = 100 * spin / period;
+    std::vector<std::string> report;
+    const bool alone = std::ranges::all_of(place.cpus, [&](int cpu) {
+        return std::ranges::find(place.isolated, cpu) != place.isolated.end();
+    });
+    if (!alone) {
+        report.push_back("The clock spins for " + std::to_string(share) +
+                         " % of each period and takes that time from others on CPU " +
+                         listed(place.cpus) +
+                         ", which is not isolated. Isolate a CPU (isolcpus=…, nohz_full=…) and "
+                         "name it in 'cpus', or let the clock sleep.");
+    }
+    constexpr std::int64_t MostSpinning = 80;  // %; cycles take time, too
+    if (place.realTime && place.throttled && share > MostSpinning) {
+        report.push_back(
+            "The clock spins for " + std::to_string(share) +
+            " % of each period at real-time priority: the kernel may stop the loop for "
+            "some 50 ms of each second, on purpose. Spin for less, or "
+            "'sysctl kernel.sched_rt_runtime_us=-1'.");
+    }
+    return report;
+}
+
+std::vector<int> cpusOf(const std::string& list) {
+    std::vector<int> cpus;
+    std::istringstream in{list};
+    for (std::string range; std::getline(in, range, ',');) {
+        std::istringstream ends{range};
+        int first = 0, last = 0;
+        char dash = 0;
+        if (!(ends >> first)) continue;
+        if (!(ends >> dash >> last)) last = first;
+        for (int cpu = first; cpu <= last && cpu < CPU_SETSIZE; ++cpu) cpus.push_back(cpu);
+    }
+    return cpus;
+}
+
+[[gnu::noinline]] void prefaultStack() noexcept {
+    std::array<volatile char, PrefaultedBytes> stack;
+    constexpr std::size_t SmallestPage = 4096;
+    for (std::size_t i = 0; i < stack.size(); i += SmallestPage) stack[i] = 0;
+}
+
+void setFloatingPointMode() noexcept {
+#if defined(__x86_64__)
+    // Traps masked; rounding and flush bits zero. The old unit still computes long double.
+    constexpr unsigned VectorUnit = 0x1F80;
+    constexpr std::uint16_t OldUnit = 0x037F;
+    _mm_setcsr(VectorUnit);
+    asm volatile("fldcw %0" : : "m"(OldUnit));
+#else
+    std::fesetenv(FE_DFL_ENV);
+#endif
+}
+
+}  // namespace cortex::cs

@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "threads/scheduler.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <queue>
+
+namespace cortex::cs {
+namespace {
+
+using Index = std::uint32_t;
+constexpr Index None = std::numeric_limits<Index>::max();
+
+constexpr double LeastTaskMicroseconds = 0.01;
+constexpr double ChunkMicroseconds = 4.0;  // a ticket costs 0.05 to 0.2
+constexpr double LevelMicroseconds = 0.5;  // waiting for the chunks of the level before
+constexpr std::size_t MostInlinedEdges = 64;
+constexpr std::size_t MostPruningSteps = 1024;
+
+/// Lists of indices, one per owner, in one flat array.
+struct Lists {
+    std::vector<Index> first;  // owners + 1
+    std::vector<Index> items;
+
+    std::span<const Index> of(Index owner) const {
+        return {items.data() + first[owner], items.data() + first[owner + 1]};
+    }
+};
+
+/// The values 0..n-1 grouped by their owner; each group ascends.
+Lists groupBy(std::span<const Index> ownerOf, std::size_t owners) {
+    Lists lists{std::vector<Index>(owners + 1), std::vector<Index>(ownerOf.size())};
+    for (const Index owner : ownerOf) ++lists.first[owner + 1];
+    std::partial_sum(lists.first.begin(), lists.first.end(), lists.first.begin());
+    std::vector<Index> next(lists.first.begin(), lists.first.end() - 1);
+    for (Index value = 0; value < ownerOf.size(); ++value) {
+        lists.items[next[ownerOf[value]]++] = value;
+    }
+    return lists;
+}
+
+/// For each node the other ends of its edges: by `from` the successors, by `to` the predecessors.
+Lists neighbours(const TaskGraph& graph, bool successors) {
+    std::vector<Index> owners;
+    owners.reserve(graph.edges.size());
+    for (const auto& [before, after] : graph.edges) {
+        assert(before < graph.nodes.size() && after < graph.nodes.size());
+        owners.push_back(successors ? before : after);
+    }
+    Lists lists = groupBy(owners, graph.nodes.size());
+    for (Index& item : lists.items) {
+        const auto& [before, after] = graph.edges[item];
+        item = successors ? after : before;
+    }
+    return lists;
+}
+
+/// Every blocked node has a blocked predecessor, so walking back from any of them ends in a loop.
+std::vector<Index> findLoop(const Lists& predecessors, const std::vector<bool>& blocked) {
+    const auto start = std::find(blocked.begin(), blocked.end(), true);
+    std::vector<Index> walk;
+    std::vector<bool> visited(blocked.size());
+    Index node = static_cast<Index>(start - blocked.begin());
+    while (!visited[node]) {
+        visited[node] = true;
+        walk.push_back(node);
+        const auto before = predecessors.of(node);
+        node = *std::find_if(before.begin(), before.end(), [&](Index i) { return blocked[i]; });
+    }
+    walk.erase(walk.begin(), std::find(walk.begin(), walk.end(), node));
+    std::reverse(walk.begin(), walk.end());
+    return walk;
+}
+
+[[noreturn]] void throwLoop(const TaskGraph& graph, const std::vector<bool>& blocked) {
+    std::vector<Index> loop = findLoop(neighbours(graph, false), blocked);
+    const auto byPath = [&](Index a, Index b) { return graph.nodes[a].path < graph.nodes[b].path; };
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), byPath), loop.end());
+    std::string text = "The order of execution has a loop: ";
+    for (const Index node : loop) text += graph.nodes[node].path + " -> ";
+    text += graph.nodes[loop.front()].path;
+    text += ". Each runs before the next; mark one relationship of the loop delayed=\"true\", ";
+    text += "and its reader takes the value of the cycle before.";
+    throw LoopError(text);
+}
+
+/// Builds a Schedule in the order of its public functions; used once.
+class Builder {
+public:
+    Builder(const TaskGraph& graph, const ScheduleOptions& options)
+        : graph_(graph), options_(options) {
+        schedule_.order = canonicalOrder(graph);
+    }
+
+    void contract();
+    void mergeChains();
+    void cutChunks();
+    void namePredecessors();
+    Schedule finish();
+
+private:
+    std::size_t nodeCount() const { return graph_.nodes.size(); }
+    double cost(Index node) const;
+    double weight(Index node) const;
+    std::vector<bool> leadingToTask(const Lists& successors) const;
+    std::span<const Index> before(Index node) const;
+    void cutLevel(std::span<const Index> chains);
+    void openChunk();
+    void placeChunks(std::size_t first, double levelCost);
+    void addToOpenChunk(Index chain);
+    void prune(Index chunk, std::vector<Index>& named, std::vector<Index>& coveredFor) const;
+    double countCrossings() const;
+
+    const TaskGraph& graph_;
+    const ScheduleOptions& options_;
+    Schedule schedule_;
+
+    // After contract(): what remains are tasks and joins, `before` names only such.
+    std::vector<bool> remains_;
+    std::vector<Index> beforeFirst_, beforeCount_, beforeItems_;
+
+    // After mergeChains(): chains in the canonical order of their heads.
+    std::vector<Index> chainOf_;  // by node, None where contracted
+    Lists nodesOfChain_;
+    std::vector<double> chainCost_, chainWeight_;
+    Lists chainsOfLevel_;
+
+    // While cutting; the open chunk is the last.
+    std::vector<Index> chunkOfChain_;
+    std::vector<double> chunkCost_;
+    double openWeight_ = 0;
+    bool openHoldsWholeLevels_ = false;
+    double serialCost_ = 0, parallelCost_ = 0;
+    Index widestLevel_ = 0;
+};
+
+/// In microseconds.
+double Builder::cost(Index node) const {
+    if (!graph_.nodes[node].hasTask) return 0;
+    const double known = options_.costMicroseconds.empty() ? 0 : options_.costMicroseconds[node];
+    const double full = known > 0 ? known : AssumedTaskMicroseconds;
+    return std::max(full / std::max(1U, graph_.nodes[node].every), LeastTaskMicroseconds);
+}
+
+/// What fills a chunk: cost, or the number of tasks where the caller fixed it.
+double Builder::weight(Index node) const {
+    return options_.chunkSize == 0 ? cost(node) : graph_.nodes[node].hasTask ? 1 : 0;
+}
+
+std::span<const Index> Builder::before(Index node) const {
+    return {beforeItems_.data() + beforeFirst_[node], beforeCount_[node]};
+}
+
+std::vector<bool> Builder::leadingToTask(const Lists& successors) const {
+    std::vector<bool> leading(nodeCount());
+    for (auto it = schedule_.order.rbegin(); it != schedule_.order.rend(); ++it) {
+        const auto after = successors.of(*it);
+        leading[*it] = graph_.nodes[*it].hasTask ||
+                       std::any_of(after.begin(), after.end(), [&](Index i) { return leading[i]; });
+    }
+    return leading;
+}
+
+/// Nodes without a task hand their predecessors on to their successors. Where that would multiply
+/// edges (many writers and many readers of one simplex) the node stays as a join, a task of no
+/// cost.
+void Builder::contract() {
+    const Lists successors = neighbours(graph_, true);
+    const Lists predecessors = neighbours(graph_, false);
+    const std::vector<bool> leading = leadingToTask(successors);
+    std::vector<Index> seenFor(nodeCount(), None);
+    remains_.assign(nodeCount(), false);
+    beforeFirst_.assign(nodeCount(), 0);
+    beforeCount_.assign(nodeCount(), 0);
+    for (const Index node : schedule_.order) {
+        beforeFirst_[node] = static_cast<Index>(beforeItems_.size());
+        if (!leading[node]) continue;
+        const auto add = [&](Index earlier) {
+            if (std::exchange(seenFor[earlier], node) != node) beforeItems_.push_back(earlier);
+        };
+        for (const Index direct : predecessors.of(node)) {
+            if (remains_[direct]) {
+                add(direct);
+            } else {
+                const Index first = beforeFirst_[direct];
+                for (Index i = first; i < first + beforeCount_[direct]; ++i) add(beforeItems_[i]);
+            }
+        }
+        beforeCount_[node] = static_cast<Index>(beforeItems_.size()) - beforeFirst_[node];
+        const std::size_t inlined = beforeCount_[node] * successors.of(node).size();
+        remains_[node] =
+            graph_.nodes[node].hasTask || (beforeCount_[node] > 1 && inlined > MostInlinedEdges);
+    }
+}
+
+/// A node whose only predecessor has no other successor continues its chain.
+void Builder::mergeChains() {
+    std::vector<Index> successorCount(nodeCount());
+    for (const Index node : schedule_.order) {
+        if (!remains_[node]) continue;
+        for (const Index earlier : before(node)) ++successorCount[earlier];
+    }
+    chainOf_.assign(nodeCount(), None);
+    std::vector<Index> members, chainOfMember, levelOfChain;
+    Index levels = 0;
+    for (const Index node : schedule_.order) {
+        if (!remains_[node]) continue;
+        const auto earlier = before(node);
+        if (earlier.size() == 1 && successorCount[earlier[0]] == 1) {
+            chainOf_[node] = chainOf_[earlier[0]];
+        } else {
+            Index level = 0;
+            for (const Index i : earlier) level = std::max(level, levelOfChain[chainOf_[i]] + 1);
+            chainOf_[node] = static_cast<Index>(levelOfChain.size());
+            levelOfChain.push_back(level);
+            chainCost_.push_back(0);
+            chainWeight_.push_back(0);
+            levels = std::max(levels, level + 1);
+        }
+        chainCost_[chainOf_[node]] += cost(node);
+        chainWeight_[chainOf_[node]] += weight(node);
+        members.push_back(node);
+        chainOfMember.push_back(chainOf_[node]);
+    }
+    nodesOfChain_ = groupBy(chainOfMember, levelOfChain.size());
+    for (Index& item : nodesOfChain_.items) item = members[item];
+    chainsOfLevel_ = groupBy(levelOfChain, levels);
+}
+
+void Builder::openChunk() {
+    schedule_.chunks.push_back({static_cast<Index>(schedule_.tasks.size()), 0, 0, 0});
+    chunkCost_.push_back(0);
+    openWeight_ = 0;
+}
+
+void Builder::addToOpenChunk(Index chain) {
+    Chunk& chunk = schedule_.chunks.back();
+    for (const Index node : nodesOfChain_.of(chain)) {
+        if (!graph_.nodes[node].hasTask) continue;
+        schedule_.tasks.push_back(node);
+        ++chunk.count;
+    }
+    chunkOfChain_[chain] = static_cast<Index>(schedule_.chunks.size()) - 1;
+    chunkCost_.back() += chainCost_[chain];
+    openWeight_ += chainWeight_[chain];
+}
+
+/// Small levels share a chunk; a large one is cut into chunks of its own. The chains of a level are
+/// independent of each other, so a chunk waits only for chunks of earlier levels.
+void Builder::cutLevel(std::span<const Index> chains) {
+    const double limit = options_.chunkSize != 0 ? options_.chunkSize : ChunkMicroseconds;
+    double levelCost = 0, levelWeight = 0;
+    for (const Index chain : chains) {
+        levelCost += chainCost_[chain];
+        levelWeight += chainWeight_[chain];
+    }
+    const bool sharesChunk = openHoldsWholeLevels_ && openWeight_ + levelWeight <= limit;
+    if (!sharesChunk) openChunk();
+    const std::size_t firstChunk = schedule_.chunks.size() - 1;
+    double largest = 0;
+    bool isEmpty = !sharesChunk, isAfterJoin = false;
+    for (const Index chain : chains) {
+        const bool isJoin = chainWeight_[chain] <= 0;
+        const bool isFull = openWeight_ + chainWeight_[chain] > limit;
+        if (!isEmpty && (isFull || isJoin || isAfterJoin)) openChunk();
+        addToOpenChunk(chain);
+        largest = std::max(largest, chunkCost_.back());
+        isEmpty = false;
+        isAfterJoin = isJoin;
+    }
+    const auto width = static_cast<Index>(schedule_.chunks.size() - firstChunk);
+    openHoldsWholeLevels_ = width == 1;
+    placeChunks(firstChunk, levelCost);
+    widestLevel_ = std::max(widestLevel_, width);
+    serialCost_ += levelCost;
+    const double shared = levelCost / std::max(1U, std::min(width, options_.threads));
+    parallelCost_ += width == 1 ? levelCost : std::max(largest, shared) + LevelMicroseconds;
+}
+
+/// By the cost of those before them; a level of mere joins has none.
+void Builder::placeChunks(std::size_t first, double levelCost) {
+    constexpr double last = 0.9999;
+    double before = 0;
+    for (std::size_t i = first; levelCost > 0 && i < schedule_.chunks.size(); ++i) {
+        schedule_.chunks[i].place = static_cast<float>(std::min(before / levelCost, last));
+        before += chunkCost_[i];
+    }
+}
+
+void Builder::cutChunks() {
+    const auto levels = static_cast<Index>(chainsOfLevel_.first.size() - 1);
+    chunkOfChain_.assign(chainCost_.size(), 0);
+    for (Index level = 0; level < levels; ++level) cutLevel(chainsOfLevel_.of(level));
+}
+
+/// Drops from `named` (latest first) what another of them names itself.
+void Builder::prune(Index chunk, std::vector<Index>& named, std::vector<Index>& coveredFor) const {
+    std::size_t steps = 0;
+    std::erase_if(named, [&](Index earlier) {
+        if (coveredFor[earlier] == chunk) return true;
+        const Chunk& kept = schedule_.chunks[earlier];
+        steps += kept.predecessorCount;
+        if (steps > MostPruningSteps) return false;
+        for (Index i = 0; i < kept.predecessorCount; ++i) {
+            coveredFor[schedule_.predecessors[kept.firstPredecessor + i]] = chunk;
+        }
+        return false;
+    });
+}
+
+void Builder::namePredecessors() {
+    const std::size_t chunks = schedule_.chunks.size();
+    const Lists chainsOfChunk = groupBy(chunkOfChain_, chunks);
+    std::vector<Index> namedFor(chunks, None), coveredFor(chunks, None), named;
+    for (Index chunk = 0; chunk < chunks; ++chunk) {
+        named.clear();
+        for (const Index chain : chainsOfChunk.of(chunk)) {
+            const Index head = nodesOfChain_.of(chain).front();
+            for (const Index node : before(head)) {
+                const Index earlier = chunkOfChain_[chainOf_[node]];
+                if (earlier == chunk || std::exchange(namedFor[earlier], chunk) == chunk) continue;
+                assert(earlier < chunk);
+                named.push_back(earlier);
+            }
+        }
+        std::sort(named.begin(), named.end(), std::greater<>());
+        prune(chunk, named, coveredFor);
+        schedule_.chunks[chunk].firstPredecessor =
+            static_cast<Index>(schedule_.predecessors.size());
+        schedule_.chunks[chunk].predecessorCount = static_cast<Index>(named.size());
+        schedule_.predecessors.insert(schedule_.predecessors.end(), named.begin(), named.end());
+    }
+}
+
+double Builder::countCrossings() const {
+    const auto home = [&](Index chain) {
+        return homeOf(schedule_.chunks[chunkOfChain_[chain]], schedule_.threads);
+    };
+    double crossings = 0;
+    for (Index chain = 0; chain < chunkOfChain_.size(); ++chain) {
+        const Index head = nodesOfChain_.of(chain).front();
+        const auto earlier = before(head);
+        const auto count = std::count_if(earlier.begin(), earlier.end(), [&](Index node) {
+            return home(chainOf_[node]) != home(chain);
+        });
+        crossings += static_cast<double>(count) / std::max(1U, graph_.nodes[head].every);
+    }
+    return crossings;
+}
+
+Schedule Builder::finish() {
+    const Index threads =
+        options_.force ? options_.threads : std::min(options_.threads, widestLevel_);
+    schedule_.lineMicroseconds = options_.lineMicroseconds;
+    schedule_.threads = std::max<Index>(1, threads);
+    schedule_.crossings = countCrossings();
+    const double shared = parallelCost_ + sharingMicroseconds(schedule_, options_.lineMicroseconds);
+    if (shared >= serialCost_ && !options_.force) {
+        schedule_.threads = 1;
+        schedule_.crossings = 0;
+    }
+    return std::move(schedule_);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> canonicalOrder(const TaskGraph& graph) {
+    const std::size_t count = graph.nodes.size();
+    std::vector<Index> byPath(count), rank(count), waitsFor(count), order;
+    std::iota(byPath.begin(), byPath.end(), 0U);
+    std::sort(byPath.begin(), byPath.end(),
+              [&](Index a, Index b) { return graph.nodes[a].path < graph.nodes[b].path; });
+    for (Index i = 0; i < count; ++i) rank[byPath[i]] = i;
+    const Lists successors = neighbours(graph, true);
+    for (const Index after : successors.items) ++waitsFor[after];
+
+    std::priority_queue<Index, std::vector<Index>, std::greater<>> ready;  // ranks
+    for (Index node = 0; node < count; ++node) {
+        if (waitsFor[node] == 0) ready.push(rank[node]);
+    }
+    order.reserve(count);
+    while (!ready.empty()) {
+        const Index node = byPath[ready.top()];
+        ready.pop();
+        order.push_back(node);
+        for (const Index after : successors.of(node)) {
+            if (--waitsFor[after] == 0) ready.push(rank[after]);
+        }
+    }
+    if (order.size() == count) return order;
+    std::vector<bool> blocked(count);
+    for (Index node = 0; node < count; ++node) blocked[node] = waitsFor[node] != 0;
+    throwLoop(graph, blocked);
+}
+
+double crossingMicroseconds(const Schedule& schedule, double lineMicroseconds) {
+    constexpr double linesPerCrossing = 0.3;  // 0.17 for an empty task, which reads one
+    return schedule.crossings * linesPerCrossing * lineMicroseconds;
+}
+
+double sharingMicroseconds(const Schedule& schedule, double lineMicroseconds) {
+    if (schedule.threads < 2) return 0;
+    constexpr double linesPerCycle = 20, linesPerChunk = 0.5;
+    const double chunks = linesPerChunk * static_cast<double>(schedule.chunks.size());
+    return WakeMicroseconds + linesPerCycle * lineMicroseconds +
+           (chunks * lineMicroseconds + crossingMicroseconds(schedule, lineMicroseconds)) /
+               schedule.threads;
+}
+
+Schedule makeSchedule(const TaskGraph& graph, const ScheduleOptions& options) {
+    assert(options.costMicroseconds.empty() ||
+           options.costMicroseconds.size() == graph.nodes.size());
+    Builder builder(graph, options);
+    builder.contract();
+    builder.mergeChains();
+    builder.cutChunks();
+    builder.namePredecessors();
+    return builder.finish();
+}
+
+}  // namespace cortex::cs

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "threads/realtime_thread.hpp"
+#include "threads/scheduler.hpp"
+#include "threads/wake_word.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cortex::cs {
+
+inline constexpr std::uint32_t noGroup = std::numeric_limits<std::uint32_t>::max();
+
+struct PoolOptions {
+    std::string name = "cortex";
+    std::uint32_t threads = 0;    // with the loop's own; 0: as the schedule says
+    int priority = 0;             // see ThreadOptions
+    std::vector<int> affinity{};  // CPUs for all threads, the loop's first; empty: all usable
+    std::uint32_t spinMicroseconds = 20;  // before a waiting thread sleeps
+    bool oversubscribe = false;           // tests: more real-time threads than CPUs
+
+    /// By chunk the group that it belongs to, or noGroup; empty: there are none. Whoever runs the
+    /// last chunk of a group in a cycle then calls the other function with the pool's context; what
+    /// waits for that chunk does not wait for it. Must not throw.
+    std::vector<std::uint32_t> groups{};
+    void (*endGroup)(void* context, std::uint32_t group, std::uint32_t worker) = nullptr;
+
+    /// Runs in each worker thread before its first cycle; must not throw.
+    void (*onStart)(void* context, std::uint32_t worker) = nullptr;
+    void* onStartContext = nullptr;
+};
+
+/// Runs the chunks of a schedule once in each cycle(), on the calling (loop) thread as worker 0 and
+/// on workers of its own. Made and destroyed outside the loop; cycle() neither allocates nor locks.
+/// Each worker has a list of chunks, the same in every cycle, so that their data stays in its
+/// caches; it takes what is ready from there, or else from the list of another. Some chunk is
+/// always ready, and first in its list. A waiting thread spins for a bounded time and then sleeps,
+/// because a spinning real-time thread may keep the one it waits for off the CPU.
+class ThreadPool {
+public:
+    /// Must not throw.
+    using ChunkFunction = void (*)(void* context, std::uint32_t chunk, std::uint32_t worker);
+
+    ThreadPool(const Schedule& schedule, ChunkFunction run, void* context, PoolOptions options);
+    ~ThreadPool();
+    ThreadPool(const ThreadPool&) = delete;
+    ThreadPool& operator=(const ThreadPool&) = delete;
+
+    /// Called once by the thread that will call cycle(): pins it and sets its priority as the
+    /// workers'. Returns what the system refused.
+    std::vector<std::string> configureLoopThread() const;
+
+    /// The CPU of the loop thread alone, for a pool that takes the place of another. Any thread.
+    void placeLoopThread(std::thread::native_handle_type loop) const;
+
+    /// `next`: when the cycle after this one is due, ns of the monotonic clock, so that workers
+    /// wake by themselves, with the loop thread, which then need not wake them; 0: not known.
+    void cycle(std::int64_t next = 0) noexcept;
+
+    std::uint32_t threads() const noexcept { return static_cast<std::uint32_t>(workers_.size()); }
+
+    /// How often this worker slept within a cycle because what it waited for took too long.
+    std::uint64_t sleeps(std::uint32_t worker) const noexcept;
+
+    /// What the system refused to the workers, in sentences.
+    const std::vector<std::string>& report() const noexcept { return report_; }
+
+private:
+    class Spin;
+    struct alignas(64) DoneWord {
+        std::atomic<std::uint32_t> epoch{0};  // in which the chunk last ran
+    };
+    struct alignas(64) Worker {
+        std::atomic<std::uint64_t> sleeps{0};
+        std::atomic<bool> isConfigured{false};
+        std::vector<std::string> report;
+        std::thread thread;
+    };
+    /// Chunks in topological order, taken from the front by any worker.
+    struct alignas(64) List {
+        std::atomic<std::uint64_t> ticket{0};  // epoch << 32 | next chunk to take
+        std::vector<std::uint32_t> chunks;
+    };
+    struct alignas(64) Group {
+        std::atomic<std::uint32_t> left{0};  // chunks to run in this cycle
+        std::uint32_t size = 0;
+    };
+    /// What a worker can do next.
+    struct Found {
+        enum class What : std::uint8_t { Nothing, Blocked, Taken };
+        What what = What::Nothing;
+        std::uint32_t chunk = 0, epoch = 0;  // where one was taken
+    };
+
+    ThreadOptions threadOptions(std::uint32_t worker) const;
+    void startWorkers();
+    void stopWorkers() noexcept;
+    void workerMain(std::uint32_t worker);
+    void listChunks();
+    void countGroups();
+    bool waitForCycle(std::uint32_t& seen) noexcept;
+    void takeChunks(std::uint32_t worker) noexcept;
+    Found find(std::uint32_t worker) noexcept;
+    bool isReady(const Chunk& chunk, std::uint32_t epoch) const noexcept;
+    void complete(std::uint32_t chunk, std::uint32_t epoch) noexcept;
+    void countDone(std::uint32_t chunk, std::uint32_t worker) noexcept;
+    Found sleepOrFind(std::uint32_t worker) noexcept;
+    void countSleep(std::uint32_t worker) noexcept;
+
+    // Read-only in the loop.
+    const std::vector<Chunk> chunks_;
+    const std::vector<std::uint32_t> predecessors_;
+    std::vector<bool> isAwaited_;  // by chunk: some chunk names it
+    const ChunkFunction run_;
+    void* const context_;
+    const PoolOptions options_;
+    const std::chrono::nanoseconds spinTime_;
+    std::vector<std::string> report_;
+    std::vector<Worker> workers_;
+    std::vector<List> lists_;  // by worker
+    std::vector<Group> groups_;
+    std::unique_ptr<DoneWord[]> done_;  // by chunk
+    std::uint32_t epoch_ = 0;           // even; loop thread only
+
+    alignas(64) std::atomic<std::uint32_t> remaining_{0};  // chunks not yet reported as done
+    alignas(64) std::atomic<std::uint32_t> sleepers_{0};   // in a cycle, for lack of a ready chunk
+    alignas(64) WakeWord progress_;                        // they sleep on it
+    alignas(64) WakeWord started_;       // epoch; workers sleep on it between cycles
+    std::atomic<std::int64_t> next_{0};  // when they need no longer sleep
+    alignas(64) WakeWord finished_;      // epoch; the loop thread sleeps on it at the cycle's end
+    std::atomic<bool> stopping_{false};
+};
+
+}  // namespace cortex::cs

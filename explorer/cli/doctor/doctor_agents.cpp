@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "doctor/doctor.hpp"
+#include "live/top_data.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <unistd.h>
+
+namespace cortex::explorer {
+namespace {
+
+using Level = Diagnosis::Level;
+
+constexpr double nearClocks = 0.1;  // s, with what a message takes
+
+std::string hostName() {
+    std::array<char, 256> name{};
+    gethostname(name.data(), name.size() - 1);
+    return name.data();
+}
+
+void examineState(const comms::AgentStatus& agent, Diagnoses& found) {
+    const std::string who = agent.name + " on " + agent.host;
+    const auto add = [&](Level level, const std::string& message, const std::string& remedy) {
+        found.push_back({level, "agent", message, remedy});
+    };
+    if (agent.state == "lost") {
+        add(Level::Warning, who + " is lost",
+            "start it again, or look at the network to " + agent.host);
+    } else if (!agent.trouble.empty()) {
+        add(Level::Error, who + " cannot be understood: " + agent.trouble,
+            "run the same version of CorteX everywhere");
+    } else if (agent.state == "incomplete") {
+        add(Level::Error,
+            who + " has not told everything: " + std::to_string(agent.missing) + " of " +
+                std::to_string(agent.types + agent.simplexes) + " are missing",
+            "look for a firewall or a small MTU between the hosts, or wait longer (--timeout)");
+    } else {
+        add(Level::Ok, who + ", security " + (agent.security.empty() ? "none" : agent.security),
+            "");
+    }
+    if (agent.loss > 0) {
+        add(Level::Warning, plural(agent.loss, "message") + " of " + agent.name + " did not come",
+            "look at the load of both hosts, cables and buffers");
+    }
+}
+
+void examineSecurity(const std::vector<comms::AgentStatus>& agents, Diagnoses& found) {
+    std::map<std::string, std::vector<std::string>> byState;
+    for (const auto& each : agents) byState[each.security].push_back(each.name);
+    if (byState.size() < 2) return;
+    std::vector<std::string> parts;
+    for (const auto& [state, names] : byState) {
+        parts.push_back((state.empty() ? "none" : state) + ": " + joined(names));
+    }
+    found.push_back({Level::Warning, "security", "agents differ: " + joined(parts, "; "),
+                     "give each of them a folder of the same authority"});
+}
+
+// Agents of one name follow each other with other starts; the older one says that it falls silent.
+void examineNames(const std::map<std::string, std::set<std::int64_t>>& starts,
+                  const std::vector<comms::AgentEvent>& events, Diagnoses& found) {
+    std::set<std::string> doubled;
+    for (const auto& [agent, epochs] : starts) {
+        if (epochs.size() > 1) doubled.insert(agent);
+    }
+    for (const comms::AgentEvent& each : events) {
+        if (each.text.find("falls silent") != std::string::npos) doubled.insert(each.agent);
+    }
+    for (const std::string& each : doubled) {
+        found.push_back({Level::Error, "name", "several agents are called " + each,
+                         "give each its own name: <cluster name=…> in its system file"});
+    }
+}
+
+// How far an agent's time of day is from ours, by the newest image of it. None came: nothing said.
+void examineClock(Live& live, const comms::AgentStatus& agent, Diagnoses& found) {
+    const comms::AgentImage image = live.mirror().image(agent.name);
+    if (!image || image->wallClock() == 0) return;
+    const std::uint32_t own = ownSimplex(image->structure());
+    const auto age = own == noSimplex ? std::nullopt : live.mirror().age(agent.name, own);
+    if (!age || agent.state != "running") return;
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const double there = static_cast<double>(image->wallClock()) * 1e-9 + *age;
+    const double offset = there - std::chrono::duration<double>(now).count();
+    if (std::abs(offset) <= nearClocks) return;
+    found.push_back({Level::Warning, "clock",
+                     "the time of day of " + agent.name + " on " + agent.host + " is " +
+                         std::to_string(std::llround(std::abs(offset) * 1000)) + " ms " +
+                         (offset > 0 ? "ahead" : "behind"),
+                     "synchronise the clocks of both hosts: sudo apt install chrony"});
+}
+
+}  // namespace
+
+void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
+    std::map<std::string, std::set<std::int64_t>> starts;
+    bool complete = false;
+    while (!complete && live.left() > std::chrono::milliseconds{1}) {
+        const auto slice = std::min(live.left(), std::chrono::milliseconds{100});
+        complete = live.mirror().waitUntilComplete(slice);
+        for (const auto& each : live.mirror().agents()) starts[each.name].insert(each.epoch);
+    }
+    std::vector<std::string> own;
+    const auto agents = live.mirror().agents();
+    for (const auto& each : agents) {
+        const auto structure = live.mirror().structure(each.name);
+        const std::uint32_t simplex = structure ? ownSimplex(*structure) : noSimplex;
+        if (simplex != noSimplex) own.push_back(structure->simplexes[simplex].path);
+    }
+    live.mirror().view(own, 5);
+    live.mirror().waitForValues(live.left());
+    if (agents.empty()) {
+        found.push_back(
+            {Level::Warning, "agents", "none is heard on domain " + std::to_string(live.domain()),
+             "start one (cortex-agent FILE --domain " + std::to_string(live.domain()) +
+                 "), look at another domain (--domain N), or name its host (--peer HOST)"});
+    }
+    for (const auto& each : live.mirror().agents()) {
+        examineState(each, found);
+        if (each.host != hostName()) examineClock(live, each, found);
+    }
+    examineSecurity(agents, found);
+    examineNames(starts, arrivals.take(std::chrono::milliseconds{0}), found);
+}
+
+}  // namespace cortex::explorer

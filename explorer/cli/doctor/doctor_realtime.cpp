@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "doctor/diagnosis.hpp"
+#include "text/output.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include <unistd.h>
+
+namespace cortex::explorer {
+namespace {
+
+namespace fs = std::filesystem;
+using Level = Diagnosis::Level;
+
+constexpr const char* cpuFolder = "sys/devices/system/cpu";
+constexpr const char* latencyFile = "dev/cpu_dma_latency";
+constexpr int soonAwake = 20;  // us out of an idle state that a fast loop can bear
+
+std::string listed(const std::vector<int>& cpus) {
+    std::vector<std::string> parts;
+    for (const int cpu : cpus) parts.push_back(std::to_string(cpu));
+    return "CPU " + joined(parts);
+}
+
+std::vector<int> without(const std::vector<int>& cpus, const std::vector<int>& others) {
+    std::vector<int> rest;
+    std::ranges::copy_if(cpus, std::back_inserter(rest),
+                         [&](int cpu) { return std::ranges::find(others, cpu) == others.end(); });
+    return rest;
+}
+
+bool hasWord(const std::string& text, const std::string& word) {
+    std::istringstream in{text};
+    for (std::string each; in >> each;) {
+        if (each == word) return true;
+    }
+    return false;
+}
+
+// none, voluntary, lazy or full; "" where the kernel does not tell.
+std::string preemption(const fs::path& root) {
+    const std::string modes = lineOf(root / "sys/kernel/debug/sched/preempt");  // "none (full)"
+    const std::size_t begin = modes.find('(');
+    if (begin != std::string::npos) return modes.substr(begin + 1, modes.find(')') - begin - 1);
+    std::istringstream words{lineOf(root / "proc/cmdline")};
+    std::string told;
+    for (std::string word; words >> word;) {
+        if (word.starts_with("preempt=")) told = word.substr(8);
+    }
+    const std::string version = lineOf(root / "proc/version");
+    if (told.empty() && hasWord(version, "PREEMPT")) return "full";
+    if (told.empty() && version.find("PREEMPT") == std::string::npos) return "voluntary";
+    return told;
+}
+
+void examinePreemption(const fs::path& root, Diagnoses& found) {
+    const std::string mode = preemption(root);
+    if (lineOf(root / "sys/kernel/realtime") == "1" ||
+        hasWord(lineOf(root / "proc/version"), "PREEMPT_RT")) {
+        found.push_back({Level::Ok, "preemption", "everywhere (PREEMPT_RT)", ""});
+    } else if (mode == "full") {
+        found.push_back({Level::Ok, "preemption", "full", ""});
+    } else if (mode.empty()) {
+        found.push_back({Level::Warning, "preemption",
+                         "it is not told whether the kernel lets a loop interrupt it",
+                         "boot with preempt=full, or look: "
+                         "sudo cat /sys/kernel/debug/sched/preempt"});
+    } else {
+        found.push_back({Level::Warning, "preemption",
+                         mode + ": a loop waits until the kernel has finished what it does",
+                         "boot with preempt=full, or a kernel with PREEMPT_RT"});
+    }
+}
+
+void examineIsolation(const fs::path& root, const std::vector<int>& isolated, Diagnoses& found) {
+    const std::vector<int> tickless = cpusOf(lineOf(root / cpuFolder / "nohz_full"));
+    const std::vector<int> ticking = without(isolated, tickless);
+    if (isolated.empty()) {
+        found.push_back({Level::Warning, "isolation",
+                         "no CPU is isolated: other work runs on those of the loop",
+                         "boot with, say, isolcpus=2,3 nohz_full=2,3 rcu_nocbs=2,3 and write "
+                         "cpus=\"2 3\" into <cluster>"});
+    } else if (!ticking.empty()) {
+        found.push_back({Level::Warning, "isolation",
+                         listed(ticking) + " isolated, but interrupted by the timer tick",
+                         "boot with nohz_full= and rcu_nocbs= for the same CPUs as isolcpus="});
+    } else {
+        found.push_back({Level::Ok, "isolation", listed(isolated) + ", without timer tick", ""});
+    }
+}
+
+void examineInterrupts(const fs::path& root, const std::vector<int>& isolated, Diagnoses& found) {
+    std::set<int> interrupts;
+    std::error_code ignored;
+    for (const auto& each : fs::directory_iterator{root / "proc/irq", ignored}) {
+        std::string cpus = lineOf(each.path() / "effective_affinity_list");
+        if (cpus.empty()) cpus = lineOf(each.path() / "smp_affinity_list");
+        if (without(isolated, cpusOf(cpus)).size() == isolated.size()) continue;
+        for (const int number : cpusOf(each.path().filename())) interrupts.insert(number);
+    }
+    if (interrupts.empty()) {
+        found.push_back({Level::Ok, "interrupts", "none goes to an isolated CPU", ""});
+        return;
+    }
+    std::vector<std::string> numbers;
+    for (const int each : interrupts) numbers.push_back(std::to_string(each));
+    found.push_back(
+        {Level::Warning, "interrupts",
+         plural(numbers.size(), "interrupt") + " may go to an isolated CPU: " + joined(numbers),
+         "boot with irqaffinity= and the other CPUs, or write them to "
+         "/proc/irq/N/smp_affinity_list; stop irqbalance"});
+}
+
+// What the other hardware thread of a core does slows this one down.
+void examineCores(const fs::path& root, const std::vector<int>& isolated, Diagnoses& found) {
+    std::vector<int> shared;
+    for (const int cpu : isolated) {
+        const fs::path folder = root / cpuFolder / ("cpu" + std::to_string(cpu)) / "topology";
+        const auto siblings = cpusOf(lineOf(folder / "thread_siblings_list"));
+        if (!without(siblings, isolated).empty()) shared.push_back(cpu);
+    }
+    if (shared.empty()) {
+        found.push_back({Level::Ok, "cores", "no isolated CPU shares its core with others", ""});
+    } else {
+        found.push_back({Level::Warning, "cores",
+                         listed(shared) + " isolated, but on a core with a CPU that is not",
+                         "isolate both and use one, or: echo off | sudo tee "
+                         "/sys/devices/system/cpu/smt/control"});
+    }
+}
+
+// The longest that a CPU may be told to take to wake up, us; nothing: no limit.
+std::optional<int> latencyLimit(const fs::path& root) {
+    std::int32_t limit = 0;
+    std::ifstream file{root / latencyFile, std::ios::binary};
+    if (!file.read(reinterpret_cast<char*>(&limit), sizeof limit)) return std::nullopt;
+    return limit;
+}
+
+struct IdleState {
+    std::string name;
+    int latency = 0;  // us
+};
+
+// The deepest that is allowed on one of these CPUs.
+IdleState deepest(const fs::path& root, const std::vector<int>& cpus) {
+    IdleState worst;
+    std::error_code ignored;
+    for (const int cpu : cpus) {
+        const fs::path folder = root / cpuFolder / ("cpu" + std::to_string(cpu)) / "cpuidle";
+        for (const auto& each : fs::directory_iterator{folder, ignored}) {
+            if (lineOf(each.path() / "disable") == "1") continue;
+            const std::vector<int> latency = cpusOf(lineOf(each.path() / "latency"));
+            if (latency.empty() || latency.front() <= worst.latency) continue;
+            worst = {lineOf(each.path() / "name"), latency.front()};
+        }
+    }
+    return worst;
+}
+
+bool isVirtual(const fs::path& root) {
+    std::ifstream file{root / "proc/cpuinfo"};
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("flags")) return hasWord(line, "hypervisor");
+    }
+    return false;
+}
+
+// Of a virtual machine each idle state is deep: the host gives the CPU to others.
+void examineIdle(const fs::path& root, const std::vector<int>& isolated, Diagnoses& found) {
+    const auto all = cpusOf(lineOf(root / cpuFolder / "online"));
+    const IdleState state = deepest(root, isolated.empty() ? all : isolated);
+    const std::optional<int> limit = latencyLimit(root);
+    const std::string takes = state.name + ", " + std::to_string(state.latency) + " us to wake up";
+    const bool isGivenAway = isVirtual(root);
+    if (limit && *limit <= (isGivenAway ? 0 : soonAwake)) {
+        found.push_back(
+            {Level::Ok, "idle",
+             "a program keeps CPUs awake: at most " + std::to_string(*limit) + " us to wake up",
+             ""});
+    } else if (state.latency <= soonAwake && !isGivenAway) {
+        const std::string driver = lineOf(root / cpuFolder / "cpuidle/current_driver");
+        found.push_back({Level::Ok, "idle",
+                         state.name.empty() ? "no deep idle state" +
+                                                  (driver.empty() ? "" : " (driver " + driver + ")")
+                                            : "at the deepest " + takes,
+                         ""});
+    } else if (access((root / latencyFile).c_str(), W_OK) == 0) {
+        found.push_back({Level::Ok, "idle", "a loop with a priority will keep CPUs awake", ""});
+    } else {
+        found.push_back(
+            {Level::Warning, "idle",
+             isGivenAway ? "idle CPUs are given to the host, who returns them when it pleases"
+                         : "CPUs sleep as deeply as " + takes,
+             "let the user write /dev/cpu_dma_latency (udev: KERNEL==\"cpu_dma_latency\", "
+             "GROUP=\"cortex\", MODE=\"0660\"), so that a loop with a priority keeps them awake" +
+                 (isGivenAway ? std::string{}
+                              : "; or sudo cpupower idle-set -D " + std::to_string(soonAwake))});
+    }
+}
+
+// Both take pages away and give them back, locked or not.
+void examinePages(const fs::path& root, Diagnoses& found) {
+    const std::string huge = lineOf(root / "sys/kernel/mm/transparent_hugepage/enabled");
+    const std::string moved = lineOf(root / "proc/sys/kernel/numa_balancing");
+    if (huge.find("[always]") != std::string::npos) {
+        found.push_back({Level::Warning, "pages",
+                         "the kernel joins pages to huge ones: a loop may wait for it",
+                         "echo madvise | sudo tee /sys/kernel/mm/transparent_hugepage/enabled"});
+    }
+    if (!moved.empty() && moved != "0") {
+        found.push_back({Level::Warning, "pages",
+                         "the kernel moves pages between memory nodes: a loop may wait for it",
+                         "sudo sysctl kernel.numa_balancing=0"});
+    }
+}
+
+void examineHypervisor(const fs::path& root, Diagnoses& found) {
+    if (isVirtual(root)) {
+        found.push_back({Level::Warning, "hypervisor",
+                         "this is a virtual machine: its host decides when a loop runs",
+                         "pin its CPUs on the host, measure, or use the machine itself"});
+    } else {
+        found.push_back({Level::Ok, "hypervisor", "none is seen", ""});
+    }
+}
+
+}  // namespace
+
+std::string lineOf(const fs::path& file) {
+    std::ifstream stream{file};
+    std::string line;
+    std::getline(stream, line);
+    line.erase(line.find_last_not_of(" \t\r\n") + 1);
+    return line;
+}
+
+std::vector<int> cpusOf(const std::string& list) {
+    constexpr int most = 8192;
+    std::vector<int> cpus;
+    std::istringstream in{list};
+    for (std::string range; std::getline(in, range, ',');) {
+        std::istringstream ends{range};
+        int first = 0, last = 0;
+        char dash = 0;
+        if (!(ends >> first)) break;
+        if (!(ends >> dash >> last)) last = first;
+        for (int cpu = first; cpu <= std::min(last, first + most); ++cpu) cpus.push_back(cpu);
+    }
+    return cpus;
+}
+
+void examineRealTime(const fs::path& root, Diagnoses& found) {
+    const std::vector<int> isolated = cpusOf(lineOf(root / cpuFolder / "isolated"));
+    examinePreemption(root, found);
+    examineIsolation(root, isolated, found);
+    if (!isolated.empty()) {
+        examineInterrupts(root, isolated, found);
+        examineCores(root, isolated, found);
+    }
+    examineIdle(root, isolated, found);
+    examinePages(root, found);
+    examineHypervisor(root, found);
+}
+
+}  // namespace cortex::explorer

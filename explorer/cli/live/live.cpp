@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live/live.hpp"
+
+#include "cortex/core/simplex_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace cortex::explorer {
+namespace {
+
+using Milliseconds = std::chrono::milliseconds;
+using Clock = std::chrono::steady_clock;
+
+comms::NetworkOptions optionsOf(const NetworkArguments& arguments) {
+    comms::NetworkOptions options;
+    if (arguments.domain) options.domain = *arguments.domain;
+    options.interfaces = arguments.interfaces;
+    options.peers = arguments.peers;
+    if (arguments.discoveryServer) options.discoveryServer = *arguments.discoveryServer;
+    if (arguments.security) options.security = *arguments.security;
+    return options;
+}
+
+bool isBelow(const std::string& path, const std::string& prefix) {
+    return prefix == "/" || path == prefix || path.starts_with(prefix + "/");
+}
+
+}  // namespace
+
+int domainOf(const NetworkArguments& arguments) { return optionsOf(arguments).domain; }
+
+void checkPath(const std::string& path) {
+    const std::string wrong = SimplexTree::pathError(path);
+    if (!wrong.empty()) throw Failure{Usage, "'" + path + "': " + wrong};
+}
+
+void checkPrefix(const std::string& prefix) {
+    if (prefix != "/") checkPath(prefix);
+}
+
+Live::Live(const NetworkArguments& arguments)
+    : timeout_{std::llround(arguments.timeout * 1000)}, end_{Clock::now() + timeout_} {
+    const comms::NetworkOptions options = optionsOf(arguments);
+    domain_ = options.domain;
+    mirror_ = std::make_unique<comms::Mirror>("cortex", options);
+}
+
+Milliseconds Live::left() const {
+    const auto left = std::chrono::duration_cast<Milliseconds>(end_ - Clock::now());
+    return std::max(left, Milliseconds{1});
+}
+
+void Live::waitForAll() {
+    mirror_->waitUntilComplete(left());
+    if (mirror_->agents().empty()) failWithNobody();
+}
+
+void Live::failWithNobody() const {
+    const std::string domain = std::to_string(domain_);
+    throw Failure{
+        NotFound,
+        "no agent on domain " + domain + "; start one (cortex-agent FILE --domain " + domain +
+            "), look at another domain (--domain N or CORTEX_DOMAIN), name the interface that the "
+            "agents are kept to (--interface lo), or a host that multicast does not reach "
+            "(--peer HOST)"};
+}
+
+std::string Live::incomplete() const {
+    std::vector<std::string> parts;
+    for (const comms::AgentStatus& each : mirror_->agents()) {
+        if (each.state != "incomplete") continue;
+        const std::uint32_t all = each.types + each.simplexes;
+        std::string part = std::to_string(all - each.missing) + " of " + std::to_string(all) +
+                           " from " + each.name;
+        if (!each.trouble.empty()) part += " (" + each.trouble + ")";
+        parts.push_back(std::move(part));
+    }
+    if (const std::uint32_t unheard = mirror_->unheard(); unheard > 0) {
+        const std::size_t here = mirror_->agents().size();
+        parts.push_back(std::to_string(here) + " of " + std::to_string(here + unheard) + " agents");
+    }
+    return parts.empty() ? "" : "incomplete: " + joined(parts);
+}
+
+std::vector<std::string> Live::paths() const {
+    std::vector<std::string> paths;
+    for (const FoundSimplex& each : below("/")) paths.push_back(each.info().path);
+    return paths;
+}
+
+FoundSimplex Live::find(const std::string& path) {
+    checkPath(path);
+    if (const auto owner = mirror_->waitForOwner(path, left())) {
+        FoundSimplex found{*owner, mirror_->structure(*owner), 0};
+        if (found.structure) {
+            found.index = found.structure->find(path);
+            return found;
+        }
+    }
+    if (mirror_->agents().empty()) failWithNobody();
+    const std::string lacking = incomplete();
+    const std::string nearest = nearestNames(path, paths());
+    throw Failure{NotFound, "no agent has a simplex " + path +
+                                (nearest.empty() ? "" : "; " + nearest) +
+                                (lacking.empty() ? "" : "; " + lacking)};
+}
+
+// One path of several agents: its owner is the one that started first.
+std::vector<FoundSimplex> Live::below(const std::string& prefix) const {
+    std::vector<FoundSimplex> found;
+    for (const comms::AgentStatus& agent : mirror_->agents()) {
+        const auto structure = mirror_->structure(agent.name);
+        if (!structure) continue;
+        for (std::uint32_t i = 0; i < structure->simplexes.size(); ++i) {
+            const SimplexInfo& info = structure->simplexes[i];
+            if (!info.remote && isBelow(info.path, prefix)) {
+                found.push_back({agent.name, structure, i});
+            }
+        }
+    }
+    std::ranges::sort(found, {},
+                      [](const auto& each) { return std::tie(each.info().path, each.agent); });
+    return found;
+}
+
+comms::AgentImage Live::values(const FoundSimplex& simplex) {
+    mirror_->view({simplex.info().path}, 100);
+    std::uint64_t images = 0;
+    while (!mirror_->age(simplex.agent, simplex.index)) {
+        const Milliseconds limit = left();
+        if (limit <= Milliseconds{1}) break;
+        images = mirror_->waitForImage(images, limit);
+    }
+    auto image = mirror_->image(simplex.agent);
+    const bool newer = image && &image->structure() != simplex.structure.get();
+    if (image && !newer && mirror_->age(simplex.agent, simplex.index)) return image;
+    throw Failure{NotFound, "the values of " + simplex.info().path + " did not come from agent " +
+                                simplex.agent};
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/comms/mirror.hpp"
+
+#include "text/output.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cortex::explorer {
+
+// Which network to look at, and for how long to wait for it.
+struct NetworkArguments {
+    std::optional<int> domain;  // none: CORTEX_DOMAIN, or 0
+    std::vector<std::string> interfaces, peers;
+    std::optional<std::string> discoveryServer;  // none: CORTEX_DISCOVERY_SERVER
+    std::optional<std::string> security;         // folder; none: CORTEX_SECURITY
+    double timeout = 3;                          // s
+};
+
+int domainOf(const NetworkArguments& arguments);
+
+// One simplex of an agent that is heard.
+struct FoundSimplex {
+    std::string agent;
+    std::shared_ptr<const Structure> structure;
+    std::uint32_t index = 0;
+
+    const SimplexInfo& info() const { return structure->simplexes[index]; }
+    const Type& type() const { return *info().layout->type; }
+};
+
+// The network as verbs see it: waits as long as was asked for, and fails in words.
+class Live {
+public:
+    explicit Live(const NetworkArguments& arguments);
+
+    comms::Mirror& mirror() { return *mirror_; }
+    // Until everything of everybody is here; throws Failure if nobody is there.
+    void waitForAll();
+    // "incomplete: 37 of 44 from robot", or "" when all is here.
+    std::string incomplete() const;
+    FoundSimplex find(const std::string& path);  // throws Failure naming the nearest
+    std::optional<std::string> ownerOf(const std::string& path) const {
+        return mirror_->ownerOf(path);
+    }
+    std::vector<FoundSimplex> below(const std::string& prefix) const;  // by path
+    // Its newest values; waits for them. Throws Failure if they do not come.
+    comms::AgentImage values(const FoundSimplex& simplex);
+
+    std::chrono::milliseconds left() const;  // of the time to wait
+    std::chrono::milliseconds timeout() const { return timeout_; }
+    int domain() const { return domain_; }
+    [[noreturn]] void failWithNobody() const;  // throws Failure that says what to try
+
+private:
+    std::vector<std::string> paths() const;
+
+    std::chrono::milliseconds timeout_;
+    std::chrono::steady_clock::time_point end_;
+    int domain_;
+    std::unique_ptr<comms::Mirror> mirror_;
+};
+
+// Throws Failure unless it can be the path of a simplex; a prefix may be "/" too.
+void checkPath(const std::string& path);
+void checkPrefix(const std::string& prefix);
+
+}  // namespace cortex::explorer

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live/live_json.hpp"
+
+#include "live/live_events.hpp"
+#include "live/live_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <string_view>
+#include <tuple>
+
+namespace cortex::explorer {
+
+std::int64_t milliseconds(double seconds) { return std::llround(seconds * 1000); }
+
+Json agentJson(const comms::AgentStatus& agent) {
+    return {{"name", agent.name},
+            {"epoch", agent.epoch},
+            {"host", agent.host},
+            {"state", agent.state},
+            {"age_ms", milliseconds(agent.age)},
+            {"simplexes", agent.simplexes},
+            {"cycle", agent.cycle},
+            {"loss", agent.loss},
+            {"security", agent.security}};
+}
+
+Json eventJson(const comms::AgentEvent& event) {
+    return {{"time", timeText(event.wallClock)},
+            {"agent", event.agent},
+            {"number", event.number},
+            {"cycle", event.cycle},
+            {"severity", name(event.severity)},
+            {"kind", event.kind},
+            {"path", event.path},
+            {"text", event.text}};
+}
+
+void printLine(const Json& json) {
+    std::cout << json.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+}
+
+void sortByTime(std::vector<comms::AgentEvent>& events) {
+    std::ranges::sort(events, {}, [](const comms::AgentEvent& event) {
+        return std::tuple{event.wallClock, event.number, std::string_view{event.agent}};
+    });
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/comms/mirror.hpp"
+
+#include "text/output.hpp"
+
+#include <cstdint>
+
+// What several live verbs print as JSON.
+namespace cortex::explorer {
+
+std::int64_t milliseconds(double seconds);
+Json agentJson(const comms::AgentStatus& agent);  // an element of schemas/agents.json
+Json eventJson(const comms::AgentEvent& event);   // an element of schemas/events.json
+void printLine(const Json& json);                 // on one line, at once
+
+}  // namespace cortex::explorer

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live/live_values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <ctime>
+
+namespace cortex::explorer {
+namespace {
+
+// Decimals that a format such as "%.3f" asks for.
+std::optional<int> decimalsOf(const std::string& format) {
+    const std::size_t dot = format.find('.');
+    int decimals = 0;
+    if (dot == std::string::npos) return {};
+    const char* end = format.data() + format.size();
+    if (std::from_chars(format.data() + dot + 1, end, decimals).ec != std::errc{}) return {};
+    return std::clamp(decimals, 0, 17);
+}
+
+std::string numberText(const DataItem& item, double number) {
+    const auto decimals = decimalsOf(item.format);
+    if (!decimals) return toText(number);
+    std::array<char, 400> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), number,
+                                   std::chars_format::fixed, *decimals);
+    return {text.data(), end.ptr};
+}
+
+std::string labelText(const DataItem& item, std::int64_t number) {
+    const auto label = item.labels.find(number);
+    return label != item.labels.end() ? label->second : toText(number);
+}
+
+// Labels may be written instead of their numbers.
+std::string withNumbers(const DataItem& item, const std::string& text) {
+    for (const auto& [number, label] : item.labels) {
+        if (label == text) return toText(number);
+    }
+    return text;
+}
+
+std::string labelsHint(const DataItem& item) {
+    std::vector<std::string> labels;
+    for (const auto& [number, label] : item.labels) labels.push_back(toText(number) + ":" + label);
+    return labels.empty() ? "" : "; labels: " + joined(labels, " ");
+}
+
+}  // namespace
+
+Json valueJson(const DataItem& item, const Value& value) {
+    Json list = std::visit([](const auto& elements) { return Json(elements); }, value);
+    return item.length == 1 && list.size() == 1 ? Json(list.front()) : list;
+}
+
+Json numberJson(const std::optional<Number>& number) {
+    if (!number) return {};
+    return std::visit([](auto value) { return Json(value); }, *number);
+}
+
+std::string valueText(const DataItem& item, const Value& value) {
+    std::vector<std::string> words;
+    if (const auto* floats = std::get_if<std::vector<double>>(&value)) {
+        for (const double each : *floats) words.push_back(numberText(item, each));
+    } else if (const auto* ints = std::get_if<std::vector<std::int64_t>>(&value)) {
+        for (const std::int64_t each : *ints) words.push_back(labelText(item, each));
+    } else {
+        return toText(value);
+    }
+    return joined(words, " ");
+}
+
+std::optional<State> stateOf(const Image& image, std::uint32_t simplex) {
+    const SimplexInfo& info = image.structure().simplexes[simplex];
+    const ItemLayout* item = info.layout->find("state");
+    if (info.role != Role::Active || item == nullptr || item->item->kind != Kind::Int) return {};
+    if (image.state(simplex).quality == Quality::Lost) return {};
+    const auto value = std::get<std::vector<std::int64_t>>(image.value(simplex, *item)).front();
+    if (value < 0 || value >= stateCount) return {};
+    return static_cast<State>(value);
+}
+
+ProgramInterface::Arguments parseArguments(const std::string& what, const RecordLayout& request,
+                                           const std::vector<std::string>& texts) {
+    std::vector<std::string> valid;
+    for (const ItemLayout& each : request.items) valid.push_back(each.item->name);
+    ProgramInterface::Arguments arguments;
+    for (const std::string& text : texts) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos) {
+            throw Failure{Usage, "'" + text + "': write it as name=value"};
+        }
+        const std::string name = text.substr(0, equals);
+        const ItemLayout* item = request.find(name);
+        if (item == nullptr) {
+            const std::string nearest = nearestNames(name, valid);
+            const std::string all = valid.empty() ? "there is none" : "there are " + joined(valid);
+            throw Failure{Usage,
+                          what + " has no '" + name + "'; " + (nearest.empty() ? all : nearest)};
+        }
+        std::string why;
+        auto value = parseValue(item->item->kind, item->item->length,
+                                withNumbers(*item->item, text.substr(equals + 1)), why);
+        if (!value) throw Failure{Usage, name + ": " + why + labelsHint(*item->item)};
+        if (!arguments.emplace(name, std::move(*value)).second) {
+            throw Failure{Usage, "'" + name + "' is given twice"};
+        }
+    }
+    return arguments;
+}
+
+std::string csvText(const std::string& text) {
+    std::string visible = printable(text);
+    if (visible.find_first_of(",\" ") == std::string::npos) return visible;
+    std::string result = "\"";
+    for (const char c : visible) result += c == '"' ? "\"\"" : std::string{c};
+    return result + "\"";
+}
+
+std::string timeText(std::int64_t wallClock) {
+    const std::int64_t milliseconds = wallClock / 1'000'000;
+    const std::time_t seconds = milliseconds / 1000;
+    std::tm utc{};
+    gmtime_r(&seconds, &utc);
+    std::array<char, 40> text{};
+    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &utc);
+    const std::string fraction = std::to_string(1000 + milliseconds % 1000);
+    return std::string{text.data()} + "." + fraction.substr(1) + "Z";
+}
+
+}  // namespace cortex::explorer

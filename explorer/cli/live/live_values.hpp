@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/command.hpp"
+#include "cortex/core/image.hpp"
+#include "cortex/core/program_interface.hpp"
+
+#include "text/output.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+// Values of agents as people and programs read them, and as people write them.
+namespace cortex::explorer {
+
+Json valueJson(const DataItem& item, const Value& value);         // a scalar, or a list
+Json numberJson(const std::optional<Number>& number);             // null without one
+std::string valueText(const DataItem& item, const Value& value);  // labels, format of the item
+
+// The state of an active simplex in an image; none for others, and while it has not come.
+std::optional<State> stateOf(const Image& image, std::uint32_t simplex);
+
+// "name=value" for parameters of a command or items of `set`; throws Failure with what is valid.
+ProgramInterface::Arguments parseArguments(const std::string& what, const RecordLayout& request,
+                                           const std::vector<std::string>& texts);
+
+std::string csvText(const std::string& text);  // quoted where it must be
+std::string timeText(std::int64_t wallClock);  // "2026-11-20T10:00:00.123Z"
+
+}  // namespace cortex::explorer

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/output.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+#include <unistd.h>
+
+namespace cortex::explorer {
+namespace {
+
+constexpr const char* plain = "\033[0m";
+
+const char* colourOf(Severity severity) {
+    constexpr std::array colours{"\033[36m", "\033[33m", "\033[31m"};
+    return colours[static_cast<std::size_t>(severity)];
+}
+
+void appendEscaped(std::string& text, unsigned octet) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    text += "\\x";
+    text += digits[octet / 16];
+    text += digits[octet % 16];
+}
+
+}  // namespace
+
+bool coloured(Stream stream) {
+    const char* none = std::getenv("NO_COLOR");
+    if (none != nullptr && *none != '\0') return false;
+    const char* terminal = std::getenv("TERM");
+    if (terminal == nullptr || std::string_view{terminal} == "dumb") return false;
+    return isatty(stream == Stream::Output ? STDOUT_FILENO : STDERR_FILENO) == 1;
+}
+
+std::size_t textWidth(std::string_view text) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+bool looksLikeFile(const std::string& argument) {
+    std::error_code ignored;
+    return argument.ends_with(".xml") || std::filesystem::is_regular_file(argument, ignored);
+}
+
+std::string printable(std::string_view text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto octet = static_cast<unsigned char>(text[i]);
+        const unsigned next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
+        const bool secondSet = octet == 0xC2 && next >= 0x80 && next < 0xA0;  // U+0080 to U+009F
+        if (octet < 0x20 || octet == 0x7F) {
+            appendEscaped(result, octet);
+        } else if (secondSet) {
+            appendEscaped(result, next);
+            ++i;
+        } else {
+            result += text[i];
+        }
+    }
+    return result;
+}
+
+std::string plural(std::size_t count, const std::string& thing) {
+    const char* ending = thing.ends_with('x') ? "es" : "s";
+    return std::to_string(count) + " " + thing + (count == 1 ? "" : ending);
+}
+
+std::string joined(const std::vector<std::string>& parts, std::string_view separator) {
+    std::string result;
+    for (const std::string& part : parts) {
+        if (!result.empty()) result += separator;
+        result += part;
+    }
+    return result;
+}
+
+void Columns::print(std::ostream& stream) const {
+    std::vector<std::size_t> widths;
+    for (const Line& line : lines_) {
+        if (line.note) continue;
+        widths.resize(std::max(widths.size(), line.cells.size()));
+        for (std::size_t i = 0; i < line.cells.size(); ++i) {
+            widths[i] = std::max(widths[i], textWidth(printable(line.cells[i])));
+        }
+    }
+    for (const Line& line : lines_) {
+        std::string text(line.note ? indent_ + 4 : indent_, ' ');
+        for (std::size_t i = 0; i < line.cells.size(); ++i) {
+            const std::string cell = printable(line.cells[i]);
+            text += cell;
+            if (!line.note && widths[i] > 0) text.append(widths[i] - textWidth(cell) + 2, ' ');
+        }
+        text.erase(text.find_last_not_of(' ') + 1);
+        stream << text << '\n';
+    }
+}
+
+void print(const Json& json) {
+    std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+Json findingsJson(const Report& report) {
+    Json list = Json::array();
+    for (const Finding& finding : report.findings) {
+        list.push_back({{"severity", name(finding.severity)},
+                        {"path", finding.path},
+                        {"rule", finding.rule},
+                        {"file", finding.place.file},
+                        {"line", finding.place.line},
+                        {"message", finding.message},
+                        {"remedy", finding.remedy}});
+    }
+    return list;
+}
+
+void printFindings(const Report& report, Stream stream) {
+    std::ostream& out = stream == Stream::Output ? std::cout : std::cerr;
+    const bool colour = coloured(stream);
+    for (const Finding& finding : report.findings) {
+        if (colour) out << colourOf(finding.severity);
+        out << name(finding.severity) << ':';
+        if (colour) out << plain;
+        out << ' ' << printable(finding.text()) << " (" << printable(finding.rule) << ")\n";
+    }
+}
+
+}  // namespace cortex::explorer

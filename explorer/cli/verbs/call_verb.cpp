@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live/live_values.hpp"
+#include "verbs/live_verbs.hpp"
+
+#include <iostream>
+
+namespace cortex::explorer {
+namespace {
+
+Exit exitOf(Outcome outcome) {
+    if (outcome == Outcome::Done) return Yes;
+    return outcome == Outcome::Unknown ? NotFound : No;
+}
+
+const CommandTable::Entry& entryOf(const CommandTable& table, const FoundSimplex& simplex,
+                                   const std::string& command) {
+    const std::uint32_t index = table.find(command);
+    if (index != CommandTable::none) return table.entries[index];
+    std::vector<std::string> valid;
+    for (const auto& each : table.entries) valid.emplace_back(each.name);
+    const std::string nearest = nearestNames(command, valid);
+    const std::string all = valid.empty() ? "there is none" : "there are " + joined(valid);
+    throw Failure{NotFound, simplex.info().path + " (" + simplex.type().name +
+                                ") has no command '" + command + "'; " +
+                                (nearest.empty() ? all : nearest)};
+}
+
+double microseconds(const comms::CommandAnswer& answer) {
+    return static_cast<double>(answer.latency.count()) * 1e-3;
+}
+
+Json answerJson(const comms::CommandAnswer& answer, const RecordLayout& layout) {
+    Json response = Json::object();
+    for (const ItemLayout& each : layout.items) {
+        const auto found = answer.response.find(each.item->name);
+        if (found == answer.response.end()) continue;
+        response[each.item->name] = valueJson(*each.item, found->second);
+    }
+    const std::string code = name(answer.reason);
+    const std::string reason =
+        answer.why.empty() || answer.reason == Reason::None ? answer.why : code + ": " + answer.why;
+    return {{"outcome", name(answer.outcome)},
+            {"reason", reason},
+            {"response", response},
+            {"latency_us", microseconds(answer)}};
+}
+
+void printAnswer(const comms::CommandAnswer& answer, const RecordLayout& layout) {
+    std::cout << printable(answer.text()) << '\n';
+    Columns columns{2};
+    for (const ItemLayout& each : layout.items) {
+        const auto found = answer.response.find(each.item->name);
+        if (found == answer.response.end()) continue;
+        columns.add({each.item->name, valueText(*each.item, found->second), each.item->unit});
+    }
+    columns.print(std::cout);
+}
+
+}  // namespace
+
+// The time to wait is that of finding the agent, and then once more that of its answer.
+Exit callCommand(const CallOptions& options) {
+    Live live{options.network};
+    const FoundSimplex simplex = live.find(options.path);
+    const CommandTable table = commandTable(simplex.type());
+    const CommandTable::Entry& entry = entryOf(table, simplex, options.command);
+    const auto arguments =
+        parseArguments("command '" + options.command + "'", entry.request, options.arguments);
+    const comms::CommandAnswer answer =
+        live.mirror().call(options.path, options.command, arguments, live.timeout());
+    if (options.json) {
+        print(answerJson(answer, entry.response));
+    } else {
+        printAnswer(answer, entry.response);
+    }
+    return exitOf(answer.outcome);
+}
+
+Exit setItems(const CallOptions& options) {
+    CallOptions call = options;
+    call.command = "set";
+    return callCommand(call);
+}
+
+}  // namespace cortex::explorer

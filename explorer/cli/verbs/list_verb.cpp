@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live/live_values.hpp"
+#include "verbs/live_verbs.hpp"
+
+#include <iostream>
+#include <map>
+
+namespace cortex::explorer {
+namespace {
+
+struct Line {
+    FoundSimplex simplex;
+    std::optional<State> state;
+    Quality quality = Quality::Lost;
+};
+
+std::vector<Line> linesOf(Live& live, const std::vector<FoundSimplex>& simplexes) {
+    std::map<std::string, comms::AgentImage> images;
+    std::vector<Line> lines;
+    for (const FoundSimplex& each : simplexes) {
+        auto found = images.find(each.agent);
+        if (found == images.end()) {
+            found = images.emplace(each.agent, live.mirror().image(each.agent)).first;
+        }
+        Line line{each, {}, Quality::Lost};
+        const comms::AgentImage& image = found->second;
+        if (image && &image->structure() == each.structure.get()) {
+            line.state = stateOf(*image, each.index);
+            line.quality = image->state(each.index).quality;
+        }
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+Json lineJson(const Line& line) {
+    return {{"path", line.simplex.info().path},
+            {"type", line.simplex.type().name},
+            {"role", name(line.simplex.info().role)},
+            {"agent", line.simplex.agent},
+            {"state", line.state ? Json(name(*line.state)) : Json()},
+            {"quality", name(line.quality)}};
+}
+
+void printLines(const std::vector<Line>& lines) {
+    Columns columns{0};
+    for (const Line& each : lines) {
+        columns.add({each.simplex.info().path, each.simplex.type().name,
+                     name(each.simplex.info().role), each.simplex.agent,
+                     each.state ? name(*each.state) : "-", name(each.quality)});
+    }
+    columns.print(std::cout);
+}
+
+}  // namespace
+
+// States and qualities are values: they are viewed for as long as it takes to get them once.
+Exit listSimplexes(const ListOptions& options) {
+    checkPrefix(options.prefix);
+    Live live{options.network};
+    live.mirror().view({options.prefix}, 100);
+    live.waitForAll();
+    live.mirror().waitForValues(live.left());
+    const std::string lacking = live.incomplete();
+    if (options.json && !lacking.empty()) throw Failure{NotFound, lacking};
+    const auto lines = linesOf(live, live.below(options.prefix));
+    if (lines.empty() && lacking.empty()) {
+        std::vector<std::string> paths;
+        for (const FoundSimplex& each : live.below("/")) paths.push_back(each.info().path);
+        const std::string nearest = nearestNames(options.prefix, paths);
+        throw Failure{NotFound, "no agent has anything at or below " + options.prefix +
+                                    (nearest.empty() ? "" : "; " + nearest)};
+    }
+    if (options.json) {
+        Json list = Json::array();
+        for (const Line& each : lines) list.push_back(lineJson(each));
+        print(list);
+        return Yes;
+    }
+    printLines(lines);
+    if (!lacking.empty()) throw Failure{NotFound, lacking};
+    return Yes;
+}
+
+}  // namespace cortex::explorer

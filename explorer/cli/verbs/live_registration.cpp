@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "verbs/live_registration.hpp"
+
+#include "verbs/live_verbs.hpp"
+#include "verbs/verb_registration.hpp"
+
+#include <memory>
+
+namespace cortex::explorer {
+namespace {
+
+// Verbs that join the network of agents.
+class LiveVerbs {
+public:
+    LiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run) : verbs_{app, json, run} {}
+
+    template <class Options>
+    CLI::App* add(const char* name, const char* description, const char* examples,
+                  const std::shared_ptr<Options>& options, Exit (*verb)(const Options&)) {
+        CLI::App* added = verbs_.add(name, description, examples, options, verb);
+        addNetwork(*added, options->network);
+        return added;
+    }
+
+private:
+    Verbs verbs_;
+};
+
+void addList(LiveVerbs& verbs) {
+    verbs.add("agents", "Show the agents on the network",
+              R"(Examples:
+  cortex agents
+  cortex agents --domain 7 --json)",
+              std::make_shared<LiveOptions>(), listAgents);
+    const auto list = std::make_shared<ListOptions>();
+    verbs
+        .add(
+            "list", "List the simplexes of all agents, or those at and below a path",
+            R"(Waits until everything is there; if it does not come in time, says how much is, with exit code 3.
+Examples:
+  cortex list
+  cortex list /arm --timeout 10)",
+            list, listSimplexes)
+        ->add_option("PREFIX", list->prefix, "Path; all if not given")
+        ->type_name("");
+}
+
+void addShow(LiveVerbs& verbs) {
+    const auto show = std::make_shared<ShowOptions>();
+    verbs
+        .add("show", "Show everything about one simplex: values, relationships, commands",
+             R"(Example:
+  cortex show /arm)",
+             show, showSimplex)
+        ->add_option("PATH", show->path, "Path of the simplex")
+        ->required()
+        ->type_name("");
+}
+
+void addWatch(LiveVerbs& verbs) {
+    const auto watch = std::make_shared<WatchOptions>();
+    CLI::App* verb = verbs.add(
+        "watch", "Print values as they change",
+        R"(A line for each value that has changed; with --csv or --json a line for each moment.
+Examples:
+  cortex watch /arm/axis/1.position
+  cortex watch /arm /hand.value --rate 30 --csv --count 300 > run.csv)",
+        watch, watchValues);
+    verb->add_option("PATH[.ITEM]", watch->what, "Simplexes, or single items of them")
+        ->required()
+        ->type_name("");
+    verb->add_option("--rate", watch->rate,
+                     "Moments per second, 5 if not given: the next of 5, 30, 100; 0: every cycle")
+        ->type_name("HZ")
+        ->check(CLI::Range(0, 1'000'000));
+    verb->add_option("--count", watch->count, "End after so many moments")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000'000));
+    verb->add_flag("--csv", watch->csv, "Print comma-separated values")
+        ->excludes(verb->get_option("--json"));
+}
+
+void addCall(LiveVerbs& verbs) {
+    const auto call = std::make_shared<CallOptions>();
+    CLI::App* verb = verbs.add("call", "Send a command and wait for its answer",
+                               R"(Exit code 0: done, 1: rejected or failed, 3: no answer.
+Examples:
+  cortex call /arm startup
+  cortex call /robot startup prefix=/arm --timeout 60)",
+                               call, callCommand);
+    verb->add_option("PATH", call->path, "Path of the simplex")->required()->type_name("");
+    verb->add_option("COMMAND", call->command, "Name of the command")->required()->type_name("");
+    verb->add_option("NAME=VALUE", call->arguments,
+                     "Parameters; those not given have their defaults")
+        ->type_name("");
+
+    const auto set = std::make_shared<CallOptions>();
+    verb = verbs.add("set", "Set settable items of a simplex, all together or none",
+                     R"(Examples:
+  cortex set /arm gain=0.5 mode=Hold
+  cortex set /arm "weights=0.1 0.2 0.3")",
+                     set, setItems);
+    verb->add_option("PATH", set->path, "Path of the simplex")->required()->type_name("");
+    verb->add_option("ITEM=VALUE", set->arguments, "New values")->required()->type_name("");
+}
+
+void addEvents(LiveVerbs& verbs) {
+    const auto events = std::make_shared<EventOptions>();
+    CLI::App* verb =
+        verbs.add("events", "Print what has happened: the last 1,000 events of each agent",
+                  R"(Examples:
+  cortex events
+  cortex events /arm --follow --severity warning)",
+                  events, showEvents);
+    verb->add_option("PREFIX", events->prefix, "Path; all if not given")->type_name("");
+    verb->add_flag("--follow", events->follow, "Go on with those that happen from now on");
+    verb->add_option("--severity", events->severity, "The least: info, warning or error")
+        ->type_name("S")
+        ->check(CLI::IsMember({"info", "warning", "error"}));
+    verb->add_flag("--csv", events->csv, "Print comma-separated values")
+        ->excludes(verb->get_option("--json"));
+}
+
+void addSave(LiveVerbs& verbs) {
+    const auto save = std::make_shared<SaveOptions>();
+    CLI::App* verb = verbs.add("save", "Write the settable items of all agents into a file",
+                               R"(Examples:
+  cortex save tuned.xml
+  cortex save arm.xml /arm --force)",
+                               save, saveItems);
+    verb->add_option("FILE", save->file, "File to write")->required()->type_name("");
+    verb->add_option("PREFIX", save->prefix, "Path at and below which; all if not given")
+        ->type_name("");
+    verb->add_flag("--force", save->force, "Replace a file that exists");
+
+    const auto restore = std::make_shared<RestoreOptions>();
+    verb = verbs.add(
+        "restore", "Set the items that a file of 'save' has, showing what changes",
+        R"(Where one item of the file cannot be set, all that are wrong are listed and nothing is changed; take
+them out of the file. Then the items of each simplex are set together. Exit code 1: something was
+wrong or refused.
+Examples:
+  cortex restore tuned.xml --dry-run
+  cortex restore tuned.xml)",
+        restore, restoreItems);
+    verb->add_option("FILE", restore->file, "File that 'save' wrote")->required()->type_name("");
+    verb->add_flag("--dry-run", restore->dryRun, "Only show what would change");
+}
+
+void addTop(LiveVerbs& verbs) {
+    const auto top = std::make_shared<TopOptions>();
+    CLI::App* verb = verbs.add(
+        "top", "Show agents, loops, states, faults and events as they change",
+        R"(On a terminal in place, until q or an interrupt; elsewhere one text after the other, with --json an
+object a line. Where it ends by itself, the last moment with agents stays. Exit code 3: no agent came.
+Examples:
+  cortex top
+  cortex top /arm --rate 5
+  cortex top --seconds 60 --until-gone)",
+        top, showTop);
+    verb->add_option("PREFIX", top->prefix,
+                     "Path whose states, faults and events count; all if not given")
+        ->type_name("");
+    verb->add_option("--rate", top->rate,
+                     "Refreshes per second; 2 on a terminal, 1 for JSON, else 0.2 if not given")
+        ->type_name("HZ")
+        ->check(CLI::Range(0.001, 30.0));
+    CLI::Option* seconds = verb->add_option("--seconds", top->seconds, "End after so many seconds")
+                               ->type_name("N")
+                               ->check(CLI::Range(0.0, 1e6));
+    verb->add_flag("--once", top->once, "Print one moment and end")->excludes(seconds);
+    verb->add_flag("--until-gone", top->untilGone,
+                   "End when the last agent is gone, after one was there");
+}
+
+}  // namespace
+
+void addNetwork(CLI::App& verb, NetworkArguments& network) {
+    verb.add_option("--domain", network.domain,
+                    "Domain of the agents; CORTEX_DOMAIN, else 0, if not given")
+        ->type_name("N")
+        ->check(CLI::Range(0, 230));
+    verb.add_option("--interface", network.interfaces,
+                    "Address or name of a network interface to use; all if not given")
+        ->type_name("ADDR")
+        ->allow_extra_args(false);
+    verb.add_option("--peer", network.peers, "Host that multicast does not reach")
+        ->type_name("HOST")
+        ->allow_extra_args(false);
+    verb.add_option("--discovery-server", network.discoveryServer,
+                    "HOST:PORT of a Fast DDS Discovery Server, instead of multicast and peers; "
+                    "several joined by ';'; CORTEX_DISCOVERY_SERVER, else none, if not given")
+        ->type_name("ADDR");
+    verb.add_option("--security", network.security,
+                    "Folder made by `cortex security create-agent`; CORTEX_SECURITY, else no "
+                    "security, if not given")
+        ->type_name("FOLDER");
+    verb.add_option("--timeout", network.timeout, "How long to wait for agents; 3 s if not given")
+        ->type_name("S")
+        ->check(CLI::Range(0.001, 1e6));
+}
+
+void addLiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run) {
+    LiveVerbs verbs{app, json, run};
+    addList(verbs);
+    addShow(verbs);
+    addWatch(verbs);
+    addCall(verbs);
+    addEvents(verbs);
+    addSave(verbs);
+    addTop(verbs);
+    verbs.add(
+        "doctor", "Look whether this machine and network can run CorteX, with remedies",
+        R"(Looks at network interfaces, multicast, ports, buffers, clocks, real-time limits and the agents that
+are heard, and changes nothing. Exit code 1: an error; warnings are none.
+Examples:
+  cortex doctor
+  cortex doctor --domain 7 --json)",
+        std::make_shared<LiveOptions>(), examine);
+}
+
+}  // namespace cortex::explorer

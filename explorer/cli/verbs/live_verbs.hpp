@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "live/live.hpp"
+#include "text/output.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+// The verbs that look at agents on a network. They print and return the exit code, or throw
+// Failure.
+namespace cortex::explorer {
+
+struct LiveOptions {
+    NetworkArguments network;
+    bool json = false;
+};
+
+Exit listAgents(const LiveOptions& options);
+
+Exit examine(const LiveOptions& options);  // cortex doctor
+
+struct ListOptions : LiveOptions {
+    std::string prefix = "/";
+};
+Exit listSimplexes(const ListOptions& options);
+
+struct ShowOptions : LiveOptions {
+    std::string path;
+};
+Exit showSimplex(const ShowOptions& options);
+
+struct WatchOptions : LiveOptions {
+    std::vector<std::string> what;  // PATH or PATH.item
+    std::uint32_t rate = 5;         // images per second; 0: every cycle
+    std::uint64_t count = 0;        // images; 0: for ever
+    bool csv = false;
+};
+Exit watchValues(const WatchOptions& options);
+
+struct CallOptions : LiveOptions {
+    std::string path, command;
+    std::vector<std::string> arguments;  // name=value
+};
+Exit callCommand(const CallOptions& options);
+Exit setItems(const CallOptions& options);  // command "set"
+
+struct EventOptions : LiveOptions {
+    std::string prefix = "/";
+    bool follow = false, csv = false;
+    std::string severity = "info";
+};
+Exit showEvents(const EventOptions& options);
+
+struct SaveOptions : LiveOptions {
+    std::string file, prefix = "/";
+    bool force = false;
+};
+Exit saveItems(const SaveOptions& options);
+
+struct RestoreOptions : LiveOptions {
+    std::string file;
+    bool dryRun = false;
+};
+Exit restoreItems(const RestoreOptions& options);
+
+struct TopOptions : LiveOptions {
+    std::string prefix = "/";
+    std::optional<double> rate;     // refreshes per second; none: as fits where they go
+    std::optional<double> seconds;  // none: for ever
+    bool once = false, untilGone = false;
+};
+Exit showTop(const TopOptions& options);
+
+}  // namespace cortex::explorer

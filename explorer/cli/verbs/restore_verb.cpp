@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/command_exchange.hpp"
+#include "cortex/core/error.hpp"
+#include "cortex/core/simplex_tree.hpp"
+
+#include "live/live_values.hpp"
+#include "live/saved_file.hpp"
+#include "verbs/live_verbs.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+
+namespace cortex::explorer {
+namespace {
+
+using Arguments = comms::Mirror::Arguments;
+
+// An item whose value is another than that of the file.
+struct Difference {
+    std::string path;
+    const DataItem* item = nullptr;
+    Value now, wanted;
+};
+
+// All items of one simplex that are to be set, and what came of it.
+struct Change {
+    std::string path;
+    Arguments arguments;
+    comms::CommandAnswer answer;
+};
+
+struct Plan {
+    std::vector<std::shared_ptr<const Structure>> keeps;  // what the items belong to
+    std::vector<Difference> differences;
+    std::vector<Change> changes;
+    std::size_t same = 0;  // items
+    Report report;
+};
+
+// Why the item cannot have this value; "" if it can.
+std::string refusal(const CommandTable& table, const DataItem& item, const Value& value) {
+    const std::uint32_t set = table.find("set");
+    const CommandTable::Entry& entry = table.entries[set];
+    std::vector<std::uint64_t> record((entry.request.size + 7) / 8);
+    std::byte* octets = reinterpret_cast<std::byte*>(record.data());
+    try {
+        encodeRecord(table, set, {{item.name, value}}, octets);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    for (const ArgumentCheck& check : entry.checks) {
+        std::optional<EventText> why;
+        if (check.item->name == item.name && !checkArgument(check, octets, why)) {
+            return std::string{why->view()};
+        }
+    }
+    return "";
+}
+
+class Planner {
+public:
+    Planner(Live& live, Plan& plan) : live_{live}, plan_{plan} {}
+
+    void add(const SavedSimplex& saved) {
+        const auto found = find(saved);
+        if (!found) return;
+        const comms::AgentImage image = live_.mirror().image(found->agent);
+        const bool same = image && &image->structure() == found->structure.get();
+        if (!same || image->state(found->index).quality == Quality::Lost) {
+            plan_.report.error(saved.path, "no-value", saved.place,
+                               "its values did not come from agent " + found->agent,
+                               "look whether it runs: cortex agents");
+            return;
+        }
+        plan_.keeps.push_back(found->structure);
+        const CommandTable table = commandTable(found->type());
+        Change change{saved.path, {}, {}};
+        for (const SavedItem& item : saved.items) add(*found, *image, table, item, change);
+        if (!change.arguments.empty()) plan_.changes.push_back(std::move(change));
+    }
+
+private:
+    std::optional<FoundSimplex> find(const SavedSimplex& saved) {
+        std::vector<std::string> paths;
+        for (const FoundSimplex& each : live_.below("/")) {
+            if (each.info().path == saved.path && each.agent == live_.mirror().ownerOf(saved.path))
+                return each;
+            paths.push_back(each.info().path);
+        }
+        plan_.report.error(saved.path, "unknown-path", saved.place, "no agent has this simplex",
+                           nearestNames(saved.path, paths));
+        return {};
+    }
+
+    void add(const FoundSimplex& simplex, const Image& image, const CommandTable& table,
+             const SavedItem& saved, Change& change) {
+        const auto wrong = [&](const char* rule, const std::string& message,
+                               const std::string& remedy = "") {
+            plan_.report.error(change.path, rule, saved.place, message, remedy);
+        };
+        std::vector<std::string> valid;
+        for (const DataItem* each : table.settable) valid.push_back(each->name);
+        const ItemLayout* layout = simplex.info().layout->find(saved.name);
+        if (layout == nullptr || std::ranges::find(valid, saved.name) == valid.end()) {
+            return wrong(layout == nullptr ? "unknown-item" : "not-settable",
+                         simplex.type().name +
+                             (layout == nullptr ? " has no item '" : " lets nobody set '") +
+                             saved.name + "'",
+                         nearestNames(saved.name, valid));
+        }
+        const DataItem& item = *layout->item;
+        std::string why;
+        const auto value = parseValue(item.kind, item.length, saved.value, why);
+        if (!value) return wrong("malformed-value", "'" + saved.name + "': " + why);
+        why = refusal(table, item, *value);
+        if (!why.empty()) return wrong("out-of-range", why);
+        const Value now = image.value(simplex.index, *layout);
+        if (now == *value) {
+            ++plan_.same;
+            return;
+        }
+        plan_.differences.push_back({change.path, &item, now, *value});
+        change.arguments[item.name] = *value;
+    }
+
+    Live& live_;
+    Plan& plan_;
+};
+
+// What a person reads of a value: quotes where its end would not be seen.
+std::string shownValue(const DataItem& item, const Value& value) {
+    const std::string text = toText(value);
+    return item.kind == Kind::String && item.length == 1 ? "\"" + text + "\"" : text;
+}
+
+void printDifferences(const Plan& plan) {
+    Columns columns{0};
+    for (const Difference& each : plan.differences) {
+        columns.add(
+            {each.path + "." + each.item->name,
+             shownValue(*each.item, each.now) + " -> " + shownValue(*each.item, each.wanted),
+             each.item->unit});
+    }
+    columns.print(std::cout);
+}
+
+Json planJson(const Plan& plan, bool applied) {
+    Json differences = Json::array(), results = Json::array();
+    for (const Difference& each : plan.differences) {
+        differences.push_back({{"path", each.path},
+                               {"item", each.item->name},
+                               {"now", valueJson(*each.item, each.now)},
+                               {"file", valueJson(*each.item, each.wanted)},
+                               {"unit", each.item->unit}});
+    }
+    for (const Change& each : plan.changes) {
+        if (!applied) break;
+        results.push_back({{"path", each.path},
+                           {"outcome", name(each.answer.outcome)},
+                           {"reason", each.answer.why}});
+    }
+    return {{"same", plan.same},
+            {"differences", differences},
+            {"findings", findingsJson(plan.report)},
+            {"results", results}};
+}
+
+// Every simplex has the whole time to answer.
+Exit apply(Live& live, Plan& plan) {
+    Exit exit = Yes;
+    for (Change& each : plan.changes) {
+        each.answer = live.mirror().call(each.path, "set", each.arguments, live.timeout());
+        if (each.answer.done()) continue;
+        const bool refused = each.answer.outcome != Outcome::Unknown;
+        if (refused || exit == Yes) exit = refused ? No : NotFound;
+    }
+    return exit;
+}
+
+void printResults(const Plan& plan) {
+    std::size_t done = 0, items = 0;
+    for (const Change& each : plan.changes) {
+        if (each.answer.done()) {
+            ++done;
+            items += each.arguments.size();
+        } else {
+            std::cerr << "cortex: " << each.path << ": " << printable(each.answer.text()) << '\n';
+        }
+    }
+    std::cout << "set " << plural(items, "item") << " of " << plural(done, "simplex") << '\n';
+}
+
+}  // namespace
+
+Exit restoreItems(const RestoreOptions& options) {
+    const std::vector<SavedSimplex> saved = readSaved(options.file);
+    std::vector<std::string> paths;
+    for (const SavedSimplex& each : saved) {
+        if (SimplexTree::pathError(each.path).empty()) paths.push_back(each.path);
+    }
+    Live live{options.network};
+    live.mirror().view(paths, 100);
+    live.waitForAll();
+    live.mirror().waitForValues(live.left());
+    Plan plan;
+    Planner planner{live, plan};
+    for (const SavedSimplex& each : saved) planner.add(each);
+    const bool good = plan.report.ok();
+    const bool applies = good && !options.dryRun;
+    if (!options.json) printDifferences(plan);
+    const Exit exit = applies ? apply(live, plan) : good ? Yes : No;
+    if (options.json) {
+        print(planJson(plan, applies));
+        return exit;
+    }
+    if (plan.same > 0) std::cout << plural(plan.same, "item") << " as in the file\n";
+    printFindings(plan.report, Stream::Errors);
+    if (!good) std::cerr << "cortex: nothing was changed\n";
+    if (applies && !plan.changes.empty()) printResults(plan);
+    return exit;
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live/live_values.hpp"
+#include "live/saved_file.hpp"
+#include "verbs/live_verbs.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+namespace cortex::explorer {
+namespace {
+
+// What is worth knowing of an item in the file: its label, unit and range.
+std::string noteOf(const DataItem& item, const Value& value) {
+    std::vector<std::string> parts;
+    const std::string shown = valueText(item, value);
+    if (!item.labels.empty() && shown != toText(value)) parts.push_back(shown);
+    if (!item.unit.empty()) parts.push_back(item.unit);
+    if (item.min || item.max) {
+        parts.push_back((item.min ? toText(*item.min) : "") + " .. " +
+                        (item.max ? toText(*item.max) : ""));
+    }
+    return joined(parts);
+}
+
+SavedSimplex savedOf(const FoundSimplex& simplex, const Image& image) {
+    SavedSimplex saved{simplex.info().path, simplex.type().name, {}, {}};
+    for (const ItemLayout& each : simplex.info().layout->items) {
+        if (each.item->settable.empty()) continue;
+        const Value value = image.value(simplex.index, each);
+        saved.items.push_back({each.item->name, toText(value), noteOf(*each.item, value), {}});
+    }
+    return saved;
+}
+
+bool hasSettable(const FoundSimplex& simplex) {
+    return std::ranges::any_of(simplex.info().layout->items,
+                               [](const ItemLayout& each) { return !each.item->settable.empty(); });
+}
+
+void checkAbsent(const std::string& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) return;
+    throw Failure{No, "'" + file + "' exists; give another name, or --force to replace it"};
+}
+
+}  // namespace
+
+// A file is written if anything came; what did not is listed, with exit code 3.
+Exit saveItems(const SaveOptions& options) {
+    checkPrefix(options.prefix);
+    if (!options.force) checkAbsent(options.file);
+    Live live{options.network};
+    live.mirror().view({options.prefix}, 100);
+    live.waitForAll();
+    live.mirror().waitForValues(live.left());
+    std::vector<SavedSimplex> saved;
+    std::vector<std::string> missing;
+    std::size_t items = 0;
+    for (const FoundSimplex& each : live.below(options.prefix)) {
+        if (!hasSettable(each)) continue;
+        const comms::AgentImage image = live.mirror().image(each.agent);
+        const bool same = image && &image->structure() == each.structure.get();
+        if (!same || image->state(each.index).quality == Quality::Lost) {
+            missing.push_back(each.info().path);
+            continue;
+        }
+        saved.push_back(savedOf(each, *image));
+        items += saved.back().items.size();
+    }
+    const std::string lacking = live.incomplete();
+    if (saved.empty() && missing.empty() && lacking.empty()) {
+        throw Failure{NotFound, "nothing at or below " + options.prefix + " is settable"};
+    }
+    if (saved.empty())
+        throw Failure{NotFound, "no values came" + (lacking.empty() ? "" : "; " + lacking)};
+    const std::string below = options.prefix == "/" ? "" : " at and below " + options.prefix;
+    writeSaved(options.file,
+               savedText(saved, "Settable items" + below + "; cortex restore sets them again."));
+    if (options.json) {
+        print({{"file", options.file},
+               {"simplexes", saved.size()},
+               {"items", items},
+               {"missing", missing},
+               {"incomplete", lacking}});
+    } else {
+        std::cout << "saved " << plural(items, "item") << " of " << plural(saved.size(), "simplex")
+                  << " in " << printable(options.file) << '\n';
+        for (const std::string& each : missing) {
+            std::cerr << "cortex: the values of " << each << " did not come\n";
+        }
+        if (!lacking.empty()) std::cerr << "cortex: " << printable(lacking) << '\n';
+    }
+    return missing.empty() && lacking.empty() ? Yes : NotFound;
+}
+
+}  // namespace cortex::explorer

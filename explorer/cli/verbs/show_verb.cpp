@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live/live_values.hpp"
+#include "verbs/live_verbs.hpp"
+
+#include <cmath>
+#include <iostream>
+
+namespace cortex::explorer {
+namespace {
+
+// Everything about one simplex at one moment.
+struct Shown {
+    FoundSimplex simplex;
+    comms::AgentImage image;
+    double age = 0;  // s
+
+    Value value(const ItemLayout& item) const { return image->value(simplex.index, item); }
+    std::optional<State> state() const { return stateOf(*image, simplex.index); }
+    Quality quality() const { return image->state(simplex.index).quality; }
+};
+
+// Why a command would be refused now; "" if it would be taken.
+std::string refusal(const Shown& shown, const CommandTable::Entry& entry) {
+    if (shown.simplex.info().role != Role::Active) return "";
+    const auto state = shown.state();
+    if (!state) return "its state is not known";
+    if (entry.available.has(*state)) return "";
+    return "needs " + entry.available.text() + ", is " + name(*state);
+}
+
+Json parameterJson(const DataItem& item) {
+    Json labels = Json::object();
+    for (const auto& [number, label] : item.labels) labels[toText(number)] = label;
+    return {{"name", item.name}, {"kind", name(item.kind)},        {"length", item.length},
+            {"unit", item.unit}, {"min", numberJson(item.min)},    {"max", numberJson(item.max)},
+            {"labels", labels},  {"description", item.description}};
+}
+
+Json recordJson(const RecordLayout& record) {
+    Json list = Json::array();
+    for (const ItemLayout& each : record.items) list.push_back(parameterJson(*each.item));
+    return list;
+}
+
+Json dataJson(const Shown& shown) {
+    Json data = Json::object();
+    for (const ItemLayout& each : shown.simplex.info().layout->items) {
+        const DataItem& item = *each.item;
+        data[item.name] = {
+            {"kind", name(item.kind)},     {"value", valueJson(item, shown.value(each))},
+            {"unit", item.unit},           {"min", numberJson(item.min)},
+            {"max", numberJson(item.max)}, {"description", item.description}};
+    }
+    return data;
+}
+
+Json relationshipsJson(const FoundSimplex& simplex) {
+    Json list = Json::array();
+    for (std::uint32_t i = 0; i < simplex.info().edgeCount; ++i) {
+        const Edge& edge = simplex.structure->edges[simplex.info().firstEdge + i];
+        list.push_back({{"rule", edge.rule->name},
+                        {"direction", name(edge.rule->direction)},
+                        {"to", simplex.structure->simplexes[edge.target].path}});
+    }
+    return list;
+}
+
+Json commandsJson(const Shown& shown, const CommandTable& table) {
+    Json list = Json::array();
+    for (const CommandTable::Entry& each : table.entries) {
+        const std::string reason = refusal(shown, each);
+        list.push_back({{"name", each.name},
+                        {"available", reason.empty()},
+                        {"reason", reason},
+                        {"request", recordJson(each.request)},
+                        {"response", recordJson(each.response)}});
+    }
+    return list;
+}
+
+Json shownJson(const Shown& shown) {
+    const Type& type = shown.simplex.type();
+    const auto state = shown.state();
+    return {{"path", shown.simplex.info().path},
+            {"type", type.name},
+            {"ancestors", type.ancestors},
+            {"role", name(shown.simplex.info().role)},
+            {"agent", shown.simplex.agent},
+            {"quality", name(shown.quality())},
+            {"age_ms", shown.age * 1000},
+            {"state", state ? Json(name(*state)) : Json()},
+            {"data", dataJson(shown)},
+            {"relationships", relationshipsJson(shown.simplex)},
+            {"commands", commandsJson(shown, commandTable(type))}};
+}
+
+std::string rangeText(const DataItem& item) {
+    if (!item.min && !item.max) return "";
+    return (item.min ? toText(*item.min) : "") + " .. " + (item.max ? toText(*item.max) : "");
+}
+
+void printHead(const Shown& shown) {
+    const FoundSimplex& simplex = shown.simplex;
+    const auto state = shown.state();
+    Columns columns{2};
+    columns.add({"type", simplex.type().name});
+    columns.add(
+        {"is a", joined({simplex.type().ancestors.begin(), simplex.type().ancestors.end()})});
+    columns.add({"role", name(simplex.info().role)});
+    columns.add({"agent", simplex.agent});
+    if (state) columns.add({"state", name(*state)});
+    columns.add({"quality", name(shown.quality())});
+    columns.add({"age", toText(std::round(shown.age * 1e4) / 10) + " ms"});
+    std::cout << simplex.info().path << '\n';
+    columns.print(std::cout);
+}
+
+void printData(const Shown& shown) {
+    Columns columns{2};
+    for (const ItemLayout& each : shown.simplex.info().layout->items) {
+        const DataItem& item = *each.item;
+        columns.add({item.name, valueText(item, shown.value(each)), item.unit, rangeText(item),
+                     item.description});
+    }
+    std::cout << "\ndata\n";
+    columns.print(std::cout);
+}
+
+void printRelationships(const FoundSimplex& simplex) {
+    if (simplex.info().edgeCount == 0) return;
+    Columns columns{2};
+    for (std::uint32_t i = 0; i < simplex.info().edgeCount; ++i) {
+        const Edge& edge = simplex.structure->edges[simplex.info().firstEdge + i];
+        columns.add({edge.rule->name, edge.rule->direction == Direction::Input ? "<-" : "->",
+                     simplex.structure->simplexes[edge.target].path});
+    }
+    std::cout << "\nrelationships\n";
+    columns.print(std::cout);
+}
+
+void printCommands(const Shown& shown, const CommandTable& table) {
+    if (table.entries.empty()) return;
+    Columns columns{2};
+    for (const CommandTable::Entry& each : table.entries) {
+        std::vector<std::string> parameters;
+        for (const ItemLayout& item : each.request.items)
+            parameters.push_back(item.item->name + "=");
+        columns.add({std::string{each.name}, joined(parameters, " "), refusal(shown, each)});
+    }
+    std::cout << "\ncommands\n";
+    columns.print(std::cout);
+}
+
+}  // namespace
+
+Exit showSimplex(const ShowOptions& options) {
+    checkPath(options.path);
+    Live live{options.network};
+    live.mirror().view({options.path}, 100);
+    Shown shown{live.find(options.path), {}, 0};
+    shown.image = live.values(shown.simplex);
+    shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index).value_or(0);
+    if (options.json) {
+        print(shownJson(shown));
+        return Yes;
+    }
+    printHead(shown);
+    printData(shown);
+    printRelationships(shown.simplex);
+    printCommands(shown, commandTable(shown.simplex.type()));
+    return Yes;
+}
+
+}  // namespace cortex::explorer

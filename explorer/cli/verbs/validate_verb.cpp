@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "verbs/verbs.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <set>
+
+namespace cortex::explorer {
+namespace {
+
+struct Checked {
+    Paths files;  // as named
+    Model model;
+};
+
+// Files make one model together; of several systems each is a model with all other files.
+std::vector<Checked> check(const Paths& files) {
+    Paths systems, others;
+    if (files.size() > 1) {
+        for (const auto& file : files) {
+            (isSystem(file) ? systems : others).push_back(file);
+        }
+    }
+    std::vector<Checked> checked;
+    if (systems.size() < 2) {
+        checked.push_back({files, readSystem(files)});
+        return checked;
+    }
+    for (const auto& system : systems) {
+        Paths together = others;
+        together.push_back(system);
+        checked.push_back({{system}, readSystem(together)});
+    }
+    return checked;
+}
+
+Report join(const std::vector<Checked>& checked) {
+    std::vector<const Model*> models;
+    for (const Checked& each : checked) models.push_back(&each.model);
+    return joinReports(models);
+}
+
+void printValid(const Checked& checked) {
+    const Model& model = checked.model;
+    const auto& simplexes = model.tree->simplexes();
+    const auto active = std::ranges::count_if(
+        simplexes, [](const auto& each) { return each.second->type().active(); });
+    std::size_t rules = 0;
+    for (const auto& [name, type] : model.types().declarations()) rules += type.rules.size();
+    const std::size_t warnings = model.report.findings.size();
+    std::cout << printable(checked.files.size() == 1 ? checked.files.front().string()
+                                                     : plural(checked.files.size(), "file"))
+              << ": valid, "
+              << (model.hasSystem
+                      ? plural(simplexes.size(), "simplex") + ", " + std::to_string(active) +
+                            " active"
+                      : plural(model.types().types().size(), "type") + ", " + plural(rules, "rule"))
+              << (warnings > 0 ? ", " + plural(warnings, "warning") : "") << '\n';
+}
+
+void printSummary(const Report& report) {
+    std::set<std::string> files;
+    for (const Finding& finding : report.findings) files.insert(finding.place.file);
+    files.erase("");
+    const std::size_t warnings = report.findings.size() - report.errors();
+    std::cout << plural(report.errors(), "error")
+              << (warnings > 0 ? ", " + plural(warnings, "warning") : "")
+              << (files.empty() ? "" : " in " + plural(files.size(), "file")) << '\n';
+}
+
+}  // namespace
+
+Exit validateFiles(const ValidateOptions& options) {
+    const auto checked = check(options.files);
+    const Report report = join(checked);
+    if (options.json) {
+        print({{"findings", findingsJson(report)}});
+    } else {
+        printFindings(report, Stream::Output);
+        for (const Checked& each : checked) {
+            if (each.model.report.ok()) printValid(each);
+        }
+        if (!report.ok()) printSummary(report);
+    }
+    if (lacksFile(report)) return NotFound;
+    return report.ok() ? Yes : No;
+}
+
+}  // namespace cortex::explorer

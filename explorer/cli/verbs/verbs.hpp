@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "live/live.hpp"
+#include "models/model.hpp"
+#include "text/output.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+// The verbs of the program, each with what its options say. They print and return the exit code, or
+// throw Failure.
+namespace cortex::explorer {
+
+struct ValidateOptions {
+    Paths files;
+    bool json = false;
+};
+Exit validateFiles(const ValidateOptions& options);
+
+struct DiffOptions {
+    std::filesystem::path ours, theirs;
+    bool json = false;
+};
+Exit diffModels(const DiffOptions& options);
+
+// Where the model comes from: files, or without any the agents on a network.
+struct TypesOptions {
+    std::optional<std::string> type;  // none: all
+    Paths files;
+    NetworkArguments network;
+    bool json = false;
+};
+Exit showTypes(const TypesOptions& options);
+
+struct GraphOptions {
+    Paths files;
+    NetworkArguments network;
+    bool dot = false;
+    bool json = false;
+};
+Exit showGraph(const GraphOptions& options);
+
+struct NewFileOptions {
+    std::filesystem::path output;  // empty: standard output
+    bool force = false;
+    bool json = false;
+};
+struct NewTypeOptions : NewFileOptions {
+    std::string name;
+    std::vector<std::string> parents;
+    std::filesystem::path file;
+};
+Exit newType(const NewTypeOptions& options);
+
+struct NewSystemOptions : NewFileOptions {
+    std::string name;
+};
+Exit newSystem(const NewSystemOptions& options);
+
+}  // namespace cortex::explorer
