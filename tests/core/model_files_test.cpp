@@ -289,7 +289,7 @@ TEST(ModelFiles, AgreesWithTheSchemasOnTheSamples) {
 }
 
 TEST(ModelFiles, HasEachRuleNameInTheDocumentation) {
-    const std::string header = test::textOf(CORTEX_SOURCE_DIR "/core/src/findings.hpp");
+    const std::string header = test::textOf(CORTEX_SOURCE_DIR "/core/src/base/findings.hpp");
     const std::string page = test::textOf(CORTEX_SOURCE_DIR "/docs/findings.md");
     std::size_t count = 0;
     for (std::size_t at = header.find("[] = \""); at != std::string::npos;
