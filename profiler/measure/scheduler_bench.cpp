@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scheduler_bench.hpp"
 
-#include "threads/line_distance.hpp"
 #include "threads/realtime_thread.hpp"
 
 #include <map>
@@ -43,8 +42,7 @@ SchedulerBench::SchedulerBench(const TaskEdges& edges, std::uint32_t threads,
         graph.edges.emplace_back(edge.target, edge.owner);
     }
     agent_.setCanonicalOrder(cs::canonicalOrder(graph));
-    schedule_ = cs::makeSchedule(
-        graph, {.threads = threads, .lineMicroseconds = cs::lineMicroseconds({}, threads)});
+    schedule_ = cs::makeSchedule(graph, {.threads = threads});
     runner_ = std::make_unique<cs::TaskRunner>(agent_, schedule_, 1'000'000);
     std::map<std::uint32_t, std::uint32_t> slotOf;
     for (std::uint32_t i = 0; i < schedule_.tasks.size(); ++i) slotOf[schedule_.tasks[i]] = i;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stated_load.hpp"
 
-#include "measure/distances.hpp"
 #include "measure/measured_loop.hpp"
 #include "measure/sweep.hpp"
 
@@ -126,10 +125,8 @@ void judgeLoad(const StatedLoad& load, const RunOptions& options, Progress& prog
     plan.settling = periods / 100;
     plan.workThreads = loop->threads();
     plan.workPriority = options.priority;
-    Distances distances;
     const auto begin = std::chrono::steady_clock::now();
     const Measured measured = loop->run(plan, [&] {
-        distances.look();
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
         return !progress.step(std::min(passed.count() / statedLoadSeconds(options), 1.0),
                               load.what);
@@ -138,7 +135,6 @@ void judgeLoad(const StatedLoad& load, const RunOptions& options, Progress& prog
     results.figures.push_back(figureOf(load, options, measured, loop->threads()));
     addDuty(load, measured, results);
     addCounts(load, measured, results);
-    distances.add(load.id, load.what, results);
 }
 
 }  // namespace cortex::profiler

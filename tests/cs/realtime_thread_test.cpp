@@ -6,10 +6,14 @@
 #include <cfenv>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <pthread.h>
 #include <sched.h>
@@ -138,6 +142,55 @@ TEST(RealtimeThread, AllowsOneRealtimeThreadPerCpuAndSaysSo) {
     EXPECT_EQ(clampThreads(4, 50, {usableCpus()[0]}, report), 1U);
     ASSERT_EQ(report.size(), 1U);
     EXPECT_EQ(report[0].rfind("Only 1 of 4 real-time threads are used", 0), 0U) << report[0];
+}
+
+// A folder as the kernel has it of CPUs, with what each cache of the first CPU is shared with.
+class CpuFolder {
+public:
+    explicit CpuFolder(const std::vector<std::pair<int, std::string>>& caches)
+        : path_{std::filesystem::path{testing::TempDir()} / ("cpus-" + std::to_string(getpid()))} {
+        std::filesystem::create_directories(path_);
+        int index = 0;
+        for (const auto& [level, shared] : caches) {
+            const std::filesystem::path cache = path_ /
+                                                ("cpu" + std::to_string(cpuForThread({}, 0))) /
+                                                ("cache/index" + std::to_string(index++));
+            std::filesystem::create_directories(cache);
+            std::ofstream{cache / "level"} << level << "\n";
+            std::ofstream{cache / "shared_cpu_list"} << shared << "\n";
+        }
+    }
+    ~CpuFolder() { std::filesystem::remove_all(path_); }
+    CpuFolder(const CpuFolder&) = delete;
+    CpuFolder& operator=(const CpuFolder&) = delete;
+
+    std::string path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+TEST(RealtimeThread, AllowsOneThreadWhereTheCpusHaveNoLastCacheInCommonAndSaysSo) {
+    if (usableCpus().size() < 2) GTEST_SKIP() << "one CPU";
+    const std::string first = std::to_string(usableCpus()[0]);
+    Lines report;
+
+    const CpuFolder apart{{{1, first}, {1, first}, {2, first}, {3, first}}};
+    EXPECT_EQ(threadsWithCommonCache(2, {}, report, apart.path()), 1U);
+    ASSERT_EQ(report.size(), 1U);
+    EXPECT_EQ(report[0].rfind("Only 1 of 2 threads is used: CPU " + first + ", ", 0), 0U)
+        << report[0];
+    EXPECT_NE(report[0].find("acrossCaches"), std::string::npos) << report[0];
+    EXPECT_EQ(threadsWithCommonCache(1, {}, report, apart.path()), 1U);
+    EXPECT_EQ(report.size(), 1U);
+}
+
+TEST(RealtimeThread, AllowsAllThreadsWhereTheLastCacheIsSharedOrNotStated) {
+    Lines report;
+    const CpuFolder shared{{{1, std::to_string(usableCpus()[0])}, {2, "0-8191"}}};
+    EXPECT_EQ(threadsWithCommonCache(2, {}, report, shared.path()), 2U);
+    EXPECT_EQ(threadsWithCommonCache(2, {}, report, shared.path() + "/nothing"), 2U);
+    EXPECT_TRUE(report.empty());
 }
 
 TEST(RealtimeThread, PinsAndNamesTheThread) {

@@ -241,44 +241,6 @@ TEST(Scheduler, UsesOneThreadWhereNothingIsParallel) {
     EXPECT_EQ(makeSchedule(graph, {.threads = 4, .costMicroseconds = costs}).threads, 1U);
 }
 
-// Of four tasks the first two run on one thread and the last two on the other.
-TEST(Scheduler, CountsWhatCrossesFromOneThreadToTheOther) {
-    const std::vector<std::string> paths = {"/a", "/b", "/c", "/d", "/e", "/f", "/g", "/h"};
-    const ScheduleOptions two{.threads = 2, .chunkSize = 1, .force = true};
-    const auto crossings = [&](std::vector<std::pair<std::uint32_t, std::uint32_t>> edges) {
-        return makeSchedule(graphOf(paths, std::move(edges)), two).crossings;
-    };
-
-    EXPECT_EQ(crossings({{0, 4}, {0, 5}, {3, 6}, {3, 7}}), 0);
-    EXPECT_EQ(crossings({{0, 4}, {0, 7}, {3, 6}, {3, 5}}), 2);
-
-    TaskGraph graph = graphOf(paths, {{0, 4}, {0, 7}, {3, 6}, {3, 5}});
-    EXPECT_EQ(makeSchedule(graph, {}).crossings, 0);
-    graph.nodes[7].every = 10;
-    EXPECT_DOUBLE_EQ(makeSchedule(graph, two).crossings, 1.1);
-}
-
-TEST(Scheduler, UsesOneThreadWhereTheWayBetweenDistantCpusCostsMore) {
-    std::vector<std::string> paths;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-    constexpr std::uint32_t half = 4000;
-    for (std::uint32_t i = 0; i < 2 * half; ++i) paths.push_back("/" + std::to_string(10000 + i));
-    const TaskGraph apart = graphOf(paths, {});
-    for (std::uint32_t i = 0; i < half; ++i) {
-        edges.emplace_back(i, half + i);
-        edges.emplace_back(i, 2 * half - 1 - i);
-    }
-    const TaskGraph joined = graphOf(paths, edges);
-    const auto threads = [](const TaskGraph& graph, double line) {
-        return makeSchedule(graph, {.threads = 2, .lineMicroseconds = line}).threads;
-    };
-
-    EXPECT_EQ(threads(apart, 0.06), 2U);
-    EXPECT_EQ(threads(apart, 0.45), 2U);
-    EXPECT_EQ(threads(joined, 0.06), 2U);
-    EXPECT_EQ(threads(joined, 0.45), 1U);
-}
-
 // Many writers and many readers of simplexes without a task: joins, some of them a level of their
 // own.
 TEST(Scheduler, PlacesEveryChunkWithinItsLevelAlsoWhereNothingCosts) {

@@ -6,7 +6,6 @@
 
 #include "loop/cluster_loop.hpp"
 #include "loop/group_commands.hpp"
-#include "threads/line_distance.hpp"
 #include "threads/realtime_thread.hpp"
 #include "threads/scheduler.hpp"
 
@@ -41,6 +40,13 @@ struct ClusterCS::Implementation {
 namespace {
 
 bool hasTask(const SimplexInfo& info) { return !info.remote && info.layout->type->isA("Active"); }
+
+std::uint32_t threadsFor(const ClusterOptions& options, std::vector<std::string>& report) {
+    if (options.forceThreads) return options.threads;
+    const std::uint32_t threads =
+        clampThreads(options.threads, options.priority, options.cpus, report);
+    return options.acrossCaches ? threads : threadsWithCommonCache(threads, options.cpus, report);
+}
 
 [[noreturn]] void refuse(Report report) { throw ModelError(std::move(report)); }
 
@@ -202,10 +208,7 @@ void ClusterCS::startAll() {
     self.tree->createRelated(self.registry);
 
     std::vector<std::string> realtimeReport;
-    const std::uint32_t threads = self.options.forceThreads
-                                      ? self.options.threads
-                                      : clampThreads(self.options.threads, self.options.priority,
-                                                     self.options.cpus, realtimeReport);
+    const std::uint32_t threads = threadsFor(self.options, realtimeReport);
     AgentOptions options;
     options.imageReaders = self.options.imageReaders + 1;  // who looks at task times
     options.loopThreads = threads;
@@ -218,19 +221,16 @@ void ClusterCS::startAll() {
     self.agent->setCanonicalOrder(order);
     const std::vector<SimplexCS*> simplexes = self.activeInOrder(order);
     self.populate(simplexes);
-    const double line =
-        self.options.forceThreads ? 0 : lineMicroseconds(self.options.cpus, threads);
     Schedule schedule =
-        makeSchedule(graph, {threads, self.options.chunkSize, {}, self.options.forceThreads, line});
+        makeSchedule(graph, {threads, self.options.chunkSize, {}, self.options.forceThreads});
     self.agent->addInterface(self.program);
     for (const auto& interface : self.interfaces) self.agent->addInterface(*interface);
     for (EventLog::Sink& sink : self.sinks) self.agent->events().addSink(sink);
     self.loop =
         std::make_unique<ClusterLoop>(*self.agent, *self.trigger, self.options, std::move(schedule),
                                       simplexes, self.heartbeats, std::move(realtimeReport));
-    self.loop->rescheduleBy([&self, threads](std::span<const double> costs, double measured) {
-        return makeSchedule(self.graph(),
-                            {threads, self.options.chunkSize, costs, false, measured});
+    self.loop->rescheduleBy([&self, threads](std::span<const double> costs) {
+        return makeSchedule(self.graph(), {threads, self.options.chunkSize, costs, false});
     });
     self.agent->start();
     self.loop->start();

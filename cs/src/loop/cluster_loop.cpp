@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loop/cluster_loop.hpp"
 
-#include "threads/line_distance.hpp"
 #include "threads/realtime_thread.hpp"
 
 #include <algorithm>
@@ -204,9 +203,7 @@ void ClusterLoop::startRescheduler() {
     if (!mayShare || !makeSchedule_ || !trigger_.realTime()) return;
     rescheduler_ = std::make_unique<Rescheduler>(
         agent_, plan_->schedule,
-        Rescheduler::Maker{[this] { return lineMicroseconds(options_.cpus, agent_.threadCount()); },
-                           makeSchedule_,
-                           [this](Schedule schedule) {
+        Rescheduler::Maker{makeSchedule_, [this](Schedule schedule) {
                                auto plan = std::make_unique<Plan>();
                                plan->schedule = std::move(schedule);
                                equip(*plan);

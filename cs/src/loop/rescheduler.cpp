@@ -23,8 +23,7 @@ double timingCost() {
 
 }  // namespace
 
-double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds,
-                            double lineMicroseconds) {
+double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds) {
     const std::uint32_t count = std::max(1U, schedule.threads);
     std::vector<double> threads(count), finished;
     finished.reserve(schedule.chunks.size());
@@ -39,18 +38,8 @@ double expectedMicroseconds(const Schedule& schedule, std::span<const double> co
         }
         finished.push_back(thread);
     }
-    return *std::max_element(threads.begin(), threads.end()) +
-           sharingMicroseconds(schedule, lineMicroseconds);
-}
-
-std::vector<double> withoutCrossings(const Schedule& schedule, std::vector<double> costMicroseconds,
-                                     double lineMicroseconds) {
-    double sum = 0;
-    for (const std::uint32_t task : schedule.tasks) sum += costMicroseconds[task];
-    if (sum <= 0) return costMicroseconds;
-    const double left = 1 - crossingMicroseconds(schedule, lineMicroseconds) / sum;
-    for (double& cost : costMicroseconds) cost *= std::max(left, 0.5);
-    return costMicroseconds;
+    const double wake = count > 1 ? WakeMicroseconds : 0;
+    return *std::max_element(threads.begin(), threads.end()) + wake;
 }
 
 Rescheduler::Rescheduler(AgentRuntime& agent, const Schedule& inUse, Maker maker,
@@ -60,7 +49,6 @@ Rescheduler::Rescheduler(AgentRuntime& agent, const Schedule& inUse, Maker maker
       maker_{std::move(maker)},
       pause_{first},
       costs_(agent.structure().simplexes.size()),
-      line_{inUse.lineMicroseconds},
       thread_{[this] { run(); }} {}
 
 Rescheduler::~Rescheduler() {
@@ -111,14 +99,11 @@ void Rescheduler::look() {
 }
 
 void Rescheduler::offer() {
-    std::vector<double> costs = measuredCosts();
+    const std::vector<double> costs = measuredCosts();
     if (costs.empty()) return;
-    const double line = maker_.lineMicroseconds();
-    if (line > 0) line_ = line;
-    costs = withoutCrossings(inUse_, std::move(costs), line_);
-    Schedule schedule = maker_.schedule(costs, line_);
-    const bool better = expectedMicroseconds(schedule, costs, line_) <
-                        worthwhile * expectedMicroseconds(inUse_, costs, line_);
+    Schedule schedule = maker_.schedule(costs);
+    const bool better =
+        expectedMicroseconds(schedule, costs) < worthwhile * expectedMicroseconds(inUse_, costs);
     if (!better || schedule.tasks != inUse_.tasks) return;
     std::unique_ptr<Plan> plan = maker_.plan(schedule);
     inUse_ = std::move(schedule);

@@ -18,26 +18,18 @@
 
 namespace cortex::cs {
 
-/// How long a cycle takes if tasks (by node) cost so much, and a cache line so long from thread to
-/// thread: each thread runs its chunks in order, as soon as their predecessors have run.
-double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds,
-                            double lineMicroseconds = 0);
+// How long a cycle takes if tasks (by node) cost so much: each thread runs its chunks in order, as
+// soon as their predecessors have run.
+double expectedMicroseconds(const Schedule& schedule, std::span<const double> costMicroseconds);
 
-/// What tasks cost without what crosses between threads, which is in the times measured of them:
-/// taken off evenly, and half of each at most.
-std::vector<double> withoutCrossings(const Schedule& schedule, std::vector<double> costMicroseconds,
-                                     double lineMicroseconds);
+// Makes a schedule for what tasks cost, in microseconds by node.
+using ScheduleMaker = std::function<Schedule(std::span<const double> costs)>;
 
-// By what tasks cost, and how long a cache line takes between the threads' CPUs.
-using ScheduleMaker = std::function<Schedule(std::span<const double> costs, double line)>;
-
-// Looks at what tasks cost, and at how far the threads' CPUs are from each other, on a thread of
-// its own, and offers a plan made for these costs where it is better by more than a fifth. The
-// order of tasks, and so every result, stays as it is.
+// Looks at what tasks cost, on a thread of its own, and offers a plan made for these costs where it
+// is better by more than a fifth. The order of tasks, and so every result, stays as it is.
 class Rescheduler {
 public:
     struct Maker {
-        std::function<double()> lineMicroseconds;  // 0: not known this time
         ScheduleMaker schedule;
         std::function<std::unique_ptr<Plan>(Schedule)> plan;
     };
@@ -61,7 +53,6 @@ private:
     Maker maker_;
     std::chrono::milliseconds pause_;
     std::vector<double> costs_;  // by simplex, microseconds; 0: not timed yet
-    double line_;                // between the threads' CPUs, as last known
     std::atomic<Plan*> offered_{nullptr}, returned_{nullptr};
     std::mutex mutex_;
     std::condition_variable wake_;

@@ -49,11 +49,25 @@ std::vector<int> allowedCpus() {
     return cpus;
 }
 
-std::string firstLine(const char* file) {
+std::string firstLine(const std::string& file) {
     std::ifstream stream{file};
     std::string line;
     std::getline(stream, line);
     return line;
+}
+
+/// The CPUs that share the last-level cache of this one; empty where the system states no cache.
+std::vector<int> cpusOfLastCache(const std::string& cpuFolder, int cpu) {
+    std::string last, cpus;
+    for (int index = 0;; ++index) {
+        const std::string cache =
+            cpuFolder + "/cpu" + std::to_string(cpu) + "/cache/index" + std::to_string(index);
+        const std::string level = firstLine(cache + "/level");
+        if (level.empty()) return cpusOf(cpus);
+        if (level <= last) continue;  // one digit
+        last = level;
+        cpus = firstLine(cache + "/shared_cpu_list");
+    }
 }
 
 /// Isolated CPUs are not in the mask that a process begins with, but there for who names them.
@@ -154,6 +168,24 @@ std::uint32_t clampThreads(std::uint32_t wanted, int priority, const std::vector
                      listed(chosenCpus(affinity)) +
                      " is all there is. Name more CPUs or ask for fewer threads.");
     return most;
+}
+
+std::uint32_t threadsWithCommonCache(std::uint32_t wanted, const std::vector<int>& affinity,
+                                     std::vector<std::string>& report,
+                                     const std::string& cpuFolder) {
+    const int first = cpuForThread(affinity, 0);
+    const std::vector<int> near = cpusOfLastCache(cpuFolder, first);
+    for (std::uint32_t thread = 1; thread < wanted && !near.empty(); ++thread) {
+        const int cpu = cpuForThread(affinity, thread);
+        if (std::ranges::find(near, cpu) != near.end()) continue;
+        report.push_back("Only 1 of " + std::to_string(wanted) + " threads is used: CPU " +
+                         listed({first, cpu}) +
+                         " have no last-level cache in common, so threads that share the tasks "
+                         "would be slower than one. Name CPUs in 'cpus' that share a cache, or set "
+                         "ClusterOptions::acrossCaches.");
+        return 1;
+    }
+    return wanted;
 }
 
 std::vector<std::string> configureThisThread(const ThreadOptions& options) {

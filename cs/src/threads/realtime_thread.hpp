@@ -35,6 +35,12 @@ int cpuForThread(const std::vector<int>& affinity, std::uint32_t thread);
 std::uint32_t clampThreads(std::uint32_t wanted, int priority, const std::vector<int>& affinity,
                            std::vector<std::string>& report);
 
+/// `wanted`, or 1 with a line of report where the CPUs of so many threads have no last-level cache
+/// in common, as the system states it: threads that share tasks are slower there than one.
+std::uint32_t threadsWithCommonCache(std::uint32_t wanted, const std::vector<int>& affinity,
+                                     std::vector<std::string>& report,
+                                     const std::string& cpuFolder = "/sys/devices/system/cpu");
+
 /// Sets name, CPUs and priority of the calling thread.
 std::vector<std::string> configureThisThread(const ThreadOptions& options);
 

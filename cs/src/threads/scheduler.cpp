@@ -112,7 +112,6 @@ private:
     void placeChunks(std::size_t first, double levelCost);
     void addToOpenChunk(Index chain);
     void prune(Index chunk, std::vector<Index>& named, std::vector<Index>& coveredFor) const;
-    double countCrossings() const;
 
     const TaskGraph& graph_;
     const ScheduleOptions& options_;
@@ -335,33 +334,12 @@ void Builder::namePredecessors() {
     }
 }
 
-double Builder::countCrossings() const {
-    const auto home = [&](Index chain) {
-        return homeOf(schedule_.chunks[chunkOfChain_[chain]], schedule_.threads);
-    };
-    double crossings = 0;
-    for (Index chain = 0; chain < chunkOfChain_.size(); ++chain) {
-        const Index head = nodesOfChain_.of(chain).front();
-        const auto earlier = before(head);
-        const auto count = std::count_if(earlier.begin(), earlier.end(), [&](Index node) {
-            return home(chainOf_[node]) != home(chain);
-        });
-        crossings += static_cast<double>(count) / std::max(1U, graph_.nodes[head].every);
-    }
-    return crossings;
-}
-
 Schedule Builder::finish() {
     const Index threads =
         options_.force ? options_.threads : std::min(options_.threads, widestLevel_);
-    schedule_.lineMicroseconds = options_.lineMicroseconds;
     schedule_.threads = std::max<Index>(1, threads);
-    schedule_.crossings = countCrossings();
-    const double shared = parallelCost_ + sharingMicroseconds(schedule_, options_.lineMicroseconds);
-    if (shared >= serialCost_ && !options_.force) {
-        schedule_.threads = 1;
-        schedule_.crossings = 0;
-    }
+    const bool isWorthwhile = parallelCost_ + WakeMicroseconds < serialCost_;
+    if (!isWorthwhile && !options_.force) schedule_.threads = 1;
     return std::move(schedule_);
 }
 
@@ -394,20 +372,6 @@ std::vector<std::uint32_t> canonicalOrder(const TaskGraph& graph) {
     std::vector<bool> blocked(count);
     for (Index node = 0; node < count; ++node) blocked[node] = waitsFor[node] != 0;
     throwLoop(graph, blocked);
-}
-
-double crossingMicroseconds(const Schedule& schedule, double lineMicroseconds) {
-    constexpr double linesPerCrossing = 0.3;  // 0.17 for an empty task, which reads one
-    return schedule.crossings * linesPerCrossing * lineMicroseconds;
-}
-
-double sharingMicroseconds(const Schedule& schedule, double lineMicroseconds) {
-    if (schedule.threads < 2) return 0;
-    constexpr double linesPerCycle = 20, linesPerChunk = 0.5;
-    const double chunks = linesPerChunk * static_cast<double>(schedule.chunks.size());
-    return WakeMicroseconds + linesPerCycle * lineMicroseconds +
-           (chunks * lineMicroseconds + crossingMicroseconds(schedule, lineMicroseconds)) /
-               schedule.threads;
 }
 
 Schedule makeSchedule(const TaskGraph& graph, const ScheduleOptions& options) {

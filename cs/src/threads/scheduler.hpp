@@ -53,27 +53,16 @@ struct Schedule {
     std::vector<Chunk> chunks;
     std::vector<std::uint32_t> predecessors;
     std::uint32_t threads = 1;
-    double lineMicroseconds = 0;  // that it was made for
-    double crossings = 0;         // a cycle: reads of tasks, or joins, whose home is another thread
 };
 
 inline constexpr double AssumedTaskMicroseconds = 0.05;  // of a task whose cost is not known
 inline constexpr double WakeMicroseconds = 20.0;  // what a sleeping worker costs before it helps
-
-/// What tasks take longer in a cycle for what they read of tasks of other threads, in sum, if a
-/// line of the cache takes so long to and fro (see lineMicroseconds()).
-double crossingMicroseconds(const Schedule& schedule, double lineMicroseconds);
-
-/// What a cycle costs more because threads share it: the wake, and the lines that go from one to
-/// the other. From cycles on two threads (docs/performance.md).
-double sharingMicroseconds(const Schedule& schedule, double lineMicroseconds);
 
 struct ScheduleOptions {
     std::uint32_t threads = 1;                   // at most
     std::uint32_t chunkSize = 0;                 // tasks in a chunk; 0: by cost
     std::span<const double> costMicroseconds{};  // one per node, 0: unknown; empty: all are
     bool force = false;                          // use all threads even where one is faster
-    double lineMicroseconds = 0;                 // between the threads' CPUs; 0: not known
 };
 
 /// Topological, ties by path. Throws LoopError.

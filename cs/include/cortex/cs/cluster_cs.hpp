@@ -32,6 +32,7 @@ struct ClusterOptions {
     bool lockMemory = true;
     bool keepCpusAwake = true;  // all of the machine, while the loop runs: costs power
     std::vector<int> cpus{};    // to pin threads to; empty: all that the process may use
+    bool acrossCaches = false;  // several threads even where their CPUs have no common cache
     Overflow overflow = Overflow::Skip;
     std::uint32_t catchUpCycles = 10;
     double warnDuty = 0;           // duty cycle in % above which each cycle is an event; 0: none
@@ -103,8 +104,8 @@ public:
                     std::chrono::milliseconds timeout = std::chrono::seconds{5});
     ProgramInterface& program();
 
-    // What the system refused of priority, pinning, memory locking, and what speaks against the way
-    // in which the trigger waits; one sentence each.
+    // What the system refused of priority, pinning and memory locking, why fewer threads are used
+    // than were asked for, and what speaks against how the trigger waits; one sentence each.
     const std::vector<std::string>& realtimeReport() const;
     std::uint32_t threadsInUse() const;
 
