@@ -54,7 +54,7 @@ public:
                     return schedule(threads);
                 },
                 [](Schedule schedule) {
-                    return std::make_unique<Plan>(Plan{std::move(schedule), {}, nullptr});
+                    return std::make_unique<Plan>(Plan{std::move(schedule), nullptr});
                 }};
     }
     void await(const std::function<bool()>& condition) const {
@@ -73,7 +73,7 @@ private:
 TEST(Rescheduler, OffersAPlanOnceItIsBetter) {
     Looks offers;
     const Schedule shared = offers.schedule(2);
-    Plan* plan = new Plan{shared, {}, nullptr};
+    Plan* plan = new Plan{shared, nullptr};
     Rescheduler rescheduler{offers.agent(), shared, offers.maker(), 1ms};
     offers.await([&] { return offers.looks >= 3; });
     EXPECT_FALSE(rescheduler.exchange(plan));

@@ -36,19 +36,6 @@ struct Chunks {
     }
 };
 
-template <typename ChunkFunction, typename GroupFunction>
-struct ChunksAndGroups {
-    ChunkFunction chunk;
-    GroupFunction group;
-
-    static void runChunk(void* self, std::uint32_t chunk, std::uint32_t) {
-        static_cast<ChunksAndGroups*>(self)->chunk(chunk);
-    }
-    static void runGroup(void* self, std::uint32_t group, std::uint32_t) {
-        static_cast<ChunksAndGroups*>(self)->group(group);
-    }
-};
-
 /// Tasks that note the cycle in which they ran and check that all before them ran in it already.
 /// What they read of each other is no atomic, so that ThreadSanitizer sees a missing order too.
 class OrderCheck {
@@ -178,48 +165,6 @@ INSTANTIATE_TEST_SUITE_P(Threads, ThreadPoolOrder,
                                     std::to_string(std::get<1>(test.param)) + "Spin" +
                                     std::to_string(std::get<2>(test.param));
                          });
-
-/// Chunks in some groups, others in none. What a group reads of its chunks is no atomic.
-TEST_P(ThreadPoolOrder, CallsForEachGroupOncePerCycleWhenAllItsChunksHaveRun) {
-    const auto [threads, chunkSize, spin] = GetParam();
-    constexpr std::uint32_t groupCount = 3;
-    for (std::uint32_t seed = 0; seed < 20; ++seed) {
-        SCOPED_TRACE(seed);
-        const Schedule schedule = makeSchedule(
-            randomGraph(seed), {.threads = threads, .chunkSize = chunkSize, .force = true});
-        const auto count = static_cast<std::uint32_t>(schedule.chunks.size());
-        std::mt19937 random{seed};
-        std::vector<Indices> members(groupCount);
-        Indices groups;
-        for (std::uint32_t chunk = 0; chunk < count; ++chunk) {
-            const std::uint32_t group = random() % (groupCount + 1);
-            groups.push_back(group == groupCount ? noGroup : group);
-            if (group != groupCount) members[group].push_back(chunk);
-        }
-        std::vector<int> ranIn(count);
-        std::atomic<int> early{0}, calls{0};
-        int cycle = 0;
-        const auto run = [&](std::uint32_t chunk) { ranIn[chunk] = cycle; };
-        const auto end = [&](std::uint32_t group) {
-            ++calls;
-            for (const std::uint32_t member : members[group]) {
-                if (schedule.chunks[member].count > 0 && ranIn[member] != cycle) ++early;
-            }
-        };
-        ChunksAndGroups both{run, end};
-        const auto used =
-            std::ranges::count_if(members, [](const auto& of) { return !of.empty(); });
-        ThreadPool pool(
-            schedule, &decltype(both)::runChunk, &both,
-            {.spinMicroseconds = spin, .groups = groups, .endGroup = &decltype(both)::runGroup});
-        while (cycle < 100) {
-            ++cycle;
-            pool.cycle();
-            ASSERT_EQ(calls.load(), cycle * used);
-        }
-        EXPECT_EQ(early.load(), 0);
-    }
-}
 
 /// Holds /a back until another chunk ran: impossible unless the schedule lost an edge.
 TEST(ThreadPool, IsCaughtByTheOrderCheckIfAPredecessorIsLost) {

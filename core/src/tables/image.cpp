@@ -90,7 +90,7 @@ Value Image::value(std::string_view path, std::string_view item) const {
 }
 
 ImagePool::ImagePool(Tables& tables, std::uint32_t readers)
-    : tables_{tables}, readers_{readers}, slotCount_{readers + 2}, whole_{divideImage(tables, {})} {
+    : tables_{tables}, readers_{readers}, slotCount_{readers + 2} {
     const std::size_t stride = strideFor(tables.arena().size());
     const std::size_t octets = stride * slotCount_ + alignment;
     memory_ = std::make_unique<std::byte[]>(octets);  // zeroed: every page is touched
@@ -104,17 +104,16 @@ ImagePool::ImagePool(Tables& tables, std::uint32_t readers)
     publish(0, 0, 0);
 }
 
-void ImagePool::copy(std::span<const ImageParts::Part> parts) const {
-    const std::byte* const from = tables_.arena().data();
-    std::byte* const to = slots_[next_].memory;
-    for (const auto& [offset, octets] : parts) std::memcpy(to + offset, from + offset, octets);
-}
-
-void ImagePool::copyTexts(Slot& slot) {
+// Texts hardly ever change: a slot that holds them as they are keeps them.
+void ImagePool::copyTables(Slot& slot) {
+    const std::span<const std::byte> arena = tables_.arena();
+    const auto [texts, octets] = tables_.textsInArena();
+    const std::size_t afterTexts = texts + octets;
+    std::memcpy(slot.memory, arena.data(), texts);
+    std::memcpy(slot.memory + afterTexts, arena.data() + afterTexts, arena.size() - afterTexts);
     const std::uint64_t changes = textChanges();
     if (std::exchange(slot.textChanges, changes) == changes) return;
-    const auto [texts, octets] = tables_.textsInArena();
-    std::memcpy(slot.memory + texts, tables_.arena().data() + texts, octets);
+    std::memcpy(slot.memory + texts, arena.data() + texts, octets);
 }
 
 void ImagePool::publish(std::int64_t cycle, std::int64_t nominalTime, std::int64_t wallClock) {
@@ -122,8 +121,7 @@ void ImagePool::publish(std::int64_t cycle, std::int64_t nominalTime, std::int64
     slot.cycle = cycle;
     slot.nominalTime = nominalTime;
     slot.wallClock = wallClock;
-    copy(parts_->rest);
-    copyTexts(slot);
+    copyTables(slot);
     const std::uint32_t newest = next_;
     newest_.store(newest);
     cycle_.store(cycle, std::memory_order_release);

@@ -33,7 +33,7 @@ ClusterLoop::ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const Clus
       options_{options},
       heartbeats_{std::move(heartbeats)},
       realtimeReport_{std::move(realtimeReport)},
-      plan_{std::make_unique<Plan>(Plan{std::move(schedule), {}, nullptr})},
+      plan_{std::make_unique<Plan>(Plan{std::move(schedule), nullptr})},
       runner_{agent, plan_->schedule, trigger.period()},
       group_{agent, runner_, std::move(simplexes)},
       metrics_{agent, trigger.period(), plan_->schedule.threads} {}
@@ -68,19 +68,13 @@ void ClusterLoop::start() {
     }
 }
 
-// With threads, and what of an image each of them copies.
-void ClusterLoop::equip(Plan& plan) {
-    plan.image = groupImage(agent_.tables(), plan.schedule);
+void ClusterLoop::addThreads(Plan& plan) {
     PoolOptions pool;
     pool.name = agent_.name();
     pool.threads = options_.forceThreads ? options_.threads : 0;
     pool.priority = options_.priority;
     pool.affinity = options_.cpus;
     pool.oversubscribe = options_.forceThreads;
-    pool.groups = plan.image.ofChunk;
-    pool.endGroup = [](void* loop, std::uint32_t group, std::uint32_t) {
-        static_cast<ClusterLoop*>(loop)->agent_.images().copyGroup(group);
-    };
     if (options_.onThreadStart) {
         pool.onStart = [](void* options, std::uint32_t worker) {
             static_cast<const ClusterOptions*>(options)->onThreadStart(worker);
@@ -99,7 +93,7 @@ void ClusterLoop::prepareThread() {
     const auto append = [this](const std::vector<std::string>& lines) {
         realtimeReport_.insert(realtimeReport_.end(), lines.begin(), lines.end());
     };
-    equip(*plan_);
+    addThreads(*plan_);
     threads_.store(plan_->pool->threads(), std::memory_order_relaxed);
     append(plan_->pool->report());
     append(plan_->pool->configureLoopThread());
@@ -124,14 +118,12 @@ void ClusterLoop::run() {
     ready_.store(true);
     ready_.notify_all();
     if (failed) return;
-    agent_.images().divide(plan_->image.parts);
     try {
         loop();
     } catch (const std::exception& error) {
         tellFailure("the trigger", error.what());
     }
     shutDown();
-    agent_.images().copyAtOnce();
     rescheduler_.reset();
     plan_->pool.reset();
     awakeCpus_.reset();
@@ -206,7 +198,7 @@ void ClusterLoop::startRescheduler() {
         Rescheduler::Maker{makeSchedule_, [this](Schedule schedule) {
                                auto plan = std::make_unique<Plan>();
                                plan->schedule = std::move(schedule);
-                               equip(*plan);
+                               addThreads(*plan);
                                plan->pool->placeLoopThread(loopThread_.load());
                                return plan;
                            }});
@@ -218,7 +210,6 @@ void ClusterLoop::adoptPlan() {
     plan_.reset(plan);
     if (!adopted) return;
     runner_.use(plan_->schedule);
-    agent_.images().divide(plan_->image.parts);
     metrics_.threads(plan_->pool->threads());
     threads_.store(plan_->pool->threads(), std::memory_order_relaxed);
 }

@@ -48,7 +48,7 @@ public:
 private:
     void run();
     void prepareThread();
-    void equip(Plan& plan);
+    void addThreads(Plan& plan);
     void startRescheduler();
     void adoptPlan() CORTEX_REALTIME;
     void loop();

@@ -54,7 +54,6 @@ ThreadPool::ThreadPool(const Schedule& schedule, ChunkFunction run, void* contex
     if (!options_.oversubscribe) {
         threads = clampThreads(threads, options_.priority, options_.affinity, report_);
     }
-    countGroups();
     workers_ = std::vector<Worker>(chunks_.empty() ? 1 : std::max(1U, threads));
     lists_ = std::vector<List>(workers_.size());
     listChunks();
@@ -73,17 +72,6 @@ void ThreadPool::listChunks() {
         lists_[homeOf(chunks_[chunk], threads())].chunks.push_back(chunk);
     }
     for (List& list : lists_) list.ticket = list.chunks.size();
-}
-
-void ThreadPool::countGroups() {
-    std::uint32_t count = 0;
-    for (const std::uint32_t group : options_.groups) {
-        if (group != noGroup) count = std::max(count, group + 1);
-    }
-    groups_ = std::vector<Group>(count);
-    for (const std::uint32_t group : options_.groups) {
-        if (group != noGroup) groups_[group].left = ++groups_[group].size;
-    }
 }
 
 /// Threads that share work are pinned, each to a CPU of its own: measured, the system otherwise
@@ -158,7 +146,6 @@ void ThreadPool::cycle(std::int64_t next) noexcept {
         setFloatingPointMode();
         for (std::uint32_t chunk = 0; chunk < chunks_.size(); ++chunk) {
             if (chunks_[chunk].count != 0) run_(context_, chunk, 0);
-            if (!groups_.empty()) countDone(chunk, 0);
         }
         return;
     }
@@ -224,23 +211,12 @@ void ThreadPool::takeChunks(std::uint32_t worker) noexcept {
         epoch = found.epoch;
         if (chunks_[found.chunk].count != 0) run_(context_, found.chunk, worker);
         if (isAwaited_[found.chunk]) complete(found.chunk, epoch);
-        if (!groups_.empty()) countDone(found.chunk, worker);
         ++taken;
         spin = Spin(spinTime_);
     }
     if (taken != 0 && remaining_.fetch_sub(taken, std::memory_order_acq_rel) == taken) {
         finished_.publish(epoch);
     }
-}
-
-/// The group's next cycle begins after all of this one, so that its last chunk may count anew.
-void ThreadPool::countDone(std::uint32_t chunk, std::uint32_t worker) noexcept {
-    const std::uint32_t index = options_.groups[chunk];
-    if (index == noGroup) return;
-    Group& group = groups_[index];
-    if (group.left.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
-    group.left.store(group.size, std::memory_order_relaxed);
-    options_.endGroup(context_, index, worker);
 }
 
 /// Sequentially consistent with sleepOrFind(): either this sees the sleeper, or he the chunk.

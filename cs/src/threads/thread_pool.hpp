@@ -8,15 +8,12 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
 namespace cortex::cs {
-
-inline constexpr std::uint32_t noGroup = std::numeric_limits<std::uint32_t>::max();
 
 struct PoolOptions {
     std::string name = "cortex";
@@ -25,12 +22,6 @@ struct PoolOptions {
     std::vector<int> affinity{};  // CPUs for all threads, the loop's first; empty: all usable
     std::uint32_t spinMicroseconds = 20;  // before a waiting thread sleeps
     bool oversubscribe = false;           // tests: more real-time threads than CPUs
-
-    /// By chunk the group that it belongs to, or noGroup; empty: there are none. Whoever runs the
-    /// last chunk of a group in a cycle then calls the other function with the pool's context; what
-    /// waits for that chunk does not wait for it. Must not throw.
-    std::vector<std::uint32_t> groups{};
-    void (*endGroup)(void* context, std::uint32_t group, std::uint32_t worker) = nullptr;
 
     /// Runs in each worker thread before its first cycle; must not throw.
     void (*onStart)(void* context, std::uint32_t worker) = nullptr;
@@ -88,10 +79,6 @@ private:
         std::atomic<std::uint64_t> ticket{0};  // epoch << 32 | next chunk to take
         std::vector<std::uint32_t> chunks;
     };
-    struct alignas(64) Group {
-        std::atomic<std::uint32_t> left{0};  // chunks to run in this cycle
-        std::uint32_t size = 0;
-    };
     /// What a worker can do next.
     struct Found {
         enum class What : std::uint8_t { Nothing, Blocked, Taken };
@@ -104,13 +91,11 @@ private:
     void stopWorkers() noexcept;
     void workerMain(std::uint32_t worker);
     void listChunks();
-    void countGroups();
     bool waitForCycle(std::uint32_t& seen) noexcept;
     void takeChunks(std::uint32_t worker) noexcept;
     Found find(std::uint32_t worker) noexcept;
     bool isReady(const Chunk& chunk, std::uint32_t epoch) const noexcept;
     void complete(std::uint32_t chunk, std::uint32_t epoch) noexcept;
-    void countDone(std::uint32_t chunk, std::uint32_t worker) noexcept;
     Found sleepOrFind(std::uint32_t worker) noexcept;
     void countSleep(std::uint32_t worker) noexcept;
 
@@ -124,8 +109,7 @@ private:
     const std::chrono::nanoseconds spinTime_;
     std::vector<std::string> report_;
     std::vector<Worker> workers_;
-    std::vector<List> lists_;  // by worker
-    std::vector<Group> groups_;
+    std::vector<List> lists_;           // by worker
     std::unique_ptr<DoneWord[]> done_;  // by chunk
     std::uint32_t epoch_ = 0;           // even; loop thread only
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/image_parts.hpp"
 #include "cortex/core/tables.hpp"
 
 #include <atomic>
@@ -56,21 +55,13 @@ private:
     std::uint32_t slot_ = 0;
 };
 
-// Fixed pool of images: `readers` + 2 slots. The loop's threads copy into one that is neither
-// newest nor pinned and never wait; a reader pins the newest.
+// Fixed pool of images: `readers` + 2 slots. The loop's thread copies the tables into one that is
+// neither newest nor pinned and never waits; a reader pins the newest.
 class ImagePool {
 public:
     ImagePool(Tables& tables, std::uint32_t readers);
 
-    // Loop thread or setup, between cycles: what copyGroup() copies from now on, and so publish()
-    // does not, until the next divide() or copyAtOnce(); as long `parts` must live. Without it
-    // publish() copies all.
-    void divide(const ImageParts& parts) CORTEX_REALTIME { parts_ = &parts; }
-    void copyAtOnce() { parts_ = &whole_; }
-    bool isDivided() const { return !parts_->parts.empty(); }
-    // Any loop thread, in each cycle once for each group, when its tasks have run.
-    void copyGroup(std::uint32_t group) CORTEX_REALTIME { copy(parts_->of(group)); }
-    // Loop thread, once at the end of a cycle.
+    // Loop thread, once at the end of a cycle: copies what all tasks have written.
     void publish(std::int64_t cycle, std::int64_t nominalTime, std::int64_t wallClock)
         CORTEX_REALTIME;
 
@@ -86,17 +77,14 @@ private:
         std::byte* memory = nullptr;
         std::uint64_t textChanges = ~std::uint64_t{0};  // when its texts were copied; none yet
     };
-    void copy(std::span<const ImageParts::Part> parts) const CORTEX_REALTIME;
-    void copyTexts(Slot& slot) CORTEX_REALTIME;
+    void copyTables(Slot& slot) CORTEX_REALTIME;
 
     Tables& tables_;
     std::uint32_t readers_;
     std::unique_ptr<std::byte[]> memory_;
     std::unique_ptr<Slot[]> slots_;
     std::uint32_t slotCount_;
-    ImageParts whole_;
-    const ImageParts* parts_ = &whole_;
-    std::uint32_t next_ = 0;  // the slot that is filled in this cycle
+    std::uint32_t next_ = 0;  // the slot that is filled next
     std::atomic<std::uint32_t> newest_{0};
     std::atomic<std::uint32_t> pinned_{0};
     std::atomic<std::int64_t> cycle_{0};
