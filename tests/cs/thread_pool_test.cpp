@@ -217,20 +217,6 @@ std::int64_t fromNow(std::chrono::nanoseconds time) {
     return (std::chrono::steady_clock::now().time_since_epoch() + time).count();
 }
 
-TEST(WakeWord, LetsASleeperGoWhenItsTimeHasComeOrTheValueChanges) {
-    WakeWord word;
-    const std::int64_t soon = fromNow(1ms);
-    while (word.sleepWhile(0, soon)) {
-    }
-    EXPECT_GE(fromNow(0ns), soon);
-    EXPECT_FALSE(word.sleepWhile(0, soon));
-
-    std::thread publisher{[&] { word.publish(2); }};
-    while (word.value() == 0) EXPECT_TRUE(word.sleepWhile(0, fromNow(1h)));
-    publisher.join();
-    EXPECT_TRUE(word.sleepWhile(0, soon));
-}
-
 /// The chunks of a cycle wait for each other, so no cycle ends unless all workers come: whether
 /// they are told nothing of the next cycle, or that it is due, was, or will be long after it is.
 TEST(ThreadPool, WakesEachWorkerInEachCycle) {

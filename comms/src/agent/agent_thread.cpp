@@ -16,8 +16,6 @@
 #include <thread>
 #include <utility>
 
-#include <sys/prctl.h>
-
 namespace cortex::comms {
 namespace {
 
@@ -26,7 +24,8 @@ constexpr std::chrono::milliseconds shortestWait{1}, longestWait{20}, longestInC
 constexpr std::chrono::microseconds moreForEach{500};
 constexpr std::size_t mostLostOwners = 16;
 constexpr std::int64_t muchTooEarly = 100'000;      // ns
-constexpr std::int64_t shortestExpected = 500'000;  // ns; else too much of them were waited awake
+constexpr std::int64_t shortestExpected = 500'000;  // ns; of less, too much would be waited awake
+constexpr std::int64_t lead = 20'000;               // ns, before and after an expected write
 constexpr int timesStopping = 3;
 constexpr std::chrono::milliseconds pauseStopping{10};
 
@@ -65,7 +64,7 @@ AgentThread::AgentThread(const AgentAccess& agent, const NetworkOptions& options
 AgentThread::~AgentThread() {
     self_.access.events->flush();
     stopping_.store(true);
-    wake_.signal();
+    signals_.wake();
     thread_.join();
 }
 
@@ -75,7 +74,7 @@ std::unique_ptr<Reader<Message>> AgentThread::receive(const Topic& topic) {
         if (!received_.push(std::move(message), steadyNow())) {
             self_.rejections.add("more messages than can be taken");
         } else if (isUrgent<Message>) {
-            wake_.signal();
+            signals_.wake();
         }
     });
 }
@@ -85,27 +84,25 @@ void AgentThread::read(Inbox& inbox) {
     commands_.read(inbox);
 }
 
+// A communication thread that waits for this write comes by itself, unless it is much too early.
 void AgentThread::write(Outbox& outbox) {
     const bool answers = commands_.write(outbox);
     const bool everyCycle = everyCycle_.load(std::memory_order_relaxed);
     if (!answers && !everyCycle) return;
-    if (everyCycle && !expectNext()) {
-        wake_.signal();
-    } else {
-        wake_.signalAwaited();
+    bool isTooEarly = false;
+    if (everyCycle) {
+        const std::int64_t now = steadyNow();
+        isTooEarly = now < next_.load(std::memory_order_relaxed) - muchTooEarly;
+        next_.store(now + self_.access.period, std::memory_order_relaxed);
     }
-}
-
-// The next write() in a period from now. False: this one came long before it was expected.
-bool AgentThread::expectNext() {
-    const std::int64_t now = steadyNow();
-    const std::int64_t expected = next_.load(std::memory_order_relaxed);
-    next_.store(now + self_.access.period, std::memory_order_relaxed);
-    return now > expected - muchTooEarly;
+    if (isTooEarly)
+        signals_.wake();
+    else
+        signals_.advance();
 }
 
 void AgentThread::run() {
-    prctl(PR_SET_TIMERSLACK, 1UL);  // else what it sleeps for ends up to 50 microseconds late
+    sleepPunctually();
     while (!stopping_.load()) {
         guarded([this] { step(); });
         // What is due waits for the next cycle where it has none.
@@ -118,12 +115,24 @@ void AgentThread::run() {
     participant_.stopListening();
 }
 
-// Where somebody wants every cycle, the loop need not wake who knows when it will have written.
+// Where somebody wants every cycle, the loop need not wake a thread that knows when it will have
+// written.
 void AgentThread::wait(std::chrono::nanoseconds limit) {
-    const std::int64_t end = steadyNow() + limit.count();
+    const std::int64_t now = steadyNow(), end = now + limit.count();
     const std::int64_t next = next_.load(std::memory_order_relaxed);
-    const bool comes = self_.access.period >= shortestExpected && next <= end;
-    if (!comes || !wake_.await(next)) wake_.waitUntil(end);
+    const bool isExpected = now < next + lead && next <= end;
+    if (isExpected && self_.access.period >= shortestExpected) awaitWrite(next);
+    if (signals_.value() == seen_) signals_.sleepWhile(seen_, end);
+    seen_ = signals_.value();
+}
+
+// Wakes up a little before that time and looks until a little after it. It yields, because the loop
+// may need this very CPU.
+void AgentThread::awaitWrite(std::int64_t time) {
+    while (signals_.value() == seen_ && steadyNow() < time - lead) {
+        signals_.napWhile(seen_, time - lead);
+    }
+    while (signals_.value() == seen_ && steadyNow() < time + lead) std::this_thread::yield();
 }
 
 // Whatever others send, this thread goes on.
@@ -212,7 +221,7 @@ void AgentThread::sendInterest() {
 }
 
 void AgentThread::sendEvents() {
-    if (!events_.take(eventsToSend_)) wake_.signal();  // the next step follows at once
+    if (!events_.take(eventsToSend_)) signals_.advance();  // the next step follows at once
     for (const EventMessage& event : eventsToSend_) {
         if (!silent_ && eventOut_->write(event)) lastEvent_ = event.number;
     }

@@ -10,7 +10,7 @@
 #include "agent/agent_received.hpp"
 #include "agent/agent_self.hpp"
 #include "agent/agent_streams.hpp"
-#include "agent/agent_wake.hpp"
+#include "base/event_count.hpp"
 #include "dds/participant.hpp"
 
 #include <atomic>
@@ -42,9 +42,9 @@ public:
 private:
     template <class Message>
     std::unique_ptr<Reader<Message>> receive(const Topic& topic);
-    bool expectNext() CORTEX_REALTIME;
     void run();
     void wait(std::chrono::nanoseconds limit);
+    void awaitWrite(std::int64_t time);
     template <class Function>
     void guarded(Function function);
     void step();
@@ -63,7 +63,7 @@ private:
     AgentSelf self_;
     AgentModel model_;
     Participant participant_;
-    Wake wake_;
+    EventCount signals_;  // to the communication thread, which sleeps on it
     ReceivedQueue received_;
     std::unique_ptr<Writer<Presence>> presenceOut_;
     std::unique_ptr<Writer<Model>> modelOut_;
@@ -86,6 +86,7 @@ private:
     std::vector<EventMessage> eventsToSend_;
     std::uint64_t lastEvent_ = 0;  // that was written
     std::int64_t presenceDue_ = 0;
+    std::uint32_t seen_ = 0;  // of signals_
     bool silent_ = false;
 
     std::atomic<bool> everyCycle_{false};  // somebody wants values

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "threads/realtime_thread.hpp"
 
+#include "base/event_count.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -14,7 +16,6 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -194,7 +195,7 @@ std::vector<std::string> configureThisThread(const ThreadOptions& options) {
     pthread_setname_np(pthread_self(), options.name.substr(0, 15).c_str());
     setAffinity(options, report);
     setPriority(options, report);
-    prctl(PR_SET_TIMERSLACK, 1UL);  // else sleeps of normal threads end up to 50 microseconds late
+    sleepPunctually();
     return report;
 }
 

@@ -8,11 +8,6 @@
 #include <span>
 
 namespace cortex::cs {
-namespace {
-
-constexpr std::uint32_t EpochStep = 2;  // WakeWord keeps the lowest bit
-
-}  // namespace
 
 /// A budget of time for busy waiting. Short waits never read the clock.
 class ThreadPool::Spin {
@@ -108,7 +103,7 @@ void ThreadPool::startWorkers() {
 
 void ThreadPool::stopWorkers() noexcept {
     stopping_.store(true, std::memory_order_release);
-    started_.publish(epoch_ + EpochStep);
+    started_.publish(epoch_ + EventCount::step);
     for (Worker& worker : workers_) {
         if (worker.thread.joinable()) worker.thread.join();
     }
@@ -149,7 +144,7 @@ void ThreadPool::cycle(std::int64_t next) noexcept {
         }
         return;
     }
-    epoch_ += EpochStep;
+    epoch_ += EventCount::step;
     remaining_.store(static_cast<std::uint32_t>(chunks_.size()), std::memory_order_relaxed);
     for (List& list : lists_) {
         list.ticket.store(std::uint64_t{epoch_} << 32, std::memory_order_release);

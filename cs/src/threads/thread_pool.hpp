@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/event_count.hpp"
 #include "threads/realtime_thread.hpp"
 #include "threads/scheduler.hpp"
-#include "threads/wake_word.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -115,10 +115,10 @@ private:
 
     alignas(64) std::atomic<std::uint32_t> remaining_{0};  // chunks not yet reported as done
     alignas(64) std::atomic<std::uint32_t> sleepers_{0};   // in a cycle, for lack of a ready chunk
-    alignas(64) WakeWord progress_;                        // they sleep on it
-    alignas(64) WakeWord started_;       // epoch; workers sleep on it between cycles
+    alignas(64) EventCount progress_;                      // they sleep on it
+    alignas(64) EventCount started_;     // epoch; workers sleep on it between cycles
     std::atomic<std::int64_t> next_{0};  // when they need no longer sleep
-    alignas(64) WakeWord finished_;      // epoch; the loop thread sleeps on it at the cycle's end
+    alignas(64) EventCount finished_;    // epoch; the loop thread sleeps on it at the cycle's end
     std::atomic<bool> stopping_{false};
 };
 
