@@ -100,7 +100,7 @@ public:
     std::uint32_t threadCount() const { return static_cast<std::uint32_t>(threads_.size()); }
     Simplex& simplex(std::uint32_t index) { return *simplexes_[index]; }
     std::uint32_t rank(std::uint32_t simplex) const { return ranks_[simplex]; }
-    std::uint32_t agentSimplex() const { return agentSimplex_; }  // index of /<name>
+    std::uint32_t agentSimplex() const { return agentSimplex_; }  // index of `/<name>`
     // Of a simplex of another agent: ns between two writings by its owner, at least our period;
     // known when it is linked, from beginCycle() on.
     const std::int64_t& ownerPeriod(std::uint32_t simplex) const {
