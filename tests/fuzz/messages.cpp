@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dds/repeats.hpp"
 #include "wire/cdr.hpp"
 
-#include <chrono>
 #include <cstdlib>
 #include <vector>
 
@@ -28,18 +26,10 @@ void readAndWrite(Payload payload) {
     if (!decode(Payload{written}, again) || encoded(again) != written) std::abort();
 }
 
-// Not the payload of a message, but what DDS sends: read before anybody else does.
-void passThrough(Payload datagram) {
-    Repeats repeats{{}, std::chrono::seconds{1}};
-    repeats.newcomer({}, {{}});
-    repeats.heard(datagram);
-    if (Repeats::concerns(datagram)) repeats.needless(datagram, nullptr, {}, {});
-}
-
 constexpr void (*kinds[])(Payload) = {readAndWrite<Presence>, readAndWrite<Model>,
                                       readAndWrite<Block>,    readAndWrite<Command>,
                                       readAndWrite<Answer>,   readAndWrite<EventMessage>,
-                                      readAndWrite<Interest>, passThrough};
+                                      readAndWrite<Interest>};
 
 }  // namespace
 

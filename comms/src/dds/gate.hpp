@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dds/repeats.hpp"
-
 #include <atomic>
 #include <condition_variable>
 #include <memory>
@@ -38,9 +36,7 @@ private:
 // that others of them just make or delete: so what comes goes on one by one, and who makes or
 // deletes endpoints or changes the participant is to hold the gate. It ends the process where
 // somebody leaves just as his lease is looked at: who leaves himself closes the gate first. What is
-// lost comes again with the next announcement, and of a handshake after a second. What is announced
-// or asked goes out unless `repeats`, if there is one, finds it needless.
-std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos,
-                              std::shared_ptr<Repeats> repeats = {});
+// lost comes again with the next announcement, and of a handshake after a second.
+std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos);
 
 }  // namespace cortex::comms

@@ -5,10 +5,8 @@
 
 #include "dds/discovery_counter.hpp"
 #include "dds/gate.hpp"
-#include "dds/join_turn.hpp"
 #include "dds/participant_qos.hpp"
 #include "dds/receiver.hpp"
-#include "dds/repeats.hpp"
 #include "dds/security_guard.hpp"
 #include "dds/topic_type.hpp"
 #include "wire/ids.hpp"
@@ -20,7 +18,6 @@
 #include <cstddef>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <utility>
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -67,11 +64,8 @@ struct Participant::Impl {
     std::string name;
     std::unique_ptr<DiscoveryCounter> listener;  // outlives the participant
     SecurityGuard* guard = nullptr;              // the listener, with security
-    std::shared_ptr<Repeats> repeats;
     std::shared_ptr<Gate> gate;
-    std::optional<JoinTurn> turn;  // until it speaks
     int othersOnHost = 0;
-    bool hasServer = false;
     dds::DomainParticipant* participant = nullptr;
     dds::Publisher* publisher = nullptr;
     dds::Subscriber* subscriber = nullptr;
@@ -195,19 +189,10 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
     } else {
         impl_->listener = std::make_unique<DiscoveryCounter>();
     }
-    impl_->turn.emplace(options.domain);
     static std::mutex joining;  // Fast DDS asks who the user is, which no two threads may
     const std::lock_guard lock{joining};
     dds::DomainParticipantQos qos = participantQos(options, name);
-    impl_->hasServer = !options.discoveryServer.empty();
-    std::optional<std::chrono::nanoseconds> interval;
-    if (!impl_->hasServer) {
-        const auto& discovery = qos.wire_protocol().builtin.discovery_config;
-        interval.emplace(discovery.leaseDuration_announcementperiod.to_ns());
-    }
-    impl_->repeats = std::make_shared<Repeats>(qos.wire_protocol().prefix, interval);
-    impl_->listener->tell(impl_->repeats);
-    impl_->gate = addGate(qos, impl_->repeats);
+    impl_->gate = addGate(qos);
     setUpFastDds();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
     const auto join = [&] {
@@ -229,17 +214,7 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
     if (speaks == Speaks::AtOnce) speak();
 }
 
-void Participant::speak() {
-    impl_->gate->open();
-    if (!impl_->turn) return;
-    const auto others = static_cast<std::uint32_t>(impl_->othersOnHost);
-    if (impl_->hasServer) {  // which tells us of the others as it finds the time
-        impl_->turn->letAnswer(others);
-    } else {
-        impl_->turn->meet(others, [&] { return impl_->listener->met(); });
-    }
-    impl_->turn.reset();
-}
+void Participant::speak() { impl_->gate->open(); }
 
 void Participant::stopListening() { impl_->gate->close(); }
 
@@ -254,12 +229,7 @@ std::unique_ptr<Writer<M>> Participant::writer(const Topic& topic) {
                     impl_->topic<M>(topic.name),
                     writerQos(topic.qos, impl_->othersOnHost, impl_->guard != nullptr)),
                 "a writer of topic '" + topic.name + "' of '" + impl_->name + "'");
-    const eprosima::fastrtps::rtps::EntityId_t id = made->guid().entityId;
-    impl_->repeats->writerMade(id, topic.name);
-    const auto release = [self = impl_.get(), id](const dds::TopicDescription* used) {
-        self->repeats->writerGone(id);
-        self->release(used);
-    };
+    const auto release = [self = impl_.get()](auto* used) { self->release(used); };
     return std::unique_ptr<Writer<M>>{new Writer<M>{
         std::unique_ptr<Entity>{new Entity{impl_->gate, release, impl_->publisher, made}}}};
 }

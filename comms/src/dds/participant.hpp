@@ -91,7 +91,7 @@ public:
     enum class Speaks { AtOnce, WhenTold };
 
     // What is made and written before it speaks is told to all who are there at once; what comes
-    // one by one later costs them all a talk about each. The next of this host waits until then.
+    // one by one later costs them all a talk about each.
     Participant(const NetworkOptions& options, const std::string& name,
                 Speaks speaks = Speaks::AtOnce);
     ~Participant();
