@@ -37,22 +37,24 @@ public:
         return memory_;
     }
 
+    void operator()(const auto&... fields) { (put(fields), ...); }
+
+private:
     template <class T>
-    void operator()(const T& field) {
-        if constexpr (requires(T& message) { T::visit(message, [](auto&) {}); }) {
+    void put(const T& field) {
+        if constexpr (requires(T& message) { T::visit(message, [](auto&...) {}); }) {
             T::visit(field, *this);
         } else {
             cdr_ << field;
         }
     }
-    void operator()(const std::vector<bool>& field) { cdr_ << field; }
+    void put(const std::vector<bool>& field) { cdr_ << field; }
     template <class T>
-    void operator()(const std::vector<T>& field) {
+    void put(const std::vector<T>& field) {
         cdr_ << static_cast<std::uint32_t>(field.size());
-        for (const T& element : field) (*this)(element);
+        for (const T& element : field) put(element);
     }
 
-private:
     Octets memory_ = Octets(200'000);
     eprosima::fastcdr::FastBuffer buffer_;
     eprosima::fastcdr::Cdr cdr_;

@@ -36,37 +36,39 @@ class RandomFields {
 public:
     explicit RandomFields(std::uint64_t seed) : random_(seed) {}
 
+    void operator()(auto&... fields) { (fill(fields), ...); }
+
+private:
     template <std::integral T>
-    void operator()(T& field) {
+    void fill(T& field) {
         field = static_cast<T>(random_());
     }
-    void operator()(bool& field) { field = below(2) == 1; }
-    void operator()(double& field) {
+    void fill(bool& field) { field = below(2) == 1; }
+    void fill(double& field) {
         field = std::bit_cast<double>(random_());
         if (field != field) field = std::numeric_limits<double>::infinity();
     }
-    void operator()(Id& field) {
-        for (std::uint8_t& octet : field) (*this)(octet);
+    void fill(Id& field) {
+        for (std::uint8_t& octet : field) fill(octet);
     }
-    void operator()(std::string& field) {
+    void fill(std::string& field) {
         field.resize(below(50) == 0 ? below(2000) : below(10));
         for (char& character : field) character = static_cast<char>(1 + below(255));
     }
-    void operator()(std::vector<bool>& field) {
+    void fill(std::vector<bool>& field) {
         field.resize(below(10));
         for (std::size_t i = 0; i < field.size(); ++i) field[i] = below(2) == 1;
     }
     template <class T>
-    void operator()(std::vector<T>& field) {
+    void fill(std::vector<T>& field) {
         field.resize(below(4));
-        for (T& element : field) (*this)(element);
+        for (T& element : field) fill(element);
     }
     template <class T>
-    void operator()(T& field) {
+    void fill(T& field) {
         T::visit(field, *this);
     }
 
-private:
     std::size_t below(std::size_t end) { return random_() % end; }
 
     std::mt19937_64 random_;

@@ -21,7 +21,7 @@ template <class T>
 concept Number = std::is_arithmetic_v<T> && !std::same_as<T, bool>;
 
 template <class T>
-concept Struct = requires(T& message) { T::visit(message, [](auto&) {}); };
+concept Struct = requires(T& message) { T::visit(message, [](auto&...) {}); };
 
 constexpr std::size_t aligned(std::size_t offset, std::size_t alignment) {
     return (offset + alignment - 1) & ~(alignment - 1);
@@ -43,36 +43,38 @@ public:
     std::size_t size() const { return size_; }
     bool ok() const { return ok_; }
 
-    void operator()(const Number auto& field) { putNumbers(&field, 1); }
-    void operator()(const std::same_as<bool> auto& field) {
+    void operator()(const auto&... fields) { (put(fields), ...); }
+
+private:
+    void put(const Number auto& field) { putNumbers(&field, 1); }
+    void put(const std::same_as<bool> auto& field) {
         const std::uint8_t octet = field ? 1 : 0;
         putNumbers(&octet, 1);
     }
-    void operator()(const Id& field) { putNumbers(field.data(), field.size()); }
-    void operator()(const std::string& field) {
+    void put(const Id& field) { putNumbers(field.data(), field.size()); }
+    void put(const std::string& field) {
         const std::size_t size = std::strlen(field.c_str());  // a NUL ends it
         putCount(size + 1);
         ok_ = ok_ && size <= maxTextLength;
         putNumbers(field.c_str(), size + 1);
     }
-    void operator()(const std::vector<bool>& field) {
+    void put(const std::vector<bool>& field) {
         putCount(field.size());
         if constexpr (Writes) std::copy(field.begin(), field.end(), body_ + size_);
         size_ += field.size();
     }
     template <Number T>
-    void operator()(const std::vector<T>& field) {
+    void put(const std::vector<T>& field) {
         putCount(field.size());
         if (!field.empty()) putNumbers(field.data(), field.size());
     }
     template <class T>
-    void operator()(const std::vector<T>& field) {
+    void put(const std::vector<T>& field) {
         putCount(field.size());
-        for (const T& element : field) (*this)(element);
+        for (const T& element : field) put(element);
     }
-    void operator()(const Struct auto& field) { field.visit(field, *this); }
+    void put(const Struct auto& field) { field.visit(field, *this); }
 
-private:
     void putCount(std::size_t count) {
         const auto number = static_cast<std::uint32_t>(count);
         putNumbers(&number, 1);
@@ -102,24 +104,26 @@ public:
     template <class T>
     static std::size_t of() {
         SmallestSize size;
-        size(T{});
+        size.add(T{});
         return size.octets_;
     }
 
-    template <Number T>
-    void operator()(const T&) {
-        octets_ += sizeof(T);
-    }
-    void operator()(const std::same_as<bool> auto&) { octets_ += 1; }
-    void operator()(const Id& field) { octets_ += field.size(); }
-    void operator()(const std::string&) { octets_ += sizeof(std::uint32_t) + 1; }
-    template <class T>
-    void operator()(const std::vector<T>&) {
-        octets_ += sizeof(std::uint32_t);
-    }
-    void operator()(const Struct auto& field) { field.visit(field, *this); }
+    void operator()(const auto&... fields) { (add(fields), ...); }
 
 private:
+    template <Number T>
+    void add(const T&) {
+        octets_ += sizeof(T);
+    }
+    void add(const std::same_as<bool> auto&) { octets_ += 1; }
+    void add(const Id& field) { octets_ += field.size(); }
+    void add(const std::string&) { octets_ += sizeof(std::uint32_t) + 1; }
+    template <class T>
+    void add(const std::vector<T>&) {
+        octets_ += sizeof(std::uint32_t);
+    }
+    void add(const Struct auto& field) { field.visit(field, *this); }
+
     std::size_t octets_ = 0;
 };
 
@@ -130,21 +134,24 @@ public:
 
     bool complete() const { return ok_ && body_.size() - position_ <= maxPadding; }
 
-    void operator()(Number auto& field) { takeNumbers(&field, 1); }
-    void operator()(bool& field) {
+    void operator()(auto&... fields) { (read(fields), ...); }
+
+private:
+    void read(Number auto& field) { takeNumbers(&field, 1); }
+    void read(bool& field) {
         const std::uint8_t* octet = take(1, 1);
         ok_ = ok_ && *octet <= 1;
         if (ok_) field = *octet == 1;
     }
-    void operator()(Id& field) { takeNumbers(field.data(), field.size()); }
-    void operator()(std::string& field) {
+    void read(Id& field) { takeNumbers(field.data(), field.size()); }
+    void read(std::string& field) {
         const std::size_t size = takeCount(1);
         ok_ = ok_ && size >= 1 && size - 1 <= maxTextLength;
         const std::uint8_t* text = take(size, 1);
         ok_ = ok_ && std::memchr(text, 0, size) == text + size - 1;
         if (ok_) field.assign(reinterpret_cast<const char*>(text), size - 1);
     }
-    void operator()(std::vector<bool>& field) {
+    void read(std::vector<bool>& field) {
         const std::size_t count = takeCount(1);
         const std::uint8_t* octets = take(count, 1);
         ok_ = ok_ &&
@@ -152,20 +159,19 @@ public:
         if (ok_) field.assign(octets, octets + count);
     }
     template <Number T>
-    void operator()(std::vector<T>& field) {
+    void read(std::vector<T>& field) {
         field.resize(takeCount(sizeof(T)));
         if (!field.empty()) takeNumbers(field.data(), field.size());
     }
     template <class T>
-    void operator()(std::vector<T>& field) {
+    void read(std::vector<T>& field) {
         field.resize(takeCount(SmallestSize::of<T>()));
         for (auto element = field.begin(); ok_ && element != field.end(); ++element) {
-            (*this)(*element);
+            read(*element);
         }
     }
-    void operator()(Struct auto& field) { field.visit(field, *this); }
+    void read(Struct auto& field) { field.visit(field, *this); }
 
-private:
     // Where the next octets are; null where there are not as many.
     const std::uint8_t* take(std::size_t octets, std::size_t alignment) {
         const std::size_t start = aligned(position_, alignment);

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <span>
 
-// XCDR1 (plain CDR) of the messages that are topics: Presence, Model, Block, Command, Answer and
-// EventMessage. Written little endian, read in both orders. Free of state: any thread.
+// XCDR1 (plain CDR) of the messages that are topics: Presence, Model, Interest, Block, Command,
+// Answer and EventMessage. Written little endian, read in both orders. Free of state: any thread.
+// Fast CDR 1.0 comes with Fast DDS and is not used: it reserves as much memory as a sample says and
+// throws where one ends early. This decoder bounds each count by the octets that are left.
 namespace cortex::comms {
 
 inline constexpr std::size_t maxTextLength = 64 * 1024;  // octets of a string

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-// The messages of comms/idl/cortex.idl as C++; `visit` names the fields in the order of the wire.
+// The messages of comms/idl/cortex.idl as C++. `visit` calls `f` once, with all fields in the order
+// of the wire.
 namespace cortex::comms {
 
 using Id = std::array<std::uint8_t, 16>;
@@ -14,11 +15,7 @@ using Id = std::array<std::uint8_t, 16>;
 struct Extra {
     std::string name, value;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.name);
-        field(self.value);
-    }
+    static void visit(auto& self, auto&& f) { f(self.name, self.value); }
     bool operator==(const Extra&) const = default;
 };
 
@@ -34,14 +31,8 @@ struct NamedValue {
     std::vector<bool> bools;
     std::vector<std::string> strings;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.name);
-        field(self.kind);
-        field(self.ints);
-        field(self.floats);
-        field(self.bools);
-        field(self.strings);
+    static void visit(auto& self, auto&& f) {
+        f(self.name, self.kind, self.ints, self.floats, self.bools, self.strings);
     }
     bool operator==(const NamedValue&) const = default;
 };
@@ -62,24 +53,10 @@ struct Presence {
     std::vector<Extra> extras;
 
     const Id& key() const { return agent; }
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.agent);
-        field(self.name);
-        field(self.host);
-        field(self.epoch);
-        field(self.role);
-        field(self.state);
-        field(self.majors);
-        field(self.cycle);
-        field(self.period);
-        field(self.interval);
-        field(self.types);
-        field(self.typesHash);
-        field(self.simplexes);
-        field(self.structureHash);
-        field(self.security);
-        field(self.extras);
+    static void visit(auto& self, auto&& f) {
+        f(self.agent, self.name, self.host, self.epoch, self.role, self.state, self.majors,
+          self.cycle, self.period, self.interval, self.types, self.typesHash, self.simplexes,
+          self.structureHash, self.security, self.extras);
     }
     bool operator==(const Presence&) const = default;
 };
@@ -87,11 +64,7 @@ struct Presence {
 struct Attribute {
     std::string name, value;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.name);
-        field(self.value);
-    }
+    static void visit(auto& self, auto&& f) { f(self.name, self.value); }
     bool operator==(const Attribute&) const = default;
 };
 
@@ -99,11 +72,7 @@ struct Parameter {
     std::string name;
     std::vector<Attribute> attributes;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.name);
-        field(self.attributes);
-    }
+    static void visit(auto& self, auto&& f) { f(self.name, self.attributes); }
     bool operator==(const Parameter&) const = default;
 };
 
@@ -115,16 +84,9 @@ struct DataItemModel {
     std::string description;
     std::vector<Attribute> attributes;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.name);
-        field(self.kind);
-        field(self.length);
-        field(self.capacity);
-        field(self.unit);
-        field(self.constant);
-        field(self.description);
-        field(self.attributes);
+    static void visit(auto& self, auto&& f) {
+        f(self.name, self.kind, self.length, self.capacity, self.unit, self.constant,
+          self.description, self.attributes);
     }
     bool operator==(const DataItemModel&) const = default;
 };
@@ -134,13 +96,8 @@ struct CommandModel {
     std::vector<Attribute> attributes;
     std::vector<Parameter> request, response;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.name);
-        field(self.description);
-        field(self.attributes);
-        field(self.request);
-        field(self.response);
+    static void visit(auto& self, auto&& f) {
+        f(self.name, self.description, self.attributes, self.request, self.response);
     }
     bool operator==(const CommandModel&) const = default;
 };
@@ -149,13 +106,8 @@ struct RuleModel {
     std::string name, direction, target, description;
     std::vector<Attribute> attributes;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.name);
-        field(self.direction);
-        field(self.target);
-        field(self.description);
-        field(self.attributes);
+    static void visit(auto& self, auto&& f) {
+        f(self.name, self.direction, self.target, self.description, self.attributes);
     }
     bool operator==(const RuleModel&) const = default;
 };
@@ -170,16 +122,9 @@ struct TypeMessage {
     std::vector<CommandModel> commands;
     std::vector<RuleModel> rules;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.name);
-        field(self.hash);
-        field(self.parents);
-        field(self.description);
-        field(self.attributes);
-        field(self.data);
-        field(self.commands);
-        field(self.rules);
+    static void visit(auto& self, auto&& f) {
+        f(self.name, self.hash, self.parents, self.description, self.attributes, self.data,
+          self.commands, self.rules);
     }
     bool operator==(const TypeMessage&) const = default;
 };
@@ -188,12 +133,8 @@ struct Relationship {
     std::string rule, target;
     bool delayed = false, remote = false;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.rule);
-        field(self.target);
-        field(self.delayed);
-        field(self.remote);
+    static void visit(auto& self, auto&& f) {
+        f(self.rule, self.target, self.delayed, self.remote);
     }
     bool operator==(const Relationship&) const = default;
 };
@@ -208,17 +149,9 @@ struct SimplexMessage {
     std::vector<Relationship> relationships;
     std::vector<NamedValue> constants;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.index);
-        field(self.path);
-        field(self.type);
-        field(self.typeHash);
-        field(self.role);
-        field(self.every);
-        field(self.phase);
-        field(self.relationships);
-        field(self.constants);
+    static void visit(auto& self, auto&& f) {
+        f(self.index, self.path, self.type, self.typeHash, self.role, self.every, self.phase,
+          self.relationships, self.constants);
     }
     bool operator==(const SimplexMessage&) const = default;
 };
@@ -233,14 +166,8 @@ struct Model {
     std::vector<Extra> extras;
 
     const Id& key() const { return id; }
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.id);
-        field(self.agent);
-        field(self.epoch);
-        field(self.types);
-        field(self.simplexes);
-        field(self.extras);
+    static void visit(auto& self, auto&& f) {
+        f(self.id, self.agent, self.epoch, self.types, self.simplexes, self.extras);
     }
     bool operator==(const Model&) const = default;
 };
@@ -249,11 +176,7 @@ struct View {
     std::uint32_t rate = 30;
     std::vector<std::string> prefixes;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.rate);
-        field(self.prefixes);
-    }
+    static void visit(auto& self, auto&& f) { f(self.rate, self.prefixes); }
     bool operator==(const View&) const = default;
 };
 
@@ -268,14 +191,8 @@ struct Interest {
     std::vector<Extra> extras;
 
     const Id& key() const { return agent; }
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.agent);
-        field(self.name);
-        field(self.epoch);
-        field(self.links);
-        field(self.views);
-        field(self.extras);
+    static void visit(auto& self, auto&& f) {
+        f(self.agent, self.name, self.epoch, self.links, self.views, self.extras);
     }
     bool operator==(const Interest&) const = default;
 };
@@ -290,17 +207,9 @@ struct SimplexData {
     std::vector<bool> bools;
     std::vector<std::string> strings;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.index);
-        field(self.quality);
-        field(self.cause);
-        field(self.cycle);
-        field(self.time);
-        field(self.ints);
-        field(self.floats);
-        field(self.bools);
-        field(self.strings);
+    static void visit(auto& self, auto&& f) {
+        f(self.index, self.quality, self.cause, self.cycle, self.time, self.ints, self.floats,
+          self.bools, self.strings);
     }
     bool operator==(const SimplexData&) const = default;
 };
@@ -316,18 +225,9 @@ struct Block {
     std::vector<SimplexData> simplexes;
     std::vector<Extra> extras;
 
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.agent);
-        field(self.epoch);
-        field(self.structureHash);
-        field(self.sequenceNumber);
-        field(self.cycle);
-        field(self.nominalTime);
-        field(self.wallClock);
-        field(self.keyFrame);
-        field(self.simplexes);
-        field(self.extras);
+    static void visit(auto& self, auto&& f) {
+        f(self.agent, self.epoch, self.structureHash, self.sequenceNumber, self.cycle,
+          self.nominalTime, self.wallClock, self.keyFrame, self.simplexes, self.extras);
     }
     bool operator==(const Block&) const = default;
 };
@@ -346,21 +246,10 @@ struct Command {
     std::vector<Extra> extras;
 
     const Id& key() const { return link; }
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.link);
-        field(self.sender);
-        field(self.host);
-        field(self.senderEpoch);
-        field(self.target);
-        field(self.targetEpoch);
-        field(self.sequenceNumber);
-        field(self.answeredBelow);
-        field(self.notAfter);
-        field(self.path);
-        field(self.command);
-        field(self.arguments);
-        field(self.extras);
+    static void visit(auto& self, auto&& f) {
+        f(self.link, self.sender, self.host, self.senderEpoch, self.target, self.targetEpoch,
+          self.sequenceNumber, self.answeredBelow, self.notAfter, self.path, self.command,
+          self.arguments, self.extras);
     }
     bool operator==(const Command&) const = default;
 };
@@ -379,21 +268,10 @@ struct Answer {
     std::vector<Extra> extras;
 
     const Id& key() const { return link; }
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.link);
-        field(self.agent);
-        field(self.epoch);
-        field(self.sender);
-        field(self.senderEpoch);
-        field(self.sequenceNumber);
-        field(self.outcome);
-        field(self.reason);
-        field(self.why);
-        field(self.latencyCycles);
-        field(self.latency);
-        field(self.response);
-        field(self.extras);
+    static void visit(auto& self, auto&& f) {
+        f(self.link, self.agent, self.epoch, self.sender, self.senderEpoch, self.sequenceNumber,
+          self.outcome, self.reason, self.why, self.latencyCycles, self.latency, self.response,
+          self.extras);
     }
     bool operator==(const Answer&) const = default;
 };
@@ -409,19 +287,9 @@ struct EventMessage {
     std::vector<Extra> extras;
 
     const Id& key() const { return agent; }
-    template <class V>
-    static void visit(auto& self, V&& field) {
-        field(self.agent);
-        field(self.name);
-        field(self.epoch);
-        field(self.number);
-        field(self.cycle);
-        field(self.wallClock);
-        field(self.severity);
-        field(self.kind);
-        field(self.path);
-        field(self.text);
-        field(self.extras);
+    static void visit(auto& self, auto&& f) {
+        f(self.agent, self.name, self.epoch, self.number, self.cycle, self.wallClock, self.severity,
+          self.kind, self.path, self.text, self.extras);
     }
     bool operator==(const EventMessage&) const = default;
 };
