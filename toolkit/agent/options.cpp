@@ -73,7 +73,7 @@ void addNetwork(CLI::App& app, CommandLine& line) {
     app.add_option("--domain", line.domain,
                    "domain of the agents that see each other; CORTEX_DOMAIN, else 0, if not given")
         ->type_name("N")
-        ->check(CLI::Range(0, 230))
+        ->check(CLI::Range(0, comms::lastDomain))
         ->excludes(offline);
     app.add_option("--interface", line.interfaces,
                    "address or name of a network interface to use; all if not given")

@@ -8,8 +8,6 @@
 // Addresses as people write them, checked against this machine and its resolver.
 namespace cortex::comms {
 
-inline constexpr int LastDomain = 230;  // the last whose ports are below 65536
-
 struct Address {
     std::string ip;
     std::uint16_t port = 0;  // 0: not given

@@ -3,8 +3,6 @@
 
 #include "cortex/core/error.hpp"
 
-#include "dds/network_address.hpp"
-
 #include <charconv>
 #include <cstdlib>
 #include <string_view>
@@ -17,9 +15,9 @@ int defaultDomain() {
     const std::string_view digits{text};
     int domain = -1;
     const auto [end, error] = std::from_chars(digits.begin(), digits.end(), domain);
-    if (error != std::errc{} || end != digits.end() || domain < 0 || domain > LastDomain) {
+    if (error != std::errc{} || end != digits.end() || domain < 0 || domain > lastDomain) {
         throw Error{"CORTEX_DOMAIN is '" + std::string{digits} +
-                    "'; set it to a number from 0 to " + std::to_string(LastDomain) +
+                    "'; set it to a number from 0 to " + std::to_string(lastDomain) +
                     ", or unset it for domain 0"};
     }
     return domain;

@@ -9,7 +9,6 @@
 #include "dds/receiver.hpp"
 #include "dds/security_guard.hpp"
 #include "dds/topic_type.hpp"
-#include "wire/ids.hpp"
 #include "wire/presence_interval.hpp"
 
 #include <algorithm>
@@ -50,14 +49,6 @@ Entity* created(Entity* entity, const std::string& what) {
 // Everybody hears twenty in a second at most.
 std::chrono::milliseconds announcementsAmong(std::uint32_t participants) {
     return std::chrono::milliseconds{std::clamp(50 * participants, 100U, 3'000U)};
-}
-
-Topic topics::linkOf(const std::string& agent) {
-    return {"cortex/1/link/" + toHex(agentId(agent)), Qos::Cycle};
-}
-
-Topic topics::answerTo(const std::string& sender) {
-    return {"cortex/1/answer/" + toHex(agentId(sender)), Qos::Exchange};
 }
 
 struct Participant::Impl {

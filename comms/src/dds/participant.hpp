@@ -3,9 +3,9 @@
 
 #include "cortex/comms/network_options.hpp"
 
+#include "dds/topics.hpp"
 #include "wire/messages.hpp"
 
-#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -15,38 +15,6 @@
 namespace cortex::comms {
 
 class SecurityIdentity;
-
-enum class Qos {
-    State,     // reliable; who joins late gets the newest of each key
-    Cycle,     // best effort; newest wins
-    Exchange,  // reliable; the newest 64 of each key, nothing for who joins late
-    Log,       // reliable; a writer has one key, and who joins late gets the newest 1000 of it
-    Beacon,    // as State, and written so often that the next sample makes up for a lost one
-};
-
-struct Topic {
-    std::string name;
-    Qos qos;
-};
-
-namespace topics {
-inline const Topic presence{"cortex/presence", Qos::Beacon};
-inline const Topic model{"cortex/1/model", Qos::State};
-inline const Topic interest{"cortex/1/interest", Qos::State};
-inline const Topic view5{"cortex/1/view/5", Qos::Cycle};
-inline const Topic view30{"cortex/1/view/30", Qos::Cycle};
-inline const Topic view100{"cortex/1/view/100", Qos::Cycle};
-inline const Topic viewEvery{"cortex/1/view/every", Qos::Cycle};
-inline const Topic command{"cortex/1/command", Qos::Exchange};
-inline const Topic event{"cortex/1/event", Qos::Log};
-Topic linkOf(const std::string& agent);
-Topic answerTo(const std::string& sender);  // of a command
-}  // namespace topics
-
-template <class M>
-concept Keyed = requires(const M& message) {
-    { message.key() } -> std::same_as<const Id&>;
-};
 
 // Writes messages to one topic; to be used and destroyed before its participant. Any thread.
 template <class M>

@@ -164,9 +164,9 @@ void apply(const Profile& profile, EndpointQos& qos) {
 }  // namespace
 
 dds::DomainParticipantQos participantQos(const NetworkOptions& options, const std::string& name) {
-    if (options.domain < 0 || options.domain > LastDomain) {
+    if (options.domain < 0 || options.domain > lastDomain) {
         throw Error{"domain " + std::to_string(options.domain) + " of '" + name +
-                    "' does not exist; choose one from 0 to " + std::to_string(LastDomain)};
+                    "' does not exist; choose one from 0 to " + std::to_string(lastDomain)};
     }
     const int number = freeParticipant(options.domain, ParticipantsPerHost);
     auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();

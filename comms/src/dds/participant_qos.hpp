@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dds/participant.hpp"
+#include "cortex/comms/network_options.hpp"
+
+#include "dds/topics.hpp"
+
+#include <string>
 
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>

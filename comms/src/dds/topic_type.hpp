@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dds/participant.hpp"
+#include "dds/topics.hpp"
 #include "wire/cdr.hpp"
 #include "wire/messages.hpp"
 

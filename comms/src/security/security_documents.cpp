@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "security/security_documents.hpp"
 
-#include "dds/network_address.hpp"
+#include "cortex/comms/network_options.hpp"
 
 #include <array>
 #include <charconv>
@@ -10,35 +10,10 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::time_t day = 86'400;
-constexpr const char* governanceText = R"(<?xml version="1.0" encoding="UTF-8"?>
-<dds>
-  <domain_access_rules>
-    <domain_rule>
-      <domains><id_range><min>0</min><max>230</max></id_range></domains>
-      <allow_unauthenticated_participants>false</allow_unauthenticated_participants>
-      <enable_join_access_control>true</enable_join_access_control>
-      <discovery_protection_kind>ENCRYPT</discovery_protection_kind>
-      <liveliness_protection_kind>ENCRYPT</liveliness_protection_kind>
-      <rtps_protection_kind>SIGN</rtps_protection_kind>
-      <topic_access_rules>
-        <topic_rule>
-          <topic_expression>*</topic_expression>
-          <enable_discovery_protection>true</enable_discovery_protection>
-          <enable_liveliness_protection>true</enable_liveliness_protection>
-          <enable_read_access_control>true</enable_read_access_control>
-          <enable_write_access_control>true</enable_write_access_control>
-          <metadata_protection_kind>ENCRYPT</metadata_protection_kind>
-          <data_protection_kind>NONE</data_protection_kind>
-        </topic_rule>
-      </topic_access_rules>
-    </domain_rule>
-  </domain_access_rules>
-</dds>
-)";
 
 std::string domainsOf(const AgentRights& rights) {
     if (rights.domains.empty()) {
-        return "<id_range><min>0</min><max>" + std::to_string(LastDomain) + "</max></id_range>";
+        return "<id_range><min>0</min><max>" + std::to_string(lastDomain) + "</max></id_range>";
     }
     std::string text;
     for (const int each : rights.domains) text += "<id>" + std::to_string(each) + "</id>";
@@ -67,7 +42,34 @@ std::optional<int> domainFrom(const std::string& text) {
 
 }  // namespace
 
-std::string governance() { return governanceText; }
+std::string governance() {
+    return R"(<?xml version="1.0" encoding="UTF-8"?>
+<dds>
+  <domain_access_rules>
+    <domain_rule>
+      <domains><id_range><min>0</min><max>)" +
+           std::to_string(lastDomain) + R"(</max></id_range></domains>
+      <allow_unauthenticated_participants>false</allow_unauthenticated_participants>
+      <enable_join_access_control>true</enable_join_access_control>
+      <discovery_protection_kind>ENCRYPT</discovery_protection_kind>
+      <liveliness_protection_kind>ENCRYPT</liveliness_protection_kind>
+      <rtps_protection_kind>SIGN</rtps_protection_kind>
+      <topic_access_rules>
+        <topic_rule>
+          <topic_expression>*</topic_expression>
+          <enable_discovery_protection>true</enable_discovery_protection>
+          <enable_liveliness_protection>true</enable_liveliness_protection>
+          <enable_read_access_control>true</enable_read_access_control>
+          <enable_write_access_control>true</enable_write_access_control>
+          <metadata_protection_kind>ENCRYPT</metadata_protection_kind>
+          <data_protection_kind>NONE</data_protection_kind>
+        </topic_rule>
+      </topic_access_rules>
+    </domain_rule>
+  </domain_access_rules>
+</dds>
+)";
+}
 
 // Topics are all of CorteX, for everybody: who may command what is for the receiver to decide,
 // which so can answer and report. The dates have a day to spare: those of the certificate count.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/comms/network_options.hpp"
 #include "cortex/comms/security.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/simplex_tree.hpp"
 
-#include "dds/network_address.hpp"
 #include "security/security_documents.hpp"
 #include "security/security_folder.hpp"
 
@@ -99,9 +99,9 @@ void check(const AgentRights& rights, int days) {
         if (!no.empty()) throw Error{"'" + prefix + "' is no path: " + no};
     }
     for (const int domain : rights.domains) {
-        if (domain < 0 || domain > LastDomain) {
+        if (domain < 0 || domain > lastDomain) {
             throw Error{"there is no domain " + std::to_string(domain) + "; choose 0 to " +
-                        std::to_string(LastDomain)};
+                        std::to_string(lastDomain)};
         }
     }
     if (days < 1) throw Error{"a certificate is valid for at least one day"};

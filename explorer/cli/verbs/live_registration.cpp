@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "verbs/live_registration.hpp"
 
+#include "cortex/comms/network_options.hpp"
+
 #include "verbs/live_verbs.hpp"
 #include "verbs/verb_registration.hpp"
 
@@ -179,7 +181,7 @@ void addNetwork(CLI::App& verb, NetworkArguments& network) {
     verb.add_option("--domain", network.domain,
                     "Domain of the agents; CORTEX_DOMAIN, else 0, if not given")
         ->type_name("N")
-        ->check(CLI::Range(0, 230));
+        ->check(CLI::Range(0, comms::lastDomain));
     verb.add_option("--interface", network.interfaces,
                     "Address or name of a network interface to use; all if not given")
         ->type_name("ADDR")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "verbs/security_registration.hpp"
 
+#include "cortex/comms/network_options.hpp"
+
 #include "verbs/security_verb.hpp"
 #include "verbs/verb_registration.hpp"
 
@@ -55,7 +57,7 @@ Examples:
         ->excludes(readOnly);
     verb->add_option("--domain", options->domains, "Domains that it may join; all if not given")
         ->type_name("N")
-        ->check(CLI::Range(0, 230));
+        ->check(CLI::Range(0, comms::lastDomain));
     addDays(*verb, *options, "How long it is valid; 365 if not given");
 }
 

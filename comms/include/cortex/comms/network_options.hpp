@@ -6,6 +6,8 @@
 
 namespace cortex::comms {
 
+inline constexpr int lastDomain = 230;  // the last whose ports are below 65536
+
 // The environment variable CORTEX_DOMAIN, 0 where it is not set; throws Error unless 0 to 230.
 int defaultDomain();
 // The environment variable CORTEX_SECURITY, empty where it is not set.

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "wire/ids.hpp"
+#include "wire/messages.hpp"
+
+#include <concepts>
+#include <string>
+
+// The topics of docs/protocol.md.
+namespace cortex::comms {
+
+enum class Qos {
+    State,     // reliable; who joins late gets the newest of each key
+    Cycle,     // best effort; newest wins
+    Exchange,  // reliable; the newest 64 of each key, nothing for who joins late
+    Log,       // reliable; a writer has one key, and who joins late gets the newest 1000 of it
+    Beacon,    // as State, and written so often that the next sample makes up for a lost one
+};
+
+struct Topic {
+    std::string name;
+    Qos qos;
+};
+
+namespace topics {
+inline const Topic presence{"cortex/presence", Qos::Beacon};
+inline const Topic model{"cortex/1/model", Qos::State};
+inline const Topic interest{"cortex/1/interest", Qos::State};
+inline const Topic view5{"cortex/1/view/5", Qos::Cycle};
+inline const Topic view30{"cortex/1/view/30", Qos::Cycle};
+inline const Topic view100{"cortex/1/view/100", Qos::Cycle};
+inline const Topic viewEvery{"cortex/1/view/every", Qos::Cycle};
+inline const Topic command{"cortex/1/command", Qos::Exchange};
+inline const Topic event{"cortex/1/event", Qos::Log};
+inline Topic linkOf(const std::string& agent) {
+    return {"cortex/1/link/" + toHex(agentId(agent)), Qos::Cycle};
+}
+inline Topic answerTo(const std::string& sender) {  // of a command
+    return {"cortex/1/answer/" + toHex(agentId(sender)), Qos::Exchange};
+}
+}  // namespace topics
+
+// Whether samples of a message have a key, as those of most topics do.
+template <class M>
+concept Keyed = requires(const M& message) {
+    { message.key() } -> std::same_as<const Id&>;
+};
+
+}  // namespace cortex::comms
