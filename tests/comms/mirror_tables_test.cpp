@@ -223,15 +223,6 @@ TEST_F(MirrorTablesTest, KeepsAnImageWhenTheTablesAreReplaced) {
     EXPECT_TRUE(watched.expired());
 }
 
-TEST(MirrorView, ShowsPathsAndAllBelow) {
-    EXPECT_TRUE(isBelow("/arm/axis", "/arm"));
-    EXPECT_TRUE(isBelow("/arm", "/arm"));
-    EXPECT_TRUE(isBelow("/arm", "/"));
-    EXPECT_TRUE(isBelow("/arm/axis", "/arm/"));
-    EXPECT_FALSE(isBelow("/armour", "/arm"));
-    EXPECT_FALSE(isBelow("/ar", "/arm"));
-}
-
 TEST(MirrorView, TakesTheClassThatIsFastEnough) {
     EXPECT_EQ(viewClass(1), 5U);
     EXPECT_EQ(viewClass(5), 5U);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/agreement.hpp"
 
-#include "base/sha256.hpp"
 #include "core/model_folder.hpp"
 #include "core/xml_model.hpp"
 
@@ -239,24 +238,6 @@ TEST(CanonicalText, HashIsTheBeginningOfSha256) {
     EXPECT_EQ(canonicalText(types.at("Axis")), "1\ntype Axis\n");
     // printf '1\ntype Axis\n' | sha256sum
     EXPECT_EQ(toHex(typeHash(types.at("Axis"))), "b72ba06d31e5ec1b9b68a040d7ed365f");
-}
-
-TEST(Sha256, HasThePublishedTestVectors) {
-    const auto hex = [](std::string_view message) {
-        std::string result;
-        for (const std::uint8_t octet : sha256(message)) {
-            char digits[3];
-            std::snprintf(digits, sizeof digits, "%02x", octet);
-            result += digits;
-        }
-        return result;
-    };
-    EXPECT_EQ(hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-    EXPECT_EQ(hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-    EXPECT_EQ(hex("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
-              "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
-    EXPECT_EQ(hex(std::string(1'000'000, 'a')),
-              "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
 // The shipped ontology's hashes change only on purpose: then take over the file that this test

@@ -65,16 +65,6 @@ struct RequiredControl : Control {
     RequiredControl() : Control{true} {}
 };
 
-TEST(Lease, PrefixCoversWholeLevelsOnly) {
-    EXPECT_TRUE(isBelow("/arm", "/arm"));
-    EXPECT_TRUE(isBelow("/arm/axis", "/arm"));
-    EXPECT_TRUE(isBelow("/arm/axis", "/arm/"));
-    EXPECT_FALSE(isBelow("/army", "/arm"));
-    EXPECT_FALSE(isBelow("/arm", "/arm/axis"));
-    EXPECT_TRUE(isBelow("/arm", "/"));
-    EXPECT_TRUE(isBelow("/arm", ""));
-}
-
 TEST_F(Control, WithoutALeaseCommandsAreOpen) {
     EXPECT_EQ(ask("desk", "/arm", "poke").outcome, Outcome::Done);
 }

@@ -2,6 +2,7 @@
 #include "agent/agent_streams.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/path.hpp"
 
 #include "wire/simplex_values.hpp"
 
@@ -73,9 +74,9 @@ void AgentStreams::addBelow(const std::string& prefix, std::vector<bool>& wanted
     if (prefix.empty() || prefix.front() != '/') {
         return self_.rejections.add("an interest in what is no path");
     }
-    const std::uint32_t itself = self_.structure().find(prefix);
+    const std::uint32_t itself = self_.structure().find(withoutEndSlashes(prefix));
     if (itself < own_) wanted[itself] = true;
-    const std::string below = prefix.back() == '/' ? prefix : prefix + '/';
+    const std::string below = std::string{withoutEndSlashes(prefix)} + '/';
     const auto first = self_.structure().simplexes.begin();
     auto simplex = std::ranges::lower_bound(first, first + own_, below, {}, &SimplexInfo::path);
     for (; simplex != first + own_ && simplex->path.starts_with(below); ++simplex) {

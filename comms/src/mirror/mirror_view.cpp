@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mirror/mirror_view.hpp"
 
+#include "cortex/core/path.hpp"
+
 #include <algorithm>
 
 namespace cortex::comms {
@@ -13,7 +15,8 @@ constexpr std::chrono::milliseconds leastPatience{50};
 }  // namespace
 
 bool MirrorView::shows(std::string_view path) const {
-    return std::ranges::any_of(prefixes, [&](const auto& prefix) { return isBelow(path, prefix); });
+    return std::ranges::any_of(prefixes,
+                               [&](const auto& prefix) { return isAtOrBelow(path, prefix); });
 }
 
 std::chrono::nanoseconds MirrorView::patience(std::int64_t period) const {
@@ -25,12 +28,6 @@ std::uint32_t viewClass(std::uint32_t rate) {
     if (rate == 0 || rate > 100) return 0;
     if (rate > 30) return 100;
     return rate > 5 ? 30 : 5;
-}
-
-bool isBelow(std::string_view path, std::string_view prefix) {
-    if (prefix.ends_with('/')) prefix.remove_suffix(1);
-    if (!path.starts_with(prefix)) return false;
-    return path.size() == prefix.size() || path[prefix.size()] == '/';
 }
 
 }  // namespace cortex::comms

@@ -25,7 +25,4 @@ struct MirrorView {
 // 5, 30 or 100, whichever is at least this; 0, every cycle, above and for 0.
 std::uint32_t viewClass(std::uint32_t rate);
 
-// Whether a path is `prefix` or below it; "" and "/" are above everything.
-bool isBelow(std::string_view path, std::string_view prefix);
-
 }  // namespace cortex::comms

@@ -2,6 +2,7 @@
 #include "security/security_documents.hpp"
 
 #include "cortex/comms/network_options.hpp"
+#include "cortex/core/path.hpp"
 
 #include <array>
 #include <charconv>
@@ -144,8 +145,7 @@ std::optional<std::time_t> utcFrom(const std::string& text) {
 bool mayCommand(const AgentRights& rights, std::string_view path, std::string& why) {
     std::string ends;
     for (const std::string& each : rights.mayCommand) {
-        const bool below = path.starts_with(each) && path.substr(each.size()).starts_with('/');
-        if (each == "/" || path == each || below) return true;
+        if (!each.empty() && isAtOrBelow(path, each)) return true;
         ends += (ends.empty() ? "" : ", ") + each;
     }
     why = ends.empty() ? "it may only look" : "its authority ends at " + ends;

@@ -9,7 +9,7 @@ namespace {
 constexpr std::int64_t lifetime = 2'000'000'000;  // ns since the last renewal
 
 std::string_view trimmed(std::string_view prefix) {
-    if (prefix.size() > 1 && prefix.ends_with('/')) prefix.remove_suffix(1);
+    prefix = withoutEndSlashes(prefix);
     return prefix.empty() ? std::string_view{"/"} : prefix;
 }
 
@@ -26,7 +26,7 @@ bool anySimplexBelow(const Structure& structure, std::string_view prefix) {
         const auto found = std::ranges::lower_bound(
             all.begin(), end, text, {},
             [](const SimplexInfo& info) -> std::string_view { return info.path; });
-        return found != end && isBelow(found->path, prefix);
+        return found != end && isAtOrBelow(found->path, prefix);
     };
     return starts(prefix) || starts((EventText{prefix} << "/").view());
 }
@@ -44,12 +44,6 @@ std::byte* arrayOf(AgentRuntime& runtime, std::string_view item, Kind kind, std:
 }
 
 }  // namespace
-
-bool isBelow(std::string_view path, std::string_view prefix) {
-    prefix = trimmed(prefix);
-    return prefix == "/" || path == prefix ||
-           (path.starts_with(prefix) && path[prefix.size()] == '/');
-}
 
 bool Lease::heldBy(const Sender& sender) const {
     return held && holder.name == sender.name &&
@@ -69,14 +63,15 @@ LeaseTable::LeaseTable(AgentRuntime& runtime)
 const Lease* LeaseTable::other(std::string_view path, bool wide, const Sender& sender) const {
     const auto found = std::ranges::find_if(leases_, [&](const Lease& lease) {
         return lease.held && !lease.heldBy(sender) &&
-               (isBelow(path, lease.prefix.view()) || (wide && isBelow(lease.prefix.view(), path)));
+               (isAtOrBelow(path, lease.prefix.view()) ||
+                (wide && isAtOrBelow(lease.prefix.view(), path)));
     });
     return found != leases_.end() ? &*found : nullptr;
 }
 
 bool LeaseTable::covered(std::string_view path, const Sender& sender) const {
     return std::ranges::any_of(leases_, [&](const Lease& lease) {
-        return lease.heldBy(sender) && isBelow(path, lease.prefix.view());
+        return lease.heldBy(sender) && isAtOrBelow(path, lease.prefix.view());
     });
 }
 
@@ -134,14 +129,14 @@ Outcome LeaseTable::handOver(Call& call, std::string_view prefix, std::string_vi
     const Sender sender = *call.sender();
     for (const Lease& each : leases_) {
         if (&each == lease || !each.heldBy(sender)) continue;
-        if (!isBelow(lease->prefix.view(), each.prefix.view())) continue;
+        if (!isAtOrBelow(lease->prefix.view(), each.prefix.view())) continue;
         EventText why{"it holds "};
         why << each.prefix.view() << " too: hand that over, or release it first";
         return call.reject(Reason::Authority, why.view());
     }
     const EventText given = lease->prefix;
     for (Lease& each : leases_) {
-        if (!each.heldBy(sender) || !isBelow(each.prefix.view(), given.view())) continue;
+        if (!each.heldBy(sender) || !isAtOrBelow(each.prefix.view(), given.view())) continue;
         each.holder = {};
         std::ranges::copy(to, each.holder.name.begin());
         each.since = each.renewed = cycle;

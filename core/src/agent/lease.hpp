@@ -4,6 +4,7 @@
 #include "cortex/core/agent.hpp"
 #include "cortex/core/command.hpp"
 #include "cortex/core/communication_interface.hpp"
+#include "cortex/core/path.hpp"
 
 #include <array>
 #include <cstddef>
@@ -11,9 +12,6 @@
 #include <string_view>
 
 namespace cortex {
-
-// True if `path` is `prefix` or below it; "" and "/" are above everything.
-bool isBelow(std::string_view path, std::string_view prefix);
 
 struct Lease {
     EventText prefix;                     // without a slash at its end; "/" for all

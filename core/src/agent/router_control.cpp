@@ -117,7 +117,7 @@ void Router::controlLost(const Lease& lease, std::string_view how) {
     event(Severity::Warning, EventKind::Agent, runtime_.agentSimplex(), text);
     for (const std::uint32_t simplex : leaseMinded_) {
         const SimplexInfo& info = structure_.simplexes[simplex];
-        if (!isBelow(info.path, lease.prefix.view())) continue;
+        if (!isAtOrBelow(info.path, lease.prefix.view())) continue;
         if (info.layout->type->onLeaseLost == OnLeaseLost::Shutdown) {
             runtime_.postLifeCycle(simplex, LifeCycle::Shutdown, false);
         } else if (runtime_.ports_[simplex] != nullptr) {

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/agreement.hpp"
 
-#include "base/sha256.hpp"
+#include "cortex/core/error.hpp"
+
 #include "types/type_attributes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string_view>
 #include <utility>
+
+#include <openssl/evp.h>
 
 namespace cortex {
 
@@ -169,7 +173,12 @@ std::string canonicalText(const Type& type) {
 TypeHash typeHash(const Type& type) { return hashOf(canonicalText(type)); }
 
 TypeHash hashOf(std::string_view text) {
-    const auto whole = sha256(text);
+    std::array<std::uint8_t, 32> whole{};  // SHA-256
+    if (EVP_Digest(text.data(), text.size(), whole.data(), nullptr, EVP_sha256(), nullptr) != 1) {
+        throw Error{
+            "OpenSSL does not compute SHA-256 here, so types cannot be told apart; see "
+            "whether its configuration forbids it"};
+    }
     TypeHash hash{};
     std::copy_n(whole.begin(), hash.size(), hash.begin());
     return hash;

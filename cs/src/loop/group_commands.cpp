@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loop/group_commands.hpp"
 
+#include "cortex/core/path.hpp"
+
 #include "tasks/task_runner.hpp"
 
 #include <algorithm>
@@ -11,11 +13,6 @@ namespace cortex::cs {
 namespace {
 
 bool resting(State state) { return state == State::Standby || state == State::Fault; }
-
-// `prefix` without a slash at its end; "" is above everything.
-bool isAtOrBelow(std::string_view path, std::string_view prefix) {
-    return path.starts_with(prefix) && (path.size() == prefix.size() || path[prefix.size()] == '/');
-}
 
 }  // namespace
 
@@ -67,8 +64,7 @@ void GroupCommands::beginStop() {
 
 void GroupCommands::begin(LifeCycle command, std::string_view prefix) {
     command_ = command;
-    while (prefix.ends_with('/')) prefix.remove_suffix(1);
-    prefix_ = EventText{prefix};
+    prefix_ = EventText{withoutEndSlashes(prefix)};
     failures_ = EventText{};
     at_ = 0;
     posted_ = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/live.hpp"
 
+#include "cortex/core/path.hpp"
 #include "cortex/core/simplex_tree.hpp"
 
 #include <algorithm>
@@ -21,10 +22,6 @@ comms::NetworkOptions optionsOf(const NetworkArguments& arguments) {
     if (arguments.discoveryServer) options.discoveryServer = *arguments.discoveryServer;
     if (arguments.security) options.security = *arguments.security;
     return options;
-}
-
-bool isBelow(const std::string& path, const std::string& prefix) {
-    return prefix == "/" || path == prefix || path.starts_with(prefix + "/");
 }
 
 }  // namespace
@@ -115,7 +112,7 @@ std::vector<FoundSimplex> Live::below(const std::string& prefix) const {
         if (!structure) continue;
         for (std::uint32_t i = 0; i < structure->simplexes.size(); ++i) {
             const SimplexInfo& info = structure->simplexes[i];
-            if (!info.remote && isBelow(info.path, prefix)) {
+            if (!info.remote && isAtOrBelow(info.path, prefix)) {
                 found.push_back({agent.name, structure, i});
             }
         }
