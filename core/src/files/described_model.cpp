@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/type_description.hpp"
+
 #include "base/bounds.hpp"
 #include "base/findings.hpp"
 #include "base/text.hpp"
-#include "files/described_types.hpp"
 #include "files/ontology_reader.hpp"
+#include "types/stated.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -90,6 +92,51 @@ private:
     std::size_t octets_ = 0, elements_ = 0;
 };
 
+// A description as the elements of a file that says the same, but for what it inherits.
+XmlElement element(const char* kind, const char* nameAttribute, const std::string& name,
+                   const std::string& description, const Attributes& attributes) {
+    XmlElement result;
+    result.name = kind;
+    result.attributes.push_back({nameAttribute, name});
+    if (!description.empty()) result.attributes.push_back({"description", description});
+    for (const DescribedAttribute& each : attributes) {
+        result.attributes.push_back({each.name, each.text});
+    }
+    return result;
+}
+
+void addItems(XmlElement& owner, const char* kind, const std::vector<DescribedItem>& items) {
+    for (const DescribedItem& each : items) {
+        owner.children.push_back(
+            element(kind, "name", each.name, each.description, each.attributes));
+    }
+}
+
+XmlElement typeElement(const TypeDescription& type) {
+    XmlElement result = element("type", "name", type.name, type.description, type.attributes);
+    std::string extends;
+    for (const std::string& each : type.parents) extends += (extends.empty() ? "" : " ") + each;
+    if (!extends.empty()) result.attributes.push_back({"extends", extends});
+    addItems(result, "data", type.data);
+    for (const DescribedCommand& each : type.commands) {
+        XmlElement command =
+            element("command", "name", each.name, each.description, each.attributes);
+        addItems(command, "request", each.request);
+        addItems(command, "response", each.response);
+        result.children.push_back(std::move(command));
+    }
+    return result;
+}
+
+XmlElement rulesElement(const TypeDescription& type) {
+    XmlElement result = element("rules", "type", type.name, "", {});
+    for (const DescribedRule& each : type.rules) {
+        result.children.push_back(
+            element("relationship", "name", each.name, each.description, each.attributes));
+    }
+    return result;
+}
+
 // Makes types of descriptions; everything found goes to the report, of one type not too much.
 class Reader {
 public:
@@ -148,14 +195,14 @@ private:
     }
 
     std::vector<TypeDeclaration> read(const std::vector<const TypeDescription*>& types) {
-        const DescribedTypes described{types};
         std::vector<TypeDeclaration> declarations;
         for (const TypeDescription* each : types) {
             Report found;
-            TypeDeclaration type = readType(described.type(*each), "", found);
-            RuleBlock block = readRules(described.rules(*each), "", found);
+            TypeDeclaration type = readType(typeElement(*each), "", found);
+            RuleBlock block = readRules(rulesElement(*each), "", found);
             type.rules = std::move(block.rules);
             type.stated.merge(block.stated);
+            type.stated.insert(wholeType);
             declarations.push_back(std::move(type));
             take(found);
         }

@@ -196,6 +196,7 @@ Command mergeCommand(const std::vector<FromParent<Command>>& parents, const Comm
         mergeParameters(command, parents, own, which, stated, context);
     }
     check(command, context);
+    keepOrigin(command, parents, stated);
     return command;
 }
 

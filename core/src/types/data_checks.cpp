@@ -232,7 +232,8 @@ void checkShape(DataItem& own, const Stated& stated, const ItemContext& context)
                       "write capacity=\"64\", or from 1 to 4096 octets");
         own.capacity = DataItem{}.capacity;
     }
-    if (own.kind != Kind::String && stated("capacity", own.capacity != DataItem{}.capacity)) {
+    if (own.kind != Kind::String &&
+        stated.isWritten("capacity", own.capacity != DataItem{}.capacity)) {
         context.error(finding::capacityKind,
                       std::string{"has a capacity, but is "} + name(own.kind),
                       "remove the capacity, or write kind=\"string\"");

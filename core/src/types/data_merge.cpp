@@ -255,7 +255,13 @@ DataItem mergeData(const std::vector<FromParent<DataItem>>& parents, const DataI
             narrow(item, stating, stated, context);
         }
     }
+    if (stated.isWhole()) {  // a narrower range may leave inherited labels out
+        for (const auto& parent : parents) {
+            for (const auto& label : parent.item->labels) stating.labels.erase(label.first);
+        }
+    }
     if (own || parents.size() > 1) checkData(item, own ? &stating : nullptr, context);
+    keepOrigin(item, parents, stated);
     return item;
 }
 

@@ -147,8 +147,9 @@ void check(Rule& rule, const Rule* own, const Stated& stated, const ItemContext&
         rule.max = std::max(rule.min, 1U);
     }
     if (!own) return;
-    const bool lossStated = stated("onLoss", own->onLoss != OnLoss::Propagate);
-    if (rule.direction == Direction::Output && (lossStated || stated("maxAge", false))) {
+    const bool lossWritten = stated.isWritten("onLoss", own->onLoss != OnLoss::Propagate) ||
+                             stated.isWritten("maxAge", false);
+    if (rule.direction == Direction::Output && lossWritten) {
         context.error(finding::onLossDirection, "is an output and has onLoss or maxAge",
                       "state them on the input rule of who reads");
     }
@@ -177,6 +178,7 @@ Rule mergeRule(const std::vector<FromParent<Rule>>& parents, const Rule* own, co
         }
     }
     if (own || parents.size() > 1) check(rule, own, stated, context);
+    keepOrigin(rule, parents, stated);
     return rule;
 }
 

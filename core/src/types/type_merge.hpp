@@ -47,6 +47,16 @@ struct FromParent {
     std::string parent;
 };
 
+// What a whole type only repeats is still defined by the parent that it has it from.
+template <class Item>
+void keepOrigin(Item& merged, const std::vector<FromParent<Item>>& parents, const Stated& stated) {
+    if (!stated.isWhole() || parents.empty()) return;
+    Item repeated = merged;
+    repeated.definedBy = parents.front().item->definedBy;
+    repeated.place = parents.front().item->place;
+    if (repeated == *parents.front().item) merged = std::move(repeated);
+}
+
 // The definition of one item of a type from those of its parents (none: it is new) and its own
 // statement (null: none). The result is checked; what is wrong goes to the report.
 DataItem mergeData(const std::vector<FromParent<DataItem>>& parents, const DataItem* own,

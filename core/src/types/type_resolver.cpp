@@ -207,6 +207,13 @@ void TypeResolver::inheritFlags(Type& type) {
 void TypeResolver::resolveFlags(Type& type, const TypeDeclaration& declaration) {
     inheritFlags(type);
     Said& said = said_[type.name];
+    const bool isWhole = declaration.stated.contains(wholeType);
+    if (isWhole) {
+        const Type plain;
+        type.measures = plain.measures;
+        type.onLeaseLost = plain.onLeaseLost;
+        type.transitionTimeout = plain.transitionTimeout;
+    }
     if (declaration.manyWriters) {
         if (said.writers && !type.manyWriters && *declaration.manyWriters) {
             report_.error(type.name, finding::writersChanged, declaration.place,
@@ -215,6 +222,8 @@ void TypeResolver::resolveFlags(Type& type, const TypeDeclaration& declaration) 
             type.manyWriters = *declaration.manyWriters;
         }
         said.writers = true;
+    } else if (isWhole) {
+        type.manyWriters = false;
     }
     if (declaration.measures) type.measures = *declaration.measures;
     if (declaration.onLeaseLost) type.onLeaseLost = *declaration.onLeaseLost;

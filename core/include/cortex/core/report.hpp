@@ -15,6 +15,7 @@ struct Place {
     int line = 0;
 
     std::string text() const;  // "robotics.xml:14", or "" without a file
+    bool operator==(const Place&) const = default;
 };
 
 enum class Severity { Info, Warning, Error };

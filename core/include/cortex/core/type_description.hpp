@@ -54,7 +54,8 @@ struct TypeDescription {
 
 TypeDescription describe(const Type& type);
 
-// The types described, read and checked as if they stood in a file. Nothing is believed: a type
+// The types described, read and checked as if they stood in a file that repeats what its types
+// inherit. Nothing is believed: a type
 // that has a finding, whose hash is not the one it says (`type-hash`), or that extends such a type
 // is left out. Of one type at most 20 findings are reported.
 TypeModel modelOf(std::span<const TypeDescription> types, Report& report);

@@ -68,6 +68,7 @@ struct DataItem {
     std::string format;
     std::string definedBy;  // the type that last stated it
     Place place;
+    bool operator==(const DataItem&) const = default;
 };
 
 struct Command {
@@ -82,6 +83,7 @@ struct Command {
     OnSenderLost onSenderLost = OnSenderLost::Continue;
     std::string definedBy;
     Place place;
+    bool operator==(const Command&) const = default;
 };
 
 // How simplexes of the owner's type are joined to others.
@@ -101,6 +103,7 @@ struct Rule {
     std::string description;
     std::string definedBy;
     Place place;
+    bool operator==(const Rule&) const = default;
 };
 
 // A type as written in one file; its rules may come from several morphologies.
