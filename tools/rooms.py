@@ -42,8 +42,8 @@ PUBLIC = {
                  "transport",
     },
     "comms": {
+        "wire": "network_options",
         "security": "security",
-        "dds": "network_options",
         "agent": "dds_interface",
         "mirror": "mirror",
     },
