@@ -2,6 +2,7 @@
 // Commands from the network on their way into the loop, without a network.
 #include "agent/agent_commands.hpp"
 
+#include "base/clock.hpp"
 #include "support/agent_rig.hpp"
 #include "wire/ids.hpp"
 
@@ -56,11 +57,11 @@ struct AgentCommandsTest : testing::Test {
         command.notAfter = 1000;
         command.path = "/worker";
         command.command = "poke";
-        network.commands->take(command, steadyNow());
+        network.commands->take(command, monotonicNow());
     }
     void step() {
         rig.step();
-        network.commands->step(steadyNow());
+        network.commands->step(monotonicNow());
     }
     std::map<std::string, int> outcomes() const {
         std::map<std::string, int> count;
@@ -120,7 +121,7 @@ TEST_F(AgentCommandsTest, ComeFromAHundredSendersAtOnce) {
         command.notAfter = 1000;
         command.path = "/worker";
         command.command = "poke";
-        network.commands->take(command, steadyNow());
+        network.commands->take(command, monotonicNow());
     }
     step();
 

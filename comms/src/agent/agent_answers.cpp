@@ -25,7 +25,7 @@ bool AgentAnswers::send(const Answer& answer, std::int64_t now) {
     return true;
 }
 
-// Whoever invents senders gets no more than that many endpoints a second.
+// A participant that invents senders gets at most that many endpoints a second.
 bool AgentAnswers::makeRoom(std::int64_t now) {
     if (ways_.size() < mostWays) return true;
     const auto oldest =

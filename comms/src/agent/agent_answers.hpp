@@ -12,15 +12,16 @@
 
 namespace cortex::comms {
 
-// Answers go to who sent the command and to nobody else: each sender has a topic of its own, which
-// is written once it has commanded, and until a minute after it was known the last time; then what
-// it missed while it was cut off has reached it. Communication thread. Times are steadyNow().
+// Sends each answer to the sender of its command and to nobody else: each sender has a topic of its
+// own. The topic is written from the sender's first command until a minute after the sender was
+// last known. So a sender that was cut off still receives what it missed. Communication thread
+// only. Times are those of monotonicNow().
 class AgentAnswers {
 public:
     explicit AgentAnswers(Participant& participant) : participant_{participant} {}
 
-    // The first may come too early for its receiver, who then sends his command again. False: too
-    // many new senders command at a time. Throws Error.
+    // The first answer may come before its receiver is ready, who then sends the command again.
+    // False: too many new senders command at the same time. Throws Error.
     bool send(const Answer& answer, std::int64_t now);
     void keep(const std::function<bool(const std::string&)>& isKnown, std::int64_t now);
 

@@ -3,6 +3,7 @@
 
 #include "cortex/core/error.hpp"
 
+#include "base/clock.hpp"
 #include "security/security_identity.hpp"
 #include "wire/ids.hpp"
 #include "wire/named_values.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t onTheirWay = 256;  // commands
 constexpr std::size_t mostSenders = 128;
-constexpr std::size_t longestName = 128;  // of what is looked up; paths are no longer
+constexpr std::size_t longestName = 128;  // of a name that is looked up; no path is longer
 
 template <std::size_t Size>
 bool put(const std::string& text, std::array<char, Size>& to) {
@@ -27,7 +28,7 @@ bool put(const std::string& text, std::array<char, Size>& to) {
     return true;
 }
 
-// Empty for names that are no sender's.
+// Empty if the names cannot be those of a sender.
 std::optional<Sender> senderOf(const Command& command) {
     Sender sender;
     sender.epoch = command.senderEpoch;
@@ -93,8 +94,8 @@ void AgentCommands::take(const Command& command, std::int64_t now) {
     }
 }
 
-// The loop takes no more. What it may have already, and is repeated here, gets its answer from the
-// loop; what was turned away once stays so: its sender may have read the answer.
+// The loop accepts no more commands. If it has this one already, the answer comes from the loop. A
+// command that was refused once stays refused: its sender may have read the answer.
 void AgentCommands::turnAway(const Command& command, HeardSender& from) {
     self_.rejections.add("a command of " + command.sender + ": too many are on their way");
     auto& known = from.turnedAway;
@@ -107,7 +108,8 @@ void AgentCommands::turnAway(const Command& command, HeardSender& from) {
     refuse(command, {Outcome::MailboxFull, Reason::None, "too many commands are on their way"});
 }
 
-// Simplex, command and arguments by their names; what does not fit is said in the words of core.
+// Looks up simplex, command and arguments by their names. What does not fit is refused in the words
+// of core.
 bool AgentCommands::encode(const Command& command, OutsideCommand& message,
                            std::vector<std::uint64_t>& record, Refusal& refusal) const {
     refusal = {Outcome::Rejected, Reason::UnknownCommand, {}};
@@ -132,8 +134,8 @@ bool AgentCommands::encode(const Command& command, OutsideCommand& message,
     }
 }
 
-// With security: what is commanded must lie where the signed list of its sender says. A command to
-// the agent itself with a prefix is meant for what is at and below that.
+// With security, the signed list of the sender must cover the path. A command to the agent itself
+// with a prefix concerns everything at and below that prefix.
 bool AgentCommands::permitted(const Command& command, const OutsideCommand& message,
                               const std::vector<std::uint64_t>& record, Refusal& refusal) {
     if (identity_ == nullptr) return true;
@@ -187,7 +189,7 @@ bool AgentCommands::remember(const Sender& sender, std::int64_t now) {
     if (before.sender.epoch == sender.epoch) {
         before.lastHeard = now;
     } else if (before.sender.epoch < sender.epoch) {
-        // The loop itself lets go of an earlier start when a later one commands.
+        // The loop itself drops an earlier start when a later one commands.
         before = {.sender = sender, .lastHeard = now};
     }
     return true;
@@ -203,13 +205,13 @@ void AgentCommands::heard(const Presence& presence, std::int64_t now) {
 void AgentCommands::lost(const std::string& sender, std::int64_t epoch) {
     const auto known = senders_.find(sender);
     if (known != senders_.end() && known->second.sender.epoch == epoch) {
-        known->second.lastHeard = steadyNow() - 2 * known->second.patience;
+        known->second.lastHeard = monotonicNow() - 2 * known->second.patience;
     }
 }
 
-bool AgentCommands::tellLost(const Sender& sender) {
+bool AgentCommands::reportLost(const Sender& sender) {
     Sender* place = lostSenders_.free();
-    if (place == nullptr) return false;  // the loop stands still: in the next step
+    if (place == nullptr) return false;  // the loop stands still; the next step tries again
     *place = sender;
     lostSenders_.push();
     return true;
@@ -220,7 +222,7 @@ void AgentCommands::step(std::int64_t now) {
         send_(answerFor(*answer));
     }
     std::erase_if(senders_, [&](const auto& each) {
-        return now - each.second.lastHeard > each.second.patience && tellLost(each.second.sender);
+        return now - each.second.lastHeard > each.second.patience && reportLost(each.second.sender);
     });
 }
 

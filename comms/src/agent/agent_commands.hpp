@@ -18,31 +18,31 @@ namespace cortex::comms {
 
 class SecurityIdentity;
 
-// Commands from the network: what fits goes to the loop, the rest is answered at once; answers of
-// the loop go back. Tells the loop when a sender is no longer heard. read() and write() in the
-// loop, the rest on the communication thread.
+// Passes valid commands from the network to the loop and answers the others at once. It sends the
+// answers of the loop, and tells the loop when a sender is lost. The loop calls read() and write();
+// the communication thread calls the rest.
 class AgentCommands {
 public:
-    // With an identity, senders need to prove that they may command.
+    // With an identity, a sender must prove that it may command.
     AgentCommands(AgentSelf& self, std::function<void(const Answer&)> send,
                   SecurityIdentity* identity = nullptr);
 
     void take(const Command& command, std::int64_t now);
-    // A presence of a sender, or its end.
+    // Called with each presence of a sender, and when it is lost.
     void heard(const Presence& presence, std::int64_t now);
     void lost(const std::string& sender, std::int64_t epoch);
     void step(std::int64_t now);
     bool knows(const std::string& sender) const { return senders_.contains(sender); }
 
     void read(Inbox& inbox) CORTEX_REALTIME;
-    bool write(Outbox& outbox) CORTEX_REALTIME;  // whether there are answers to send
+    bool write(Outbox& outbox) CORTEX_REALTIME;  // whether answers are to be sent
 
 private:
     struct HeardSender {
         Sender sender;
         std::int64_t lastHeard = 0, patience = shortestPatience;
-        std::uint64_t newest = 0;              // sequence number that the loop was given
-        std::set<std::uint64_t> turnedAway{};  // that it was not given, as far as unacknowledged
+        std::uint64_t newest = 0;              // sequence number of the newest command in the loop
+        std::set<std::uint64_t> turnedAway{};  // refused numbers that are not acknowledged
     };
     struct Refusal {
         Outcome outcome;
@@ -51,7 +51,7 @@ private:
     };
     bool believable(const Command& command);
     bool remember(const Sender& sender, std::int64_t now);
-    bool tellLost(const Sender& sender);
+    bool reportLost(const Sender& sender);
     void refuse(const Command& command, const Refusal& refusal);
     void turnAway(const Command& command, HeardSender& from);
     bool permitted(const Command& command, const OutsideCommand& message,

@@ -11,15 +11,17 @@
 
 namespace cortex::comms {
 
-// Events on their way from the agent's log to the communication thread; bounded, the oldest go
-// first: the numbers show the gap. Any thread. The log's sink may outlive the interface.
+// Carries events from the agent's log to the communication thread. It is bounded and drops the
+// oldest event first; the numbers show the gap. Any thread may use it. The sink may outlive the
+// interface.
 class AgentEvents {
 public:
     // Adds a sink to the agent's log; before its start().
     explicit AgentEvents(const AgentSelf& self);
     ~AgentEvents();  // from here on the sink does nothing
 
-    // The oldest ones, a few: the thread has other things to do. False: more are waiting.
+    // Takes a few of the oldest events, since the thread has other things to do. False: more are
+    // waiting.
     bool take(std::vector<EventMessage>& emptied);
     bool empty() const;
 

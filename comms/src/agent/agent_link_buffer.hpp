@@ -11,8 +11,8 @@
 
 namespace cortex::comms {
 
-// The samples of one linked simplex on their way into the loop: the newest wins. One writer thread,
-// one reader thread, both wait-free.
+// Carries the samples of one linked simplex into the loop; the newest wins. One writer thread and
+// one reader thread use it, and both are wait-free.
 class LinkBuffer {
 public:
     struct Sample {
@@ -20,24 +20,25 @@ public:
 
         SliceMemory values;
         std::int64_t age = 0;   // ns, when it was sent
-        std::int64_t came = 0;  // steadyNow()
+        std::int64_t came = 0;  // monotonicNow()
     };
 
     explicit LinkBuffer(const TypeLayout& layout)
         : samples_{Sample{layout}, Sample{layout}, Sample{layout}} {}
 
     Sample& writable() { return samples_[back_]; }
-    void publish() { back_ = middle_.exchange(back_ | Fresh) & Place; }
+    void publish() { back_ = middle_.exchange(back_ | fresh) & place; }
 
-    // The newest, once; null: none since the last call. Valid until the next call.
+    // The newest sample, each only once. Null: none has come since the last call. Valid until the
+    // next call.
     const Sample* take() CORTEX_REALTIME {
-        if ((middle_.load() & Fresh) == 0) return nullptr;
-        front_ = middle_.exchange(front_) & Place;
+        if ((middle_.load() & fresh) == 0) return nullptr;
+        front_ = middle_.exchange(front_) & place;
         return &samples_[front_];
     }
 
 private:
-    static constexpr std::uint32_t Place = 3, Fresh = 4;
+    static constexpr std::uint32_t place = 3, fresh = 4;
 
     std::array<Sample, 3> samples_;
     std::uint32_t back_ = 0;   // the writer's

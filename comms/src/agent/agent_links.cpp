@@ -3,6 +3,7 @@
 
 #include "cortex/core/error.hpp"
 
+#include "base/clock.hpp"
 #include "wire/ids.hpp"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ constexpr std::size_t mostDelays = 1'000;
 bool isTime(std::int64_t time) { return time >= 0 && time < longestTime; }
 bool isWallClock(std::int64_t time) { return time >= 0 && time < std::int64_t{1} << 62U; }
 
-// Where the owner has the path as its own simplex.
+// The index of the path if it is one of the owner's own simplexes.
 std::uint32_t indexOf(const Structure* structure, const std::string& path) {
     const std::uint32_t index = structure != nullptr ? structure->find(path) : noSimplex;
     return index == noSimplex || structure->simplexes[index].remote ? noSimplex : index;
@@ -64,7 +65,7 @@ bool AgentLinks::anyUnbound() const {
 void AgentLinks::update(Peers& peers) {
     if (links_.empty()) return;
     for (auto& [name, peer] : peers) {
-        if (hasAny(peer)) tellWhyNot(peer);
+        if (hasAny(peer)) reportContradiction(peer);
     }
     for (const auto& link : links_) {
         std::erase_if(link->claims, [&](const auto& each) { return !peers.contains(each.first); });
@@ -75,16 +76,16 @@ void AgentLinks::update(Peers& peers) {
     findOwners();
 }
 
-// What others have is compared and laid out only if it concerns us.
+// Whether the peer has any simplex to be linked. Only then its model is compared and laid out.
 bool AgentLinks::hasAny(const Peer& peer) const {
     return peer.current && std::ranges::any_of(links_, [&](const auto& link) {
                return peer.model().has(self_.structure().simplexes[link->simplex].path);
            });
 }
 
-// An agent whose model contradicts itself is said once, with the first of what is wrong.
-void AgentLinks::tellWhyNot(Peer& peer) const {
-    if (!peer.heard || !peer.agent || peer.current->told) return;
+// Reports a model that contradicts itself once, with the first contradiction.
+void AgentLinks::reportContradiction(Peer& peer) const {
+    if (!peer.heard || !peer.agent || peer.current->reported) return;
     PeerModel& model = peer.current->model;
     std::string why;
     try {
@@ -94,7 +95,7 @@ void AgentLinks::tellWhyNot(Peer& peer) const {
     } catch (const Error& error) {
         why = error.what();
     }
-    peer.current->told = true;
+    peer.current->reported = true;
     self_.rejections.add("a model of " + peer.name + " that contradicts itself");
     self_.event(Severity::Error, self_.simplex, "nothing of " + peer.name + " is linked: " + why);
 }
@@ -137,7 +138,7 @@ AgentLinks::Claim AgentLinks::makeClaim(const Link& link, Peer& peer, std::uint3
     return claim;
 }
 
-// Of several agents that have the path the one that started first stays linked.
+// Of several agents that have the path, the one that started first stays linked.
 void AgentLinks::choose(Link& link) {
     const std::string* chosen = nullptr;
     const auto usable = [](const Claim& claim) { return claim.heard && claim.binding.usable; };
@@ -146,7 +147,7 @@ void AgentLinks::choose(Link& link) {
         if (chosen == nullptr || claim.epoch < link.claims.at(*chosen).epoch) chosen = &agent;
     }
     for (auto& [agent, claim] : link.claims) {
-        if (!usable(claim) || agent == *chosen || std::exchange(claim.told, true)) continue;
+        if (!usable(claim) || agent == *chosen || std::exchange(claim.reported, true)) continue;
         self_.event(Severity::Error, link.simplex,
                     agent + " claims it as well; " + *chosen + " stays linked");
     }
@@ -166,7 +167,7 @@ void AgentLinks::bind(Link& link, const std::string* agent) {
         self_.event(Severity::Info, link.simplex, "linked to agent " + *agent);
     }
     link.offered.store(link.current);
-    // What the loop starts to use from here on is the offered one.
+    // From here on the loop can only begin to use the one that is offered.
     const Bound* used = link.inUse.load();
     std::erase_if(link.kept, [&](const auto& each) {
         return each.get() != link.current && each.get() != used;
@@ -214,7 +215,8 @@ Interest AgentLinks::interest() const {
     return interest;
 }
 
-// It may have forgotten what we want, or somebody else said something in our name.
+// The owner may have forgotten this agent's interest, or somebody else may have sent one in its
+// name.
 bool AgentLinks::askAgain(std::int64_t now) {
     if (now < askDue_) return false;
     askDue_ = now + second;
@@ -242,13 +244,14 @@ void AgentLinks::take(const Block& block, std::int64_t came) {
     if (found == owners_.end()) return;
     Owner& owner = found->second;
     if (block.epoch != owner.epoch || !believable(block, owner)) return;
-    // Overtaken on its way; or the newest was none of its owner's, and nothing follows it.
+    // A block with an older number was overtaken. But if the newest one did not come from the
+    // owner, nothing follows it, and the older ones count after a while.
     const bool older = block.sequenceNumber <= owner.newest;
     if (older && came - owner.newestCame < owner.patience) return;
     if (!older && owner.newest != 0) lost_ += block.sequenceNumber - owner.newest - 1;
     owner.newest = block.sequenceNumber;
     owner.newestCame = came;
-    // What waited on its way, in queues or for a thread, is as old as if it had waited here.
+    // The time that a block spent in queues or waiting for a thread adds to its age.
     const std::int64_t delay =
         block.wallClock > 0 ? delays_[block.agent].next(block.wallClock, came) : 0;
     for (const SimplexData& data : block.simplexes) take(block, data, owner, came, delay);
@@ -272,15 +275,15 @@ void AgentLinks::take(const Block& block, const SimplexData& data, const Owner& 
 
 void AgentLinks::read(Inbox& inbox) {
     if (links_.empty()) return;
-    const std::int64_t now = steadyNow();
+    const std::int64_t now = monotonicNow();
     for (const auto& link : links_) readLink(*link, inbox, now);
 }
 
 void AgentLinks::readLink(Link& link, Inbox& inbox, std::int64_t now) {
-    // Said first, then asked again: the communication thread offers first, then looks what is used.
+    // The order matters: see the fourth invariant.
     Bound* bound = link.offered.load();
     link.inUse.store(bound);
-    if (link.offered.load() != bound) return;  // just now replaced: in the next cycle
+    if (link.offered.load() != bound) return;  // replaced just now; the next cycle looks again
     const std::uint64_t serial = bound != nullptr ? bound->serial : 0;
     const bool other = std::exchange(link.seen, serial) != serial;
     if (other && std::exchange(link.live, false)) inbox.linkLost(link.simplex);

@@ -17,9 +17,28 @@
 
 namespace cortex::comms {
 
-// The simplexes of other agents that ours name: finds their owners, binds them, and hands their
-// samples to the loop. read() in the loop, take() on a thread of DDS as they come, the rest on the
-// communication thread.
+// Links the simplexes of other agents that ours name: finds their owners, binds them, and passes
+// their samples to the loop.
+//
+// **Invariants**
+// 1. The loop calls read(). Threads of DDS call take() for each block. The communication thread
+//    calls the rest, and it alone binds, unbinds and destroys a Bound.
+// 2. `mutex_` guards `owners_`, `delays_` and the buffers that they lead to. take() holds it, and
+//    so does update() while it binds and makes `owners_` anew. The loop never takes it.
+// 3. `offered` is the Bound that the loop is to use, null without an owner. The loop writes the one
+//    that it uses to `inUse`, and then reads `offered` again: if that has changed, it uses none in
+//    this cycle.
+// 4. bind() writes `offered` before it reads `inUse`. All four accesses are sequentially
+//    consistent. So bind() sees what the loop uses, or the loop sees that it must not use it.
+// 5. bind() keeps the Bound that is offered and the one in use. It destroys all others: the loop
+//    cannot reach them any more.
+// 6. A Bound never changes after it is offered, except for its LinkBuffer, which has one writer
+//    (under `mutex_`) and one reader (the loop).
+// 7. `serial` grows with each Bound. The loop compares it with `seen`, so it notices a new Bound
+//    even at the address of an old one. It then reports the link as lost before it takes values of
+//    the new one.
+// 8. `seen` and `live` belong to the loop; `current`, `claims` and `kept` belong to the
+//    communication thread.
 class AgentLinks {
 public:
     explicit AgentLinks(AgentSelf& self);
@@ -27,12 +46,12 @@ public:
 
     bool any() const { return !links_.empty(); }
     bool anyUnbound() const;
-    void update(Peers& peers);  // after a change of them
+    void update(Peers& peers);  // after the peers have changed
     void take(const Block& block, std::int64_t came);
-    std::uint64_t lost() const { return lost_; }  // blocks of owners that did not come; any thread
-    std::set<std::string> owners() const;         // that we are linked to
-    Interest interest() const;                    // what we want of others
-    // Whether to say it again: an owner sends nothing for a second.
+    std::uint64_t lost() const { return lost_; }  // blocks that did not come; any thread
+    std::set<std::string> owners() const;         // agents to which links exist
+    Interest interest() const;                    // what this agent wants of others
+    // Whether to send the interest again, because an owner has sent nothing for a second.
     bool askAgain(std::int64_t now);
 
     void read(Inbox& inbox) CORTEX_REALTIME;
@@ -46,9 +65,9 @@ private:
         std::shared_ptr<const Structure> structure;
         LinkBinding binding;
         bool heard = false;
-        bool told = false;  // that another stays linked
+        bool reported = false;  // whether an event has said that another stays linked
     };
-    // What the loop uses. It says which with `inUse`: that one is kept.
+    // One link as the loop uses it.
     struct Bound {
         Bound(std::uint64_t number, const std::string& owner, const Claim& claim);
 
@@ -65,23 +84,23 @@ private:
         Bound* current = nullptr;
         std::vector<std::unique_ptr<Bound>> kept;
         std::atomic<Bound*> offered{nullptr}, inUse{nullptr};
-        std::uint64_t seen = 0;  // the loop's: serial of what it linked last
+        std::uint64_t seen = 0;  // serial of the Bound that the loop used last
         bool live = false;
     };
-    // Whose blocks are wanted.
+    // An agent whose blocks are wanted.
     struct Owner {
         std::int64_t epoch = 0;
         Id structureHash{};
         std::uint32_t simplexes = 0;
-        std::int64_t patience = 0;               // ns: a block that came later than this after
-                                                 // the newest was not overtaken by it
+        std::int64_t patience = 0;               // ns; an older block that comes later than
+                                                 // this was not overtaken, and is taken
         std::uint64_t newest = 0;                // sequence number of the block
-        std::int64_t newestCame = 0;             // steadyNow()
+        std::int64_t newestCame = 0;             // monotonicNow()
         std::map<std::uint32_t, Bound*> bounds;  // by index there
     };
 
     bool hasAny(const Peer& peer) const;
-    void tellWhyNot(Peer& peer) const;
+    void reportContradiction(Peer& peer) const;
     void claim(Link& link, Peer& peer);
     Claim makeClaim(const Link& link, Peer& peer, std::uint32_t theirs) const;
     void choose(Link& link);
@@ -94,9 +113,9 @@ private:
 
     AgentSelf& self_;
     std::vector<std::unique_ptr<Link>> links_;
-    std::mutex mutex_;  // of the next, and of what they name
+    std::mutex mutex_;
     std::map<Id, Owner> owners_;
-    std::map<Id, TransitDelay> delays_;  // of those who are or were owners
+    std::map<Id, TransitDelay> delays_;  // of present and former owners
     std::int64_t askDue_ = 0;
     std::uint64_t serial_ = 0;
     std::atomic<std::uint64_t> lost_{0};

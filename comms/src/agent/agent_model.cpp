@@ -17,7 +17,7 @@
 namespace cortex::comms {
 namespace {
 
-constexpr std::size_t fullSample = 8'000;  // octets: few packets, of which none should be lost
+constexpr std::size_t fullSample = 8'000;  // bytes: few packets, none of which should be lost
 
 SimplexMessage simplexMessage(const Structure& structure, std::uint32_t index, const Image& image) {
     const SimplexInfo& info = structure.simplexes[index];
@@ -57,7 +57,7 @@ AgentModel::AgentModel(const AgentSelf& self, std::string_view security) : self_
     addSimplexes();
 }
 
-// In as few samples as they fill.
+// Packs the messages into as few samples as they fill.
 template <class Message>
 void AgentModel::pack(std::vector<Message>&& messages, std::vector<Message> Model::* list) {
     std::size_t size = fullSample;
@@ -78,7 +78,7 @@ void AgentModel::pack(std::vector<Message>&& messages, std::vector<Message> Mode
     }
 }
 
-// Those of our simplexes, and all that it takes to read them.
+// Adds the types of all simplexes, and those that a reader needs to understand them.
 void AgentModel::addTypes() {
     std::set<std::string> used;
     for (const SimplexInfo& info : self_.structure().simplexes) {

@@ -10,15 +10,16 @@
 
 namespace cortex::comms {
 
-// What this agent tells of itself: its types and simplexes, several in a sample, and their counts
-// and hashes in its presence. Made by announce(); throws Error while all images are held.
+// What this agent publishes of itself: its types and simplexes, several in a sample, and their
+// counts and hashes in its presence. announce() makes it. Throws Error while all images are held.
 class AgentModel {
 public:
     explicit AgentModel(const AgentSelf& self, std::string_view security = {});
 
     const std::vector<Model>& samples() const { return samples_; }
     const Id& structureHash() const { return presence_.structureHash; }
-    // `agents`: that are heard, this one too; `events`: number of the last that was written.
+    // `agents`: how many are present, this one included. `events`: the number of the last event
+    // that was written.
     Presence presence(const char* state, std::uint32_t agents, std::uint64_t events) const;
 
 private:

@@ -12,8 +12,8 @@
 namespace cortex::comms {
 namespace {
 
-constexpr std::int64_t longestLead = 86'400'000'000;  // us that the clock of another may be ahead
-constexpr std::int64_t longestAbsence = 600'000'000'000;  // ns that one is called for
+constexpr std::int64_t longestLead = 86'400'000'000;      // us that another clock may be ahead
+constexpr std::int64_t longestAbsence = 600'000'000'000;  // ns until a lost agent is given up
 constexpr std::size_t mostPeers = 1'024;
 constexpr std::size_t longestName = 127;
 constexpr std::size_t mostPaths = 100'000;  // in one interest
@@ -48,7 +48,8 @@ bool AgentPeers::plausible(const std::string& name, std::int64_t epoch) {
     return false;
 }
 
-// A later start of our name outranks us; of an earlier one and of ourselves nothing is wanted.
+// A later start of our own name outranks this one. Nothing is taken from an earlier start or from
+// ourselves.
 bool AgentPeers::isOurs(const Presence& presence) {
     if (presence.name != self_.name) return false;
     if (presence.role != "agent") {
@@ -75,7 +76,7 @@ Peer* AgentPeers::place(const std::string& name) {
     if (found != peers_.end()) return &found->second;
     if (peers_.size() >= mostPeers) {
         const auto oldest = std::ranges::min_element(peers_, {}, [](const auto& each) {
-            const Peer& peer = each.second;  // an agent that is back does not tell its model again
+            const Peer& peer = each.second;  // an agent that is back does not send its model again
             return std::tuple{peer.heard, peer.agent, peer.lastHeard};
         });
         if (oldest->second.heard) {
@@ -89,7 +90,8 @@ Peer* AgentPeers::place(const std::string& name) {
     return &peer;
 }
 
-// Models come once: what a start has said is kept, it may be alive and the later one a mistake.
+// A model comes only once. So what a start has sent is kept: it may be alive, and the later one a
+// mistake.
 void AgentPeers::makeCurrent(Peer& peer, std::int64_t epoch) {
     if (peer.heard) lose(peer, "it started anew");
     if (peer.other && peer.other->model.epoch() == epoch) {
@@ -101,7 +103,7 @@ void AgentPeers::makeCurrent(Peer& peer, std::int64_t epoch) {
     changed_ = true;
 }
 
-// An earlier start is outranked, but only by one that is heard: clocks are set back too.
+// An earlier start is outranked only while the later one is present: clocks are set back too.
 void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
     if (peer.current && presence.epoch < peer.epoch() &&
         (peer.heard || presence.state != "running")) {
@@ -130,7 +132,7 @@ void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
     if (!complete) sayIfKnown(peer);
 }
 
-// Of those only that something is linked of.
+// Only agents from which something is linked are reported.
 void AgentPeers::sayIfKnown(const Peer& peer) const {
     if (!peer.agent || !peer.model().complete()) return;
     const Presence& presence = *peer.model().presence();
@@ -160,7 +162,7 @@ void AgentPeers::expire(std::int64_t now) {
     }
 }
 
-// Null: it is refused, or was said by an earlier start than those that are heard.
+// Null: the sample is refused, or comes from an earlier start than those present.
 PeerStart* AgentPeers::startOf(const std::string& name, std::int64_t epoch, std::int64_t now) {
     if (name == self_.name || !plausible(name, epoch)) return nullptr;
     Peer* peer = place(name);

@@ -14,14 +14,14 @@
 
 namespace cortex::comms {
 
-// One start of an agent or a tool: what it has and what it wants of us.
+// One start of an agent or a tool: what it has, and what it wants of us.
 struct PeerStart {
     PeerStart(const std::string& name, std::int64_t epoch) : model{name, epoch} {}
 
     PeerModel model;
     Interest interest;
-    std::int64_t spoke = 0;  // steadyNow()
-    bool told = false;       // what is wrong with it
+    std::int64_t spoke = 0;  // monotonicNow()
+    bool reported = false;   // whether an event has said what is wrong with it
 };
 
 struct Peer {
@@ -32,19 +32,19 @@ struct Peer {
     bool heard = false;                // not long ago
     bool agent = false;                // or a tool
     bool missed = false;               // lost without a word
-    std::int64_t lastHeard = 0;        // steadyNow()
-    std::optional<PeerStart> current;  // whose presence was heard
-    std::optional<PeerStart> other;    // outranked, or its samples came before its presence
+    std::int64_t lastHeard = 0;        // monotonicNow()
+    std::optional<PeerStart> current;  // its presence has come
+    std::optional<PeerStart> other;    // outranked, or its presence has not come yet
 };
 
 using Peers = std::map<std::string, Peer, std::less<>>;  // by name
 
-// The agents and tools in the domain, as far as they are heard: of the starts of a name that
-// are heard the greater epoch wins; what is silent for longer than it said is lost. Nothing that
-// they say is believed unchecked. Communication thread only.
+// The agents and tools of the domain from which presences arrive. Of several starts of one name the
+// one with the greatest epoch wins. A participant that is silent for longer than it announced is
+// lost. Everything that others send is checked. Communication thread only.
 class AgentPeers {
 public:
-    // `lost` is called for each that is no longer heard.
+    // `lost` is called for each participant that is lost.
     AgentPeers(AgentSelf& self,
                std::function<void(const std::string& name, std::int64_t epoch)> lost);
 
@@ -55,9 +55,9 @@ public:
 
     // Whether anything became known or lost since the last call.
     bool takeChanged() { return std::exchange(changed_, false); }
-    bool outranked() const { return outranked_; }  // a later start of our own name is heard
+    bool outranked() const { return outranked_; }  // a later start of our own name exists
     Peers& all() { return peers_; }
-    std::uint32_t agents() const;            // that are heard
+    std::uint32_t agents() const;            // number of agents that are present
     bool missesAny(std::int64_t now) const;  // agents that fell silent without a word, not long ago
 
 private:

@@ -13,7 +13,7 @@ namespace cortex::comms {
 template <class Message>
 struct Arrived {
     Message message;
-    std::int64_t time;  // steadyNow() when it came
+    std::int64_t time;  // monotonicNow() when it came
 };
 
 struct ReceivedMessages {
@@ -23,10 +23,10 @@ struct ReceivedMessages {
     std::vector<Arrived<Command>> commands;
 };
 
-// Messages on their way from the threads of DDS to the communication thread; bounded. Any thread.
+// Carries messages from the threads of DDS to the communication thread. It is bounded. Any thread.
 class ReceivedQueue {
 public:
-    // False: full; the newcomer is dropped.
+    // False: it is full, and the message is dropped.
     bool push(Presence&& message, std::int64_t now) {
         return add(&ReceivedMessages::presences, message, now, 4'096);
     }
@@ -39,7 +39,7 @@ public:
     bool push(Command&& message, std::int64_t now) {
         return add(&ReceivedMessages::commands, message, now, 4'096);
     }
-    // What is here now, in exchange for `emptied`, whose memory is used on.
+    // Takes all messages, in exchange for `emptied`, whose memory is used again.
     void take(ReceivedMessages& emptied) {
         const std::lock_guard lock{mutex_};
         std::swap(messages_, emptied);

@@ -4,7 +4,6 @@
 #include "wire/ids.hpp"
 
 #include <array>
-#include <chrono>
 
 #include <unistd.h>
 
@@ -18,11 +17,6 @@ std::string hostName() {
 }
 
 }  // namespace
-
-std::int64_t steadyNow() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
 
 void Rejections::add(std::string_view reason) {
     count_.fetch_add(1, std::memory_order_relaxed);

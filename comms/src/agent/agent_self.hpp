@@ -13,10 +13,7 @@
 
 namespace cortex::comms {
 
-// ns of this host's monotonic clock.
-std::int64_t steadyNow() CORTEX_REALTIME;
-
-// What others sent and we did not take: how often, and why the last time. Any thread.
+// Counts what others sent and this agent refused, and keeps the last reason. Any thread.
 class Rejections {
 public:
     void add(std::string_view reason);
@@ -29,12 +26,13 @@ private:
     std::string last_;
 };
 
-// Who this agent is on the network. Made by announce(); used by the communication thread.
+// The identity of this agent on the network. announce() makes it, and the communication thread uses
+// it.
 struct AgentSelf {
     explicit AgentSelf(const AgentAccess& agent);
 
     const Structure& structure() const { return *access.structure; }
-    // An event outside the cycles.
+    // Posts an event from outside the loop.
     void event(Severity severity, std::uint32_t simplex, std::string_view text) const;
 
     AgentAccess access;

@@ -55,7 +55,7 @@ void AgentStreams::update(const Peers& peers) {
 void AgentStreams::addLinks(const Interest& interest, std::vector<bool>& wanted) {
     for (const std::string& path : interest.links) {
         const std::uint32_t simplex = self_.structure().find(path);
-        if (simplex < own_) wanted[simplex] = true;  // the others are other agents'
+        if (simplex < own_) wanted[simplex] = true;  // the others belong to other agents
     }
 }
 
@@ -69,7 +69,8 @@ void AgentStreams::addView(const View& view) {
     for (const std::string& prefix : view.prefixes) addBelow(prefix, wanted);
 }
 
-// Simplexes are sorted by path: those below one stand together, it itself somewhere before them.
+// Simplexes are sorted by path. So those below a path are adjacent, and the path itself comes
+// somewhere before them.
 void AgentStreams::addBelow(const std::string& prefix, std::vector<bool>& wanted) {
     if (prefix.empty() || prefix.front() != '/') {
         return self_.rejections.add("an interest in what is no path");
@@ -89,7 +90,7 @@ void AgentStreams::open(Stream& stream, const std::vector<bool>& wanted) {
     for (std::uint32_t i = 0; i < own_; ++i) {
         if (wanted[i]) simplexes.push_back(i);
     }
-    if (simplexes != stream.simplexes) stream.block.cycle = 0;  // the newest cycle, of these
+    if (simplexes != stream.simplexes) stream.block.cycle = 0;  // sends the newest cycle
     stream.simplexes = std::move(simplexes);
     if (stream.simplexes.empty()) {
         stream.writer.reset();
@@ -122,14 +123,15 @@ void AgentStreams::step(std::int64_t now) {
         write(stream, image);
         stream.againDue = now + again;
         if (stream.rate == 0) continue;
-        // On a grid of its own; from now where it was missed.
+        // The stream keeps to a grid of its own, which begins anew after a missed time.
         const std::int64_t interval = second / stream.rate;
         stream.due = std::max(stream.due + interval, now + interval / 2);
     }
 }
 
-// A loop that stands still, or is slow, is seen by who begins to look meanwhile, and by whom the
-// last block did not reach. Links wait for the next cycle: what they have does not become newer.
+// A view sends the last block again while the loop stands still or is slow. So a tool that begins
+// to look sees it, and so does one that the last block did not reach. Links wait for the next
+// cycle: their values would not become newer.
 void AgentStreams::sayAgain(Stream& stream, std::int64_t now) {
     if (&stream == &streams_.front() || now < stream.againDue || stream.block.cycle == 0) return;
     stream.writer->write(stream.block);

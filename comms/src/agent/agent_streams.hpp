@@ -13,16 +13,17 @@
 
 namespace cortex::comms {
 
-// The values of our simplexes that others ask for: one stream for links, one for each rate at which
-// somebody looks. A stream has a writer only while somebody asks. Communication thread only.
+// Sends the values of this agent's simplexes that others ask for: one stream for links, and one for
+// each rate of views. A stream has a writer only while somebody asks for it. Communication thread
+// only.
 class AgentStreams {
 public:
     AgentStreams(AgentSelf& self, const Id& structureHash, Participant& participant);
 
-    void update(const Peers& peers);  // after a change of them
-    bool everyCycle() const;          // somebody asks for each
-    std::int64_t due() const;         // when the next of the other streams is; far off: never
-    void step(std::int64_t now);      // writes what is due of the newest image
+    void update(const Peers& peers);  // after the peers have changed
+    bool everyCycle() const;          // whether somebody asks for every cycle
+    std::int64_t due() const;         // of the other streams; far in the future: never
+    void step(std::int64_t now);      // sends what is due, from the newest image
 
 private:
     struct Stream {
@@ -44,7 +45,7 @@ private:
     AgentSelf& self_;
     Participant& participant_;
     Id structureHash_;
-    std::uint32_t own_ = 0;  // simplexes that are not remote: they stand first
+    std::uint32_t own_ = 0;  // number of simplexes that are not remote; they come first
     std::array<Stream, 5> streams_;
     std::array<std::vector<bool>, 5> wanted_;  // by stream, then simplex
 };

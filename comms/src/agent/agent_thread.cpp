@@ -3,6 +3,7 @@
 
 #include "cortex/core/error.hpp"
 
+#include "base/clock.hpp"
 #include "security/security_identity.hpp"
 #include "wire/presence_interval.hpp"
 
@@ -19,7 +20,7 @@
 namespace cortex::comms {
 namespace {
 
-// To wake costs more than to take what has come: in a crowd less often.
+// Waking costs more than taking what has come. So the thread wakes less often in a crowd.
 constexpr std::chrono::milliseconds shortestWait{1}, longestWait{20}, longestInCrowd{100};
 constexpr std::chrono::microseconds moreForEach{500};
 constexpr std::size_t mostLostOwners = 16;
@@ -29,7 +30,7 @@ constexpr std::int64_t lead = 20'000;               // ns, before and after an e
 constexpr int timesStopping = 3;
 constexpr std::chrono::milliseconds pauseStopping{10};
 
-// Commands are urgent; the rest is taken at the next step.
+// Commands are urgent. Everything else waits for the next step.
 template <class Message>
 constexpr bool isUrgent = std::same_as<Message, Command>;
 
@@ -71,7 +72,7 @@ AgentThread::~AgentThread() {
 template <class Message>
 std::unique_ptr<Reader<Message>> AgentThread::receive(const Topic& topic) {
     return participant_.reader<Message>(topic, [this](Message&& message) {
-        if (!received_.push(std::move(message), steadyNow())) {
+        if (!received_.push(std::move(message), monotonicNow())) {
             self_.rejections.add("more messages than can be taken");
         } else if (isUrgent<Message>) {
             signals_.wake();
@@ -91,7 +92,7 @@ void AgentThread::write(Outbox& outbox) {
     if (!answers && !everyCycle) return;
     bool isTooEarly = false;
     if (everyCycle) {
-        const std::int64_t now = steadyNow();
+        const std::int64_t now = monotonicNow();
         isTooEarly = now < next_.load(std::memory_order_relaxed) - muchTooEarly;
         next_.store(now + self_.access.period, std::memory_order_relaxed);
     }
@@ -106,7 +107,7 @@ void AgentThread::run() {
     while (!stopping_.load()) {
         guarded([this] { step(); });
         // What is due waits for the next cycle where it has none.
-        const std::chrono::nanoseconds untilDue{streams_.due() - steadyNow()};
+        const std::chrono::nanoseconds untilDue{streams_.due() - monotonicNow()};
         const auto longest = std::min<std::chrono::nanoseconds>(
             longestWait + peers_.agents() * moreForEach, longestInCrowd);
         wait(std::clamp<std::chrono::nanoseconds>(untilDue, shortestWait, longest));
@@ -118,7 +119,7 @@ void AgentThread::run() {
 // Where somebody wants every cycle, the loop need not wake a thread that knows when it will have
 // written.
 void AgentThread::wait(std::chrono::nanoseconds limit) {
-    const std::int64_t now = steadyNow(), end = now + limit.count();
+    const std::int64_t now = monotonicNow(), end = now + limit.count();
     const std::int64_t next = next_.load(std::memory_order_relaxed);
     const bool isExpected = now < next + lead && next <= end;
     if (isExpected && self_.access.period >= shortestExpected) awaitWrite(next);
@@ -129,13 +130,13 @@ void AgentThread::wait(std::chrono::nanoseconds limit) {
 // Wakes up a little before that time and looks until a little after it. It yields, because the loop
 // may need this very CPU.
 void AgentThread::awaitWrite(std::int64_t time) {
-    while (signals_.value() == seen_ && steadyNow() < time - lead) {
+    while (signals_.value() == seen_ && monotonicNow() < time - lead) {
         signals_.napWhile(seen_, time - lead);
     }
-    while (signals_.value() == seen_ && steadyNow() < time + lead) std::this_thread::yield();
+    while (signals_.value() == seen_ && monotonicNow() < time + lead) std::this_thread::yield();
 }
 
-// Whatever others send, this thread goes on.
+// Whatever others send, this thread continues.
 template <class Function>
 void AgentThread::guarded(Function function) {
     try {
@@ -147,7 +148,7 @@ void AgentThread::guarded(Function function) {
 }
 
 void AgentThread::step() {
-    const std::int64_t now = steadyNow();
+    const std::int64_t now = monotonicNow();
     if (!silent_) streams_.step(now);
     takeMessages(now);
     reportRefusals();
@@ -179,11 +180,11 @@ void AgentThread::takeMessages(std::int64_t now) {
     messages_.commands.clear();
 }
 
-// What cannot be sent is not kept: the loop's other answers follow, and a sender asks again.
+// An answer that cannot be sent is dropped: the sender asks again.
 void AgentThread::sendAnswer(const Answer& answer) {
     if (silent_) return;
     try {
-        if (answers_.send(answer, steadyNow())) return;
+        if (answers_.send(answer, monotonicNow())) return;
         self_.rejections.add("commands of too many new senders at a time");
     } catch (const Error& error) {
         self_.rejections.add(error.what());
@@ -203,14 +204,14 @@ void AgentThread::changed() {
     listenToOwners();
 }
 
-// Those who are lost are listened to on, for when they are back.
+// Readers for lost owners are kept, for when they are back.
 void AgentThread::listenToOwners() {
     const std::set<std::string> owners = links_.owners();
     for (const std::string& owner : owners) {
         std::unique_ptr<Reader<Block>>& reader = linksIn_[owner];
         if (reader) continue;
         reader = participant_.reader<Block>(
-            topics::linkOf(owner), [this](Block&& block) { links_.take(block, steadyNow()); });
+            topics::linkOf(owner), [this](Block&& block) { links_.take(block, monotonicNow()); });
     }
     if (linksIn_.size() <= owners.size() + mostLostOwners) return;
     std::erase_if(linksIn_, [&](const auto& each) { return !owners.contains(each.first); });
@@ -241,15 +242,16 @@ void AgentThread::sendPresence(std::int64_t now) {
     presenceDue_ = std::max(presenceDue_ + said.interval, now + said.interval / 2);
 }
 
-// The network belongs to the later start: the last that is heard of this one.
+// The network belongs to the later start. This is the last message of the earlier one.
 void AgentThread::fallSilent() {
     if (std::exchange(silent_, true)) return;
     presenceOut_->write(presence("silent"));
 }
 
-// After the last cycle. Without dispose where we fell silent: the keys are the later start's. Said
-// more than once: others take the news that a writer is gone from another socket, and under load
-// it overtakes the last sample, which is not sent again to who listens with best effort.
+// Leaves the network after the last cycle. A silent agent disposes of nothing, because the keys
+// belong to the later start. The last presence is sent more than once: the end of the writer
+// travels through another socket. Under load it overtakes the last sample, which best-effort
+// readers do not get again.
 void AgentThread::leave() {
     step();
     if (silent_) return;

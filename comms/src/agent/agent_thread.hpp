@@ -23,12 +23,13 @@
 
 namespace cortex::comms {
 
-// One agent on the network: its participant and the communication thread, the only one that writes
-// to DDS. The constructor joins the network, run by announce(); read() and write() in the loop.
+// One agent on the network: its participant and its communication thread, the only thread that
+// writes to DDS. announce() runs the constructor, which joins the network. The loop calls read()
+// and write().
 class AgentThread {
 public:
     AgentThread(const AgentAccess& agent, const NetworkOptions& options);
-    ~AgentThread();  // says what is left to say and leaves the network
+    ~AgentThread();  // sends what is left and leaves the network
 
     void read(Inbox& inbox) CORTEX_REALTIME;
     void write(Outbox& outbox) CORTEX_REALTIME;
@@ -63,7 +64,7 @@ private:
     AgentSelf self_;
     AgentModel model_;
     Participant participant_;
-    EventCount signals_;  // to the communication thread, which sleeps on it
+    EventCount signals_;  // wakes the communication thread
     ReceivedQueue received_;
     std::unique_ptr<Writer<Presence>> presenceOut_;
     std::unique_ptr<Writer<Model>> modelOut_;
@@ -72,24 +73,24 @@ private:
     AgentAnswers answers_;
     AgentCommands commands_;
     AgentLinks links_;
-    std::unique_ptr<Writer<Interest>> interestOut_;  // null: we link nothing of others
+    std::unique_ptr<Writer<Interest>> interestOut_;  // null: this agent links nothing
     AgentStreams streams_;
     AgentPeers peers_;
     std::unique_ptr<Reader<Presence>> presenceIn_;
-    std::unique_ptr<Reader<Model>> modelIn_;  // null: as above
+    std::unique_ptr<Reader<Model>> modelIn_;  // null: this agent links nothing
     std::unique_ptr<Reader<Interest>> interestIn_;
     std::map<std::string, std::unique_ptr<Reader<Block>>> linksIn_;  // by owner
     std::unique_ptr<Reader<Command>> commandIn_;
 
-    // The communication thread's.
+    // These belong to the communication thread.
     ReceivedMessages messages_;
     std::vector<EventMessage> eventsToSend_;
-    std::uint64_t lastEvent_ = 0;  // that was written
+    std::uint64_t lastEvent_ = 0;  // number of the last event that was written
     std::int64_t presenceDue_ = 0;
-    std::uint32_t seen_ = 0;  // of signals_
+    std::uint32_t seen_ = 0;  // value of signals_
     bool silent_ = false;
 
-    std::atomic<bool> everyCycle_{false};  // somebody wants values
+    std::atomic<bool> everyCycle_{false};  // somebody reads every cycle
     std::atomic<std::int64_t> next_{0};    // when the loop is expected to write for them
     std::atomic<bool> stopping_{false};
     std::thread thread_;

@@ -7,16 +7,16 @@
 
 namespace cortex::comms {
 
-// How much longer than the quickest of the last 10 to 20 s a message of one sender took: in its
-// threads, on the network, in our queues. Nobody compares clocks, so what all of them take is not
-// seen; that clocks drift apart does not matter in so short a time.
+// Measures how much longer a message of one sender took than the quickest one of the last 10 to 20
+// s: in its threads, on the network and in our queues. Clocks of hosts are never compared, so what
+// all messages take is not seen. The drift of clocks does not matter in so short a time.
 class TransitDelay {
 public:
-    // Of the next message: `sent` by the sender's clock, `came` by ours; ns, below 2^62.
+    // The delay of the next message: `sent` by the sender's clock, `came` by ours; ns, below 2^62.
     std::int64_t next(std::int64_t sent, std::int64_t came) {
         if (sent < newest_) *this = {};  // its clock was set back
         newest_ = sent;
-        const std::int64_t way = came - sent;  // and what the clocks differ by
+        const std::int64_t way = came - sent;  // includes the difference of the two clocks
         if (came >= turn_) {
             before_ = turn_ == 0 ? way : least_;
             least_ = way;

@@ -9,7 +9,7 @@
 
 namespace cortex::comms {
 
-// Counts the other participants that are known. Any thread.
+// Counts the other participants that Fast DDS has discovered. Any thread.
 class DiscoveryCounter : public eprosima::fastdds::dds::DomainParticipantListener {
 public:
     std::uint32_t known() const { return known_; }

@@ -10,33 +10,55 @@
 
 namespace cortex::comms {
 
-// What a participant receives passes here, once it can take it. Any thread.
+// Holds back what a participant receives until it can process it, and passes it on one by one.
+//
+// **Invariants**
+// 1. A gate is closed for input at first. open() lets messages pass; it is called once the first
+//    endpoints exist. close() drops everything from then on, and is never undone.
+// 2. Every thread of Fast DDS that receives on the gated transport calls pass() for each message,
+//    and holds the lock that it returns until Fast DDS has processed the message.
+// 3. `passing_` is one lock for all participants of the process. So at most one thread processes a
+//    received message at a time.
+// 4. Whoever makes or deletes an endpoint, or changes the participant, calls hold() and keeps that
+//    lock meanwhile. Nothing is received then.
+// 5. A callback of DDS runs while its message passes, and so under the lock. It must never call
+//    hold(), nor wait for a thread that does.
+// 6. Fast DDS takes its own locks after `passing_`, never before it. So the order of locks is the
+//    same on every thread.
+// 7. pass() waits at most 250 ms for open(). So a participant that never opens its gate
+//    receives late, but the threads of Fast DDS never hang. After that time the gate counts as
+//    open.
+// 8. `isOpen_` only changes from false to true, and is written under `mutex_`, so that no waiting
+//    thread misses it.
 class Gate {
 public:
     void open();
-    // Nothing passes any more.
+    // Drops everything from now on.
     void close() { isClosed_ = true; }
-    // Waits until it is open, a quarter of a second at most; what is received passes meanwhile, if
-    // it owns the lock.
+    // Waits until the gate is open. A message passes while the result owns the lock; if it owns
+    // none, the message is dropped.
     std::unique_lock<std::mutex> pass();
-    // Nothing passes meanwhile. Not by a thread that something is just passed to.
+    // Nothing passes while the result owns the lock. A thread that processes a message must not
+    // call it.
     std::unique_lock<std::mutex> hold() { return std::unique_lock{passing_}; }
 
 private:
     std::atomic<bool> isOpen_{false}, isClosed_{false};
     std::mutex mutex_;
     std::condition_variable opened_;
-    static inline std::mutex passing_;  // of all participants of the process
+    static inline std::mutex passing_;  // for all participants of the process
 };
 
-// Makes up for faults of Fast DDS 2.9, in the first transport of a participant that is about to be
-// made. It announces a participant before it connects its receivers, so answers that come at once
-// are lost: what comes waits at the gate. It drops a message of a handshake while another thread
-// deals with the same participant, and with security its threads look up participants and endpoints
-// that others of them just make or delete: so what comes goes on one by one, and who makes or
-// deletes endpoints or changes the participant is to hold the gate. It ends the process where
-// somebody leaves just as his lease is looked at: who leaves himself closes the gate first. What is
-// lost comes again with the next announcement, and of a handshake after a second.
+// Works around faults of Fast DDS 2.9, in the first transport of a participant that is about to be
+// made:
+// 1. It announces a participant before it connects its receivers, and loses early answers. They
+//    wait at the gate.
+// 2. It drops a message of a handshake while another thread handles the same participant. With
+//    security, its threads look up participants and endpoints that other threads make or delete at
+//    that moment. So messages pass one by one, and changes hold the gate.
+// 3. An assertion ends the process when a participant leaves while its lease is checked. So a
+//    participant that leaves closes its gate first.
+// What is lost comes again with the next announcement, or after a second in a handshake.
 std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos);
 
 }  // namespace cortex::comms

@@ -52,7 +52,8 @@ std::string listed(const std::vector<Interface>& interfaces) {
     return list.empty() ? "none" : list;
 }
 
-// Like Fast DDS, which says nothing when it gets no port, and then hears nothing.
+// Tries the port as Fast DDS would. Fast DDS itself does not report a failure, and then receives
+// nothing.
 bool canBind(int port) {
     const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (descriptor < 0) {
@@ -89,7 +90,7 @@ std::vector<std::string> interfaceAddresses(const std::vector<std::string>& inte
 }
 
 int freeParticipant(int domain, int participants) {
-    const int first = 7410 + 250 * domain;  // as RTPS has it: 2 for each participant
+    const int first = 7410 + 250 * domain;  // as RTPS defines it: 2 for each participant
     const int end = first + 2 * participants;
     for (int port = first; port < end; port += 2) {
         if (canBind(port)) return (port - first) / 2;

@@ -16,8 +16,9 @@ struct Address {
 // IPv4 addresses of interfaces given by name or address; throws Error that lists the valid ones.
 std::vector<std::string> interfaceAddresses(const std::vector<std::string>& interfaces);
 
-// The lowest number of a participant of a domain whose port is free; throws Error if none of so
-// many is: others would not ask there. Fast DDS itself never uses a number twice in a process.
+// The lowest participant number of a domain whose port is free. Throws Error if the first
+// `participants` ports are taken, because others would not ask beyond them. Fast DDS itself never
+// uses a number twice in a process.
 int freeParticipant(int domain, int participants);
 
 // "host" or "host:port"; throws Error that names `option`.

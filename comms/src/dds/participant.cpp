@@ -46,7 +46,7 @@ Entity* created(Entity* entity, const std::string& what) {
 
 }  // namespace
 
-// Everybody hears twenty in a second at most.
+// So each participant receives at most twenty announcements a second.
 std::chrono::milliseconds announcementsAmong(std::uint32_t participants) {
     return std::chrono::milliseconds{std::clamp(50 * participants, 100U, 3'000U)};
 }
@@ -71,7 +71,7 @@ struct Participant::Impl {
         dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
     }
 
-    // With the gate held, as all that makes and deletes endpoints.
+    // To be called with the gate held, as everything that makes or deletes endpoints.
     template <class M>
     dds::Topic* topic(const std::string& topicName) {
         if (const auto found = topics.find(topicName); found != topics.end()) return found->second;
@@ -85,7 +85,7 @@ struct Participant::Impl {
         return made;
     }
 
-    // Only one that no endpoint uses is deleted.
+    // Deletes the topic if no endpoint uses it.
     void release(const dds::TopicDescription* used) {
         const auto found = topics.find(used->get_name());
         if (participant->delete_topic(found->second) == ReturnCode::RETCODE_OK) topics.erase(found);
@@ -107,8 +107,8 @@ Writer<M>::Writer(std::unique_ptr<Impl> impl) : impl_{std::move(impl)} {}
 
 template <class M>
 Writer<M>::~Writer() {
-    // Fast DDS 2.9 frees a history while heartbeats may still read it, and can loop for ever then:
-    // an empty one is safe.
+    // Fast DDS 2.9 frees a history while heartbeats may still read it, and can then loop for ever.
+    // An empty history is safe.
     const auto held = impl_->gate->hold();
     std::size_t removed = 0;
     impl_->writer->clear_history(&removed);
@@ -180,7 +180,7 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
     } else {
         impl_->listener = std::make_unique<DiscoveryCounter>();
     }
-    static std::mutex joining;  // Fast DDS asks who the user is, which no two threads may
+    static std::mutex joining;  // Fast DDS looks up the user, which is not safe for two threads
     const std::lock_guard lock{joining};
     dds::DomainParticipantQos qos = participantQos(options, name);
     impl_->gate = addGate(qos);
@@ -189,11 +189,12 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
     const auto join = [&] {
         return dds::DomainParticipantFactory::get_instance()->create_participant(
             static_cast<dds::DomainId_t>(options.domain), qos, impl_->listener.get(),
-            dds::StatusMask::none());  // it hears of participants, which no mask is about
+            dds::StatusMask::none());  // participants are reported without a mask
     };
     impl_->participant = join();
     if (impl_->participant == nullptr) {
-        // Perhaps one of this process has the number and not the port: whichever is free.
+        // Another participant of this process may have the number and not the port. Fast DDS then
+        // chooses.
         qos.wire_protocol().participant_id = -1;
         impl_->participant = created(join(), "the network membership" + where);
     }
@@ -250,7 +251,7 @@ void Participant::announce() {
     const auto now = std::chrono::steady_clock::now();
     if (now < self.announceDue) return;
     self.announceDue = now + announcementsAmong(self.listener->known());
-    // Fast DDS announces at once what has changed; it locks in another order then than where it
+    // Fast DDS announces a change at once. It then takes its locks in another order than where it
     // receives.
     const auto held = self.gate->hold();
     dds::DomainParticipantQos qos = self.participant->get_qos();

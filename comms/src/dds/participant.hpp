@@ -16,7 +16,7 @@ namespace cortex::comms {
 
 class SecurityIdentity;
 
-// Writes messages to one topic; to be used and destroyed before its participant. Any thread.
+// Writes messages to one topic. It is used and destroyed before its participant. Any thread.
 template <class M>
 class Writer {
 public:
@@ -24,7 +24,7 @@ public:
 
     bool write(const M& message);  // false: nothing was written
     bool dispose(const M& message)
-        requires Keyed<M>;  // of what was written; only the key counts
+        requires Keyed<M>;  // of a written sample; only the key counts
     std::uint32_t readers() const;
 
 private:
@@ -35,8 +35,9 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-// Hands over what arrives on one topic, on threads of DDS, one call at a time. No call begins or
-// runs after its destructor, which must not be called from one. Destroyed before its participant.
+// Passes on what arrives on one topic. The callbacks run on threads of DDS, one at a time. None
+// begins or runs after the destructor, which must not be called from a callback. It is destroyed
+// before its participant.
 template <class M>
 class Reader {
 public:
@@ -52,14 +53,14 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-// The membership of an agent or a tool in a domain; the only place that knows Fast DDS.
-// Constructor, writer() and reader() throw Error; one thread at a time.
+// The membership of an agent or a tool in a domain; the only class that knows Fast DDS. The
+// constructor, writer() and reader() throw Error. One thread at a time.
 class Participant {
 public:
     enum class Speaks { AtOnce, WhenTold };
 
-    // What is made and written before it speaks is told to all who are there at once; what comes
-    // one by one later costs them all a talk about each.
+    // The others learn in one message what was made and written before speak(). What is made later
+    // costs an exchange with each of them.
     Participant(const NetworkOptions& options, const std::string& name,
                 Speaks speaks = Speaks::AtOnce);
     ~Participant();
@@ -68,23 +69,23 @@ public:
     std::unique_ptr<Writer<M>> writer(const Topic& topic);
 
     void speak();
-    // All that others say from now on is dropped; before its endpoints are destroyed.
+    // Drops everything that arrives from now on. To be called before the endpoints are destroyed.
     void stopListening();
 
-    // The callbacks should take the sample and return: while they run, nothing else arrives.
-    // A key that was never heard may be disposed too.
+    // A callback should only take the sample and return: nothing else arrives while it runs. A key
+    // that never had a sample may be disposed too.
     template <class M>
     std::unique_ptr<Reader<M>> reader(const Topic& topic, std::function<void(M&&)> onSample,
                                       std::function<void(const Id&)> onDisposed = {});
 
-    // Others are told of us every 3 s or, in a crowd, more seldom; this, called often while
-    // somebody is missed who may have forgotten us, does so more often.
+    // Fast DDS announces this participant every 3 s, or less often in a crowd. Calling this often,
+    // while another participant may have forgotten us, announces it more often.
     void announce();
 
-    std::uint64_t malformed() const;  // samples that did not decode, or that a callback threw at
+    std::uint64_t malformed() const;  // samples that did not decode, or at which a callback threw
 
     SecurityIdentity* identity() const;  // null: without security
-    // What security has refused since the last call, in words, and how often since the start.
+    // What security has refused since the last call, as sentences, and how often since the start.
     std::vector<std::string> takeRefusals();
     std::uint64_t refused() const;
     std::uint32_t pending() const;  // others that are not authenticated yet

@@ -36,14 +36,14 @@ using eprosima::fastrtps::rtps::GuidPrefix_t;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 
-constexpr int ParticipantsPerHost = 300;     // for which a free port is searched
-constexpr std::uint32_t PeersPerHost = 100;  // ports asked on a peer without a port
-constexpr std::uint32_t AskedOnLoopback = 8;
-constexpr std::uint32_t LargestDatagram = 65536;
-constexpr std::uint32_t LargestBuffer = 64u << 20;
-constexpr const char* Packets = "packets of samples";  // see limitPackets()
-constexpr std::int32_t LargestPacket = 60'000;
-constexpr const char* DiscoveryMulticast = "239.255.0.1";
+constexpr int participantsPerHost = 300;     // for which a free port is searched
+constexpr std::uint32_t peersPerHost = 100;  // ports asked on a peer without a port
+constexpr std::uint32_t askedOnLoopback = 8;
+constexpr std::uint32_t largestDatagram = 65536;
+constexpr std::uint32_t mostBufferSize = 64u << 20;
+constexpr const char* packets = "packets of samples";  // see limitPackets()
+constexpr std::int32_t largestPacket = 60'000;
+constexpr const char* discoveryMulticast = "239.255.0.1";
 
 Duration_t milliseconds(std::uint32_t count) {
     return {static_cast<std::int32_t>(count / 1000), count % 1000 * 1'000'000};
@@ -54,7 +54,7 @@ std::uint32_t largestBuffer(const char* file) {
     std::uint64_t octets = 0;
     std::ifstream{file} >> octets;
     return static_cast<std::uint32_t>(
-        std::clamp<std::uint64_t>(octets, LargestDatagram, LargestBuffer));
+        std::clamp<std::uint64_t>(octets, largestDatagram, mostBufferSize));
 }
 
 Locator_t locatorOf(const Address& address, std::uint16_t port) {
@@ -67,8 +67,9 @@ Locator_t locatorOf(const Address& address, std::uint16_t port) {
 
 bool isLoopback(const std::string& ip) { return ip.starts_with("127."); }
 
-// Peers replace the multicast address that is asked by default, so it is named beside them. On
-// loopback alone other vendors hear no multicast: the first few participants are asked one by one.
+// Peers replace the multicast address that Fast DDS asks by default, so that address is named as
+// well. Other vendors hear no multicast on the loopback interface alone: there the first few
+// participants are asked one by one.
 void addPeers(dds::WireProtocolConfigQos& protocol, const NetworkOptions& options,
               const std::vector<std::string>& interfaces) {
     auto& list = protocol.builtin.initialPeersList;
@@ -76,21 +77,21 @@ void addPeers(dds::WireProtocolConfigQos& protocol, const NetworkOptions& option
         list.push_back(locatorOf(addressOf(peer, "peer"), 0));
     }
     if (!interfaces.empty() && std::ranges::all_of(interfaces, isLoopback)) {
-        for (std::uint32_t i = 0; i < AskedOnLoopback; ++i) {
+        for (std::uint32_t i = 0; i < askedOnLoopback; ++i) {
             const auto port =
                 protocol.port.getUnicastPort(static_cast<std::uint32_t>(options.domain), i);
             list.push_back(locatorOf({interfaces.front()}, static_cast<std::uint16_t>(port)));
         }
     }
-    // With its port: without one, Fast DDS 2.9 asks it at the ports of single participants, where
-    // nobody listens.
+    // The address has its port, because Fast DDS 2.9 would otherwise ask it at the ports of single
+    // participants, where nobody listens.
     const auto port = protocol.port.getMulticastPort(static_cast<std::uint32_t>(options.domain));
     if (!list.empty()) {
-        list.push_back(locatorOf({DiscoveryMulticast}, static_cast<std::uint16_t>(port)));
+        list.push_back(locatorOf({discoveryMulticast}, static_cast<std::uint16_t>(port)));
     }
 }
 
-// What no other participant has, of this process or another: the vendor, the host, and chance.
+// A prefix that no other participant of any process has: vendor, host and random numbers.
 GuidPrefix_t newPrefix() {
     static std::random_device chance;
     static std::mutex mutex;
@@ -123,12 +124,12 @@ void addServers(BuiltinAttributes& builtin, std::string_view servers) {
         eprosima::fastrtps::rtps::DiscoveryProtocol_t::CLIENT;
 }
 
-// Fast DDS 2.9 packs samples that are sent one after another into messages that leave no room for
-// what security adds to a message, and then ends the process. So much is sent in a millisecond.
+// Fast DDS 2.9 packs consecutive samples into messages that leave no room for what security adds,
+// and then ends the process. This limits what is sent in a millisecond.
 void limitPackets(dds::DomainParticipantQos& qos) {
     auto limit = std::make_shared<transport::FlowControllerDescriptor>();
-    limit->name = Packets;
-    limit->max_bytes_per_period = LargestPacket;
+    limit->name = packets;
+    limit->max_bytes_per_period = largestPacket;
     limit->period_ms = 1;
     qos.flow_controllers().push_back(std::move(limit));
 }
@@ -168,10 +169,10 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
         throw Error{"domain " + std::to_string(options.domain) + " of '" + name +
                     "' does not exist; choose one from 0 to " + std::to_string(lastDomain)};
     }
-    const int number = freeParticipant(options.domain, ParticipantsPerHost);
+    const int number = freeParticipant(options.domain, participantsPerHost);
     auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = interfaceAddresses(options.interfaces);
-    udp->maxInitialPeersRange = PeersPerHost;
+    udp->maxInitialPeersRange = peersPerHost;
     udp->receiveBufferSize = largestBuffer("/proc/sys/net/core/rmem_max");
     udp->sendBufferSize = largestBuffer("/proc/sys/net/core/wmem_max");
 
@@ -191,10 +192,10 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     qos.wire_protocol().prefix = newPrefix();
     BuiltinAttributes& builtin = qos.wire_protocol().builtin;
     builtin.use_WriterLivelinessProtocol = false;  // liveliness is our own
-    builtin.mutation_tries = static_cast<std::uint32_t>(ParticipantsPerHost);
-    // Liveness is our own, so leases may be long: where one ends just as its participant leaves,
-    // Fast DDS 2.9 ends the process by an assertion; and among many, on a busy host, what ends
-    // because it was late must be found again, which makes others late.
+    builtin.mutation_tries = static_cast<std::uint32_t>(participantsPerHost);
+    // CorteX has its own presences, so leases may be long. An assertion of Fast DDS 2.9 ends the
+    // process where a lease ends just as its participant leaves. On a busy host with many
+    // participants, a lease that ended by mistake also causes more work, and so more delays.
     const auto others = static_cast<std::uint32_t>(number);
     builtin.discovery_config.leaseDuration = milliseconds(10'000 + 1'000 * others);
     builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(3'000 + 150 * others);
@@ -210,17 +211,17 @@ dds::DataWriterQos writerQos(Qos qos, int othersOnHost, bool secured) {
     const Profile& profile = profileOf(qos);
     dds::DataWriterQos writer;
     apply(profile, writer);
-    if (qos == Qos::Log) {  // of one key; all at once, so that an agent does not grow as it fills
+    if (qos == Qos::Log) {  // reserved at once, so that an agent does not grow later
         auto& limits = writer.resource_limits();
         limits.max_instances = 1;
         limits.max_samples = limits.max_samples_per_instance = limits.allocated_samples =
             profile.depth;
     }
     writer.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
-    // What late joiners get is much at once; of the rest a sample is sent at a time.
+    // Late joiners get much at once. Everything else is sent one sample at a time.
     if (secured && (qos == Qos::State || qos == Qos::Log)) {
         writer.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
-        writer.publish_mode().flow_controller_name = Packets;
+        writer.publish_mode().flow_controller_name = packets;
     }
     if (profile.reliable) {
         const auto others = static_cast<std::uint32_t>(profile.lateJoiners ? othersOnHost : 0);
@@ -235,7 +236,7 @@ dds::DataReaderQos readerQos(Qos qos, int othersOnHost) {
     dds::DataReaderQos reader;
     const Profile& profile = profileOf(qos);
     apply(profile, reader);
-    if (profile.lateJoiners) {  // what was written before is asked for soon
+    if (profile.lateJoiners) {  // earlier samples are requested soon
         reader.reliable_reader_qos().times.initialAcknackDelay =
             milliseconds(5 + static_cast<std::uint32_t>(othersOnHost));
         reader.reliable_reader_qos().times.heartbeatResponseDelay = milliseconds(1);
@@ -246,7 +247,7 @@ dds::DataReaderQos readerQos(Qos qos, int othersOnHost) {
 void setUpFastDds() {
     static std::once_flag once;
     std::call_once(once, [] {
-        // Kept for ever: its destructor would hold up the end of the process by 100 ms.
+        // This is never destroyed: the destructor would delay the end of the process by 100 ms.
         static const auto* const factory =
             new auto{dds::DomainParticipantFactory::get_shared_instance()};
         (*factory)->load_profiles();

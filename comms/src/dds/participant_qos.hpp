@@ -11,20 +11,20 @@
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 
-// What is asked of Fast DDS.
+// The settings with which Fast DDS is used.
 namespace cortex::comms {
 
-// Throws Error about options that cannot be had on this machine.
+// Throws Error if this machine cannot provide what the options ask for.
 eprosima::fastdds::dds::DomainParticipantQos participantQos(const NetworkOptions& options,
                                                             const std::string& name);
-// While one reader lacks a sample, all are sent heartbeats, and all answer: in a crowd more seldom,
-// or it comes to nothing else. `othersOnHost`: participants in the domain.
+// While one reader lacks a sample, Fast DDS sends heartbeats to all readers, and all answer. So
+// heartbeats are less frequent in a crowd. `othersOnHost`: participants in the domain.
 eprosima::fastdds::dds::DataWriterQos writerQos(Qos qos, int othersOnHost = 0,
                                                 bool secured = false);
 eprosima::fastdds::dds::DataReaderQos readerQos(Qos qos, int othersOnHost = 0);
 
-// For the whole process, at the first call: its log is off unless CORTEX_DDS_LOG is set, and two
-// participants of one process talk as those of two would.
+// Takes effect once for the whole process. It turns the log of Fast DDS off unless CORTEX_DDS_LOG
+// is set, and lets two participants of one process talk as those of two processes do.
 void setUpFastDds();
 
 }  // namespace cortex::comms

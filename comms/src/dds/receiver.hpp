@@ -17,7 +17,7 @@
 
 namespace cortex::comms {
 
-// Takes samples out of a reader as they arrive; decides alone whether a callback may still run.
+// Takes samples from a reader as they arrive. It alone decides whether a callback may still run.
 template <class M>
 class Receiver final : public eprosima::fastdds::dds::DataReaderListener {
     using SampleInfo = eprosima::fastdds::dds::SampleInfo;
@@ -32,7 +32,8 @@ public:
           malformed_{malformed},
           guard_{guard} {}
 
-    // Fast DDS holds the reader's lock here, so ours is never held while that one is asked for.
+    // Fast DDS holds the lock of the reader here. So our lock is never held while that lock is
+    // requested.
     void on_data_available(DataReader* reader) override {
         while (takeOne(*reader)) continue;
     }

@@ -10,7 +10,7 @@ namespace {
 
 namespace rtps = eprosima::fastrtps::rtps;
 constexpr std::size_t mostFound = 4'096;
-constexpr std::size_t longestName = 64;  // of what others say that is repeated in an event
+constexpr std::size_t longestName = 64;  // of a foreign name in an event
 constexpr std::chrono::seconds usualHandshake{2}, longestHandshake{5};
 
 std::string calledItself(const std::string& name) {
@@ -60,7 +60,7 @@ void SecurityGuard::onParticipantAuthentication(Dds*, rtps::ParticipantAuthentic
                   " is refused: it has no certificate of our authority");
 }
 
-// Authenticated is not yet heard: keys and endpoints are exchanged first.
+// An authenticated participant first exchanges keys and endpoints, so its first sample comes later.
 std::uint32_t SecurityGuard::pending() {
     const std::lock_guard lock{mutex_};
     const auto now = Clock::now();
@@ -72,14 +72,15 @@ std::uint32_t SecurityGuard::pending() {
     }));
 }
 
-// Who refuses our certificate does not show its own: all that we see is that nothing comes of it.
+// A participant that refuses our certificate does not show its own. All that can be seen is that
+// the handshake does not end.
 std::vector<std::string> SecurityGuard::takeRefusals() {
     {
         const std::lock_guard lock{mutex_};
         const auto now = Clock::now();
         for (auto& [guid, found] : found_) {
-            if (!found.pending || found.told || now - found.since < longestHandshake) continue;
-            found.told = true;
+            if (!found.pending || found.reported || now - found.since < longestHandshake) continue;
+            found.reported = true;
             ++refused_;
             refusals_.add("a participant" + calledItself(found.name) +
                           " is refused: it does not prove that it has a certificate");

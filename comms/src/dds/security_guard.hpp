@@ -30,8 +30,8 @@ inline const std::string& claimedName(const Command& sample) { return sample.sen
 inline const std::string& claimedName(const Answer& sample) { return sample.agent; }
 inline const std::string& claimedName(const EventMessage& sample) { return sample.name; }
 
-// Stands at the entry of a participant with security: asks Fast DDS for it, hears of participants
-// that it refused, and refuses samples with a name that is not their sender's. Any thread.
+// Guards a participant with security: asks Fast DDS for security, notices participants that Fast
+// DDS refused, and refuses samples whose name is not that of their sender. Any thread.
 class SecurityGuard final : public DiscoveryCounter {
     using Guid = eprosima::fastrtps::rtps::GUID_t;
     using Dds = eprosima::fastdds::dds::DomainParticipant;
@@ -42,20 +42,21 @@ public:
         : identity_{folder, name, domain} {}
 
     SecurityIdentity& identity() { return identity_; }
-    // What was refused since the last call, in words.
+    // What was refused since the last call, as sentences.
     std::vector<std::string> takeRefusals();
     std::uint64_t refused() const { return refused_; }
-    // Participants found lately that are not refused and have not given a name yet.
+    // The number of participants that were found recently, are not refused, and have not sent a
+    // name yet.
     std::uint32_t pending();
 
-    // What is claimed is a name, or the id of one.
+    // A claim is a name or the id of a name.
     template <class Claim>
     bool admits(const eprosima::fastrtps::rtps::InstanceHandle_t& writer, const Claim& claim) {
         GuidPrefix participant{};
         for (std::size_t i = 0; i < participant.size(); ++i) participant[i] = writer.value[i];
         if (identity_.maySpeakFor(participant, claim)) return true;
         const bool early = std::is_same_v<Claim, Id> && !identity_.hasSpoken(participant);
-        if (!early) refuse(claim);  // else its name is still to come
+        if (!early) refuse(claim);  // otherwise its name may still come
         return false;
     }
 
@@ -73,9 +74,9 @@ private:
     std::atomic<std::uint64_t> refused_{0};
     using Clock = std::chrono::steady_clock;
     struct Found {
-        std::string name;  // that it gives itself, unproven
+        std::string name;  // as it calls itself; not proven
         Clock::time_point since = Clock::now();
-        bool pending = true, refused = false, told = false;
+        bool pending = true, refused = false, reported = false;
     };
     std::mutex mutex_;
     std::map<Guid, Found> found_;

@@ -11,8 +11,8 @@
 
 namespace cortex::comms {
 
-// What security has refused on threads of DDS, on its way to who reports it: each text once in ten
-// seconds, however often it happens. Bounded. Any thread.
+// Collects what security has refused on threads of DDS. Each text is kept once in ten seconds,
+// however often it occurs. It is bounded. Any thread.
 class Refusals {
 public:
     void add(std::string text) {

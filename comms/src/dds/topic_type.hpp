@@ -14,22 +14,23 @@
 
 namespace cortex::comms {
 
-// What Fast DDS knows as one sample: a message to be written, or the place of one that was read.
+// One sample as Fast DDS handles it: a message to be written, or the place for one that is read.
 template <class M>
 struct Envelope {
     const M* outgoing = nullptr;
     M incoming;
-    bool wellFormed = false;  // of what was read; a message that is not must still be taken
+    bool wellFormed = false;  // of a message that was read; a malformed one must still be taken
 
     const M& message() const { return outgoing ? *outgoing : incoming; }
 };
 
-// Tells Fast DDS how a message is encoded and what its key is. Stateless: any thread, never throws.
+// Tells Fast DDS how a message is encoded and what its key is. It has no state and never throws.
+// Any thread.
 template <class M>
 class TopicType final : public eprosima::fastdds::dds::TopicDataType {
     using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
     using Handle = eprosima::fastrtps::rtps::InstanceHandle_t;
-    static constexpr std::uint32_t usualSize = 256;  // only what a history reserves to begin with
+    static constexpr std::uint32_t usualSize = 256;  // what a history reserves at first
 
 public:
     TopicType() {
@@ -48,7 +49,8 @@ public:
         return length != 0;
     }
 
-    // A malformed payload is no failure: Fast DDS would keep it and offer it again.
+    // A malformed payload counts as success here. Otherwise Fast DDS would keep it and offer it
+    // again.
     bool deserialize(Payload* payload, void* data) override {
         auto& envelope = *static_cast<Envelope<M>*>(data);
         const std::span<const std::uint8_t> octets{payload->data, payload->length};

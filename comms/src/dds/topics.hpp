@@ -11,11 +11,11 @@
 namespace cortex::comms {
 
 enum class Qos {
-    State,     // reliable; who joins late gets the newest of each key
-    Cycle,     // best effort; newest wins
-    Exchange,  // reliable; the newest 64 of each key, nothing for who joins late
-    Log,       // reliable; a writer has one key, and who joins late gets the newest 1000 of it
-    Beacon,    // as State, and written so often that the next sample makes up for a lost one
+    State,     // reliable; a late joiner gets the newest sample of each key
+    Cycle,     // best effort; the newest sample wins
+    Exchange,  // reliable; keeps 64 samples of each key, and a late joiner gets none
+    Log,       // reliable; a writer has one key, and a late joiner gets its newest 1000 samples
+    Beacon,    // as State, but written so often that the next sample replaces a lost one
 };
 
 struct Topic {

@@ -14,8 +14,8 @@
 namespace cortex::comms {
 namespace {
 
-// Several of a tool may run at once, and several mirrors in one process. With security it has the
-// name that its certificate says.
+// Several instances of a tool may run at once, and several mirrors in one process. With security
+// the name is that in the certificate.
 std::string ownName(const std::string& tool, const NetworkOptions& options) {
     static std::atomic<int> made{0};
     std::array<char, 64> host{};

@@ -16,7 +16,7 @@ constexpr std::uint16_t major = 1;
 constexpr std::size_t mostAgents = 10'000;
 constexpr std::chrono::seconds forgottenAfter{61};
 
-// Own simplexes of an agent that a view shows.
+// Visits those of an agent's own simplexes that a view shows.
 template <class Visit>
 void forShown(const Structure& structure, const MirrorView& view, Visit visit) {
     for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
@@ -31,7 +31,7 @@ bool showsAny(const Structure& structure, const MirrorView& view) {
     return any;
 }
 
-// 0: it does not say.
+// 0: the presence does not say so.
 std::uint64_t numberIn(const Presence& presence, std::string_view name) {
     std::uint64_t number = 0;
     for (const Extra& extra : presence.extras) {
@@ -79,7 +79,7 @@ AgentStatus MirrorAgent::status(Moment now) const {
     return status;
 }
 
-// Null: it is refused, or was sent by an earlier start while a later one is heard.
+// Null: the sample is refused, or comes from an earlier start while a later one is present.
 MirrorAgent* MirrorAgents::at(const std::string& name, std::int64_t epoch, Moment now) {
     const auto found = agents_.find(name);
     if (found != agents_.end()) {
@@ -111,7 +111,7 @@ std::optional<PeerModel> MirrorAgents::takeAside(const std::string& name, std::i
     return model;
 }
 
-// Models come once: what an earlier start says is kept for when the later one is lost.
+// A model comes only once. So that of an earlier start is kept in case the later one is lost.
 void MirrorAgents::setAside(const Model& model) {
     if (!agents_.contains(model.agent)) return;
     auto place = aside_.try_emplace(model.agent, model.agent, model.epoch).first;
@@ -119,7 +119,7 @@ void MirrorAgents::setAside(const Model& model) {
     place->second.add(model);
 }
 
-// It may only have been cut off, and DDS does not say again what has come.
+// The agent may only have been cut off, and DDS does not deliver a sample twice.
 void MirrorAgents::forget(MirrorAgent& agent) {
     const std::string name = agent.model.agent();
     if (aside_.size() < mostAgents) aside_.insert_or_assign(name, std::move(agent.model));
@@ -181,7 +181,7 @@ std::optional<AgentEvent> MirrorAgents::take(const EventMessage& message) {
                       *severity,    message.kind,  message.path,   message.text};
 }
 
-// A structure once it is complete, tables once it is viewed.
+// Builds the structure once the model is complete, and tables once it is viewed.
 void MirrorAgents::finish(MirrorAgent& agent) {
     if (agent.foreign() || !agent.model.complete()) return;
     const auto structure = agent.model.structure();
@@ -291,7 +291,7 @@ std::uint32_t MirrorAgents::unheard() const {
                : 0;
 }
 
-// They come in order; perhaps before the agent is known.
+// Events come in order, perhaps before the agent is known.
 bool MirrorAgents::eventsComplete() const {
     return std::ranges::all_of(agents_, [&](const auto& each) {
         const auto& [name, agent] = each;

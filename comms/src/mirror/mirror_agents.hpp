@@ -23,7 +23,7 @@ struct MirrorAgent {
 
     PeerModel model;
     Moment heard;                                   // last
-    bool lost = false, missed = false;              // missed: lost without a word
+    bool lost = false, missed = false;              // missed: lost without saying so
     std::int64_t cycle = 0;                         // newest
     std::shared_ptr<const Structure> structure;     // once it is complete
     std::shared_ptr<const CommandTables> commands;  // once one was sent
@@ -31,16 +31,16 @@ struct MirrorAgent {
     std::uint64_t lastEvent = 0, eventLoss = 0;
 
     bool present() const { return model.presence().has_value(); }
-    // It speaks no protocol that we do; there is no more of it than its presence.
+    // It speaks no version of the protocol that this mirror does, so only its presence is known.
     bool foreign() const;
     bool settled() const { return lost || foreign() || (present() && model.complete()); }
-    std::chrono::nanoseconds patience() const;  // that a silence may last
+    std::chrono::nanoseconds patience() const;  // how long it may be silent
     AgentStatus status(Moment now) const;
 };
 
-// The agents of the domain: of the starts of a name that are heard the greater epoch wins; what
-// is silent for longer than it said is lost, and forgotten after a minute. Used under the mirror's
-// mutex.
+// The agents of the domain. Of several starts of one name the one with the greatest epoch wins. An
+// agent that is silent for longer than it announced is lost, and forgotten after a minute. Used
+// under the mutex of the mirror.
 class MirrorAgents {
 public:
     using Map = std::map<std::string, MirrorAgent, std::less<>>;
@@ -52,7 +52,7 @@ public:
     void take(const Presence& presence, Moment now);
     void take(const Model& model, Moment now);
     void take(const Block& block, const MirrorView& view, Moment now);
-    // What listeners are to be told; none: it is refused.
+    // The event for the listeners. None: it was refused.
     std::optional<AgentEvent> take(const EventMessage& message);
     void withdraw(const Id& agent);
     void tick(const MirrorView& view, Moment now);
@@ -61,12 +61,12 @@ public:
     Map& all() { return agents_; }
     const Map& all() const { return agents_; }
     MirrorAgent* find(std::string_view name);
-    MirrorAgent* ownerOf(std::string_view path);  // null: nobody's
-    std::uint32_t present() const;                // agents and tools that are heard
-    bool missesAny() const;                       // that are lost without a word
-    bool complete() const;                        // somebody is there, and all of everybody
-    std::uint32_t unheard() const;                // agents: so many more one of them hears
-    bool eventsComplete() const;                  // all that those who are heard have written
+    MirrorAgent* ownerOf(std::string_view path);  // null: nobody owns it
+    std::uint32_t present() const;                // number of agents and tools
+    bool missesAny() const;                       // lost without saying so
+    bool complete() const;                        // at least one agent, and everything of all
+    std::uint32_t unheard() const;                // agents that only another agent hears
+    bool eventsComplete() const;                  // all events of the present agents have come
     bool valuesComplete(const MirrorView& view) const;
     std::uint64_t images() const;  // published, of all together
     std::uint64_t refused() const;

@@ -16,11 +16,12 @@ namespace {
 
 constexpr std::size_t keptNumbers = 1000;
 constexpr std::chrono::milliseconds longestPause{200};
-// An answer that was not heard by then: the agent has let the command expire, and said so in vain.
+// After this time no answer can come any more: the agent has let the command expire, and its answer
+// was lost.
 constexpr std::chrono::seconds grace{1};
 
-// An agent that speaks more seldom than ten times a second has gone on since its newest cycle was
-// heard: for so long, without the tenth of a second that all commands wait.
+// An agent that sends fewer than ten presences a second has continued since its newest known cycle.
+// This is that time, without the tenth of a second that every command allows for.
 std::int64_t unheardOf(const MirrorAgent& agent, Moment now) {
     const std::int64_t silence =
         std::min((now - agent.heard).count(), agent.model.presence()->interval);
@@ -97,7 +98,7 @@ void MirrorCommands::take(const Answer& answer) {
     if (found == targets_.end()) return;
     Target& target = found->second;
     const auto pending = target.pending.find(answer.sequenceNumber);
-    if (pending == target.pending.end()) return;  // a repeat
+    if (pending == target.pending.end()) return;  // it was answered before
     const auto outcome = outcomeFromName(answer.outcome);
     const auto reason = reasonFromName(answer.reason);
     auto response = valuesOf(answer.response);

@@ -14,8 +14,8 @@
 
 namespace cortex::comms {
 
-// What a tool has asked of agents and their answers. A command is sent again, as it is, until it is
-// answered: agents know repeats by their number and execute none. Used under the mirror's mutex.
+// The commands of a tool and their answers. A command is sent again, unchanged, until it is
+// answered: agents recognise its number and execute it once. Used under the mutex of the mirror.
 class MirrorCommands {
 public:
     using Write = std::function<bool(const Command&)>;

@@ -61,7 +61,7 @@ MirrorEndpoints::~MirrorEndpoints() {
     presence_->dispose(self_);
 }
 
-// Before anything of us can matter to an agent: that we are here.
+// An agent must know of this tool before it can act on anything else of it.
 void MirrorEndpoints::speak() {
     if (presence_) return;
     presence_ = participant_.writer<Presence>(topics::presence);
@@ -109,7 +109,7 @@ void MirrorEndpoints::listen() {
         topics::event, [this](EventMessage&& sample) { inbox_.push(std::move(sample)); });
 }
 
-void MirrorEndpoints::tell(const MirrorAgents& agents, Moment now) {
+void MirrorEndpoints::announce(const MirrorAgents& agents, Moment now) {
     if (presence_ && (now - spoke_).count() >= self_.interval) {
         self_.interval = intervalAmong(presence_->readers());
         presence_->write(self_);

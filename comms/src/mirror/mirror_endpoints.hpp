@@ -10,20 +10,20 @@
 
 namespace cortex::comms {
 
-// What a mirror has on the network: readers of presence and models always, all else from its first
-// use on, for discovery costs. The mirror's thread.
+// The endpoints of a mirror. Readers of presence and models always exist; the others are made when
+// they are first needed, because each costs discovery. Only the mirror's thread uses it.
 class MirrorEndpoints {
 public:
     MirrorEndpoints(const NetworkOptions& options, const Sender& tool, MirrorInbox& inbox);
     ~MirrorEndpoints();
 
-    void view(const MirrorView& view);  // the stream of its class or none, and tells agents so
+    void view(const MirrorView& view);  // reads its stream and informs the agents
     void command();
     void listen();
-    void tell(const MirrorAgents& agents, Moment now);  // that we are here
+    void announce(const MirrorAgents& agents, Moment now);  // this tool
     bool write(const Command& command);
 
-    // Agents and tools; with security also those that are to prove that they are.
+    // The number of agents and tools, and with security of those that have yet to prove themselves.
     std::uint32_t speakers() const { return presences_->writers() + participant_.pending(); }
     std::uint64_t malformed() const { return participant_.malformed() + participant_.refused(); }
 
@@ -43,7 +43,7 @@ private:
     std::unique_ptr<Reader<EventMessage>> events_;
     Presence self_;
     Moment spoke_{};
-    MirrorView view_;  // that agents were told of
+    MirrorView view_;  // the one that the agents know
 };
 
 }  // namespace cortex::comms

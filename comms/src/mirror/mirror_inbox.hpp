@@ -20,12 +20,12 @@ struct Withdrawn {
 
 using MirrorSample = std::variant<Presence, Model, Block, Answer, EventMessage, Withdrawn>;
 
-// Samples on their way from the threads of DDS to the mirror's; bounded. Any thread.
+// Carries samples from the threads of DDS to the mirror's thread. It is bounded. Any thread.
 class MirrorInbox {
 public:
     void push(MirrorSample sample);
     void wake();  // take() returns
-    // What has come, in order; waits for something until `limit`.
+    // Takes what has come, in order. Waits for something until `limit`.
     std::vector<MirrorSample> take(Moment limit);
     std::uint64_t dropped() const;  // for lack of room
 

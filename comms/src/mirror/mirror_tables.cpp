@@ -47,7 +47,7 @@ bool MirrorTables::applySimplex(const SimplexData& data, const Block& block, Mom
     const SimplexInfo& info = structure_->simplexes[data.index];
     if (info.remote || !fits(data, *info.layout)) return false;
     const Slice slice = tables_.live(data.index);
-    // A cycle that is said again does not become newer.
+    // A cycle that is sent again does not become newer.
     const bool known = simplexes_[data.index].received && slice.state->quality != Quality::Lost;
     if (known && block.cycle == cycle_) return true;
     storeValues(data, *info.layout, slice);
@@ -57,7 +57,7 @@ bool MirrorTables::applySimplex(const SimplexData& data, const Block& block, Mom
     return true;
 }
 
-// False: its quality is as bad already.
+// False: its quality is that bad already.
 bool MirrorTables::degrade(std::uint32_t simplex, Quality quality) {
     SlotState& state = *tables_.live(simplex).state;
     if (state.quality >= quality) return false;

@@ -14,20 +14,21 @@
 
 namespace cortex::comms {
 
-// The values of one agent's simplexes, filled from the blocks of one view stream and shown as
-// images. What has not come is `lost`, what should have come again is `stale`. The mirror's thread
-// writes, any thread takes images.
+// The values of one agent's simplexes, filled from the blocks of one view stream and published as
+// images. What has not come is `lost`; what should have come again is `stale`. The mirror's thread
+// writes, and any thread takes images.
 class MirrorTables {
 public:
     MirrorTables(std::shared_ptr<const Structure> structure, const Id& structureHash);
 
     const Structure& structure() const { return *structure_; }
-    // False: refused, it is not of this structure. Of a block that is, each simplex is applied
-    // whole or, where it does not fit its layout, not at all.
+    // False: the block was refused, because it is not of this structure. Otherwise each simplex in
+    // it is applied whole, or not at all where it does not fit its layout.
     bool apply(const Block& block, Moment now);
     void markStale(Moment now, std::chrono::nanoseconds patience);
-    void lose();  // the agent is not heard
-    // Another stream: sequence numbers begin anew, what it does not show is lost.
+    void lose();  // to be called when the agent is lost
+    // To be called for another stream: sequence numbers begin anew, and what it does not show is
+    // lost.
     void restart(const MirrorView& view);
 
     Image newest() { return images_.newest(); }

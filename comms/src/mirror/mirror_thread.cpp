@@ -97,13 +97,13 @@ void MirrorThread::serve(Moment now) {
     endpoints_.view(state_.view);
     if (state_.commands.waiting()) endpoints_.command();
     if (!state_.listeners.empty()) endpoints_.listen();
-    endpoints_.tell(state_.agents, now);
+    endpoints_.announce(state_.agents, now);
     state_.commands.tick(now, [&](const Command& command) { return endpoints_.write(command); });
     if (endpoints_.speakers() != state_.speakers) state_.news = now;
     state_.speakers = endpoints_.speakers();
 }
 
-// Without the mutex: a listener may ask the mirror.
+// The mutex is not held here, because a listener may call the mirror.
 void MirrorThread::tellListeners() {
     if (events_.empty()) return;
     const auto listeners = read([](MirrorState& state) { return state.listeners; });

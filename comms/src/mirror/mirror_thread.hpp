@@ -20,7 +20,7 @@
 
 namespace cortex::comms {
 
-// All that a mirror knows and is asked for; under its mutex.
+// The state of a mirror; used under its mutex.
 struct MirrorState {
     explicit MirrorState(const Sender& tool)
         : agents{[this](const MirrorAgent& agent, const char* why) {
@@ -28,8 +28,8 @@ struct MirrorState {
           }},
           commands{tool} {}
 
-    // Everybody who was found, or is heard by one who was, has spoken and told everything, and
-    // nobody new was found for a while.
+    // Whether all participants that were found, or that another one hears, have sent everything,
+    // and no new one was found for a while.
     bool everybodyIsHere() const;
 
     MirrorAgents agents;
@@ -42,7 +42,7 @@ struct MirrorState {
     std::string failure;  // why the thread has ended
 };
 
-// The mirror's thread: takes what comes, looks at the time, and writes what is to be written.
+// The thread of a mirror. It processes what arrives, observes the time, and writes what is due.
 class MirrorThread {
 public:
     MirrorThread(const std::string& name, const NetworkOptions& options);
@@ -58,14 +58,14 @@ public:
         const std::lock_guard lock{mutex_};
         return function(state_);
     }
-    // The same, and the thread looks at it at once.
+    // The same, and the thread acts on it at once.
     template <class Function>
     void change(Function function) {
         read(function);
         inbox_.wake();
     }
-    // Until `condition` holds, looked at after everything that happens. False: not within `limit`.
-    // Throws Error where the network refuses what was asked for.
+    // Waits until `condition` holds, which is checked after everything that happens. False: not
+    // within `limit`. Throws Error if the network refuses what was asked for.
     template <class Condition>
     bool waitFor(Mirror::Milliseconds limit, Condition condition) {
         std::unique_lock lock{mutex_};

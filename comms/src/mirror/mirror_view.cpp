@@ -9,7 +9,7 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::int64_t stalePeriods = 3;
-// Below this it would be the mirror's own scheduling that is judged.
+// A shorter time would judge the scheduling of the mirror itself.
 constexpr std::chrono::milliseconds leastPatience{50};
 
 }  // namespace

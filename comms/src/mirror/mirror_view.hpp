@@ -18,11 +18,11 @@ struct MirrorView {
 
     bool operator==(const MirrorView&) const = default;
     bool shows(std::string_view path) const;
-    // How long a value may stay away until it is called stale; `period` is that of the agent, ns.
+    // How long a value may be missing before it is stale; `period` is that of the agent in ns.
     std::chrono::nanoseconds patience(std::int64_t period) const;
 };
 
-// 5, 30 or 100, whichever is at least this; 0, every cycle, above and for 0.
+// The least of 5, 30 and 100 that is not below the rate. 0 (every cycle) for 0 and above 100.
 std::uint32_t viewClass(std::uint32_t rate);
 
 }  // namespace cortex::comms

@@ -14,7 +14,7 @@
 namespace cortex::comms {
 namespace {
 
-// What one agent may have at most, so that a hostile one costs bounded memory.
+// Limits for one agent, so that a hostile one costs bounded memory.
 constexpr std::size_t mostTypes = 16'384;
 constexpr std::size_t mostSimplexes = 250'000;
 
@@ -102,7 +102,7 @@ bool PeerModel::complete() const {
     return *agreed_;
 }
 
-// A tool has nothing, and no hashes of it.
+// A tool has no types and simplexes, and no hashes of them.
 bool PeerModel::hashesAgree() const {
     if (types_.empty() && simplexes_.empty()) return true;
     std::map<std::string, TypeHash> types;

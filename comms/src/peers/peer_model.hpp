@@ -14,9 +14,9 @@
 
 namespace cortex::comms {
 
-// What is known of one agent (or tool) in one epoch: its presence, types and simplexes, from
-// samples in any order, and the structure that they make. Nothing said by others is believed
-// unchecked; what is refused is counted. Used under its owner's mutex.
+// What one agent or tool has published in one epoch: its presence, types and simplexes, from
+// samples in any order, and the structure that they make. Everything is checked, and what is
+// refused is counted. Used under the mutex of its owner.
 class PeerModel {
 public:
     PeerModel(std::string agent, std::int64_t epoch);
@@ -24,18 +24,18 @@ public:
     const std::string& agent() const { return agent_; }
     std::int64_t epoch() const { return epoch_; }
 
-    // False: refused and counted.
+    // False: the sample was refused and counted.
     bool add(const Presence& presence);
     bool add(const Model& model);
 
     const std::optional<Presence>& presence() const { return presence_; }
     bool has(const std::string& path) const { return simplexes_.contains(path); }
-    std::uint32_t missing() const;  // types and simplexes that were announced and are not here
-    bool complete() const;          // a presence is here, and all that it counts; hashes agree
+    std::uint32_t missing() const;  // types and simplexes that were announced and have not come
+    bool complete() const;          // everything that the presence counts has come; hashes agree
     std::uint64_t refused() const { return refused_; }
 
-    // With what is here now; built at the first call. Null until it is complete, for a tool, and if
-    // it contradicts itself: findings() says how.
+    // Built at the first call from what has come. Null until it is complete, for a tool, and where
+    // the model contradicts itself; then findings() has the reason.
     std::shared_ptr<const Structure> structure();
     std::shared_ptr<const TypeModel> types();
     const Report& findings() const { return findings_; }
@@ -54,7 +54,7 @@ private:
     std::map<std::string, TypeMessage> types_;
     std::map<std::string, SimplexMessage> simplexes_;  // by path
     std::uint64_t refused_ = 0;
-    mutable std::optional<bool> agreed_;  // hashes of what is here; none: not computed
+    mutable std::optional<bool> agreed_;  // whether the hashes agree; none: not computed yet
     bool built_ = false;
     std::shared_ptr<const Structure> structure_;
     Report findings_;

@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t mostOctets = 256U << 20U;  // of all values of an agent
 constexpr std::uint32_t mostEvery = 1'000'000;
 
-// Makes a tree of what an agent says of its simplexes, and the structure of the tree.
+// Makes a tree of the simplexes that an agent describes, and the structure of that tree.
 class PeerStructure {
 public:
     PeerStructure(const std::string& agent, TypeModel types, Report& report)

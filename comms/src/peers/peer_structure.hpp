@@ -12,8 +12,9 @@
 
 namespace cortex::comms {
 
-// The structure of another agent, with the indexes and layouts that its owner has. Everything that
-// it says of its simplexes is checked; what does not hold is an error in the report.
+// Builds the structure of another agent, with the indexes and layouts that its owner has.
+// Everything that the agent says of its simplexes is checked; what is wrong is an error in the
+// report.
 std::shared_ptr<Structure> buildPeerStructure(
     const std::string& agent, TypeModel types,
     const std::map<std::string, SimplexMessage>& simplexes, Report& report);

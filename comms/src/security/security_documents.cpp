@@ -21,7 +21,7 @@ std::string domainsOf(const AgentRights& rights) {
     return text;
 }
 
-// Takes "name: value" from the beginning of a text; false: another name stands there.
+// Takes "name: value" from the beginning of a text. False: the text begins with another name.
 bool takeField(std::string_view& text, std::string_view name, std::string& value) {
     if (!text.starts_with(name) || !text.substr(name.size()).starts_with(": ")) return false;
     text.remove_prefix(name.size() + 2);
@@ -72,8 +72,9 @@ std::string governance() {
 )";
 }
 
-// Topics are all of CorteX, for everybody: who may command what is for the receiver to decide,
-// which so can answer and report. The dates have a day to spare: those of the certificate count.
+// All topics of CorteX are allowed for everybody: the receiver decides who may command what, so
+// that it can answer and report. The dates allow one more day, because those of the certificate
+// count.
 std::string permissions(const AgentRights& rights) {
     const std::string from = utcText(std::time(nullptr) - day).substr(0, 19);
     const std::string until = utcText(utcFrom(rights.until).value_or(0) + day).substr(0, 19);

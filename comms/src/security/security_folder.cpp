@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 namespace files = security_files;
 
-// Collects what is wrong with a folder, everything that can be found at once.
+// Collects everything that is wrong with a folder.
 class FolderCheck {
 public:
     explicit FolderCheck(SecurityFolder& folder) : folder_{folder} {}

@@ -20,9 +20,9 @@ inline constexpr const char *identityAuthority = "identity_ca.pem",
                             *commands = "commands.smime";
 }  // namespace security_files
 
-// What the folder of an agent holds, read and checked.
+// The contents of the folder of an agent, read and checked.
 struct SecurityFolder {
-    // Throws Error with everything that is wrong, and what to do about it.
+    // Throws Error that lists everything that is wrong, with the remedy.
     explicit SecurityFolder(const std::filesystem::path& folder);
 
     std::filesystem::path folder;  // absolute

@@ -20,7 +20,7 @@ const std::string* extraOf(const Command& command, const char* name) {
     return found != command.extras.end() ? &found->value : nullptr;
 }
 
-// What is signed: the encoded command without the signature.
+// The signed text is the encoded command without the signature.
 Octets signedOctets(Command command) {
     std::erase_if(command.extras, [](const Extra& each) { return each.name == signatureExtra; });
     Octets octets(encodedSize(command));

@@ -20,7 +20,7 @@ using GuidPrefix = std::array<std::uint8_t, 12>;  // of a participant
 
 inline constexpr const char* securityOn = "authenticated, encrypted";  // in a presence
 
-// "station@desk.42" of a tool is "station": what its certificate says.
+// The name in its certificate: "station" for the tool "station@desk.42".
 std::string_view certifiedName(std::string_view name);
 
 // Who a participant is and how it knows others, where security is on. Any thread.
@@ -31,18 +31,19 @@ std::string_view certifiedName(std::string_view name);
 // with the key that this list names.
 class SecurityIdentity {
 public:
-    // Throws Error if the folder cannot be used, or not by that agent or tool in that domain.
+    // Throws Error if the folder cannot be used, or belongs to another agent, tool or domain.
     SecurityIdentity(const std::string& folder, const std::string& name, int domain);
 
     const SecurityFolder& folder() const { return folder_; }
 
     bool maySpeakFor(const GuidPrefix& participant, std::string_view name);
-    // The same for the id of a name; only after a sample with the name itself.
+    // The same for the id of a name. It is known only after a sample with the name itself.
     bool maySpeakFor(const GuidPrefix& participant, const Id& agent);
     bool hasSpoken(const GuidPrefix& participant);
 
     void sign(Command& command) const;
-    // What the list of its sender says; null and `why`: it does not prove who it is.
+    // What the list of the sender permits. Null: the command does not prove who sent it; `why` has
+    // the reason.
     std::shared_ptr<const AgentRights> rightsOf(const Command& command, std::string& why);
 
 private:

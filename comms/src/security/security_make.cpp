@@ -24,7 +24,7 @@ namespace files = security_files;
 constexpr std::size_t longestName = 48;  // leaves room for the host and process of a tool
 constexpr std::time_t day = 86'400;
 
-// A folder that is made now; gone again unless all of it could be written.
+// A new folder. It is removed again unless everything in it could be written.
 class NewFolder {
 public:
     explicit NewFolder(fs::path folder) : folder_{std::move(folder)} {

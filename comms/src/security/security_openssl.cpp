@@ -137,7 +137,7 @@ Certificate certificateFrom(const std::string& pem) {
 }
 
 Key keyFrom(const std::string& pem) {
-    char noPassword[] = "";  // else OpenSSL asks at the terminal
+    char noPassword[] = "";  // otherwise OpenSSL asks at the terminal
     const Owned<BIO> in = reader(pem);
     Key key{PEM_read_bio_PrivateKey(in.get(), nullptr, nullptr, noPassword)};
     ERR_clear_error();
@@ -161,7 +161,7 @@ std::optional<std::string> verifiedText(const std::string& smime, X509* signer) 
     const Owned<BIO> text{content};
     const Owned<STACK_OF(X509)> signers{sk_X509_new_null()};
     bool verified = message && text && sk_X509_push(signers.get(), signer) > 0;
-    // The certificates in the message do not count, and our signer needs no other authority.
+    // The certificates in the message are ignored, and the signer needs no other authority.
     verified =
         verified && PKCS7_verify(message.get(), signers.get(), nullptr, text.get(), out.get(),
                                  PKCS7_TEXT | PKCS7_NOVERIFY | PKCS7_NOINTERN | PKCS7_NOCHAIN) == 1;

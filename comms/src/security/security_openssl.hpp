@@ -14,8 +14,8 @@
 
 #include <openssl/types.h>
 
-// What CorteX asks of OpenSSL, the only place that calls it. Functions that make something throw
-// Error; those that look at what others made say false or nothing.
+// Everything that CorteX does with OpenSSL; no other file calls it. Functions that make something
+// throw Error. Those that examine what others made return false or nothing.
 namespace cortex::comms {
 
 struct FreeOpenSsl {
@@ -26,7 +26,7 @@ using Certificate = std::unique_ptr<X509, FreeOpenSsl>;
 using Key = std::unique_ptr<EVP_PKEY, FreeOpenSsl>;
 
 Key newKey();  // P-256
-// Of "CN=name,O=CorteX"; by itself where `issuer` is null.
+// For "CN=name,O=CorteX". It signs itself if `issuer` is null.
 Certificate newCertificate(const std::string& name, const EVP_PKEY* key, X509* issuer,
                            EVP_PKEY* issuerKey, std::time_t until);
 std::string pemOf(const X509* certificate);
@@ -34,7 +34,8 @@ std::string pemOf(const EVP_PKEY* key);
 Certificate certificateFrom(const std::string& pem);  // null: it is none
 Key keyFrom(const std::string& pem);                  // a private one
 
-// S/MIME with the text in the clear, as DDS-Security has it. None: changed, or of somebody else.
+// S/MIME with readable text, as DDS-Security has it. None: the text was changed, or somebody else
+// signed it.
 std::string signedText(const std::string& text, X509* signer, EVP_PKEY* key);
 std::optional<std::string> verifiedText(const std::string& smime, X509* signer);
 

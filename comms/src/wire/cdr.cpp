@@ -34,7 +34,8 @@ void swapOctets(std::uint8_t* numbers, std::size_t count) {
     }
 }
 
-// Puts field after field, offsets counting from the end of the header; or only counts them.
+// Writes one field after another, or only counts their octets. Offsets count from the end of the
+// header.
 template <bool Writes>
 class Encoder {
 public:
@@ -127,7 +128,7 @@ private:
     std::size_t octets_ = 0;
 };
 
-// Takes field after field. After the first that is malformed it takes nothing more.
+// Reads one field after another. After the first malformed one it reads nothing more.
 class Decoder {
 public:
     Decoder(std::span<const std::uint8_t> body, bool swaps) : body_(body), swaps_(swaps) {}
@@ -172,7 +173,7 @@ private:
     }
     void read(Struct auto& field) { field.visit(field, *this); }
 
-    // Where the next octets are; null where there are not as many.
+    // The place of the next octets. Null: fewer octets are left.
     const std::uint8_t* take(std::size_t octets, std::size_t alignment) {
         const std::size_t start = aligned(position_, alignment);
         ok_ = ok_ && start <= body_.size() && octets <= body_.size() - start;
@@ -181,7 +182,7 @@ private:
         return body_.data() + start;
     }
 
-    // The length of a sequence; 0 where the rest cannot hold as many elements.
+    // The length of a sequence. 0: the octets that are left cannot hold so many elements.
     std::size_t takeCount(std::size_t smallestElement) {
         std::uint32_t count = 0;
         takeNumbers(&count, 1);

@@ -18,13 +18,14 @@ inline constexpr std::size_t maxTextLength = 64 * 1024;  // octets of a string
 template <class Message>
 std::size_t encodedSize(const Message& message);  // with the 4 octets of encapsulation
 
-// The octets written. 0: no room, or a string that is too long. A NUL ends a string.
+// Returns the number of octets written. 0: the payload is too small, or a string is too long. A NUL
+// ends a string.
 template <class Message>
 std::size_t encode(const Message& message, std::span<std::uint8_t> payload);
 
-// False: malformed; `message` is then of some valid value. Otherwise every field was read, and at
-// most 3 octets (padding) follow. Memory reserved is in proportion to the payload, whatever it
-// says. A message that is used again keeps its memory.
+// False: the payload is malformed; `message` then has some valid value. True: every field was read,
+// and at most 3 octets of padding follow. The memory that it reserves is in proportion to the
+// payload, whatever the payload claims. A message that is used again keeps its memory.
 template <class Message>
 bool decode(std::span<const std::uint8_t> payload, Message& message);
 

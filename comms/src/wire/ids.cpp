@@ -11,7 +11,7 @@ namespace {
 
 void append(std::string& text, std::string_view word) { text.append(" ").append(word); }
 
-// Free text may hold anything: its length in octets stands in front.
+// A free text may contain anything, so its length in octets precedes it.
 std::string counted(const std::string& text) { return std::to_string(text.size()) + ":" + text; }
 
 void append(std::string& text, const NamedValue& value) {

@@ -15,16 +15,16 @@
 // everything (docs/protocol.md).
 namespace cortex::comms {
 
-// Of the parts, joined by line ends.
+// The id of the parts, joined by line ends.
 Id idOf(std::initializer_list<std::string_view> parts);
 
 Id agentId(std::string_view agent);
-// Of a sample: of its agent and its first type or simplex, by name or path.
+// The id of a sample: of its agent and the name or path of its first type or simplex.
 Id modelId(const Model& sample);
 Id linkId(std::string_view sender, std::string_view target);
 
 Id typesHash(const std::map<std::string, TypeHash>& types);
-// Does not depend on the order of the simplexes.
+// The result does not depend on the order of the simplexes.
 Id structureHash(const std::vector<SimplexMessage>& simplexes);
 
 }  // namespace cortex::comms

@@ -19,9 +19,9 @@ struct Extra {
     bool operator==(const Extra&) const = default;
 };
 
-// An extra of Presence: how many agents its sender hears, itself included.
+// An extra of Presence: the number of agents that its sender hears, itself included.
 inline constexpr const char* agentsHeard = "agents";
-// The number of the last event that it wrote.
+// An extra of Presence: the number of the last event that its sender wrote.
 inline constexpr const char* eventsWritten = "events";
 
 struct NamedValue {
@@ -180,7 +180,7 @@ struct View {
     bool operator==(const View&) const = default;
 };
 
-// What one participant wants of whoever has it.
+// What one participant wants of every agent that has it.
 struct Interest {
     static constexpr const char* typeName = "cortex::Interest";
     Id agent{};

@@ -22,7 +22,7 @@ NamedValue namedValue(const std::string& name, const Value& value) {
             break;
         case Kind::String:
             named.strings = std::get<std::vector<std::string>>(value);
-            // As they arrive: a NUL ends a text on the wire.
+            // Values are kept as they would arrive: a NUL ends a text on the wire.
             for (std::string& text : named.strings) text.resize(std::strlen(text.c_str()));
             break;
     }

@@ -16,9 +16,9 @@ namespace cortex::comms {
 NamedValue namedValue(const std::string& name, const Value& value);
 std::vector<NamedValue> namedValues(const std::map<std::string, Value>& values);
 
-// Empty for a kind that there is not, or for elements of another kind than it says.
+// Empty if the kind does not exist, or if the elements are of another kind.
 std::optional<Value> valueOf(const NamedValue& named);
-// Empty if one of them is wrong or a name stands there twice.
+// Empty if one of them is wrong or if a name occurs twice.
 std::optional<std::map<std::string, Value>> valuesOf(const std::vector<NamedValue>& named);
 
 }  // namespace cortex::comms

@@ -8,16 +8,17 @@
 #include <cstdint>
 #include <vector>
 
-// The cyclic values of one simplex, in tables and on the wire: by kind, in the order of its layout.
+// The cyclic values of one simplex in tables and on the wire: by kind, then in the order of its
+// layout.
 namespace cortex::comms {
 
-// Keeps the memory that `to` has.
+// Uses the memory that `to` has.
 void readValues(std::uint32_t simplex, const TypeLayout& layout, const Slice& from,
                 SimplexData& to);
 
-// Whether it holds exactly what a simplex of this layout holds.
+// Whether the data has exactly the values of a simplex with this layout.
 bool fits(const SimplexData& data, const TypeLayout& layout);
-// What fits; a slice whose strings have their capacities (SliceMemory).
+// Stores the values. The strings of the slice have their capacities (SliceMemory).
 void storeValues(const SimplexData& data, const TypeLayout& layout, const Slice& to);
 
 // A slice outside the tables, with each item's default value: the cyclic items or the constant

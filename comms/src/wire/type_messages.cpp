@@ -32,7 +32,7 @@ std::vector<Attribute> attributeMessages(const Described& attributes) {
     return messages;
 }
 
-// Without those that have fields of their own.
+// The attributes that have no fields of their own.
 Described described(const std::vector<Attribute>& messages,
                     std::initializer_list<std::string_view> fields = {}) {
     Described attributes;
@@ -76,7 +76,7 @@ DescribedItem dataDescription(const DataItemModel& message) {
     return item;
 }
 
-// Parameters have their description among the attributes.
+// The description of a parameter is one of its attributes.
 std::vector<Parameter> parameterMessages(const std::vector<DescribedItem>& items) {
     std::vector<Parameter> messages;
     for (const DescribedItem& each : items) {

@@ -5,8 +5,8 @@
 
 #include "wire/messages.hpp"
 
-// Types as they travel. What a reader needs to lay out data stands in fields of its own, the rest
-// in attributes as in XML.
+// Types as messages. What a reader needs to lay out data is in fields of its own; the rest is in
+// attributes as in XML.
 namespace cortex::comms {
 
 TypeMessage typeMessage(const TypeDescription& type);

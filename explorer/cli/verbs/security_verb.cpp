@@ -41,7 +41,7 @@ void printRights(const comms::AgentRights& rights) {
 
 Exit makeAuthority(const SecurityOptions& options) {
     const std::string& folder = options.authority;
-    comms::createAuthority(folder, options.days > 0 ? options.days : comms::AuthorityDays);
+    comms::createAuthority(folder, options.days > 0 ? options.days : comms::authorityDays);
     if (options.json) {
         print({{"folder", folder}});
         return Yes;
@@ -62,7 +62,7 @@ Exit makeAgent(const SecurityOptions& options) {
     if (!options.mayCommand.empty()) rights.mayCommand = options.mayCommand;
     const std::string folder = options.folder.empty() ? options.agent : options.folder;
     rights = comms::createAgent(options.authority, folder, rights,
-                                options.days > 0 ? options.days : comms::AgentDays);
+                                options.days > 0 ? options.days : comms::agentDays);
     if (options.json) {
         print(jsonOf(folder, rights));
         return Yes;

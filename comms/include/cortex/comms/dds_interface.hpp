@@ -10,9 +10,9 @@
 
 namespace cortex::comms {
 
-// Puts an agent on the network: others see it, link its simplexes and send it commands; it links
-// theirs. cluster.addInterface<DdsInterface>(options); start() throws Error if the network cannot
-// be joined. DDS is used by a thread of its own, never by the loop.
+// Connects an agent to the network: others see it, link its simplexes and send it commands, and it
+// links theirs. Use it with cluster.addInterface<DdsInterface>(options); start() throws Error if
+// the network cannot be joined. A thread of its own uses DDS, never the loop.
 class DdsInterface final : public CommunicationInterface {
 public:
     explicit DdsInterface(NetworkOptions options = {});
@@ -23,10 +23,10 @@ public:
     void write(std::int64_t cycle, Outbox& outbox) CORTEX_REALTIME override;
     void close() override;
 
-    // What others sent that was malformed or cannot be, and why the last time; until close().
+    // How many samples of others were malformed or impossible, and the last reason; until close().
     std::uint64_t rejected() const;
     std::string lastRejection() const;
-    // Samples of linked simplexes that were sent and did not come; until close().
+    // How many samples of linked simplexes were sent and did not arrive; until close().
     std::uint64_t lost() const;
 
 private:

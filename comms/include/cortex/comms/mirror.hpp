@@ -19,19 +19,19 @@
 
 namespace cortex::comms {
 
-// An agent on the network as it was last heard.
+// An agent on the network, as of its last message.
 struct AgentStatus {
     std::string name, host;
     std::int64_t epoch = 0;                  // UTC microseconds
     std::string state;                       // "running", "incomplete", "lost"
-    double age = 0;                          // s since it was last heard
-    std::uint32_t types = 0, simplexes = 0;  // that it says to have
-    std::uint32_t missing = 0;               // of them not here yet
+    double age = 0;                          // s since its last message
+    std::uint32_t types = 0, simplexes = 0;  // as it announces them
+    std::uint32_t missing = 0;               // those that have not come yet
     std::int64_t cycle = 0;                  // newest
     std::int64_t period = 0;                 // ns
     std::uint64_t loss = 0;                  // blocks and events that did not come
     std::string security;
-    std::string trouble;  // why it stays incomplete: what in its model contradicts itself
+    std::string trouble;  // the contradiction in its model that keeps it incomplete
 };
 
 struct AgentEvent {
@@ -48,7 +48,7 @@ struct CommandAnswer : CallResult {
     std::chrono::nanoseconds latency{};  // in the agent, from reading it to its end
 };
 
-// An image of another agent. It keeps its structure and its tables, whatever becomes of the agent.
+// An image of another agent. It keeps its structure and its tables even after the agent is gone.
 class AgentImage {
 public:
     AgentImage() = default;
@@ -56,7 +56,7 @@ public:
         : keeps_{std::move(keeps)}, image_{std::move(image)} {}
     AgentImage(AgentImage&&) noexcept = default;
     AgentImage& operator=(AgentImage&& other) noexcept {
-        image_ = std::move(other.image_);  // lets go before what it lies in may end
+        image_ = std::move(other.image_);  // releases the image before the memory that it lies in
         keeps_ = std::move(other.keeps_);
         return *this;
     }
@@ -70,50 +70,51 @@ private:
     Image image_;  // ends first
 };
 
-// All agents of a domain for tools: who is there, what they consist of, their values, events and
-// commands, without knowing any of it before. Has a thread of its own; any thread may call. What is
-// not asked for is neither subscribed nor decoded.
+// All agents of a domain for tools: their models, values, events and commands, without any prior
+// knowledge of them. It has a thread of its own, and any thread may call it. What nobody asks for
+// is neither subscribed to nor decoded.
 class Mirror {
 public:
     using Arguments = ProgramInterface::Arguments;
     using Milliseconds = std::chrono::milliseconds;
 
-    // Other instances of the tool have names of their own: host and process are appended. Throws
-    // Error if the network cannot be used, with a remedy.
+    // Host and process are appended to the name, so that each instance has its own. Throws Error
+    // with a remedy if the network cannot be used.
     explicit Mirror(const std::string& tool, const NetworkOptions& options = {});
     ~Mirror();
 
     const std::string& name() const;  // as agents see it: the holder of its control leases
 
-    std::vector<AgentStatus> agents() const;  // by name; one lost for a minute is forgotten
-    std::uint32_t unheard() const;  // so many agents are heard by one of them, and not here
-    // Waits until somebody is there, everybody has told everything, all whom they hear are here,
-    // and nobody new comes. False: not within `limit`.
+    std::vector<AgentStatus> agents() const;  // by name; without those lost for more than a minute
+    std::uint32_t unheard() const;  // agents that another agent hears and this mirror does not
+    // Waits until at least one agent is present, everything of all has come, all whom they hear are
+    // known here, and no new one appears. False: not within `limit`.
     bool waitUntilComplete(Milliseconds limit) const;
-    // Null until everything of the agent is here. Later starts have structures of their own.
+    // Null until everything of the agent has come. A later start has a structure of its own.
     std::shared_ptr<const Structure> structure(const std::string& agent) const;
-    // The agent whose simplex this is; of several that claim it, the one that started first.
+    // The agent that owns this simplex. Of several that claim it, the one that started first.
     std::optional<std::string> ownerOf(std::string_view path) const;
-    // The same as soon as it is known; none: everything is here without it, or `limit` is over.
+    // The same as soon as it is known. None: everything has come and nobody owns it, or `limit` is
+    // over.
     std::optional<std::string> waitForOwner(std::string_view path, Milliseconds limit) const;
 
-    // From now on the values of all simplexes at and below these paths, at this many images per
-    // second or more; 0: every cycle. It takes the place of the last call; no paths: none.
+    // Receives from now on the values of all simplexes at and below these paths, at this rate or
+    // more (images per second; 0: every cycle). It replaces the last call. No paths: no values.
     void view(std::vector<std::string> prefixes, std::uint32_t rate = 30);
-    // Waits until all that is viewed has come at least once from every agent that is heard.
+    // Waits until every agent that is present has sent everything that is viewed at least once.
     bool waitForValues(Milliseconds limit) const;
-    // The newest; empty if nothing of the agent is viewed. Simplexes that are not viewed, or have
-    // not come, have quality `lost`; those that should have come again, `stale`.
+    // The newest image; empty if nothing of the agent is viewed. Simplexes that are not viewed, or
+    // have not come, have the quality `lost`. Those that should have come again have `stale`.
     AgentImage image(const std::string& agent) const;
-    // s since it was measured; none: its values have not come.
+    // Seconds since the measurement. None: no values have come.
     std::optional<double> age(const std::string& agent, std::uint32_t simplex) const;
-    // Waits until an image newer than `last` images of all agents together; says how many there
-    // are.
+    // Waits until all agents together have published more than `last` images, and returns their
+    // number.
     std::uint64_t waitForImage(std::uint64_t last, Milliseconds limit) const;
 
-    // A command that is over if the agent has not read it within `budget` of its own time. The
-    // number identifies the answer. Throws Error for unknown paths, commands and parameters and for
-    // values of the wrong kind; states and ranges are checked by the agent.
+    // Sends a command. It expires if the agent has not read it within `budget` of the agent's time.
+    // The number identifies the answer. Throws Error for unknown paths, commands and parameters,
+    // and for values of the wrong kind. The agent checks states and ranges.
     std::uint64_t send(std::string_view path, std::string_view command,
                        const Arguments& arguments = {},
                        Milliseconds budget = std::chrono::seconds{5});
@@ -122,13 +123,14 @@ public:
                        const Arguments& arguments = {},
                        Milliseconds timeout = std::chrono::seconds{5});
 
-    // Events of all agents, the last 1,000 of each first. Called on the mirror's thread.
+    // Reports the events of all agents, the last 1,000 of each first. The listener runs on the
+    // mirror's thread.
     void onEvent(std::function<void(const AgentEvent&)> listener);
-    // Whether the newest event that each agent which is heard says to have written has come: it
-    // says so ten times a second.
+    // Whether all events have come that the present agents say they have written. They say so ten
+    // times a second.
     bool eventsComplete() const;
 
-    std::uint64_t refused() const;  // samples that were malformed or said what cannot be
+    std::uint64_t refused() const;  // samples that were malformed or impossible
 
 private:
     struct Implementation;

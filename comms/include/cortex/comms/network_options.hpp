@@ -16,7 +16,7 @@ std::string defaultSecurity();
 // The environment variable CORTEX_DISCOVERY_SERVER, empty where it is not set.
 std::string defaultDiscoveryServer();
 
-// Which network an agent or a tool joins. What it cannot have is refused when it joins, in words.
+// The network that an agent or a tool joins. Joining throws Error if an option cannot be fulfilled.
 struct NetworkOptions {
     int domain = defaultDomain();
     std::vector<std::string> interfaces;  // names or IPv4 addresses; none: all

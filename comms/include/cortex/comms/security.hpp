@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
-// The folders of keys and signed papers that NetworkOptions::security names. All throw Error.
+// The folders of keys and signed documents that NetworkOptions::security names. All functions throw
+// Error.
 namespace cortex::comms {
 
-// What a folder says of its owner, signed by the authority.
+// The rights of one agent or tool, signed by the authority.
 struct AgentRights {
     std::string agent;
     std::vector<std::string> mayCommand{"/"};  // these paths with all below; none: only look
@@ -16,18 +17,18 @@ struct AgentRights {
     std::string until;                         // UTC, 2027-11-20T12:00:00Z
 };
 
-inline constexpr int AuthorityDays = 3650, AgentDays = 365;
+inline constexpr int authorityDays = 3650, agentDays = 365;
 
-// The folder with which folders of agents are made: an authority for identities, one for
-// permissions. Must not exist yet; nothing is left of it if that fails.
-void createAuthority(const std::filesystem::path& folder, int days = AuthorityDays);
+// Makes the folder with which folders of agents are made: one authority for identities, one for
+// permissions. The folder must not exist yet. Nothing is left of it after a failure.
+void createAuthority(const std::filesystem::path& folder, int days = authorityDays);
 
-// The folder of one agent or tool, made with that of the authority. `until` is said by `days`, but
-// not beyond the authority's end.
+// Makes the folder of one agent or tool with that of the authority. `days` determines `until`, but
+// never beyond the end of the authority.
 AgentRights createAgent(const std::filesystem::path& authority, const std::filesystem::path& folder,
-                        AgentRights rights, int days = AgentDays);
+                        AgentRights rights, int days = agentDays);
 
-// Checks the folder of an agent as a start does; the Error says everything that is wrong with it.
+// Checks the folder of an agent as a start does. The Error lists everything that is wrong with it.
 AgentRights checkSecurity(const std::filesystem::path& folder);
 
 }  // namespace cortex::comms
