@@ -50,7 +50,6 @@ SchedulerBench::SchedulerBench(const TaskEdges& edges, std::uint32_t threads,
         slots_.push_back(slotOf.at(agent_.structure().find(taskPath(i))));
     }
     agent_.start();
-    runner_->findPlaces();
     pool_ = std::make_unique<cs::ThreadPool>(
         schedule_,
         [](void* runner, std::uint32_t chunk, std::uint32_t worker) {

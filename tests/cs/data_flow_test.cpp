@@ -222,12 +222,8 @@ struct Shared {
     ProbeCluster cluster;
     Probe& first = cluster.probe("/w1");
     Probe& second = cluster.probe("/w2");
-    std::vector<Probe*> others;
 
-    explicit Shared(int otherProbes = 0) {
-        for (int i = 0; i < otherProbes; ++i) {
-            others.push_back(&cluster.probe("/other" + std::to_string(i)));
-        }
+    Shared() {
         Simplex& signal = cluster.tree.add("/s", "SharedSignal");
         write(first, signal, 10);
         write(second, signal, 20);
@@ -277,53 +273,6 @@ TEST(Arbitration, NoneActiveGivesSafeValues) {
 
     EXPECT_EQ(shared.cluster.number("/s", "value"), 0);
     EXPECT_EQ(shared.cluster.quality("/s"), Quality::Stale);
-}
-
-// Where there are so many, what the next ones touch is fetched; a simplex that several write has a
-// task without a simplex.
-TEST(Arbitration, HoldsAmongMoreTasksThanTheCachesHold) {
-    Shared shared{2000};
-    std::int64_t runs = 0;
-    for (Probe* each : shared.others) {
-        each->onLoopStart = [&](Probe&, const Tick&) { ++runs; };
-    }
-    shared.cluster.startup(shared.second);
-    runs = 0;
-
-    shared.cluster.step(3);
-
-    EXPECT_EQ(runs, 3 * 2000);
-    EXPECT_EQ(shared.cluster.number("/s", "value"), 20);
-}
-
-TEST(DataFlow, AnotherAgentsValueMayBeThreeOfItsOwnersPeriodsOld) {
-    LoopbackHub hub;
-    ProbeCluster near;
-    SimplexTree tree{*near.tree.sharedTypes()};
-    auto& sensor = tree.add<Probe>("/sensor", "Probe");
-    tree.relate(sensor, "out", tree.add("/s", "Signal"));
-    cs::ClusterCS away{"away"};
-    away.addSimplexTree(tree);
-    auto& clock = away.setTriggerSource<cs::ManualTrigger>(std::chrono::milliseconds{100});
-    away.adoptInterface(hub.makeInterface());
-    away.start();
-    away.send("/sensor", "startup");
-    clock.step(5);
-
-    near.tree.relateRemote(near.probe("/reader"), "in", "/s");  // maxAge 50 ms
-    near.cluster->adoptInterface(hub.makeInterface());
-    near.start();
-    near.step(300);
-    EXPECT_EQ(near.quality("/s"), Quality::Good);
-    near.step();
-    EXPECT_EQ(near.quality("/s"), Quality::Stale);
-    EXPECT_FALSE(near.hasEvent("ms old"));
-    near.step();
-    EXPECT_TRUE(near.hasEvent("/reader: in /s is 301 ms old, allowed 300"));
-    clock.step();
-    near.step();
-    EXPECT_EQ(near.quality("/s"), Quality::Good);
-    EXPECT_TRUE(near.hasEvent("/reader: in /s is back"));
 }
 
 }  // namespace

@@ -94,12 +94,6 @@ void AgentRuntime::processCommands(std::uint32_t simplex, State state, LoopThrea
     ports_[simplex]->process(state, thread, dead);
 }
 
-std::optional<AgentRuntime::CommandPlaces> AgentRuntime::commandPlaces(
-    std::uint32_t simplex) const {
-    if (ports_[simplex] == nullptr) return std::nullopt;
-    return ports_[simplex]->places();
-}
-
 bool AgentRuntime::cancelActivity(std::uint32_t simplex, LoopThread& thread, bool callHandler,
                                   std::string_view why) {
     return ports_[simplex] == nullptr || ports_[simplex]->cancelActivity(thread, callHandler, why);

@@ -35,14 +35,6 @@ public:
 
     const CommandTable& table() const { return table_; }
     bool hasLanes() const { return receiving_ != nullptr; }
-    std::optional<AgentRuntime::CommandPlaces> places() const {
-        if (sending_ == nullptr && receiving_ == nullptr) return std::nullopt;
-        const auto octets = [](const auto* of) { return reinterpret_cast<const std::byte*>(of); };
-        const Lane* const sending = sending_ != nullptr ? sending_ : receiving_;
-        return AgentRuntime::CommandPlaces{octets(this), octets(sending),
-                                           octets(&sending->firstHandle()),
-                                           octets(receiving_ != nullptr ? receiving_ : sending_)};
-    }
     // Step (1). What a handler throws passes through, after its command was answered Failed.
     // `dead`: its commands are refused.
     void process(State state, LoopThread& thread, bool dead) CORTEX_REALTIME;

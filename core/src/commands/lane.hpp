@@ -76,7 +76,6 @@ public:
     const Shape& shape() const { return rest_->shape; }
     void setSender(CommandPort& sender) { sender_ = &sender; }
     CommandPort& sender() const CORTEX_REALTIME { return *sender_; }
-    const CommandSender::State& firstHandle() const { return handle(0); }
     std::uint64_t sent(std::uint16_t handle) const;
     std::uint64_t answered(std::uint16_t handle) const;
 
@@ -204,7 +203,7 @@ private:
     std::unique_ptr<Rest> rest_;
 };
 
-static_assert(sizeof(Lane) == AgentRuntime::CommandPlaces::slots);
+static_assert(sizeof(Lane) == 2 * Lane::lineSize);
 
 // All lanes of an agent, one behind the other with their slots, in the order given.
 class LaneBlock {

@@ -41,7 +41,6 @@ ClusterLoop::ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const Clus
 ClusterLoop::~ClusterLoop() { stop(); }
 
 void ClusterLoop::start() {
-    runner_.findPlaces();
     const auto limit = std::max<std::chrono::nanoseconds>(
         100ms, std::chrono::nanoseconds{static_cast<std::int64_t>(
                    options_.watchdogPeriods * static_cast<double>(trigger_.period()))});

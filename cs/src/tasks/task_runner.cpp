@@ -17,11 +17,6 @@ namespace {
 
 std::int64_t monotonicNow() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 
-// Tasks that a second-level cache of 1 MB holds, with a command each: about 600 octets a task.
-constexpr std::size_t tasksInCache = 1500;
-// So many tasks before its turn what a task touches is fetched: about 100 ns, as a memory takes.
-constexpr std::size_t fetchedAhead = 6;
-
 void at(Position& position, Hook hook) { position.hook.store(hook, std::memory_order_relaxed); }
 
 bool isTransitional(State state) {
@@ -54,11 +49,7 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
     Position& position = positions_[worker];
     thread.loop->clock = {tick_.cycle, monotonicNow()};
     const std::span tasks{tasks_.data() + chunks_[chunk].first, chunks_[chunk].count};
-    const AgentRuntime::CommandPlaces* const places = places_.empty() ? nullptr : places_.data();
-    const std::size_t last = tasks_.size() - 1;
-    std::size_t ahead = chunks_[chunk].first + fetchedAhead;
     for (Task& task : tasks) {
-        if (fetchesAhead_) fetchTask(std::min(ahead++, last), places);
         if (chunk == timedChunk_)
             runTimed(task, thread, position);
         else
@@ -66,32 +57,6 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
     }
     position.simplex.store(noSimplex, std::memory_order_relaxed);
     at(position, Hook::None);
-}
-
-void TaskRunner::findPlaces() {
-    fetchesAhead_ = tasks_.size() > tasksInCache;
-    if (!fetchesAhead_) return;
-    std::vector<AgentRuntime::CommandPlaces> places;
-    places.reserve(tasks_.size());
-    bool any = false;
-    for (const Task& task : tasks_) {
-        const auto* simplex = reinterpret_cast<const std::byte*>(task.simplex);
-        const auto found = agent_.commandPlaces(task.index);
-        any = any || found.has_value();
-        places.push_back(
-            found.value_or(AgentRuntime::CommandPlaces{simplex, simplex, simplex, simplex}));
-    }
-    if (any) places_ = std::move(places);
-}
-
-// With a memory that others use as well it is not the mean that this helps but the worst cycles.
-inline void TaskRunner::fetchTask(std::size_t number,
-                                  const AgentRuntime::CommandPlaces* places) const {
-    const auto* simplex = reinterpret_cast<const std::byte*>(tasks_[number].simplex);
-    if (simplex == nullptr) return;  // an arbiter
-    fetch(simplex);
-    fetch(simplex + sizeof(SimplexCS));  // most of what derives from it
-    if (places != nullptr) places[number].fetchAll();
 }
 
 void TaskRunner::runTimed(Task& task, TaskThread& thread, Position& position) {

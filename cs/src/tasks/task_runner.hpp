@@ -120,10 +120,6 @@ public:
     // `schedule` stays as long as it is used.
     TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64_t period);
 
-    // Once lanes exist, before the first cycle: where there are more tasks than the caches hold,
-    // what they touch is fetched ahead.
-    void findPlaces();
-
     // Loop thread, before the chunks of a cycle.
     void beginCycle(const Tick& tick) CORTEX_REALTIME;
     void run(std::uint32_t chunk, std::uint32_t worker) CORTEX_REALTIME;
@@ -165,8 +161,6 @@ private:
     bool runAtTimes(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
     void runSimplex(Task& task, const Tick& tick, TaskThread& thread, Position& position)
         CORTEX_REALTIME;
-    void fetchTask(std::size_t number, const AgentRuntime::CommandPlaces* places) const
-        CORTEX_REALTIME;
     void runTimed(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
     TaskDetails& details(const Task& task) {
         return details_[static_cast<std::size_t>(&task - tasks_.data())];
@@ -201,9 +195,8 @@ private:
     SlotState* states_;  // by simplex
     std::int64_t period_;
     std::span<const Chunk> chunks_;
-    std::vector<Task> tasks_;                          // in execution order
-    std::vector<TaskDetails> details_;                 // of the same tasks
-    std::vector<AgentRuntime::CommandPlaces> places_;  // likewise; empty: no commands to fetch
+    std::vector<Task> tasks_;           // in execution order
+    std::vector<TaskDetails> details_;  // of the same tasks
     std::vector<TaskInput> inputs_;
     std::vector<TaskOutput> outputs_;
     std::vector<std::unique_ptr<HeldInput>> held_;
@@ -218,7 +211,6 @@ private:
     EventText heard_;        // likewise
     std::uint32_t timedChunk_ = 0;
     bool haltNext_ = false, halted_ = false, forced_ = false, stopping_ = false;
-    bool fetchesAhead_ = false;
     bool anyMayMove_ = false;  // in this cycle, without a call of its own
 };
 

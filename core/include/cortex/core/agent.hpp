@@ -3,7 +3,6 @@
 
 #include "cortex/core/communication_interface.hpp"
 #include "cortex/core/event.hpp"
-#include "cortex/core/fetch.hpp"
 #include "cortex/core/image.hpp"
 #include "cortex/core/mailbox.hpp"
 #include "cortex/core/simplex_tree.hpp"
@@ -15,7 +14,6 @@
 #include <bit>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -112,26 +110,6 @@ public:
     // it threw, so that no handler runs.
     void processCommands(std::uint32_t simplex, State state, LoopThread& thread, bool dead = false)
         CORTEX_REALTIME;
-    // The memory that processCommands() touches, for who fetches it ahead; after start(). Of the
-    // lanes the first that it sends on and the first that it receives from. None where it has no
-    // lane.
-    struct CommandPlaces {
-        const std::byte *port, *sending, *record, *receiving;
-
-        static constexpr std::ptrdiff_t slots = 128;  // from the head of a lane
-        static constexpr std::ptrdiff_t secondSlot = slots + 64;
-        void fetchAll() const CORTEX_REALTIME {
-            fetch(port);
-            fetch(sending);
-            fetch(sending + slots);
-            fetch(record);
-            fetch(receiving);
-            fetch(receiving + slots);
-            fetch(sending + secondSlot);  // delayed: one on its way while the next is sent
-            fetch(receiving + secondSlot);
-        }
-    };
-    std::optional<CommandPlaces> commandPlaces(std::uint32_t simplex) const;
     // Whether step (1) has anything to do: a pending life-cycle word, and processCommands().
     std::uint8_t calls(std::uint32_t simplex) const CORTEX_REALTIME {
         return calls_[simplex].load(std::memory_order_relaxed);
