@@ -233,7 +233,9 @@ TEST(ClusterCS, RunsOnTheInternalClockUntilStopped) {
 }
 
 // Tasks whose cost nobody could know before: one thread to begin with, then as many as pay.
-TEST(ClusterCS, SharesWorkAmongThreadsOnceItIsMeasuredToBeWorthIt) {
+class CostlyTasks : public testing::TestWithParam<bool> {};
+
+TEST_P(CostlyTasks, AreSharedAmongThreadsOnceTheyWereLookedAt) {
     SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};
     std::atomic<std::int64_t> lastCycle{0};
     std::atomic<int> outOfOrder{0};
@@ -252,6 +254,11 @@ TEST(ClusterCS, SharesWorkAmongThreadsOnceItIsMeasuredToBeWorthIt) {
     cluster.setTriggerSource<cs::InternalClock>(4ms);
     cluster.start();
     EXPECT_EQ(cluster.threadsInUse(), 1U);
+    if (GetParam()) {
+        EXPECT_EQ(cluster.call("/live", "reschedule").outcome, Outcome::Done);
+    } else {
+        EXPECT_EQ(cluster.call("/a", "startup").outcome, Outcome::Done);
+    }
     const auto limit = std::chrono::steady_clock::now() + 60s;
     while (cluster.threadsInUse() == 1 && std::chrono::steady_clock::now() < limit) {
         std::this_thread::yield();
@@ -268,6 +275,21 @@ TEST(ClusterCS, SharesWorkAmongThreadsOnceItIsMeasuredToBeWorthIt) {
     EXPECT_EQ(cluster.image().get<std::int64_t>("/live", "threads"), 2);
     EXPECT_EQ(outOfOrder.load(), 0);
     EXPECT_TRUE(cluster.stop());
+}
+
+INSTANTIATE_TEST_SUITE_P(Either, CostlyTasks, testing::Bool(), [](const auto& test) {
+    return test.param ? "WhenAsked" : "AfterTheStartup";
+});
+
+TEST(ClusterCS, RefusesToRescheduleWhereThereIsNothingToShareAnew) {
+    ProbeCluster cluster;
+    cluster.probe("/a");
+    cluster.start();
+
+    const CallResult result = cluster.call("/test", "reschedule");
+
+    EXPECT_EQ(result.outcome, Outcome::Failed);
+    EXPECT_NE(result.text().find("nothing to share anew"), std::string::npos) << result.text();
 }
 
 std::size_t realTimeThreads() {

@@ -5,8 +5,6 @@
 #include "support/probe.hpp"
 
 #include <atomic>
-#include <chrono>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,8 +16,6 @@
 
 namespace cortex::cs {
 namespace {
-
-using namespace std::chrono_literals;
 
 TEST(Rescheduler, ExpectsEachThreadToRunItsShareAfterWhatItWaitsFor) {
     const TaskGraph graph =
@@ -34,56 +30,91 @@ TEST(Rescheduler, ExpectsEachThreadToRunItsShareAfterWhatItWaitsFor) {
 }
 
 // A hundred tasks that two threads share, and what a look at them offers.
-class Looks {
-public:
-    Looks() {
+class ReschedulerTest : public testing::Test {
+protected:
+    ReschedulerTest() {
         for (int i = 0; i < 100; ++i) cluster_.probe("/p" + std::to_string(100 + i));
         cluster_.start();
         cluster_.step(10);
         for (const SimplexInfo& info : agent().structure().simplexes) {
             graph_.nodes.push_back({info.path, info.path.starts_with("/p"), 1, 0});
         }
+        plan = std::make_unique<Plan>(Plan{schedule(2), nullptr});
+        rescheduler = std::make_unique<Rescheduler>(agent(), plan->schedule, maker());
     }
     AgentRuntime& agent() { return cluster_.cluster->agent(); }
     Schedule schedule(std::uint32_t count) const {
         return makeSchedule(graph_, {.threads = count, .chunkSize = 10, .force = true});
     }
+    // Looks are done; what they offer is taken. False: nothing was.
+    bool exchanged() {
+        bool exchanged = false;
+        while (rescheduler->isLooking()) {
+            exchanged = rescheduler->exchange(plan) || exchanged;
+            std::this_thread::yield();
+        }
+        return exchanged;
+    }
+
+    std::atomic<std::uint32_t> threads{1};  // of the schedule that it is made; 1 is better
+    std::unique_ptr<Plan> plan;
+    std::unique_ptr<Rescheduler> rescheduler;
+
+private:
     Rescheduler::Maker maker() {
-        return {[this](std::span<const double>) {
-                    ++looks;
-                    return schedule(threads);
-                },
+        return {[this](std::span<const double>) { return schedule(threads); },
                 [](Schedule schedule) {
                     return std::make_unique<Plan>(Plan{std::move(schedule), nullptr});
                 }};
     }
-    void await(const std::function<bool()>& condition) const {
-        const auto limit = std::chrono::steady_clock::now() + 60s;
-        while (!condition() && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
-    }
 
-    std::atomic<std::uint32_t> threads{2};
-    std::atomic<int> looks{0};
-
-private:
     test::ProbeCluster cluster_;
     TaskGraph graph_;
 };
 
-TEST(Rescheduler, OffersAPlanOnceItIsBetter) {
-    Looks offers;
-    const Schedule shared = offers.schedule(2);
-    Plan* plan = new Plan{shared, nullptr};
-    Rescheduler rescheduler{offers.agent(), shared, offers.maker(), 1ms};
-    offers.await([&] { return offers.looks >= 3; });
-    EXPECT_FALSE(rescheduler.exchange(plan));
-
-    offers.threads = 1;  // a wake costs more than a hundred empty tasks
-    offers.await([&] { return rescheduler.exchange(plan); });
-
+TEST_F(ReschedulerTest, OffersABetterPlanWhereItIsAsked) {
+    const std::vector<std::uint32_t> tasks = plan->schedule.tasks;
+    rescheduler->look();
+    EXPECT_TRUE(rescheduler->isLooking());
+    EXPECT_TRUE(exchanged());
     EXPECT_EQ(plan->schedule.threads, 1U);
-    EXPECT_EQ(plan->schedule.tasks, shared.tasks);
-    delete plan;
+    EXPECT_EQ(plan->schedule.tasks, tasks);
+}
+
+TEST_F(ReschedulerTest, OffersNothingWhereNoPlanIsBetter) {
+    threads = 2;
+    rescheduler->look();
+    EXPECT_FALSE(exchanged());
+    EXPECT_EQ(plan->schedule.threads, 2U);
+}
+
+TEST_F(ReschedulerTest, LooksOnceSomeTimeAfterTheLastStartup) {
+    constexpr std::int64_t settling = Rescheduler::settlingTime;
+    rescheduler->follow(0, 0);
+    rescheduler->follow(0, 10 * settling);  // nothing has started up yet
+    rescheduler->follow(1, 11 * settling);
+    rescheduler->follow(2, 12 * settling - 1);
+    rescheduler->follow(2, 13 * settling - 2);
+    EXPECT_FALSE(rescheduler->isLooking());
+    rescheduler->follow(2, 13 * settling - 1);
+    EXPECT_TRUE(rescheduler->isLooking());
+    EXPECT_TRUE(exchanged());
+
+    rescheduler->follow(3, 14 * settling);
+    rescheduler->follow(3, 20 * settling);
+    EXPECT_FALSE(rescheduler->isLooking());
+}
+
+TEST_F(ReschedulerTest, LooksAgainWheneverItIsAsked) {
+    rescheduler->look();
+    EXPECT_TRUE(exchanged());
+    rescheduler->look();
+    EXPECT_FALSE(exchanged());  // the plan in use is as good
+}
+
+TEST_F(ReschedulerTest, EndsWhileItLooksOrOffers) {
+    rescheduler->look();
+    rescheduler.reset();
 }
 
 }  // namespace

@@ -36,7 +36,12 @@ ClusterLoop::ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const Clus
       plan_{std::make_unique<Plan>(Plan{std::move(schedule), nullptr})},
       runner_{agent, plan_->schedule, trigger.period()},
       group_{agent, runner_, std::move(simplexes)},
-      metrics_{agent, trigger.period(), plan_->schedule.threads} {}
+      metrics_{agent, trigger.period(), plan_->schedule.threads} {
+    agent_.registerHandler(agent_.agentSimplex(), "reschedule",
+                           {this, [](void* self, Call& call) {
+                                return static_cast<ClusterLoop*>(self)->reschedule(call);
+                            }});
+}
 
 ClusterLoop::~ClusterLoop() { stop(); }
 
@@ -177,7 +182,9 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     if (rescheduler_) adoptPlan();
     runner_.beginCycle(tick);
     plan_->pool->cycle(trigger_.nextDeadline());
-    metrics_.write(runner_.counts());
+    const RunnerCounts counts = runner_.counts();
+    metrics_.write(counts);
+    if (mayReschedule_) rescheduler_->follow(counts.startups, tick.nominalTime);
     agent_.endCycle(tick, wallClockNow() - (monotonicNow() - begin) - trigger.lateness);
     metrics_.cycleEnded(lastWakeUp_ == 0 ? 0 : begin - lastWakeUp_, trigger.lateness,
                         monotonicNow() - begin);
@@ -187,27 +194,38 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     watchdog_->cycleEnds();
 }
 
-// Only where threads may share work, in real time: elsewhere there is nothing to gain. On the
-// program's thread, so that its own has neither the loop's priority nor its CPU.
+// On the program's thread, so that its own has neither the loop's priority nor its CPU.
 void ClusterLoop::startRescheduler() {
-    const bool mayShare = agent_.threadCount() > 1 && !options_.forceThreads;
-    if (!mayShare || !makeSchedule_ || !trigger_.realTime()) return;
+    if (agent_.threadCount() < 2 || !makeSchedule_) return;
+    mayReschedule_ = trigger_.realTime() && !options_.forceThreads;
     rescheduler_ = std::make_unique<Rescheduler>(
-        agent_, plan_->schedule,
-        Rescheduler::Maker{makeSchedule_, [this](Schedule schedule) {
-                               auto plan = std::make_unique<Plan>();
-                               plan->schedule = std::move(schedule);
-                               addThreads(*plan);
-                               plan->pool->placeLoopThread(loopThread_.load());
-                               return plan;
-                           }});
+        agent_, plan_->schedule, Rescheduler::Maker{makeSchedule_, [this](Schedule schedule) {
+                                                        return makePlan(std::move(schedule));
+                                                    }});
+}
+
+// For a loop that runs.
+std::unique_ptr<Plan> ClusterLoop::makePlan(Schedule schedule) {
+    auto plan = std::make_unique<Plan>(Plan{std::move(schedule), nullptr});
+    addThreads(*plan);
+    plan->pool->placeLoopThread(loopThread_.load());
+    return plan;
+}
+
+// A command of /<cluster>.
+Outcome ClusterLoop::reschedule(Call& call) {
+    if (call.cancelling()) return Outcome::Cancelled;
+    if (!mayReschedule_) {
+        return call.fail(
+            "this loop has one thread, keeps all that it was told to use, or is "
+            "stepped by hand: there is nothing to share anew");
+    }
+    if (call.first()) rescheduler_->look();
+    return rescheduler_->isLooking() ? Outcome::Running : Outcome::Done;
 }
 
 void ClusterLoop::adoptPlan() {
-    Plan* plan = plan_.release();
-    const bool adopted = rescheduler_->exchange(plan);
-    plan_.reset(plan);
-    if (!adopted) return;
+    if (!rescheduler_->exchange(plan_)) return;
     runner_.use(plan_->schedule);
     metrics_.threads(plan_->pool->threads());
     threads_.store(plan_->pool->threads(), std::memory_order_relaxed);

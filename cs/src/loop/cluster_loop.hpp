@@ -50,6 +50,8 @@ private:
     void prepareThread();
     void addThreads(Plan& plan);
     void startRescheduler();
+    std::unique_ptr<Plan> makePlan(Schedule schedule);
+    Outcome reschedule(Call& call) CORTEX_REALTIME;
     void adoptPlan() CORTEX_REALTIME;
     void loop();
     void beat(const Heartbeat& heartbeat);
@@ -73,7 +75,8 @@ private:
     GroupCommands group_;
     ClusterMetrics metrics_;
     ScheduleMaker makeSchedule_;
-    std::unique_ptr<Rescheduler> rescheduler_;
+    std::unique_ptr<Rescheduler> rescheduler_;  // null: one thread
+    bool mayReschedule_ = false;
     std::unique_ptr<Watchdog> watchdog_;
     std::atomic<std::uint32_t> threads_{1};
     std::atomic<std::thread::native_handle_type> loopThread_{};

@@ -2,19 +2,21 @@
 #include "loop/rescheduler.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace cortex::cs {
 
 namespace {
 
-constexpr std::chrono::milliseconds longestPause{60'000};
-constexpr std::chrono::milliseconds exchangePause{100};  // until the loop has taken an offer
+using Clock = std::chrono::steady_clock;
+
+constexpr int samplesOfALook = 5;  // of which the median counts: one may have met anything
+constexpr std::chrono::nanoseconds betweenSamples = std::chrono::milliseconds{100};
 constexpr double worthwhile = 0.8;  // of the time that the plan in use is expected to take
 
 // Timing a task takes two readings of the clock, of which one falls into the time.
 double timingCost() {
-    using Clock = std::chrono::steady_clock;
     constexpr int readings = 200;
     const auto begin = Clock::now();
     for (int i = 0; i < readings; ++i) Clock::now();
@@ -42,52 +44,63 @@ double expectedMicroseconds(const Schedule& schedule, std::span<const double> co
     return *std::max_element(threads.begin(), threads.end()) + wake;
 }
 
-Rescheduler::Rescheduler(AgentRuntime& agent, const Schedule& inUse, Maker maker,
-                         std::chrono::milliseconds first)
-    : agent_{agent},
-      inUse_{inUse},
-      maker_{std::move(maker)},
-      pause_{first},
-      costs_(agent.structure().simplexes.size()),
-      thread_{[this] { run(); }} {}
+Rescheduler::Rescheduler(AgentRuntime& agent, const Schedule& inUse, Maker maker)
+    : agent_{agent}, tasks_{inUse.tasks}, maker_{std::move(maker)}, inUse_{inUse}, thread_{[this] {
+          run();
+      }} {}
 
 Rescheduler::~Rescheduler() {
-    {
-        const std::lock_guard lock{mutex_};
-        stopping_ = true;
-    }
-    wake_.notify_all();
+    stopping_.store(true);
+    signals_.advance();
     thread_.join();
-    delete offered_.load();
-    delete returned_.load();
 }
 
-bool Rescheduler::exchange(Plan*& plan) {
-    if (offered_.load(std::memory_order_relaxed) == nullptr) return false;
-    returned_.store(std::exchange(plan, offered_.exchange(nullptr, std::memory_order_acq_rel)),
-                    std::memory_order_release);
+void Rescheduler::follow(std::uint64_t startups, std::int64_t now) {
+    if (hasLooked_) return;
+    if (std::exchange(startups_, startups) != startups) due_ = now + settlingTime;
+    if (due_ == 0 || now < due_) return;
+    hasLooked_ = true;
+    look();
+}
+
+void Rescheduler::look() {
+    if (!isLooking()) hand(Stage::Asked);
+}
+
+bool Rescheduler::exchange(std::unique_ptr<Plan>& plan) {
+    if (stage() != Stage::Offered) return false;
+    std::swap(plan, plan_);
+    hand(Stage::Returned);
+    return true;
+}
+
+bool Rescheduler::offer(std::unique_ptr<Plan> plan) {
+    if (isLooking()) return false;
+    inUse_ = plan->schedule;
+    plan_ = std::move(plan);
+    hand(Stage::Offered);
     return true;
 }
 
 void Rescheduler::run() {
-    bool offered = false;
-    std::unique_lock lock{mutex_};
-    while (!wake_.wait_for(lock, offered ? exchangePause : pause_, [this] { return stopping_; })) {
-        if (offered) {
-            const std::unique_ptr<Plan> old{returned_.exchange(nullptr, std::memory_order_acq_rel)};
-            offered = old == nullptr;
-            continue;
+    while (!stopping_.load()) {
+        const std::uint32_t seen = signals_.value();
+        if (stage() == Stage::Asked) {
+            plan_ = betterPlanIfPossible();
+            hand(plan_ != nullptr ? Stage::Offered : Stage::Idle);
+        } else if (stage() == Stage::Returned) {
+            plan_.reset();
+            hand(Stage::Idle);
+        } else if (!stopping_.load()) {
+            signals_.sleepWhile(seen);
         }
-        look();
-        offered = offered_.load(std::memory_order_relaxed) != nullptr;
-        pause_ = std::min(2 * pause_, longestPause);
     }
 }
 
 // Where the system has no thread or memory left for another plan, the one in use stays.
-void Rescheduler::look() {
+std::unique_ptr<Plan> Rescheduler::betterPlanIfPossible() {
     try {
-        offer();
+        return betterPlan();
     } catch (const std::exception& error) {
         EventText text{"no other plan for the loop: "};
         Event event;
@@ -95,35 +108,53 @@ void Rescheduler::look() {
         event.simplex = agent_.agentSimplex();
         event.text = text << error.what();
         agent_.events().postOutside(event);
+        return nullptr;
     }
 }
 
-void Rescheduler::offer() {
+std::unique_ptr<Plan> Rescheduler::betterPlan() {
     const std::vector<double> costs = measuredCosts();
-    if (costs.empty()) return;
+    if (costs.empty()) return nullptr;
     Schedule schedule = maker_.schedule(costs);
-    const bool better =
+    const bool isBetter =
         expectedMicroseconds(schedule, costs) < worthwhile * expectedMicroseconds(inUse_, costs);
-    if (!better || schedule.tasks != inUse_.tasks) return;
+    if (!isBetter || schedule.tasks != tasks_) return nullptr;
     std::unique_ptr<Plan> plan = maker_.plan(schedule);
     inUse_ = std::move(schedule);
-    offered_.store(plan.release(), std::memory_order_release);
+    return plan;
 }
 
-// What the simplexes say of their task time, no further than a factor of two from what they said at
-// the look before: one sample may have met anything. Empty: there is no image to read it from.
+// By simplex, 0: not timed yet. Empty: there is no image to read it from, or no time left.
 std::vector<double> Rescheduler::measuredCosts() {
+    std::vector<std::vector<double>> samples(agent_.structure().simplexes.size());
+    for (int i = 0; i < samplesOfALook; ++i) {
+        const std::int64_t end = (Clock::now().time_since_epoch() + betweenSamples).count();
+        while (i > 0 && !stopping_.load() && signals_.sleepWhile(signals_.value(), end)) {
+        }
+        if (stopping_.load() || !addSample(samples)) return {};
+    }
+    std::vector<double> costs(samples.size());
+    for (const std::uint32_t simplex : tasks_) {
+        std::vector<double>& of = samples[simplex];
+        if (of.empty()) continue;
+        std::ranges::sort(of);
+        costs[simplex] = of[of.size() / 2];
+    }
+    return costs;
+}
+
+// What the simplexes say of their task time.
+bool Rescheduler::addSample(std::vector<std::vector<double>>& samples) const {
     static const double timing = timingCost();
     const Image image = agent_.images().newest();
-    if (!image) return {};
-    for (const std::uint32_t simplex : inUse_.tasks) {
+    if (!image) return false;
+    for (const std::uint32_t simplex : tasks_) {
         const ItemLayout* item = agent_.structure().simplexes[simplex].layout->find("taskTime");
         if (item == nullptr) continue;
         const double time = image.slice(simplex).floats[item->offset] - timing;
-        double& cost = costs_[simplex];
-        if (time > 0) cost = cost == 0 ? time : std::clamp(time, cost / 2, cost * 2);
+        if (time > 0) samples[simplex].push_back(time);
     }
-    return costs_;
+    return true;
 }
 
 }  // namespace cortex::cs

@@ -3,15 +3,14 @@
 
 #include "cortex/core/agent.hpp"
 
+#include "base/event_count.hpp"
 #include "loop/plan.hpp"
 #include "threads/scheduler.hpp"
 
 #include <atomic>
-#include <chrono>
-#include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <thread>
 #include <vector>
@@ -25,38 +24,60 @@ double expectedMicroseconds(const Schedule& schedule, std::span<const double> co
 // Makes a schedule for what tasks cost, in microseconds by node.
 using ScheduleMaker = std::function<Schedule(std::span<const double> costs)>;
 
-// Looks at what tasks cost, on a thread of its own, and offers a plan made for these costs where it
-// is better by more than a fifth. The order of tasks, and so every result, stays as it is.
+// Looks at what tasks cost, and offers the loop a plan made for these costs where it is better by
+// more than a fifth: once, some time after the last startup, and whenever it is asked to. Its
+// thread sleeps otherwise. The order of tasks, and so every result, stays as it is.
 class Rescheduler {
 public:
     struct Maker {
         ScheduleMaker schedule;
         std::function<std::unique_ptr<Plan>(Schedule)> plan;
     };
-    // `first`: between the start and the first look; doubled after each, up to a minute. Made on a
-    // thread without real-time priority: its own has what the maker's has.
-    Rescheduler(AgentRuntime& agent, const Schedule& inUse, Maker maker,
-                std::chrono::milliseconds first = std::chrono::seconds{1});
+    // Made on a thread without real-time priority: its own has what the maker's has.
+    Rescheduler(AgentRuntime& agent, const Schedule& inUse, Maker maker);
     ~Rescheduler();
 
-    // Loop thread, between cycles. Where a better plan is offered `plan` is exchanged for it.
-    bool exchange(Plan*& plan) CORTEX_REALTIME;
+    // Loop thread, between cycles. `startups` of simplexes since the start; `now`: nominal time.
+    void follow(std::uint64_t startups, std::int64_t now) CORTEX_REALTIME;
+    void look() CORTEX_REALTIME;
+    bool isLooking() const CORTEX_REALTIME { return stage() != Stage::Idle; }
+    // Where a better plan is offered it takes the place of `plan`.
+    bool exchange(std::unique_ptr<Plan>& plan) CORTEX_REALTIME;
+
+    // Any thread but the loop's: offers this plan, unless it is looking. False: it is.
+    bool offer(std::unique_ptr<Plan> plan);
+
+    static constexpr std::int64_t settlingTime = 2'000'000'000;  // ns after the last startup
 
 private:
+    // Who has the word: the loop in Idle and Offered, the thread in Asked and Returned.
+    enum class Stage : std::uint8_t { Idle, Asked, Offered, Returned };
+    Stage stage() const { return stage_.load(std::memory_order_acquire); }
+    void hand(Stage stage) CORTEX_REALTIME {
+        stage_.store(stage, std::memory_order_release);
+        signals_.advance();
+    }
+
     void run();
-    void look();
-    void offer();
+    std::unique_ptr<Plan> betterPlan();
+    std::unique_ptr<Plan> betterPlanIfPossible();
     std::vector<double> measuredCosts();
+    bool addSample(std::vector<std::vector<double>>& samples) const;
 
     AgentRuntime& agent_;
-    Schedule inUse_;
+    const std::vector<std::uint32_t> tasks_;  // in the order of execution
     Maker maker_;
-    std::chrono::milliseconds pause_;
-    std::vector<double> costs_;  // by simplex, microseconds; 0: not timed yet
-    std::atomic<Plan*> offered_{nullptr}, returned_{nullptr};
-    std::mutex mutex_;
-    std::condition_variable wake_;
-    bool stopping_ = false;
+    std::atomic<Stage> stage_{Stage::Idle};
+    std::unique_ptr<Plan> plan_;  // offered to the loop, or returned by it
+    Schedule inUse_;
+    EventCount signals_;
+    std::atomic<bool> stopping_{false};
+
+    // Loop thread only.
+    std::uint64_t startups_ = 0;
+    std::int64_t due_ = 0;  // nominal time of the look after the last startup; 0: none
+    bool hasLooked_ = false;
+
     std::thread thread_;
 };
 

@@ -284,6 +284,7 @@ void TaskRunner::enter(Task& task, State to, const Tick& tick) {
     simplex.pending_.done = false;
     is.state = static_cast<std::int64_t>(to);
     is.stateSince = tick.nominalTime;
+    if (to == State::Active) ++simplex.thread_->startups;
     if (to == State::Fault) return;  // has an event of its own
     EventText text{name(from)};
     text << " -> " << name(to);
@@ -329,6 +330,7 @@ RunnerCounts TaskRunner::counts() const {
     for (const TaskThread& thread : threads_) {
         sum.limits += thread.limits;
         sum.conflicts += thread.conflicts;
+        sum.startups += thread.startups;
     }
     return sum;
 }

@@ -110,7 +110,7 @@ struct alignas(64) Position {
 };
 
 struct RunnerCounts {
-    std::uint64_t limits = 0, conflicts = 0;
+    std::uint64_t limits = 0, conflicts = 0, startups = 0;
 };
 
 // Executes tasks: commands, hooks, state machine, then quality, stamps, limits and safe demands.
