@@ -4,6 +4,7 @@
 // another, on the loop's thread alone; a dump for each scenario, labelled with its name and its
 // cycles.
 #include "cortex/core/error.hpp"
+#include "cortex/cs/testing.hpp"
 
 #include "instructions/scenarios.hpp"
 #include "subject/subject.hpp"
@@ -65,6 +66,10 @@ public:
         cluster_.addHeartbeat([this](const cs::Heartbeat& beat) {
             if (beat.alive) counting_.heartbeat(beat.cycle);
         });
+        cs::ClusterTesting::set(cluster_, {.onThreadStart = [](std::uint32_t) {
+                                    playedTime =
+                                        std::chrono::steady_clock::now().time_since_epoch().count();
+                                }});
         cluster_.start();
     }
 
@@ -93,9 +98,6 @@ private:
     static cs::ClusterOptions options() {
         cs::ClusterOptions options;
         options.watchdogPeriods = 1e6;  // callgrind is slow
-        options.onThreadStart = [](std::uint32_t) {
-            playedTime = std::chrono::steady_clock::now().time_since_epoch().count();
-        };
         return options;
     }
     void startAll() {

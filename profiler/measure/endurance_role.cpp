@@ -2,6 +2,7 @@
 #include "endurance_role.hpp"
 
 #include "cortex/comms/dds_interface.hpp"
+#include "cortex/cs/testing.hpp"
 
 #include "measure/allocation_count.hpp"
 #include "measure/comms_domain.hpp"
@@ -62,9 +63,11 @@ int playEnduranceRole(const std::vector<std::string>& words) {
     cs::ClusterOptions options;
     options.threads = static_cast<std::uint32_t>(std::stoul(words.at(2)));
     options.priority = std::stoi(words.at(4));
-    options.onThreadStart = [](std::uint32_t /*thread*/) { countAllocationsOfThisThread(); };
     SimplexTree tree = enduringTree();
     cs::ClusterCS cluster{"subject", options};
+    cs::ClusterTesting::set(cluster, {.onThreadStart = [](std::uint32_t /*thread*/) {
+                                countAllocationsOfThisThread();
+                            }});
     cluster.addSimplexTree(tree);
     cluster.setTriggerSource<cs::InternalClock>(
         std::chrono::nanoseconds{static_cast<std::int64_t>(1e9 / std::stod(words.at(3)))});

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/cs/testing.hpp"
+
 #include "support/probe.hpp"
 
 #include <atomic>
@@ -20,7 +22,8 @@ class ImageOfCycle : public ::testing::TestWithParam<std::uint32_t> {};
 // some take long, so that threads help each other.
 TEST_P(ImageOfCycle, ShowsWhatEveryTaskWroteInItsCycle) {
     std::atomic<std::int64_t> slow{0};
-    test::ProbeCluster cluster{{.threads = GetParam(), .forceThreads = true}};
+    test::ProbeCluster cluster{{.threads = GetParam()}};
+    ClusterTesting::set(*cluster.cluster, {.forceThreads = true});
     std::vector<Data<std::int64_t>> executed(taskCount), counts(taskCount);
     std::vector<test::Probe*> probes;
     Simplex* signal = nullptr;
@@ -64,7 +67,8 @@ TEST_P(ImageOfCycle, ShowsWhatEveryTaskWroteInItsCycle) {
 }
 
 TEST_P(ImageOfCycle, ShowsWhatATaskWroteIntoAnotherActiveSimplex) {
-    test::ProbeCluster cluster{{.threads = GetParam(), .forceThreads = true}};
+    test::ProbeCluster cluster{{.threads = GetParam()}};
+    ClusterTesting::set(*cluster.cluster, {.forceThreads = true});
     constexpr std::uint32_t count = 600;
     std::vector<test::Probe*> probes;
     std::vector<Data<std::int64_t>> ofOther(count);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/cs/testing.hpp"
+
 #include "support/probe.hpp"
 
 #include <cstdint>
@@ -20,7 +22,7 @@ TEST(Overflow, SkipGoesOnAtTheNextTickOfTheGridAndCountsEachMissedOne) {
     };
     cluster.start();
     cluster.step(2);
-    cluster.trigger->lateBy(3);
+    cs::ClusterTesting::playLate(*cluster.trigger, 3);
     cluster.step(3);
 
     EXPECT_EQ(times, (std::vector<std::int64_t>{0, 1, 2, 6, 7}));
@@ -37,7 +39,7 @@ TEST(Overflow, CatchUpRunsTheMissedTicksAtOnceAndCountsThemOnce) {
     };
     cluster.start();
     cluster.step(2);
-    cluster.trigger->lateBy(3);
+    cs::ClusterTesting::playLate(*cluster.trigger, 3);
     cluster.step();
     EXPECT_EQ(times, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5}));
     cluster.step();
@@ -53,7 +55,7 @@ TEST(Overflow, CatchUpSkipsAfterItsBoundAndEveryTickIsRunOrCounted) {
         times.push_back(tick.nominalTime / 1'000'000);
     };
     cluster.start();
-    cluster.trigger->lateBy(5);
+    cs::ClusterTesting::playLate(*cluster.trigger, 5);
     cluster.step(2);
 
     // 0, then two of the five at once, the other three skipped, then on.
@@ -78,7 +80,7 @@ TEST(Overflow, HaltFaultsAllThatIsActiveInTheNextCycleAndRunsOnWithSafeDemands) 
     cluster.start();
     cluster.startup(writer);
     cluster.startup(slow);
-    cluster.trigger->lateBy(1);
+    cs::ClusterTesting::playLate(*cluster.trigger, 1);
     cluster.step();
     after = 0;
 

@@ -3,6 +3,7 @@
 
 #include "cortex/core/command_exchange.hpp"
 #include "cortex/cs/cluster_cs.hpp"
+#include "cortex/cs/testing.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -124,8 +125,6 @@ Observation runOnThreads(const Plan& plan, std::uint32_t threads, std::uint64_t 
     SimplexTree tree = makeTree(plan, disturbance);
     cs::ClusterOptions options;
     options.threads = threads;
-    options.forceThreads = true;
-    options.chunkSize = plan.chunkSize;
     options.watchdogPeriods = 1e6;  // it measures: a busy machine is no hang
     options.imageReaders = 1;
     options.catchUpCycles = plan.catchUpCycles;
@@ -135,6 +134,7 @@ Observation runOnThreads(const Plan& plan, std::uint32_t threads, std::uint64_t 
     Observation observation;
     bool recording = true;
     cs::ClusterCS cluster{"test", options};
+    cs::ClusterTesting::set(cluster, {.forceThreads = true, .chunkSize = plan.chunkSize});
     cluster.addSimplexTree(tree);
     auto& trigger = cluster.setTriggerSource<cs::ManualTrigger>(std::chrono::nanoseconds{period});
     auto& script = cluster.addInterface<ScriptInterface>(plan);
@@ -145,7 +145,7 @@ Observation runOnThreads(const Plan& plan, std::uint32_t threads, std::uint64_t 
     auto late = plan.late.begin();
     for (std::int64_t done = 0; done < steps;) {
         for (; late != plan.late.end() && late->cycle == done + 1; ++late) {
-            trigger.lateBy(late->periods);
+            cs::ClusterTesting::playLate(trigger, late->periods);
         }
         // Up to the next look at the tables, or to the step that is late.
         std::int64_t until = (done / snapshotEvery + 1) * snapshotEvery;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // For each way out of Active, and back: no demand of the case study steps by more than its axis may
 // move in a cycle.
+#include "cortex/cs/testing.hpp"
+
 #include "teleop.hpp"
 #include "toolkit/lbr_chain.hpp"
 
@@ -126,7 +128,7 @@ void shutDown(Teleop& teleop) {
 }
 
 void halt(Teleop& teleop) {
-    teleop.trigger->lateBy(3);
+    cs::ClusterTesting::playLate(*teleop.trigger, 3);
     teleop.step(3);
     EXPECT_EQ(stateOf(teleop.image(), "/control/follow"), State::Fault);
     EXPECT_EQ(stateOf(teleop.image(), "/drives/1"), State::Fault);

@@ -74,7 +74,8 @@ TEST(DdsCluster, KeepsItsTicksCleanWhileClientsComeAndGo) {
     SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};
     auto& probe = tree.add<test::Probe>("/probe", "Probe");
     tree.relateRemote(probe, "observed", "/axis");
-    cs::ClusterCS cluster{"near", test::watched(1, geteuid() == 0 ? 10 : 0)};
+    cs::ClusterCS cluster{"near", test::optionsOf(1, geteuid() == 0 ? 10 : 0)};
+    test::watch(cluster, 1);
     cluster.addSimplexTree(tree);
     cluster.setTriggerSource<test::WatchedClock>();
     cluster.addInterface<DdsInterface>(loopback());

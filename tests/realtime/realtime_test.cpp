@@ -39,7 +39,8 @@ TEST_P(CaseStudy, RunsWithoutAllocationLockSystemCallOrPageFault) {
     probe.onActive = [&](Probe& self, const Tick&) {
         if (broken.exchange(false)) self.fault(5, "asked for by the test");
     };
-    cs::ClusterCS cluster{"teleop", watched(GetParam(), geteuid() == 0 ? 10 : 0)};
+    cs::ClusterCS cluster{"teleop", optionsOf(GetParam(), geteuid() == 0 ? 10 : 0)};
+    watch(cluster, GetParam());
     cluster.useClasses(registry);
     cluster.addSimplexTree(tree);
     cluster.setTriggerSource<WatchedClock>();
@@ -116,7 +117,8 @@ TEST_P(MisbehavingHook, IsSeen) {
     munlockall();  // an earlier test may have locked what is still to come
     freshPage = static_cast<char*>(
         mmap(nullptr, 1 << 16, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
-    cs::ClusterCS cluster{"watched", watched(1, 0)};
+    cs::ClusterCS cluster{"watched", optionsOf(1, 0)};
+    watch(cluster, 1);
     cluster.addSimplexTree(tree);
     cluster.setTriggerSource<WatchedClock>();
     cluster.start();

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "cortex/cs/cluster_cs.hpp"
+#include "cortex/cs/testing.hpp"
 
 #include "realtime/detectors.hpp"
 
 #include <chrono>
 #include <cstdint>
 #include <thread>
+#include <utility>
 
 namespace cortex::test {
 
@@ -31,16 +33,22 @@ private:
     cs::InternalClock clock_{std::chrono::milliseconds{1}};
 };
 
-inline cs::ClusterOptions watched(std::uint32_t threads, int priority) {
+inline cs::ClusterOptions optionsOf(std::uint32_t threads, int priority) {
     cs::ClusterOptions options;
     options.threads = threads;
-    options.forceThreads = threads > 1;
     options.priority = priority;
+    return options;
+}
+
+// Before start().
+inline void watch(cs::ClusterCS& cluster, std::uint32_t threads) {
+    cs::TestOptions options;
+    options.forceThreads = threads > 1;
     options.onThreadStart = [](std::uint32_t thread) {
         watchThisThread();
         if (thread > 0) enterTick();  // a worker between cycles only waits
     };
-    return options;
+    cs::ClusterTesting::set(cluster, std::move(options));
 }
 
 // Waits until the cluster has run so many cycles more.

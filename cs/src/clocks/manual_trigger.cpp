@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/error.hpp"
+#include "cortex/cs/testing.hpp"
 #include "cortex/cs/trigger_source.hpp"
 
 namespace cortex::cs {
@@ -17,9 +18,9 @@ void ManualTrigger::step(std::int64_t cycles) {
                [&] { return (finished_ >= last && late_ == 0 && !running_) || interrupted_; });
 }
 
-void ManualTrigger::lateBy(std::int64_t periods) {
-    const std::lock_guard lock{mutex_};
-    requestedLate_ += periods;
+void ClusterTesting::playLate(ManualTrigger& trigger, std::int64_t periods) {
+    const std::lock_guard lock{trigger.mutex_};
+    trigger.requestedLate_ += periods;
 }
 
 void ManualTrigger::start() {}

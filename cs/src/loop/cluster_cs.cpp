@@ -3,6 +3,7 @@
 
 #include "cortex/core/error.hpp"
 #include "cortex/core/validation.hpp"
+#include "cortex/cs/testing.hpp"
 
 #include "loop/cluster_loop.hpp"
 #include "loop/group_commands.hpp"
@@ -18,6 +19,7 @@ namespace cortex::cs {
 struct ClusterCS::Implementation {
     std::string name;
     ClusterOptions options;
+    TestOptions test;
     SimplexTree* tree = nullptr;
     const ClassRegistry* registry = nullptr;
     std::unique_ptr<TriggerSource> trigger;
@@ -42,7 +44,6 @@ namespace {
 bool hasTask(const SimplexInfo& info) { return !info.remote && info.layout->type->isA("Active"); }
 
 std::uint32_t threadsFor(const ClusterOptions& options, std::vector<std::string>& report) {
-    if (options.forceThreads) return options.threads;
     const std::uint32_t threads =
         clampThreads(options.threads, options.priority, options.cpus, report);
     return options.acrossCaches ? threads : threadsWithCommonCache(threads, options.cpus, report);
@@ -208,7 +209,8 @@ void ClusterCS::startAll() {
     self.tree->createRelated(self.registry);
 
     std::vector<std::string> realtimeReport;
-    const std::uint32_t threads = threadsFor(self.options, realtimeReport);
+    const std::uint32_t threads =
+        self.test.forceThreads ? self.options.threads : threadsFor(self.options, realtimeReport);
     AgentOptions options;
     options.imageReaders = self.options.imageReaders + 1;  // who looks at task times
     options.loopThreads = threads;
@@ -222,15 +224,16 @@ void ClusterCS::startAll() {
     const std::vector<SimplexCS*> simplexes = self.activeInOrder(order);
     self.populate(simplexes);
     Schedule schedule =
-        makeSchedule(graph, {threads, self.options.chunkSize, {}, self.options.forceThreads});
+        makeSchedule(graph, {threads, self.test.chunkSize, {}, self.test.forceThreads});
     self.agent->addInterface(self.program);
     for (const auto& interface : self.interfaces) self.agent->addInterface(*interface);
     for (EventLog::Sink& sink : self.sinks) self.agent->events().addSink(sink);
     self.loop =
         std::make_unique<ClusterLoop>(*self.agent, *self.trigger, self.options, std::move(schedule),
                                       simplexes, self.heartbeats, std::move(realtimeReport));
+    self.loop->testWith(self.test);
     self.loop->rescheduleBy([&self, threads](std::span<const double> costs) {
-        return makeSchedule(self.graph(), {threads, self.options.chunkSize, costs, false});
+        return makeSchedule(self.graph(), {threads, self.test.chunkSize, costs, false});
     });
     self.agent->start();
     self.loop->start();
@@ -249,6 +252,15 @@ bool ClusterCS::stop() {
     }
     self.agent->stop();
     return true;
+}
+
+void ClusterTesting::set(ClusterCS& cluster, TestOptions options) {
+    cluster.implementation_->test = std::move(options);
+}
+
+bool ClusterTesting::offerPlan(ClusterCS& cluster, std::uint32_t threads, std::uint32_t chunkSize) {
+    const ClusterCS::Implementation& self = *cluster.implementation_;
+    return self.loop->offerPlan(makeSchedule(self.graph(), {threads, chunkSize, {}, true}));
 }
 
 bool ClusterCS::running() const {

@@ -75,15 +75,14 @@ void ClusterLoop::start() {
 void ClusterLoop::addThreads(Plan& plan) {
     PoolOptions pool;
     pool.name = agent_.name();
-    pool.threads = options_.forceThreads ? options_.threads : 0;
     pool.priority = options_.priority;
     pool.affinity = options_.cpus;
-    pool.oversubscribe = options_.forceThreads;
-    if (options_.onThreadStart) {
+    pool.oversubscribe = test_.forceThreads;
+    if (test_.onThreadStart) {
         pool.onStart = [](void* options, std::uint32_t worker) {
-            static_cast<const ClusterOptions*>(options)->onThreadStart(worker);
+            static_cast<const TestOptions*>(options)->onThreadStart(worker);
         };
-        pool.onStartContext = &options_;
+        pool.onStartContext = &test_;
     }
     plan.pool = std::make_unique<ThreadPool>(
         plan.schedule,
@@ -103,7 +102,7 @@ void ClusterLoop::prepareThread() {
     append(plan_->pool->configureLoopThread());
     if (options_.priority > 0 && options_.lockMemory) append(lockMemory());
     if (options_.priority > 0 && options_.keepCpusAwake) awakeCpus_.emplace(realtimeReport_);
-    if (options_.onThreadStart) options_.onThreadStart(0);
+    if (test_.onThreadStart) test_.onThreadStart(0);
 }
 
 void ClusterLoop::run() {
@@ -197,7 +196,7 @@ void ClusterLoop::cycle(const Trigger& trigger) {
 // On the program's thread, so that its own has neither the loop's priority nor its CPU.
 void ClusterLoop::startRescheduler() {
     if (agent_.threadCount() < 2 || !makeSchedule_) return;
-    mayReschedule_ = trigger_.realTime() && !options_.forceThreads;
+    mayReschedule_ = trigger_.realTime() && !test_.forceThreads;
     rescheduler_ = std::make_unique<Rescheduler>(
         agent_, plan_->schedule, Rescheduler::Maker{makeSchedule_, [this](Schedule schedule) {
                                                         return makePlan(std::move(schedule));
@@ -210,6 +209,11 @@ std::unique_ptr<Plan> ClusterLoop::makePlan(Schedule schedule) {
     addThreads(*plan);
     plan->pool->placeLoopThread(loopThread_.load());
     return plan;
+}
+
+bool ClusterLoop::offerPlan(Schedule schedule) {
+    if (rescheduler_ == nullptr || rescheduler_->isLooking()) return false;
+    return rescheduler_->offer(makePlan(std::move(schedule)));
 }
 
 // A command of /<cluster>.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/cs/cluster_cs.hpp"
+#include "cortex/cs/testing.hpp"
 
 #include "loop/group_commands.hpp"
 #include "loop/metrics.hpp"
@@ -42,8 +43,10 @@ public:
     Ended ended() const { return ended_.load(std::memory_order_acquire); }
     const std::vector<std::string>& realtimeReport() const { return realtimeReport_; }
     std::uint32_t threads() const { return threads_.load(std::memory_order_relaxed); }
+    void testWith(TestOptions options) { test_ = std::move(options); }  // before start()
     // Before start(): makes schedules for what is measured; with threads to share the work only.
     void rescheduleBy(ScheduleMaker makeSchedule) { makeSchedule_ = std::move(makeSchedule); }
+    bool offerPlan(Schedule schedule);  // see ClusterTesting
 
 private:
     void run();
@@ -67,6 +70,7 @@ private:
     AgentRuntime& agent_;
     TriggerSource& trigger_;
     ClusterOptions options_;
+    TestOptions test_;
     std::vector<std::function<void(const Heartbeat&)>> heartbeats_;
     std::vector<std::string> realtimeReport_;
     std::optional<AwakeCpus> awakeCpus_;

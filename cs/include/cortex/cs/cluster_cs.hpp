@@ -39,11 +39,6 @@ struct ClusterOptions {
     double watchdogPeriods = 10;   // at least 100 ms
     bool controlRequired = false;  // commands from outside need a control lease
     std::uint32_t imageReaders = 8;
-    // Runs on each of the loop's threads (0: the loop's own) before its first cycle.
-    std::function<void(std::uint32_t thread)> onThreadStart{};
-    // For tests and measurements.
-    bool forceThreads = false;    // use `threads` even where one would do
-    std::uint32_t chunkSize = 0;  // tasks a chunk; 0: the schedule decides
 };
 
 // What heartbeat functions are told, after each cycle on the loop thread, and by the watchdog.
@@ -110,6 +105,7 @@ public:
     std::uint32_t threadsInUse() const;
 
 private:
+    friend struct ClusterTesting;
     void setTrigger(std::unique_ptr<TriggerSource> source);
     void startAll();
 

@@ -67,13 +67,12 @@ private:
 };
 
 // One cycle for each step(): tests, stepping, faster than real time. step() returns when the cycle
-// has ended. `lateBy` plays an overload: the following tick counts so many missed periods.
+// has ended.
 class ManualTrigger final : public TriggerSource {
 public:
     explicit ManualTrigger(std::chrono::nanoseconds period);
 
     void step(std::int64_t cycles = 1);
-    void lateBy(std::int64_t periods);
 
     void start() override;
     Trigger waitForTick() override;
@@ -84,6 +83,7 @@ public:
     bool realTime() const override { return false; }
 
 private:
+    friend struct ClusterTesting;
     std::int64_t period_;
     std::int64_t tick_ = -1;
     std::int64_t late_ = 0, requestedLate_ = 0;
