@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables and events of a system are a function of what enters it: the same for a plain serial
-// reference and for 1, 2 and 4 threads, however long each task takes.
+// reference and for 1, 2 and 4 threads, however long each task takes, and though the loop exchanges
+// its plan for others while it runs.
 #include "determinism/hand_made_loop.hpp"
 #include "determinism/real_run.hpp"
 #include "determinism/reference.hpp"
@@ -38,16 +39,18 @@ std::uint64_t systemCount() {
 // How many systems have what.
 struct Counts {
     std::uint64_t systems = 0, delayed = 0, shared = 0, rates = 0, faults = 0, across = 0;
-    std::uint64_t all = 0, commands = 0, commandsAcross = 0, events = 0, refused = 0, limited = 0;
+    std::uint64_t all = 0, plans = 0, commands = 0, commandsAcross = 0, events = 0, refused = 0,
+                  limited = 0;
 
     void add(const Plan& plan, const Observation& reference, std::uint64_t executed,
-             std::uint64_t executedAcross) {
+             std::uint64_t executedAcross, std::uint64_t plansOffered) {
         const auto count = [&](EventKind kind) {
             return static_cast<std::uint64_t>(
                 std::ranges::count(reference.events, kind, &SeenEvent::kind));
         };
         const bool faulted = count(EventKind::Fault) > 0;
         ++systems;
+        plans += plansOffered;
         delayed += plan.hasDelayedEdges();
         shared += plan.hasSharedSimplexes();
         rates += plan.hasRates();
@@ -66,9 +69,10 @@ struct Counts {
             "%llu systems: %llu have delayed edges, %llu two writers, %llu rates, %llu faults, "
             "%llu commands that crossed threads, %llu all of it\n"
             "  %llu commands along relationships (counted in three runs), %llu of them on another "
-            "thread than sent; %llu events, among them %llu refusals, %llu limits\n",
+            "thread than sent; %llu events, among them %llu refusals, %llu limits; %llu plans "
+            "exchanged while the loop ran\n",
             n(systems), n(delayed), n(shared), n(rates), n(faults), n(across), n(all), n(commands),
-            n(commandsAcross), n(events), n(refused), n(limited));
+            n(commandsAcross), n(events), n(refused), n(limited), n(plans));
     }
     static unsigned long long n(std::uint64_t number) { return number; }
 };
@@ -85,7 +89,7 @@ TEST_P(Determinism, HoldsForRandomSystemsOnOneTwoAndFourThreadsAgainstAPlainRefe
         Reference reference{plan, testTypes()};
         const std::vector<NamedType> simplexes = reference.simplexes();
         const Observation expected = reference.run();
-        std::uint64_t executed = 0, across = 0;
+        std::uint64_t executed = 0, across = 0, plans = 0;
         for (const std::uint32_t threads : {1U, 2U, 4U}) {
             const std::uint64_t delays = threads == 1 ? 0 : seed * 10 + threads;
             const Observation seen = runOnThreads(plan, threads, delays);
@@ -93,11 +97,13 @@ TEST_P(Determinism, HoldsForRandomSystemsOnOneTwoAndFourThreadsAgainstAPlainRefe
                 << "seed " << seed << " on " << threads << " threads";
             executed += seen.commandsExecuted;
             across += seen.commandsAcross;
+            plans += seen.plansOffered;
         }
-        counts.add(plan, expected, executed, across);
+        counts.add(plan, expected, executed, across, plans);
     }
     counts.print();
     EXPECT_GE(counts.all * 10, counts.systems * 9);
+    EXPECT_GE(counts.plans, counts.systems);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shards, Determinism, testing::Range(std::uint64_t{0}, shards));

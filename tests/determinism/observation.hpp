@@ -54,7 +54,7 @@ struct Observation {
     std::vector<SeenEvent> events;
     std::vector<SeenOutsideAnswer> answers;
     // What happened, for the count of what the systems exercise.
-    std::uint64_t commandsExecuted = 0, commandsAcross = 0;
+    std::uint64_t commandsExecuted = 0, commandsAcross = 0, plansOffered = 0;
 };
 
 // The items that a snapshot holds of a simplex of this type, in its order.

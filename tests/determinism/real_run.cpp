@@ -10,6 +10,12 @@
 
 namespace cortex::determinism {
 
+namespace {
+
+constexpr std::int64_t exchangeEvery = 5 * snapshotEvery;  // cycles between two plans of the loop
+
+}  // namespace
+
 const TypeModel& testTypes() {
     static const TypeModel types =
         TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/determinism-rules.xml");
@@ -142,6 +148,7 @@ Observation runOnThreads(const Plan& plan, std::uint32_t threads, std::uint64_t 
         if (recording) observation.events.push_back(seen(event, structure));
     });
     cluster.start();
+    Chance chance{seed};
     auto late = plan.late.begin();
     for (std::int64_t done = 0; done < steps;) {
         for (; late != plan.late.end() && late->cycle == done + 1; ++late) {
@@ -154,6 +161,10 @@ Observation runOnThreads(const Plan& plan, std::uint32_t threads, std::uint64_t 
         done = until;
         if (done % snapshotEvery != 0) continue;
         observation.snapshots.push_back(snapshotOf(cluster.image()));
+        if (threads == 1 || done % exchangeEvery != 0) continue;
+        const auto others = static_cast<std::uint32_t>(1 + chance.below(threads));
+        const auto chunkSize = static_cast<std::uint32_t>(chance.below(5));
+        observation.plansOffered += cs::ClusterTesting::offerPlan(cluster, others, chunkSize);
     }
     cluster.agent().events().flush();
     recording = false;

@@ -75,7 +75,7 @@ bool Rescheduler::exchange(std::unique_ptr<Plan>& plan) {
 }
 
 bool Rescheduler::offer(std::unique_ptr<Plan> plan) {
-    if (isLooking()) return false;
+    if (isLooking() || plan->schedule.tasks != tasks_) return false;
     inUse_ = plan->schedule;
     plan_ = std::move(plan);
     hand(Stage::Offered);

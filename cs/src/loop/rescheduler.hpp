@@ -44,7 +44,7 @@ public:
     // Where a better plan is offered it takes the place of `plan`.
     bool exchange(std::unique_ptr<Plan>& plan) CORTEX_REALTIME;
 
-    // Any thread but the loop's: offers this plan, unless it is looking. False: it is.
+    // While the loop rests: offers this plan. False: it is looking, or the order is another.
     bool offer(std::unique_ptr<Plan> plan);
 
     static constexpr std::int64_t settlingTime = 2'000'000'000;  // ns after the last startup
