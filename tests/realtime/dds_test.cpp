@@ -120,6 +120,8 @@ TEST(DdsCluster, KeepsItsTicksCleanWhileClientsComeAndGo) {
 
     EXPECT_TRUE(test::offences().none()) << test::offences().text();
     EXPECT_EQ(test::pageFaults(), faults);
+    // In each cycle the loop wakes the communication thread at most once.
+    EXPECT_LE(test::offences().futexCalls, static_cast<std::uint64_t>(cluster.image().cycle()));
     cluster.stop();
 }
 

@@ -9,11 +9,14 @@
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <memory>
 #include <mutex>
 #include <thread>
 
+#include <linux/futex.h>
 #include <sys/mman.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -53,6 +56,7 @@ TEST_P(CaseStudy, RunsWithoutAllocationLockSystemCallOrPageFault) {
     runCycles(cluster, 200);
 
     const Offences before = offences();
+    const std::int64_t cyclesBefore = cluster.image().cycle();
     const std::uint64_t faultsBefore = pageFaults();
     std::atomic<bool> observing{true};
     std::thread observer{[&] {
@@ -83,6 +87,9 @@ TEST_P(CaseStudy, RunsWithoutAllocationLockSystemCallOrPageFault) {
     EXPECT_EQ(after.allocations, before.allocations) << after.text();
     EXPECT_EQ(after.locks, before.locks) << after.text();
     EXPECT_EQ(after.systemCalls, before.systemCalls) << after.text();
+    const std::int64_t cycles = cluster.image().cycle() - cyclesBefore;
+    EXPECT_LE(after.futexCalls - before.futexCalls, mostFutexCalls(cycles, GetParam()))
+        << "in " << cycles << " cycles";
     EXPECT_EQ(pageFaults(), faultsBefore);
     EXPECT_TRUE(before.none()) << "already in the first cycles: " << before.text();
     EXPECT_GT(events, eventsBefore) << "the fault and its events are part of the test";
@@ -160,6 +167,26 @@ INSTANTIATE_TEST_SUITE_P(
                 },
                 [](const Offences& seen, std::uint64_t) {
                     return seen.systemCalls == 1 && seen.firstSystemCall == 1;
+                }},
+        Misdeed{"munmap", [] { munmap(freshPage + (1 << 14), 1 << 12); },
+                [](const Offences& seen, std::uint64_t) {
+                    return seen.systemCalls == 1 && seen.firstSystemCall == SYS_munmap;
+                }},
+        Misdeed{"madvise", [] { madvise(freshPage, 1 << 12, MADV_DONTNEED); },
+                [](const Offences& seen, std::uint64_t) {
+                    return seen.systemCalls == 1 && seen.firstSystemCall == SYS_madvise;
+                }},
+        Misdeed{"signalMask", [] { pthread_sigmask(SIG_BLOCK, nullptr, nullptr); },
+                [](const Offences& seen, std::uint64_t) {
+                    return seen.systemCalls == 1 && seen.firstSystemCall == SYS_rt_sigprocmask;
+                }},
+        Misdeed{"futex",
+                [] {
+                    static std::uint32_t word = 0;
+                    syscall(SYS_futex, &word, FUTEX_WAKE_PRIVATE, 1, nullptr, nullptr, 0);
+                },
+                [](const Offences& seen, std::uint64_t) {
+                    return seen.systemCalls == 0 && seen.futexCalls == 1;
                 }},
         Misdeed{"newPage", [] { freshPage[1 << 15] = 1; },
                 [](const Offences&, std::uint64_t newFaults) { return newFaults >= 1; }}),

@@ -51,6 +51,13 @@ inline void watch(cs::ClusterCS& cluster, std::uint32_t threads) {
     cs::ClusterTesting::set(cluster, std::move(options));
 }
 
+// Of all threads together in so many cycles, where nothing keeps a thread off its CPU: each worker
+// waits for the cycle and twice for others, and is woken as often; the loop waits for the end.
+inline std::uint64_t mostFutexCalls(std::int64_t cycles, std::uint32_t threads) {
+    constexpr std::uint64_t mostOfThread = 6;
+    return threads == 1 ? 0 : static_cast<std::uint64_t>(cycles) * threads * mostOfThread;
+}
+
 // Waits until the cluster has run so many cycles more.
 inline void runCycles(cs::ClusterCS& cluster, std::int64_t cycles) {
     const std::int64_t last = cluster.image().cycle() + cycles;
