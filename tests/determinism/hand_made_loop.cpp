@@ -64,7 +64,7 @@ HandMadeLoop::HandMadeLoop(const Plan& plan)
         observation_.events.push_back(seen(event, structure));
     });
     runner_ = std::make_unique<cs::TaskRunner>(*agent_, schedule_, period);
-    group_ = std::make_unique<cs::GroupCommands>(*agent_, *runner_, simplexes);
+    group_ = std::make_unique<cs::GroupCommands>(*agent_, runner_->states(), simplexes);
     agent_->start();
 }
 

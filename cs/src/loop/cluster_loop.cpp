@@ -35,7 +35,7 @@ ClusterLoop::ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const Clus
       realtimeReport_{std::move(realtimeReport)},
       plan_{std::make_unique<Plan>(Plan{std::move(schedule), nullptr})},
       runner_{agent, plan_->schedule, trigger.period()},
-      group_{agent, runner_, std::move(simplexes)},
+      group_{agent, runner_.states(), std::move(simplexes)},
       metrics_{agent, trigger.period(), plan_->schedule.threads} {
     agent_.registerHandler(agent_.agentSimplex(), "reschedule",
                            {this, [](void* self, Call& call) {
@@ -124,7 +124,7 @@ void ClusterLoop::run() {
     try {
         loop();
     } catch (const std::exception& error) {
-        tellFailure("the trigger", error.what());
+        reportFailure("the trigger", error.what());
     }
     shutDown();
     rescheduler_.reset();
@@ -146,13 +146,13 @@ void ClusterLoop::loop() {
 }
 
 // What code of the user's threw outside of any simplex.
-void ClusterLoop::tellFailure(const char* who, const char* what) {
+void ClusterLoop::reportFailure(const char* source, const char* what) {
     Event event;
     event.cycle = cycle_;
     event.time = lastNominal_;
     event.simplex = agent_.agentSimplex();
     event.severity = Severity::Error;
-    event.text << who << " threw: " << what;
+    event.text << source << " threw: " << what;
     agent_.events().postOutside(event);
 }
 
@@ -161,7 +161,7 @@ void ClusterLoop::beat(const Heartbeat& heartbeat) {
         try {
             function(heartbeat);
         } catch (const std::exception& error) {
-            tellFailure("a heartbeat function", error.what());
+            reportFailure("a heartbeat function", error.what());
         }
     }
 }
@@ -248,7 +248,7 @@ void ClusterLoop::countMissed(std::int64_t missed) {
     metrics_.overflow(missed);
     unreported_ += missed;
     if (options_.overflow != Overflow::Halt) return;
-    runner_.halt();
+    runner_.states().halt();
     ended_.store(Ended::Halted, std::memory_order_release);
 }
 
@@ -291,7 +291,7 @@ void ClusterLoop::shutDown() {
     trigger.lateness = 0;
     const std::int64_t start = monotonicNow();
     group_.beginStop();
-    runner_.beginStop();
+    runner_.states().beginStop();
     for (std::int64_t i = 1; cycle_ > 0 && i <= budget && !group_.allResting(); ++i) {
         trigger.nominalTime += period;
         if (trigger_.realTime()) {
@@ -301,7 +301,7 @@ void ClusterLoop::shutDown() {
         group_.step();
         if (i == budget || monotonicNow() - start > stopBudget) {
             i = budget;
-            runner_.forceStandby();
+            runner_.states().forceStandby();
         }
         cycle(trigger);
     }

@@ -58,7 +58,7 @@ private:
     void adoptPlan() CORTEX_REALTIME;
     void loop();
     void beat(const Heartbeat& heartbeat);
-    void tellFailure(const char* who, const char* what);
+    void reportFailure(const char* source, const char* what);
     void cycle(const Trigger& trigger) CORTEX_REALTIME;
     void checkOverflow() CORTEX_REALTIME;
     void countMissed(std::int64_t missed) CORTEX_REALTIME;

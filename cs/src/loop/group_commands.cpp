@@ -3,7 +3,7 @@
 
 #include "cortex/core/path.hpp"
 
-#include "tasks/task_runner.hpp"
+#include "tasks/task_states.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -16,8 +16,8 @@ bool resting(State state) { return state == State::Standby || state == State::Fa
 
 }  // namespace
 
-GroupCommands::GroupCommands(AgentRuntime& agent, TaskRunner& runner, std::vector<SimplexCS*> order)
-    : agent_{agent}, runner_{runner}, order_{std::move(order)} {
+GroupCommands::GroupCommands(AgentRuntime& agent, TaskStates& states, std::vector<SimplexCS*> order)
+    : agent_{agent}, states_{states}, order_{std::move(order)} {
     faultTexts_.reserve(order_.size());
     for (SimplexCS* each : order_) {
         faultTexts_.push_back(each->data<const std::string_view>("faultText"));
@@ -42,7 +42,7 @@ void GroupCommands::registerHandler(std::string_view name) {
 
 Outcome GroupCommands::handle(LifeCycle command, Call& call, Argument<std::string_view> prefix) {
     if (call.cancelling()) {
-        if (!stopping_) runner_.listenTo(noSimplex);
+        if (!stopping_) states_.observe(noSimplex);
         return Outcome::Cancelled;
     }
     if (stopping_) return call.fail("the cluster is stopping");
@@ -82,7 +82,7 @@ bool GroupCommands::step() {
         }
         if (!posted_) {
             posted_ = true;
-            runner_.listenTo(simplex.index());
+            states_.observe(simplex.index());
             agent_.postLifeCycle(simplex.index(), command_, false);
             return true;
         }
@@ -92,7 +92,7 @@ bool GroupCommands::step() {
         // What comes after relies on it; a shutdown goes on all the same.
         at_ = command_ == LifeCycle::Startup ? order_.size() : at_ + 1;
     }
-    runner_.listenTo(noSimplex);
+    states_.observe(noSimplex);
     if (command_ != LifeCycle::Shutdown || std::exchange(again_, true) || !anyWorks()) return false;
     at_ = 0;
     return step();
@@ -138,7 +138,7 @@ bool GroupCommands::reached(const SimplexCS& simplex) const {
 }
 
 bool GroupCommands::failed(const SimplexCS& simplex) const {
-    const bool ran = runner_.heardRun();
+    const bool ran = states_.observedRan();
     switch (command_) {
         case LifeCycle::Startup:
             return simplex.state_ == State::Fault || (ran && simplex.state_ == State::Standby);
@@ -155,8 +155,8 @@ bool GroupCommands::failed(const SimplexCS& simplex) const {
 void GroupCommands::addFailure(const SimplexCS& simplex) {
     if (anyFailed_) failures_ << "; ";
     anyFailed_ = true;
-    // What it said since it was asked, else what it is in.
-    std::string_view why = runner_.heard().view();
+    // Why it refused or faulted since it was asked, otherwise the state that it is in.
+    std::string_view why = states_.observedReason().view();
     if (why.empty() && simplex.state_ == State::Fault) why = faultTexts_[place(at_)].get();
     failures_ << simplex.path()
               << " did not follow: " << (why.empty() ? name(simplex.state_) : why);

@@ -3,6 +3,8 @@
 
 #include "cortex/cs/simplex_cs.hpp"
 
+#include "tasks/task_states.hpp"
+
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -15,7 +17,7 @@ namespace cortex::cs {
 class GroupCommands {
 public:
     // `order`: all active simplexes in canonical order. Registers the handlers on /<cluster>.
-    GroupCommands(AgentRuntime& agent, TaskRunner& runner, std::vector<SimplexCS*> order);
+    GroupCommands(AgentRuntime& agent, TaskStates& states, std::vector<SimplexCS*> order);
     GroupCommands(const GroupCommands&) = delete;
     GroupCommands& operator=(const GroupCommands&) = delete;
 
@@ -43,7 +45,7 @@ private:
     SimplexCS& member(std::size_t at) const CORTEX_REALTIME { return *order_[place(at)]; }
 
     AgentRuntime& agent_;
-    TaskRunner& runner_;
+    TaskStates& states_;
     std::vector<SimplexCS*> order_;
     std::vector<Data<const std::string_view>> faultTexts_;  // of the same simplexes
     std::array<Argument<std::string_view>, 4> prefixes_{};  // by LifeCycle

@@ -36,7 +36,7 @@ SimplexCS::LifeCycleSender SimplexCS::lifeCycle(const RelatedSimplex& target, bo
     LifeCycleSender sender;
     sender.runtime_ = &runtime();
     sender.target_ = active->index();
-    sender.later_ = target.later();
+    sender.isDelayed_ = target.later();
     sender.state_ = InputSimplex{target}.data<std::int64_t>("state");
     if (manage) active->manager_ = index();
     return sender;
@@ -47,7 +47,7 @@ State SimplexCS::LifeCycleSender::state() const {
 }
 
 void SimplexCS::LifeCycleSender::post(LifeCycle command) {
-    runtime_->postLifeCycle(target_, command, later_);
+    runtime_->postLifeCycle(target_, command, isDelayed_);
 }
 
 }  // namespace cortex::cs

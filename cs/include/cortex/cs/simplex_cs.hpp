@@ -13,6 +13,9 @@
 namespace cortex::cs {
 
 class TaskRunner;
+class TaskStates;
+class TaskInputs;
+class TaskDemands;
 struct TaskBuilder;
 class GroupCommands;
 struct TaskThread;
@@ -69,7 +72,7 @@ protected:
         void post(LifeCycle command) CORTEX_REALTIME;
         AgentRuntime* runtime_ = nullptr;
         std::uint32_t target_ = noSimplex;
-        bool later_ = false;
+        bool isDelayed_ = false;
         Data<const std::int64_t> state_;
     };
     // In populate(). `manage`: this simplex starts and stops the target from now on; group commands
@@ -85,6 +88,9 @@ protected:
 
 private:
     friend class TaskRunner;
+    friend class TaskStates;
+    friend class TaskInputs;
+    friend class TaskDemands;
     friend struct TaskBuilder;
     friend class GroupCommands;
     friend class ClusterCS;

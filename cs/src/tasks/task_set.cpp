@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cortex/core/error.hpp"
+#include "tasks/task_set.hpp"
 
-#include "tasks/task_runner.hpp"
+#include "cortex/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@ std::int64_t toNanoseconds(double seconds) { return std::llround(seconds * 1e9);
 
 }  // namespace
 
-// Fills a TaskRunner from the frozen structure; setup only.
+// Fills a TaskSet from the frozen structure; setup only.
 struct TaskBuilder {
-    TaskRunner& runner;
+    TaskSet& set;
     AgentRuntime& agent;
     const Structure& structure;
     std::vector<DemandLimits*> limitsOf;  // per simplex
@@ -52,26 +52,26 @@ struct TaskBuilder {
             else if (!isActive(edge.target))
                 ++outputs;
         }
-        runner.inputs_.reserve(inputs);
-        runner.outputs_.reserve(outputs);  // pointers to elements are kept
+        set.inputs.reserve(inputs);
+        set.outputs.reserve(outputs);  // pointers to elements are kept
         agent.tables().latch();
         for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
             if (!isDemand(i)) continue;
-            runner.limits_.push_back(
+            set.limits.push_back(
                 std::make_unique<DemandLimits>(layout(i), agent.tables().live(i), i));
-            limitsOf[i] = runner.limits_.back().get();
+            limitsOf[i] = set.limits.back().get();
         }
-        runner.tasks_.resize(schedule.tasks.size());
-        runner.details_.resize(schedule.tasks.size());
+        set.tasks.resize(schedule.tasks.size());
+        set.details.resize(schedule.tasks.size());
         for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
             const std::uint32_t index = schedule.tasks[t];
-            if (isActive(index)) buildTask(runner.tasks_[t], index);
+            if (isActive(index)) buildTask(set.tasks[t], index);
         }
         for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
             const std::uint32_t index = schedule.tasks[t];
-            if (!isActive(index)) buildArbiter(runner.tasks_[t], index);
+            if (!isActive(index)) buildArbiter(set.tasks[t], index);
         }
-        for (const auto& limits : runner.limits_) limits->accept();
+        for (const auto& limits : set.limits) limits->accept();
         agent.tables().latch();
     }
 
@@ -82,27 +82,27 @@ struct TaskBuilder {
         task.index = index;
         task.everyCycle = info.every == 1;
         task.measures = info.layout->type->measures;
-        TaskDetails& details = runner.details(task);
+        TaskDetails& details = set.detailsOf(task);
         details.every = info.every;
         details.phase = info.phase >= 0 ? static_cast<std::uint32_t>(info.phase) % info.every
                                         : agent.rank(index) % info.every;
-        details.lastRun = -static_cast<std::int64_t>(info.every) * runner.period_ +
-                          static_cast<std::int64_t>(details.phase) * runner.period_;
+        details.lastRun = -static_cast<std::int64_t>(info.every) * set.period +
+                          static_cast<std::int64_t>(details.phase) * set.period;
         details.state = simplex.data<std::int64_t>("state");
         details.faultCode = simplex.data<std::int64_t>("faultCode");
         details.faultText = simplex.data<std::string_view>("faultText");
         details.taskTime = simplex.data<double>("taskTime");
-        runner.states_[index] = {0, 0, index, Quality::Stale};
-        task.firstInput = static_cast<std::uint32_t>(runner.inputs_.size());
-        task.firstOutput = static_cast<std::uint32_t>(runner.outputs_.size());
+        set.states[index] = {0, 0, index, Quality::Stale};
+        task.firstInput = static_cast<std::uint32_t>(set.inputs.size());
+        task.firstOutput = static_cast<std::uint32_t>(set.outputs.size());
         for (const Edge& edge : edgesOf(index)) {
             if (edge.rule->direction == Direction::Input)
                 addInput(edge);
             else if (!isActive(edge.target))
                 task.limits = addOutput(edge, simplex) || task.limits;
         }
-        task.inputCount = static_cast<std::uint32_t>(runner.inputs_.size()) - task.firstInput;
-        task.outputCount = static_cast<std::uint32_t>(runner.outputs_.size()) - task.firstOutput;
+        task.inputCount = static_cast<std::uint32_t>(set.inputs.size()) - task.firstInput;
+        task.outputCount = static_cast<std::uint32_t>(set.outputs.size()) - task.firstOutput;
     }
 
     void addInput(const Edge& edge) {
@@ -113,16 +113,16 @@ struct TaskBuilder {
         input.target = edge.target;
         input.ages = target.remote || target.role == Role::Active || !target.writers.empty();
         input.maxAge = std::max(toNanoseconds(edge.rule->maxAge),
-                                3 * runner.period_ * structure.writtenEvery(edge.target));
+                                3 * set.period * structure.writtenEvery(edge.target));
         if (target.remote) input.ownerPeriod = &agent.ownerPeriod(edge.target);
         input.state = agent.tables().edgeSource(number).state;
         if (edge.rule->onLoss == OnLoss::Hold) {
-            runner.held_.push_back(std::make_unique<HeldInput>(
+            set.held.push_back(std::make_unique<HeldInput>(
                 HeldInput{target.layout->cyclic, agent.tables().edgeSource(number),
                           agent.tables().edge(number)}));
-            input.held = runner.held_.back().get();
+            input.held = set.held.back().get();
         }
-        runner.inputs_.push_back(input);
+        set.inputs.push_back(input);
     }
 
     // Whether the task itself applies limits to it.
@@ -134,13 +134,13 @@ struct TaskBuilder {
         const bool shared = structure.simplexes[edge.target].writers.size() > 1;
         if (isDemand(edge.target)) {
             const auto [observedLayout, observed] = counterpart(edge);
-            runner.safe_.push_back(std::make_unique<SafeDemands>(
+            set.safe.push_back(std::make_unique<SafeDemands>(
                 layout(edge.target), out, *limitsOf[edge.target], observedLayout, observed));
-            output.safe = runner.safe_.back().get();
+            output.safe = set.safe.back().get();
             if (!shared) output.limits = limitsOf[edge.target];
         }
-        runner.outputs_.push_back(output);
-        if (shared) candidates[edge.target].push_back({&writer, out, &runner.outputs_.back()});
+        set.outputs.push_back(output);
+        if (shared) candidates[edge.target].push_back({&writer, out, &set.outputs.back()});
         return output.limits != nullptr;
     }
 
@@ -172,21 +172,19 @@ struct TaskBuilder {
             copySlice(arbiter->sizes, arbiter->candidates.front().slice, arbiter->live);
         }
         task.index = index;
-        runner.details(task).arbiter = arbiter.get();
-        runner.arbiters_.push_back(std::move(arbiter));
+        set.detailsOf(task).arbiter = arbiter.get();
+        set.arbiters.push_back(std::move(arbiter));
     }
 };
 
-TaskRunner::TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64_t period)
-    : agent_{agent},
-      structure_{agent.structure()},
-      states_{agent.tables().states().data()},
-      period_{period},
-      chunks_{schedule.chunks},
-      threads_(agent.threadCount()),
-      positions_{std::make_unique<Position[]>(agent.threadCount())} {
-    for (std::uint32_t i = 0; i < agent.threadCount(); ++i) threads_[i].loop = &agent.thread(i);
-    TaskBuilder{*this, agent, structure_, {}, {}}.build(schedule);
+TaskSet::TaskSet(AgentRuntime& runtime, const Schedule& schedule, std::int64_t nominalPeriod)
+    : agent{runtime},
+      structure{runtime.structure()},
+      states{runtime.tables().states().data()},
+      period{nominalPeriod},
+      threads(runtime.threadCount()) {
+    for (std::uint32_t i = 0; i < agent.threadCount(); ++i) threads[i].loop = &agent.thread(i);
+    TaskBuilder{*this, agent, structure, {}, {}}.build(schedule);
 }
 
 }  // namespace cortex::cs

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tasks/task_inputs.hpp"
+
+#include <algorithm>
+
+namespace cortex::cs {
+
+namespace {
+
+// Worst quality with its first cause, oldest stamp.
+void merge(SlotState& sum, const SlotState& state, bool ages) {
+    if (state.quality > sum.quality) {
+        sum.quality = state.quality;
+        sum.cause = state.cause;
+    }
+    if (ages && state.time < sum.time) {
+        sum.time = state.time;
+        sum.cycle = state.cycle;
+    }
+}
+
+// ns. What comes over a network ages while this cycle was late to wake up, too.
+std::int64_t ageOf(const TaskInput& input, const Tick& tick) {
+    const std::int64_t late = input.ownerPeriod != nullptr ? tick.lateness : 0;
+    return tick.nominalTime + late - input.state->time;
+}
+
+}  // namespace
+
+// The rare case of an input: lost, back, aged, held, or not good.
+SlotState TaskInputs::readUnusual(Task& task, TaskInput& input, const Tick& tick) {
+    const bool tooOld = input.ages && ageOf(input, tick) > input.maxAge;
+    const bool lost = input.state->quality >= Quality::Bad || tooOld;
+    const bool faults =
+        lost && input.rule->onLoss == OnLoss::Fault && task.simplex->state_ == State::Active;
+    if (lost != input.lost || faults) {
+        input.lost = lost;
+        lossChanged(task, input, tick);
+    }
+    SlotState seen = *input.state;
+    if (lost && seen.quality < Quality::Stale) {  // it is too old, which is its own doing
+        seen.quality = Quality::Stale;
+        seen.cause = input.target;
+    }
+    if (input.held == nullptr) return seen;
+    const HeldInput& held = *input.held;
+    if (!lost) {
+        copySlice(held.sizes, held.from, held.to);
+        return seen;
+    }
+    if (held.to.state->quality < Quality::Stale) {
+        held.to.state->quality = Quality::Stale;
+        held.to.state->cause = seen.cause;
+    }
+    return *held.to.state;
+}
+
+SlotState TaskInputs::read(Task& task, const Tick& tick) {
+    SlotState sum{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
+    bool anyLost = false, safe = false;
+    for (TaskInput& input : set_.inputsOf(task)) {
+        if (input.ownerPeriod != nullptr) {
+            input.maxAge = std::max(input.maxAge, 3 * *input.ownerPeriod);
+        }
+        const bool fresh = !input.ages || ageOf(input, tick) <= input.maxAge;
+        if (fresh && !input.lost && input.held == nullptr &&
+            input.state->quality == Quality::Good) {
+            merge(sum, *input.state, input.ages);
+            continue;
+        }
+        merge(sum, readUnusual(task, input, tick), input.ages);
+        anyLost = anyLost || input.lost;
+        safe = safe || (input.lost && input.rule->onLoss == OnLoss::Safe);
+    }
+    SimplexCS& simplex = *task.simplex;
+    simplex.inputLost_ = anyLost;
+    if (safe || simplex.safeByLoss_) {
+        safe = safe && simplex.state_ == State::Active;
+        if (safe && !simplex.safeByLoss_) demands_.latchSafe(task);
+        simplex.safeByLoss_ = safe;
+    }
+    return sum;
+}
+
+// An input was lost, or is back.
+void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick) {
+    SimplexCS& simplex = *task.simplex;
+    EventText text{input.rule->name};
+    text << " " << set_.structure.simplexes[input.target].path;
+    if (!input.lost) {
+        text << " is back";
+        set_.agent.post(*simplex.thread_->loop, Severity::Info, EventKind::Message, task.index,
+                        text);
+        return;
+    }
+    if (input.state->quality >= Quality::Bad) {
+        text << " is " << name(input.state->quality);
+        const std::uint32_t cause = input.state->cause;
+        if (cause < set_.structure.simplexes.size()) {
+            text << ", first cause " << set_.structure.simplexes[cause].path;
+        }
+    } else {
+        text << " is " << static_cast<double>(ageOf(input, tick)) * 1e-6 << " ms old, allowed "
+             << static_cast<double>(input.maxAge) * 1e-6;
+    }
+    if (input.rule->onLoss == OnLoss::Fault && simplex.state_ == State::Active) {
+        simplex.fault(InputLost, text.view());
+    } else {
+        text << "; " << name(input.rule->onLoss);
+        set_.agent.post(*simplex.thread_->loop, Severity::Warning, EventKind::Message, task.index,
+                        text);
+    }
+}
+
+}  // namespace cortex::cs

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/cs/simplex_cs.hpp"
+
+#include "tasks/demands.hpp"
+#include "tasks/task_thread.hpp"
+#include "threads/scheduler.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace cortex::cs {
+
+// Fault codes of the framework; a task's own are its business (docs/writing-a-simplex.md).
+enum FaultCode : std::int64_t {
+    HookThrew = -1,
+    InputLost = -2,
+    DemandNotFinite = -3,
+    DemandOutOfRange = -4,
+    ClusterHalted = -5,
+    TransitionTimeout = -6
+};
+
+// onLoss="hold": the copy of an input that stands while it is lost.
+struct HeldInput {
+    BlockSizes sizes;
+    Slice from, to;
+};
+
+// One input relationship of a task.
+struct TaskInput {
+    const SlotState* state = nullptr;
+    std::int64_t maxAge = 0;                    // ns
+    const std::int64_t* ownerPeriod = nullptr;  // another agent's: 3 of them are allowed
+    const HeldInput* held = nullptr;
+    std::uint32_t target = noSimplex;
+    bool ages = false;  // something writes it
+    bool lost = false;
+    const Rule* rule = nullptr;
+};
+
+// One output relationship to a descriptive simplex.
+struct TaskOutput {
+    SlotState* state = nullptr;
+    SafeDemands* safe = nullptr;     // null: not a demand
+    DemandLimits* limits = nullptr;  // null: an arbiter applies them, or not a demand
+    std::uint32_t target = noSimplex;
+    LimitResult refused;  // set by the arbiter: this demand faults its writer
+};
+
+// A simplex that several tasks write: takes the candidate of the one that is Active.
+struct Arbiter {
+    struct Candidate {
+        SimplexCS* writer;
+        Slice slice;
+        TaskOutput* output;
+    };
+    std::uint32_t target = noSimplex;
+    BlockSizes sizes;
+    Slice live;
+    DemandLimits* limits = nullptr;
+    std::vector<Candidate> candidates;  // canonical order of the writers
+    std::uint32_t selected = 0;
+    bool inConflict = false;
+};
+
+// What the loop looks at in every cycle: half a cache line a task, in execution order.
+struct alignas(32) Task {
+    SimplexCS* simplex = nullptr;  // null: an arbiter
+    std::uint32_t index = noSimplex;
+    std::uint32_t firstInput = 0, inputCount = 0;
+    std::uint32_t firstOutput = 0, outputCount = 0;
+    bool everyCycle = true;
+    bool measures = false;
+    bool limits = false;  // an output of its own has limits
+};
+
+// What it looks at when something happens, or where a task does not run in every cycle.
+struct TaskDetails {
+    Arbiter* arbiter = nullptr;
+    std::uint32_t every = 1, phase = 0;
+    std::int64_t lastRun = 0;
+    std::int64_t stateSince = 0;
+    Data<std::int64_t> state, faultCode;
+    Data<std::string_view> faultText;
+    Data<double> taskTime;
+};
+
+// The tasks of a cluster, and what they read and write. Built once by start().
+struct TaskSet {
+    TaskSet(AgentRuntime& runtime, const Schedule& schedule, std::int64_t nominalPeriod);
+    TaskSet(const TaskSet&) = delete;
+    TaskSet& operator=(const TaskSet&) = delete;
+
+    TaskDetails& detailsOf(const Task& task) {
+        return details[static_cast<std::size_t>(&task - tasks.data())];
+    }
+    std::span<TaskInput> inputsOf(const Task& task) {
+        return {inputs.data() + task.firstInput, task.inputCount};
+    }
+    std::span<TaskOutput> outputsOf(const Task& task) {
+        return {outputs.data() + task.firstOutput, task.outputCount};
+    }
+
+    AgentRuntime& agent;
+    const Structure& structure;
+    SlotState* states;  // by simplex
+    std::int64_t period;
+    std::vector<Task> tasks;           // in execution order
+    std::vector<TaskDetails> details;  // of the same tasks
+    std::vector<TaskInput> inputs;
+    std::vector<TaskOutput> outputs;
+    std::vector<std::unique_ptr<HeldInput>> held;
+    std::vector<std::unique_ptr<SafeDemands>> safe;
+    std::vector<std::unique_ptr<DemandLimits>> limits;
+    std::vector<std::unique_ptr<Arbiter>> arbiters;
+    std::vector<TaskThread> threads;
+};
+
+}  // namespace cortex::cs

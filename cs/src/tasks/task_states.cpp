@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tasks/task_states.hpp"
+
+#include "tasks/hook.hpp"
+#include "tasks/state_machine.hpp"
+
+#include <cmath>
+
+namespace cortex::cs {
+
+void TaskStates::beginCycle() {
+    halted_ = haltNext_;
+    haltNext_ = false;
+    anyMayMove_ = halted_ || forced_ || observed_ != noSimplex;
+}
+
+void TaskStates::checkTimeout(Task& task, const Tick& tick) {
+    SimplexCS& simplex = *task.simplex;
+    const double timeout = simplex.type().transitionTimeout;
+    const std::int64_t passed = tick.nominalTime - set_.detailsOf(task).stateSince;
+    if (simplex.pending_.done || passed < std::llround(timeout * 1e9)) return;
+    EventText text{name(hookOf(simplex.state_))};
+    text << " was not done within " << timeout << " s";
+    simplex.fault(TransitionTimeout, text.view());
+}
+
+void TaskStates::transition(Task& task, const Tick& tick) {
+    SimplexCS& simplex = *task.simplex;
+    simplex.pending_.quality = false;  // of the cycle before
+    if (task.index == observed_) observedRan_ = true;
+    if (simplex.pending_.demandRefused) demands_.faultForRefused(task);
+    simplex.pending_.demandRefused = false;
+    if (halted_ && simplex.state_ == State::Active) {
+        simplex.fault(ClusterHalted, "the loop overran its period and overflow is \"halt\"");
+    }
+    if (simplex.pending_.fault) return enterFault(task, tick);
+    const bool resting = simplex.state_ == State::Standby || simplex.state_ == State::Fault;
+    if (forced_ && !resting) return enter(task, State::Standby, tick);
+    if (forced_) return;
+    const LifeCycle command = set_.agent.takeLifeCycle(task.index, *simplex.thread_->loop);
+    if (command != LifeCycle::None && lifeCycle(task, command, tick)) return;
+    if (!simplex.pending_.done) return;
+    if (const auto to = next(simplex.state_, Move::Done)) enter(task, *to, tick);
+}
+
+// False: the command does not lead anywhere from this state, which is said unless it is harmless.
+bool TaskStates::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
+    SimplexCS& simplex = *task.simplex;
+    const auto to = next(simplex.state_, moveOf(command));
+    if (!to && command == LifeCycle::Shutdown) return false;  // on its way, or not running
+    simplex.thread_->text = EventText{};
+    const bool tooLate = stopping_ && command == LifeCycle::Startup;
+    if (tooLate) {
+        simplex.thread_->text << "no startup: the cluster is stopping";
+    } else if (!to) {
+        simplex.thread_->text << (command == LifeCycle::Startup ? "startup needs Standby, is "
+                                                                : "clearFaults needs Fault, is ")
+                              << name(simplex.state_);
+    } else if (command == LifeCycle::ClearFaults && !simplex.dead_ && !simplex.pending_.done) {
+        simplex.thread_->text << "the fault is not over: stateFault has not returned true";
+    } else if (command != LifeCycle::Startup || mayStart(task)) {  // mayStart says why not
+        enter(task, *to, tick);
+        return true;
+    }
+    set_.agent.post(*simplex.thread_->loop, tooLate ? Severity::Info : Severity::Warning,
+                    EventKind::Refusal, task.index, simplex.thread_->text);
+    set_.agent.refuseLifeCycle(task.index, command, simplex.thread_->text, *simplex.thread_->loop);
+    noteReason(task);
+    return false;
+}
+
+bool TaskStates::mayStart(Task& task) {
+    SimplexCS& simplex = *task.simplex;
+    for (const TaskInput& input : set_.inputsOf(task)) {
+        const SimplexInfo& target = set_.structure.simplexes[input.target];
+        if (target.remote && input.rule->min > 0 && input.state->quality == Quality::Lost) {
+            simplex.thread_->text << "startup needs " << input.rule->name << ", but " << target.path
+                                  << " of another agent is not there";
+            return false;
+        }
+    }
+    for (const TaskOutput& output : set_.outputsOf(task)) {
+        if (output.safe == nullptr || output.safe->observationIsGood()) continue;
+        simplex.thread_->text << "startup needs a good observation of what "
+                              << set_.structure.simplexes[output.target].path << " demands";
+        return false;
+    }
+    return true;
+}
+
+void TaskStates::enter(Task& task, State to, const Tick& tick) {
+    SimplexCS& simplex = *task.simplex;
+    TaskDetails& details = set_.detailsOf(task);
+    const State from = simplex.state_;
+    const char* left = to == State::Fault ? "its simplex went to Fault" : "its simplex left Active";
+    if ((from == State::Active || to == State::Fault) &&
+        !set_.agent.cancelActivity(task.index, *simplex.thread_->loop, !simplex.dead_, left)) {
+        if (to != State::Fault) {
+            simplex.fault(HookThrew,
+                          "the handler of its long command threw while it was cancelled");
+        }
+        simplex.dead_ = true;
+    }
+    const bool comesToRest = to == State::Standby && from != State::Fault;
+    if (from == State::Active || to == State::StartingUp || to == State::Fault || comesToRest) {
+        demands_.latchSafe(task);
+        demands_.writeSafe(task);
+    }
+    if (from == State::Fault) {
+        simplex.dead_ = false;
+        details.faultCode = 0;
+        details.faultText = std::string_view{};
+    }
+    simplex.state_ = to;
+    simplex.pending_.done = false;
+    details.state = static_cast<std::int64_t>(to);
+    details.stateSince = tick.nominalTime;
+    if (to == State::Active) ++simplex.thread_->startups;
+    if (to == State::Fault) return;  // has an event of its own
+    EventText text{name(from)};
+    text << " -> " << name(to);
+    set_.agent.post(*simplex.thread_->loop, Severity::Info, EventKind::StateChange, task.index,
+                    text);
+}
+
+void TaskStates::enterFault(Task& task, const Tick& tick) {
+    SimplexCS& simplex = *task.simplex;
+    simplex.pending_.fault = false;
+    const bool faultedBefore = simplex.state_ == State::Fault;
+    if (faultedBefore) demands_.writeSafe(task);
+    if (faultedBefore && simplex.thread_->faultCode != HookThrew) return;
+    if (!faultedBefore) enter(task, State::Fault, tick);
+    TaskDetails& details = set_.detailsOf(task);
+    details.faultCode = simplex.thread_->faultCode;
+    details.faultText = simplex.thread_->text.view();
+    EventText text{"fault "};
+    text << simplex.thread_->faultCode << ": " << simplex.thread_->text.view();
+    noteReason(task);
+    set_.agent.post(*simplex.thread_->loop, Severity::Error, EventKind::Fault, task.index, text);
+}
+
+void TaskStates::noteReason(const Task& task) {
+    if (task.index == observed_) observedReason_ = task.simplex->thread_->text;
+}
+
+}  // namespace cortex::cs

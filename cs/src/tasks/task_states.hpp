@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tasks/task_demands.hpp"
+#include "tasks/task_set.hpp"
+
+namespace cortex::cs {
+
+// The state machine of every active simplex: life-cycle commands, transitions, faults.
+class TaskStates {
+public:
+    TaskStates(TaskSet& set, TaskDemands& demands) : set_{set}, demands_{demands} {}
+
+    // Loop thread, before the tasks of a cycle.
+    void beginCycle() CORTEX_REALTIME;
+    // Whether step (1) may change the state; mostly nothing has happened that could.
+    bool mayMove(const SimplexCS& simplex, std::uint8_t calls) const CORTEX_REALTIME {
+        return anyMayMove_ || simplex.pending_.any() || AgentRuntime::hasLifeCycle(calls);
+    }
+    void transition(Task& task, const Tick& tick) CORTEX_REALTIME;
+    void enterFault(Task& task, const Tick& tick) CORTEX_REALTIME;
+    void checkTimeout(Task& task, const Tick& tick) CORTEX_REALTIME;
+
+    // In the next cycle all that is Active faults (overflow="halt").
+    void halt() { haltNext_ = true; }
+    // From now on nothing starts up.
+    void beginStop() { stopping_ = true; }
+    // In the next cycle: whatever is not in Standby or Fault goes to Standby, with safe demands.
+    void forceStandby() { forced_ = true; }
+    // Tasks run in this cycle whatever their rate.
+    bool allRun() const CORTEX_REALTIME { return halted_ || forced_; }
+
+    // From now on notes whether that simplex ran, and why it refuses or faults; `noSimplex`: none.
+    // Loop thread, between cycles.
+    void observe(std::uint32_t simplex) CORTEX_REALTIME {
+        observed_ = simplex;
+        observedRan_ = false;
+        observedReason_ = {};
+    }
+    bool observedRan() const { return observedRan_; }
+    const EventText& observedReason() const { return observedReason_; }
+
+private:
+    bool lifeCycle(Task& task, LifeCycle command, const Tick& tick) CORTEX_REALTIME;
+    void enter(Task& task, State to, const Tick& tick) CORTEX_REALTIME;
+    bool mayStart(Task& task) CORTEX_REALTIME;
+    void noteReason(const Task& task) CORTEX_REALTIME;
+
+    TaskSet& set_;
+    TaskDemands& demands_;
+    std::uint32_t observed_ = noSimplex;
+    bool observedRan_ = false;  // written by the task of that simplex
+    EventText observedReason_;  // likewise
+    bool haltNext_ = false, halted_ = false, forced_ = false, stopping_ = false;
+    bool anyMayMove_ = false;  // in this cycle, without a call of its own
+};
+
+}  // namespace cortex::cs
