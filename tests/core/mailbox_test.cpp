@@ -64,7 +64,7 @@ TEST_F(Mailbox, CarriesCommandsInOrderAndTheirAnswersBack) {
 
     EXPECT_EQ(response(), 4);
     EXPECT_EQ(add.answer.number, 2U);
-    EXPECT_EQ(lane->answered(0), 2U);
+    EXPECT_EQ(add.answeredCount(), 2U);
 }
 
 TEST_F(Mailbox, CountsTheLatencyInCyclesAndNanoseconds) {
@@ -112,7 +112,7 @@ TEST_F(Mailbox, GoesRoundForEverWithoutLosingOrRepeating) {
             EXPECT_EQ(take(), static_cast<double>(++taken));
         }
         takeAnswers();
-        EXPECT_EQ(lane->answered(0), taken);
+        EXPECT_EQ(add.answeredCount(), taken);
     }
     EXPECT_GT(taken, 300U);
 }
@@ -128,12 +128,12 @@ TEST_F(Mailbox, DelayedEndsSeeEachOtherOnlyInTheNextCycle) {
     EXPECT_FALSE(pending());  // the second came in this cycle
 
     takeAnswers();
-    EXPECT_EQ(lane->answered(0), 0U);
+    EXPECT_EQ(add.answeredCount(), 0U);
     EXPECT_FALSE(post(3));  // full, however far the receiver has come in this cycle
     ++cycle;
     EXPECT_FALSE(post(3));
     takeAnswers();
-    EXPECT_EQ(lane->answered(0), 1U);
+    EXPECT_EQ(add.answeredCount(), 1U);
     EXPECT_TRUE(post(3));
     EXPECT_EQ(take(), 2);
 }
@@ -146,12 +146,12 @@ TEST_F(Mailbox, LaneThatStoodStillForAWholeTurnOfTheCycleCounterRepeatsNothing) 
     take();
     ++cycle;
     takeAnswers();
-    EXPECT_EQ(lane->answered(0), 1U);
+    EXPECT_EQ(add.answeredCount(), 1U);
 
     for (cycle = 0xffff'ffff; cycle < 0x1'0000'0008; ++cycle) {
         EXPECT_FALSE(pending()) << cycle;
         takeAnswers();
-        EXPECT_EQ(lane->answered(0), 1U) << cycle;
+        EXPECT_EQ(add.answeredCount(), 1U) << cycle;
     }
     EXPECT_TRUE(post(2));
     ++cycle;
@@ -185,14 +185,14 @@ TEST_F(Mailbox, LastAnswerOfALongCommandComesAfterOthersThatWereSentLater) {
     EXPECT_EQ(add.answer.outcome, Outcome::Done);
 
     const std::int64_t result = 99;
-    lane->finish({1, 5, 5000, Outcome::Done, Reason::None, {}}, 1,
-                 reinterpret_cast<const std::byte*>(&result), 8, cycle);
+    lane->finals().add({1, 5, 5000, Outcome::Done, Reason::None, {}}, 1,
+                       reinterpret_cast<const std::byte*>(&result), 8, cycle);
     takeAnswers();
 
     EXPECT_EQ(work.answer.outcome, Outcome::Done);
     EXPECT_EQ(work.answer.latencyCycles, 5);
     EXPECT_EQ(*reinterpret_cast<const std::int64_t*>(work.response()), 99);
-    EXPECT_EQ(lane->answered(1), 1U);
+    EXPECT_EQ(work.answeredCount(), 1U);
 }
 
 TEST_F(Mailbox, LastAnswersOfADelayedLaneWaitForTheNextCycle) {
@@ -201,21 +201,21 @@ TEST_F(Mailbox, LastAnswersOfADelayedLaneWaitForTheNextCycle) {
     lane->post(work.command, 1, work.request(), work.requestSize(), clock());
     ++cycle;
     answer({Outcome::Running, Reason::None, {}});
-    lane->finish({1, 0, 0, Outcome::Done, Reason::None, {}}, 1, nullptr, 0, cycle);
+    lane->finals().add({1, 0, 0, Outcome::Done, Reason::None, {}}, 1, nullptr, 0, cycle);
     takeAnswers();
-    EXPECT_EQ(lane->answered(1), 0U);
+    EXPECT_EQ(work.answeredCount(), 0U);
 
     ++cycle;
     takeAnswers();
 
-    EXPECT_EQ(lane->answered(1), 1U);
+    EXPECT_EQ(work.answeredCount(), 1U);
     EXPECT_EQ(work.answer.outcome, Outcome::Done);
 }
 
 TEST_F(Mailbox, CommandOfOneNumberAndItsAnswerTouchACacheLineAtEachEndAndOneBetween) {
     EXPECT_LE(sizeof(LaneSlot) + 2 * 8, 64U);
     EXPECT_EQ(alignof(Lane), 64U);
-    EXPECT_FALSE(add.apart());
+    EXPECT_FALSE(add.storedExternally());
     const auto* begin = reinterpret_cast<const std::byte*>(&add);
     EXPECT_LE(reinterpret_cast<const std::byte*>(&add.answer.reason) - begin, 63);
 }

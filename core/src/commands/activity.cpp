@@ -98,7 +98,7 @@ void Activity::finish(const Verdict& verdict, const ChunkClock& clock) {
                           verdict.reason,
                           {}};
         if (verdict.why) answer.why = *verdict.why;
-        origin_.lane->finish(answer, origin_.handle, response(), size, clock.cycle);
+        origin_.lane->finals().add(answer, origin_.handle, response(), size, clock.cycle);
     } else {
         copyRecord(origin_.outside->response, response(), size);
         origin_.outside->settle(verdict, clock);

@@ -89,7 +89,7 @@ bool CommandPort::hasPassingWork() const {
 }
 
 // Nearly every command: short, accepted, Done. False: nothing has happened yet.
-[[gnu::always_inline]] inline bool CommandPort::takePlainly(Lane& lane) {
+[[gnu::always_inline]] inline bool CommandPort::takeOnFastPath(Lane& lane) {
     LaneSlot& head = lane.front();
     const CommandTable::Entry& entry = table_.entries[head.command];
     const std::byte* request = lane.requestOf(head);
@@ -117,7 +117,7 @@ bool CommandPort::hasPassingWork() const {
 [[gnu::always_inline]] inline void CommandPort::drain(Lane& lane) {
     try {
         for (std::int32_t left = lane.pending(thread_->clock.cycle); left > 0; --left) {
-            if (!takePlainly(lane)) take(lane);
+            if (!takeOnFastPath(lane)) take(lane);
         }
     } catch (...) {
         answer(lane, lane.front(), {Outcome::Failed, Reason::None, "its handler threw"});

@@ -67,7 +67,7 @@ private:
         return recent_;
     }
     void drain(Lane& lane);
-    bool takePlainly(Lane& lane);
+    bool takeOnFastPath(Lane& lane);
     void take(Lane& lane);
     void drainOutside();
     void stepActivity();

@@ -4,6 +4,11 @@
 #include "cortex/core/agent.hpp"
 #include "cortex/core/mailbox.hpp"
 
+#include "commands/final_answers.hpp"
+#include "commands/lane_position.hpp"
+#include "commands/record.hpp"
+#include "commands/sender_state.hpp"
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -41,17 +46,8 @@ struct LaneSlot {
     std::uint16_t handle = 0;  // of the sender, on this lane
     Outcome outcome = Outcome::None;
     Reason reason = Reason::None;
-    bool worded = false;
+    bool hasReason = false;
 };
-
-// Records are multiples of 8 octets, mostly one.
-inline void copyRecord(std::byte* to, const std::byte* from, std::uint32_t size) {
-    if (size == 8) {
-        std::memcpy(to, from, 8);
-        return;
-    }
-    for (std::uint32_t i = 0; i < size; i += 8) std::memcpy(to + i, from + i, 8);
-}
 
 // Bounded single-producer single-consumer lane from one sender to one receiver and its answers
 // back. Each end moves its own position. Where the schedule orders the two, the other sees it at
@@ -76,15 +72,17 @@ public:
     const Shape& shape() const { return rest_->shape; }
     void setSender(CommandPort& sender) { sender_ = &sender; }
     CommandPort& sender() const CORTEX_REALTIME { return *sender_; }
-    std::uint64_t sent(std::uint16_t handle) const;
-    std::uint64_t answered(std::uint16_t handle) const;
+    bool hasOneHandle() const CORTEX_REALTIME { return onlyHandle_ != nullptr; }
+    // Of all handles.
+    std::uint64_t sent() const { return taken_ + lowHalf(now(tail_) - taken_); }
+    std::uint64_t answered() const { return taken_; }
 
     // Before an end does anything in a cycle; again does no harm.
     void beginSending(std::int64_t cycle) CORTEX_REALTIME {
-        if (delayed_) note(cycle, tail_, tailStart_);
+        if (delayed_) noteStart(cycle, tail_, tailStart_);
     }
     void beginReceiving(std::int64_t cycle) CORTEX_REALTIME {
-        if (delayed_) note(cycle, head_, headStart_);
+        if (delayed_) noteStart(cycle, head_, headStart_);
     }
 
     // Sender's end. False: the lane is full.
@@ -107,9 +105,7 @@ public:
     void answer(LaneSlot& head, const Verdict& verdict, const ChunkClock& clock) CORTEX_REALTIME;
     void answerDone(LaneSlot& head, const ChunkClock& clock) CORTEX_REALTIME;  // and popped
     void pop() CORTEX_REALTIME { advance(head_); }
-    // The last answer to a command that was answered Running and popped.
-    void finish(const AnswerHead& answer, std::uint16_t handle, const std::byte* response,
-                std::uint32_t size, std::int64_t cycle) CORTEX_REALTIME;
+    FinalAnswers& finals() CORTEX_REALTIME { return *finals_; }  // where it has long commands
 
     // Whether this is a refusal after none: only such a one is an event.
     bool startsRefusing(bool refused) CORTEX_REALTIME {
@@ -117,54 +113,16 @@ public:
     }
 
 private:
-    // Where an end is, modulo 2^32; it alone moves it. A start is where it was at the start of a
-    // cycle, above it that cycle, modulo 2^32 as well: an end that rested for just as many cycles
-    // is seen where it was before it moved last, never beyond (distance).
-    using Position = std::atomic<std::uint32_t>;
-    using Start = std::atomic<std::uint64_t>;
-    static std::uint32_t now(const Position& position) CORTEX_REALTIME {
-        return position.load(std::memory_order_acquire);
-    }
-    static void advance(Position& position) CORTEX_REALTIME {
-        position.store(position.load(std::memory_order_relaxed) + 1U, std::memory_order_release);
-    }
-    static bool isOf(std::int64_t cycle, std::uint64_t start) CORTEX_REALTIME {
-        return low(start >> 32U) == low(cycle);
-    }
-    static void note(std::int64_t cycle, const Position& position, Start& start) CORTEX_REALTIME {
-        if (isOf(cycle, start.load(std::memory_order_relaxed))) return;
-        start.store(std::uint64_t{low(cycle)} << 32U | now(position), std::memory_order_relaxed);
-    }
-    // By the other end. If a position has moved in this cycle, its start was noted before.
-    std::uint32_t seen(std::int64_t cycle, const Position& position, const Start& start) const
-        CORTEX_REALTIME {
-        const std::uint32_t at = now(position);
-        if (!delayed_) return at;
-        const std::uint64_t noted = start.load(std::memory_order_relaxed);
-        return isOf(cycle, noted) ? low(noted) : at;
-    }
-    static std::int32_t distance(std::uint32_t from, std::uint32_t to) {
-        return static_cast<std::int32_t>(to - from);
-    }
-    struct Final {
-        AnswerHead answer;
-        std::uint16_t handle = 0;
-    };
-    struct Counts {
-        std::uint64_t sent = 0, answered = 0;
-    };
     // What a usual command does not touch.
     struct Rest {
         Shape shape;
         std::vector<CommandSender::State*> handles;
-        std::vector<Counts> counts;  // by handle, where there are several
-        std::vector<EventText> whys;
-        std::vector<Final> finals;  // at least one more than commands: what runs, and all that wait
-        std::unique_ptr<std::byte[]> finalResponses;
+        std::vector<EventText> reasons;  // by slot
     };
-    template <std::integral T>
-    static std::uint32_t low(T number) {
-        return static_cast<std::uint32_t>(number);
+    // By the other end.
+    std::uint32_t seen(std::int64_t cycle, const LanePosition& position,
+                       const LaneStart& start) const CORTEX_REALTIME {
+        return delayed_ ? seenDelayed(cycle, position, start) : now(position);
     }
     std::uint32_t indexOf(std::uint32_t position) const {
         return (position - first_) & ((1U << bits_) - 1U);
@@ -185,8 +143,8 @@ private:
 
     // One cache line. Sender writes tail_, taken_, first_; receiver head_, refusing_. An empty lane
     // starts again at its first slot, so that light traffic stays in one more cache line.
-    Position tail_{0}, head_{0};
-    Start tailStart_{0}, headStart_{0};
+    LanePosition tail_{0}, head_{0};
+    LaneStart tailStart_{0}, headStart_{0};
     std::uint64_t taken_ = 0;  // answers
     std::uint32_t first_ = 0;  // the command in the first slot
     std::uint32_t capacity_ = 0;
@@ -197,9 +155,7 @@ private:
     std::uint8_t bits_ = 0;                       // there are 2^bits slots
     bool delayed_ = false, hasLong_ = false, refusing_ = false;
 
-    Position finalTail_{0};
-    Start finalStart_{0};
-    std::uint32_t finalTaken_ = 0;
+    std::unique_ptr<FinalAnswers> finals_;  // null: no long command
     std::unique_ptr<Rest> rest_;
 };
 
@@ -227,44 +183,10 @@ private:
     std::vector<Lane*> lanes_;
 };
 
-// What a handle owns: the records that the sender's task fills and reads. Its first cache line is
-// all that a command of few parameters and its answer touch.
-struct alignas(64) CommandSender::State {
-    State(const CommandTable& commands, std::uint32_t entry, std::uint32_t edgeIndex,
-          std::uint32_t room);
-    bool apart() const CORTEX_REALTIME { return requestWords == recordsApart; }
-    std::byte* request() CORTEX_REALTIME {
-        return reinterpret_cast<std::byte*>(apart() ? records.data() : smallRecords.data());
-    }
-    std::uint32_t requestSize() const CORTEX_REALTIME {
-        return apart() ? sizes.first : requestWords * 8U;
-    }
-    std::byte* response() CORTEX_REALTIME { return request() + requestSize(); }
-    std::uint32_t responseSize() const CORTEX_REALTIME {
-        return apart() ? sizes.second : responseWords * 8U;
-    }
-    void storeFinal(const AnswerHead& head, const std::byte* record) CORTEX_REALTIME;
-
-    static constexpr std::uint8_t recordsApart = 0xff;
-
-    Lane* lane = nullptr;                         // from start() on
-    std::array<std::uint64_t, 2> smallRecords{};  // request, then response, where they fit
-    std::uint8_t requestWords = 0, responseWords = 0;
-    std::uint16_t command = 0, handle = 0;
-    bool full = false;    // the last send() found no room
-    bool worded = false;  // answer.why is not empty
-    AnswerHead answer;
-
-    const CommandTable* table = nullptr;
-    std::uint32_t edge = noSimplex, capacity = 0;
-    std::pair<std::uint32_t, std::uint32_t> sizes;  // of request and response, octets
-    std::vector<std::uint64_t> records;             // where they do not fit
-};
-
 inline bool Lane::post(std::uint16_t command, std::uint16_t handle, const std::byte* request,
                        std::uint32_t size, const ChunkClock& clock) {
     const std::uint32_t tail = now(tail_);
-    const std::uint32_t onTheirWay = tail - low(taken_);
+    const std::uint32_t onTheirWay = tail - lowHalf(taken_);
     if (onTheirWay >= capacity_) return false;
     if (onTheirWay == 0) first_ = tail;
     LaneSlot& head = slot(tail);
@@ -273,7 +195,6 @@ inline bool Lane::post(std::uint16_t command, std::uint16_t handle, const std::b
     head.command = command;
     head.handle = handle;
     copyRecord(requestOf(head), request, size);
-    if (onlyHandle_ == nullptr) ++rest_->counts[handle].sent;
     advance(tail_);
     return true;
 }
@@ -283,7 +204,7 @@ inline void Lane::answerDone(LaneSlot& head, const ChunkClock& clock) {
     head.time = std::max(clock.nanoseconds - head.time, std::int64_t{0});
     head.outcome = Outcome::Done;
     head.reason = Reason::None;
-    head.worded = false;
+    head.hasReason = false;
     refusing_ = false;
     pop();
 }
@@ -293,18 +214,18 @@ inline void Lane::answer(LaneSlot& head, const Verdict& verdict, const ChunkCloc
     head.time = std::max(clock.nanoseconds - head.time, std::int64_t{0});
     head.outcome = verdict.outcome;
     head.reason = verdict.reason;
-    head.worded = verdict.why.has_value();
-    if (head.worded) rest_->whys[indexOf(now(head_))] = *verdict.why;
+    head.hasReason = verdict.why.has_value();
+    if (head.hasReason) rest_->reasons[indexOf(now(head_))] = *verdict.why;
 }
 
 inline void Lane::takeAnswers(std::int64_t cycle) {
     const std::uint32_t end = seen(cycle, head_, headStart_);
-    for (std::int32_t left = distance(low(taken_), end); left > 0; --left) takeAnswer();
+    for (std::int32_t left = distance(lowHalf(taken_), end); left > 0; --left) takeAnswer();
     if (hasLong_) takeFinals(cycle);
 }
 
 inline void Lane::takeAnswer() {
-    const std::uint32_t position = low(taken_);
+    const std::uint32_t position = lowHalf(taken_);
     LaneSlot& head = slot(position);
     CommandSender::State& state = handle(head.handle);
     AnswerHead& answer = state.answer;
@@ -313,12 +234,12 @@ inline void Lane::takeAnswer() {
     answer.latency = head.time;
     answer.reason = head.reason;
     answer.outcome = head.outcome;
-    if (head.worded || state.worded) {
-        state.worded = head.worded;
-        answer.why = head.worded ? rest_->whys[indexOf(position)] : EventText{};
+    if (head.hasReason || state.hasReason) {
+        state.hasReason = head.hasReason;
+        answer.why = head.hasReason ? rest_->reasons[indexOf(position)] : EventText{};
     }
     copyRecord(state.response(), responseOf(head), state.responseSize());
-    if (onlyHandle_ == nullptr) ++rest_->counts[head.handle].answered;
+    if (!hasOneHandle()) ++state.answered;
 }
 
 }  // namespace cortex

@@ -70,27 +70,16 @@ Lane::Lane(const Shape& shape, std::vector<CommandSender::State*> handles)
       bits_{static_cast<std::uint8_t>(std::bit_width(slotsOf(shape)) - 1)},
       delayed_{shape.delayed},
       hasLong_{shape.hasLong},
-      rest_{std::make_unique<Rest>(Rest{shape, std::move(handles), {}, {}, {}, {}})} {
-    rest_->whys.resize(slotsOf(shape));
-    rest_->counts.resize(onlyHandle_ == nullptr ? rest_->handles.size() : 0);
+      finals_{shape.hasLong ? std::make_unique<FinalAnswers>(shape.capacity, shape.responseSize,
+                                                             shape.delayed)
+                            : nullptr},
+      rest_{std::make_unique<Rest>(Rest{shape, std::move(handles), {}})} {
+    rest_->reasons.resize(slotsOf(shape));
     for (std::uint32_t i = 0; i < slotsOf(shape); ++i) new (place(i)) LaneSlot;
-    if (!hasLong_) return;
-    rest_->finals.resize(std::bit_ceil(capacity_ + 1U));
-    rest_->finalResponses =
-        std::make_unique<std::byte[]>(rest_->finals.size() * shape.responseSize);
 }
 
 std::size_t Lane::octets(const Shape& shape) {
     return sizeof(Lane) + slotsOf(shape) * linesOfSlot(shape) * lineSize;
-}
-
-std::uint64_t Lane::sent(std::uint16_t handle) const {
-    if (onlyHandle_ == nullptr) return rest_->counts[handle].sent;
-    return taken_ + low(now(tail_) - taken_);
-}
-
-std::uint64_t Lane::answered(std::uint16_t handle) const {
-    return onlyHandle_ != nullptr ? taken_ : rest_->counts[handle].answered;
 }
 
 LaneBlock::LaneBlock(std::vector<Plan> plans) {
@@ -110,24 +99,11 @@ LaneBlock::~LaneBlock() {
     for (Lane* lane : lanes_) std::destroy_at(lane);
 }
 
-void Lane::finish(const AnswerHead& answer, std::uint16_t handle, const std::byte* response,
-                  std::uint32_t size, std::int64_t cycle) {
-    note(cycle, finalTail_, finalStart_);
-    const std::size_t place = now(finalTail_) & (rest_->finals.size() - 1U);
-    rest_->finals[place] = {answer, handle};
-    copyRecord(&rest_->finalResponses[place * rest_->shape.responseSize], response, size);
-    advance(finalTail_);
-}
-
 void Lane::takeFinals(std::int64_t cycle) {
-    const std::uint32_t end = seen(cycle, finalTail_, finalStart_);
-    for (; distance(finalTaken_, end) > 0; ++finalTaken_) {
-        const std::size_t place = finalTaken_ & (rest_->finals.size() - 1U);
-        Final& final = rest_->finals[place];
-        final.answer.number = taken_ - low(taken_ - final.answer.number);  // was modulo 2^32
-        handle(final.handle)
-            .storeFinal(final.answer, &rest_->finalResponses[place * rest_->shape.responseSize]);
-    }
+    finals_->take(cycle, taken_,
+                  [this](std::uint16_t index, const AnswerHead& answer, const std::byte* response) {
+                      handle(index).storeFinal(answer, response);
+                  });
 }
 
 CommandSender::State::State(const CommandTable& commands, std::uint32_t entry,
@@ -140,7 +116,7 @@ CommandSender::State::State(const CommandTable& commands, std::uint32_t entry,
     const std::uint32_t words = (sizes.first + sizes.second) / 8U;
     if (words > smallRecords.size()) {
         records.resize(words);
-        requestWords = recordsApart;
+        requestWords = external;
     } else {
         requestWords = static_cast<std::uint8_t>(sizes.first / 8U);
         responseWords = static_cast<std::uint8_t>(sizes.second / 8U);
@@ -151,7 +127,7 @@ CommandSender::State::State(const CommandTable& commands, std::uint32_t entry,
 
 void CommandSender::State::storeFinal(const AnswerHead& head, const std::byte* record) {
     answer = head;
-    worded = true;
+    hasReason = true;
     copyRecord(response(), record, responseSize());
 }
 
@@ -165,18 +141,23 @@ Outcome CommandSender::send() {
         return sender.mailboxFull(state);
     }
     if (state.full) state.full = false;
+    if (!state.lane->hasOneHandle()) ++state.sent;
     return Outcome::None;
 }
 
 const AnswerHead& CommandSender::answer() const { return state_->answer; }
 
-std::uint64_t CommandSender::sent() const {
-    return state_->lane != nullptr ? state_->lane->sent(state_->handle) : 0;
+std::uint64_t CommandSender::State::sentCount() const {
+    return lane != nullptr && lane->hasOneHandle() ? lane->sent() : sent;
 }
 
-std::uint64_t CommandSender::answered() const {
-    return state_->lane != nullptr ? state_->lane->answered(state_->handle) : 0;
+std::uint64_t CommandSender::State::answeredCount() const {
+    return lane != nullptr && lane->hasOneHandle() ? lane->answered() : answered;
 }
+
+std::uint64_t CommandSender::sent() const { return state_->sentCount(); }
+
+std::uint64_t CommandSender::answered() const { return state_->answeredCount(); }
 
 std::pair<void*, std::size_t> CommandSender::argumentCells(std::string_view name, Kind kind,
                                                            bool array) {

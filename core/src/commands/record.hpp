@@ -4,6 +4,8 @@
 #include "cortex/core/command.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 namespace cortex {
 
@@ -11,5 +13,14 @@ namespace cortex {
 // flags in front of its items.
 void describeRecord(const CommandTable& table, std::uint32_t command, const std::byte* record,
                     EventText& text) CORTEX_REALTIME;
+
+// Records are multiples of 8 octets, mostly one.
+inline void copyRecord(std::byte* to, const std::byte* from, std::uint32_t size) {
+    if (size == 8) {
+        std::memcpy(to, from, 8);
+        return;
+    }
+    for (std::uint32_t i = 0; i < size; i += 8) std::memcpy(to + i, from + i, 8);
+}
 
 }  // namespace cortex
