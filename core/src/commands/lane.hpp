@@ -49,10 +49,25 @@ struct LaneSlot {
     bool hasReason = false;
 };
 
-// Bounded single-producer single-consumer lane from one sender to one receiver and its answers
-// back. Each end moves its own position. Where the schedule orders the two, the other sees it at
-// once; along a delayed relationship it sees where it was at the start of the cycle, which each end
-// notes before it moves. No load or store here is more than a plain one on x86-64.
+// Bounded single-producer single-consumer lane from one sender to one receiver, with its answers
+// back in the same slots.
+//
+// **Invariants**
+// 1. Three positions follow each other: taken (answers that the sender took) <= head (commands that
+//    the receiver answered) <= tail (commands that were sent) <= taken + capacity.
+// 2. The sender alone moves tail and taken, the receiver alone moves head. Nothing here is locked,
+//    and no load or store is more than a plain one on x86-64.
+// 3. A slot belongs to the sender from taken to the next tail, and to the receiver from tail to
+//    head. Each position is moved with release and read with acquire, so a slot is complete before
+//    it changes hands.
+// 4. Where the schedule orders the two tasks, an end sees the position of the other at once.
+// 5. Along a delayed relationship it sees where the other was at the start of the cycle. For that
+//    an end notes its position before it moves in a cycle. So neither sees what the other does in
+//    the same cycle, whichever of the two runs first.
+// 6. An empty lane starts again at its first slot (first_), so that light traffic stays in one more
+//    cache line.
+// 7. A command is answered in its slot. A command that was answered Running gets its last answer
+//    through FinalAnswers, which has a position and a start of its own and obeys 2 to 5.
 class alignas(64) Lane {
 public:
     static constexpr std::uint32_t lineSize = 64;
@@ -141,8 +156,7 @@ private:
         return onlyHandle_ != nullptr ? *onlyHandle_ : *rest_->handles[index];
     }
 
-    // One cache line. Sender writes tail_, taken_, first_; receiver head_, refusing_. An empty lane
-    // starts again at its first slot, so that light traffic stays in one more cache line.
+    // One cache line. Sender writes tail_, taken_, first_; receiver head_, refusing_.
     LanePosition tail_{0}, head_{0};
     LaneStart tailStart_{0}, headStart_{0};
     std::uint64_t taken_ = 0;  // answers

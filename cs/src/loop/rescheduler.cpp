@@ -36,11 +36,11 @@ double expectedMicroseconds(const Schedule& schedule, std::span<const double> co
         }
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
             const double cost = costMicroseconds[schedule.tasks[i]];
-            thread += cost > 0 ? cost : AssumedTaskMicroseconds;
+            thread += cost > 0 ? cost : assumedTaskMicroseconds;
         }
         finished.push_back(thread);
     }
-    const double wake = count > 1 ? WakeMicroseconds : 0;
+    const double wake = count > 1 ? wakeMicroseconds : 0;
     return *std::max_element(threads.begin(), threads.end()) + wake;
 }
 

@@ -26,8 +26,8 @@
 namespace cortex::cs {
 namespace {
 
-constexpr std::size_t PrefaultedBytes = 262144;
-constexpr const char* LatencyFile = "/dev/cpu_dma_latency";
+constexpr std::size_t prefaultedBytes = 262144;
+constexpr const char* latencyFile = "/dev/cpu_dma_latency";
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
@@ -57,7 +57,7 @@ std::string firstLine(const std::string& file) {
     return line;
 }
 
-/// The CPUs that share the last-level cache of this one; empty where the system states no cache.
+// The CPUs that share the last-level cache of this one; empty where the system states no cache.
 std::vector<int> cpusOfLastCache(const std::string& cpuFolder, int cpu) {
     std::string last, cpus;
     for (int index = 0;; ++index) {
@@ -71,9 +71,9 @@ std::vector<int> cpusOfLastCache(const std::string& cpuFolder, int cpu) {
     }
 }
 
-/// Isolated CPUs are not in the mask that a process begins with, but there for who names them.
+// Isolated CPUs are not in the mask that a process begins with, but there for who names them.
 const std::vector<int>& nameableCpus() {
-    static const std::vector<int> Cpus = [] {
+    static const std::vector<int> found = [] {
         std::vector<int> cpus = usableCpus();
         const auto isolated = settableCpus(cpusOf(firstLine("/sys/devices/system/cpu/isolated")));
         cpus.insert(cpus.end(), isolated.begin(), isolated.end());
@@ -81,10 +81,10 @@ const std::vector<int>& nameableCpus() {
         cpus.erase(std::ranges::unique(cpus).begin(), cpus.end());
         return cpus;
     }();
-    return Cpus;
+    return found;
 }
 
-/// Those of the wanted CPUs that are there; all usable, where none was wanted or is there.
+// Those of the wanted CPUs that are there; all usable, where none was wanted or is there.
 std::vector<int> chosenCpus(const std::vector<int>& wanted) {
     std::vector<int> chosen;
     for (const int cpu : nameableCpus()) {
@@ -93,7 +93,7 @@ std::vector<int> chosenCpus(const std::vector<int>& wanted) {
     return chosen.empty() ? usableCpus() : chosen;
 }
 
-/// Sets all usable CPUs where none was wanted: a thread inherits the mask of the one that made it.
+// Sets all usable CPUs where none was wanted: a thread inherits the mask of the one that made it.
 int place(pthread_t thread, const std::vector<int>& cpus) {
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -134,8 +134,8 @@ void setPriority(const ThreadOptions& options, std::vector<std::string>& report)
 }  // namespace
 
 const std::vector<int>& usableCpus() {
-    static const std::vector<int> Cpus = allowedCpus();
-    return Cpus;
+    static const std::vector<int> found = allowedCpus();
+    return found;
 }
 
 std::vector<int> settableCpus(const std::vector<int>& wanted) {
@@ -229,11 +229,11 @@ std::vector<std::string> lockMemory() {
 }
 
 AwakeCpus::AwakeCpus(std::vector<std::string>& report)
-    : request_{open(LatencyFile, O_WRONLY | O_CLOEXEC)} {
+    : request_{open(latencyFile, O_WRONLY | O_CLOEXEC)} {
     // https://docs.kernel.org/power/pm_qos_interface.html: the longest wake-up in us, as 32 bits
-    constexpr std::int32_t NoSleep = 0;
-    if (request_ >= 0 && write(request_, &NoSleep, sizeof NoSleep) == sizeof NoSleep) return;
-    report.push_back("Idle CPUs sleep between cycles (" + std::string{LatencyFile} + ": " +
+    constexpr std::int32_t noSleep = 0;
+    if (request_ >= 0 && write(request_, &noSleep, sizeof noSleep) == sizeof noSleep) return;
+    report.push_back("Idle CPUs sleep between cycles (" + std::string{latencyFile} + ": " +
                      reason(errno) +
                      "), so a cycle can begin late. To keep them awake, let the user write that "
                      "file: 'KERNEL==\"cpu_dma_latency\", GROUP=\"cortex\", MODE=\"0660\"' in "
@@ -270,8 +270,8 @@ std::vector<std::string> spinReport(const ThreadPlace& place, std::int64_t spin,
                          ", which is not isolated. Isolate a CPU (isolcpus=…, nohz_full=…) and "
                          "name it in 'cpus', or let the clock sleep.");
     }
-    constexpr std::int64_t MostSpinning = 80;  // %; cycles take time, too
-    if (place.realTime && place.throttled && share > MostSpinning) {
+    constexpr std::int64_t mostSpinning = 80;  // %; cycles take time, too
+    if (place.realTime && place.throttled && share > mostSpinning) {
         report.push_back(
             "The clock spins for " + std::to_string(share) +
             " % of each period at real-time priority: the kernel may stop the loop for "
@@ -296,18 +296,18 @@ std::vector<int> cpusOf(const std::string& list) {
 }
 
 [[gnu::noinline]] void prefaultStack() noexcept {
-    std::array<volatile char, PrefaultedBytes> stack;
-    constexpr std::size_t SmallestPage = 4096;
-    for (std::size_t i = 0; i < stack.size(); i += SmallestPage) stack[i] = 0;
+    std::array<volatile char, prefaultedBytes> stack;
+    constexpr std::size_t smallestPage = 4096;
+    for (std::size_t i = 0; i < stack.size(); i += smallestPage) stack[i] = 0;
 }
 
 void setFloatingPointMode() noexcept {
 #if defined(__x86_64__)
     // Traps masked; rounding and flush bits zero. The old unit still computes long double.
-    constexpr unsigned VectorUnit = 0x1F80;
-    constexpr std::uint16_t OldUnit = 0x037F;
-    _mm_setcsr(VectorUnit);
-    asm volatile("fldcw %0" : : "m"(OldUnit));
+    constexpr unsigned vectorUnit = 0x1F80;
+    constexpr std::uint16_t oldUnit = 0x037F;
+    _mm_setcsr(vectorUnit);
+    asm volatile("fldcw %0" : : "m"(oldUnit));
 #else
     std::fesetenv(FE_DFL_ENV);
 #endif

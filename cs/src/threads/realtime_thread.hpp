@@ -18,36 +18,36 @@ struct ThreadOptions {
     std::vector<int> affinity{};  // CPUs; empty: all that the process may use
 };
 
-/// The CPUs that the process may use, as found at the first call (before any thread was pinned).
+// The CPUs that the process may use, as found at the first call (before any thread was pinned).
 const std::vector<int>& usableCpus();
 
-/// Those of the CPUs (below CPU_SETSIZE) that the kernel lets a thread of this process run on,
-/// whether the process has them in its mask or not.
+// Those of the CPUs (below CPU_SETSIZE) that the kernel lets a thread of this process run on,
+// whether the process has them in its mask or not.
 std::vector<int> settableCpus(const std::vector<int>& wanted);
 
-/// How many of these CPUs the process may use; empty: all usable. Isolated ones count where named.
+// How many of these CPUs the process may use; empty: all usable. Isolated ones count where named.
 std::uint32_t cpuCount(const std::vector<int>& affinity);
 
-/// Where the n-th real-time thread is pinned; 0 is the loop's own.
+// Where the n-th real-time thread is pinned; 0 is the loop's own.
 int cpuForThread(const std::vector<int>& affinity, std::uint32_t thread);
 
-/// `wanted`, or for real-time threads at most one per CPU, with a line of report.
+// `wanted`, or for real-time threads at most one per CPU, with a line of report.
 std::uint32_t clampThreads(std::uint32_t wanted, int priority, const std::vector<int>& affinity,
                            std::vector<std::string>& report);
 
-/// `wanted`, or 1 with a line of report where the CPUs of so many threads have no last-level cache
-/// in common, as the system states it: threads that share tasks are slower there than one.
+// `wanted`, or 1 with a line of report where the CPUs of so many threads have no last-level cache
+// in common, as the system states it: threads that share tasks are slower there than one.
 std::uint32_t threadsWithCommonCache(std::uint32_t wanted, const std::vector<int>& affinity,
                                      std::vector<std::string>& report,
                                      const std::string& cpuFolder = "/sys/devices/system/cpu");
 
-/// Sets name, CPUs and priority of the calling thread.
+// Sets name, CPUs and priority of the calling thread.
 std::vector<std::string> configureThisThread(const ThreadOptions& options);
 
-/// Moves another thread to these CPUs; empty: all that the process may use.
+// Moves another thread to these CPUs; empty: all that the process may use.
 void placeThread(std::thread::native_handle_type thread, const std::vector<int>& cpus);
 
-/// The calling thread runs on this CPU while one exists; where the system refuses, where it was.
+// The calling thread runs on this CPU while one exists; where the system refuses, where it was.
 class OnCpu {
 public:
     explicit OnCpu(int cpu);
@@ -59,14 +59,14 @@ private:
     std::vector<int> before_;
 };
 
-/// Keeps all memory of the process resident, what it obtains later included.
+// Keeps all memory of the process resident, what it obtains later included.
 std::vector<std::string> lockMemory();
 
-/// While one exists, no idle CPU of this machine sleeps: a CPU that does needs time to wake up, and
-/// one of a virtual machine is given to others, who return it when they please. Costs power.
+// While one exists, no idle CPU of this machine sleeps: a CPU that does needs time to wake up, and
+// one of a virtual machine is given to others, who return it when they please. Costs power.
 class AwakeCpus {
 public:
-    /// Adds to the report if the system refuses.
+    // Adds to the report if the system refuses.
     explicit AwakeCpus(std::vector<std::string>& report);
     ~AwakeCpus();
     AwakeCpus(const AwakeCpus&) = delete;
@@ -76,7 +76,7 @@ private:
     int request_;  // the kernel withdraws it when this file is closed, however the process ends
 };
 
-/// Where a thread runs that does not sleep.
+// Where a thread runs that does not sleep.
 struct ThreadPlace {
     std::vector<int> cpus;
     std::vector<int> isolated;  // CPUs on which the kernel puts nothing of itself
@@ -85,18 +85,18 @@ struct ThreadPlace {
 };
 ThreadPlace placeOfThisThread();
 
-/// What spinning for `spin` of each `period` (ns) does to others there, and they to it.
+// What spinning for `spin` of each `period` (ns) does to others there, and they to it.
 std::vector<std::string> spinReport(const ThreadPlace& place, std::int64_t spin,
                                     std::int64_t period);
 
-/// CPUs as the kernel lists them: "2-3,6".
+// CPUs as the kernel lists them: "2-3,6".
 std::vector<int> cpusOf(const std::string& list);
 
-/// Touches the calling thread's stack, so that the loop meets no page fault on it.
+// Touches the calling thread's stack, so that the loop meets no page fault on it.
 void prefaultStack() noexcept;
 
-/// Round to nearest, no flush to zero, no floating-point traps: results must not depend on the
-/// thread. Every thread of the loop calls it at the start of each cycle (a few nanoseconds).
+// Round to nearest, no flush to zero, no floating-point traps: results must not depend on the
+// thread. Every thread of the loop calls it at the start of each cycle (a few nanoseconds).
 void setFloatingPointMode() noexcept;
 
 }  // namespace cortex::cs

@@ -1,93 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "threads/scheduler.hpp"
 
+#include "threads/index_lists.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <functional>
 #include <limits>
-#include <numeric>
-#include <queue>
+#include <utility>
 
 namespace cortex::cs {
 namespace {
 
-using Index = std::uint32_t;
-constexpr Index None = std::numeric_limits<Index>::max();
+constexpr Index none = std::numeric_limits<Index>::max();
 
-constexpr double LeastTaskMicroseconds = 0.01;
-constexpr double ChunkMicroseconds = 4.0;  // a ticket costs 0.05 to 0.2
-constexpr double LevelMicroseconds = 0.5;  // waiting for the chunks of the level before
-constexpr std::size_t MostInlinedEdges = 64;
-constexpr std::size_t MostPruningSteps = 1024;
+constexpr double leastTaskMicroseconds = 0.01;
+constexpr double chunkMicroseconds = 4.0;  // a ticket costs 0.05 to 0.2
+constexpr double levelMicroseconds = 0.5;  // waiting for the chunks of the level before
+constexpr std::size_t mostInlinedEdges = 64;
+constexpr std::size_t mostPruningSteps = 1024;
 
-/// Lists of indices, one per owner, in one flat array.
-struct Lists {
-    std::vector<Index> first;  // owners + 1
-    std::vector<Index> items;
-
-    std::span<const Index> of(Index owner) const {
-        return {items.data() + first[owner], items.data() + first[owner + 1]};
-    }
-};
-
-/// The values 0..n-1 grouped by their owner; each group ascends.
-Lists groupBy(std::span<const Index> ownerOf, std::size_t owners) {
-    Lists lists{std::vector<Index>(owners + 1), std::vector<Index>(ownerOf.size())};
-    for (const Index owner : ownerOf) ++lists.first[owner + 1];
-    std::partial_sum(lists.first.begin(), lists.first.end(), lists.first.begin());
-    std::vector<Index> next(lists.first.begin(), lists.first.end() - 1);
-    for (Index value = 0; value < ownerOf.size(); ++value) {
-        lists.items[next[ownerOf[value]]++] = value;
-    }
-    return lists;
-}
-
-/// For each node the other ends of its edges: by `from` the successors, by `to` the predecessors.
-Lists neighbours(const TaskGraph& graph, bool successors) {
-    std::vector<Index> owners;
-    owners.reserve(graph.edges.size());
-    for (const auto& [before, after] : graph.edges) {
-        assert(before < graph.nodes.size() && after < graph.nodes.size());
-        owners.push_back(successors ? before : after);
-    }
-    Lists lists = groupBy(owners, graph.nodes.size());
-    for (Index& item : lists.items) {
-        const auto& [before, after] = graph.edges[item];
-        item = successors ? after : before;
-    }
-    return lists;
-}
-
-/// Every blocked node has a blocked predecessor, so walking back from any of them ends in a loop.
-std::vector<Index> findLoop(const Lists& predecessors, const std::vector<bool>& blocked) {
-    const auto start = std::find(blocked.begin(), blocked.end(), true);
-    std::vector<Index> walk;
-    std::vector<bool> visited(blocked.size());
-    Index node = static_cast<Index>(start - blocked.begin());
-    while (!visited[node]) {
-        visited[node] = true;
-        walk.push_back(node);
-        const auto before = predecessors.of(node);
-        node = *std::find_if(before.begin(), before.end(), [&](Index i) { return blocked[i]; });
-    }
-    walk.erase(walk.begin(), std::find(walk.begin(), walk.end(), node));
-    std::reverse(walk.begin(), walk.end());
-    return walk;
-}
-
-[[noreturn]] void throwLoop(const TaskGraph& graph, const std::vector<bool>& blocked) {
-    std::vector<Index> loop = findLoop(neighbours(graph, false), blocked);
-    const auto byPath = [&](Index a, Index b) { return graph.nodes[a].path < graph.nodes[b].path; };
-    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), byPath), loop.end());
-    std::string text = "The order of execution has a loop: ";
-    for (const Index node : loop) text += graph.nodes[node].path + " -> ";
-    text += graph.nodes[loop.front()].path;
-    text += ". Each runs before the next; mark one relationship of the loop delayed=\"true\", ";
-    text += "and its reader takes the value of the cycle before.";
-    throw LoopError(text);
-}
-
-/// Builds a Schedule in the order of its public functions; used once.
+// Builds a Schedule in the order of its public functions; used once.
 class Builder {
 public:
     Builder(const TaskGraph& graph, const ScheduleOptions& options)
@@ -122,7 +55,7 @@ private:
     std::vector<Index> beforeFirst_, beforeCount_, beforeItems_;
 
     // After mergeChains(): chains in the canonical order of their heads.
-    std::vector<Index> chainOf_;  // by node, None where contracted
+    std::vector<Index> chainOf_;  // by node, none where contracted
     Lists nodesOfChain_;
     std::vector<double> chainCost_, chainWeight_;
     Lists chainsOfLevel_;
@@ -136,15 +69,15 @@ private:
     Index widestLevel_ = 0;
 };
 
-/// In microseconds.
+// In microseconds.
 double Builder::cost(Index node) const {
     if (!graph_.nodes[node].hasTask) return 0;
     const double known = options_.costMicroseconds.empty() ? 0 : options_.costMicroseconds[node];
-    const double full = known > 0 ? known : AssumedTaskMicroseconds;
-    return std::max(full / std::max(1U, graph_.nodes[node].every), LeastTaskMicroseconds);
+    const double full = known > 0 ? known : assumedTaskMicroseconds;
+    return std::max(full / std::max(1U, graph_.nodes[node].every), leastTaskMicroseconds);
 }
 
-/// What fills a chunk: cost, or the number of tasks where the caller fixed it.
+// What fills a chunk: cost, or the number of tasks where the caller fixed it.
 double Builder::weight(Index node) const {
     return options_.chunkSize == 0 ? cost(node) : graph_.nodes[node].hasTask ? 1 : 0;
 }
@@ -163,14 +96,14 @@ std::vector<bool> Builder::leadingToTask(const Lists& successors) const {
     return leading;
 }
 
-/// Nodes without a task hand their predecessors on to their successors. Where that would multiply
-/// edges (many writers and many readers of one simplex) the node stays as a join, a task of no
-/// cost.
+// Nodes without a task hand their predecessors on to their successors. Where that would multiply
+// edges (many writers and many readers of one simplex) the node stays as a join, a task of no
+// cost.
 void Builder::contract() {
     const Lists successors = neighbours(graph_, true);
     const Lists predecessors = neighbours(graph_, false);
     const std::vector<bool> leading = leadingToTask(successors);
-    std::vector<Index> seenFor(nodeCount(), None);
+    std::vector<Index> seenFor(nodeCount(), none);
     remains_.assign(nodeCount(), false);
     beforeFirst_.assign(nodeCount(), 0);
     beforeCount_.assign(nodeCount(), 0);
@@ -191,18 +124,18 @@ void Builder::contract() {
         beforeCount_[node] = static_cast<Index>(beforeItems_.size()) - beforeFirst_[node];
         const std::size_t inlined = beforeCount_[node] * successors.of(node).size();
         remains_[node] =
-            graph_.nodes[node].hasTask || (beforeCount_[node] > 1 && inlined > MostInlinedEdges);
+            graph_.nodes[node].hasTask || (beforeCount_[node] > 1 && inlined > mostInlinedEdges);
     }
 }
 
-/// A node whose only predecessor has no other successor continues its chain.
+// A node whose only predecessor has no other successor continues its chain.
 void Builder::mergeChains() {
     std::vector<Index> successorCount(nodeCount());
     for (const Index node : schedule_.order) {
         if (!remains_[node]) continue;
         for (const Index earlier : before(node)) ++successorCount[earlier];
     }
-    chainOf_.assign(nodeCount(), None);
+    chainOf_.assign(nodeCount(), none);
     std::vector<Index> members, chainOfMember, levelOfChain;
     Index levels = 0;
     for (const Index node : schedule_.order) {
@@ -247,10 +180,10 @@ void Builder::addToOpenChunk(Index chain) {
     openWeight_ += chainWeight_[chain];
 }
 
-/// Small levels share a chunk; a large one is cut into chunks of its own. The chains of a level are
-/// independent of each other, so a chunk waits only for chunks of earlier levels.
+// Small levels share a chunk; a large one is cut into chunks of its own. The chains of a level are
+// independent of each other, so a chunk waits only for chunks of earlier levels.
 void Builder::cutLevel(std::span<const Index> chains) {
-    const double limit = options_.chunkSize != 0 ? options_.chunkSize : ChunkMicroseconds;
+    const double limit = options_.chunkSize != 0 ? options_.chunkSize : chunkMicroseconds;
     double levelCost = 0, levelWeight = 0;
     for (const Index chain : chains) {
         levelCost += chainCost_[chain];
@@ -276,10 +209,10 @@ void Builder::cutLevel(std::span<const Index> chains) {
     widestLevel_ = std::max(widestLevel_, width);
     serialCost_ += levelCost;
     const double shared = levelCost / std::max(1U, std::min(width, options_.threads));
-    parallelCost_ += width == 1 ? levelCost : std::max(largest, shared) + LevelMicroseconds;
+    parallelCost_ += width == 1 ? levelCost : std::max(largest, shared) + levelMicroseconds;
 }
 
-/// By the cost of those before them; a level of mere joins has none.
+// By the cost of those before them; a level of mere joins has none.
 void Builder::placeChunks(std::size_t first, double levelCost) {
     constexpr double last = 0.9999;
     double before = 0;
@@ -295,14 +228,14 @@ void Builder::cutChunks() {
     for (Index level = 0; level < levels; ++level) cutLevel(chainsOfLevel_.of(level));
 }
 
-/// Drops from `named` (latest first) what another of them names itself.
+// Drops from `named` (latest first) what another of them names itself.
 void Builder::prune(Index chunk, std::vector<Index>& named, std::vector<Index>& coveredFor) const {
     std::size_t steps = 0;
     std::erase_if(named, [&](Index earlier) {
         if (coveredFor[earlier] == chunk) return true;
         const Chunk& kept = schedule_.chunks[earlier];
         steps += kept.predecessorCount;
-        if (steps > MostPruningSteps) return false;
+        if (steps > mostPruningSteps) return false;
         for (Index i = 0; i < kept.predecessorCount; ++i) {
             coveredFor[schedule_.predecessors[kept.firstPredecessor + i]] = chunk;
         }
@@ -313,7 +246,7 @@ void Builder::prune(Index chunk, std::vector<Index>& named, std::vector<Index>& 
 void Builder::namePredecessors() {
     const std::size_t chunks = schedule_.chunks.size();
     const Lists chainsOfChunk = groupBy(chunkOfChain_, chunks);
-    std::vector<Index> namedFor(chunks, None), coveredFor(chunks, None), named;
+    std::vector<Index> namedFor(chunks, none), coveredFor(chunks, none), named;
     for (Index chunk = 0; chunk < chunks; ++chunk) {
         named.clear();
         for (const Index chain : chainsOfChunk.of(chunk)) {
@@ -338,41 +271,12 @@ Schedule Builder::finish() {
     const Index threads =
         options_.force ? options_.threads : std::min(options_.threads, widestLevel_);
     schedule_.threads = std::max<Index>(1, threads);
-    const bool isWorthwhile = parallelCost_ + WakeMicroseconds < serialCost_;
+    const bool isWorthwhile = parallelCost_ + wakeMicroseconds < serialCost_;
     if (!isWorthwhile && !options_.force) schedule_.threads = 1;
     return std::move(schedule_);
 }
 
 }  // namespace
-
-std::vector<std::uint32_t> canonicalOrder(const TaskGraph& graph) {
-    const std::size_t count = graph.nodes.size();
-    std::vector<Index> byPath(count), rank(count), waitsFor(count), order;
-    std::iota(byPath.begin(), byPath.end(), 0U);
-    std::sort(byPath.begin(), byPath.end(),
-              [&](Index a, Index b) { return graph.nodes[a].path < graph.nodes[b].path; });
-    for (Index i = 0; i < count; ++i) rank[byPath[i]] = i;
-    const Lists successors = neighbours(graph, true);
-    for (const Index after : successors.items) ++waitsFor[after];
-
-    std::priority_queue<Index, std::vector<Index>, std::greater<>> ready;  // ranks
-    for (Index node = 0; node < count; ++node) {
-        if (waitsFor[node] == 0) ready.push(rank[node]);
-    }
-    order.reserve(count);
-    while (!ready.empty()) {
-        const Index node = byPath[ready.top()];
-        ready.pop();
-        order.push_back(node);
-        for (const Index after : successors.of(node)) {
-            if (--waitsFor[after] == 0) ready.push(rank[after]);
-        }
-    }
-    if (order.size() == count) return order;
-    std::vector<bool> blocked(count);
-    for (Index node = 0; node < count; ++node) blocked[node] = waitsFor[node] != 0;
-    throwLoop(graph, blocked);
-}
 
 Schedule makeSchedule(const TaskGraph& graph, const ScheduleOptions& options) {
     assert(options.costMicroseconds.empty() ||

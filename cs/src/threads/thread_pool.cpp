@@ -9,24 +9,24 @@
 
 namespace cortex::cs {
 
-/// A budget of time for busy waiting. Short waits never read the clock.
+// A budget of time for busy waiting. Short waits never read the clock.
 class ThreadPool::Spin {
 public:
     explicit Spin(std::chrono::nanoseconds limit) : limit_(limit) {}
 
-    /// Waits a moment; false once the budget is spent.
+    // Waits a moment; false once the budget is spent.
     bool spend() noexcept {
         if (isSpent_) return false;
         pauseBriefly();
-        if (++pauses_ % PausesPerClockReading != 0) return true;
+        if (++pauses_ % pausesPerClockReading != 0) return true;
         const auto now = std::chrono::steady_clock::now();
-        if (pauses_ == PausesPerClockReading) end_ = now + limit_;
+        if (pauses_ == pausesPerClockReading) end_ = now + limit_;
         isSpent_ = now >= end_;
         return !isSpent_;
     }
 
 private:
-    static constexpr std::uint32_t PausesPerClockReading = 32;
+    static constexpr std::uint32_t pausesPerClockReading = 32;
 
     std::chrono::nanoseconds limit_;
     std::chrono::steady_clock::time_point end_;
@@ -69,8 +69,8 @@ void ThreadPool::listChunks() {
     for (List& list : lists_) list.ticket = list.chunks.size();
 }
 
-/// Threads that share work are pinned, each to a CPU of its own: measured, the system otherwise
-/// wakes workers on the loop's own CPU, where they only slow it down.
+// Threads that share work are pinned, each to a CPU of its own: measured, the system otherwise
+// wakes workers on the loop's own CPU, where they only slow it down.
 ThreadOptions ThreadPool::threadOptions(std::uint32_t worker) const {
     ThreadOptions thread{options_.name + (worker == 0 ? "-loop" : "-" + std::to_string(worker)),
                          options_.priority, options_.affinity};
@@ -119,7 +119,7 @@ void ThreadPool::workerMain(std::uint32_t worker) {
     while (waitForCycle(seen)) takeChunks(worker);
 }
 
-/// False: the pool stops. `seen`: the epoch that this worker was last woken for.
+// False: the pool stops. `seen`: the epoch that this worker was last woken for.
 bool ThreadPool::waitForCycle(std::uint32_t& seen) noexcept {
     Spin spin(spinTime_);
     std::int64_t due = next_.load(std::memory_order_relaxed);
@@ -168,7 +168,7 @@ bool ThreadPool::isReady(const Chunk& chunk, std::uint32_t epoch) const noexcept
     });
 }
 
-/// Takes the first chunk of a list if it is ready, of the worker's own list first.
+// Takes the first chunk of a list if it is ready, of the worker's own list first.
 ThreadPool::Found ThreadPool::find(std::uint32_t worker) noexcept {
     Found found;
     for (std::uint32_t i = 0; i < threads(); ++i) {
@@ -192,8 +192,8 @@ ThreadPool::Found ThreadPool::find(std::uint32_t worker) noexcept {
     return found;
 }
 
-/// Runs chunks until none is left to take. A cycle cannot end before those taken here are reported
-/// in remaining_, so all of them belong to one epoch.
+// Runs chunks until none is left to take. A cycle cannot end before those taken here are reported
+// in remaining_, so all of them belong to one epoch.
 void ThreadPool::takeChunks(std::uint32_t worker) noexcept {
     setFloatingPointMode();
     std::uint32_t taken = 0;
@@ -214,13 +214,13 @@ void ThreadPool::takeChunks(std::uint32_t worker) noexcept {
     }
 }
 
-/// Sequentially consistent with sleepOrFind(): either this sees the sleeper, or he the chunk.
+// Sequentially consistent with sleepOrFind(): either this sees the sleeper, or he the chunk.
 void ThreadPool::complete(std::uint32_t chunk, std::uint32_t epoch) noexcept {
     done_[chunk].epoch.exchange(epoch, std::memory_order_seq_cst);
     if (sleepers_.load(std::memory_order_seq_cst) != 0) progress_.advance();
 }
 
-/// Sleeps until some chunk is complete, unless one is ready by now.
+// Sleeps until some chunk is complete, unless one is ready by now.
 ThreadPool::Found ThreadPool::sleepOrFind(std::uint32_t worker) noexcept {
     sleepers_.fetch_add(1, std::memory_order_seq_cst);
     const std::uint32_t value = progress_.value();

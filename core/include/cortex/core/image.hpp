@@ -55,8 +55,21 @@ private:
     std::uint32_t slot_ = 0;
 };
 
-// Fixed pool of images: `readers` + 2 slots. The loop's thread copies the tables into one that is
-// neither newest nor pinned and never waits; a reader pins the newest.
+// Fixed pool of images: the tables as they were at the end of cycles.
+//
+// **Invariants**
+// 1. There are `readers` + 2 slots: the newest, one for each reader, and the next one to fill.
+// 2. The loop's thread alone fills slots and moves `newest_`. It never waits for a reader.
+// 3. It fills only a slot that is neither the newest nor pinned, and that it chose after the slot
+//    before had become the newest.
+// 4. A reader pins a slot and then looks whether it is still the newest. If not, it lets go of the
+//    slot and tries again; it reads nothing before that second look.
+// 5. Pins and `newest_` are sequentially consistent. So either the loop sees the pin of a slot that
+//    it is about to choose, or the reader sees that another slot is the newest.
+// 6. A reader takes a place among `readers` before it pins, and pins one slot at a time. So the
+//    loop always finds a free one among the `readers` + 1 that are not the newest.
+// 7. A slot is complete before it becomes the newest, and does not change while it is pinned.
+// 8. Texts are copied into a slot only if some text has changed since they were copied into it.
 class ImagePool {
 public:
     ImagePool(Tables& tables, std::uint32_t readers);
