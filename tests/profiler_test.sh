@@ -4,6 +4,7 @@
 # Its argument is the folder with the programs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source tests/support/own_domain.sh
 bin=$(realpath "$1")
 out=$(mktemp -d)
 agent=0
@@ -57,7 +58,7 @@ expect 0 compare compare "$out/first" "$out/first"
 says compare 'noise'
 
 # An agent that runs, by the metrics that it has as data.
-export CORTEX_DOMAIN=$((1 + $$ % 99))
+export CORTEX_DOMAIN=$ownDomain
 "$bin/cortex-agent" examples/lbr_teleop/lbr_teleop.xml --interface lo --priority 0 \
     >"$out/agent.log" 2>&1 &
 agent=$!

@@ -2,6 +2,7 @@
 #include "cli/live_agent.hpp"
 
 #include "cli/json_schema.hpp"
+#include "support/own_domain.hpp"
 
 #include <csignal>
 #include <cstdlib>
@@ -17,7 +18,7 @@ namespace cortex::test {
 
 using nlohmann::json;
 
-const std::string domain = std::to_string(1 + getpid() % 99);
+const std::string domain = std::to_string(ownDomain());
 const std::vector<std::string> network{"--domain", domain, "--interface", "127.0.0.1"};
 
 std::vector<std::string> operator+(std::vector<std::string> left,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dds/participant.hpp"
+#include "support/own_domain.hpp"
 
 #include <chrono>
 #include <condition_variable>
@@ -20,7 +21,7 @@ inline constexpr std::chrono::seconds longEnough{10};
 // A domain of this process alone, on the loopback interface.
 inline NetworkOptions loopback() {
     NetworkOptions options;
-    options.domain = 1 + getpid() % 99;
+    options.domain = test::ownDomain();
     options.interfaces = {"127.0.0.1"};
     return options;
 }

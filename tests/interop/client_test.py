@@ -8,6 +8,8 @@ The client is compiled outside of the tree, from the IDL that the protocol print
 
 import concurrent.futures
 import contextlib
+import fcntl
+import functools
 import json
 import os
 import pathlib
@@ -25,8 +27,30 @@ SOURCE, BINARY, *SYSTEMS = (pathlib.Path(each).resolve() for each in sys.argv[1:
 LINE = re.compile(r'^(/\S*)\.([\w-]+) =(.*?)(?: \[([^]]*)\] (good|stale|bad|lost))?$')
 
 
+LOCKS = []  # held until this process ends
+
+
+def free(domain):
+    """As in tests/support/own_domain.hpp: no port is bound, and the file was locked by this process."""
+    first = 7400 + 250 * domain
+    sockets = pathlib.Path("/proc/net/udp").read_text().splitlines()[1:]
+    if any(int(line.split()[1][-4:], 16) in range(first, first + 250) for line in sockets):
+        return False
+    try:
+        name = f"/tmp/cortex-test-domain-{domain}"
+        file = os.open(name, os.O_RDONLY if os.path.exists(name) else os.O_RDONLY | os.O_CREAT)
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    LOCKS.append(file)
+    return True
+
+
+@functools.cache
 def domain(number):
-    return 1 + (os.getpid() + number) % 99  # their ports are not handed out to others
+    """A domain of this process alone for each number."""
+    return next(each for each in (1 + (os.getpid() + number + i) % 99 for i in range(99))
+                if free(each))
 
 
 def build(folder):

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comms/sample_messages.hpp"
+#include "support/own_domain.hpp"
 #include "wire/cdr.hpp"
 
 #include <cortex.h>
-#include <unistd.h>
 
 #include <dds/dds.h>
 #include <dds/ddsi/ddsi_serdata.h>
@@ -42,7 +42,7 @@ template <class P>
 class Cyclone : public testing::Test {
 protected:
     void SetUp() override {
-        const auto number = static_cast<dds_domainid_t>(1 + getpid() % 99);
+        const auto number = static_cast<dds_domainid_t>(test::ownDomain());
         domain_ = dds_create_domain(number, loopbackOnly);
         ASSERT_GT(domain_, 0) << dds_strretcode(domain_);
         const dds_entity_t participant = dds_create_participant(number, nullptr, nullptr);

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <fstream>
@@ -86,7 +87,18 @@ std::string whyNoHosts() {
     int error = 0;
     aside([&] { error = unshare(CLONE_NEWNET) == 0 ? 0 : errno; });
     if (error == ENOSYS || error == EINVAL) return "the kernel has no network namespaces";
-    if (error != 0) throw std::runtime_error(std::strerror(error));
+    if (error != 0) return std::string{"no network namespace: "} + std::strerror(error);
+    for (const char* program : {"ip", "nft"}) {
+        const std::string look = "command -v " + std::string{program} + " >/dev/null";
+        if (std::system(look.c_str()) != 0) return std::string{program} + " is missing";  // NOLINT
+    }
+    return "";
+}
+
+std::string whyNoRelay() {
+    const int tap = open("/dev/net/tun", O_RDWR | O_CLOEXEC);
+    if (tap < 0) return std::string{"/dev/net/tun: "} + std::strerror(errno);
+    close(tap);
     return "";
 }
 

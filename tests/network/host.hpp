@@ -8,9 +8,9 @@
 
 namespace cortex::test {
 
-// Why this machine has no network namespaces for a test; empty: it has. Throws where it should
-// have.
+// Why this machine has no network namespaces for a test; empty: it has.
 std::string whyNoHosts();
+std::string whyNoRelay();  // the same of the cards that DelayedHosts needs
 
 // A host of its own as far as the network goes: a namespace that ends with this object. Threads
 // and programs that are started within stay within.

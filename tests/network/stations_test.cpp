@@ -6,6 +6,7 @@
 #include "cortex/cs/cluster_cs.hpp"
 
 #include "network/processes.hpp"
+#include "support/own_domain.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -112,7 +113,7 @@ std::vector<std::string> withoutRepeats(std::vector<std::string> names) {
 
 TEST(Stations, AreNeverTwoWritersWhoeverIsKilled) {
     constexpr int rounds = 5;
-    const std::string domain = std::to_string(1 + getpid() % 99);
+    const std::string domain = std::to_string(ownDomain());
     Written written;
     SimplexTree tree{
         TypeModel::load(std::filesystem::path{CORTEX_SOURCE_DIR} / "tests/data/network-rules.xml")};

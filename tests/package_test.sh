@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The examples, built outside of the tree against an installed cortex, with CMake and with pkg-config.
+# Its argument is the folder that cortex is installed in.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source tests/support/own_domain.sh
+prefix=$(realpath "$1")
+outside=$(mktemp -d)
+trap 'rm -rf "$outside"' EXIT
+
+# NAME: copies an example and builds it.
+built() {
+    cp -r "examples/$1" "$outside/$1"
+    cmake -S "$outside/$1" -B "$outside/$1/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+    cmake --build "$outside/$1/build"
+}
+
+built e01_two_simplexes
+(cd "$outside" && e01_two_simplexes/build/e01_two_simplexes | tail -3)
+
+echo 'the example of two agents: the follower follows'
+built e02_two_agents
+agent=$outside/e02_two_agents/build/e02_two_agents
+export CORTEX_DOMAIN=$ownDomain
+timeout 4 "$agent" mover >/dev/null &
+(timeout 3 "$agent" follower || true) >"$outside/follower"
+wait
+tail -3 "$outside/follower"
+awk '$1 != 0 {moved = 1} END {exit !moved}' "$outside/follower"
+
+echo 'the same with pkg-config'
+export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
+g++ -std=c++20 "$outside"/e01_two_simplexes/*.cpp -o "$outside/e01" \
+    $(pkg-config --cflags --libs cortex)
+(cd "$outside" && LD_LIBRARY_PATH=$prefix/lib ./e01 | tail -1)
