@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The examples, built outside of the tree against an installed cortex, with CMake and with pkg-config.
-# Its argument is the folder that cortex is installed in.
+# The examples, built outside of the tree against an installed cortex, by CMake and by pkg-config.
+# The argument is the folder that cortex is installed in.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source tests/support/own_domain.sh

@@ -6,7 +6,8 @@ changedFiles() {
     local base
     base=$(git merge-base HEAD main 2>/dev/null || git merge-base HEAD origin/main 2>/dev/null ||
         echo HEAD)
-    { git diff --name-only --diff-filter=d "$base"; git ls-files --others --exclude-standard; } | sort -u
+    { git diff --name-only --diff-filter=d "$base"; git ls-files --others --exclude-standard; } |
+        sort -u
 }
 
 # The folders whose tests look at the files that are named.

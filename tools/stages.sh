@@ -14,7 +14,7 @@ ctestOutput() {
     fi
 }
 
-# runTests PRESET [ctest option…]: fails on a failure and, where CI=true, on a test that did not run.
+# runTests PRESET [ctest option…]: fails on a failure and, where CI=true, on a test that was skipped.
 runTests() {
     local preset=$1 log=$logs/ctest-$1.log status=0
     shift
@@ -133,8 +133,8 @@ stage_tsan() {
     runTests tsan
 }
 
-# The build of the four stages that look at what users get. Each file is compiled by itself in it, so
-# that a missing include is found.
+# The build of the four stages that look at what users get. It compiles each file by itself, so that
+# a missing include is found.
 buildRelease() { build release -DCORTEX_BENCH=ON -- all all_verify_interface_header_sets; }
 
 stage_package() {
@@ -146,7 +146,7 @@ stage_package() {
     bash tests/package_test.sh "$prefix"
 }
 
-# What the hot paths cost, in instructions under callgrind, beside profiler/instructions/baseline.txt.
+# What the hot paths cost, in instructions under callgrind, beside instructions/baseline.txt.
 stage_instructions() {
     local log=$logs/instructions.log status=0
     buildRelease
@@ -194,8 +194,11 @@ command_test() {
         bash ./run stage "$name" || { result=FAILED; failed=1; }
         table+=$(printf '%-12s %s min  %-6s  %s' "$name" "$(minutes $((SECONDS - begin)))" \
             "$result" "$(cat "$logs/$name.note" 2>/dev/null)")$'\n'
-        if [[ -s $logs/$name.skipped ]]; then skipped+=$(sed "s/$/ ($name)/" "$logs/$name.skipped")$'\n'; fi
-        if [[ -s $logs/$name.closing ]]; then closing+=$(<"$logs/$name.closing")"   ($name)"$'\n'; fi
+        skipped+=$(sed "s/^/  ($name) /" "$logs/$name.skipped" 2>/dev/null || true)
+        [[ -z $skipped || $skipped == *$'\n' ]] || skipped+=$'\n'
+        if [[ -s $logs/$name.closing ]]; then
+            closing+=$(<"$logs/$name.closing")"   ($name)"$'\n'
+        fi
     done
     say "summary"
     printf '%s' "$table"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The demonstration, `./run demo [--seconds N] [--secure] [ARG…]`: the two agents of this example,
-# and `cortex top` to look at them. They use the loopback interface and a domain of their own, so that
-# they meet nothing else. Other ARGs go to both agents. The programs are in build/release/bin.
+# and `cortex top` to look at them. They use the loopback interface and a domain of their own, so
+# that they meet nothing else. Other ARGs go to both agents. The programs are in build/release/bin.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
