@@ -15,7 +15,7 @@ namespace cortex {
 // **Invariants**
 // 1. The upper 31 bits of the word are the number; the lowest bit says that a thread sleeps.
 // 2. A thread sleeps only after it has set that bit in the same atomic step in which it saw the
-//    number that it waits to change. So whoever changes the number afterwards finds the bit.
+//    number that it waits to change. So a thread that changes the number afterwards finds the bit.
 // 3. The kernel compares the word once more before it lets the thread sleep. A change between the
 //    two steps therefore ends the wait at once.
 // 4. Whoever changes the number clears the bit and, if it was set, wakes all threads: none stays

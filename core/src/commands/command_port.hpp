@@ -92,7 +92,7 @@ private:
     // nothing is written to it that has not changed.
     LoopThread* thread_ = nullptr;
     const CommandTable& table_;
-    Lane* receiving_ = nullptr;  // the first, mostly the only one
+    Lane* receiving_ = nullptr;  // the first, usually the only one
     Lane* sending_ = nullptr;
     Handler recent_;  // of the command that came last
     std::uint32_t recentCommand_ = CommandTable::none;

@@ -144,7 +144,7 @@ private:
     }
     std::byte* place(std::uint32_t position) const {
         auto* slots = const_cast<std::byte*>(reinterpret_cast<const std::byte*>(this + 1));
-        if (position == first_) return slots;  // with light traffic mostly
+        if (position == first_) return slots;  // nearly always, with light traffic
         return slots + std::size_t{indexOf(position)} * lines_ * lineSize;
     }
     LaneSlot& slot(std::uint32_t position) const {
@@ -180,7 +180,7 @@ class LaneBlock {
 public:
     struct Plan {
         Lane::Shape shape;
-        std::vector<CommandSender::State*> handles;  // told their lane
+        std::vector<CommandSender::State*> handles;  // that get the lane
     };
     explicit LaneBlock(std::vector<Plan> plans);
     ~LaneBlock();

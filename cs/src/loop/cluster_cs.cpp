@@ -212,7 +212,7 @@ void ClusterCS::startAll() {
     const std::uint32_t threads =
         self.test.forceThreads ? self.options.threads : threadsFor(self.options, realtimeReport);
     AgentOptions options;
-    options.imageReaders = self.options.imageReaders + 1;  // who looks at task times
+    options.imageReaders = self.options.imageReaders + 1;  // one for the look at task times
     options.loopThreads = threads;
     options.controlRequired = self.options.controlRequired;
     options.period = self.trigger->period();

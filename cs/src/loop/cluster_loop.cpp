@@ -221,7 +221,7 @@ Outcome ClusterLoop::reschedule(Call& call) {
     if (call.cancelling()) return Outcome::Cancelled;
     if (!mayReschedule_) {
         return call.fail(
-            "this loop has one thread, keeps all that it was told to use, or is "
+            "this loop has one thread, keeps the threads that it was given, or is "
             "stepped by hand: there is nothing to share anew");
     }
     if (call.first()) rescheduler_->look();

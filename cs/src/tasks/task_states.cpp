@@ -58,7 +58,7 @@ bool TaskStates::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
                               << name(simplex.state_);
     } else if (command == LifeCycle::ClearFaults && !simplex.dead_ && !simplex.pending_.done) {
         simplex.thread_->text << "the fault is not over: stateFault has not returned true";
-    } else if (command != LifeCycle::Startup || mayStart(task)) {  // mayStart says why not
+    } else if (command != LifeCycle::Startup || mayStart(task)) {  // or mayStart gives the reason
         enter(task, *to, tick);
         return true;
     }

@@ -13,7 +13,7 @@ public:
 
     // Loop thread, before the tasks of a cycle.
     void beginCycle() CORTEX_REALTIME;
-    // Whether step (1) may change the state; mostly nothing has happened that could.
+    // Whether step (1) may change the state. In nearly all cycles nothing has happened that could.
     bool mayMove(const SimplexCS& simplex, std::uint8_t calls) const CORTEX_REALTIME {
         return anyMayMove_ || simplex.pending_.any() || AgentRuntime::hasLifeCycle(calls);
     }

@@ -71,7 +71,8 @@ std::vector<int> cpusOfLastCache(const std::string& cpuFolder, int cpu) {
     }
 }
 
-// Isolated CPUs are not in the mask that a process begins with, but there for who names them.
+// Isolated CPUs are not in the mask that a process begins with, but can be used where they are
+// named.
 const std::vector<int>& nameableCpus() {
     static const std::vector<int> found = [] {
         std::vector<int> cpus = usableCpus();

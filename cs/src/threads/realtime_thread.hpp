@@ -63,7 +63,7 @@ private:
 std::vector<std::string> lockMemory();
 
 // While one exists, no idle CPU of this machine sleeps: a CPU that does needs time to wake up, and
-// one of a virtual machine is given to others, who return it when they please. Costs power.
+// one of a virtual machine is given to others until they return it. This costs power.
 class AwakeCpus {
 public:
     // Adds to the report if the system refuses.

@@ -41,7 +41,7 @@ struct ClusterOptions {
     std::uint32_t imageReaders = 8;
 };
 
-// What heartbeat functions are told, after each cycle on the loop thread, and by the watchdog.
+// What heartbeat functions get, after each cycle on the loop thread, and from the watchdog.
 struct Heartbeat {
     std::int64_t cycle = 0;
     bool alive = true;  // false: the cycle counter stands still (watchdog thread)

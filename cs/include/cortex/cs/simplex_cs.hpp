@@ -29,7 +29,7 @@ class alignas(64) SimplexCS : public Simplex {
 public:
     using Simplex::Simplex;
 
-    // In hooks of this simplex; everyone else reads its item `state`.
+    // In hooks of this simplex; all other code reads its item `state`.
     State state() const { return state_; }
 
 protected:
@@ -41,7 +41,7 @@ protected:
 
     virtual void loopStart(const Tick&) CORTEX_REALTIME {}
     virtual void stateStandby(const Tick&) CORTEX_REALTIME {}
-    // Done (true) or not yet (false), within the type's transitionTimeout, else Fault.
+    // Done (true) or not yet (false). Not done within the type's transitionTimeout is a fault.
     virtual bool stateStartingUp(const Tick&) CORTEX_REALTIME { return true; }
     virtual void stateActive(const Tick&) CORTEX_REALTIME {}
     virtual bool stateShuttingDown(const Tick&) CORTEX_REALTIME { return true; }
@@ -101,12 +101,12 @@ private:
     }
 
     // With the head of the object this is most of a cache line; what derives from it goes on there.
-    std::uint32_t manager_ = noSimplex;  // who starts and stops it instead of group commands
+    std::uint32_t manager_ = noSimplex;  // starts and stops it instead of group commands
     State state_ = State::Standby;
     bool dead_ = false;  // a hook threw: no hooks until clearFaults
     bool inputLost_ = false;
     bool safeByLoss_ = false;  // an onLoss="safe" input is lost: safe demands stand
-    // What a task has to look at before its next hooks or at its end; mostly nothing.
+    // What a task has to look at before its next hooks or at its end. In most cycles it is nothing.
     struct Pending {
         bool fault = false;
         bool done = false;           // the transitional state's function has returned true
