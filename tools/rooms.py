@@ -32,7 +32,8 @@ LAYERS = {
 # The room of each header that other folders see (include/ and internal/).
 PUBLIC = {
     "core": {
-        "base": "clock data error machine path quality realtime report spsc_ring state tick value",
+        "base": "clock data error event_count machine path quality realtime report spsc_ring "
+                "state tick value",
         "types": "agreement type_model",
         "files": "model_files type_description",
         "tables": "event event_sinks image image_pool structure tables",

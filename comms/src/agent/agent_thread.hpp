@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/event_count.hpp"
+
 #include "agent/agent_answers.hpp"
 #include "agent/agent_commands.hpp"
 #include "agent/agent_events.hpp"
@@ -10,7 +12,6 @@
 #include "agent/agent_received.hpp"
 #include "agent/agent_self.hpp"
 #include "agent/agent_streams.hpp"
-#include "base/event_count.hpp"
 #include "dds/participant.hpp"
 
 #include <atomic>

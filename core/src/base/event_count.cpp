@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/event_count.hpp"
+#include "cortex/core/event_count.hpp"
 
 #include <cerrno>
 #include <ctime>

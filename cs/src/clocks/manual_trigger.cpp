@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/error.hpp"
-#include "cortex/cs/testing.hpp"
 #include "cortex/cs/trigger_source.hpp"
 
 namespace cortex::cs {
@@ -16,11 +15,6 @@ void ManualTrigger::step(std::int64_t cycles) {
     wake_.notify_all();
     wake_.wait(lock,
                [&] { return (finished_ >= last && late_ == 0 && !running_) || interrupted_; });
-}
-
-void ClusterTesting::playLate(ManualTrigger& trigger, std::int64_t periods) {
-    const std::lock_guard lock{trigger.mutex_};
-    trigger.requestedLate_ += periods;
 }
 
 void ManualTrigger::start() {}

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
 
 namespace cortex::cs {
 
@@ -261,6 +262,11 @@ void ClusterTesting::set(ClusterCS& cluster, TestOptions options) {
 bool ClusterTesting::offerPlan(ClusterCS& cluster, std::uint32_t threads, std::uint32_t chunkSize) {
     const ClusterCS::Implementation& self = *cluster.implementation_;
     return self.loop->offerPlan(makeSchedule(self.graph(), {threads, chunkSize, {}, true}));
+}
+
+void ClusterTesting::playLate(ManualTrigger& trigger, std::int64_t periods) {
+    const std::lock_guard lock{trigger.mutex_};
+    trigger.requestedLate_ += periods;
 }
 
 bool ClusterCS::running() const {

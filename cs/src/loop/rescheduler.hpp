@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cortex/core/agent.hpp"
+#include "cortex/core/event_count.hpp"
 
-#include "base/event_count.hpp"
 #include "loop/plan.hpp"
 #include "threads/scheduler.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "threads/realtime_thread.hpp"
 
-#include "base/event_count.hpp"
+#include "cortex/core/event_count.hpp"
 
 #include <algorithm>
 #include <array>

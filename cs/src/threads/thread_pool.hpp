@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/event_count.hpp"
+#include "cortex/core/event_count.hpp"
+
 #include "threads/realtime_thread.hpp"
 #include "threads/scheduler.hpp"
 
