@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two simplexes: a controller moves an axis to and fro at 1 kHz, and the program looks on; so does
-// everyone on the network.
+// Two simplexes: a controller moves an axis back and forth at 1 kHz. The program prints the axis,
+// and every tool on the network can watch it.
 #include "cortex/comms/dds_interface.hpp"
 #include "cortex/core/simplex_tree.hpp"
 #include "cortex/cs/cluster_cs.hpp"

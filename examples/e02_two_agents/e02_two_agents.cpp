@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
     } else {
         auto& axis = tree.add("/desk/axis", "VirtualAxis");
         auto& follow = tree.add<Follow>("/desk/follow", "SineController");
-        // Whoever has it, and whenever.
+        // The axis of whichever agent has it, as soon as that agent appears.
         tree.relateRemote(follow, "observed", "/machine/axis", "VirtualAxis");
         tree.relate(follow, "axis", axis);
     }

@@ -330,7 +330,7 @@ TEST(CortexDoctor, SaysThatNobodyIsThereAndGoesOn) {
     const Outcome outcome =
         cortex(std::vector<std::string>{"doctor", "--timeout", "0.05"} + network);
 
-    EXPECT_TRUE(contains(outcome.output, "none is heard on domain " + domain)) << outcome.output;
+    EXPECT_TRUE(contains(outcome.output, "no agent answers on domain " + domain)) << outcome.output;
     EXPECT_NE(outcome.exit, 3);
 }
 

@@ -71,7 +71,7 @@ cs::ClusterOptions optionsOf(const Attributes& attributes, const CommandLine& li
 void addNetwork(CLI::App& app, CommandLine& line) {
     CLI::Option* offline = app.add_flag("--offline", line.offline, "joins no network");
     app.add_option("--domain", line.domain,
-                   "domain of the agents that see each other; CORTEX_DOMAIN, else 0, if not given")
+                   "domain of the agents that see each other; CORTEX_DOMAIN or 0 if not given")
         ->type_name("N")
         ->check(CLI::Range(0, comms::lastDomain))
         ->excludes(offline);
@@ -86,12 +86,12 @@ void addNetwork(CLI::App& app, CommandLine& line) {
         ->excludes(offline);
     app.add_option("--discovery-server", line.discoveryServer,
                    "HOST:PORT of a Fast DDS Discovery Server, instead of multicast and peers; "
-                   "several joined by ';'; CORTEX_DISCOVERY_SERVER, else none, if not given")
+                   "several joined by ';'; CORTEX_DISCOVERY_SERVER or none if not given")
         ->type_name("ADDR")
         ->excludes(offline);
     app.add_option("--security", line.security,
-                   "folder made by `cortex security create-agent`; CORTEX_SECURITY, else no "
-                   "security, if not given")
+                   "folder made by `cortex security create-agent`; CORTEX_SECURITY or no "
+                   "security if not given")
         ->type_name("FOLDER")
         ->excludes(offline);
 }
@@ -147,7 +147,8 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
            "CPUs")
         ->type_name("US")
         ->check(CLI::Range(0.0, 1e8));
-    app.add_option("--seconds", line.seconds, "ends after this time; else with SIGINT or SIGTERM")
+    app.add_option("--seconds", line.seconds,
+                   "ends after this time; otherwise with SIGINT or SIGTERM")
         ->type_name("S")
         ->check(CLI::Range(1e-3, 1e9));
     app.add_flag("--startup", line.startup, "starts all active simplexes");

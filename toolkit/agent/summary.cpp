@@ -114,7 +114,7 @@ std::string metricsTable(const Image& image, const std::string& cluster) {
         const auto figure = [&, name = std::string{item}](std::string_view column) {
             return image.get<double>(path, name + std::string{column});
         };
-        const bool any = figure("Max") > 0, ranked = figure("P999") > 0;  // else not yet computed
+        const bool any = figure("Max") > 0, ranked = figure("P999") > 0;  // 0: not computed yet
         text += "  " + left(title, 16) + left(unit, 4);
         for (const std::string_view column : columns) {
             const bool known = column.starts_with('P') ? ranked : any;

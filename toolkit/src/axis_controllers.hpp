@@ -11,7 +11,7 @@
 
 namespace cortex::toolkit {
 
-// Keeps the axes where they were observed at startup.
+// Keeps the axes where they were at startup, as observed.
 class HoldAxisController final : public cs::SimplexCS {
 public:
     using SimplexCS::SimplexCS;
@@ -39,7 +39,7 @@ private:
     std::vector<AxisOutput> demands_;
 };
 
-// Moves one axis to and fro.
+// Moves one axis back and forth.
 class SineController final : public cs::SimplexCS {
 public:
     using SimplexCS::SimplexCS;

@@ -21,7 +21,7 @@ KeyboardHand::KeyboardHand() {
     if (!isatty(STDIN_FILENO)) {
         throw Error(
             "the keyboard as source needs a terminal as standard input; "
-            "else set source to 0 and give a file");
+            "otherwise set source to 0 and give a file");
     }
     thread_ = std::thread{[this] { run(); }};
 }

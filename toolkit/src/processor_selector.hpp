@@ -9,7 +9,8 @@
 
 namespace cortex::toolkit {
 
-// Keeps one of two processors Active: the first while enabled and the hand moves, else the second.
+// Keeps one of two processors Active: the first while it is enabled and the
+// hand moves, otherwise the second.
 class ProcessorSelector final : public cs::SimplexCS {
 public:
     using SimplexCS::SimplexCS;

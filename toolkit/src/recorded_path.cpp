@@ -87,7 +87,7 @@ void checkRange(double value, std::size_t column, std::size_t line, Findings& fi
     } else if (column >= 1 && column <= 3 && std::abs(value) > LargestPosition) {
         findings.add(line, column + 1, "beyond 1000 m: give the position in metres");
     } else if (column == Trigger && value != 0 && value != 1) {
-        findings.add(line, column + 1, "neither 0 nor 1: give 1 while pressed, else 0");
+        findings.add(line, column + 1, "neither 0 nor 1: give 1 while pressed, otherwise 0");
     }
 }
 

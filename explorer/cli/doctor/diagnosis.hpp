@@ -16,7 +16,7 @@ struct Diagnosis {
 using Diagnoses = std::vector<Diagnosis>;
 
 // How the kernel of this machine treats a loop that is never to wait: preemption, isolated CPUs and
-// who else uses them, idle states, pages, hypervisor. `root` has its proc, sys and dev.
+// what else uses them, idle states, pages, hypervisor. `root` has its proc, sys and dev.
 void examineRealTime(const std::filesystem::path& root, Diagnoses& found);
 
 // The first line of a file, without blanks at its end; "" if it cannot be read.

@@ -36,7 +36,7 @@ void examineState(const comms::AgentStatus& agent, Diagnoses& found) {
             "run the same version of CorteX everywhere");
     } else if (agent.state == "incomplete") {
         add(Level::Error,
-            who + " has not told everything: " + std::to_string(agent.missing) + " of " +
+            who + " has not sent everything: " + std::to_string(agent.missing) + " of " +
                 std::to_string(agent.types + agent.simplexes) + " are missing",
             "look for a firewall or a small MTU between the hosts, or wait longer (--timeout)");
     } else {
@@ -116,7 +116,8 @@ void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
     live.mirror().waitForValues(live.left());
     if (agents.empty()) {
         found.push_back(
-            {Level::Warning, "agents", "none is heard on domain " + std::to_string(live.domain()),
+            {Level::Warning, "agents",
+             "no agent answers on domain " + std::to_string(live.domain()),
              "start one (cortex-agent FILE --domain " + std::to_string(live.domain()) +
                  "), look at another domain (--domain N), or name its host (--peer HOST)"});
     }

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using Level = Diagnosis::Level;
 
 constexpr const char* limitsFile = "/etc/security/limits.d/cortex.conf";
-constexpr std::uint64_t enoughMemory = 256U << 20;  // octets that a loop may want to lock
+constexpr std::uint64_t enoughMemory = 256U << 20;  // bytes that a loop may want to lock
 
 void examineCpus(Diagnoses& found) {
     cpu_set_t set;
@@ -34,7 +34,7 @@ void examineCpus(Diagnoses& found) {
     if (usable > 1) {
         found.push_back({Level::Ok, "cpu", text, ""});
     } else {
-        found.push_back({Level::Warning, "cpu", text + ": a loop shares it with everything else",
+        found.push_back({Level::Warning, "cpu", text + ": a loop shares it with all other programs",
                          "give the process two or more (taskset, cgroup)"});
     }
 }

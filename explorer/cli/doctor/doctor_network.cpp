@@ -87,8 +87,8 @@ std::vector<Interface> interfaces() {
     return found;
 }
 
-// Sends one octet string to the group of discovery, at a port of its own, and waits for it. It does
-// not leave the host. "": it came.
+// Sends a short text to the group of discovery, at a port of its own, and waits for it. The text
+// does not leave the host. Empty: it came.
 std::string multicastTrouble(const Interface& interface) {
     const Socket receiver, sender;
     ip_mreqn group{};
@@ -151,7 +151,7 @@ void examinePorts(int domain, Diagnoses& found) {
                          "UDP port " + std::to_string(base) + " of domain " +
                              std::to_string(domain) +
                              " is held by a program that does not share it",
-                         "end it (ss -ulpn lists who), or use another domain"});
+                         "end that program (ss -ulpn names it), or use another domain"});
     }
     int used = 0;
     while (used < participants && !canBind(base + 10 + 2 * used, false)) ++used;
@@ -184,10 +184,10 @@ void examineBuffers(Diagnoses& found) {
         const std::string text = lineOf("/proc/sys/net/core/" + each);
         if (text.empty()) continue;
         if (std::strtol(text.c_str(), nullptr, 10) >= enoughBuffer) {
-            found.push_back({Level::Ok, "buffers", each + " " + text + " octets", ""});
+            found.push_back({Level::Ok, "buffers", each + " " + text + " bytes", ""});
         } else {
             found.push_back({Level::Warning, "buffers",
-                             each + " " + text + " octets: many agents at once lose messages",
+                             each + " " + text + " bytes: many agents at once lose messages",
                              "sudo sysctl net.core." + each + "=4194304"});
         }
     }

@@ -67,7 +67,7 @@ void examinePreemption(const fs::path& root, Diagnoses& found) {
         found.push_back({Level::Ok, "preemption", "full", ""});
     } else if (mode.empty()) {
         found.push_back({Level::Warning, "preemption",
-                         "it is not told whether the kernel lets a loop interrupt it",
+                         "the system does not say whether a loop can interrupt the kernel",
                          "boot with preempt=full, or look: "
                          "sudo cat /sys/kernel/debug/sched/preempt"});
     } else {
@@ -134,7 +134,7 @@ void examineCores(const fs::path& root, const std::vector<int>& isolated, Diagno
     }
 }
 
-// The longest that a CPU may be told to take to wake up, us; nothing: no limit.
+// The limit in us of the time that a CPU may take to wake up; nothing: there is no limit.
 std::optional<int> latencyLimit(const fs::path& root) {
     std::int32_t limit = 0;
     std::ifstream file{root / latencyFile, std::ios::binary};
@@ -195,7 +195,7 @@ void examineIdle(const fs::path& root, const std::vector<int>& isolated, Diagnos
     } else {
         found.push_back(
             {Level::Warning, "idle",
-             isGivenAway ? "idle CPUs are given to the host, who returns them when it pleases"
+             isGivenAway ? "idle CPUs are given to the host, which returns them late"
                          : "CPUs sleep as deeply as " + takes,
              "let the user write /dev/cpu_dma_latency (udev: KERNEL==\"cpu_dma_latency\", "
              "GROUP=\"cortex\", MODE=\"0660\"), so that a loop with a priority keeps them awake" +

@@ -26,7 +26,7 @@ struct NetworkArguments {
 
 int domainOf(const NetworkArguments& arguments);
 
-// One simplex of an agent that is heard.
+// One simplex of an agent that is not lost.
 struct FoundSimplex {
     std::string agent;
     std::shared_ptr<const Structure> structure;

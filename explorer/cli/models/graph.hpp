@@ -22,7 +22,7 @@ struct Graph {
     std::vector<std::vector<std::uint32_t>> levels;  // simplexes with a task, by path
     std::vector<std::uint32_t> levelOf;              // from 1; 0: no task
     std::vector<std::string> agentOf;                // of each simplex; "": not known
-    std::set<std::string> lost;                      // agents that are not heard any more
+    std::set<std::string> lost;                      // agents that have fallen silent
 
     bool severalAgents() const;
     std::string agentText(std::uint32_t simplex) const;  // with what is wrong with it

@@ -117,7 +117,7 @@ private:
         return " (" + graph_.agentText(edge.target) + ")";
     }
 
-    // Everything without a task: what it is and who writes it.
+    // Everything without a task: its role and its writer.
     void printData() {
         Columns columns{2};
         bool any = false;

@@ -166,7 +166,7 @@ std::string roleText(const Type& type) {
         case Role::Descriptive:
             break;
     }
-    return "descriptive: data; who writes an instance makes it an observation or a modification";
+    return "descriptive: data; the writer of an instance makes it an observation or a modification";
 }
 
 // Nearest first, each after what extends it.

@@ -14,7 +14,7 @@ namespace cortex::explorer {
 enum class Woken { ByTime, ByKey, BySize, BySignal };
 
 // Signals that end or resize come as answers to wait() as long as this lives. To be made before
-// any thread, which would else get them.
+// any thread, which would otherwise get them.
 class Signals {
 public:
     Signals();

@@ -163,8 +163,9 @@ Examples:
     verb->add_option("PREFIX", top->prefix,
                      "Path whose states, faults and events count; all if not given")
         ->type_name("");
-    verb->add_option("--rate", top->rate,
-                     "Refreshes per second; 2 on a terminal, 1 for JSON, else 0.2 if not given")
+    verb->add_option(
+            "--rate", top->rate,
+            "Refreshes per second; if not given 2 on a terminal, 1 for JSON, otherwise 0.2")
         ->type_name("HZ")
         ->check(CLI::Range(0.001, 30.0));
     CLI::Option* seconds = verb->add_option("--seconds", top->seconds, "End after so many seconds")
@@ -179,7 +180,7 @@ Examples:
 
 void addNetwork(CLI::App& verb, NetworkArguments& network) {
     verb.add_option("--domain", network.domain,
-                    "Domain of the agents; CORTEX_DOMAIN, else 0, if not given")
+                    "Domain of the agents; CORTEX_DOMAIN or 0 if not given")
         ->type_name("N")
         ->check(CLI::Range(0, comms::lastDomain));
     verb.add_option("--interface", network.interfaces,
@@ -191,11 +192,11 @@ void addNetwork(CLI::App& verb, NetworkArguments& network) {
         ->allow_extra_args(false);
     verb.add_option("--discovery-server", network.discoveryServer,
                     "HOST:PORT of a Fast DDS Discovery Server, instead of multicast and peers; "
-                    "several joined by ';'; CORTEX_DISCOVERY_SERVER, else none, if not given")
+                    "several joined by ';'; CORTEX_DISCOVERY_SERVER or none if not given")
         ->type_name("ADDR");
     verb.add_option("--security", network.security,
-                    "Folder made by `cortex security create-agent`; CORTEX_SECURITY, else no "
-                    "security, if not given")
+                    "Folder made by `cortex security create-agent`; CORTEX_SECURITY or no "
+                    "security if not given")
         ->type_name("FOLDER");
     verb.add_option("--timeout", network.timeout, "How long to wait for agents; 3 s if not given")
         ->type_name("S")

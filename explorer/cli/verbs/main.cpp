@@ -49,7 +49,7 @@ void addOutput(CLI::App& verb, NewFileOptions& options, const char* description)
     verb.add_flag("--force", options.force, "Replace a file that exists");
 }
 
-// Files, or else a network.
+// Files or, without them, a network.
 void addSource(CLI::App& verb, Paths& files, NetworkArguments& network) {
     CLI::Option* file = addFiles(verb, files);
     addNetwork(verb, network);
@@ -125,7 +125,7 @@ void addTypes(CLI::App& app, Arguments& arguments) {
 
 void addGraph(CLI::App& app, Arguments& arguments) {
     CLI::App* verb =
-        addVerb(app, arguments, "graph", "Show who is joined to whom, and the order of execution",
+        addVerb(app, arguments, "graph", "Show relationships and the order of execution",
                 R"(Examples:
   cortex graph                                         all agents on the network
   cortex graph --file lbr_teleop.xml
