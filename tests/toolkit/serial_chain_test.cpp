@@ -152,7 +152,7 @@ TEST(SerialChain, AgreesWithKdlForTheLbr) {
 
 TEST(SerialChain, AgreesWithKdlForAnyMixOfRotaryAndLinearJoints) {
     Random random(2);
-    for (int count = 1; count <= SerialChain::MaxJoints; ++count) {
+    for (int count = 1; count <= SerialChain::maxJoints; ++count) {
         for (int repeat = 0; repeat < 10; ++repeat) {
             const std::vector<ChainJoint> joints = random.chainJoints(count);
 

@@ -14,7 +14,7 @@
 namespace cortex::toolkit {
 namespace {
 
-constexpr int UsageError = 2;
+constexpr int usageError = 2;
 
 constexpr const char* Footer =
     R"(Exit codes: 0 ended; 1 model refused, the report was printed; 2 usage; 3 halted or hung.
@@ -158,7 +158,7 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        exitCode = error.get_exit_code() == 0 ? app.exit(error) : UsageError;
+        exitCode = error.get_exit_code() == 0 ? app.exit(error) : usageError;
         if (exitCode != 0) {
             std::cerr << "cortex-agent: " << wrongUsage(app, error)
                       << "\nhelp: cortex-agent --help\n";

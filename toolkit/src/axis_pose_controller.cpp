@@ -7,7 +7,7 @@
 namespace cortex::toolkit {
 namespace {
 
-constexpr double Ramp = 0.2;  // share of the time to speed up, and to slow down
+constexpr double rampShare = 0.2;  // share of the time to speed up, and to slow down
 
 struct Share {
     double way, speed;
@@ -15,11 +15,11 @@ struct Share {
 
 // Trapezoidal speed: share of the way after a share of the time, and its derivative.
 Share trapezoid(double time) {
-    const double speed = 1 / (1 - Ramp);
-    if (time < Ramp) return {speed * time * time / (2 * Ramp), speed * time / Ramp};
-    if (time <= 1 - Ramp) return {speed * (time - Ramp / 2), speed};
+    const double speed = 1 / (1 - rampShare);
+    if (time < rampShare) return {speed * time * time / (2 * rampShare), speed * time / rampShare};
+    if (time <= 1 - rampShare) return {speed * (time - rampShare / 2), speed};
     const double left = std::max(0.0, 1 - time);
-    return {1 - speed * left * left / (2 * Ramp), speed * left / Ramp};
+    return {1 - speed * left * left / (2 * rampShare), speed * left / rampShare};
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ void AxisPoseController::begin(double speedShare) {
         Axis& axis = axes_[i];
         axis.from = axis.position;
         axis.way = pose_[i] - axis.from;
-        const double speed = std::min(axis.limits.speed, 1e3) * speedShare * (1 - Ramp);
+        const double speed = std::min(axis.limits.speed, 1e3) * speedShare * (1 - rampShare);
         duration_ = std::max(duration_, std::abs(axis.way) / speed);
     }
 }

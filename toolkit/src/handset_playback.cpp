@@ -10,10 +10,10 @@
 namespace cortex::toolkit {
 namespace {
 
-constexpr double HalfStep = 0.5e-3;  // s, for velocities from the path
-constexpr double HandSpeed = 0.1;    // m/s, by keyboard
-constexpr double HandTurn = 0.5;     // rad/s
-constexpr double SmoothTime = 0.05;  // s, from one speed to another
+constexpr double halfStep = 0.5e-3;  // s, for velocities from the path
+constexpr double handSpeed = 0.1;    // m/s, by keyboard
+constexpr double handTurn = 0.5;     // rad/s
+constexpr double smoothTime = 0.05;  // s, from one speed to another
 
 }  // namespace
 
@@ -61,8 +61,8 @@ void HandsetPlayback::stateActive(const Tick& tick) {
 
 void HandsetPlayback::play() {
     const PathSample sample = path_->at(time_);
-    const double from = std::max(0.0, time_ - HalfStep);
-    const double to = time_ + HalfStep;
+    const double from = std::max(0.0, time_ - halfStep);
+    const double to = time_ + halfStep;
     pose_ = sample.pose;
     velocity_ = difference(path_->at(from).pose, path_->at(to).pose) / (to - from);
     finished_ = path_->finished(time_);
@@ -72,9 +72,9 @@ void HandsetPlayback::play() {
 void HandsetPlayback::moveByKeyboard(const Tick& tick) {
     const auto motion = keyboard_->motion(tick.nominalTime);
     const double seconds = tick.elapsedSeconds();
-    const double share = std::min(1.0, seconds / SmoothTime);
+    const double share = std::min(1.0, seconds / smoothTime);
     for (std::size_t i = 0; i < motion.size(); ++i) {
-        const double wanted = motion[i] * (i < 3 ? HandSpeed : HandTurn);
+        const double wanted = motion[i] * (i < 3 ? handSpeed : handTurn);
         double& speed = velocity_[static_cast<Eigen::Index>(i)];
         speed += share * (wanted - speed);
     }

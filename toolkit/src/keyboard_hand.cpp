@@ -12,8 +12,8 @@
 namespace cortex::toolkit {
 namespace {
 
-constexpr std::string_view Keys = "wsadqeuoikjl";  // plus and minus of each axis
-constexpr std::int64_t KeyLasts = 120'000'000;     // ns, longer than a terminal's key repeat
+constexpr std::string_view motionKeys = "wsadqeuoikjl";  // plus and minus of each axis
+constexpr std::int64_t keyLasts = 120'000'000;           // ns, longer than a terminal's key repeat
 
 }  // namespace
 
@@ -47,19 +47,19 @@ void KeyboardHand::run() {
 
 void KeyboardHand::take(char key) {
     if (key == ' ') pressed_ = !pressed_;
-    const std::size_t index = Keys.find(key);
+    const std::size_t index = motionKeys.find(key);
     if (index == std::string_view::npos) return;
     Axis& axis = axes_[index / 2];
     axis.direction = index % 2 == 0 ? 1 : -1;
     ++axis.strokes;
 }
 
-std::array<double, KeyboardHand::Axes> KeyboardHand::motion(std::int64_t cycleTime) {
-    std::array<double, Axes> motion{};
-    for (std::size_t i = 0; i < Axes; ++i) {
+std::array<double, KeyboardHand::axisCount> KeyboardHand::motion(std::int64_t cycleTime) {
+    std::array<double, axisCount> motion{};
+    for (std::size_t i = 0; i < axisCount; ++i) {
         Axis& axis = axes_[i];
         const std::int64_t strokes = axis.strokes;
-        if (strokes != axis.seen) axis.until = cycleTime + KeyLasts;
+        if (strokes != axis.seen) axis.until = cycleTime + keyLasts;
         axis.seen = strokes;
         if (cycleTime < axis.until) motion[i] = axis.direction;
     }

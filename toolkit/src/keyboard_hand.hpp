@@ -15,7 +15,7 @@ namespace cortex::toolkit {
 //   w s  x   a d  y   q e  z   u o  roll   i k  pitch   j l  yaw   blank  press or release
 class KeyboardHand {
 public:
-    static constexpr std::size_t Axes = 6;  // x y z roll pitch yaw
+    static constexpr std::size_t axisCount = 6;  // x y z roll pitch yaw
 
     KeyboardHand();  // throws Error if the standard input is no terminal
     ~KeyboardHand();
@@ -23,7 +23,7 @@ public:
     KeyboardHand& operator=(const KeyboardHand&) = delete;
 
     // -1, 0 or 1 for each axis; `cycleTime`: nominal time, ns, of the loop.
-    std::array<double, Axes> motion(std::int64_t cycleTime) CORTEX_REALTIME;
+    std::array<double, axisCount> motion(std::int64_t cycleTime) CORTEX_REALTIME;
     bool pressed() const CORTEX_REALTIME { return pressed_.load(std::memory_order_relaxed); }
 
 private:
@@ -35,7 +35,7 @@ private:
         std::atomic<int> direction{0};
         std::int64_t seen = 0, until = 0;  // used by the loop only
     };
-    std::array<Axis, Axes> axes_;
+    std::array<Axis, axisCount> axes_;
     std::atomic<bool> pressed_{false};
     std::atomic<bool> ending_{false};
     std::thread thread_;

@@ -4,7 +4,7 @@
 namespace cortex::toolkit {
 namespace {
 
-constexpr std::int64_t RetryAfter = 500'000'000;  // ns
+constexpr std::int64_t retryAfter = 500'000'000;  // ns
 
 bool running(State state) { return state == State::StartingUp || state == State::Active; }
 bool ended(State state) { return state == State::Standby || state == State::Fault; }
@@ -27,7 +27,7 @@ void ProcessorSelector::populate() {
 bool ProcessorSelector::stateStartingUp(const Tick& tick) {
     stillFor_ = stillTime_ + 1;
     enable_.reset();
-    for (Managed& choice : choices_) choice.askedAt = tick.nominalTime - RetryAfter;
+    for (Managed& choice : choices_) choice.askedAt = tick.nominalTime - retryAfter;
     return true;
 }
 
@@ -67,8 +67,8 @@ void ProcessorSelector::stateActive(const Tick& tick) {
     Managed& other = choices_[follow ? 1 : 0];
     if (running(other.sender.state())) other.sender.shutdown();
     if (chosen.sender.state() != State::Standby) {
-        chosen.askedAt = tick.nominalTime - RetryAfter;
-    } else if (tick.nominalTime - chosen.askedAt >= RetryAfter) {
+        chosen.askedAt = tick.nominalTime - retryAfter;
+    } else if (tick.nominalTime - chosen.askedAt >= retryAfter) {
         chosen.askedAt = tick.nominalTime;
         chosen.sender.startup();
     }

@@ -17,19 +17,19 @@
 namespace cortex::toolkit {
 namespace {
 
-constexpr std::string_view Header = "time,x,y,z,qx,qy,qz,qw,trigger";
-constexpr std::array<std::string_view, 9> Names = {"time", "x",  "y",  "z",      "qx",
-                                                   "qy",   "qz", "qw", "trigger"};
-constexpr std::size_t Trigger = Names.size() - 1;
-constexpr std::uintmax_t LargestFile = 64 << 20;
-constexpr std::size_t MostFindings = 20;
-constexpr double LargestTime = 1e6;        // s
-constexpr double LargestPosition = 1e3;    // m
-constexpr double LeastInterval = 1e-6;     // s
-constexpr double LoopGap = 1e-3;           // m or rad between the last pose and the first
-constexpr double LeastTurnCosine = 0.866;  // of half the turn between samples: 60 degrees
+constexpr std::string_view headerLine = "time,x,y,z,qx,qy,qz,qw,trigger";
+constexpr std::array<std::string_view, 9> columnNames = {"time", "x",  "y",  "z",      "qx",
+                                                         "qy",   "qz", "qw", "trigger"};
+constexpr std::size_t triggerColumn = columnNames.size() - 1;
+constexpr std::uintmax_t largestFile = 64 << 20;
+constexpr std::size_t mostFindings = 20;
+constexpr double largestTime = 1e6;        // s
+constexpr double largestPosition = 1e3;    // m
+constexpr double leastInterval = 1e-6;     // s
+constexpr double loopGap = 1e-3;           // m or rad between the last pose and the first
+constexpr double leastTurnCosine = 0.866;  // of half the turn between samples: 60 degrees
 
-using Row = std::array<double, Names.size()>;
+using Row = std::array<double, columnNames.size()>;
 
 // Finds faults and remembers where; line and column count from 1.
 class Findings {
@@ -37,18 +37,18 @@ public:
     explicit Findings(std::string file) : file_(std::move(file)) {}
 
     void add(std::size_t line, std::size_t column, const std::string& text) {
-        if (++count_ > MostFindings) return;
+        if (++count_ > mostFindings) return;
         text_ += "\n  " + file_ + ":" + std::to_string(line);
         if (column > 0) text_ += ", column " + std::to_string(column);
-        if (column > 0) text_ += " (" + std::string(Names[column - 1]) + ")";
+        if (column > 0) text_ += " (" + std::string(columnNames[column - 1]) + ")";
         text_ += ": " + text;
     }
     bool any() const { return count_ > 0; }
 
     [[noreturn]] void refuse() const {
         std::string text = "recorded path refused:" + text_;
-        if (count_ > MostFindings) {
-            text += "\n  and " + std::to_string(count_ - MostFindings) + " more like these";
+        if (count_ > mostFindings) {
+            text += "\n  and " + std::to_string(count_ - mostFindings) + " more like these";
         }
         throw Error(text);
     }
@@ -82,11 +82,11 @@ std::optional<double> toNumber(std::string_view text) {
 }
 
 void checkRange(double value, std::size_t column, std::size_t line, Findings& findings) {
-    if (column == 0 && std::abs(value) > LargestTime) {
+    if (column == 0 && std::abs(value) > largestTime) {
         findings.add(line, 1, "beyond 1e6 s: give the time in seconds");
-    } else if (column >= 1 && column <= 3 && std::abs(value) > LargestPosition) {
+    } else if (column >= 1 && column <= 3 && std::abs(value) > largestPosition) {
         findings.add(line, column + 1, "beyond 1000 m: give the position in metres");
-    } else if (column == Trigger && value != 0 && value != 1) {
+    } else if (column == triggerColumn && value != 0 && value != 1) {
         findings.add(line, column + 1, "neither 0 nor 1: give 1 while pressed, otherwise 0");
     }
 }
@@ -97,7 +97,7 @@ std::optional<Row> parseRow(std::string_view text, std::size_t line, Findings& f
     if (commas + 1 != row.size()) {
         findings.add(line, 0,
                      "has " + std::to_string(commas + 1) + " values: give " +
-                         std::to_string(row.size()) + " (" + std::string(Header) + ")");
+                         std::to_string(row.size()) + " (" + std::string(headerLine) + ")");
         return std::nullopt;
     }
     bool good = true;
@@ -119,7 +119,7 @@ std::optional<Row> parseRow(std::string_view text, std::size_t line, Findings& f
 
 double cosine(const Row& a, const Row& b) {
     double sum = 0;
-    for (std::size_t i = 4; i < Trigger; ++i) sum += a[i] * b[i];
+    for (std::size_t i = 4; i < triggerColumn; ++i) sum += a[i] * b[i];
     return sum;
 }
 
@@ -128,7 +128,7 @@ bool normalize(Row& row, const Row* before) {
     const double length = std::sqrt(cosine(row, row));
     if (!(std::abs(length - 1) < 0.01)) return false;
     const double sign = before != nullptr && cosine(row, *before) < 0 ? -1 : 1;
-    for (std::size_t i = 4; i < Trigger; ++i) row[i] *= sign / length;
+    for (std::size_t i = 4; i < triggerColumn; ++i) row[i] *= sign / length;
     return true;
 }
 
@@ -138,10 +138,10 @@ void append(Row row, std::size_t line, std::vector<Row>& rows, Findings& finding
         findings.add(line, 0, "qx, qy, qz, qw is no unit quaternion: give it the length 1");
         return;
     }
-    if (before != nullptr && !(row[0] - (*before)[0] >= LeastInterval)) {
+    if (before != nullptr && !(row[0] - (*before)[0] >= leastInterval)) {
         findings.add(line, 1, "time does not rise: give samples in order, 1 us apart at least");
     }
-    if (before != nullptr && cosine(row, *before) < LeastTurnCosine) {
+    if (before != nullptr && cosine(row, *before) < leastTurnCosine) {
         findings.add(line, 0, "turns by more than 60 degrees since the last sample: sample faster");
     }
     rows.push_back(row);
@@ -158,9 +158,9 @@ std::vector<Row> parseRows(std::string_view text, Findings& findings) {
         if (content.empty() || content.front() == '#') continue;
         if (!headerSeen) {
             headerSeen = true;
-            if (content == Header) continue;
+            if (content == headerLine) continue;
             findings.add(line, 0,
-                         "expected the header '" + std::string(Header) + "', found " +
+                         "expected the header '" + std::string(headerLine) + "', found " +
                              quoted(content) + ": put it above the samples");
             return rows;
         }
@@ -177,8 +177,8 @@ std::vector<Row> parseRows(std::string_view text, Findings& findings) {
 void checkClosed(const std::vector<Row>& rows, Findings& findings) {
     const Row& first = rows.front();
     const Row& last = rows.back();
-    bool closed = std::abs(cosine(first, last)) >= std::cos(LoopGap / 2);
-    for (std::size_t i = 1; i <= 3; ++i) closed = closed && std::abs(first[i] - last[i]) <= LoopGap;
+    bool closed = std::abs(cosine(first, last)) >= std::cos(loopGap / 2);
+    for (std::size_t i = 1; i <= 3; ++i) closed = closed && std::abs(first[i] - last[i]) <= loopGap;
     if (!closed) {
         findings.add(1, 0,
                      "does not end where it began, so a loop would jump: end within 1 mm and "
@@ -194,7 +194,7 @@ std::string readFile(const std::string& file) {
         throw Error(file + ": no such file that can be read as a path: give a CSV file");
     }
     const std::uintmax_t size = fs::file_size(file, error);
-    if (error || size > LargestFile) {
+    if (error || size > largestFile) {
         throw Error(file + ": larger than 64 MiB: sample slower or cut the path");
     }
     std::ifstream stream(file, std::ios::binary);
@@ -225,7 +225,7 @@ RecordedPath RecordedPath::parse(std::string_view text, const std::string& name,
         times[i] = rows[i][0] - rows[0][0];
         knots[i].value = Eigen::Map<const Channels>(&rows[i][1]);
         knots[i].slope = Channels::Zero();
-        knots[i].trigger = rows[i][Trigger] != 0;
+        knots[i].trigger = rows[i][triggerColumn] != 0;
     }
     for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
         knots[i].slope = (knots[i + 1].value - knots[i - 1].value) / (times[i + 1] - times[i - 1]);

@@ -21,14 +21,14 @@ using Jacobian = SerialChain::Jacobian;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 // Largest tip step (m, rad) of one iteration: farther away the Jacobian says little.
-constexpr double LargestStep = 0.5;
+constexpr double largestStep = 0.5;
 // Damping that remains at the target: keeps the 6x6 matrix positive definite in a singular posture.
-constexpr double LeastDamping = 1e-9;
+constexpr double leastDamping = 1e-9;
 // The factor of the damping at the start, and its bounds: a failed step raises it, a good one
 // lowers it.
-constexpr double FirstFactor = 1e-2;
-constexpr double LeastFactor = 1e-3;
-constexpr double LargestFactor = 1e12;
+constexpr double firstFactor = 1e-2;
+constexpr double leastFactor = 1e-3;
+constexpr double largestFactor = 1e12;
 
 bool isFinite(const Pose& pose) {
     return pose.position.allFinite() && pose.rotation.coeffs().allFinite() &&
@@ -45,9 +45,9 @@ Eigen::Matrix3d fromRollPitchYaw(const Eigen::Vector3d& angles) {
 
 std::string findings(const std::vector<ChainJoint>& joints, const Pose& tip) {
     std::string text;
-    if (joints.empty() || joints.size() > SerialChain::MaxJoints) {
+    if (joints.empty() || joints.size() > SerialChain::maxJoints) {
         text += "\n  has " + std::to_string(joints.size()) + " joints: give 1 to " +
-                std::to_string(SerialChain::MaxJoints);
+                std::to_string(SerialChain::maxJoints);
     }
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const ChainJoint& joint = joints[i];
@@ -102,7 +102,7 @@ JointVector dampedStep(const Jacobian& jacobian, const Twist& error, const Joint
 // their work: without that the clamp would bend the step off its way and end short of the target.
 JointVector boundedStep(const Point& point, JointVector pull, double damping,
                         const JointVector& low, const JointVector& high) {
-    const double scale = std::min(1.0, LargestStep / point.residual);
+    const double scale = std::min(1.0, largestStep / point.residual);
     Jacobian free = point.jacobian;
     JointVector step;
     for (Eigen::Index round = 0; round < free.cols(); ++round) {
@@ -221,23 +221,23 @@ InverseResult SerialChain::inverse(const Pose& target, JointVector& joints,
     Point* next = &points[1];
     here->joints = clamped(joints, box.low, box.high);
     evaluate(*this, wanted, *here);
-    double factor = FirstFactor;
+    double factor = firstFactor;
     while (here->residual >= options.tolerance && result.iterations < options.maxIterations &&
-           factor < LargestFactor) {
+           factor < largestFactor) {
         ++result.iterations;
         const double residual = here->residual;
         // Scaled by the residual, the pull fades out at the target: a tip that stands, stands
         // still. After a failed step there is none: it is free of tip motion only where damping is
         // small.
-        const double share = std::min(0.5, options.posturePull * std::min(residual, LargestStep));
-        const JointVector pull = (factor > FirstFactor ? 0 : share) * (posture - here->joints);
-        const double damping = factor * residual * residual + LeastDamping;
+        const double share = std::min(0.5, options.posturePull * std::min(residual, largestStep));
+        const JointVector pull = (factor > firstFactor ? 0 : share) * (posture - here->joints);
+        const double damping = factor * residual * residual + leastDamping;
         next->joints = here->joints + boundedStep(*here, pull, damping, box.low, box.high);
         next->joints = clamped(next->joints, box.low, box.high);
         evaluate(*this, wanted, *next);
         if (next->residual < residual) {
             std::swap(here, next);
-            factor = std::max(factor / 10, LeastFactor);
+            factor = std::max(factor / 10, leastFactor);
         } else {
             factor *= 10;
         }

@@ -8,9 +8,9 @@
 namespace cortex::toolkit {
 namespace {
 
-constexpr double SwitchOnTolerance = 0.01;  // rad or m between demand and joint
-constexpr double BrakeTime = 0.02;          // s, time constant
-constexpr double Standstill = 1e-4;         // rad/s or m/s
+constexpr double switchOnTolerance = 0.01;  // rad or m between demand and joint
+constexpr double brakeTime = 0.02;          // s, time constant
+constexpr double standstill = 1e-4;         // rad/s or m/s
 
 }  // namespace
 
@@ -31,8 +31,8 @@ void SimulatedAxis::populate() {
 
 // As drives do: it does not switch on while the demand is elsewhere.
 bool SimulatedAxis::stateStartingUp(const Tick&) {
-    return std::abs(demand_->position - position_) < SwitchOnTolerance &&
-           std::abs(velocity_) < Standstill;
+    return std::abs(demand_->position - position_) < switchOnTolerance &&
+           std::abs(velocity_) < standstill;
 }
 
 // Distance to a demand that moves on at its velocity: e'' + 2 d w e' + w^2 e = 0, solved exactly
@@ -54,8 +54,8 @@ void SimulatedAxis::servo(double seconds) {
 }
 
 void SimulatedAxis::brake(double seconds) {
-    const double decay = std::exp(-seconds / BrakeTime);
-    position_ += velocity_ * BrakeTime * (1 - decay);
+    const double decay = std::exp(-seconds / brakeTime);
+    position_ += velocity_ * brakeTime * (1 - decay);
     velocity_ *= decay;
 }
 
@@ -76,7 +76,7 @@ void SimulatedAxis::limit(double before, double seconds) {
 std::int64_t SimulatedAxis::status() const {
     if (state() == State::Fault) return Faulty;
     if (atLimit_) return AtLimit;
-    return std::abs(velocity_) < Standstill ? Ready : Moving;
+    return std::abs(velocity_) < standstill ? Ready : Moving;
 }
 
 void SimulatedAxis::loopEnd(const Tick& tick) {
