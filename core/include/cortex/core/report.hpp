@@ -24,7 +24,7 @@ const char* name(Severity severity);
 std::optional<Severity> severityFromName(std::string_view text);
 
 // One thing found in a model. `path` is the simplex or the type concerned, `rule` the short name of
-// what was broken (see docs/ontology.md, "Findings"), `remedy` what to write instead.
+// what was broken (see docs/findings.md), `remedy` what to write instead.
 struct Finding {
     Severity severity = Severity::Error;
     std::string path;
