@@ -32,15 +32,14 @@ LAYERS = {
 # The room of each header that other folders see (include/ and internal/).
 PUBLIC = {
     "core": {
-        "base": "clock data error event_count machine path quality realtime report spsc_ring "
+        "base": "clock data error event_count nearest_names path quality realtime report spsc_ring "
                 "state tick value",
         "types": "agreement type_model",
         "files": "model_files type_description",
         "tables": "event event_sinks image image_pool structure tables",
-        "commands": "command mailbox",
-        "model": "registry simplex simplex_tree validation",
-        "agent": "agent command_exchange communication_interface loopback program_interface "
-                 "transport",
+        "commands": "argument_checks command loop_thread mailbox record",
+        "model": "make_structure registry simplex simplex_tree validation",
+        "agent": "agent command_exchange loopback program_interface transport",
     },
     "comms": {
         "wire": "network_options",

@@ -2,6 +2,8 @@
 // Access to data through a handle and by path in an image; the copy of an image of 10,000 items.
 #include "measure/access.hpp"
 
+#include "cortex/core/agent.hpp"
+
 #include "baselines/in_turn.hpp"
 #include "baselines/plain_memcpy.hpp"
 #include "subject/subject.hpp"

@@ -2,6 +2,7 @@
 #include "endurance_role.hpp"
 
 #include "cortex/comms/dds_interface.hpp"
+#include "cortex/core/agent.hpp"
 #include "cortex/cs/testing.hpp"
 
 #include "measure/allocation_count.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "memory_roles.hpp"
 
+#include "cortex/core/agent.hpp"
+
 #include "baselines/in_turn.hpp"
 #include "measure/memory_probe.hpp"
 #include "subject/graphs.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/agent.hpp"
+
 #include "baselines/in_turn.hpp"
 #include "baselines/plain_loop.hpp"
 #include "subject/graphs.hpp"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/agent.hpp"
+
 #include "figures.hpp"
 #include "plant.hpp"
 #include "roles.hpp"

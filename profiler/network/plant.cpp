@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plant.hpp"
 
+#include "cortex/core/agent.hpp"
+
 #include "statistics.hpp"
 
 #include <algorithm>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "timed_interface.hpp"
 
+#include "cortex/core/agent.hpp"
+#include "cortex/core/image_pool.hpp"
+
 #include "statistics.hpp"
 
 #include <utility>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/communication_interface.hpp"
 #include "cortex/core/image.hpp"
+#include "cortex/core/image_pool.hpp"
+#include "cortex/core/transport.hpp"
 
 #include <atomic>
 #include <cstdint>

@@ -2,7 +2,8 @@
 // Commands from the network on their way into the loop, without a network.
 #include "agent/agent_commands.hpp"
 
-#include "base/clock.hpp"
+#include "cortex/core/clock.hpp"
+
 #include "support/agent_rig.hpp"
 #include "wire/ids.hpp"
 

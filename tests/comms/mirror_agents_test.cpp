@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mirror/mirror_agents.hpp"
 
+#include "cortex/core/agent.hpp"
 #include "cortex/core/error.hpp"
 
 #include "comms/told_agent.hpp"

@@ -3,8 +3,8 @@
 
 #include "cortex/core/command_exchange.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/record.hpp"
 
-#include "commands/record.hpp"
 #include "support/agent_rig.hpp"
 
 #include <cmath>

@@ -3,6 +3,7 @@
 
 #include "cortex/core/data.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/image_pool.hpp"
 
 #include "support/small_structure.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cortex/core/communication_interface.hpp"
+#include "cortex/core/make_structure.hpp"
+#include "cortex/core/transport.hpp"
 
 #include "core/xml_model.hpp"
 #include "support/agent_rig.hpp"

@@ -3,6 +3,8 @@
 
 #include "cortex/core/command_exchange.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/make_structure.hpp"
+#include "cortex/core/record.hpp"
 
 #include "support/agent_rig.hpp"
 

@@ -3,6 +3,7 @@
 
 #include "cortex/core/command.hpp"
 #include "cortex/core/event.hpp"
+#include "cortex/core/nearest_names.hpp"
 #include "cortex/core/quality.hpp"
 #include "cortex/core/report.hpp"
 #include "cortex/core/type_model.hpp"

@@ -2,6 +2,7 @@
 #include "cortex/core/structure.hpp"
 
 #include "cortex/core/agent.hpp"
+#include "cortex/core/make_structure.hpp"
 
 #include "core/model_folder.hpp"
 

@@ -2,6 +2,7 @@
 #include "cortex/core/type_description.hpp"
 
 #include "cortex/core/agent.hpp"
+#include "cortex/core/make_structure.hpp"
 #include "cortex/core/simplex_tree.hpp"
 
 #include "core/xml_model.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/agent.hpp"
 #include "cortex/core/error.hpp"
 
 #include "support/awake_cpus.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "threads/thread_pool.hpp"
 
+#include "cortex/core/agent.hpp"
+
 #include "cs/graphs.hpp"
 #include "threads/realtime_thread.hpp"
 

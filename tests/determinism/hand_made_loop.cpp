@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "determinism/hand_made_loop.hpp"
 
+#include "cortex/core/agent.hpp"
+
 #include "threads/thread_pool.hpp"
 
 #include <algorithm>

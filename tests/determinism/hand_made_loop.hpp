@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/agent.hpp"
+
 #include "determinism/real_run.hpp"
 #include "loop/group_commands.hpp"
 #include "loop/metrics.hpp"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "determinism/real_run.hpp"
 
+#include "cortex/core/agent.hpp"
 #include "cortex/core/command_exchange.hpp"
+#include "cortex/core/record.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 #include "cortex/cs/testing.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/communication_interface.hpp"
 #include "cortex/core/image.hpp"
 #include "cortex/core/simplex_tree.hpp"
+#include "cortex/core/transport.hpp"
 
 #include "determinism/observation.hpp"
 #include "determinism/plan.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/agent.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/make_structure.hpp"
 #include "cortex/core/validation.hpp"
 
 #include "fuzz_file.hpp"

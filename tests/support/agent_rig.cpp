@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent_rig.hpp"
 
+#include "cortex/core/agent.hpp"
 #include "cortex/core/command_exchange.hpp"
+#include "cortex/core/record.hpp"
 
 #include <algorithm>
 #include <filesystem>

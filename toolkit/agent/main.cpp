@@ -3,6 +3,7 @@
 #include "cortex/comms/dds_interface.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/event_sinks.hpp"
+#include "cortex/core/nearest_names.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 #include "cortex/toolkit/classes.hpp"
 

@@ -2,6 +2,7 @@
 #include "options.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/nearest_names.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/agent_commands.hpp"
 
+#include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/record.hpp"
 
-#include "base/clock.hpp"
 #include "security/security_identity.hpp"
 #include "wire/ids.hpp"
 #include "wire/named_values.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/agent_links.hpp"
 
+#include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
 
-#include "base/clock.hpp"
 #include "wire/ids.hpp"
 
 #include <algorithm>

@@ -98,7 +98,7 @@ void AgentModel::addTypes() {
 
 void AgentModel::addSimplexes() {
     const Structure& structure = self_.structure();
-    const Image image = self_.access.images->newest();
+    const Image image = self_.access.newestImage();
     if (!image) throw Error("agent " + self_.name + ": let go of an image before start()");
     std::vector<SimplexMessage> all;
     for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
@@ -115,7 +115,7 @@ Presence AgentModel::presence(const char* state, std::uint32_t agents, std::uint
     presence.extras = {{agentsHeard, std::to_string(agents)},
                        {eventsWritten, std::to_string(events)}};
     presence.state = state;
-    presence.cycle = self_.access.images->newestCycle();
+    presence.cycle = self_.access.newestCycle();
     return presence;
 }
 

@@ -39,7 +39,7 @@ AgentSelf::AgentSelf(const AgentAccess& agent)
 
 void AgentSelf::event(Severity severity, std::uint32_t about, std::string_view text) const {
     Event event;
-    if (const Image image = access.images->newest()) {
+    if (const Image image = access.newestImage()) {
         event.cycle = image.cycle();
         event.time = image.nominalTime();
     }

@@ -109,7 +109,7 @@ void AgentStreams::open(Stream& stream, const std::vector<bool>& wanted) {
 }
 
 void AgentStreams::step(std::int64_t now) {
-    const std::int64_t cycle = self_.access.images->newestCycle();
+    const std::int64_t cycle = self_.access.newestCycle();
     Image image;
     for (Stream& stream : streams_) {
         const bool due = stream.rate == 0 || now >= stream.due;
@@ -118,7 +118,7 @@ void AgentStreams::step(std::int64_t now) {
             sayAgain(stream, now);
             continue;
         }
-        if (!image) image = self_.access.images->newest();
+        if (!image) image = self_.access.newestImage();
         if (!image || image.cycle() == 0) return;
         write(stream, image);
         stream.againDue = now + again;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/agent_thread.hpp"
 
+#include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
 
-#include "base/clock.hpp"
 #include "security/security_identity.hpp"
 #include "wire/presence_interval.hpp"
 

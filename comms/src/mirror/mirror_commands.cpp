@@ -2,6 +2,7 @@
 #include "mirror/mirror_commands.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/record.hpp"
 
 #include "wire/ids.hpp"
 #include "wire/named_values.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/core/image.hpp"
+#include "cortex/core/image_pool.hpp"
 #include "cortex/core/tables.hpp"
 
 #include "mirror/mirror_view.hpp"

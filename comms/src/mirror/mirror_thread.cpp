@@ -2,6 +2,7 @@
 #include "mirror/mirror_thread.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/nearest_names.hpp"
 
 #include <exception>
 #include <utility>

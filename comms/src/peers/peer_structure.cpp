@@ -4,6 +4,7 @@
 #include "cortex/core/agent.hpp"
 #include "cortex/core/agreement.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/make_structure.hpp"
 #include "cortex/core/simplex_tree.hpp"
 
 #include "wire/named_values.hpp"

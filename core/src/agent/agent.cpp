@@ -26,15 +26,9 @@ std::uint8_t bitOf(LifeCycle command) {
 
 }  // namespace
 
-double latencyOfBucket(std::uint32_t bucket) {
-    if (bucket < 16) return (bucket + 1U) * 1e-3;
-    const std::uint64_t octave = bucket / 16U - 1U;
-    return static_cast<double>((bucket % 16U + 17ULL) << octave) * 1e-3;
-}
-
 void AgentRuntime::beginCycle(const Tick& tick) {
-    cycle_ = tick.cycle;
-    nominalTime_ = tick.nominalTime;
+    present_.cycle = tick.cycle;
+    present_.nominalTime = tick.nominalTime;
     lateness_ = tick.lateness;
     for (LoopThread& thread : threads_) {
         thread.sequence = taskSequence;
@@ -63,7 +57,7 @@ void AgentRuntime::stop() {
     router_->stop();
     router_->write(interfaces_);
     for (CommunicationInterface* interface : interfaces_) interface->close();
-    events_->complete(cycle_);
+    events_->complete(present_.cycle);
     events_->stop();
 }
 
@@ -123,20 +117,6 @@ void AgentRuntime::postLifeCycle(std::uint32_t simplex, LifeCycle command, bool 
 void AgentRuntime::refuseLifeCycle(std::uint32_t simplex, LifeCycle command, const EventText& why,
                                    LoopThread& thread) {
     if (router_ != nullptr) router_->refuseLifeCycle(simplex, command, why, thread);
-}
-
-void AgentRuntime::post(LoopThread& thread, Severity severity, EventKind kind,
-                        std::uint32_t simplex, const EventText& text) {
-    Event event;
-    event.cycle = cycle_;
-    event.time = nominalTime_;
-    event.simplex = simplex;
-    event.order = simplex == noSimplex ? noSimplex : ranks_[simplex];
-    event.sequence = thread.sequence++;
-    event.severity = severity;
-    event.kind = kind;
-    event.text = text;
-    thread.events->post(event);
 }
 
 }  // namespace cortex

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/agent.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/make_structure.hpp"
 #include "cortex/core/validation.hpp"
 
 #include "agent/router.hpp"
@@ -99,7 +100,7 @@ void AgentRuntime::bindSimplexes() {
     std::map<const TypeLayout*, const CommandTable*> tables;
     simplexes_.resize(count);
     ports_.resize(count);
-    ranks_.resize(count);
+    present_.ranks.resize(count);
     tableOf_.reserve(count);
     while (firstRemote_ < count && !structure_->simplexes[firstRemote_].remote) ++firstRemote_;
     ownerPeriods_.assign(count - firstRemote_, options_.period);
@@ -107,7 +108,7 @@ void AgentRuntime::bindSimplexes() {
     callsLater_ = std::make_unique<std::atomic<std::uint8_t>[]>(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const SimplexInfo& info = structure_->simplexes[i];
-        ranks_[i] = i;
+        present_.ranks[i] = i;
         const CommandTable*& table = tables[info.layout];
         if (table == nullptr) {
             commandTables_.push_back(
@@ -127,7 +128,10 @@ void AgentRuntime::bindSimplexes() {
 
 CommandPort& AgentRuntime::portOf(std::uint32_t simplex) {
     auto& port = ports_[simplex];
-    if (port == nullptr) port = std::make_unique<CommandPort>(*this, simplex, *tableOf_[simplex]);
+    if (port == nullptr) {
+        const PortAccess access{*structure_, *tables_, present_, threads_[0], calls_[simplex]};
+        port = std::make_unique<CommandPort>(access, simplex, *tableOf_[simplex]);
+    }
     return *port;
 }
 
@@ -137,8 +141,8 @@ void AgentRuntime::addInterface(CommunicationInterface& interface) {
 
 void AgentRuntime::setCanonicalOrder(std::span<const std::uint32_t> order) {
     auto rank = static_cast<std::uint32_t>(order.size());
-    for (std::uint32_t& each : ranks_) each = rank++;
-    for (std::uint32_t i = 0; i < order.size(); ++i) ranks_[order[i]] = i;
+    for (std::uint32_t& each : present_.ranks) each = rank++;
+    for (std::uint32_t i = 0; i < order.size(); ++i) present_.ranks[order[i]] = i;
 }
 
 void AgentRuntime::registerHandler(std::uint32_t simplex, std::string_view command,
@@ -224,7 +228,7 @@ void AgentRuntime::findTaskless() {
         const bool hasTask = structure_->simplexes[i].role == Role::Active && i != agentSimplex_;
         if (!hasTask && (ports_[i]->hasLanes() || i == agentSimplex_)) taskless_.push_back(i);
     }
-    std::ranges::sort(taskless_, {}, [this](std::uint32_t i) { return ranks_[i]; });
+    std::ranges::sort(taskless_, {}, [this](std::uint32_t i) { return present_.ranks[i]; });
 }
 
 void AgentRuntime::start() {

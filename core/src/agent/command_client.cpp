@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/command_exchange.hpp"
+#include "cortex/core/record.hpp"
 
 #include <algorithm>
 #include <atomic>

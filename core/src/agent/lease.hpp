@@ -3,8 +3,8 @@
 
 #include "cortex/core/agent.hpp"
 #include "cortex/core/command.hpp"
-#include "cortex/core/communication_interface.hpp"
 #include "cortex/core/path.hpp"
+#include "cortex/core/transport.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/agreement.hpp"
-#include "cortex/core/communication_interface.hpp"
 #include "cortex/core/data.hpp"
+#include "cortex/core/transport.hpp"
 
 #include <utility>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cortex/core/agent.hpp"
-#include "cortex/core/communication_interface.hpp"
+#include "cortex/core/transport.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -101,7 +101,7 @@ void LoopbackAgent::readLink(Link& link, Inbox& inbox) {
 
 // Without a new cycle of its owner there is no fresh sample.
 void LoopbackAgent::readFrom(const Bound& bound, Link& link, Inbox& inbox) {
-    const Image image = bound.owner->access_.images->newest();
+    const Image image = bound.owner->access_.newestImage();
     if (!image || image.cycle() == 0) return;
     if (link.live && image.cycle() == link.lastCycle) return;
     if (std::exchange(link.seen, &bound) != &bound) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cortex/core/command_exchange.hpp"
-#include "cortex/core/communication_interface.hpp"
 #include "cortex/core/spsc_ring.hpp"
+#include "cortex/core/transport.hpp"
 
 #include <atomic>
 #include <cstdint>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/router.hpp"
 
+#include "cortex/core/record.hpp"
+
 #include "commands/command_port.hpp"
-#include "commands/record.hpp"
 
 #include <algorithm>
 

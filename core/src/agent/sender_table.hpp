@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/communication_interface.hpp"
+#include "cortex/core/transport.hpp"
 
 #include "commands/outside_command.hpp"
 

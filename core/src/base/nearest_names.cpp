@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cortex/core/type_model.hpp"
+#include "cortex/core/nearest_names.hpp"
 
 #include "base/bounds.hpp"
 
@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 namespace cortex {
 

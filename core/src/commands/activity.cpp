@@ -7,31 +7,31 @@ namespace cortex {
 namespace {
 
 template <class T>
-Data<T> itemOf(AgentRuntime& runtime, std::uint32_t simplex, std::string_view item) {
-    const ItemLayout* layout = runtime.structure().simplexes[simplex].layout->find(item);
+Data<T> itemOf(const PortAccess& agent, std::uint32_t simplex, std::string_view item) {
+    const ItemLayout* layout = agent.structure.simplexes[simplex].layout->find(item);
     if (layout == nullptr || layout->item->kind != kindFor<T>() || layout->item->constant ||
         layout->item->length != 1) {
         return {};
     }
-    void* cell = runtime.tables().live(simplex).at(layout->item->kind, layout->offset);
+    void* cell = agent.tables.live(simplex).at(layout->item->kind, layout->offset);
     return Data<T>{static_cast<typename StorageOf<T>::type*>(cell)};
 }
 
 }  // namespace
 
-Activity::Activity(AgentRuntime& runtime, std::uint32_t simplex, const CommandTable& table)
-    : runtime_{runtime},
+Activity::Activity(const PortAccess& agent, std::uint32_t simplex, const CommandTable& table)
+    : agent_{agent},
       request_{std::make_unique<std::uint64_t[]>(table.maxRequest / 8U + 1U)},
       response_{std::make_unique<std::uint64_t[]>(table.maxResponse / 8U + 1U)},
-      outcome_{itemOf<std::int64_t>(runtime, simplex, "outcome")},
-      name_{itemOf<std::string_view>(runtime, simplex, "activity")},
-      requester_{itemOf<std::string_view>(runtime, simplex, "requester")} {}
+      outcome_{itemOf<std::int64_t>(agent, simplex, "outcome")},
+      name_{itemOf<std::string_view>(agent, simplex, "activity")},
+      requester_{itemOf<std::string_view>(agent, simplex, "requester")} {}
 
 void Activity::start(const CommandTable::Entry& entry, const Handler& handler,
                      const std::byte* request, const Origin& origin, Verdict& verdict) {
     handler_ = handler;
     origin_ = origin;
-    startedTime_ = runtime_.nominalTime();
+    startedTime_ = agent_.present.nominalTime;
     copyRecord(reinterpret_cast<std::byte*>(request_.get()), request, entry.request.size);
     copyRecord(reinterpret_cast<std::byte*>(response_.get()), entry.emptyResponse.data(),
                entry.response.size);
@@ -44,7 +44,7 @@ void Activity::start(const CommandTable::Entry& entry, const Handler& handler,
 }
 
 void Activity::step(const ChunkClock& clock) {
-    const double seconds = static_cast<double>(runtime_.nominalTime() - startedTime_) * 1e-9;
+    const double seconds = static_cast<double>(agent_.present.nominalTime - startedTime_) * 1e-9;
     const double timeout = entry_->command->timeout;
     if (timeout > 0 && seconds >= timeout) {
         EventText why{entry_->name};
@@ -79,7 +79,7 @@ void Activity::stop(const ChunkClock& clock, bool callHandler, const Verdict& ve
 Verdict Activity::call(bool first, bool cancelling) {
     Call call{reinterpret_cast<const std::byte*>(request_.get()),
               reinterpret_cast<std::byte*>(response_.get())};
-    call.setTime(runtime_.nominalTime(), startedTime_);
+    call.setTime(agent_.present.nominalTime, startedTime_);
     call.setFirst(first);
     call.setCancelling(cancelling);
     if (origin_.outside != nullptr) call.setSender(&origin_.outside->sender);
@@ -107,7 +107,7 @@ void Activity::finish(const Verdict& verdict, const ChunkClock& clock) {
 
 std::string_view Activity::requesterName() const {
     if (origin_.outside != nullptr) return origin_.outside->sender.nameText();
-    return runtime_.structure().simplexes[origin_.lane->shape().sender].path;
+    return agent_.structure.simplexes[origin_.lane->shape().sender].path;
 }
 
 }  // namespace cortex

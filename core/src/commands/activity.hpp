@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/agent.hpp"
-
 #include "commands/lane.hpp"
 #include "commands/outside_command.hpp"
+#include "commands/port_access.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +25,7 @@ struct Origin {
 // cycle until it returns something other than Running. Used by the task of its simplex.
 class Activity {
 public:
-    Activity(AgentRuntime& runtime, std::uint32_t simplex, const CommandTable& table);
+    Activity(const PortAccess& agent, std::uint32_t simplex, const CommandTable& table);
 
     bool running() const { return entry_ != nullptr; }
     std::string_view command() const { return entry_->name; }
@@ -50,7 +49,7 @@ private:
     void stop(const ChunkClock& clock, bool callHandler, const Verdict& verdict);
     std::string_view requesterName() const CORTEX_REALTIME;
 
-    const AgentRuntime& runtime_;
+    PortAccess agent_;
     const CommandTable::Entry* entry_ = nullptr;
     Handler handler_;
     Origin origin_;

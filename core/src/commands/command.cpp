@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/command.hpp"
 
+#include "cortex/core/argument_checks.hpp"
 #include "cortex/core/tables.hpp"
+
+#include "types/enum_names.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +13,15 @@
 #include <optional>
 
 namespace cortex {
+
+template <>
+inline constexpr std::array spellings<Outcome>{"None",        "Done",    "Running",
+                                               "Rejected",    "Failed",  "Cancelled",
+                                               "MailboxFull", "Expired", "Unknown"};
+template <>
+inline constexpr std::array spellings<Reason>{"none",      "state",     "range",  "busy",
+                                              "authority", "restarted", "window", "unknown"};
+
 namespace {
 
 using Words = std::optional<EventText>;
@@ -114,6 +126,13 @@ bool checkElement(const ArgumentCheck& check, const std::byte* cell, std::uint32
 }
 
 }  // namespace
+
+const char* name(Outcome outcome) { return spelling(outcome); }
+const char* name(Reason reason) { return spelling(reason); }
+std::optional<Outcome> outcomeFromName(std::string_view text) {
+    return fromSpelling<Outcome>(text);
+}
+std::optional<Reason> reasonFromName(std::string_view text) { return fromSpelling<Reason>(text); }
 
 Outcome Call::fail(std::string_view why) {
     why_.emplace(why);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/command_port.hpp"
 
+#include "cortex/core/argument_checks.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -40,18 +42,18 @@ EventText stateRefusal(std::string_view what, StateSet needs, State state) {
     return text << ", is " << name(state);
 }
 
-CommandPort::CommandPort(AgentRuntime& runtime, std::uint32_t simplex, const CommandTable& table)
-    : thread_{&runtime.thread(0)},
+CommandPort::CommandPort(const PortAccess& agent, std::uint32_t simplex, const CommandTable& table)
+    : thread_{&agent.loop},
       table_{table},
-      stateless_{runtime.structure().simplexes[simplex].role != Role::Active},
+      stateless_{agent.structure.simplexes[simplex].role != Role::Active},
       handlers_{std::make_unique<Handler[]>(table.entries.size())},
-      runtime_{runtime},
+      agent_{agent},
       simplex_{simplex} {
-    if (table.hasLong) activity_ = std::make_unique<Activity>(runtime, simplex, table);
-    const TypeLayout& layout = *runtime.structure().simplexes[simplex].layout;
+    if (table.hasLong) activity_ = std::make_unique<Activity>(agent, simplex, table);
+    const TypeLayout& layout = *agent.structure.simplexes[simplex].layout;
     for (std::size_t i = 0; i < table.settable.size(); ++i) {
         const DataItem& item = *table.settable[i];
-        void* cell = runtime.tables().live(simplex).at(item.kind, layout.find(item.name)->offset);
+        void* cell = agent.tables.live(simplex).at(item.kind, layout.find(item.name)->offset);
         targets_.push_back({&table.entries.back().checks[i], cell});
     }
 }
@@ -75,12 +77,10 @@ void CommandPort::addSending(Lane& lane) {
 }
 
 void CommandPort::callFor(bool work) {
-    std::atomic<std::uint8_t>& bits = runtime_.calls_[simplex_];
     if (work)
-        bits.fetch_or(AgentRuntime::commandWork, std::memory_order_relaxed);
+        agent_.calls.fetch_or(commandWork, std::memory_order_relaxed);
     else
-        bits.fetch_and(static_cast<std::uint8_t>(~AgentRuntime::commandWork),
-                       std::memory_order_relaxed);
+        agent_.calls.fetch_and(static_cast<std::uint8_t>(~commandWork), std::memory_order_relaxed);
 }
 
 // Beyond lanes, which always have.
@@ -178,10 +178,10 @@ void CommandPort::answer(Lane& lane, LaneSlot& head, const Verdict& verdict) {
     count(verdict, head.time);
     if (lane.startsRefusing(!verdict.good())) {
         EventText text{table_.entries[head.command].name};
-        text << " from " << runtime_.structure().simplexes[lane.shape().sender].path << ": "
+        text << " from " << agent_.structure.simplexes[lane.shape().sender].path << ": "
              << name(verdict.outcome);
         if (verdict.why) text << ", " << verdict.why->view();
-        runtime_.post(*thread_, Severity::Warning, EventKind::Refusal, simplex_, text);
+        agent_.present.post(*thread_, Severity::Warning, EventKind::Refusal, simplex_, text);
     }
     lane.pop();
 }
@@ -339,8 +339,8 @@ bool CommandPort::cancelActivity(LoopThread& thread, bool callHandler, std::stri
     try {
         activity_->cancel(thread.clock, callHandler, why);
     } catch (...) {
-        runtime_.post(thread, Severity::Error, EventKind::Fault, simplex_,
-                      "the handler of its long command threw while it was cancelled");
+        agent_.present.post(thread, Severity::Error, EventKind::Fault, simplex_,
+                            "the handler of its long command threw while it was cancelled");
         return false;
     }
     return true;
@@ -372,9 +372,9 @@ Outcome CommandPort::mailboxFull(CommandSender::State& state) {
     if (!std::exchange(state.full, true)) {
         const std::uint32_t receiver = state.lane->shape().receiver;
         EventText text{state.table->entries[state.command].name};
-        text << " to " << runtime_.structure().simplexes[receiver].path
+        text << " to " << agent_.structure.simplexes[receiver].path
              << ": the mailbox is full, not sent";
-        runtime_.post(*thread_, Severity::Warning, EventKind::Refusal, simplex_, text);
+        agent_.present.post(*thread_, Severity::Warning, EventKind::Refusal, simplex_, text);
     }
     return Outcome::MailboxFull;
 }

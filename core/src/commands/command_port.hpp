@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/agent.hpp"
+#include "cortex/core/loop_thread.hpp"
 
 #include "commands/activity.hpp"
 #include "commands/lane.hpp"
 #include "commands/outside_command.hpp"
+#include "commands/port_access.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -23,7 +25,7 @@ EventText stateRefusal(std::string_view what, StateSet needs, State state) CORTE
 // Set up in populate() and start(); afterwards its task's, and between cycles the loop thread's.
 class alignas(64) CommandPort {
 public:
-    CommandPort(AgentRuntime& runtime, std::uint32_t simplex, const CommandTable& table);
+    CommandPort(const PortAccess& agent, std::uint32_t simplex, const CommandTable& table);
 
     void setHandler(std::uint32_t command, Handler handler) {
         handlers_[command] = handler;
@@ -108,7 +110,7 @@ private:
     std::vector<Lane*> moreReceiving_, moreSending_;
     const char* cancelWhy_ = nullptr;
     std::vector<Target> targets_;
-    AgentRuntime& runtime_;
+    PortAccess agent_;
     std::uint32_t simplex_;
 };
 

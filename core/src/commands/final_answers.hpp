@@ -2,9 +2,9 @@
 #pragma once
 
 #include "cortex/core/mailbox.hpp"
+#include "cortex/core/record.hpp"
 
 #include "commands/lane_position.hpp"
-#include "commands/record.hpp"
 
 #include <bit>
 #include <cstddef>

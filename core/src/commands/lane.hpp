@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/agent.hpp"
+#include "cortex/core/loop_thread.hpp"
 #include "cortex/core/mailbox.hpp"
+#include "cortex/core/record.hpp"
 
 #include "commands/final_answers.hpp"
 #include "commands/lane_position.hpp"
-#include "commands/record.hpp"
 #include "commands/sender_state.hpp"
 
 #include <algorithm>

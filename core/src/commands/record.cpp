@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/record.hpp"
+#include "cortex/core/record.hpp"
 
-#include "cortex/core/command_exchange.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/tables.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/element_reader.hpp"
 
+#include "cortex/core/nearest_names.hpp"
+
 #include <algorithm>
 
 namespace cortex {

@@ -2,6 +2,7 @@
 #include "cortex/core/model_files.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/nearest_names.hpp"
 
 #include "base/bounds.hpp"
 #include "files/element_reader.hpp"
@@ -253,5 +254,14 @@ private:
 ModelFiles readModelFiles(std::span<const fs::path> files, Report& report) {
     return FileReader{report}.run(files);
 }
+
+TypeModel TypeModel::load(std::span<const std::filesystem::path> files) {
+    Report report;
+    ModelFiles read = readModelFiles(files, report);
+    if (!report.ok()) throw ModelError{std::move(report)};
+    return std::move(read.types);
+}
+
+TypeModel TypeModel::load(const std::filesystem::path& file) { return load(std::span{&file, 1}); }
 
 }  // namespace cortex

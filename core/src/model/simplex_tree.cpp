@@ -2,6 +2,7 @@
 #include "cortex/core/simplex_tree.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/nearest_names.hpp"
 #include "cortex/core/registry.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/validation.hpp"
 
-#include "cortex/core/agent.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/make_structure.hpp"
 
 #include "base/system_findings.hpp"
 #include "model/remedies.hpp"

@@ -3,6 +3,8 @@
 
 #include "cortex/core/data.hpp"
 
+#include "types/enum_names.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -14,6 +16,11 @@
 #include <utility>
 
 namespace cortex {
+
+template <>
+inline constexpr std::array spellings<EventKind>{"state change", "fault",    "refusal", "overflow",
+                                                 "limit",        "conflict", "agent",   "command",
+                                                 "watchdog",     "message"};
 
 namespace {
 
@@ -50,6 +57,11 @@ std::string_view numberText(Number number, std::array<char, 32>& buffer) {
 }
 
 }  // namespace
+
+const char* name(EventKind kind) { return spelling(kind); }
+std::optional<EventKind> eventKindFromName(std::string_view text) {
+    return fromSpelling<EventKind>(text);
+}
 
 EventText& EventText::operator<<(std::string_view text) {
     const std::size_t fitting = fittingLength(text, text_.size() - length_);

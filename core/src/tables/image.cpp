@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cortex/core/image.hpp"
-
 #include "cortex/core/error.hpp"
+#include "cortex/core/image_pool.hpp"
 
 #include "tables/lookup.hpp"
 

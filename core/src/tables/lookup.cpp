@@ -2,6 +2,7 @@
 #include "tables/lookup.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/nearest_names.hpp"
 
 #include <vector>
 

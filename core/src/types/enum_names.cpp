@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "types/enum_names.hpp"
 
-#include "cortex/core/command.hpp"
-#include "cortex/core/event.hpp"
 #include "cortex/core/quality.hpp"
 #include "cortex/core/report.hpp"
 
@@ -10,20 +8,9 @@ namespace cortex {
 
 // Those that no XML has.
 template <>
-inline constexpr std::array spellings<Outcome>{"None",        "Done",    "Running",
-                                               "Rejected",    "Failed",  "Cancelled",
-                                               "MailboxFull", "Expired", "Unknown"};
-template <>
-inline constexpr std::array spellings<Reason>{"none",      "state",     "range",  "busy",
-                                              "authority", "restarted", "window", "unknown"};
-template <>
 inline constexpr std::array spellings<Quality>{"good", "stale", "bad", "lost"};
 template <>
 inline constexpr std::array spellings<Severity>{"info", "warning", "error"};
-template <>
-inline constexpr std::array spellings<EventKind>{"state change", "fault",    "refusal", "overflow",
-                                                 "limit",        "conflict", "agent",   "command",
-                                                 "watchdog",     "message"};
 
 const char* name(Kind kind) { return spelling(kind); }
 const char* name(State state) { return spelling(state); }
@@ -34,27 +21,17 @@ const char* name(OnLimit onLimit) { return spelling(onLimit); }
 const char* name(OnBusy onBusy) { return spelling(onBusy); }
 const char* name(OnSenderLost onSenderLost) { return spelling(onSenderLost); }
 const char* name(OnLeaseLost onLeaseLost) { return spelling(onLeaseLost); }
-const char* name(Outcome outcome) { return spelling(outcome); }
-const char* name(Reason reason) { return spelling(reason); }
 const char* name(Quality quality) { return spelling(quality); }
 const char* name(Severity severity) { return spelling(severity); }
-const char* name(EventKind kind) { return spelling(kind); }
 
 std::optional<Kind> kindFromName(std::string_view text) { return fromSpelling<Kind>(text); }
 std::optional<State> stateFromName(std::string_view text) { return fromSpelling<State>(text); }
 std::optional<Role> roleFromName(std::string_view text) { return fromSpelling<Role>(text); }
-std::optional<Outcome> outcomeFromName(std::string_view text) {
-    return fromSpelling<Outcome>(text);
-}
-std::optional<Reason> reasonFromName(std::string_view text) { return fromSpelling<Reason>(text); }
 std::optional<Quality> qualityFromName(std::string_view text) {
     return fromSpelling<Quality>(text);
 }
 std::optional<Severity> severityFromName(std::string_view text) {
     return fromSpelling<Severity>(text);
-}
-std::optional<EventKind> eventKindFromName(std::string_view text) {
-    return fromSpelling<EventKind>(text);
 }
 
 }  // namespace cortex

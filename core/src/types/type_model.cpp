@@ -2,7 +2,7 @@
 #include "cortex/core/type_model.hpp"
 
 #include "cortex/core/error.hpp"
-#include "cortex/core/model_files.hpp"
+#include "cortex/core/nearest_names.hpp"
 
 #include "base/bounds.hpp"
 #include "base/findings.hpp"
@@ -30,15 +30,6 @@ const Command* Type::findCommand(std::string_view command) const {
     return findSorted(commands, command);
 }
 const Rule* Type::findRule(std::string_view rule) const { return findSorted(rules, rule); }
-
-TypeModel TypeModel::load(std::span<const std::filesystem::path> files) {
-    Report report;
-    ModelFiles read = readModelFiles(files, report);
-    if (!report.ok()) throw ModelError{std::move(report)};
-    return std::move(read.types);
-}
-
-TypeModel TypeModel::load(const std::filesystem::path& file) { return load(std::span{&file, 1}); }
 
 TypeModel TypeModel::build(std::vector<TypeDeclaration> declarations, Report& report) {
     TypeModel model;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "types/unit.hpp"
 
+#include "cortex/core/nearest_names.hpp"
 #include "cortex/core/type_model.hpp"
 #include "cortex/core/value.hpp"
 

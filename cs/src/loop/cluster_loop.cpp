@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loop/cluster_loop.hpp"
 
+#include "cortex/core/agent.hpp"
+
 #include "threads/realtime_thread.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/agent.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 #include "cortex/cs/testing.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/agent.hpp"
 #include "cortex/cs/simplex_cs.hpp"
 
 #include "tasks/task_states.hpp"

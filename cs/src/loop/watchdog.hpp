@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/agent.hpp"
+
 #include "tasks/task_runner.hpp"
 
 #include <atomic>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/cs/simplex_cs.hpp"
 
+#include "cortex/core/agent.hpp"
 #include "cortex/core/error.hpp"
 
 #include "tasks/task_thread.hpp"

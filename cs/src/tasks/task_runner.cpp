@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tasks/task_runner.hpp"
 
+#include "cortex/core/agent.hpp"
+
 #include <chrono>
 #include <exception>
 #include <span>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/live.hpp"
 
+#include "cortex/core/nearest_names.hpp"
 #include "cortex/core/path.hpp"
 #include "cortex/core/simplex_tree.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/live_values.hpp"
 
+#include "cortex/core/nearest_names.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "verbs/verbs.hpp"
+#include "text/output.hpp"
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cortex::explorer {
@@ -12,6 +13,12 @@ namespace cortex::explorer {
 struct NewFile {
     std::filesystem::path file;
     std::string text;
+};
+
+struct NewFileOptions {
+    std::filesystem::path output;  // empty: standard output
+    bool force = false;
+    bool json = false;
 };
 
 // Writes the files, or prints them where no output is named. Throws Failure, with none of them

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/agent.hpp"
+#include "cortex/core/make_structure.hpp"
 
 #include "live/live_models.hpp"
 #include "models/graph.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/error.hpp"
+#include "cortex/core/nearest_names.hpp"
 
 #include "verbs/live_registration.hpp"
 #include "verbs/security_registration.hpp"

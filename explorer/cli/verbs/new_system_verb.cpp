@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "text/new_files.hpp"
+#include "verbs/verbs.hpp"
 
 namespace cortex::explorer {
 namespace {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/nearest_names.hpp"
+
 #include "models/new_type_text.hpp"
 #include "text/new_files.hpp"
+#include "verbs/verbs.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/argument_checks.hpp"
 #include "cortex/core/command_exchange.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/nearest_names.hpp"
+#include "cortex/core/record.hpp"
 #include "cortex/core/simplex_tree.hpp"
 
 #include "live/live_values.hpp"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/nearest_names.hpp"
+
 #include "live/live_models.hpp"
 #include "models/type_json.hpp"
 #include "models/type_text.hpp"

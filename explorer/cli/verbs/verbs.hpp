@@ -3,6 +3,7 @@
 
 #include "live/live.hpp"
 #include "models/model.hpp"
+#include "text/new_files.hpp"
 #include "text/output.hpp"
 
 #include <optional>
@@ -42,11 +43,6 @@ struct GraphOptions {
 };
 Exit showGraph(const GraphOptions& options);
 
-struct NewFileOptions {
-    std::filesystem::path output;  // empty: standard output
-    bool force = false;
-    bool json = false;
-};
 struct NewTypeOptions : NewFileOptions {
     std::string name;
     std::vector<std::string> parents;

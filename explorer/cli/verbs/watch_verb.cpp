@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/nearest_names.hpp"
+
 #include "live/live_values.hpp"
 #include "verbs/live_verbs.hpp"
 

@@ -5,6 +5,7 @@
 #include "cortex/core/event.hpp"
 #include "cortex/core/structure.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,8 +14,6 @@
 #include <vector>
 
 namespace cortex {
-
-struct Sender;
 
 enum class Outcome : std::uint8_t {
     None,  // not sent yet, or no answer yet
@@ -42,6 +41,16 @@ const char* name(Outcome outcome);
 const char* name(Reason reason);
 std::optional<Outcome> outcomeFromName(std::string_view text);
 std::optional<Reason> reasonFromName(std::string_view text);
+
+// Who sent a command from outside: an agent or a tool, and its start (UTC microseconds).
+struct Sender {
+    std::array<char, 64> name{};  // zero-terminated
+    std::array<char, 64> host{};
+    std::int64_t epoch = 0;
+
+    std::string_view nameText() const { return name.data(); }
+    bool operator==(const Sender&) const = default;
+};
 
 // Offset of a command parameter, got in populate(): Argument for the request, Result for the
 // response. Used on the Call inside a handler.
@@ -167,25 +176,6 @@ CommandTable commandTable(const Type& type);
 enum class LifeCycle : std::uint8_t { None, Startup, Shutdown, ClearFaults };
 LifeCycle lifeCycleCommand(std::string_view command);
 
-std::vector<ArgumentCheck> compileChecks(const RecordLayout& layout);
-// Finite, in range, a label where only labels are valid, text that fits; else why not, in words.
-bool checkElements(const ArgumentCheck& check, const std::byte* record,
-                   std::optional<EventText>& why) CORTEX_REALTIME;
-// One number in its range, as most are; false: checkElements() knows.
-inline bool plainlyGood(const ArgumentCheck& check, const std::byte* record) CORTEX_REALTIME {
-    if (check.length != 1) return false;
-    if (check.kind == Kind::Float) {
-        const double value = *reinterpret_cast<const double*>(record + check.offset);
-        return value >= check.minFloat && value <= check.maxFloat;
-    }
-    if (check.kind != Kind::Int || check.closed) return false;
-    const std::int64_t value = *reinterpret_cast<const std::int64_t*>(record + check.offset);
-    return value >= check.minInt && value <= check.maxInt;
-}
-inline bool checkArgument(const ArgumentCheck& check, const std::byte* record,
-                          std::optional<EventText>& why) CORTEX_REALTIME {
-    return plainlyGood(check, record) || checkElements(check, record, why);
-}
 // The whole record; "" if good.
 EventText checkArguments(const RecordLayout& layout, const std::byte* record);
 void initialiseRecord(const RecordLayout& layout, std::byte* record);

@@ -3,7 +3,7 @@
 
 #include "cortex/core/command.hpp"
 #include "cortex/core/mailbox.hpp"
-#include "cortex/core/tables.hpp"
+#include "cortex/core/structure.hpp"
 #include "cortex/core/type_model.hpp"
 
 #include <cstdint>

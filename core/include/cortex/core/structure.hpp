@@ -2,8 +2,10 @@
 #pragma once
 
 #include "cortex/core/quality.hpp"
+#include "cortex/core/realtime.hpp"
 #include "cortex/core/type_model.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -75,6 +77,18 @@ struct InitialValue {
     std::uint32_t simplex = noSimplex;
     const ItemLayout* item = nullptr;
     Value value;
+};
+
+// One simplex's part of a table: live, latched for delayed readers, held, or a writer's candidate.
+struct Slice {
+    std::int64_t* ints = nullptr;
+    double* floats = nullptr;
+    bool* bools = nullptr;
+    std::byte* strings = nullptr;
+    SlotState* state = nullptr;
+
+    // First element of an item that lies at `offset` of its kind's block.
+    void* at(Kind kind, std::uint32_t offset) const CORTEX_REALTIME;
 };
 
 // What an agent consists of: simplexes by path, their types, relationships and table layout.

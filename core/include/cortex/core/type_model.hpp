@@ -183,7 +183,4 @@ private:
     std::map<std::string, TypeDeclaration, std::less<>> declarations_;
 };
 
-// "nearest of: a, b, c" for an unknown name; at most three, by edit distance; "" if none is near.
-std::string nearestNames(std::string_view wrong, std::span<const std::string> valid);
-
 }  // namespace cortex

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/agent.hpp"
+#include "cortex/core/event.hpp"
+#include "cortex/core/image.hpp"
 #include "cortex/core/program_interface.hpp"
 #include "cortex/core/registry.hpp"
 #include "cortex/core/simplex_tree.hpp"
 #include "cortex/cs/simplex_cs.hpp"
 #include "cortex/cs/trigger_source.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/agent.hpp"
+#include "cortex/core/command.hpp"
+#include "cortex/core/event.hpp"
 #include "cortex/core/simplex.hpp"
 #include "cortex/core/state.hpp"
 #include "cortex/core/tick.hpp"

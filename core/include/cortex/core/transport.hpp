@@ -14,15 +14,7 @@
 
 namespace cortex {
 
-// Who sent a command from outside: an agent or a tool, and its start (UTC microseconds).
-struct Sender {
-    std::array<char, 64> name{};  // zero-terminated
-    std::array<char, 64> host{};
-    std::int64_t epoch = 0;
-
-    std::string_view nameText() const { return name.data(); }
-    bool operator==(const Sender&) const = default;
-};
+class ImagePool;
 
 // Largest request or response record, octets; a type that needs more is refused when it is loaded.
 inline constexpr std::uint32_t maxRecord = 4096;
@@ -106,6 +98,9 @@ struct AgentAccess {
     ImagePool* images = nullptr;
     EventLog* events = nullptr;
     std::int64_t period = 0;  // ns
+
+    Image newestImage() const;  // empty if too many are held
+    std::int64_t newestCycle() const;
 };
 
 // A transport. read() and write() run in the loop: wait-free and bounded; everything else off it.

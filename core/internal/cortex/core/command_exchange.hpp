@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/communication_interface.hpp"
 #include "cortex/core/program_interface.hpp"
 #include "cortex/core/spsc_ring.hpp"
+#include "cortex/core/transport.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,16 +15,6 @@
 
 // What a transport needs to carry commands from outside into a loop and their answers back.
 namespace cortex {
-
-// Records of commands. Off the loop. The record is aligned to 8 octets and as large as its layout.
-// Throws Error for unknown parameters and values of the wrong kind or length; parameters that are
-// not given have their defaults.
-void encodeRecord(const CommandTable& table, std::uint32_t command,
-                  const std::map<std::string, Value>& arguments, std::byte* record);
-std::map<std::string, Value> decodeRecord(const RecordLayout& layout, const std::byte* record);
-// Of `set` only the items that are given.
-std::map<std::string, Value> argumentsOf(const CommandTable& table, std::uint32_t command,
-                                         const std::byte* request);
 
 // The commands of every simplex of a structure. Immutable; any thread may read.
 class CommandTables {
@@ -52,7 +42,7 @@ public:
 
     const Structure& structure() const { return *agent_.structure; }
     const CommandTables& tables() const { return tables_; }
-    std::int64_t newestCycle() const { return agent_.images->newestCycle(); }
+    std::int64_t newestCycle() const { return agent_.newestCycle(); }
     const CommandTable& table(std::uint32_t simplex) const { return tables_.of(simplex); }
 
     // False: full. `record` is copied.

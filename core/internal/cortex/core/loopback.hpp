@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/communication_interface.hpp"
 #include "cortex/core/program_interface.hpp"
+#include "cortex/core/transport.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/communication_interface.hpp"
 #include "cortex/core/event.hpp"
-#include "cortex/core/image.hpp"
+#include "cortex/core/image_pool.hpp"
+#include "cortex/core/loop_thread.hpp"
 #include "cortex/core/mailbox.hpp"
 #include "cortex/core/simplex_tree.hpp"
 #include "cortex/core/tables.hpp"
 #include "cortex/core/tick.hpp"
+#include "cortex/core/transport.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -26,27 +25,6 @@ class LinkTable;
 class CommandPort;
 class Lane;
 class LaneBlock;
-
-// Per loop thread: where a task posts events, what time its chunk started, what it counted.
-struct alignas(64) LoopThread {
-    EventRing* events = nullptr;
-    ChunkClock clock;
-    std::int64_t nominalTime = 0;  // of the present cycle, ns
-    std::uint32_t sequence = 0;    // of events in this cycle; beginCycle() starts it anew
-    std::uint64_t commands = 0;    // executed, since start
-    std::uint64_t rejected = 0;
-    std::int64_t lastLatency = 0;              // ns, of the last executed command
-    std::vector<std::uint64_t> latencyCounts;  // histogram, ns, see latencyBucket()
-};
-inline constexpr std::uint32_t latencyBuckets = 16 * 36;
-inline std::uint32_t latencyBucket(std::int64_t nanoseconds) CORTEX_REALTIME {  // 16 per octave
-    if (nanoseconds < 16) return nanoseconds < 0 ? 0U : static_cast<std::uint32_t>(nanoseconds);
-    const auto value = static_cast<std::uint64_t>(nanoseconds);
-    const auto octave = static_cast<std::uint32_t>(std::bit_width(value)) - 5U;
-    const auto step = static_cast<std::uint32_t>(value >> octave) & 15U;
-    return std::min((octave + 1U) * 16U + step, latencyBuckets - 1U);
-}
-double latencyOfBucket(std::uint32_t bucket);  // us, upper edge
 
 struct AgentOptions {
     std::uint32_t imageReaders = 8;
@@ -84,10 +62,10 @@ public:
 
     const std::string& name() const { return name_; }
     const AgentOptions& options() const { return options_; }
-    // Of the present or last cycle; loop's threads only, everyone else asks an image.
-    std::int64_t cycle() const { return cycle_; }
-    std::int64_t nominalTime() const { return nominalTime_; }
-    std::int64_t wokenAt() const { return nominalTime_ + lateness_; }
+    // Of the present or last cycle. For the loop's threads only; all others ask an image.
+    std::int64_t cycle() const { return present_.cycle; }
+    std::int64_t nominalTime() const { return present_.nominalTime; }
+    std::int64_t wokenAt() const { return present_.nominalTime + lateness_; }
     SimplexTree& tree() { return tree_; }
     const Report& warnings() const { return report_; }  // what validation found; no errors
     const Structure& structure() const { return *structure_; }
@@ -97,7 +75,7 @@ public:
     LoopThread& thread(std::uint32_t worker) { return threads_[worker]; }
     std::uint32_t threadCount() const { return static_cast<std::uint32_t>(threads_.size()); }
     Simplex& simplex(std::uint32_t index) { return *simplexes_[index]; }
-    std::uint32_t rank(std::uint32_t simplex) const { return ranks_[simplex]; }
+    std::uint32_t rank(std::uint32_t simplex) const { return present_.ranks[simplex]; }
     std::uint32_t agentSimplex() const { return agentSimplex_; }  // index of `/<name>`
     // Of a simplex of another agent: ns between two writings by its owner, at least our period;
     // known when it is linked, from beginCycle() on.
@@ -138,7 +116,9 @@ public:
                          LoopThread& thread) CORTEX_REALTIME;
 
     void post(LoopThread& thread, Severity severity, EventKind kind, std::uint32_t simplex,
-              const EventText& text) CORTEX_REALTIME;
+              const EventText& text) CORTEX_REALTIME {
+        present_.post(thread, severity, kind, simplex, text);
+    }
 
     // Setup, for Simplex and its handles.
     void registerHandler(std::uint32_t simplex, std::string_view command, Handler handler);
@@ -148,7 +128,6 @@ public:
     std::vector<std::string_view> unhandledCommands(std::uint32_t simplex) const;
 
 private:
-    friend class CommandPort;
     friend class Router;
     friend class LinkTable;
 
@@ -179,20 +158,15 @@ private:
     std::vector<std::uint32_t> taskless_;  // that lanes lead to, and the agent's own simplex
     std::vector<CommunicationInterface*> interfaces_;
     std::vector<LoopThread> threads_;
-    std::vector<std::uint32_t> ranks_;
+    PresentCycle present_;
     std::vector<std::int64_t> ownerPeriods_;  // of remote simplexes, which are the last
     std::uint32_t firstRemote_ = 0;
     // Per simplex, bits: pending life-cycle commands, and whether its port has work.
-    static constexpr std::uint8_t commandWork = 1U << 7U;
     std::unique_ptr<std::atomic<std::uint8_t>[]> calls_, callsLater_;
     std::atomic<bool> anyLater_{false};
     std::uint32_t agentSimplex_ = noSimplex;
-    std::int64_t cycle_ = 0, nominalTime_ = 0, lateness_ = 0;
+    std::int64_t lateness_ = 0;
     bool started_ = false, stopped_ = false;
 };
-
-// Builds the structure of a validated tree; exposed for tools that show a model without running it.
-// Throws ModelError if the data takes more than 1 GiB.
-std::shared_ptr<Structure> makeStructure(const std::string& agent, const SimplexTree& tree);
 
 }  // namespace cortex

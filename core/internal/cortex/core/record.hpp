@@ -6,8 +6,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <map>
+#include <string>
 
 namespace cortex {
+
+// Records of commands. Off the loop. The record is aligned to 8 octets and as large as its layout.
+// Throws Error for unknown parameters and values of the wrong kind or length; parameters that are
+// not given have their defaults.
+void encodeRecord(const CommandTable& table, std::uint32_t command,
+                  const std::map<std::string, Value>& arguments, std::byte* record);
+std::map<std::string, Value> decodeRecord(const RecordLayout& layout, const std::byte* record);
+// Of `set` only the items that are given.
+std::map<std::string, Value> argumentsOf(const CommandTable& table, std::uint32_t command,
+                                         const std::byte* request);
 
 // "speed=0.5, mode=2" as far as it fits: the record of a command from outside. `set` has presence
 // flags in front of its items.

@@ -12,18 +12,6 @@
 
 namespace cortex {
 
-// One simplex's part of a table: live, latched for delayed readers, held, or a writer's candidate.
-struct Slice {
-    std::int64_t* ints = nullptr;
-    double* floats = nullptr;
-    bool* bools = nullptr;
-    std::byte* strings = nullptr;
-    SlotState* state = nullptr;
-
-    // First element of an item that lies at `offset` of its kind's block.
-    void* at(Kind kind, std::uint32_t offset) const CORTEX_REALTIME;
-};
-
 // Octets of an item's cells.
 void copyCells(Kind kind, const void* from, void* to, std::size_t octets) CORTEX_REALTIME;
 void copySlice(const BlockSizes& sizes, const Slice& from, const Slice& to) CORTEX_REALTIME;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/command.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace cortex {
+
+std::vector<ArgumentCheck> compileChecks(const RecordLayout& layout);
+// Finite, in range, a label where only labels are valid, text that fits; else why not, in words.
+bool checkElements(const ArgumentCheck& check, const std::byte* record,
+                   std::optional<EventText>& why) CORTEX_REALTIME;
+// One number in its range, as most are; false: checkElements() knows.
+inline bool plainlyGood(const ArgumentCheck& check, const std::byte* record) CORTEX_REALTIME {
+    if (check.length != 1) return false;
+    if (check.kind == Kind::Float) {
+        const double value = *reinterpret_cast<const double*>(record + check.offset);
+        return value >= check.minFloat && value <= check.maxFloat;
+    }
+    if (check.kind != Kind::Int || check.closed) return false;
+    const std::int64_t value = *reinterpret_cast<const std::int64_t*>(record + check.offset);
+    return value >= check.minInt && value <= check.maxInt;
+}
+inline bool checkArgument(const ArgumentCheck& check, const std::byte* record,
+                          std::optional<EventText>& why) CORTEX_REALTIME {
+    return plainlyGood(check, record) || checkElements(check, record, why);
+}
+
+}  // namespace cortex

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/agent.hpp"
+#include "cortex/core/error.hpp"
+#include "cortex/core/simplex.hpp"
+
+#include "model/resolved_relations.hpp"
+#include "tables/lookup.hpp"
+
+namespace cortex {
+
+namespace {
+
+struct Access {
+    Kind kind;
+    bool array, write;
+};
+
+void checkShape(const DataItem& item, const Access& access, const std::string& where) {
+    const std::string asked = std::string{access.write ? "writing" : "reading"} + " one " +
+                              (access.array ? "array of " : "") + name(access.kind);
+    if (item.kind != access.kind || (item.length > 1 && !access.array)) {
+        throw Error(where + " is " + shapeOf(item) + ": " + asked +
+                    " does not fit; take data<…>() or array<…>() of its kind");
+    }
+    if (access.write && item.constant) {
+        throw Error(where + " is constant: take a handle to const");
+    }
+}
+
+const Type& typeOf(const Structure& structure, std::uint32_t simplex) {
+    return *structure.simplexes[simplex].layout->type;
+}
+
+const Rule& ruleAt(const Type& type, const std::string& path, std::string_view rule,
+                   Direction direction) {
+    const Rule* found = type.findRule(rule);
+    if (found == nullptr) {
+        std::vector<std::string> names;
+        for (const Rule& each : type.rules) names.push_back(each.name);
+        throwUnknown(path + ": type " + type.name + " has no rule '" + std::string{rule} + "'",
+                     rule, names);
+    }
+    if (found->direction != direction) {
+        const std::string is = name(found->direction);
+        throw Error(path + ": rule '" + found->name + "' is an " + is + "; ask " + is + "() or " +
+                    is + "s()");
+    }
+    return *found;
+}
+
+[[noreturn]] void throwNoCommand(const Simplex& simplex, std::string_view command) {
+    const Type& type = simplex.type();
+    std::vector<std::string> names;
+    for (const Command& each : type.commands) names.push_back(each.name);
+    throwUnknown(
+        simplex.path() + ": type " + type.name + " has no command '" + std::string{command} + "'",
+        command, names);
+}
+
+template <class Related>
+Related onlyOne(const std::vector<Related>& related, const Simplex& owner, std::string_view rule,
+                std::string_view all) {
+    if (related.size() == 1) return related.front();
+    throw Error(owner.path() + ": rule '" + std::string{rule} + "' relates " +
+                std::to_string(related.size()) + " simplexes, not one; ask " + std::string{all});
+}
+
+}  // namespace
+
+const std::string& RelatedSimplex::path() const {
+    const Structure& structure = owner_->runtime().structure();
+    return structure.simplexes[structure.edges[edge_].target].path;
+}
+
+const Type& RelatedSimplex::type() const {
+    const Structure& structure = owner_->runtime().structure();
+    return typeOf(structure, structure.edges[edge_].target);
+}
+
+const SlotState& RelatedSimplex::state() const {
+    return *owner_->runtime().tables().edge(edge_).state;
+}
+
+Simplex& RelatedSimplex::simplex() const {
+    AgentRuntime& runtime = owner_->runtime();
+    const std::uint32_t target = runtime.structure().edges[edge_].target;
+    if (runtime.structure().simplexes[target].remote) {
+        throw Error(owner_->path() + ": " + path() +
+                    " belongs to another agent; send it a command");
+    }
+    return runtime.simplex(target);
+}
+
+bool RelatedSimplex::later() const { return owner_->runtime().structure().edges[edge_].delayed; }
+
+bool RelatedSimplex::has(std::string_view item) const { return type().findData(item) != nullptr; }
+
+void* RelatedSimplex::cell(std::string_view item, Kind kind, bool array, bool write,
+                           std::size_t& length) const {
+    Tables& tables = owner_->runtime().tables();
+    const std::uint32_t target = tables.structure().edges[edge_].target;
+    const SimplexInfo& info = tables.structure().simplexes[target];
+    const ItemLayout& layout = itemAt(*info.layout, info.path, item);
+    const std::string where = owner_->path() + ": " + info.path + "." + layout.item->name;
+    checkShape(*layout.item, {kind, array, write}, where);
+    if (write && info.role == Role::Active) {
+        throw Error(where +
+                    " is written by its own task only: take a handle to const, or send a "
+                    "command");
+    }
+    length = layout.item->length;
+    const Slice slice = layout.constant ? tables.constants(target) : tables.edge(edge_);
+    return slice.at(kind, layout.offset);
+}
+
+CommandSender RelatedSimplex::sender(std::string_view command, std::uint32_t capacity) const {
+    return owner_->runtime().makeSender(edge_, command, capacity);
+}
+
+AgentRuntime& Simplex::startedRuntime() const {
+    if (runtime_ != nullptr) return *runtime_;
+    throw Error(path() + ": data and relationships exist from populate() on");
+}
+
+void* Simplex::cell(std::string_view item, Kind kind, bool array, bool write, std::size_t& length) {
+    const Tables& tables = startedRuntime().tables();
+    const SimplexInfo& info = tables.structure().simplexes[index_];
+    const ItemLayout& layout = itemAt(*info.layout, path(), item);
+    const std::string where = path() + "." + layout.item->name;
+    checkShape(*layout.item, {kind, array, write}, where);
+    if (write && !info.writers.empty()) {
+        throw Error(where + " is written by " +
+                    tables.structure().simplexes[info.writers.front()].path);
+    }
+    length = layout.item->length;
+    const Slice slice = layout.constant ? tables.constants(index_) : tables.live(index_);
+    return slice.at(kind, layout.offset);
+}
+
+SlotState& Simplex::slot() { return *startedRuntime().tables().live(index_).state; }
+
+InputSimplex Simplex::input(std::string_view rule) {
+    return onlyOne(inputs(rule), *this, rule, "inputs()");
+}
+
+OutputSimplex Simplex::output(std::string_view rule) {
+    return onlyOne(outputs(rule), *this, rule, "outputs()");
+}
+
+std::vector<InputSimplex> Simplex::inputs(std::string_view rule) {
+    std::vector<InputSimplex> related;
+    for (const std::uint32_t edge : edgesUnder(rule, Direction::Input)) {
+        related.emplace_back(*this, edge);
+    }
+    return related;
+}
+
+std::vector<OutputSimplex> Simplex::outputs(std::string_view rule) {
+    std::vector<OutputSimplex> related;
+    for (const std::uint32_t edge : edgesUnder(rule, Direction::Output)) {
+        related.emplace_back(*this, edge);
+    }
+    return related;
+}
+
+std::vector<std::uint32_t> Simplex::edgesUnder(std::string_view rule, Direction direction) const {
+    const Structure& structure = startedRuntime().structure();
+    ruleAt(type(), path(), rule, direction);
+    const SimplexInfo& info = structure.simplexes[index_];
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t edge = info.firstEdge; edge < info.firstEdge + info.edgeCount; ++edge) {
+        if (countsFor(type(), structure.edges[edge].rule->name, rule)) found.push_back(edge);
+    }
+    return found;
+}
+
+const ItemLayout& Simplex::parameter(std::string_view command, std::string_view parameter,
+                                     Shape shape, bool request) const {
+    const CommandTable& table = startedRuntime().commands(index_);
+    const std::uint32_t found = table.find(command);
+    if (found == CommandTable::none) throwNoCommand(*this, command);
+    const auto& entry = table.entries[found];
+    const RecordLayout& record = request ? entry.request : entry.response;
+    const ItemLayout* layout = record.find(parameter);
+    const std::string where = path() + ": " + (request ? "request" : "response") + " of command '" +
+                              std::string{command} + "'";
+    if (layout == nullptr) {
+        std::vector<std::string> names;
+        for (const ItemLayout& each : record.items) names.push_back(each.item->name);
+        throwUnknown(where + " has no '" + std::string{parameter} + "'", parameter, names);
+    }
+    checkShape(*layout->item, {shape.kind, shape.array, false},
+               where + ": '" + layout->item->name + "'");
+    return *layout;
+}
+
+void Simplex::handle(std::string_view command, Handler handler) {
+    AgentRuntime& agent = startedRuntime();
+    if (type().findCommand(command) == nullptr) throwNoCommand(*this, command);
+    if (lifeCycleCommand(command) != LifeCycle::None) {
+        throw Error(path() + ": '" + std::string{command} + "' is carried out by the framework");
+    }
+    agent.registerHandler(index_, command, handler);
+}
+
+}  // namespace cortex
