@@ -32,8 +32,8 @@ LAYERS = {
 # The room of each header that other folders see (include/ and internal/).
 PUBLIC = {
     "core": {
-        "base": "clock data error event_count nearest_names path quality realtime report spsc_ring "
-                "state tick value",
+        "base": "clock data error event_count findings machine nearest_names path quality realtime "
+                "report spsc_ring state system_findings tick value xml_text",
         "types": "agreement type_model",
         "files": "model_files type_description",
         "tables": "event event_sinks image image_pool structure tables",

@@ -311,7 +311,8 @@ TEST(Validation, HasEveryFindingExplained) {
     const std::regex constant{"\\[\\] = \"([a-z-]+)\""};
     int count = 0;
     for (const char* header : {"findings.hpp", "system_findings.hpp"}) {
-        std::string text = textOf(std::string{CORTEX_SOURCE_DIR "/core/src/base/"} + header);
+        std::string text =
+            textOf(std::string{CORTEX_SOURCE_DIR "/core/internal/cortex/core/"} + header);
         for (std::smatch match; std::regex_search(text, match, constant); ++count) {
             EXPECT_TRUE(contains(explained, "| `" + match[1].str() + "` |")) << match[1];
             text = match.suffix();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/agent.hpp"
 
+#include "cortex/core/clock.hpp"
+
 #include "agent/router.hpp"
 #include "commands/command_port.hpp"
 #include "commands/lane.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 namespace cortex {
 namespace {
@@ -14,11 +15,6 @@ namespace {
 // Sequence numbers of events: begin of the cycle, tasks, end of the cycle. So their order does not
 // depend on which thread ran which task.
 constexpr std::uint32_t taskSequence = 1U << 20U, endSequence = 1U << 30U;
-
-std::int64_t nanosecondsNow() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
 
 std::uint8_t bitOf(LifeCycle command) {
     return static_cast<std::uint8_t>(1U << static_cast<unsigned>(command));
@@ -35,7 +31,7 @@ void AgentRuntime::beginCycle(const Tick& tick) {
         thread.nominalTime = tick.nominalTime;
     }
     threads_[0].sequence = 0;
-    threads_[0].clock = {tick.cycle, nanosecondsNow()};
+    threads_[0].clock = {tick.cycle, monotonicNow()};
     tables_->latch();
     if (anyLater_.load(std::memory_order_relaxed)) releaseLifeCycles();
     router_->read(interfaces_);

@@ -2,6 +2,7 @@
 #include "cortex/core/agent.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/make_structure.hpp"
+#include "cortex/core/system_findings.hpp"
 #include "cortex/core/validation.hpp"
 
 #include "agent/router.hpp"
@@ -77,14 +78,14 @@ void AgentRuntime::addAgentSimplex() {
     if (!wrong.empty()) throw Error("agent name '" + name_ + "': " + wrong);
     if (tree_.find(path) == nullptr) {
         if (tree_.types().find("Agent") == nullptr) {
-            refuse({Severity::Error, path, "agent-type", Place{}, "the ontology has no type Agent",
-                    "include base.xml"});
+            refuse({Severity::Error, path, finding::agentType, Place{},
+                    "the ontology has no type Agent", "include base.xml"});
         }
         tree_.add(path, "Agent");
     }
     const Simplex& agent = tree_.at(path);
     if (!agent.type().isA("Agent")) {
-        refuse({Severity::Error, path, "agent-type", agent.place(),
+        refuse({Severity::Error, path, finding::agentType, agent.place(),
                 "this path is the agent's own, but its type is " + agent.type().name,
                 "give it the type Agent or Cluster, or give the agent another name"});
     }

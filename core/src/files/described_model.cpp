@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/findings.hpp"
 #include "cortex/core/type_description.hpp"
 
 #include "base/bounds.hpp"
-#include "base/findings.hpp"
 #include "base/text.hpp"
 #include "files/ontology_reader.hpp"
 #include "types/stated.hpp"

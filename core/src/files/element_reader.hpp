@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/findings.hpp"
 #include "cortex/core/type_model.hpp"
 
-#include "base/findings.hpp"
 #include "base/text.hpp"
 #include "files/xml_element.hpp"
 #include "types/enum_names.hpp"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/model_path.hpp"
 
+#include "cortex/core/findings.hpp"
+
 #include "base/bounds.hpp"
-#include "base/findings.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/findings.hpp"
+
 #include "base/bounds.hpp"
-#include "base/findings.hpp"
 #include "base/text.hpp"
 #include "files/xml_element.hpp"
 

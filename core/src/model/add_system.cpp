@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/error.hpp"
 #include "cortex/core/simplex_tree.hpp"
+#include "cortex/core/system_findings.hpp"
 
-#include "base/system_findings.hpp"
 #include "base/text.hpp"
 #include "model/remedies.hpp"
 #include "model/validation_checks.hpp"

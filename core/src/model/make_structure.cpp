@@ -3,9 +3,9 @@
 
 #include "cortex/core/data.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/system_findings.hpp"
 
 #include "base/bounds.hpp"
-#include "base/system_findings.hpp"
 #include "model/resolved_relations.hpp"
 
 #include <algorithm>

@@ -2,42 +2,20 @@
 #include "model/remedies.hpp"
 
 #include "cortex/core/nearest_names.hpp"
+#include "cortex/core/xml_text.hpp"
 
 #include <algorithm>
 
 namespace cortex {
-namespace {
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-        }
-    }
-    return result;
-}
-
-}  // namespace
 
 std::string relateText(std::string_view rule, std::string_view to, std::string_view more) {
-    std::string text = "<relate rule=\"" + escaped(rule) + "\" to=\"" + escaped(to) + "\"";
+    std::string text = "<relate rule=\"" + xmlAttribute(rule) + "\" to=\"" + xmlAttribute(to) + "\"";
     if (!more.empty()) text += " " + std::string{more};
     return text + "/>";
 }
 
 std::string setText(std::string_view item, std::string_view value) {
-    return "<set data=\"" + escaped(item) + "\" value=\"" + escaped(value) + "\"/>";
+    return "<set data=\"" + xmlAttribute(item) + "\" value=\"" + xmlAttribute(value) + "\"/>";
 }
 
 std::string valueText(const Value& value) {

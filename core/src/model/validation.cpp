@@ -3,8 +3,8 @@
 
 #include "cortex/core/error.hpp"
 #include "cortex/core/make_structure.hpp"
+#include "cortex/core/system_findings.hpp"
 
-#include "base/system_findings.hpp"
 #include "model/remedies.hpp"
 #include "model/validation_checks.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/system_findings.hpp"
+#include "cortex/core/system_findings.hpp"
+
 #include "model/remedies.hpp"
 #include "model/resolved_relations.hpp"
 #include "model/validation_checks.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/data.hpp"
+#include "cortex/core/findings.hpp"
 
 #include "base/bounds.hpp"
-#include "base/findings.hpp"
 #include "base/text.hpp"
 #include "types/type_merge.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/findings.hpp"
+#include "cortex/core/findings.hpp"
+
 #include "base/text.hpp"
 #include "types/type_merge.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/findings.hpp"
 #include "cortex/core/nearest_names.hpp"
 
-#include "base/findings.hpp"
 #include "base/text.hpp"
 #include "types/type_resolver.hpp"
 

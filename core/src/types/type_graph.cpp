@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "types/type_graph.hpp"
 
+#include "cortex/core/findings.hpp"
 #include "cortex/core/nearest_names.hpp"
 
 #include "base/bounds.hpp"
-#include "base/findings.hpp"
 #include "base/text.hpp"
 
 #include <algorithm>

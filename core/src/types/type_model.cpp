@@ -2,10 +2,10 @@
 #include "cortex/core/type_model.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/findings.hpp"
 #include "cortex/core/nearest_names.hpp"
 
 #include "base/bounds.hpp"
-#include "base/findings.hpp"
 #include "base/text.hpp"
 #include "types/type_resolver.hpp"
 

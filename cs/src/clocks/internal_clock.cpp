@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/cs/trigger_source.hpp"
 
@@ -16,12 +17,6 @@ namespace {
 constexpr std::int64_t second = 1'000'000'000;
 // An interrupt is seen after at most this, however long the period.
 constexpr std::int64_t longestSleep = second / 10;
-
-std::int64_t monotonicNow() {
-    timespec time{};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return static_cast<std::int64_t>(time.tv_sec) * second + time.tv_nsec;
-}
 
 void sleepUntil(std::int64_t deadline) {
     const timespec time{static_cast<time_t>(deadline / second),

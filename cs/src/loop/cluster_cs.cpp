@@ -3,6 +3,7 @@
 
 #include "cortex/core/agent.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/system_findings.hpp"
 #include "cortex/core/validation.hpp"
 #include "cortex/cs/testing.hpp"
 
@@ -119,7 +120,7 @@ void ClusterCS::Implementation::requireClasses() const {
         if (info.role != Role::Active || info.path == "/" + name) continue;
         const Simplex& simplex = agent->tree().at(info.path);
         if (hasTask(info) && dynamic_cast<const SimplexCS*>(&simplex) != nullptr) continue;
-        report.error(info.path, "no-class", simplex.place(),
+        report.error(info.path, finding::noClass, simplex.place(),
                      "no C++ class implements the active type " + info.layout->type->name,
                      "load the plug-in that has it (--plugin FILE), or register a class derived "
                      "from SimplexCS for this type");
@@ -146,7 +147,7 @@ void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) 
             const std::string path = simplex->path() + ": ";
             std::string_view what = error.what();
             if (what.starts_with(path)) what.remove_prefix(path.size());
-            report.error(simplex->path(), "populate", simplex->place(), std::string{what});
+            report.error(simplex->path(), finding::populate, simplex->place(), std::string{what});
         }
     }
     if (!report.ok()) refuse(std::move(report));
@@ -195,7 +196,7 @@ void ClusterCS::startAll() {
     const std::string path = "/" + self.name;
     if (self.tree->types().find("Cluster") == nullptr) {
         Report report;
-        report.error(path, "no-cluster-type", {}, "the ontology has no type Cluster",
+        report.error(path, finding::noClusterType, {}, "the ontology has no type Cluster",
                      "include base.xml: <ontology file=\"base.xml\"/>");
         refuse(std::move(report));
     }
@@ -203,7 +204,7 @@ void ClusterCS::startAll() {
     const Simplex& cluster = self.tree->at(path);
     if (!cluster.type().isA("Cluster")) {
         Report report;
-        report.error(path, "agent-type", cluster.place(),
+        report.error(path, finding::agentType, cluster.place(),
                      "a cluster's own simplex is a Cluster, here it is a " + cluster.type().name,
                      "leave it out, or write type=\"Cluster\"");
         refuse(std::move(report));

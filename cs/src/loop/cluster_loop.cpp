@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loop/cluster_loop.hpp"
 
-#include "cortex/core/agent.hpp"
+#include "cortex/core/clock.hpp"
 
 #include "threads/realtime_thread.hpp"
 
@@ -15,8 +15,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::int64_t stopBudget = 2'000'000'000;  // ns for an orderly end
-
-std::int64_t monotonicNow() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 
 std::int64_t wallClockNow() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(

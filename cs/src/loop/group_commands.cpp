@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loop/group_commands.hpp"
 
-#include "cortex/core/agent.hpp"
 #include "cortex/core/path.hpp"
 
 #include "tasks/task_states.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loop/metrics.hpp"
 
-#include "cortex/core/agent.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <string>

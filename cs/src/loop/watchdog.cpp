@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loop/watchdog.hpp"
 
-#include "cortex/core/agent.hpp"
-
 namespace cortex::cs {
 
 HungHook findHungHook(const TaskRunner& runner, AgentRuntime& agent) {

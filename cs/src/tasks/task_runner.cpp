@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tasks/task_runner.hpp"
 
-#include "cortex/core/agent.hpp"
+#include "cortex/core/clock.hpp"
 
 #include <chrono>
 #include <exception>
@@ -11,8 +11,6 @@
 namespace cortex::cs {
 
 namespace {
-
-std::int64_t monotonicNow() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 
 bool isTransitional(State state) {
     return state == State::StartingUp || state == State::ShuttingDown;

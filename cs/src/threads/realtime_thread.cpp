@@ -2,13 +2,12 @@
 #include "threads/realtime_thread.hpp"
 
 #include "cortex/core/event_count.hpp"
+#include "cortex/core/machine.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cfenv>
-#include <fstream>
-#include <sstream>
 #include <system_error>
 #include <thread>
 
@@ -50,24 +49,17 @@ std::vector<int> allowedCpus() {
     return cpus;
 }
 
-std::string firstLine(const std::string& file) {
-    std::ifstream stream{file};
-    std::string line;
-    std::getline(stream, line);
-    return line;
-}
-
 // The CPUs that share the last-level cache of this one; empty where the system states no cache.
 std::vector<int> cpusOfLastCache(const std::string& cpuFolder, int cpu) {
     std::string last, cpus;
     for (int index = 0;; ++index) {
         const std::string cache =
             cpuFolder + "/cpu" + std::to_string(cpu) + "/cache/index" + std::to_string(index);
-        const std::string level = firstLine(cache + "/level");
+        const std::string level = firstLineOf(cache + "/level");
         if (level.empty()) return cpusOf(cpus);
         if (level <= last) continue;  // one digit
         last = level;
-        cpus = firstLine(cache + "/shared_cpu_list");
+        cpus = firstLineOf(cache + "/shared_cpu_list");
     }
 }
 
@@ -76,7 +68,7 @@ std::vector<int> cpusOfLastCache(const std::string& cpuFolder, int cpu) {
 const std::vector<int>& nameableCpus() {
     static const std::vector<int> found = [] {
         std::vector<int> cpus = usableCpus();
-        const auto isolated = settableCpus(cpusOf(firstLine("/sys/devices/system/cpu/isolated")));
+        const auto isolated = settableCpus(cpusOf(firstLineOf("/sys/devices/system/cpu/isolated")));
         cpus.insert(cpus.end(), isolated.begin(), isolated.end());
         std::ranges::sort(cpus);
         cpus.erase(std::ranges::unique(cpus).begin(), cpus.end());
@@ -248,12 +240,12 @@ AwakeCpus::~AwakeCpus() {
 ThreadPlace placeOfThisThread() {
     ThreadPlace place;
     place.cpus = allowedCpus();
-    place.isolated = cpusOf(firstLine("/sys/devices/system/cpu/isolated"));
+    place.isolated = cpusOf(firstLineOf("/sys/devices/system/cpu/isolated"));
     int policy = SCHED_OTHER;
     sched_param parameter{};
     pthread_getschedparam(pthread_self(), &policy, &parameter);
     place.realTime = policy == SCHED_FIFO || policy == SCHED_RR;
-    place.throttled = firstLine("/proc/sys/kernel/sched_rt_runtime_us") != "-1";
+    place.throttled = firstLineOf("/proc/sys/kernel/sched_rt_runtime_us") != "-1";
     return place;
 }
 
@@ -280,20 +272,6 @@ std::vector<std::string> spinReport(const ThreadPlace& place, std::int64_t spin,
             "'sysctl kernel.sched_rt_runtime_us=-1'.");
     }
     return report;
-}
-
-std::vector<int> cpusOf(const std::string& list) {
-    std::vector<int> cpus;
-    std::istringstream in{list};
-    for (std::string range; std::getline(in, range, ',');) {
-        std::istringstream ends{range};
-        int first = 0, last = 0;
-        char dash = 0;
-        if (!(ends >> first)) continue;
-        if (!(ends >> dash >> last)) last = first;
-        for (int cpu = first; cpu <= last && cpu < CPU_SETSIZE; ++cpu) cpus.push_back(cpu);
-    }
-    return cpus;
 }
 
 [[gnu::noinline]] void prefaultStack() noexcept {

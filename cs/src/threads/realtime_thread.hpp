@@ -89,9 +89,6 @@ ThreadPlace placeOfThisThread();
 std::vector<std::string> spinReport(const ThreadPlace& place, std::int64_t spin,
                                     std::int64_t period);
 
-// CPUs as the kernel lists them: "2-3,6".
-std::vector<int> cpusOf(const std::string& list);
-
 // Touches the calling thread's stack, so that the loop meets no page fault on it.
 void prefaultStack() noexcept;
 

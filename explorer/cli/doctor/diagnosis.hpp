@@ -19,10 +19,4 @@ using Diagnoses = std::vector<Diagnosis>;
 // what else uses them, idle states, pages, hypervisor. `root` has its proc, sys and dev.
 void examineRealTime(const std::filesystem::path& root, Diagnoses& found);
 
-// The first line of a file, without blanks at its end; "" if it cannot be read.
-std::string lineOf(const std::filesystem::path& file);
-
-// "2-3,6" as the kernel has it; what is no number ends the list.
-std::vector<int> cpusOf(const std::string& list);
-
 }  // namespace cortex::explorer

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/machine.hpp"
+
 #include "doctor/doctor.hpp"
 
 #include <algorithm>
@@ -43,7 +45,7 @@ void examineGovernor(Diagnoses& found) {
     std::set<std::string> governors;
     std::error_code ignored;
     for (const auto& each : fs::directory_iterator{"/sys/devices/system/cpu", ignored}) {
-        const std::string governor = lineOf(each.path() / "cpufreq/scaling_governor");
+        const std::string governor = firstLineOf(each.path() / "cpufreq/scaling_governor");
         if (!governor.empty()) governors.insert(governor);
     }
     const std::string all = joined({governors.begin(), governors.end()});
@@ -61,8 +63,8 @@ void examineKernel(Diagnoses& found) {
     utsname system{};
     uname(&system);
     const std::string version = system.version;
-    const bool realTime =
-        lineOf("/sys/kernel/realtime") == "1" || version.find("PREEMPT_RT") != std::string::npos;
+    const bool realTime = firstLineOf("/sys/kernel/realtime") == "1" ||
+                          version.find("PREEMPT_RT") != std::string::npos;
     const std::string text = std::string{system.sysname} + " " + system.release;
     if (realTime) {
         found.push_back({Level::Ok, "kernel", text + " is PREEMPT_RT", ""});
@@ -86,15 +88,15 @@ void examinePriority(Diagnoses& found) {
                          std::string{"write '@cortex - rtprio 90' into "} + limitsFile +
                              ", add the user to that group, and log in again"});
     }
-    const std::string runtime = lineOf("/proc/sys/kernel/sched_rt_runtime_us");
+    const std::string runtime = firstLineOf("/proc/sys/kernel/sched_rt_runtime_us");
     if (runtime == "0") {
         found.push_back({Level::Error, "throttling", "the system gives real-time threads no time",
                          "sudo sysctl kernel.sched_rt_runtime_us=950000"});
     } else if (!runtime.empty()) {
-        const std::string text = runtime == "-1"
-                                     ? "real-time threads are not throttled"
-                                     : "real-time threads may use " + runtime + " us of each " +
-                                           lineOf("/proc/sys/kernel/sched_rt_period_us") + " us";
+        const std::string text =
+            runtime == "-1" ? "real-time threads are not throttled"
+                            : "real-time threads may use " + runtime + " us of each " +
+                                  firstLineOf("/proc/sys/kernel/sched_rt_period_us") + " us";
         found.push_back({Level::Ok, "throttling", text, ""});
     }
 }
@@ -133,7 +135,7 @@ void examineClocks(Diagnoses& found) {
     timespec resolution{};
     clock_getres(CLOCK_MONOTONIC, &resolution);
     const std::string source =
-        lineOf("/sys/devices/system/clocksource/clocksource0/current_clocksource");
+        firstLineOf("/sys/devices/system/clocksource/clocksource0/current_clocksource");
     const bool fine = resolution.tv_sec == 0 && resolution.tv_nsec <= 1000;
     const bool slow = source == "hpet" || source == "acpi_pm" || source == "jiffies";
     const std::string text = "steps of " + std::to_string(resolution.tv_nsec) + " ns" +

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/machine.hpp"
+
 #include "doctor/doctor.hpp"
 
 #include <algorithm>
@@ -167,7 +169,7 @@ void examinePorts(int domain, Diagnoses& found) {
                              " before the first free port",
                          ""});
     }
-    std::istringstream range{lineOf("/proc/sys/net/ipv4/ip_local_port_range")};
+    std::istringstream range{firstLineOf("/proc/sys/net/ipv4/ip_local_port_range")};
     int first = 0, last = 0;
     const bool known = static_cast<bool>(range >> first >> last);
     if (known && base + 249 >= first && base <= last) {
@@ -181,7 +183,7 @@ void examinePorts(int domain, Diagnoses& found) {
 
 void examineBuffers(Diagnoses& found) {
     for (const std::string each : {"rmem_max", "wmem_max"}) {
-        const std::string text = lineOf("/proc/sys/net/core/" + each);
+        const std::string text = firstLineOf("/proc/sys/net/core/" + each);
         if (text.empty()) continue;
         if (std::strtol(text.c_str(), nullptr, 10) >= enoughBuffer) {
             found.push_back({Level::Ok, "buffers", each + " " + text + " bytes", ""});

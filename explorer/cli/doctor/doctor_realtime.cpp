@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/machine.hpp"
+
 #include "doctor/diagnosis.hpp"
 #include "text/output.hpp"
 
@@ -7,7 +9,6 @@
 #include <fstream>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include <unistd.h>
 
@@ -34,34 +35,9 @@ std::vector<int> without(const std::vector<int>& cpus, const std::vector<int>& o
     return rest;
 }
 
-bool hasWord(const std::string& text, const std::string& word) {
-    std::istringstream in{text};
-    for (std::string each; in >> each;) {
-        if (each == word) return true;
-    }
-    return false;
-}
-
-// none, voluntary, lazy or full; "" where the kernel does not tell.
-std::string preemption(const fs::path& root) {
-    const std::string modes = lineOf(root / "sys/kernel/debug/sched/preempt");  // "none (full)"
-    const std::size_t begin = modes.find('(');
-    if (begin != std::string::npos) return modes.substr(begin + 1, modes.find(')') - begin - 1);
-    std::istringstream words{lineOf(root / "proc/cmdline")};
-    std::string told;
-    for (std::string word; words >> word;) {
-        if (word.starts_with("preempt=")) told = word.substr(8);
-    }
-    const std::string version = lineOf(root / "proc/version");
-    if (told.empty() && hasWord(version, "PREEMPT")) return "full";
-    if (told.empty() && version.find("PREEMPT") == std::string::npos) return "voluntary";
-    return told;
-}
-
 void examinePreemption(const fs::path& root, Diagnoses& found) {
     const std::string mode = preemption(root);
-    if (lineOf(root / "sys/kernel/realtime") == "1" ||
-        hasWord(lineOf(root / "proc/version"), "PREEMPT_RT")) {
+    if (mode == "PREEMPT_RT") {
         found.push_back({Level::Ok, "preemption", "everywhere (PREEMPT_RT)", ""});
     } else if (mode == "full") {
         found.push_back({Level::Ok, "preemption", "full", ""});
@@ -78,7 +54,7 @@ void examinePreemption(const fs::path& root, Diagnoses& found) {
 }
 
 void examineIsolation(const fs::path& root, const std::vector<int>& isolated, Diagnoses& found) {
-    const std::vector<int> tickless = cpusOf(lineOf(root / cpuFolder / "nohz_full"));
+    const std::vector<int> tickless = cpusOf(firstLineOf(root / cpuFolder / "nohz_full"));
     const std::vector<int> ticking = without(isolated, tickless);
     if (isolated.empty()) {
         found.push_back({Level::Warning, "isolation",
@@ -98,8 +74,8 @@ void examineInterrupts(const fs::path& root, const std::vector<int>& isolated, D
     std::set<int> interrupts;
     std::error_code ignored;
     for (const auto& each : fs::directory_iterator{root / "proc/irq", ignored}) {
-        std::string cpus = lineOf(each.path() / "effective_affinity_list");
-        if (cpus.empty()) cpus = lineOf(each.path() / "smp_affinity_list");
+        std::string cpus = firstLineOf(each.path() / "effective_affinity_list");
+        if (cpus.empty()) cpus = firstLineOf(each.path() / "smp_affinity_list");
         if (without(isolated, cpusOf(cpus)).size() == isolated.size()) continue;
         for (const int number : cpusOf(each.path().filename())) interrupts.insert(number);
     }
@@ -121,7 +97,7 @@ void examineCores(const fs::path& root, const std::vector<int>& isolated, Diagno
     std::vector<int> shared;
     for (const int cpu : isolated) {
         const fs::path folder = root / cpuFolder / ("cpu" + std::to_string(cpu)) / "topology";
-        const auto siblings = cpusOf(lineOf(folder / "thread_siblings_list"));
+        const auto siblings = cpusOf(firstLineOf(folder / "thread_siblings_list"));
         if (!without(siblings, isolated).empty()) shared.push_back(cpu);
     }
     if (shared.empty()) {
@@ -154,37 +130,29 @@ IdleState deepest(const fs::path& root, const std::vector<int>& cpus) {
     for (const int cpu : cpus) {
         const fs::path folder = root / cpuFolder / ("cpu" + std::to_string(cpu)) / "cpuidle";
         for (const auto& each : fs::directory_iterator{folder, ignored}) {
-            if (lineOf(each.path() / "disable") == "1") continue;
-            const std::vector<int> latency = cpusOf(lineOf(each.path() / "latency"));
+            if (firstLineOf(each.path() / "disable") == "1") continue;
+            const std::vector<int> latency = cpusOf(firstLineOf(each.path() / "latency"));
             if (latency.empty() || latency.front() <= worst.latency) continue;
-            worst = {lineOf(each.path() / "name"), latency.front()};
+            worst = {firstLineOf(each.path() / "name"), latency.front()};
         }
     }
     return worst;
 }
 
-bool isVirtual(const fs::path& root) {
-    std::ifstream file{root / "proc/cpuinfo"};
-    for (std::string line; std::getline(file, line);) {
-        if (line.starts_with("flags")) return hasWord(line, "hypervisor");
-    }
-    return false;
-}
-
 // Of a virtual machine each idle state is deep: the host gives the CPU to others.
 void examineIdle(const fs::path& root, const std::vector<int>& isolated, Diagnoses& found) {
-    const auto all = cpusOf(lineOf(root / cpuFolder / "online"));
+    const auto all = cpusOf(firstLineOf(root / cpuFolder / "online"));
     const IdleState state = deepest(root, isolated.empty() ? all : isolated);
     const std::optional<int> limit = latencyLimit(root);
     const std::string takes = state.name + ", " + std::to_string(state.latency) + " us to wake up";
-    const bool isGivenAway = isVirtual(root);
+    const bool isGivenAway = isVirtualMachine(root);
     if (limit && *limit <= (isGivenAway ? 0 : soonAwake)) {
         found.push_back(
             {Level::Ok, "idle",
              "a program keeps CPUs awake: at most " + std::to_string(*limit) + " us to wake up",
              ""});
     } else if (state.latency <= soonAwake && !isGivenAway) {
-        const std::string driver = lineOf(root / cpuFolder / "cpuidle/current_driver");
+        const std::string driver = firstLineOf(root / cpuFolder / "cpuidle/current_driver");
         found.push_back({Level::Ok, "idle",
                          state.name.empty() ? "no deep idle state" +
                                                   (driver.empty() ? "" : " (driver " + driver + ")")
@@ -206,8 +174,8 @@ void examineIdle(const fs::path& root, const std::vector<int>& isolated, Diagnos
 
 // Both take pages away and give them back, locked or not.
 void examinePages(const fs::path& root, Diagnoses& found) {
-    const std::string huge = lineOf(root / "sys/kernel/mm/transparent_hugepage/enabled");
-    const std::string moved = lineOf(root / "proc/sys/kernel/numa_balancing");
+    const std::string huge = firstLineOf(root / "sys/kernel/mm/transparent_hugepage/enabled");
+    const std::string moved = firstLineOf(root / "proc/sys/kernel/numa_balancing");
     if (huge.find("[always]") != std::string::npos) {
         found.push_back({Level::Warning, "pages",
                          "the kernel joins pages to huge ones: a loop may wait for it",
@@ -221,7 +189,7 @@ void examinePages(const fs::path& root, Diagnoses& found) {
 }
 
 void examineHypervisor(const fs::path& root, Diagnoses& found) {
-    if (isVirtual(root)) {
+    if (isVirtualMachine(root)) {
         found.push_back({Level::Warning, "hypervisor",
                          "this is a virtual machine: its host decides when a loop runs",
                          "pin its CPUs on the host, measure, or use the machine itself"});
@@ -232,31 +200,8 @@ void examineHypervisor(const fs::path& root, Diagnoses& found) {
 
 }  // namespace
 
-std::string lineOf(const fs::path& file) {
-    std::ifstream stream{file};
-    std::string line;
-    std::getline(stream, line);
-    line.erase(line.find_last_not_of(" \t\r\n") + 1);
-    return line;
-}
-
-std::vector<int> cpusOf(const std::string& list) {
-    constexpr int most = 8192;
-    std::vector<int> cpus;
-    std::istringstream in{list};
-    for (std::string range; std::getline(in, range, ',');) {
-        std::istringstream ends{range};
-        int first = 0, last = 0;
-        char dash = 0;
-        if (!(ends >> first)) break;
-        if (!(ends >> dash >> last)) last = first;
-        for (int cpu = first; cpu <= std::min(last, first + most); ++cpu) cpus.push_back(cpu);
-    }
-    return cpus;
-}
-
 void examineRealTime(const fs::path& root, Diagnoses& found) {
-    const std::vector<int> isolated = cpusOf(lineOf(root / cpuFolder / "isolated"));
+    const std::vector<int> isolated = cpusOf(firstLineOf(root / cpuFolder / "isolated"));
     examinePreemption(root, found);
     examineIsolation(root, isolated, found);
     if (!isolated.empty()) {

@@ -2,6 +2,7 @@
 #include "live/saved_file.hpp"
 
 #include "cortex/core/model_files.hpp"
+#include "cortex/core/xml_text.hpp"
 
 #include "models/model.hpp"
 #include "text/new_files.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/new_type_text.hpp"
 
+#include "cortex/core/xml_text.hpp"
+
 #include "text/new_files.hpp"
 
 namespace cortex::explorer {

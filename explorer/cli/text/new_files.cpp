@@ -85,30 +85,6 @@ std::string filledIn(std::string_view text, const std::vector<Substitution>& sub
     return result;
 }
 
-std::string xmlAttribute(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                if (static_cast<unsigned char>(c) < 0x20) {
-                    result += "&#" + std::to_string(static_cast<int>(c)) + ";";
-                } else {
-                    result += c;
-                }
-        }
-    }
-    return result;
-}
-
 std::string fileNameHint(std::string_view name) {
     return name.ends_with(".xml") ? "; a file is named by -o" : "";
 }

@@ -32,8 +32,7 @@ struct Substitution {
 };
 std::string filledIn(std::string_view text, const std::vector<Substitution>& substitutions);
 
-std::string xmlAttribute(std::string_view text);  // escaped
-std::string xmlComment(std::string_view text);    // what may stand in a comment
+std::string xmlComment(std::string_view text);  // what may stand in a comment
 
 // Of a wrong name that is a file's: where that belongs.
 std::string fileNameHint(std::string_view name);

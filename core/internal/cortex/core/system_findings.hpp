@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/findings.hpp"
+#include "cortex/core/findings.hpp"
 
 // What validate() and the tree find in a system, beside what its files and types are found to be.
 // Names are never changed, only added.
@@ -9,6 +9,7 @@ namespace cortex::finding {
 
 // The agent
 inline constexpr char agentType[] = "agent-type";
+inline constexpr char noClusterType[] = "no-cluster-type";
 inline constexpr char clusterPath[] = "cluster-path";
 inline constexpr char dataSize[] = "data-size";
 
@@ -17,6 +18,8 @@ inline constexpr char malformedPath[] = "malformed-path";
 inline constexpr char abstractType[] = "abstract-type";
 inline constexpr char everyRange[] = "every-range";
 inline constexpr char createdPath[] = "created-path";
+inline constexpr char noClass[] = "no-class";
+inline constexpr char populate[] = "populate";
 
 // A relationship
 inline constexpr char unknownRule[] = "unknown-rule";
