@@ -33,7 +33,8 @@ struct SystemDescription {
         std::vector<Setting> settings;
         Place place;
     };
-    // Attributes of `<cluster>`: frequency, threads, priority, overflow, …, checked by who uses them.
+    // Attributes of `<cluster>`: frequency, threads, priority, overflow, …, checked by who uses
+    // them.
     struct ClusterEntry {
         std::string name;
         std::map<std::string, std::string> attributes;
