@@ -9,7 +9,8 @@
 namespace cortex {
 
 std::string relateText(std::string_view rule, std::string_view to, std::string_view more) {
-    std::string text = "<relate rule=\"" + xmlAttribute(rule) + "\" to=\"" + xmlAttribute(to) + "\"";
+    std::string text =
+        "<relate rule=\"" + xmlAttribute(rule) + "\" to=\"" + xmlAttribute(to) + "\"";
     if (!more.empty()) text += " " + std::string{more};
     return text + "/>";
 }
