@@ -180,21 +180,21 @@ TEST(Scheduler, DropsPredecessorsThatAnotherImplies) {
 }
 
 TEST(Scheduler, DoesNotMultiplyWritersByReaders) {
-    constexpr std::uint32_t Half = 20000;
+    constexpr std::uint32_t half = 20000;
     TaskGraph graph;
-    graph.nodes.resize(2 * Half + 1);
+    graph.nodes.resize(2 * half + 1);
     for (std::uint32_t i = 0; i < graph.nodes.size(); ++i) {
-        graph.nodes[i] = {"/n" + std::to_string(i), i != 2 * Half, 1, 0};
+        graph.nodes[i] = {"/n" + std::to_string(i), i != 2 * half, 1, 0};
     }
-    for (std::uint32_t i = 0; i < Half; ++i) {
-        graph.edges.emplace_back(i, 2 * Half);
-        graph.edges.emplace_back(2 * Half, Half + i);
+    for (std::uint32_t i = 0; i < half; ++i) {
+        graph.edges.emplace_back(i, 2 * half);
+        graph.edges.emplace_back(2 * half, half + i);
     }
 
     const Schedule schedule = makeSchedule(graph, {.threads = 2, .chunkSize = 1});
 
-    EXPECT_EQ(schedule.tasks.size(), 2 * Half);
-    EXPECT_LE(schedule.predecessors.size(), 2 * Half);
+    EXPECT_EQ(schedule.tasks.size(), 2 * half);
+    EXPECT_LE(schedule.predecessors.size(), 2 * half);
     EXPECT_EQ(schedule.threads, 2U);
 }
 

@@ -222,9 +222,9 @@ std::int64_t fromNow(std::chrono::nanoseconds time) {
 /// The chunks of a cycle wait for each other, so no cycle ends unless all workers come: whether
 /// they are told nothing of the next cycle, or that it is due, was, or will be long after it is.
 TEST(ThreadPool, WakesEachWorkerInEachCycle) {
-    constexpr std::uint32_t Threads = 4;
-    constexpr std::array<std::chrono::nanoseconds, 4> Due{0ns, -1ms, 50us, 1h};
-    const Schedule schedule = flatSchedule(Threads, Threads);
+    constexpr std::uint32_t threadCount = 4;
+    constexpr std::array<std::chrono::nanoseconds, 4> delays{0ns, -1ms, 50us, 1h};
+    const Schedule schedule = flatSchedule(threadCount, threadCount);
     std::atomic<std::uint32_t> arrived{0};
     std::uint32_t expected = 0;
     Chunks chunks{[&](std::uint32_t, std::uint32_t) {
@@ -234,9 +234,9 @@ TEST(ThreadPool, WakesEachWorkerInEachCycle) {
     for (const std::uint32_t spin : {0U, 20U}) {
         ThreadPool pool(schedule, &decltype(chunks)::run, &chunks, {.spinMicroseconds = spin});
         for (std::size_t cycle = 0; cycle < 500; ++cycle) {
-            const std::chrono::nanoseconds due = Due[cycle % Due.size()];
+            const std::chrono::nanoseconds due = delays[cycle % delays.size()];
             const std::int64_t next = due == 0ns ? 0 : fromNow(due);
-            expected += Threads;
+            expected += threadCount;
             pool.cycle(next);
             if (due == 50us) waitUntil([&] { return fromNow(0ns) >= next; });
         }

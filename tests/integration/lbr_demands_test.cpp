@@ -17,7 +17,7 @@
 namespace cortex::test {
 namespace {
 
-constexpr const char* Types = R"(
+constexpr const char* types = R"(
     <type name="TestFollow" extends="FollowAxisController" description="Fails when it is told to."/>
     <type name="TestDrive" extends="SimulatedAxis" description="Loses its sensor when told to."/>)";
 
@@ -77,7 +77,7 @@ public:
         const Axes now = positionsOf(image, "demands");
         const double seconds = static_cast<double>(image.nominalTime() - lastTime_) * 1e-9;
         if (lastTime_ >= 0) {
-            for (std::size_t i = 0; i < LbrAxes; ++i) {
+            for (std::size_t i = 0; i < lbrAxes; ++i) {
                 const double allowed = joints_[i].maxSpeed * seconds;
                 worst = std::max(worst, std::abs(now[i] - last_[i]) / allowed);
                 way += std::abs(now[i] - last_[i]);
@@ -148,7 +148,7 @@ void loseAxis(Teleop& teleop) {
     const Axes before = positionsOf(teleop.image(), "demands");
     teleop.step(700);
     const Axes after = positionsOf(teleop.image(), "demands");
-    for (std::size_t i = 0; i < LbrAxes; ++i) EXPECT_NEAR(after[i], before[i], 0.05);
+    for (std::size_t i = 0; i < lbrAxes; ++i) EXPECT_NEAR(after[i], before[i], 0.05);
 }
 
 void findAxis(Teleop& teleop) { drive(teleop).blind = false; }
@@ -166,7 +166,7 @@ class Demands : public testing::TestWithParam<WayOut> {};
 
 Teleop::Set setOf(cs::Overflow overflow, StepWatch& watch) {
     Teleop::Set set;
-    set.ontology = Types;
+    set.ontology = types;
     set.replacements = {
         {"type=\"FollowAxisController\"", "type=\"TestFollow\""},
         {"path=\"/drives/4\" type=\"SimulatedAxis\"", "path=\"/drives/4\" type=\"TestDrive\""}};

@@ -9,11 +9,11 @@
 namespace cortex::test {
 namespace {
 
-constexpr double EndOfPath = 23.9;  // s
+constexpr double endOfPath = 23.9;  // s
 
 double farthest(const Axes& from, const Axes& to) {
     double distance = 0;
-    for (std::size_t i = 0; i < LbrAxes; ++i) {
+    for (std::size_t i = 0; i < lbrAxes; ++i) {
         distance = std::max(distance, std::abs(to[i] - from[i]));
     }
     return distance;
@@ -30,7 +30,7 @@ TEST(LbrTeleop, TipFollowsTheHand) {
     Teleop teleop;
     teleop.startUp();
 
-    const Tracking tracking = track(teleop, EndOfPath);
+    const Tracking tracking = track(teleop, endOfPath);
 
     EXPECT_LT(tracking.rmsPosition, 2);
     EXPECT_LT(tracking.rmsRotation, 1);
@@ -113,7 +113,7 @@ TEST_P(FlippedJoint, BreaksThePromise) {
     Teleop teleop{set};
     teleop.startUp();
 
-    const Tracking tracking = track(teleop, EndOfPath);
+    const Tracking tracking = track(teleop, endOfPath);
 
     EXPECT_GT(tracking.seconds, 5);
     EXPECT_FALSE(tracking.keepsPromise());
@@ -132,7 +132,7 @@ TEST(LbrTeleop, FollowReplacedByHoldBreaksThePromise) {
     Teleop teleop{set};
     teleop.startUp();
 
-    const Tracking tracking = track(teleop, EndOfPath);
+    const Tracking tracking = track(teleop, endOfPath);
 
     EXPECT_GT(tracking.seconds, 5);
     EXPECT_FALSE(tracking.keepsPromise());

@@ -109,7 +109,7 @@ void Teleop::runUntil(double time) {
 
 Axes positionsOf(const Image& image, const std::string& group) {
     Axes positions{};
-    for (std::size_t i = 0; i < LbrAxes; ++i) {
+    for (std::size_t i = 0; i < lbrAxes; ++i) {
         positions[i] =
             image.get<double>("/arm/lbr/" + group + "/" + std::to_string(i + 1), "position");
     }
@@ -132,8 +132,8 @@ Tracking track(Teleop& teleop, double until) {
     const toolkit::SerialChain chain = toolkit::test::lbrChain();
     const auto tipOf = [&](const Image& image) {
         const Axes axes = positionsOf(image, "axes");
-        toolkit::SerialChain::JointVector joints(LbrAxes);
-        for (std::size_t i = 0; i < LbrAxes; ++i) joints[static_cast<Eigen::Index>(i)] = axes[i];
+        toolkit::SerialChain::JointVector joints(lbrAxes);
+        for (std::size_t i = 0; i < lbrAxes; ++i) joints[static_cast<Eigen::Index>(i)] = axes[i];
         return chain.forward(joints);
     };
     const auto motion = [](const Pose& from, const Pose& to) {

@@ -15,8 +15,8 @@
 
 namespace cortex::test {
 
-inline constexpr std::size_t LbrAxes = 7;
-using Axes = std::array<double, LbrAxes>;
+inline constexpr std::size_t lbrAxes = 7;
+using Axes = std::array<double, lbrAxes>;
 using Replacements = std::vector<std::pair<std::string, std::string>>;
 
 // The shipped system file of the case study, with each text replaced that is named, in a folder of

@@ -9,7 +9,7 @@
 namespace cortex::toolkit::test {
 namespace {
 
-constexpr double Axis1Speed = 85 * std::numbers::pi / 180;
+constexpr double axis1Speed = 85 * std::numbers::pi / 180;
 
 class OneDrive : public testing::Test {
 protected:
@@ -72,8 +72,8 @@ TEST_F(SimulatedAxis, ReachesADemandNoFasterThanItsAxisMay) {
     }
 
     EXPECT_NEAR(position(), 1.0, 1e-6);
-    EXPECT_LE(fastest, Axis1Speed * (1 + 1e-9));
-    EXPECT_GT(fastest, Axis1Speed * 0.99);
+    EXPECT_LE(fastest, axis1Speed * (1 + 1e-9));
+    EXPECT_GT(fastest, axis1Speed * 0.99);
     EXPECT_EQ(rig_.get<std::int64_t>("/drive", "limitCount"), 1);
 }
 

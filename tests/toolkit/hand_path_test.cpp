@@ -14,7 +14,7 @@
 namespace cortex::toolkit {
 namespace {
 
-constexpr double Period = 0.001;
+constexpr double period = 0.001;
 
 const RecordedPath& hand() {
     static const RecordedPath Path = RecordedPath::load(
@@ -23,9 +23,9 @@ const RecordedPath& hand() {
     return Path;
 }
 
-int ticks() { return static_cast<int>(std::lround(hand().duration() / Period)); }
+int ticks() { return static_cast<int>(std::lround(hand().duration() / period)); }
 
-PathSample atTick(int tick) { return hand().at(tick * Period); }
+PathSample atTick(int tick) { return hand().at(tick * period); }
 
 double turnBetween(const Pose& a, const Pose& b) { return difference(a, b).tail<3>().norm(); }
 
@@ -45,7 +45,7 @@ std::vector<Press> presses() {
 }
 
 double speedAt(int tick) {
-    return (atTick(tick + 1).pose.position - atTick(tick).pose.position).norm() / Period;
+    return (atTick(tick + 1).pose.position - atTick(tick).pose.position).norm() / period;
 }
 
 double rmsSpeed(int from, int until) {
@@ -150,7 +150,7 @@ Effort followed() {
     const SerialChain arm = test::lbrChain();
     const auto posture = test::lbrPosture();
     SerialChain::InverseOptions options;
-    options.period = Period;
+    options.period = period;
     Effort effort;
     auto joints = posture;
     Eigen::VectorXd speed = Eigen::VectorXd::Zero(7);
@@ -171,10 +171,10 @@ Effort followed() {
                 sample.pose.rotation * handAtPress.rotation.conjugate() * tipAtPress.rotation};
             if (!arm.inverse(target, joints, posture, options).converged) ++effort.notConverged;
         }
-        const Eigen::VectorXd now = (joints - before) / Period;
+        const Eigen::VectorXd now = (joints - before) / period;
         // The jump at a release in motion is the controller's to smooth, not the path's.
         if (pressed) {
-            const Eigen::VectorXd acceleration = (now - speed).cwiseAbs() / Period;
+            const Eigen::VectorXd acceleration = (now - speed).cwiseAbs() / period;
             effort.acceleration = effort.acceleration.cwiseMax(acceleration);
         }
         speed = now;

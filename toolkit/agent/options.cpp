@@ -17,7 +17,7 @@ namespace {
 
 constexpr int usageError = 2;
 
-constexpr const char* Footer =
+constexpr const char* footerText =
     R"(Exit codes: 0 ended; 1 model refused, the report was printed; 2 usage; 3 halted or hung.
 Settings of the loop stand in the system file, <cluster name="…" frequency="…" threads="…"
 priority="…" overflow="…"/>; options outrank them. Files are looked for beside the file that names
@@ -124,7 +124,7 @@ std::string wrongUsage(const CLI::App& app, const CLI::ParseError& error) {
 std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode) {
     CommandLine line;
     CLI::App app{"Runs a system file with the toolkit's types and those of plug-ins."};
-    app.name("cortex-agent")->footer(Footer);
+    app.name("cortex-agent")->footer(footerText);
     app.add_option("SYSTEM.xml", line.system, "the system file")->required()->type_name("");
     app.add_option("--plugin", line.plugins,
                    "shared object with classes of active types; once for each")

@@ -6,8 +6,8 @@
 namespace cortex {
 namespace {
 
-constexpr std::int64_t stalePeriods = 3;  // missed ones
-constexpr std::int64_t toldPeriods = 20;  // fewer happen often where nothing runs in real time
+constexpr std::int64_t stalePeriods = 3;      // missed ones
+constexpr std::int64_t reportedPeriods = 20;  // fewer happen often where nothing runs in real time
 
 std::size_t octetsOf(const LinkBinding::Copy& copy) {
     const bool octets = copy.kind == Kind::Bool || copy.kind == Kind::String;
@@ -50,7 +50,7 @@ void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Sl
     runtime_.ownerPeriods_[simplex - runtime_.firstRemote_] = link->period;
     if (!link->bound) post(Severity::Info, simplex, "linked");
     link->bound = true;
-    link->told = false;
+    link->reported = false;
 }
 
 void LinkTable::constants(std::uint32_t simplex, const LinkBinding& binding, const Slice& from) {
@@ -77,8 +77,8 @@ void LinkTable::age() {
             state.quality = Quality::Stale;
             state.cause = link.simplex;
         }
-        if (link.told || age < toldPeriods * link.period) continue;
-        link.told = true;
+        if (link.reported || age < reportedPeriods * link.period) continue;
+        link.reported = true;
         post(Severity::Warning, link.simplex, "no fresh sample for 20 periods");
     }
 }

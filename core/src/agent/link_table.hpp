@@ -27,7 +27,7 @@ private:
         std::uint32_t simplex;
         Slice slice;
         std::int64_t freshTime = 0, period = 0;  // ns, nominal time
-        bool bound = false, told = false;
+        bool bound = false, reported = false;
     };
     Link* find(std::uint32_t simplex) CORTEX_REALTIME;
     void post(Severity severity, std::uint32_t simplex, const char* text) CORTEX_REALTIME;

@@ -91,7 +91,9 @@ Simplex& RelatedSimplex::simplex() const {
     return runtime.simplex(target);
 }
 
-bool RelatedSimplex::later() const { return owner_->runtime().structure().edges[edge_].delayed; }
+bool RelatedSimplex::isDelayed() const {
+    return owner_->runtime().structure().edges[edge_].delayed;
+}
 
 bool RelatedSimplex::has(std::string_view item) const { return type().findData(item) != nullptr; }
 

@@ -95,7 +95,7 @@ bool CommandPort::hasPassingWork() const {
     const std::byte* request = lane.requestOf(head);
     if (!entry.isShort || dead_ || !entry.available.has(state_)) return false;
     for (const ArgumentCheck& check : entry.checks) {
-        if (!plainlyGood(check, request)) return false;
+        if (!isOneNumberInRange(check, request)) return false;
     }
     const Handler& handler = handlerOf(head.command);
     if (handler.function == nullptr) return false;

@@ -37,7 +37,7 @@ SimplexCS::LifeCycleSender SimplexCS::lifeCycle(const RelatedSimplex& target, bo
     LifeCycleSender sender;
     sender.runtime_ = &runtime();
     sender.target_ = active->index();
-    sender.isDelayed_ = target.later();
+    sender.isDelayed_ = target.isDelayed();
     sender.state_ = InputSimplex{target}.data<std::int64_t>("state");
     if (manage) active->manager_ = index();
     return sender;

@@ -33,7 +33,7 @@ public:
     bool has(std::string_view item) const;
     // The object itself; throws Error if it belongs to another agent.
     Simplex& simplex() const;
-    bool later() const;  // delayed: what is sent arrives in the next cycle
+    bool isDelayed() const;  // what is sent arrives in the next cycle
 
 protected:
     void* cell(std::string_view item, Kind kind, bool array, bool write, std::size_t& length) const;

@@ -15,7 +15,8 @@ std::vector<ArgumentCheck> compileChecks(const RecordLayout& layout);
 bool checkElements(const ArgumentCheck& check, const std::byte* record,
                    std::optional<EventText>& why) CORTEX_REALTIME;
 // One number in its range, as most are; false: checkElements() knows.
-inline bool plainlyGood(const ArgumentCheck& check, const std::byte* record) CORTEX_REALTIME {
+inline bool isOneNumberInRange(const ArgumentCheck& check, const std::byte* record)
+    CORTEX_REALTIME {
     if (check.length != 1) return false;
     if (check.kind == Kind::Float) {
         const double value = *reinterpret_cast<const double*>(record + check.offset);
@@ -27,7 +28,7 @@ inline bool plainlyGood(const ArgumentCheck& check, const std::byte* record) COR
 }
 inline bool checkArgument(const ArgumentCheck& check, const std::byte* record,
                           std::optional<EventText>& why) CORTEX_REALTIME {
-    return plainlyGood(check, record) || checkElements(check, record, why);
+    return isOneNumberInRange(check, record) || checkElements(check, record, why);
 }
 
 }  // namespace cortex
