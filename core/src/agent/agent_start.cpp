@@ -235,7 +235,7 @@ void AgentRuntime::findTaskless() {
 void AgentRuntime::start() {
     if (started_) throw Error("agent " + name_ + " is started already");
     tables_->giveUpUnusedLatches();
-    if (lanes_ == nullptr) {  // else an interface refused to be announced to before
+    if (lanes_ == nullptr) {  // otherwise an interface refused an earlier start()
         makeLanes();
         findTaskless();
     }

@@ -23,7 +23,7 @@ struct KeptOutcome {
     std::byte* response = nullptr;
 };
 
-// One start of one sender, heard through one interface.
+// One start of one sender, seen through one interface.
 struct SenderRecord {
     std::uint32_t interface = 0;
     Sender sender;

@@ -41,7 +41,7 @@ Verdict verdictOf(Outcome outcome, const Call& call) CORTEX_REALTIME;
 // a command of few parameters and its answer share one cache line.
 struct LaneSlot {
     std::int64_t cycles = 0;  // sent in that cycle; once answered, the latency
-    std::int64_t time = 0;    // ns, likewise
+    std::int64_t time = 0;    // ns; as `cycles`
     std::uint16_t command = 0;
     std::uint16_t handle = 0;  // of the sender, on this lane
     Outcome outcome = Outcome::None;
@@ -71,7 +71,7 @@ struct LaneSlot {
 class alignas(64) Lane {
 public:
     static constexpr std::uint32_t lineSize = 64;
-    static constexpr std::uint32_t mostRequest = 0xffffU * 8U;  // octets
+    static constexpr std::uint32_t mostRequest = 0xffffU * 8U;  // bytes
 
     struct Shape {
         std::uint32_t sender = noSimplex, receiver = noSimplex;

@@ -44,7 +44,7 @@ struct alignas(64) CommandSender::State {
 
     const CommandTable* table = nullptr;
     std::uint32_t edge = noSimplex, capacity = 0;
-    std::pair<std::uint32_t, std::uint32_t> sizes;  // of request and response, octets
+    std::pair<std::uint32_t, std::uint32_t> sizes;  // of request and response, bytes
     std::vector<std::uint64_t> records;             // where they do not fit
     std::uint64_t sent = 0, answered = 0;           // counted where handles share the lane
 };

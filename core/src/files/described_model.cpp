@@ -32,7 +32,7 @@ public:
         for (const DescribedItem& each : type.data) addItem(each);
         for (const DescribedCommand& each : type.commands) {
             addElement(each.name, each.description, each.attributes);
-            // Each takes 8 octets or more.
+            // Each takes 8 bytes or more.
             constexpr std::size_t most = bounds::recordSize / 8;
             if (std::max(each.request.size(), each.response.size()) > most) {
                 refuse("a command with more than 512 parameters");

@@ -106,7 +106,7 @@ public:
     Outcome reject(Reason reason, std::string_view why) CORTEX_REALTIME;
     std::string_view why() const { return why_ ? why_->view() : std::string_view{}; }
     Reason reason() const { return reason_; }
-    // Who sent it from outside; null along a relationship.
+    // The agent or tool that sent it from outside; null along a relationship.
     const Sender* sender() const { return sender_; }
 
     void setFirst(bool first) { first_ = first; }
@@ -140,7 +140,7 @@ struct Handler {
 // What one parameter or settable item is checked against, compiled from its DataItem.
 struct ArgumentCheck {
     const DataItem* item = nullptr;
-    std::uint32_t offset = 0;  // octets
+    std::uint32_t offset = 0;  // bytes
     std::uint32_t length = 1;
     Kind kind = Kind::Float;
     bool closed = false;  // only labelled numbers: an item with labels and no range
@@ -150,7 +150,7 @@ struct ArgumentCheck {
 
 // The commands of one type as the runtime sees them: those of the type, sorted; `cancel` where one
 // of them is long; last `set` where the type has settable items. The request of `set` holds a
-// presence flag (one octet) per settable item, then the items.
+// presence flag (one byte) per settable item, then the items.
 struct CommandTable {
     struct Entry {
         const Command* command = nullptr;  // null for `cancel` and `set`

@@ -15,12 +15,12 @@ namespace cortex {
 std::size_t fittingLength(std::string_view text, std::size_t capacity) CORTEX_REALTIME;
 
 // How often a text in any table has changed. Images copy texts only where it has moved: texts are
-// mostly more than half of the octets and change least. Whoever writes the cells of a text by other
+// usually more than half of the bytes and change least. Whoever writes the cells of a text by other
 // means than assign() counts it here, after writing. Any thread.
 std::uint64_t textChanges() CORTEX_REALTIME;
 void countTextChange() CORTEX_REALTIME;
 
-// Head of a string element in a table; `capacity` octets of UTF-8 follow it.
+// Head of a string element in a table; `capacity` bytes of UTF-8 follow it.
 struct StringCell {
     std::uint16_t capacity;
     std::uint16_t length;

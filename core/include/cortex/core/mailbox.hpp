@@ -18,7 +18,7 @@ struct ChunkClock {
     std::int64_t nanoseconds = 0;
 };
 
-// An answer as the sender sees it; the words stand apart, so that a Done touches one cache line.
+// An answer as the sender sees it. The words stand last, so that a Done touches one cache line.
 struct AnswerHead {
     std::uint64_t number = 0;  // of the command on its lane, from 1
     std::int64_t latencyCycles = 0;
@@ -58,7 +58,7 @@ public:
         const auto [first, length] = responseCells(name, kindFor<T>(), true);
         return {static_cast<const T*>(first), length};
     }
-    // Returns None when it is on its way, else MailboxFull.
+    // Returns None if the command is on its way, otherwise MailboxFull.
     Outcome send() CORTEX_REALTIME;
     // The newest answer; outcome None from a send() until the next answer comes.
     const AnswerHead& answer() const;

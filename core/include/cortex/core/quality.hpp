@@ -23,7 +23,7 @@ struct SlotState {
     std::int64_t time = 0;            // its nominal time, ns since the cluster's start
     std::uint32_t cause = noSimplex;  // index of the simplex that first made it not good
     Quality quality = Quality::Good;
-    std::array<std::uint8_t, 3> unused{};  // no padding: equal states are equal octets
+    std::array<std::uint8_t, 3> unused{};  // no padding: equal states are equal bytes
 
     bool operator==(const SlotState&) const = default;
 };

@@ -14,7 +14,7 @@
 
 namespace cortex {
 
-// Elements per value kind; strings are counted in octets of their cells.
+// Elements per value kind; strings are counted in bytes of their cells.
 struct BlockSizes {
     std::uint32_t ints = 0, floats = 0, bools = 0, strings = 0;
 
@@ -41,10 +41,10 @@ struct TypeLayout {
 
 TypeLayout typeLayout(const Type& type, bool remote = false);
 
-// Parameters of a command as one flat record: octet offsets, each multiple of 8.
+// Parameters of a command as one flat record: byte offsets, each multiple of 8.
 struct RecordLayout {
     std::vector<ItemLayout> items;  // in the order of the type
-    std::uint32_t size = 0;         // octets
+    std::uint32_t size = 0;         // bytes
 
     const ItemLayout* find(std::string_view parameter) const;
 };

@@ -5,7 +5,7 @@
 
 namespace cortex {
 
-// What a task is told about time. Control laws use cycle, nominalTime and elapsed; lateness is
+// What a task sees of time. Control laws use cycle, nominalTime and elapsed; lateness is
 // measured and differs from run to run.
 struct Tick {
     std::int64_t cycle = 0;        // executed cycles, from 1

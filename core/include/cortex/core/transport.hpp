@@ -16,7 +16,7 @@ namespace cortex {
 
 class ImagePool;
 
-// Largest request or response record, octets; a type that needs more is refused when it is loaded.
+// Largest request or response record, bytes; a type that needs more is refused when it is loaded.
 inline constexpr std::uint32_t maxRecord = 4096;
 
 // How many commands after the last one that it has every answer below a sender may have sent.
@@ -79,7 +79,7 @@ public:
         CORTEX_REALTIME = 0;
     virtual void linkLost(std::uint32_t simplex) CORTEX_REALTIME = 0;
     virtual void command(const OutsideCommand& command) CORTEX_REALTIME = 0;
-    // An agent or a tool that sent commands is no longer heard.
+    // Nothing comes any more from an agent or a tool that sent commands.
     virtual void senderLost(const Sender& sender) CORTEX_REALTIME = 0;
     virtual void event(Severity severity, EventKind kind, std::uint32_t simplex,
                        const EventText& text) CORTEX_REALTIME = 0;
@@ -92,7 +92,7 @@ public:
     virtual bool nextAnswer(OutsideAnswer& answer) CORTEX_REALTIME = 0;  // false: no more
 };
 
-// What an interface may use of the agent it serves, from any thread but the loop's.
+// What an interface may use of the agent that it serves, on any thread but the loop's.
 struct AgentAccess {
     std::shared_ptr<const Structure> structure;
     ImagePool* images = nullptr;
@@ -103,7 +103,8 @@ struct AgentAccess {
     std::int64_t newestCycle() const;
 };
 
-// A transport. read() and write() run in the loop: wait-free and bounded; everything else off it.
+// A transport. read() and write() run in the loop: they are wait-free and bounded. Everything
+// else happens outside the loop.
 class CommunicationInterface {
 public:
     virtual ~CommunicationInterface() = default;

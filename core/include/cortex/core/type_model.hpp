@@ -51,7 +51,7 @@ struct DataItem {
     std::string name;
     Kind kind = Kind::Float;
     std::uint32_t length = 1;     // elements; 1 is a scalar
-    std::uint32_t capacity = 64;  // octets of UTF-8 of a string element, without the terminator
+    std::uint32_t capacity = 64;  // bytes of UTF-8 of a string element, without the terminator
     std::string unit;             // UCUM text, canonical; empty: no dimension stated
     std::optional<Number> min, max;
     std::optional<double> rate;  // largest change of a demand, unit per second

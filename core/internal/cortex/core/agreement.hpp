@@ -11,7 +11,7 @@
 
 namespace cortex {
 
-// Canonical text of a type (docs/protocol.md) and the first 16 octets of its SHA-256. Two agents
+// Canonical text of a type (docs/protocol.md) and the first 16 bytes of its SHA-256. Two agents
 // with equal hashes mean the same; unequal ones are compared item by item.
 using TypeHash = std::array<std::uint8_t, 16>;
 

@@ -11,10 +11,11 @@
 namespace cortex {
 
 std::vector<ArgumentCheck> compileChecks(const RecordLayout& layout);
-// Finite, in range, a label where only labels are valid, text that fits; else why not, in words.
+// Whether the elements are finite, in range, labelled where only labels are valid, and fit.
+// Otherwise `why` says in words what is wrong.
 bool checkElements(const ArgumentCheck& check, const std::byte* record,
                    std::optional<EventText>& why) CORTEX_REALTIME;
-// One number in its range, as most are; false: checkElements() knows.
+// Whether this is one number in its range, as most are. If it is not, ask checkElements().
 inline bool isOneNumberInRange(const ArgumentCheck& check, const std::byte* record)
     CORTEX_REALTIME {
     if (check.length != 1) return false;

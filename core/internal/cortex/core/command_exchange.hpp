@@ -66,7 +66,7 @@ private:
 // answered MailboxFull already and not to be sent.
 struct PreparedCommand {
     OutsideCommand message;             // without `request`
-    std::vector<std::uint64_t> record;  // message.size octets
+    std::vector<std::uint64_t> record;  // message.size bytes
     bool open = true;
 
     const std::byte* request() const { return reinterpret_cast<const std::byte*>(record.data()); }

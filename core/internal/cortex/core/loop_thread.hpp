@@ -11,7 +11,7 @@
 
 namespace cortex {
 
-// Per loop thread: where a task posts events, what time its chunk started, what it counted.
+// Of one loop thread: where a task posts events, when its chunk started, and what it counted.
 struct alignas(64) LoopThread {
     EventRing* events = nullptr;
     ChunkClock clock;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-// What the kernel says of this machine. `root` is the folder that has its proc and sys.
+// What the kernel says of this machine. `root` is the folder in which its proc and sys stand.
 namespace cortex {
 
 // The first line of a file, without blanks at its end; "" if it cannot be read.

@@ -11,7 +11,7 @@
 
 namespace cortex {
 
-// Records of commands. Off the loop. The record is aligned to 8 octets and as large as its layout.
+// Records of commands. Off the loop. The record is aligned to 8 bytes and as large as its layout.
 // Throws Error for unknown parameters and values of the wrong kind or length; parameters that are
 // not given have their defaults.
 void encodeRecord(const CommandTable& table, std::uint32_t command,
@@ -26,7 +26,7 @@ std::map<std::string, Value> argumentsOf(const CommandTable& table, std::uint32_
 void describeRecord(const CommandTable& table, std::uint32_t command, const std::byte* record,
                     EventText& text) CORTEX_REALTIME;
 
-// Records are multiples of 8 octets, mostly one.
+// A record is a multiple of 8 bytes, usually just 8.
 inline void copyRecord(std::byte* to, const std::byte* from, std::uint32_t size) {
     if (size == 8) {
         std::memcpy(to, from, 8);

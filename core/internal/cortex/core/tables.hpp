@@ -23,7 +23,7 @@ Value loadValue(const DataItem& item, const void* cells);
 
 // All data of an agent: one contiguous block per kind and one of slot states, in one arena that is
 // copied into images; constants, latches, candidates and held copies lie outside it.
-// Built once at start(); the loop's threads write it, everybody else reads images.
+// Built once, at start(). The loop's threads write it; all other threads read images.
 class Tables {
 public:
     explicit Tables(std::shared_ptr<const Structure> structure);
@@ -37,7 +37,8 @@ public:
     // What the owner of edge `index` sees: live, latch, held copy, or its candidate to write to.
     // Setup: throws Error where it is a latch that was given up.
     Slice edge(std::uint32_t index) { return wanted(viewOf(index).seen, index); }
-    // What that slice is filled from: for a held copy the live or latched source, else itself.
+    // What that slice is filled from: for a held copy the live or latched source,
+    // otherwise the slice itself.
     Slice edgeSource(std::uint32_t index) { return wanted(viewOf(index).source, index); }
 
     // Copies every simplex that has delayed readers; at the start of a cycle.
@@ -47,7 +48,7 @@ public:
     void giveUpUnusedLatches();
 
     std::span<const std::byte> arena() const { return {arena_.get(), arenaSize_}; }
-    // Where the texts are in it: an offset and a number of octets.
+    // Where the texts are in it: an offset and a number of bytes.
     std::pair<std::size_t, std::size_t> textsInArena() const;
     std::span<const std::byte> constantArena() const { return {constants_.get(), constantSize_}; }
 

@@ -11,9 +11,9 @@
 
 namespace cortex {
 
-// Types as agents tell each other: what XML says of them, as texts. A type has everything that it
-// inherits; an attribute with its default may be left out, and describe() leaves it out, except
-// `kind`, `direction` and `target`.
+// Types as agents send them to each other: what XML says of them, as texts. A type has everything
+// that it inherits; an attribute with its default may be left out, and describe() leaves it out,
+// except `kind`, `direction` and `target`.
 struct DescribedAttribute {
     std::string name, text;  // as in XML
     bool operator==(const DescribedAttribute&) const = default;
