@@ -34,6 +34,7 @@ struct AgentStatus {
     std::string trouble;  // the contradiction in its model that keeps it incomplete
 };
 
+// An event of an agent, as it was published.
 struct AgentEvent {
     std::string agent;
     std::int64_t epoch = 0;
@@ -44,6 +45,7 @@ struct AgentEvent {
     std::string kind, path, text;
 };
 
+// The answer to a command, with the time that it took.
 struct CommandAnswer : CallResult {
     std::chrono::nanoseconds latency{};  // in the agent, from reading it to its end
 };

@@ -58,6 +58,7 @@ template <class T>
 struct Argument {
     std::uint32_t offset = 0;
 };
+// Handle to one scalar parameter of a response; for handlers.
 template <class T>
 struct Result {
     std::uint32_t offset = 0;
@@ -67,6 +68,7 @@ template <ArrayElement T>
 struct ArrayArgument {
     std::uint32_t offset = 0, length = 0;
 };
+// The same for an array.
 template <ArrayElement T>
 struct ArrayResult {
     std::uint32_t offset = 0, length = 0;

@@ -14,6 +14,7 @@
 
 namespace cortex {
 
+// The answer to a command.
 struct CallResult {
     Outcome outcome = Outcome::None;
     Reason reason = Reason::None;

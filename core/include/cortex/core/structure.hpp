@@ -59,6 +59,7 @@ struct Edge {
     bool delayed = false;
 };
 
+// One simplex of an agent, as others see it.
 struct SimplexInfo {
     std::string path;
     const TypeLayout* layout = nullptr;

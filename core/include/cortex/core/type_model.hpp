@@ -71,6 +71,7 @@ struct DataItem {
     bool operator==(const DataItem&) const = default;
 };
 
+// A command of a type, with its parameters.
 struct Command {
     std::string name;
     std::string description;

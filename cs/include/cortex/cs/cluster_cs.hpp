@@ -27,6 +27,7 @@ enum class Overflow : std::uint8_t {
     Halt      // all Active simplexes go to Fault, the loop runs on with safe demands
 };
 
+// How the loop of a cluster runs; the defaults fit a loop without real-time rights.
 struct ClusterOptions {
     std::uint32_t threads = 1;  // loop thread included
     int priority = 0;           // SCHED_FIFO 1 to 99; 0: none
