@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "threads/realtime_thread.hpp"
 
+#include "cortex/core/machine.hpp"
+
 #include "support/awake_cpus.hpp"
 
 #include <cfenv>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/probe.hpp"
 
+#include "cortex/core/agent.hpp"
+
 #include <chrono>
 
 namespace cortex::test {
