@@ -85,7 +85,7 @@ TEST(Doctor, ReadsThePreemptionModeFromWhereverItIsTold) {
     const Machine machine;
     machine.set("sys/kernel/realtime", "0");
     machine.set("proc/version", "Linux version 6.1.0 #1 SMP PREEMPT_DYNAMIC Debian");
-    expectWarning(machine.of("preemption"), "not told", "preempt=full");
+    expectWarning(machine.of("preemption"), "does not say", "preempt=full");
 
     machine.set("proc/cmdline", "quiet preempt=full");
     EXPECT_EQ(machine.of("preemption").level, Level::Ok);
