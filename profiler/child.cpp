@@ -33,6 +33,11 @@ Child::Child(const std::vector<std::string>& words) {
     output_ = output[0];
 }
 
+void Child::say(const std::string& line) {
+    const std::string text = line + "\n";
+    if (write(input_, text.data(), text.size()) < 0) throw Error("a process that takes part ended");
+}
+
 void Child::end() {
     if (input_ >= 0) close(std::exchange(input_, -1));
 }

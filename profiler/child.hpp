@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ public:
 
     // Its next line of output. Throws Error if it says none within 30 s, or that time.
     std::string line(std::chrono::milliseconds within = std::chrono::seconds{30});
+    void say(const std::string& line);
     void end();  // does not wait: what it says at its end can still be read
     pid_t process() const { return process_; }
 
@@ -27,6 +29,10 @@ private:
     pid_t process_ = 0;
     int input_ = -1, output_ = -1;
 };
+
+// For main(), first of all: where this process is one that a measurement started, what it does
+// until its standard input ends, and its exit code.
+std::optional<int> playChildRole(int argc, char** argv);
 
 bool inputEnds(int milliseconds);  // of this process, within that time
 

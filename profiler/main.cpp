@@ -3,8 +3,8 @@
 // running agent.
 #include "cortex/core/error.hpp"
 
+#include "child.hpp"
 #include "measure/attach.hpp"
-#include "measure/comms_roles.hpp"
 #include "measure/run.hpp"
 #include "measure/terminal_progress.hpp"
 #include "report/comparison.hpp"
@@ -32,16 +32,6 @@ struct Arguments {
     std::function<int()> chosen;
 };
 
-std::string measurementHelp() {
-    std::string text = "Measurements:\n  all         every one of them, if none is named\n";
-    for (const Measurement& each : measurements()) {
-        std::string name = each.name;
-        name.resize(std::max<std::size_t>(name.size(), 11), ' ');
-        text += "  " + name + " " + each.what + "\n";
-    }
-    return text;
-}
-
 void addFolder(CLI::App& verb, std::filesystem::path& folder, bool& force) {
     verb.add_option("-o,--out", folder,
                     "Folder for the results; profile-<UTC time> here if not given")
@@ -52,7 +42,9 @@ void addFolder(CLI::App& verb, std::filesystem::path& folder, bool& force) {
 void addRun(CLI::App& app, Arguments& arguments) {
     CLI::App* verb = app.add_subcommand("run", "Measure, and write a report");
     verb->footer(measurementHelp() + R"(
-Writes report.html, results.json, summary.csv and a CSV file per figure, after each measurement.
+Writes report.html, results.json, summary.csv, and a CSV file and a picture per figure, after each
+measurement. The pictures take gnuplot (Debian: gnuplot-nox). Each aim is met, missed, or not judged
+where the machine was too noisy. Exit code 4: an aim was missed.
 For figures that mean something: a machine without other load, as root or with CAP_SYS_NICE.
 Examples:
   cortex-profiler run                                  everything
@@ -60,7 +52,9 @@ Examples:
   cortex-profiler run duty jitter --priority 80        two of them, with real-time threads
   cortex-profiler run latency --threads 1 --frequency 500)");
     RunOptions& options = arguments.run.options;
-    verb->add_option("MEASUREMENT", arguments.run.names, "Which; see below")->type_name("");
+    verb->add_option("MEASUREMENT", arguments.run.names, "Which; see below")
+        ->type_name("")
+        ->check(CLI::IsMember(measurementNames()));
     verb->add_flag("--quick", options.quick, "Shorter and coarser, for a first look");
     verb->add_option("--threads", options.threads,
                      "Threads of the loop; as many as CPUs may be used, at most 4, if not given")
@@ -75,11 +69,7 @@ Examples:
         ->type_name("1-99")
         ->check(CLI::Range(1, 99));
     addFolder(*verb, arguments.run.folder, arguments.run.force);
-    verb->callback([&] {
-        const std::string wrong = unknownName(arguments.run.names);
-        if (!wrong.empty()) throw CLI::ValidationError(wrong, usageError);
-        arguments.chosen = [&] { return runMeasurements(arguments.run); };
-    });
+    verb->callback([&] { arguments.chosen = [&] { return runMeasurements(arguments.run); }; });
 }
 
 void addReport(CLI::App& app, Arguments& arguments) {
@@ -102,7 +92,7 @@ int compareFolders(const std::string& before, const std::string& after) {
     const Comparison comparison = compare(load(before), load(after));
     std::cout << comparisonText(comparison, terminalWidth(STDOUT_FILENO));
     const bool worse = std::ranges::any_of(
-        comparison.quantities, [](const Compared& each) { return each.verdict == Verdict::Worse; });
+        comparison.quantities, [](const Compared& each) { return each.change == Change::Worse; });
     return worse ? 1 : 0;
 }
 
@@ -157,32 +147,6 @@ std::string typed(int count, char** values) {
     return text;
 }
 
-std::string unknownVerb(const CLI::App& app, const std::string& verb) {
-    std::string text = "there is no verb '" + verb + "'; there are ";
-    bool first = true;
-    for (const CLI::App* each : app.get_subcommands(nullptr)) {
-        if (each->get_name() == verb) return {};
-        text += (first ? "" : ", ") + each->get_name();
-        first = false;
-    }
-    return text;
-}
-
-// What CLI11 says, and for an unknown option the options there are.
-std::string wrongUsage(const CLI::App& app, const CLI::ParseError& error) {
-    const auto verbs = app.get_subcommands();
-    const CLI::App& verb = verbs.empty() ? app : *verbs.front();
-    for (const std::string& argument : app.remaining(true)) {
-        if (!argument.starts_with("-")) continue;
-        std::string text = "there is no option '" + argument + "'; there are";
-        for (const CLI::Option* option : verb.get_options()) {
-            for (const std::string& name : option->get_lnames()) text += " --" + name;
-        }
-        return text;
-    }
-    return error.what();
-}
-
 int refuse(const CLI::App& app, const std::string& wrong) {
     const auto verbs = app.get_subcommands();
     std::cerr << "cortex-profiler: " << wrong << "\nhelp: cortex-profiler "
@@ -195,15 +159,12 @@ int parse(CLI::App& app, int count, char** values) {
         std::cerr << app.help();
         return usageError;
     }
-    const std::string first = values[1];
-    const std::string wrong = first.starts_with('-') ? "" : unknownVerb(app, first);
-    if (!wrong.empty()) return refuse(app, wrong);
     try {
         app.parse(count, values);
     } catch (const CLI::Success& asked) {
         app.exit(asked);
     } catch (const CLI::ParseError& error) {
-        return refuse(app, wrongUsage(app, error));
+        return refuse(app, error.what());
     }
     return 0;
 }
@@ -213,6 +174,7 @@ int runProgram(int count, char** values) {
     CLI::App app{"cortex-profiler: how fast and how timely CorteX is on this machine",
                  "cortex-profiler"};
     app.footer(R"(Exit codes: 0 done, 1 failed, stopped or worse, 2 wrong usage.
+4 an aim of `run` was missed; what could not be judged was not missed.
 Help on a verb: cortex-profiler VERB --help)");
     app.set_version_flag("--version", "cortex-profiler " CORTEX_VERSION,
                          "Print the version and end");

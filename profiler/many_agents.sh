@@ -3,8 +3,7 @@
 # How long many agents on one host, started at once, take to have each other.
 #   profiler/many_agents.sh [--build FOLDER] [--seconds S] [--rounds N] [--server] [--links L] [COUNT]
 # Starts COUNT (50) agents of 20 simplexes at 10 Hz in a domain of its own. Prints when the last of
-# them had heard all others, and when `cortex list` then had all of all; beside it, where it is built
-# (-DCORTEX_BENCH=ON), what as many bare participants of Fast DDS take. N times (1); --server: with a
+# them had heard all others, and when `cortex list` then had all of all. N times (1); --server: with a
 # Discovery Server (fast-discovery-server, of Debian's fastdds-tools); --links: each with a
 # simplex of each of the next L linked, for which it takes the types and structures of all, and the
 # time is that when every link is bound and every agent has said that it knows every other. Exit
@@ -24,7 +23,7 @@ while [[ ${1:-} == --* ]]; do
         --rounds) rounds=$2; shift ;;
         --server) server=127.0.0.1:$((20000 + $$ % 10000)) ;;
         --links) links=$2; shift ;;
-        *) sed -n '3,13s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
+        *) sed -n '3,10s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
     esac
     shift
 done
@@ -40,8 +39,8 @@ endAll() {
 }
 trap 'endAll; rm -r "$folder"' EXIT
 export CORTEX_PATH=${CORTEX_PATH:-$PWD/ontology}
-bare=cortex buttons=19 sign=' is heard, from '  # the 20th simplex is the cluster
-((links == 0)) || bare=cortex-links buttons=17 sign='linked to agent '  # and a handset with its pose
+buttons=19 sign=' is heard, from '  # the 20th simplex is the cluster
+((links == 0)) || buttons=17 sign='linked to agent '  # and a handset with its pose
 pairs=$((count * (links > 0 ? links : count - 1)))
 models=$((links > 0 ? count * (count - 1) : 0))
 for ((i = 1; i <= count; ++i)); do
@@ -103,7 +102,5 @@ echo "load before: $(cut -d' ' -f1-3 /proc/loadavg)"
 failed=0
 for ((round = 1; round <= rounds; ++round)); do
     startTogether "$round" || failed=1
-    [[ $server || ! -x $build/bin/cortex-bare-participants ]] ||
-        "$build/bin/cortex-bare-participants" "$count" "$bare" "$seconds" || true
 done
 exit "$failed"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -10,21 +9,20 @@
 
 #include <fastdds/dds/topic/TopicDataType.hpp>
 
-namespace cortex::bare {
+namespace cortex::profiler {
 
-// The type of a topic of bare Fast DDS: a sequence of octets; the first are the key, if it has one.
+// The type of a topic of bare Fast DDS: a sequence of octets.
 class Octets final : public eprosima::fastdds::dds::TopicDataType {
     using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
 
 public:
     using Data = std::vector<std::uint8_t>;
     static constexpr std::uint32_t Largest = 65000;
-    static constexpr std::size_t KeySize = 16;
 
-    explicit Octets(bool keyed) {
-        setName(keyed ? "KeyedOctets" : "Octets");
+    Octets() {
+        setName("Octets");
         m_typeSize = Largest + 8;
-        m_isGetKeyDefined = keyed;
+        m_isGetKeyDefined = false;
     }
     bool serialize(void* data, Payload* payload) override {
         const Data& octets = *static_cast<Data*>(data);
@@ -49,13 +47,7 @@ public:
     }
     void* createData() override { return new Data; }
     void deleteData(void* data) override { delete static_cast<Data*>(data); }
-    bool getKey(void* data, eprosima::fastrtps::rtps::InstanceHandle_t* key, bool) override {
-        const Data& octets = *static_cast<Data*>(data);
-        for (std::size_t i = 0; i < std::min(KeySize, octets.size()); ++i) {
-            key->value[i] = octets[i];
-        }
-        return true;
-    }
+    bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
 };
 
-}  // namespace cortex::bare
+}  // namespace cortex::profiler

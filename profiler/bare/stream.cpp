@@ -7,7 +7,6 @@
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -18,7 +17,7 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 
-namespace cortex::bare {
+namespace cortex::profiler {
 namespace {
 
 namespace dds = eprosima::fastdds::dds;
@@ -48,53 +47,45 @@ Qos endpointQos() {
     return qos;
 }
 
-class Listener final : public dds::DataWriterListener, public dds::DataReaderListener {
+class Listener final : public dds::DataReaderListener {
 public:
-    explicit Listener(Stream::Callbacks callbacks) : callbacks_{std::move(callbacks)} {}
+    explicit Listener(Stream::OnData onData) : onData_{std::move(onData)} {}
 
 private:
     void on_data_available(dds::DataReader* reader) override {
         dds::SampleInfo info;
         while (reader->take_next_sample(&data_, &info) == ReturnCode::RETCODE_OK) {
-            if (info.valid_data && callbacks_.onData) callbacks_.onData(data_);
+            if (info.valid_data && onData_) onData_(data_);
         }
     }
-    void on_publication_matched(dds::DataWriter* /*writer*/,
-                                const dds::PublicationMatchedStatus& status) override {
-        if (status.current_count_change > 0 && callbacks_.onMatch) callbacks_.onMatch();
-    }
-    void on_subscription_matched(dds::DataReader* /*reader*/,
-                                 const dds::SubscriptionMatchedStatus& status) override {
-        if (status.current_count_change > 0 && callbacks_.onMatch) callbacks_.onMatch();
-    }
 
-    const Stream::Callbacks callbacks_;
+    const Stream::OnData onData_;
     Octets::Data data_;
 };
 
 }  // namespace
 
 struct Stream::Implementation {
-    explicit Implementation(Callbacks callbacks) : listener{std::move(callbacks)} {}
+    explicit Implementation(OnData onData) : listener{std::move(onData)} {}
 
     Listener listener;
     dds::DomainParticipant* participant = nullptr;
     dds::DataWriter* writer = nullptr;
 };
 
-Stream::Stream(int domain, Role role, Callbacks callbacks)
-    : implementation_{std::make_unique<Implementation>(std::move(callbacks))} {
+Stream::Stream(int domain, Role role, OnData onData)
+    : implementation_{std::make_unique<Implementation>(std::move(onData))} {
     Implementation& self = *implementation_;
     self.participant = dds::DomainParticipantFactory::get_instance()->create_participant(
         static_cast<dds::DomainId_t>(domain), participantQos());
     if (!self.participant) throw std::runtime_error{"Fast DDS refused a participant"};
-    dds::TypeSupport{new Octets{false}}.register_type(self.participant);
+    dds::TypeSupport{new Octets}.register_type(self.participant);
     dds::Topic* topic = self.participant->create_topic("bare", "Octets", dds::TOPIC_QOS_DEFAULT);
     if (role == Role::Writer) {
         auto qos = endpointQos<dds::DataWriterQos>();
         qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
         self.writer = self.participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT)
-                          ->create_datawriter(topic, qos, &self.listener);
+                          ->create_datawriter(topic, qos);
     } else {
         self.participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT)
             ->create_datareader(topic, endpointQos<dds::DataReaderQos>(), &self.listener);
@@ -108,4 +99,4 @@ Stream::~Stream() {
 
 bool Stream::write(Octets::Data& data) { return implementation_->writer->write(&data); }
 
-}  // namespace cortex::bare
+}  // namespace cortex::profiler

@@ -6,20 +6,16 @@
 #include <functional>
 #include <memory>
 
-namespace cortex::bare {
+namespace cortex::profiler {
 
 // A participant of bare Fast DDS on the loopback interface, UDP alone, with one best-effort topic
 // that it writes or hears.
 class Stream {
 public:
-    // On threads of DDS: what came, and when others were found.
-    struct Callbacks {
-        std::function<void(const Octets::Data&)> onData;
-        std::function<void()> onMatch;
-    };
+    using OnData = std::function<void(const Octets::Data&)>;  // on a thread of DDS
 
     enum class Role { Writer, Reader };
-    Stream(int domain, Role role, Callbacks callbacks = {});  // throws std::runtime_error
+    Stream(int domain, Role role, OnData onData = {});  // throws std::runtime_error
     ~Stream();
 
     bool write(Octets::Data& data);
@@ -29,4 +25,4 @@ private:
     std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace cortex::bare
+}  // namespace cortex::profiler

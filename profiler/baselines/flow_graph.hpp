@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "baselines/plain_loop.hpp"
 #include "subject/graphs.hpp"
 
 #include <cstdint>
@@ -9,6 +8,12 @@
 #include <memory>
 
 namespace cortex::profiler {
+
+// What is done for a task, by whatever runs them.
+struct TaskFunction {
+    void (*run)(void* context, std::uint32_t task);
+    void* context;
+};
 
 // The peer: the same tasks in a flow graph of oneTBB that is built once. Light: nodes with the
 // policy `lightweight`, which run within the thread that triggers them.

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include <time.h>
-
 namespace cortex::profiler {
 namespace {
 
@@ -14,30 +12,15 @@ double nanoseconds(const Contender& contender, std::int64_t cycles) {
     return static_cast<double>(contender.run(cycles).count());
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
 double oneRound(const Contender& contender, std::int64_t cycles, const Rounds& rounds) {
-    if (rounds.pauseMicroseconds <= 0) {
-        const double parts = std::max(1.0, rounds.seconds / partSeconds);
-        const auto fit = static_cast<std::int64_t>(static_cast<double>(cycles) / parts);
-        const std::int64_t part = std::max<std::int64_t>(1, fit);
-        double best = nanoseconds(contender, part);
-        for (std::int64_t i = 2 * part; i <= cycles; i += part) {
-            best = std::min(best, nanoseconds(contender, part));
-        }
-        return best / static_cast<double>(part);
+    const double parts = std::max(1.0, rounds.seconds / partSeconds);
+    const auto fit = static_cast<std::int64_t>(static_cast<double>(cycles) / parts);
+    const std::int64_t part = std::max<std::int64_t>(1, fit);
+    double best = nanoseconds(contender, part);
+    for (std::int64_t i = 2 * part; i <= cycles; i += part) {
+        best = std::min(best, nanoseconds(contender, part));
     }
-    const timespec pause{0, static_cast<long>(rounds.pauseMicroseconds * 1e3)};
-    std::vector<double> times;
-    for (std::int64_t i = 0; i < cycles; ++i) {
-        nanosleep(&pause, nullptr);
-        times.push_back(nanoseconds(contender, 1));
-    }
-    return median(times);
+    return best / static_cast<double>(part);
 }
 
 }  // namespace
@@ -48,7 +31,7 @@ void measureInTurn(std::vector<Contender>& contenders, const Rounds& rounds) {
     std::vector<std::int64_t> cycles;
     for (const Contender& each : contenders) {
         each.run(10);
-        const double one = nanoseconds(each, 10) / 10 + rounds.pauseMicroseconds * 1e3;
+        const double one = nanoseconds(each, 10) / 10;
         const auto fit = static_cast<std::int64_t>(rounds.seconds * 1e9 / std::max(one, 1.0));
         cycles.push_back(std::clamp<std::int64_t>(fit, 3, 1'000'000));
     }

@@ -25,13 +25,10 @@ struct Contender {
     double best() const;
 };
 
-// Warms each up, then measures each for about so long in each round. Cycles with a pause before
-// each are timed one by one, so that threads that wait for the next one fall asleep: of those the
-// median counts.
+// Warms each up, then measures each for about so long in each round.
 struct Rounds {
     int count = 5;
     double seconds = 0.02;
-    double pauseMicroseconds = 0;
 };
 void measureInTurn(std::vector<Contender>& contenders, const Rounds& rounds);
 

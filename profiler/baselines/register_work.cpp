@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "register_work.hpp"
 
-#include "register_rounds.hpp"
 #include "threads/realtime_thread.hpp"
 
 #include <chrono>

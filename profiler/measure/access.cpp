@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Access to data through a handle and by path in an image; the copy of an image of 10,000 items.
-#include "measure/access.hpp"
-
-#include "cortex/core/agent.hpp"
-
+// Access to data through a handle and by path in an image.
 #include "baselines/in_turn.hpp"
-#include "baselines/plain_memcpy.hpp"
+#include "measure/measurements.hpp"
 #include "subject/subject.hpp"
 
 #include <string>
@@ -87,58 +83,29 @@ void measureItems(const Rounds& rounds, Results& results) {
     std::vector<double> values(10 * simplexes);
     std::vector<Contender> all{throughHandles(subject), byPath(image), throughPointers(values)};
     measureInTurn(all, rounds);
-    Quantity handle = quantityOf("access/handle", "one item through a handle: a read or a write",
+    Quantity handle = quantityOf("access/handle",
+                                 "one item through a handle: a read or a write, best of 5 rounds",
                                  all[0], 2 * simplexes, 1);
     handle.baseline = all[2].best() / (2 * simplexes);
     handle.baselineName = "plain pointers";
     results.quantities.push_back(std::move(handle));
     results.quantities.push_back(
-        quantityOf("access/path", "one item by path and name in an image", all[1], simplexes, 100));
-}
-
-void measureImage(const Rounds& rounds, Results& results) {
-    SubjectCluster subject{tenThousandItems(), {}};
-    Tables& tables = subject.cluster.agent().tables();
-    ImagePool pool{tables, 2};
-    PlainMemcpy limit{tables.arena()};
-    std::int64_t cycle = 0;
-    std::vector<Contender> all{
-        {"image",
-         [&](std::int64_t cycles) {
-             return timed([&] {
-                 for (std::int64_t i = 0; i < cycles; ++i) pool.publish(++cycle, 0, 0);
-             });
-         }},
-        {"memcpy", [&](std::int64_t cycles) { return timed([&] { limit.copies(cycles); }); }}};
-    measureInTurn(all, rounds);
-    Quantity image{
-        .id = "access/image/10000",
-        .what = "an image of 10,000 items, " + std::to_string(tables.arena().size()) + " octets",
-        .unit = "us",
-        .value = all[0].best() * 1e-3,
-        .repeats = all[0].rounds,
-        .baseline = all[1].best() * 1e-3,
-        .baselineName = "memcpy of the same octets"};
-    for (double& each : image.repeats) each *= 1e-3;
-    results.quantities.push_back(std::move(image));
+        quantityOf("access/path", "one item by path and name in an image, best of 5 rounds", all[1],
+                   simplexes, 100));
 }
 
 void run(const RunOptions& options, Progress& progress, Results& results) {
-    const Rounds rounds{5, options.quick ? 0.05 : 0.3, 0};
+    const Rounds rounds{5, options.quick ? 0.05 : 0.3};
     if (!progress.step(0, "items")) return;
     measureItems(rounds, results);
-    if (!progress.step(0.6, "an image")) return;
-    measureImage(rounds, results);
     progress.step(1, "access");
 }
 
 }  // namespace
 
-const Measurement& accessMeasurement() {
-    static constexpr Measurement measurement{
-        "access", "data through a handle, by path, and whole images",
-        [](const RunOptions& options) { return options.quick ? 2.0 : 10.0; }, run};
-    return measurement;
+Measurement accessMeasurement() {
+    return {"access", "data through a handle and by path in an image", "Access to data",
+            [](const RunOptions& options) { return options.quick ? 2.0 : 10.0; }, run};
 }
 
 }  // namespace cortex::profiler

@@ -9,6 +9,7 @@
 #include "measure/terminal_progress.hpp"
 #include "report/comparison.hpp"
 #include "report/machine_facts.hpp"
+#include "report/number_text.hpp"
 #include "report/results_files.hpp"
 #include "report/summary_text.hpp"
 
@@ -60,7 +61,6 @@ public:
 private:
     void view();
     void addTasks(const std::string& setup, Results& results);
-    void addOverflow(const std::string& setup, Results& results) const;
 
     comms::Mirror& mirror_;
     std::string agent_, path_;
@@ -126,21 +126,6 @@ void Attached::sample(double seconds) {
     }
 }
 
-void Attached::addOverflow(const std::string& setup, Results& results) const {
-    Figure figure;
-    figure.id = "attach-overflow";
-    figure.title = "Missed ticks of " + path_;
-    figure.setup = setup;
-    figure.x = {"time", "s", false};
-    figure.y = {"missed ticks since the start", "", false};
-    figure.series.push_back(overflow_);
-    results.figures.push_back(std::move(figure));
-    results.quantities.push_back({.id = "attach/missed-ticks",
-                                  .what = "ticks missed while it was looked at",
-                                  .unit = "ticks",
-                                  .value = overflow_.points.back().y - overflow_.points.front().y});
-}
-
 void Attached::addTasks(const std::string& setup, Results& results) {
     std::ranges::sort(tasks_, std::greater{}, &TaskTimes::mean);
     Figure figure;
@@ -151,11 +136,10 @@ void Attached::addTasks(const std::string& setup, Results& results) {
     figure.y = {"task time", "us", true};
     for (std::size_t i = 0; i < std::min(tasks_.size(), mostTasks); ++i) {
         figure.series.push_back(tasks_[i].series);
-        results.quantities.push_back({.id = "attach/task" + tasks_[i].series.name,
-                                      .what = "task of " + tasks_[i].series.name + ", mean; max " +
-                                              number(tasks_[i].greatest) + " us",
-                                      .unit = "us",
-                                      .value = tasks_[i].mean()});
+        results.add("attach/task" + tasks_[i].series.name,
+                    "task of " + tasks_[i].series.name + ", mean; max " +
+                        readable(tasks_[i].greatest) + " us",
+                    "us", tasks_[i].mean());
     }
     if (!figure.series.empty()) results.figures.push_back(std::move(figure));
 }
@@ -164,15 +148,14 @@ void Attached::report(const std::string& setup, Results& results) {
     for (std::size_t i = 0; i < metrics.size(); ++i) {
         figures_[i].setup = setup + " Percentiles and maximum: since the agent's start.";
         for (std::size_t k = 1; k < statistics.size(); ++k) {
-            results.quantities.push_back(
-                {.id = std::string{"attach/"} + metrics[i].item + '-' + statistics[k],
-                 .what = std::string{metrics[i].title} + ", " + statistics[k],
-                 .unit = metrics[i].unit,
-                 .value = figures_[i].series[k].points.back().y});
+            results.add(std::string{"attach/"} + metrics[i].item + '-' + statistics[k],
+                        std::string{metrics[i].title} + ", " + statistics[k], metrics[i].unit,
+                        figures_[i].series[k].points.back().y);
         }
         results.figures.push_back(figures_[i]);
     }
-    addOverflow(setup, results);
+    results.add("attach/missed-ticks", "ticks missed while it was looked at", "ticks",
+                overflow_.points.back().y - overflow_.points.front().y);
     addTasks(setup, results);
 }
 
@@ -222,6 +205,7 @@ int attach(const AttachRequest& request) {
         results.notes.push_back("The values of " + request.agent + " ended after " +
                                 durationText(attached.lasted()) + ".");
     }
+    for (Quantity& each : results.quantities) each.group = "Agent " + request.agent;
     save(results, folder);
     return tellResults(results, folder);
 }

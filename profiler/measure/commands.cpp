@@ -2,10 +2,10 @@
 // Latency of commands against the frequency of the loop: the paper's Fig. 29.
 #include "measure/measurements.hpp"
 #include "measure/sweep.hpp"
+#include "report/number_text.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace cortex::profiler {
 namespace {
@@ -18,7 +18,7 @@ SweepPlan plan(const RunOptions& options) {
     made.most = 100'000;
     made.grain = 10;
     made.bisections = options.quick ? 3 : 5;
-    made.around = options.quick ? std::vector{0.7, 1.3} : std::vector{0.7, 0.85, 1.1, 1.3, 1.6};
+    made.around = options.quick ? std::vector{1.3} : std::vector{0.85, 1.1, 1.3, 1.6};
     return made;
 }
 
@@ -32,14 +32,18 @@ double seconds(const RunOptions& options) {
 Figure latencyFigure(const RunOptions& options, const Sweep& sweep) {
     Figure figure;
     figure.id = "fig29-latency-frequency";
-    figure.title = "Latency of commands against the frequency of the loop";
+    figure.title = "Fig. 29: Latency of commands against the frequency of the loop";
     figure.paper =
-        "Fig. 29: latency over the frequency of the loop at an unnamed number of simplexes with "
+        "Latency over the frequency of the loop at an unnamed number of simplexes with "
         "one command each; the text gives no values.";
-    figure.setup = number(simplexes) + " simplexes in pairs, one command per cycle each; " +
-                   conditions(options, sweep.threads, 0) + "; " + number(loopSeconds(options)) +
-                   " s a point. One of each pair is answered in the same cycle, the other in the "
-                   "next. A pair reads the clock, from before sending until it is executed.";
+    figure.setup =
+        readable(simplexes) +
+        " Active simplexes in pairs, one command per cycle each, with an item of their own and an "
+        "output with two limited items; " +
+        conditions(options, sweep.threads, 0) + "; " + readable(loopSeconds(options)) +
+        " s a point. One of each pair is answered in the same cycle, the other in the "
+        "next. A pair reads the clock, from before sending until it is executed. " +
+        overflowText;
     figure.x = {"loop frequency", "Hz", true};
     figure.y = {"latency", "us", true};
     const auto add = [&](const char* name, const std::function<double(const Measured&)>& value,
@@ -57,35 +61,32 @@ Figure latencyFigure(const RunOptions& options, const Sweep& sweep) {
 }
 
 void addQuantities(const Sweep& sweep, Results& results) {
-    if (sweep.overflow > 0) {
-        results.quantities.push_back({.id = "commands/frequency-without-overflow",
-                                      .what = "highest frequency without overflow of 1,000 "
-                                              "simplexes with one command each",
-                                      .unit = "Hz",
-                                      .value = sweep.withoutOverflow,
-                                      .paper = "1000 with 105 simplexes",
-                                      .lessIsBetter = false});
+    if (sweep.overflow() > 0) {
+        results
+            .add("commands/frequency-without-overflow",
+                 "highest frequency without overflow of 1,000 "
+                 "simplexes with one command each",
+                 "Hz", sweep.withoutOverflow())
+            .moreIsBetter()
+            .inPaper("1000 with 105 simplexes");
     }
     for (const auto& [x, measured] : sweep.points) {
         if (x != 1000) continue;
-        results.quantities.push_back({.id = "commands/same-cycle-p99",
-                                      .what = "p99 latency in the same cycle at 1 kHz, 1,000 "
-                                              "simplexes with one command each",
-                                      .unit = "us",
-                                      .value = measured.sameCycle.percentile(0.99)});
-        results.quantities.push_back(
-            {.id = "commands/next-cycle-p99",
-             .what = "p99 latency to the next cycle at 1 kHz, the same simplexes",
-             .unit = "us",
-             .value = measured.nextCycle.percentile(0.99),
-             .baseline = measured.period,
-             .baselineName = "the period"});
+        results.add("commands/same-cycle-p99",
+                    "p99 latency in the same cycle at 1 kHz, 1,000 "
+                    "simplexes with one command each",
+                    "us", measured.sameCycle.percentile(0.99));
+        results
+            .add("commands/next-cycle-p99",
+                 "p99 latency to the next cycle at 1 kHz, the same simplexes", "us",
+                 measured.nextCycle.percentile(0.99))
+            .beside(measured.period, "the period");
     }
 }
 
 void run(const RunOptions& options, Progress& progress, Results& results) {
     const auto periods = [&](double frequency) {
-        return std::max<std::int64_t>(50, std::llround(frequency * loopSeconds(options)));
+        return std::max<std::int64_t>(200, std::llround(frequency * loopSeconds(options)));
     };
     const SweepSubject subject{
         "Hz",
@@ -104,8 +105,8 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 }  // namespace
 
 Measurement commandsMeasurement() {
-    return {"commands", "latency of commands against the frequency of the loop (Fig. 29)", seconds,
-            run};
+    return {"commands", "latency of commands against the frequency of the loop (Fig. 29)",
+            "Latency of commands against the frequency (Fig. 29)", seconds, run};
 }
 
 }  // namespace cortex::profiler

@@ -3,8 +3,8 @@
 #include "measure/measurements.hpp"
 #include "measure/simplex_sweep.hpp"
 #include "measure/stated_load.hpp"
+#include "report/number_text.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace cortex::profiler {
@@ -14,9 +14,9 @@ constexpr double paperSimplexes = 105;
 
 Figure dutyFigure(const RunOptions& options, const Sweep& sweep) {
     Figure figure{.id = "fig23-duty-cycle",
-                  .title = "Duty cycle against the number of simplexes",
+                  .title = "Fig. 23: Duty cycle against the number of simplexes",
                   .paper =
-                      "Fig. 23: the duty cycle rises in proportion to the number of simplexes, "
+                      "The duty cycle rises in proportion to the number of simplexes, "
                       "each of which sends one command per cycle; about 105 of them fill the "
                       "period of 1 kHz on 4 threads.",
                   .setup = simplexSweepSetup(options, sweep),
@@ -46,25 +46,21 @@ void addTimePerSimplex(const SweepPoint& point, Results& results) {
 
 void addCapacity(const Sweep& sweep, Results& results) {
     if (sweep.points.empty()) return;
-    Quantity atSeventy{.id = "duty/simplexes-at-70",
-                       .what = "simplexes with a command per cycle each at 70 % duty cycle (p99)",
-                       .unit = "simplexes",
-                       .value = sweep.atDuty(70),
-                       .repeats = sweep.atDutyOfBlocks(70),
-                       .aim = Aim::AtLeast,
-                       .limit = 20'000,
-                       .paper = "105 at nearly 100 %",
-                       .lessIsBetter = false};
+    Quantity atSeventy = capacityOf(sweep, 20'000);
+    atSeventy.id = "duty/simplexes-at-70";
+    atSeventy.what =
+        "most simplexes with a command per cycle each within 70 % duty cycle (p99), with all less";
+    atSeventy.unit = "simplexes";
+    atSeventy.paper = "105 at nearly 100 %";
     results.quantities.push_back(std::move(atSeventy));
-    if (sweep.overflow == 0) return;
-    results.quantities.push_back({.id = "duty/simplexes-without-overflow",
-                                  .what = "most simplexes without overflow",
-                                  .unit = "simplexes",
-                                  .value = sweep.withoutOverflow,
-                                  .paper = "105",
-                                  .lessIsBetter = false});
+    if (sweep.overflow() == 0) return;
+    results
+        .add("duty/simplexes-without-overflow", "most simplexes without overflow", "simplexes",
+             sweep.withoutOverflow())
+        .moreIsBetter()
+        .inPaper("105");
     for (const SweepPoint& point : sweep.points) {
-        if (point.x == sweep.withoutOverflow) addTimePerSimplex(point, results);
+        if (point.x == sweep.withoutOverflow()) addTimePerSimplex(point, results);
     }
 }
 
@@ -78,50 +74,14 @@ void addCommands(const Sweep& sweep, Results& results) {
     if (expected == 0) return;
     const auto difference =
         static_cast<double>(executed > expected ? executed - expected : expected - executed);
-    results.quantities.push_back(
-        {.id = "duty/commands-executed",
-         .what = "executed commands per cycle and simplex, all points",
-         .unit = "",
-         .value = static_cast<double>(executed) / static_cast<double>(expected),
-         .aim = Aim::AtLeast,
-         .limit = 1,
-         .lessIsBetter = false});
-    results.quantities.push_back({.id = "duty/commands-missing",
-                                  .what = "commands more or less than cycles × simplexes",
-                                  .unit = "commands",
-                                  .value = difference,
-                                  .aim = Aim::AtMost,
-                                  .limit = 0});
-    results.quantities.push_back({.id = "duty/commands-rejected",
-                                  .what = "rejected commands",
-                                  .unit = "commands",
-                                  .value = static_cast<double>(rejected),
-                                  .aim = Aim::AtMost,
-                                  .limit = 0});
-}
-
-// What the measurement itself does beside the loop and in it.
-void addOwnCost(const Sweep& sweep, Results& results) {
-    std::uint64_t images = 0;
-    double seconds = 0;
-    for (const auto& [x, measured] : sweep.points) {
-        images += measured.imagesRead;
-        seconds += measured.seconds;
-    }
-    const double readings = sweep.points.back().measured.clockReadings;
-    results.quantities.push_back({.id = "duty/observer-images",
-                                  .what = "images that the observer read",
-                                  .unit = "1/s",
-                                  .value = static_cast<double>(images) / seconds,
-                                  .lessIsBetter = false});
-    Quantity cost{
-        .id = "duty/recording-cost",
-        .what = "cost of recording a cycle: " + number(readings) + " readings of the clock",
-        .unit = "ns"};
-    for (int i = 0; i < 5; ++i) cost.repeats.push_back(readings * clockReadingCost());
-    std::ranges::sort(cost.repeats);
-    cost.value = cost.repeats[2];
-    results.quantities.push_back(std::move(cost));
+    results
+        .add("duty/commands-missing", "commands more or less than cycles × simplexes", "commands",
+             difference)
+        .atMost(0);
+    results
+        .add("duty/commands-rejected", "rejected commands", "commands",
+             static_cast<double>(rejected))
+        .atMost(0);
 }
 
 double seconds(const RunOptions& options) {
@@ -136,7 +96,6 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
     results.figures.push_back(dutyFigure(options, sweep));
     addCapacity(sweep, results);
     addCommands(sweep, results);
-    addOwnCost(sweep, results);
     const StatedLoad load{"duty/20000", "20,000 simplexes with a command per cycle each", 20'000,
                           1};
     judgeLoad(load, options, judging, results);
@@ -145,7 +104,8 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 }  // namespace
 
 Measurement dutyMeasurement() {
-    return {"duty", "duty cycle against the number of simplexes (paper: Fig. 23)", seconds, run};
+    return {"duty", "duty cycle against the number of simplexes (Fig. 23)",
+            "Duty cycle against the number of simplexes (Fig. 23)", seconds, run};
 }
 
 }  // namespace cortex::profiler

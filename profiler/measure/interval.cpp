@@ -4,8 +4,6 @@
 #include "measure/measurements.hpp"
 #include "measure/simplex_sweep.hpp"
 
-#include <algorithm>
-
 namespace cortex::profiler {
 namespace {
 
@@ -13,9 +11,9 @@ using Holds = std::function<bool(const SweepPoint&)>;
 
 Figure intervalFigure(const RunOptions& options, const Sweep& sweep) {
     Figure figure{.id = "fig24-interval",
-                  .title = "Interval between executions of a task",
+                  .title = "Fig. 24: Interval between executions of a task",
                   .paper =
-                      "Fig. 24: a task is executed every millisecond up to 105 simplexes; from "
+                      "A task is executed every millisecond up to 105 simplexes; from "
                       "110 on every cycle runs over its tick and the interval becomes 2 ms.",
                   .setup = simplexSweepSetup(options, sweep) +
                            " The task of one simplex in the middle notes when it begins.",
@@ -39,10 +37,10 @@ Figure deviationFigure(const RunOptions& options, const Sweep& sweep, bool overf
                        const Holds& holds) {
     Figure figure;
     figure.id = overflown ? "fig26-interval-deviation-overflow" : "fig25-interval-deviation";
-    figure.title = overflown ? "Deviation of the interval above the overflow point"
-                             : "Deviation of the interval below the overflow point";
-    figure.paper = overflown ? "Fig. 26: the same from 110 to 130 simplexes, overflown: far larger."
-                             : "Fig. 25: up to 100 simplexes the interval between executions "
+    figure.title = overflown ? "Fig. 26: Deviation of the interval above the overflow point"
+                             : "Fig. 25: Deviation of the interval below the overflow point";
+    figure.paper = overflown ? "The same from 110 to 130 simplexes, overflown: far larger."
+                             : "Up to 100 simplexes the interval between executions "
                                "deviates by at most 3 us.";
     figure.setup = simplexSweepSetup(options, sweep) +
                    " Deviation: from the period, absolute, but for the standard one. The sleeper "
@@ -62,12 +60,6 @@ Figure deviationFigure(const RunOptions& options, const Sweep& sweep, bool overf
     add("sleeper, max", [](const Measured& m) { return m.sleeperIntervalError.max(); }, true);
     if (!overflown) figure.marks.push_back({Mark::Along::Y, 3, "paper: at most 3 us"});
     return figure;
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    std::ranges::sort(values);
-    return values[values.size() / 2];
 }
 
 void addQuantities(const Sweep& sweep, const Holds& below, Results& results) {
@@ -93,8 +85,8 @@ void addQuantities(const Sweep& sweep, const Holds& below, Results& results) {
 void run(const RunOptions& options, Progress& progress, Results& results) {
     const Sweep& sweep = simplexSweep(options, progress, results);
     if (sweep.points.empty()) return;
-    const Holds below = [&](const SweepPoint& point) { return point.x <= sweep.withoutOverflow; };
-    const Holds above = [&](const SweepPoint& point) { return point.x > sweep.withoutOverflow; };
+    const Holds below = [&](const SweepPoint& point) { return point.x <= sweep.withoutOverflow(); };
+    const Holds above = [&](const SweepPoint& point) { return point.x > sweep.withoutOverflow(); };
     results.figures.push_back(intervalFigure(options, sweep));
     results.figures.push_back(deviationFigure(options, sweep, false, below));
     results.figures.push_back(deviationFigure(options, sweep, true, above));
@@ -106,7 +98,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 Measurement intervalMeasurement() {
     return {"interval",
             "interval between executions of a task, below and above overflow (Fig. 24 to 26)",
-            simplexSweepSeconds, run};
+            "Interval between executions (Fig. 24 to 26)", simplexSweepSeconds, run};
 }
 
 }  // namespace cortex::profiler

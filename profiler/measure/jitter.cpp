@@ -3,7 +3,8 @@
 // lateness at 1 kHz judged against a bare sleeper.
 #include "measure/measurements.hpp"
 #include "measure/sweep.hpp"
-#include "observers/alternating_clock.hpp"
+#include "report/judging.hpp"
+#include "report/number_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,6 @@
 namespace cortex::profiler {
 namespace {
 
-using observers::Lateness;
 using Value = std::function<double(const Measured&)>;
 
 constexpr int simplexes = 50;
@@ -42,13 +42,13 @@ double seconds(const RunOptions& options) {
 Figure jitterFigure(const RunOptions& options, const Sweep& sweep) {
     Figure figure;
     figure.id = "fig30-jitter";
-    figure.title = "Jitter against the frequency of the loop";
+    figure.title = "Fig. 30: Jitter against the frequency of the loop";
     figure.paper =
-        "Fig. 30: with 50 empty simplexes jitter stays between -0.02 and 0.01 (no unit is given) "
+        "With 50 empty simplexes jitter stays between -0.02 and 0.01 (no unit is given) "
         "below 400 Hz, and grows and varies more above.";
     figure.setup =
-        "50 empty simplexes; " + conditions(options, sweep.threads, 0) + "; " +
-        number(secondsEach(options)) +
+        "50 empty simplexes, Active, without items and outputs of their own; " +
+        conditions(options, sweep.threads, 0) + "; " + readable(secondsEach(options)) +
         " s a point, half of it a bare sleeper on the same thread in turn. Jitter: how late "
         "a cycle begins after its deadline.";
     figure.x = {"loop frequency", "Hz", true};
@@ -71,7 +71,7 @@ Figure jitterFigure(const RunOptions& options, const Sweep& sweep) {
 bool measureJitter(const RunOptions& options, Steps& steps, Results& results) {
     Sweep sweep;
     for (const double frequency : frequencies()) {
-        if (!steps.next(number(frequency) + " Hz")) break;
+        if (!steps.next(readable(frequency) + " Hz")) break;
         const auto loop = MeasuredLoop::ofEmpty(simplexes, frequency, options);
         sweep.threads = loop->threads();
         noteRefusals(loop->refusals(), results);
@@ -84,24 +84,14 @@ bool measureJitter(const RunOptions& options, Steps& steps, Results& results) {
     return !steps.stopped();
 }
 
-template <class Wakes>
-Lateness bySeconds(const Wakes& wakes, int blocks) {
-    Lateness lateness;
-    lateness.seconds.resize(static_cast<std::size_t>(blocks));
-    for (const auto& wake : wakes) {
-        lateness.seconds[static_cast<std::size_t>(wake.block)].push_back(wake.lateness);
-    }
-    std::erase_if(lateness.seconds, [](const auto& second) { return second.empty(); });
-    return lateness;
-}
-
 Figure latenessFigure(const RunOptions& options, const Measured& measured, std::uint32_t threads) {
     Figure figure;
     figure.id = "fig30-lateness-1khz";
     figure.title = "Lateness of single cycles at 1 kHz";
-    figure.setup = "50 empty simplexes; " + conditions(options, threads, judgedFrequency) +
+    figure.setup = "50 empty simplexes, Active, without items and outputs of their own; " +
+                   conditions(options, threads, judgedFrequency) +
                    "; loop and bare sleeper in turn, a second each, " +
-                   number(judgedSeconds(options)) + " s of each.";
+                   readable(judgedSeconds(options)) + " s of each.";
     figure.x = {"lateness", "us", true};
     figure.y = {"share of cycles that are later", "", true};
     figure.series.push_back({"loop", measured.lateness.shareAbove(), false});
@@ -110,59 +100,18 @@ Figure latenessFigure(const RunOptions& options, const Measured& measured, std::
     return figure;
 }
 
-std::vector<double> p99OfSeconds(const Lateness& lateness) {
-    std::vector<double> values;
-    for (const auto& second : lateness.seconds) {
-        values.push_back(Lateness{{second}}.medianOfP99());
-    }
-    return values;
-}
-
-// The ratio of the medians of each second's p99, and the sleeper's to itself.
-void judge(const Lateness& loop, const Lateness& sleeper, Results& results) {
-    const double even = sleeper.every(0).medianOfP99(), odd = sleeper.every(1).medianOfP99();
-    const double null = std::max(even, odd) / std::min(even, odd);
-    Quantity ratio{.id = "jitter/lateness-ratio",
-                   .what =
-                       "lateness of the loop over that of a bare sleeper, 1 kHz (medians of "
-                       "the seconds' p99)",
-                   .unit = "",
-                   .value = loop.medianOfP99() / sleeper.medianOfP99(),
-                   .baseline = null,
-                   .baselineName = "sleeper over itself",
-                   .aim = Aim::AtMost,
-                   .limit = 1.2};
-    const std::vector<double> ours = p99OfSeconds(loop), floor = p99OfSeconds(sleeper);
-    for (std::size_t i = 0; i < std::min(ours.size(), floor.size()); ++i) {
-        ratio.repeats.push_back(ours[i] / floor[i]);
-    }
-    results.quantities.push_back(std::move(ratio));
-    results.quantities.push_back(
-        {.id = "jitter/lateness-null-ratio",
-         .what = "lateness of the bare sleeper over itself; above 1.3 it is too noisy here",
-         .unit = "",
-         .value = null,
-         .aim = Aim::AtMost,
-         .limit = 1.3});
-    if (null > 1.3) results.notes.push_back("Lateness was too noisy to be judged: run it again.");
-}
-
-void addTails(const Lateness& loop, const Lateness& sleeper, const Measured& measured,
-              Results& results) {
+void addTails(const Measured& measured, Results& results) {
+    const auto& [loop, sleeper] = measured.judged;
     const auto add = [&](const char* id, const char* what, double ours, double floor,
                          std::vector<double> repeats) {
-        results.quantities.push_back({.id = id,
-                                      .what = what,
-                                      .unit = "us",
-                                      .value = ours,
-                                      .repeats = std::move(repeats),
-                                      .baseline = floor,
-                                      .baselineName = "bare sleeper",
-                                      .paper = "below 40 us, no percentile given"});
+        results.add(id, what, "us", ours)
+            .ofRepeats(std::move(repeats))
+            .beside(floor, "bare sleeper")
+            .inPaper("below 40 us, no percentile given");
     };
     const Histogram &ours = measured.lateness, &floor = measured.sleeperLateness;
-    add("jitter/lateness-p99", "median of the seconds' p99 of lateness, 1 kHz", loop.medianOfP99(),
-        sleeper.medianOfP99(), p99OfSeconds(loop));
+    add("jitter/lateness-p99", "median of the seconds' p99 of lateness, 1 kHz", loop.typical(),
+        sleeper.typical(), loop.p99s);
     add("jitter/lateness-p99.9", "p99.9 of lateness, 1 kHz", ours.percentile(0.999),
         floor.percentile(0.999), {});
     add("jitter/lateness-p99.99", "p99.99 of lateness, 1 kHz", ours.percentile(0.9999),
@@ -171,12 +120,10 @@ void addTails(const Lateness& loop, const Lateness& sleeper, const Measured& mea
 }
 
 void addMissed(const Measured& measured, Results& results) {
-    results.quantities.push_back({.id = "jitter/missed-ticks",
-                                  .what = "ticks missed by 50 empty simplexes at 1 kHz",
-                                  .unit = "ticks",
-                                  .value = static_cast<double>(measured.missed),
-                                  .baseline = static_cast<double>(measured.sleeperMissed),
-                                  .baselineName = "bare sleeper"});
+    results
+        .add("jitter/missed-ticks", "ticks missed by 50 empty simplexes at 1 kHz", "ticks",
+             static_cast<double>(measured.missed))
+        .beside(static_cast<double>(measured.sleeperMissed), "bare sleeper");
 }
 
 void judgeLateness(const RunOptions& options, Steps& steps, Results& results) {
@@ -191,10 +138,12 @@ void judgeLateness(const RunOptions& options, Steps& steps, Results& results) {
     });
     if (measured.cycles == 0 || measured.sleeps == 0) return;
     results.figures.push_back(latenessFigure(options, measured, loop->threads()));
-    const Lateness ours = bySeconds(loop->recording().cycles, blocks);
-    const Lateness sleeper = bySeconds(loop->recording().sleeps, blocks);
-    if (sleeper.seconds.size() >= 2) judge(ours, sleeper, results);
-    addTails(ours, sleeper, measured, results);
+    Quantity ratio = judgedLateness(measured.judged);
+    ratio.id = "jitter/lateness-ratio";
+    ratio.what =
+        "lateness of the loop over that of a bare sleeper, 1 kHz (medians of the seconds' p99)";
+    results.quantities.push_back(std::move(ratio));
+    addTails(measured, results);
     addMissed(measured, results);
 }
 
@@ -207,7 +156,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 
 Measurement jitterMeasurement() {
     return {"jitter", "jitter against the frequency of the loop, lateness at 1 kHz (Fig. 30)",
-            seconds, run};
+            "Jitter and lateness (Fig. 30)", seconds, run};
 }
 
 }  // namespace cortex::profiler

@@ -3,6 +3,7 @@
 #include "measure/measurements.hpp"
 #include "measure/stated_load.hpp"
 #include "measure/sweep.hpp"
+#include "report/number_text.hpp"
 
 #include <cmath>
 #include <utility>
@@ -21,8 +22,9 @@ SweepPlan plan(const RunOptions& options) {
     made.first = {1, 3, 10, 30, 100, 300, 1000, 2000};
     made.most = 100'000;
     made.bisections = options.quick ? 4 : 6;
-    made.around = options.quick ? std::vector{0.6, 0.8, 1.1, 1.5}
-                                : std::vector{0.5, 0.6, 0.7, 0.8, 0.9, 1.05, 1.1, 1.3, 1.6, 2.0};
+    made.duty = 70;
+    made.around =
+        options.quick ? std::vector{1.1, 1.5} : std::vector{0.8, 0.9, 1.05, 1.1, 1.3, 1.6, 2.0};
     return made;
 }
 
@@ -44,12 +46,15 @@ double seconds(const RunOptions& options) {
 
 std::string setup(const RunOptions& options, const Sweep& sweep) {
     const RecordingPlan each = portion(options);
-    return "10 simplexes in pairs, each sends so many commands per cycle; " +
+    return "10 Active simplexes in pairs, each sends so many commands per cycle and writes an item "
+           "of "
+           "its own and an output with two limited items; " +
            conditions(options, sweep.threads, options.frequency) + "; " +
-           number(static_cast<double>(each.blocks * each.loopPeriods)) +
+           readable(static_cast<double>(each.blocks * each.loopPeriods)) +
            " periods a point. One of each pair is answered in the same cycle, the other in the "
            "next. A pair reads the clock: from before the first command is sent until the last one "
-           "of the cycle has been executed.";
+           "of the cycle has been executed. " +
+           overflowText;
 }
 
 void addLatencies(Figure& figure, const Sweep& sweep, const Holds& holds) {
@@ -62,8 +67,6 @@ void addLatencies(Figure& figure, const Sweep& sweep, const Holds& holds) {
     add("next cycle, p50", [](const Measured& m) { return m.nextCycle.percentile(0.5); });
     add("next cycle, p99", [](const Measured& m) { return m.nextCycle.percentile(0.99); });
     add("next cycle, max", [](const Measured& m) { return m.nextCycle.max(); });
-    add("all, p99 as the loop counts",
-        [](const Measured& m) { return m.latency.percentile(0.99); });
     add("all, p99 of the metric", [](const Measured& m) { return m.clusterLatencyP99; });
 }
 
@@ -71,12 +74,12 @@ Figure latencyFigure(const RunOptions& options, const Sweep& sweep, bool overflo
                      const Holds& holds) {
     Figure figure;
     figure.id = overflown ? "fig28-latency-overflow" : "fig27-latency";
-    figure.title = overflown ? "Latency of commands above the overflow point"
-                             : "Latency of commands below the overflow point";
+    figure.title = overflown ? "Fig. 28: Latency of commands above the overflow point"
+                             : "Fig. 27: Latency of commands below the overflow point";
     figure.paper = overflown
-                       ? "Fig. 28: above 10 commands per simplex the loop overflows, runs at "
+                       ? "Above 10 commands per simplex the loop overflows, runs at "
                          "500 Hz, and latency is 2 ms and more; from 13 on it varies less again."
-                       : "Fig. 27: latency varies the more the more commands each of 10 simplexes "
+                       : "Latency varies the more the more commands each of 10 simplexes "
                          "sends, by up to 14 us; 10 commands are the most without overflow.";
     figure.setup = setup(options, sweep);
     figure.x = {"commands per simplex and cycle", "", true};
@@ -93,10 +96,10 @@ Figure deviationFigure(const RunOptions& options, const Sweep& sweep, bool overf
                        const Holds& holds) {
     Figure figure;
     figure.id = overflown ? "fig28-latency-deviation-overflow" : "fig27-latency-deviation";
-    figure.title = overflown ? "Deviation of latency above the overflow point"
-                             : "Deviation of latency below the overflow point";
-    figure.paper = overflown ? "Fig. 28: overflown, latency deviates in steps of the period."
-                             : "Fig. 27: latency deviates by at most 14 us before the overflow.";
+    figure.title = overflown ? "Fig. 28: Deviation of latency above the overflow point"
+                             : "Fig. 27: Deviation of latency below the overflow point";
+    figure.paper = overflown ? "Overflown, latency deviates in steps of the period."
+                             : "Latency deviates by at most 14 us before the overflow.";
     figure.setup = setup(options, sweep) + " Deviation: from the median, absolute.";
     figure.x = {"commands per simplex and cycle", "", true};
     figure.y = {"deviation", "us", true};
@@ -115,24 +118,22 @@ Figure deviationFigure(const RunOptions& options, const Sweep& sweep, bool overf
 }
 
 void addCapacity(const Sweep& sweep, Results& results) {
-    results.quantities.push_back({.id = "latency/commands-at-70",
-                                  .what = "commands per cycle of each of 10 simplexes at 70 % duty "
-                                          "cycle (p99)",
-                                  .unit = "commands",
-                                  .value = sweep.atDuty(70),
-                                  .repeats = sweep.atDutyOfBlocks(70),
-                                  .aim = Aim::AtLeast,
-                                  .limit = 2000,
-                                  .paper = "10 at nearly 100 %",
-                                  .lessIsBetter = false});
-    if (sweep.overflow == 0) return;
-    results.quantities.push_back({.id = "latency/commands-without-overflow",
-                                  .what = "most commands per cycle of each of 10 simplexes without "
-                                          "overflow",
-                                  .unit = "commands",
-                                  .value = sweep.withoutOverflow,
-                                  .paper = "10",
-                                  .lessIsBetter = false});
+    Quantity atSeventy = capacityOf(sweep, 2000);
+    atSeventy.id = "latency/commands-at-70";
+    atSeventy.what =
+        "most commands per cycle of each of 10 simplexes within 70 % duty cycle (p99), with all "
+        "less";
+    atSeventy.unit = "commands";
+    atSeventy.paper = "10 at nearly 100 %";
+    results.quantities.push_back(std::move(atSeventy));
+    if (sweep.overflow() == 0) return;
+    results
+        .add("latency/commands-without-overflow",
+             "most commands per cycle of each of 10 simplexes without "
+             "overflow",
+             "commands", sweep.withoutOverflow())
+        .moreIsBetter()
+        .inPaper("10");
 }
 
 void addLatency(const Sweep& sweep, Results& results) {
@@ -143,36 +144,29 @@ void addLatency(const Sweep& sweep, Results& results) {
         executed += measured.commands;
         expected += measured.expectedCommands;
         if (x != paperCommands) continue;
-        results.quantities.push_back({.id = "latency/same-cycle-p99",
-                                      .what = "p99 latency in the same cycle, 10 simplexes with "
-                                              "10 commands each",
-                                      .unit = "us",
-                                      .value = measured.sameCycle.percentile(0.99)});
-        results.quantities.push_back({.id = "latency/next-cycle-deviation-p99",
-                                      .what = "p99 deviation of latency to the next cycle, 10 "
-                                              "simplexes with 10 commands each",
-                                      .unit = "us",
-                                      .value = measured.nextCycleError.percentile(0.99),
-                                      .baseline = measured.sleeperIntervalError.percentile(0.99),
-                                      .baselineName = "interval of a bare sleeper",
-                                      .paper = "at most 14 us"});
+        results.add("latency/same-cycle-p99",
+                    "p99 latency in the same cycle, 10 simplexes with "
+                    "10 commands each",
+                    "us", measured.sameCycle.percentile(0.99));
+        results
+            .add("latency/next-cycle-deviation-p99",
+                 "p99 deviation of latency to the next cycle, 10 "
+                 "simplexes with 10 commands each",
+                 "us", measured.nextCycleError.percentile(0.99))
+            .beside(measured.sleeperIntervalError.percentile(0.99), "interval of a bare sleeper")
+            .inPaper("at most 14 us");
     }
     if (expected == 0) return;
-    results.quantities.push_back({.id = "latency/cycles",
-                                  .what = "greatest latency of a command in executed cycles",
-                                  .unit = "cycles",
-                                  .value = static_cast<double>(cycles),
-                                  .aim = Aim::AtMost,
-                                  .limit = 1,
-                                  .paper = "2 ms, overflown"});
-    results.quantities.push_back(
-        {.id = "latency/commands-executed",
-         .what = "executed commands per command sent, all points",
-         .unit = "",
-         .value = static_cast<double>(executed) / static_cast<double>(expected),
-         .aim = Aim::AtLeast,
-         .limit = 1,
-         .lessIsBetter = false});
+    results
+        .add("latency/cycles", "greatest latency of a command in executed cycles", "cycles",
+             static_cast<double>(cycles))
+        .atMost(1)
+        .inPaper("2 ms, overflown");
+    const double difference = static_cast<double>(executed) - static_cast<double>(expected);
+    results
+        .add("latency/commands-missing", "commands executed more or less than sent, all points",
+             "commands", std::abs(difference))
+        .atMost(0);
 }
 
 void run(const RunOptions& options, Progress& progress, Results& results) {
@@ -187,8 +181,8 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
     PartProgress sweeping{progress, 0, sweepPart}, judging{progress, sweepPart, 1};
     const Sweep sweep = sweepUpwards(plan(options), subject, sweeping, results);
     if (sweep.points.empty()) return;
-    const Holds below = [&](const SweepPoint& point) { return point.x <= sweep.withoutOverflow; };
-    const Holds above = [&](const SweepPoint& point) { return point.x > sweep.withoutOverflow; };
+    const Holds below = [&](const SweepPoint& point) { return point.x <= sweep.withoutOverflow(); };
+    const Holds above = [&](const SweepPoint& point) { return point.x > sweep.withoutOverflow(); };
     results.figures.push_back(latencyFigure(options, sweep, false, below));
     results.figures.push_back(deviationFigure(options, sweep, false, below));
     results.figures.push_back(latencyFigure(options, sweep, true, above));
@@ -203,8 +197,8 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 }  // namespace
 
 Measurement latencyMeasurement() {
-    return {"latency", "latency of commands against how many are sent (Fig. 27 and 28)", seconds,
-            run};
+    return {"latency", "latency of commands against how many are sent (Fig. 27 and 28)",
+            "Latency of commands against their number (Fig. 27 and 28)", seconds, run};
 }
 
 }  // namespace cortex::profiler

@@ -2,6 +2,7 @@
 #include "measured_loop.hpp"
 
 #include "cortex/core/agent.hpp"
+#include "cortex/core/error.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -58,13 +59,12 @@ double settlingSeconds(const RunOptions& options) {
 }
 
 bool Measured::overflows() const {
-    if (duration.percentile(0.99) > period) return true;
-    const double sleeper = sleeps == 0 ? 0
-                                       : static_cast<double>(sleeperMissed) *
-                                             static_cast<double>(cycles + missed) /
-                                             static_cast<double>(sleeps + sleeperMissed);
-    const double allowed = std::max(3.0, static_cast<double>(cycles) / 100);
-    return static_cast<double>(missed) > sleeper + allowed;
+    constexpr double tolerance = 0.01;  // of the ticks
+    const auto share = [](std::int64_t lost, std::int64_t met) {
+        return static_cast<double>(lost) / std::max(1.0, static_cast<double>(met + lost));
+    };
+    return duration.percentile(0.99) > period ||
+           share(missed, cycles) > share(sleeperMissed, sleeps) + tolerance;
 }
 
 MeasuredLoop::MeasuredLoop(SimplexTree&& tree, std::int64_t simplexes, std::uint32_t commands,
@@ -82,6 +82,11 @@ MeasuredLoop::MeasuredLoop(SimplexTree&& tree, std::int64_t simplexes, std::uint
 MeasuredLoop::~MeasuredLoop() {
     ending_ = true;
     if (observer_.joinable()) observer_.join();
+    // One after the other, as stop() does it, takes a cycle each.
+    RecordingPlan rest{.loopPeriods = 5, .runIn = 0};
+    rest.prepares = [this] { postToAll(cluster_->agent(), LifeCycle::Shutdown); };
+    clock_->record(rest);
+    while (!clock_->waitUntilDone(100ms)) continue;
     cluster_->stop();
     Partner::commandsPerCycle = 1;
     munlockall();  // a cluster with a priority locks all memory of the process
@@ -89,7 +94,6 @@ MeasuredLoop::~MeasuredLoop() {
 
 void MeasuredLoop::start() {
     cluster_->start();
-    for (Counts* counts : {&before_, &after_}) counts->latencies.resize(latencyBuckets);
     observer_ = std::thread{[this] { observe(); }};
 }
 
@@ -136,15 +140,17 @@ void MeasuredLoop::observe() {
 void MeasuredLoop::count(Counts& counts) {
     AgentRuntime& agent = cluster_->agent();
     counts.commands = counts.rejected = 0;
-    std::ranges::fill(counts.latencies, 0);
     for (std::uint32_t i = 0; i < agent.threadCount(); ++i) {
         const LoopThread& thread = agent.thread(i);
         counts.commands += thread.commands;
         counts.rejected += thread.rejected;
-        for (std::size_t bin = 0; bin < counts.latencies.size(); ++bin) {
-            counts.latencies[bin] += thread.latencyCounts[bin];
-        }
     }
+}
+
+// What is measured of a loop whose tasks rest would say little.
+void MeasuredLoop::checkActive() const {
+    if (!recording().complete) return;
+    if (!allActive(cluster_->image())) throw Error("not all simplexes of the loop are Active");
 }
 
 Measured MeasuredLoop::run(const RecordingPlan& plan, const std::function<bool()>& stop) {
@@ -154,23 +160,24 @@ Measured MeasuredLoop::run(const RecordingPlan& plan, const std::function<bool()
     }
     imagesRead_ = 0;
     const auto begin = std::chrono::steady_clock::now();
-    RecordingPlan settled = plan;
-    settled.runIn = std::max(plan.runIn, static_cast<std::int64_t>(settlingPeriods_));
-    clock_->record(
-        settled,
-        [this] {
-            count(before_);
-            if (first_ != nullptr) first_->begin();
-            if (second_ != nullptr) second_->begin();
-        },
-        [this] {
-            count(after_);
-            if (first_ != nullptr) first_->end();
-            if (second_ != nullptr) second_->end();
-        });
+    RecordingPlan whole = plan;
+    whole.runIn = std::max(plan.runIn, static_cast<std::int64_t>(settlingPeriods_));
+    whole.prepares = [this] { postToAll(cluster_->agent(), LifeCycle::Startup); };
+    whole.begins = [this] {
+        count(before_);
+        if (first_ != nullptr) first_->begin();
+        if (second_ != nullptr) second_->begin();
+    };
+    whole.ends = [this] {
+        count(after_);
+        if (first_ != nullptr) first_->end();
+        if (second_ != nullptr) second_->end();
+    };
+    clock_->record(whole);
     while (!clock_->waitUntilDone(100ms)) {
         if (stop()) clock_->abandon();
     }
+    checkActive();
     Measured measured;
     measured.imagesRead = imagesRead_;
     measured.seconds =
@@ -199,6 +206,7 @@ void MeasuredLoop::evaluateWakes(Measured& measured) const {
         measured.missed += cycle.missed;
     }
     evaluateBlocks(measured);
+    measured.judged = {latenessOf(found.cycles), latenessOf(found.sleeps)};
     for (std::size_t i = 0; i < found.sleeps.size(); ++i) {
         const Recording::Wake& wake = found.sleeps[i];
         measured.sleeperLateness.add(wake.lateness);
@@ -211,10 +219,6 @@ void MeasuredLoop::evaluateWakes(Measured& measured) const {
         measured.workDuration.add(work.duration);
         measured.workMissed += work.missed;
     }
-    if (measured.cycles == 0) return;
-    const std::int64_t others = measured.sleeps * 2 + measured.works * 4;
-    measured.clockReadings = static_cast<double>(found.clockReadings - others) /
-                             static_cast<double>(found.cycles.size());
 }
 
 void MeasuredLoop::evaluateBlocks(Measured& measured) const {
@@ -264,10 +268,6 @@ void MeasuredLoop::evaluateCommands(Measured& measured) const {
     measured.rejected = after_.rejected - before_.rejected;
     measured.expectedCommands = static_cast<std::uint64_t>(recording().cycles.size()) *
                                 static_cast<std::uint64_t>(simplexes_) * commands_;
-    for (std::uint32_t bin = 0; bin < latencyBuckets; ++bin) {
-        const std::uint64_t times = after_.latencies[bin] - before_.latencies[bin];
-        measured.latency.add(static_cast<std::int64_t>(latencyOfBucket(bin) * 1e3), times);
-    }
     const Image image = cluster_->image();
     measured.clusterLatencyP99 = image.get<double>("/subject", "commandLatencyP99");
 }

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "measure/histogram.hpp"
 #include "measure/measurement.hpp"
 #include "measure/recording_clock.hpp"
+#include "report/judging.hpp"
 #include "subject/subject.hpp"
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -23,18 +22,17 @@ struct Measured {
     std::int64_t works = 0, workMissed = 0;  // of RegisterWork
     Histogram duration, lateness, sleeperLateness, workDuration;
     Histogram interval, intervalError, sleeperIntervalError;  // errors: from the period, absolute
-    Histogram latency;  // of all commands as the loop counts it: steps of a chunk, bins of 6 %
     // Of the timed pair by its own clock: from before the first command is sent until the last one
     // of the cycle is executed; errors: from the median, absolute.
     Histogram sameCycle, nextCycle, sameCycleError, nextCycleError;
     std::int64_t greatestLatencyCycles = 0;
     double clusterLatencyP99 = 0;  // us, the cluster's own metric
     std::uint64_t commands = 0, expectedCommands = 0, rejected = 0;
-    double clockReadings = 0;  // a cycle
     std::uint64_t imagesRead = 0;
     double seconds = 0;                      // that the loop ran
     std::vector<double> blockP50, blockP99;  // us, of the duration, block by block
     bool complete = false;
+    LoopAndSleeper judged;  // by blocks of the plan
 
     // p99 of the duty cycle in one block, or in all where there is no such block.
     double dutyOfBlock(std::size_t block) const {
@@ -42,13 +40,13 @@ struct Measured {
     }
     double duty(double part) const { return 100 * duration.percentile(part) / period; }
     double meanDuty() const { return 100 * duration.mean() / period; }
-    // p99 of the duration above the period, or more ticks missed than by the sleeper and 1 in 100,
-    // as fewer say nothing at the length of a sweep's points: one pause of the machine costs
-    // several. judgeLoad() looks longer, at 1 in 10,000.
+    // p99 of the duration above the period, or more ticks missed than by the sleeper and 1 in 100:
+    // the one tolerance of all sweeps. judgeLoad() looks longer, at 1 in 10,000.
     bool overflows() const;
 };
 
-// A cluster on a RecordingClock, with somebody who reads its newest image 30 times a second.
+// A cluster on a RecordingClock, all simplexes Active, with somebody who reads its newest image 30
+// times a second.
 class MeasuredLoop {
 public:
     // Pairs of simplexes that send `commands` each in each cycle.
@@ -67,13 +65,13 @@ public:
 private:
     struct Counts {
         std::uint64_t commands = 0, rejected = 0;
-        std::vector<std::uint64_t> latencies;
     };
     MeasuredLoop(SimplexTree&& tree, std::int64_t simplexes, std::uint32_t commands,
                  double frequency, const RunOptions& options);
     void start();
     void observe();
     void count(Counts& counts);
+    void checkActive() const;
     void evaluateWakes(Measured& measured) const;
     void evaluateBlocks(Measured& measured) const;
     void evaluateCommands(Measured& measured) const;

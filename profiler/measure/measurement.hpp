@@ -4,7 +4,6 @@
 #include "report/results.hpp"
 
 #include <cstdint>
-#include <span>
 #include <string_view>
 
 namespace cortex::profiler {
@@ -42,10 +41,9 @@ private:
 struct Measurement {
     const char* name;
     const char* what;
+    const char* heading;  // of its quantities
     double (*seconds)(const RunOptions& options);
     void (*run)(const RunOptions& options, Progress& progress, Results& results);
 };
-
-std::span<const Measurement> measurements();
 
 }  // namespace cortex::profiler

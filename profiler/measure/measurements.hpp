@@ -5,10 +5,15 @@
 
 namespace cortex::profiler {
 
+Measurement memoryMeasurement();
 Measurement dutyMeasurement();
 Measurement intervalMeasurement();
 Measurement latencyMeasurement();
 Measurement jitterMeasurement();
 Measurement commandsMeasurement();
+Measurement schedulerMeasurement();
+Measurement accessMeasurement();
+Measurement commsMeasurement();
+Measurement observersMeasurement();
 
 }  // namespace cortex::profiler

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a cluster takes of memory: over time, and by what it consists of (Figs. 18 to 22); what
-// large ones take of memory and time.
-#include "measure/memory.hpp"
-
-#include "measure/memory_fit.hpp"
+// What a cluster takes of memory: over time, and by what it consists of (Fig. 18 to 22).
+#include "measure/measurements.hpp"
 #include "measure/memory_roles.hpp"
-#include "measure/size_sweep.hpp"
+#include "report/statistics.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -37,7 +34,7 @@ Quantity residualOf(const std::string& id, const std::string& what, const Line& 
 
 struct OverTime {
     std::vector<Series> allocated;  // kB over s, one of each size
-    double growth = 0, dirtyGrowth = 0;
+    double growth = 0, allocations = 0;
     std::vector<Point> last;
 };
 
@@ -61,7 +58,7 @@ bool observe(const RunOptions& options, Progress& progress, OverTime& seen) {
             if (n == 0) first.push_back(now);
             seen.allocated[i].points.push_back({n / perSecond, now.allocated / kilo});
             seen.growth = std::max(seen.growth, now.allocated - first[i].allocated);
-            seen.dirtyGrowth = std::max(seen.dirtyGrowth, now.dirty - first[i].dirty);
+            seen.allocations = std::max(seen.allocations, now.allocations - first[i].allocations);
             seen.last.push_back({static_cast<double>(all[i]), now.allocated / kilo});
         }
     }
@@ -72,33 +69,33 @@ void addOverTime(const RunOptions& options, OverTime& seen, Results& results) {
     const std::string time = std::to_string(static_cast<int>(runSeconds(options))) + " s";
     results.figures.push_back(
         {.id = "fig18-memory-over-time",
-         .title = "Memory over time",
-         .paper = "Fig. 18: 100 to 1,000 empty simplexes over two minutes; no allocation",
+         .title = "Fig. 18: Memory over time",
+         .paper = "100 to 1,000 empty simplexes over two minutes; no allocation",
          .setup = "A process for each number of simplexes, all at once at 1 kHz for " + time +
-                  "; what its malloc has given out since before its types were read.",
+                  "; what its malloc has given out since before its types were read. The simplexes "
+                  "are in "
+                  "Standby, without items and outputs of their own.",
          .x = {"time", "s", false},
          .y = {"allocated", "kB", false},
          .series = std::move(seen.allocated),
          .marks = {}});
-    results.quantities.push_back(
-        {.id = "memory/growth/allocated",
-         .what = "growth of what is allocated during " + time + " at 1 kHz, the worst of all sizes",
-         .unit = "octets",
-         .value = seen.growth,
-         .aim = Aim::AtMost,
-         .limit = 0,
-         .paper = "0 over two minutes"});
-    results.quantities.push_back(
-        {.id = "memory/growth/written",
-         .what = "growth of private pages that have been written to meanwhile",
-         .unit = "octets",
-         .value = seen.dirtyGrowth,
-         .paper = "0 over two minutes"});
+    results
+        .add("memory/growth/allocated",
+             "growth of what is allocated during " + time + " at 1 kHz, the worst of all sizes",
+             "bytes", seen.growth)
+        .atMost(0)
+        .inPaper("0 over two minutes");
+    results
+        .add("memory/growth/allocations",
+             "allocator calls of the loop's threads meanwhile, the worst of all sizes", "calls",
+             seen.allocations)
+        .atMost(0)
+        .inPaper("0 over two minutes");
     const Line line = fit(seen.last);
     results.figures.push_back(
         {.id = "fig19-memory-simplexes",
-         .title = "Memory against empty simplexes",
-         .paper = "Fig. 19: linear in the number of simplexes",
+         .title = "Fig. 19: Memory against empty simplexes",
+         .paper = "Linear in the number of simplexes",
          .setup = "The last values of the figure before; 8 readers of images, 10 images.",
          .x = {"empty simplexes", "", false},
          .y = {"allocated", "kB", false},
@@ -120,14 +117,11 @@ void addEmptySimplex(Results& results) {
     const MemorySample small = once({Content::Nothing, few, 0, 1});
     const MemorySample large = once({Content::Nothing, many, 0, 1});
     const double otherSlots = (large.images - 1) * (large.arena - small.arena);
-    results.quantities.push_back(
-        {.id = "memory/simplex",
-         .what = "an empty simplex with all indexes and one image",
-         .unit = "octets",
-         .value = (large.allocated - small.allocated - otherSlots) / (many - few),
-         .aim = Aim::AtMost,
-         .limit = 1024,
-         .paper = "linear"});
+    results
+        .add("memory/simplex", "an empty simplex with all indexes and one image", "bytes",
+             (large.allocated - small.allocated - otherSlots) / (many - few))
+        .atMost(1024)
+        .inPaper("linear");
 }
 
 struct Filling {
@@ -135,13 +129,13 @@ struct Filling {
     const char *id, *figure, *title, *paper, *what;
 };
 constexpr Filling fillings[]{
-    {Content::Data, "data", "fig20-memory-data", "Memory against data items",
-     "Fig. 20: 25 simplexes, 10 data items more in each at a time; linear", "a float"},
+    {Content::Data, "data", "fig20-memory-data", "Fig. 20: Memory against data items",
+     "25 simplexes, 10 data items more in each at a time; linear", "a float"},
     {Content::Relationships, "relationships", "fig21-memory-relationships",
-     "Memory against relationships",
-     "Fig. 21: 25 simplexes, 10 relationships more in each at a time; linear", "a relationship"},
-    {Content::Commands, "commands", "fig22-memory-commands", "Memory against commands",
-     "Fig. 22: 25 simplexes, 10 commands more in each at a time; linear", "a command"}};
+     "Fig. 21: Memory against relationships",
+     "25 simplexes, 10 relationships more in each at a time; linear", "a relationship"},
+    {Content::Commands, "commands", "fig22-memory-commands", "Fig. 22: Memory against commands",
+     "25 simplexes, 10 commands more in each at a time; linear", "a command"}};
 
 bool fill(const Filling& filling, const RunOptions& options, Progress& progress, Results& results) {
     std::vector<Point> points;
@@ -161,12 +155,11 @@ bool fill(const Filling& filling, const RunOptions& options, Progress& progress,
          .y = {"allocated", "kB", false},
          .series = {{"CorteX", std::move(points), false}},
          .marks = {}});
-    results.quantities.push_back({.id = id,
-                                  .what = std::string{filling.what} +
-                                          " in one of 25 simplexes of a type, 10 images included",
-                                  .unit = "octets",
-                                  .value = line.slope * kilo / Loaded::simplexes,
-                                  .paper = "linear"});
+    results
+        .add(id,
+             std::string{filling.what} + " in one of 25 simplexes of a type, 10 images included",
+             "bytes", line.slope * kilo / Loaded::simplexes)
+        .inPaper("linear");
     results.quantities.push_back(residualOf(id, std::string{"memory against "} + filling.id, line));
     return true;
 }
@@ -184,18 +177,17 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
     for (const Filling& filling : fillings) {
         if (!fill(filling, options, progress, results)) return;
     }
-    if (!measureSizes(options, progress, results)) return;
     results.notes.push_back(
-        "octets touched in a cycle are not measured: the kernel tells of whole pages only");
+        "memory: bytes touched in a cycle are neither measured nor claimed, as the kernel tells of "
+        "whole pages only");
     progress.step(1, "memory");
 }
 
 }  // namespace
 
-const Measurement& memoryMeasurement() {
-    static constexpr Measurement measurement{
-        "memory", "memory over time and by content, cost of large clusters", seconds, run};
-    return measurement;
+Measurement memoryMeasurement() {
+    return {"memory", "memory over time and by content (Fig. 18 to 22)", "Memory (Fig. 18 to 22)",
+            seconds, run};
 }
 
 }  // namespace cortex::profiler

@@ -21,23 +21,13 @@ struct MemoryRole {
 std::vector<std::string> wordsOf(const MemoryRole& role);
 
 struct MemorySample {
-    double allocated = 0, dirty = 0;  // octets
-    double arena = 0;                 // of one image
+    double allocated = 0;  // bytes
+    double arena = 0;      // of one image
     double images = 0;
+    double allocations = 0;  // calls of the allocator by the loop's threads
 };
 MemorySample sampleFrom(Child& child);
 
-// A cluster of so many empty simplexes: what it costs to start it and to run it.
-struct SizeSample {
-    double adding = 0;     // s, by whoever adds simplexes to the tree
-    double starting = 0;   // s, from start() to the end of the first cycle
-    double cycle = 0;      // ns, best of five rounds
-    double allocated = 0;  // octets
-};
-std::vector<std::string> sizeWords(int count);
-SizeSample sizeFrom(Child& child);
-
 int playMemoryRole(const std::vector<std::string>& words);
-int playSizeRole(const std::vector<std::string>& words);
 
 }  // namespace cortex::profiler

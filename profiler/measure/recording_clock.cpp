@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recording_clock.hpp"
 
-#include "baselines/register_rounds.hpp"
+#include "cortex/core/clock.hpp"
 
 #include <algorithm>
 #include <thread>
@@ -17,19 +17,14 @@ using namespace std::chrono_literals;
 constexpr std::int64_t second = 1'000'000'000;
 constexpr std::int64_t longestSleep = second / 10;  // an interrupt is seen after at most this
 
-std::int64_t monotonicNow() {
-    timespec time{};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return static_cast<std::int64_t>(time.tv_sec) * second + time.tv_nsec;
+void call(const std::function<void()>& function) {
+    if (function) function();
 }
 
 }  // namespace
 
-void RecordingClock::record(const RecordingPlan& plan, std::function<void()> begins,
-                            std::function<void()> ends) {
+void RecordingClock::record(const RecordingPlan& plan) {
     plan_ = plan;
-    begins_ = std::move(begins);
-    ends_ = std::move(ends);
     recording_ = {};
     const auto blocks = static_cast<std::size_t>(plan.blocks);
     recording_.cycles.reserve(blocks * static_cast<std::size_t>(plan.loopPeriods + plan.settling));
@@ -52,19 +47,14 @@ bool RecordingClock::waitUntilDone(std::chrono::milliseconds limit) const {
     return true;
 }
 
-std::int64_t RecordingClock::now() {
-    ++readings_;
-    return monotonicNow();
-}
-
 std::int64_t RecordingClock::sleep() {
     const std::int64_t until = deadline();
-    std::int64_t time = now();
+    std::int64_t time = monotonicNow();
     while (time < until && !interrupted_.load(std::memory_order_relaxed)) {
         const std::int64_t end = std::min(until, time + longestSleep);
         const timespec target{static_cast<time_t>(end / second), static_cast<long>(end % second)};
         clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &target, nullptr);
-        time = now();
+        time = monotonicNow();
     }
     wokenAt_ = time;
     ++next_;
@@ -74,7 +64,8 @@ std::int64_t RecordingClock::sleep() {
 // Until there is a plan: nobody counts the deadlines of this time.
 void RecordingClock::rest() {
     while (!asked_.exchange(false) && !interrupted_) asked_.wait(false);
-    origin_ = now() - (next_ - 1) * period_;
+    call(plan_.prepares);
+    origin_ = monotonicNow() - (next_ - 1) * period_;
     skipped_ = 0;
     phaseEnds_ = next_ + plan_.runIn;
     block_ = 0;
@@ -98,13 +89,12 @@ void RecordingClock::enterBlock() {
 }
 
 void RecordingClock::endCounting() {
-    if (std::exchange(counting_, false)) ends_();
+    if (std::exchange(counting_, false)) call(plan_.ends);
 }
 
 void RecordingClock::finish(bool complete) {
     endCounting();
     recording_.complete = complete;
-    recording_.clockReadings = readings_ - readingsBefore_;
     phase_ = Phase::Resting;
     done_.store(true, std::memory_order_release);
 }
@@ -116,9 +106,8 @@ void RecordingClock::advance() {
     }
     if (next_ < phaseEnds_) return;
     if (phase_ == Phase::RunningIn) {
-        begins_();
+        call(plan_.begins);
         counting_ = true;
-        readingsBefore_ = readings_;
         enterBlock();
         return;
     }
@@ -151,6 +140,7 @@ void RecordingClock::recordSleep() {
     }
     next_ += late;
     skipped_ = 0;
+    call(plan_.wakes);
 }
 
 std::int64_t RecordingClock::skipPassed() {
@@ -164,7 +154,7 @@ void RecordingClock::recordWork() {
     const std::int64_t lateness = sleep();
     const std::int64_t begin = wokenAt_;
     work_->cycle(rounds_);
-    const std::int64_t end = now();
+    const std::int64_t end = monotonicNow();
     const std::int64_t missed = skipPassed();
     if (recording_.works.size() < recording_.works.capacity())
         recording_.works.push_back({{begin, lateness, missed, block_}, end - begin, false});
@@ -177,7 +167,7 @@ std::int64_t RecordingClock::meanDuration() const {
 }
 
 cs::Trigger RecordingClock::waitForTick() {
-    const std::int64_t end = now();
+    const std::int64_t end = monotonicNow();
     if (phase_ != Phase::Resting) finishCycle(end);
     while (!interrupted_.load(std::memory_order_acquire)) {
         if (phase_ != Phase::Resting) advance();
@@ -212,15 +202,8 @@ void RecordingClock::interrupt() {
 }
 
 std::int64_t RecordingClock::missed() {
-    const std::int64_t late = now() - deadline();
+    const std::int64_t late = monotonicNow() - deadline();
     return late < 0 ? 0 : late / period_ + 1;
-}
-
-double clockReadingCost() {
-    constexpr int readings = 200'000;
-    const std::int64_t begin = monotonicNow();
-    for (int i = 1; i < readings; ++i) monotonicNow();
-    return static_cast<double>(monotonicNow() - begin) / readings;
 }
 
 }  // namespace cortex::profiler

@@ -18,13 +18,17 @@ namespace cortex::profiler {
 // sleeps to `sleeperPeriods` deadlines, then at `workingPeriods` it and as many others as the loop
 // has do RegisterWork for as long as a cycle of the loop took so far. Before the first block the
 // loop runs in; the first cycles of each later block, when caches are cold from the pause, are
-// marked as settling.
+// marked as settling. All functions are called on the loop's thread, between two cycles.
 struct RecordingPlan {
     int blocks = 1;
     std::int64_t loopPeriods = 1000, sleeperPeriods = 0, workingPeriods = 0, runIn = 20,
                  settling = 0;
     std::uint32_t workThreads = 1;
     int workPriority = 0;
+    std::function<void()> prepares{};  // before all
+    std::function<void()> begins{};    // before the first cycle that is recorded
+    std::function<void()> ends{};      // after the last one
+    std::function<void()> wakes{};     // after each wake-up of the sleeper
 };
 
 // All times in ns on the monotonic clock.
@@ -41,7 +45,6 @@ struct Recording {
     std::vector<Cycle> cycles;
     std::vector<Wake> sleeps;
     std::vector<Cycle> works;
-    std::int64_t clockReadings = 0;  // the clock's own, while the cycles were recorded
     bool complete = false;
 };
 
@@ -51,10 +54,7 @@ class RecordingClock final : public cs::TriggerSource {
 public:
     explicit RecordingClock(std::chrono::nanoseconds period) : period_{period.count()} {}
 
-    // Program's thread. `begins` and `ends` run on the loop's thread, between two cycles, before
-    // the first and after the last that is recorded.
-    void record(const RecordingPlan& plan, std::function<void()> begins,
-                std::function<void()> ends);
+    void record(const RecordingPlan& plan);  // program's thread
     bool waitUntilDone(std::chrono::milliseconds limit) const;
     void abandon() { abandoned_ = true; }  // ends the plan early; waitUntilDone() tells when
     const Recording& recording() const { return recording_; }  // when it is done
@@ -68,7 +68,6 @@ public:
 
 private:
     enum class Phase { Resting, RunningIn, Looping, Sleeping, Working };
-    std::int64_t now();
     std::int64_t deadline() const { return origin_ + next_ * period_; }
     std::int64_t sleep();  // to the next deadline; its lateness
     void rest();
@@ -88,16 +87,11 @@ private:
     std::unique_ptr<RegisterWork> work_;
     std::int64_t rounds_ = 0;  // of work
     int block_ = 0;
-    bool counting_ = false;  // from begins_ to ends_
+    bool counting_ = false;  // from begins() to ends()
     Phase phase_ = Phase::Resting;
     RecordingPlan plan_;
-    std::function<void()> begins_, ends_;
     Recording recording_;
-    std::int64_t readings_ = 0, readingsBefore_ = 0;
     std::atomic<bool> asked_{false}, done_{true}, abandoned_{false}, interrupted_{false};
 };
-
-// ns that one reading of the monotonic clock takes here.
-double clockReadingCost();
 
 }  // namespace cortex::profiler

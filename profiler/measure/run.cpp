@@ -3,21 +3,31 @@
 
 #include "cortex/core/error.hpp"
 
+#include "measure/measurements.hpp"
 #include "measure/terminal_progress.hpp"
-#include "report/comparison.hpp"
 #include "report/machine_facts.hpp"
+#include "report/quantity_text.hpp"
 #include "report/results_files.hpp"
 #include "report/summary_text.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <ctime>
 #include <iostream>
+#include <span>
 
 #include <unistd.h>
 
 namespace cortex::profiler {
 namespace {
+
+std::span<const Measurement> measurements() {
+    static const std::array all{memoryMeasurement(),    dutyMeasurement(),   intervalMeasurement(),
+                                latencyMeasurement(),   jitterMeasurement(), commandsMeasurement(),
+                                schedulerMeasurement(), accessMeasurement(), commsMeasurement(),
+                                observersMeasurement()};
+    return all;
+}
 
 constexpr std::string_view dutyName = "duty", intervalName = "interval";
 
@@ -47,26 +57,40 @@ double secondsOf(const Measurement& each, const std::vector<const Measurement*>&
     return shared ? 0.1 : each.seconds(options);
 }
 
-void runOne(const Measurement& measurement, const RunOptions& options, TerminalProgress& progress,
+// False: it failed.
+bool runOne(const Measurement& measurement, const RunOptions& options, TerminalProgress& progress,
             Results& results) {
+    const auto before = static_cast<std::ptrdiff_t>(results.quantities.size());
+    bool whole = true;
     try {
         measurement.run(options, progress, results);
     } catch (const std::exception& error) {
         results.notes.push_back(std::string{measurement.name} + " failed: " + error.what());
+        whole = false;
     }
+    for (auto each = results.quantities.begin() + before; each != results.quantities.end();
+         ++each) {
+        each->group = measurement.heading;
+    }
+    return whole;
 }
 
 }  // namespace
 
-std::string unknownName(const std::vector<std::string>& names) {
-    for (const std::string& name : names) {
-        const auto is = [&](const Measurement& each) { return each.name == name; };
-        if (name == "all" || std::ranges::any_of(measurements(), is)) continue;
-        std::string text = "there is no measurement '" + name + "'; there are all";
-        for (const Measurement& each : measurements()) text += std::string{", "} + each.name;
-        return text;
+std::string measurementHelp() {
+    std::string text = "Measurements:\n  all         every one of them, if none is named\n";
+    for (const Measurement& each : measurements()) {
+        std::string name = each.name;
+        name.resize(std::max<std::size_t>(name.size(), 11), ' ');
+        text += "  " + name + " " + each.what + "\n";
     }
-    return {};
+    return text;
+}
+
+std::vector<std::string> measurementNames() {
+    std::vector<std::string> names{"all"};
+    for (const Measurement& each : measurements()) names.emplace_back(each.name);
+    return names;
 }
 
 std::filesystem::path makeFolder(const std::filesystem::path& wanted, bool force) {
@@ -96,7 +120,7 @@ Results newResults(const std::string& command) {
 int tellResults(const Results& results, const std::filesystem::path& folder) {
     std::cout << summaryText(results, terminalWidth(STDOUT_FILENO))
               << "Results: " << (folder / "report.html").string() << std::endl;
-    return results.complete ? 0 : 1;
+    return exitCodeOf(results);
 }
 
 int runMeasurements(const RunRequest& request) {
@@ -107,13 +131,14 @@ int runMeasurements(const RunRequest& request) {
     std::cerr << "Takes about " << durationText(seconds) << "; Ctrl-C keeps what there is.\n";
 
     Results results = newResults(request.command);
+    bool whole = true;
     noteStopSignals();
     {
         TerminalProgress progress{seconds};
         for (const Measurement* each : list) {
             progress.begin(each->name, secondsOf(*each, list, request.options));
-            runOne(*each, request.options, progress, results);
-            results.complete = each == list.back() && !stopAsked();
+            whole = runOne(*each, request.options, progress, results) && whole;
+            results.complete = each == list.back() && whole && !stopAsked();
             if (stopAsked()) results.notes.push_back("Stopped: not everything was measured.");
             save(results, folder);
             if (stopAsked()) break;

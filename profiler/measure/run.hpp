@@ -20,8 +20,8 @@ struct RunRequest {
 // Exit code. Saves after each measurement; what there is when it is stopped is kept.
 int runMeasurements(const RunRequest& request);
 
-// Empty, or what is wrong with a name, with the valid ones.
-std::string unknownName(const std::vector<std::string>& names);
+std::string measurementHelp();  // what can be asked for
+std::vector<std::string> measurementNames();
 
 // Makes the folder of a run. Throws Error where results would be lost.
 std::filesystem::path makeFolder(const std::filesystem::path& wanted, bool force);

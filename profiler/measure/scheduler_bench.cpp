@@ -5,7 +5,6 @@
 
 #include <map>
 #include <optional>
-#include <utility>
 
 #include <oneapi/tbb/task_arena.h>
 
@@ -30,10 +29,8 @@ std::uint32_t arenaThread() {
 
 }  // namespace
 
-SchedulerBench::SchedulerBench(const TaskEdges& edges, std::uint32_t threads,
-                               double workNanoseconds)
-    : tree_{withAgent(simplexesOf(edges, workNanoseconds))},
-      agent_{"bench", tree_, optionsFor(threads)} {
+SchedulerBench::SchedulerBench(const TaskEdges& edges, std::uint32_t threads)
+    : tree_{withAgent(simplexesOf(edges))}, agent_{"bench", tree_, optionsFor(threads)} {
     cs::TaskGraph graph;
     for (const SimplexInfo& info : agent_.structure().simplexes) {
         graph.nodes.push_back({info.path, info.layout->type->isA("Active"), 1, 0});
@@ -82,12 +79,11 @@ std::chrono::nanoseconds SchedulerBench::cycles(std::int64_t count) {
 }
 
 std::chrono::nanoseconds SchedulerBench::plainly(std::int64_t count) {
+    const auto tasks = static_cast<std::uint32_t>(slots_.size());
     return timed([&] {
         for (std::int64_t i = 0; i < count; ++i) {
             beginCycle();
-            for (std::uint32_t chunk = 0; chunk < schedule_.chunks.size(); ++chunk) {
-                if (schedule_.chunks[chunk].count != 0) runner_->run(chunk, 0);
-            }
+            for (std::uint32_t each = 0; each < tasks; ++each) runner_->runAlone(each, 0);
         }
     });
 }

@@ -3,8 +3,8 @@
 
 #include "cortex/core/agent.hpp"
 
+#include "baselines/flow_graph.hpp"
 #include "baselines/in_turn.hpp"
-#include "baselines/plain_loop.hpp"
 #include "subject/graphs.hpp"
 #include "tasks/task_runner.hpp"
 #include "threads/scheduler.hpp"
@@ -18,16 +18,17 @@
 namespace cortex::profiler {
 
 // The schedule of real SimplexCS tasks as a cluster would have it, without the rest of a cluster:
-// cycles of its thread pool, or the same tasks in a plain loop.
+// cycles of its thread pool, or the same tasks for others to run.
 class SchedulerBench {
 public:
     // So many threads are asked for; how many are used is up to the library.
-    SchedulerBench(const TaskEdges& edges, std::uint32_t threads, double workNanoseconds = 0);
+    SchedulerBench(const TaskEdges& edges, std::uint32_t threads);
     ~SchedulerBench();
     SchedulerBench(const SchedulerBench&) = delete;
     SchedulerBench& operator=(const SchedulerBench&) = delete;
 
     std::chrono::nanoseconds cycles(std::int64_t count);
+    // No scheduling at all: the limit.
     std::chrono::nanoseconds plainly(std::int64_t count);
     std::uint32_t threadsInUse() const { return pool_->threads(); }
 

@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simplex_sweep.hpp"
 
+#include "report/number_text.hpp"
+
 #include <cmath>
 #include <tuple>
 
 namespace cortex::profiler {
 namespace {
 
-constexpr double paperCycles = 5000;
-constexpr std::int64_t settling = 10;  // periods
-
-struct Portion {
-    int blocks;
-    double loop, sleeper;  // periods in each
-};
-
-Portion portion(const RunOptions& options) {
-    if (options.quick) return {3, 120, 40};
-    return {5, paperCycles / 5, 400};
+RecordingPlan portion(const RunOptions& options) {
+    RecordingPlan plan{5, 1000, 400};  // the paper's 5,000 cycles
+    if (options.quick) plan = {3, 120, 40};
+    plan.settling = 10;
+    return plan;
 }
 
 SweepPlan plan(const RunOptions& options) {
@@ -26,34 +22,36 @@ SweepPlan plan(const RunOptions& options) {
     made.most = 400'000;
     made.grain = 2;
     made.bisections = options.quick ? 4 : 6;
-    made.around = options.quick ? std::vector{0.6, 0.8, 1.1, 1.3}
-                                : std::vector{0.5, 0.6, 0.7, 0.8, 0.9, 1.05, 1.1, 1.2, 1.3, 1.6};
+    made.duty = 70;
+    made.around =
+        options.quick ? std::vector{1.1, 1.3} : std::vector{0.8, 0.9, 1.05, 1.1, 1.3, 1.6};
     return made;
-}
-
-double secondsEach(const RunOptions& options) {
-    const Portion each = portion(options);
-    return each.blocks * (each.loop + each.sleeper) / options.frequency;
 }
 
 }  // namespace
 
 double simplexSweepSeconds(const RunOptions& options) {
-    // Clusters of tens of thousands take most of a second to make.
-    const double making = 0.5;
+    const RecordingPlan each = portion(options);
+    const auto periods =
+        static_cast<double>(each.blocks * (each.loopPeriods + each.sleeperPeriods));
+    const double making = 0.5;  // clusters of tens of thousands take most of a second
     return expectedSteps(plan(options)) *
-           (secondsEach(options) + settlingSeconds(options) + making);
+           (periods / options.frequency + settlingSeconds(options) + making);
 }
 
 std::string simplexSweepSetup(const RunOptions& options, const Sweep& sweep) {
-    const Portion each = portion(options);
-    return "Pairs of simplexes, each sends its partner one command per cycle with one argument "
-           "that is checked against its range and answered; " +
+    const RecordingPlan each = portion(options);
+    const auto periods = [&](std::int64_t n) {
+        return readable(static_cast<double>(each.blocks * n));
+    };
+    return "Pairs of Active simplexes, each sends its partner one command per cycle with one "
+           "argument "
+           "that is checked against its range and answered, and writes an item of its own and an "
+           "output with two items that are checked against their limits; " +
            conditions(options, sweep.threads, options.frequency) + "; " +
-           number(each.blocks * each.loop) + " periods a point in turn with a bare sleeper of " +
-           number(each.blocks * each.sleeper) +
-           "; an observer reads the newest image 30 times a second. Overflow: p99 of the cycle is "
-           "longer than the period, or more ticks are missed than by the sleeper and 1 in 100.";
+           periods(each.loopPeriods) + " periods a point in turn with a bare sleeper of " +
+           periods(each.sleeperPeriods) +
+           "; an observer reads the newest image 30 times a second. " + overflowText;
 }
 
 const Sweep& simplexSweep(const RunOptions& options, Progress& progress, Results& results) {
@@ -63,15 +61,12 @@ const Sweep& simplexSweep(const RunOptions& options, Progress& progress, Results
     const Key key{options.quick, options.threads, options.frequency, options.priority};
     if (made.complete && key == madeFor) return made;
 
-    const Portion each = portion(options);
-    RecordingPlan recording{each.blocks, std::llround(each.loop), std::llround(each.sleeper)};
-    recording.settling = settling;
     const SweepSubject subject{"simplexes",
                                [&](double count) {
                                    return MeasuredLoop::ofPartners(std::llround(count), 1,
                                                                    options.frequency, options);
                                },
-                               [&](double) { return recording; }};
+                               [&](double) { return portion(options); }};
     made = sweepUpwards(plan(options), subject, progress, results);
     madeFor = key;
     if (options.priority > 0) {

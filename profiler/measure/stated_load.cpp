@@ -3,19 +3,19 @@
 
 #include "measure/measured_loop.hpp"
 #include "measure/sweep.hpp"
+#include "report/judging.hpp"
+#include "report/number_text.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <utility>
 #include <vector>
 
 namespace cortex::profiler {
 namespace {
 
-constexpr double mostDuty = 70;   // %, p99
-constexpr double mostMissed = 1;  // of 10,000, beyond the sleeper
+constexpr double mostDuty = 70;  // %, p99
 
 int blocks(const RunOptions& options) { return options.quick ? 5 : 60; }
 
@@ -28,7 +28,7 @@ Figure figureOf(const StatedLoad& load, const RunOptions& options, const Measure
     figure.setup = conditions(options, threads, options.frequency) +
                    "; loop, bare sleeper, and as many threads that work in registers alone for as "
                    "long as a cycle takes, in turn, a second each, " +
-                   number(blocks(options)) +
+                   readable(blocks(options)) +
                    " s of each; an observer reads the newest image 30 times a second.";
     figure.x = {"duration of a cycle", "us", true};
     figure.y = {"share of cycles that are longer", "", true};
@@ -36,7 +36,7 @@ Figure figureOf(const StatedLoad& load, const RunOptions& options, const Measure
     figure.series.push_back({"work in registers", measured.workDuration.shareAbove(), true});
     figure.marks.push_back({Mark::Along::X, measured.period, "the period"});
     figure.marks.push_back(
-        {Mark::Along::X, measured.period * mostDuty / 100, number(mostDuty) + " %"});
+        {Mark::Along::X, measured.period * mostDuty / 100, readable(mostDuty) + " %"});
     figure.marks.push_back({Mark::Along::Y, 0.01, "p99"});
     return figure;
 }
@@ -53,59 +53,32 @@ void addDuty(const StatedLoad& load, const Measured& measured, Results& results)
     };
     add("p50", "median duty cycle", measured.duty(0.5), measured.blockP50);
     add("p99", "p99 of the duty cycle", measured.duty(0.99), measured.blockP99);
-    results.quantities.back().aim = Aim::AtMost;
-    results.quantities.back().limit = mostDuty;
+    Quantity& judged = results.quantities.back();
+    const Quantity verdict =
+        judgedDuty(measured.duration, measured.workDuration, measured.period, mostDuty);
+    judged.aim = verdict.aim;
+    judged.limit = verdict.limit;
+    judged.doubt = verdict.doubt;
     add("p99.9", "p99.9 of the duty cycle", measured.duty(0.999), {});
-    const auto spread = [](const Histogram& of) {
-        return of.percentile(0.99) / std::max(1e-3, of.percentile(0.5));
-    };
-    results.quantities.push_back({.id = load.id + "/spread",
-                                  .what = load.what + ": p99 of the duration over its median",
-                                  .unit = "",
-                                  .value = spread(measured.duration),
-                                  .baseline = spread(measured.workDuration),
-                                  .baselineName = "work in registers"});
-}
-
-double per10000(std::int64_t missed, std::int64_t of) {
-    return static_cast<double>(missed) * 10'000 / std::max(1.0, static_cast<double>(of));
 }
 
 void addCounts(const StatedLoad& load, const Measured& measured, Results& results) {
-    const double sleeper = per10000(measured.sleeperMissed, measured.sleeps);
-    const auto addMissed = [&](const char* name, const char* what, double missed) -> Quantity& {
-        results.quantities.push_back({.id = load.id + name,
-                                      .what = load.what + what,
-                                      .unit = "ticks",
-                                      .value = std::max(0.0, missed - sleeper),
-                                      .baseline = sleeper,
-                                      .baselineName = "bare sleeper"});
-        return results.quantities.back();
-    };
-    Quantity& missed = addMissed("/missed", ": ticks missed of 10,000, less those of the sleeper",
-                                 per10000(measured.missed, measured.cycles));
-    missed.aim = Aim::AtMost;
-    missed.limit = mostMissed;
-    const double workMissed = per10000(measured.workMissed, measured.works);
-    addMissed("/work-missed", ": the same of as many threads that work in registers", workMissed);
-    if (workMissed - sleeper > mostMissed) {
-        results.notes.push_back("Too noisy for the ticks missed by " + load.what +
-                                " to be judged: work in registers missed too many; run it again.");
-    }
+    Quantity missed =
+        judgedMissed({measured.missed, measured.cycles}, {measured.sleeperMissed, measured.sleeps},
+                     {measured.workMissed, measured.works});
+    missed.id = load.id + "/missed";
+    missed.what = load.what + ": ticks missed of 10,000, less those of the bare sleeper";
+    results.quantities.push_back(std::move(missed));
     const auto executed = static_cast<double>(measured.commands);
     const auto expected = static_cast<double>(measured.expectedCommands);
-    results.quantities.push_back({.id = load.id + "/commands",
-                                  .what = load.what + ": commands executed more or less than sent",
-                                  .unit = "commands",
-                                  .value = std::abs(executed - expected),
-                                  .aim = Aim::AtMost,
-                                  .limit = 0});
-    results.quantities.push_back(
-        {.id = load.id + "/images",
-         .what = load.what + ": images that the observer read",
-         .unit = "1/s",
-         .value = static_cast<double>(measured.imagesRead) / measured.seconds,
-         .lessIsBetter = false});
+    results
+        .add(load.id + "/commands", load.what + ": commands executed more or less than sent",
+             "commands", std::abs(executed - expected))
+        .atMost(0);
+    results
+        .add(load.id + "/images", load.what + ": images that the observer read", "1/s",
+             static_cast<double>(measured.imagesRead) / measured.seconds)
+        .moreIsBetter();
 }
 
 }  // namespace

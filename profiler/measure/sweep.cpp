@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep.hpp"
 
+#include "report/number_text.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace cortex::profiler {
 namespace {
@@ -15,6 +16,8 @@ double rounded(double x, double grain) { return std::max(grain, std::round(x / g
 bool known(const Sweep& sweep, double x) {
     return std::ranges::any_of(sweep.points, [x](const SweepPoint& point) { return point.x == x; });
 }
+
+bool passes(const Measured& measured) { return !measured.overflows(); }
 
 // Adds points to a sweep as long as nobody stops it.
 class Sweeper {
@@ -30,19 +33,11 @@ public:
     bool add(double wanted) {
         const double x = rounded(wanted, grain_);
         if (known(sweep_, x)) return true;
-        const std::string text = number(x) + " " + std::string{subject_.unit};
-        if (!steps_.next(text)) return false;
+        if (!steps_.next(readable(x) + " " + std::string{subject_.unit})) return false;
         Measured measured = measure(x);
-        // A disturbance of the machine is no overflow: another try where it is not clear.
-        if (measured.complete && measured.overflows() && measured.duty(0.5) < 95) {
-            if (!steps_.next(text + ", again")) return false;
-            Measured again = measure(x);
-            if (again.complete && again.duty(0.99) < measured.duty(0.99)) measured = again;
-        }
         if (!measured.complete) return false;
         const auto place = std::ranges::lower_bound(sweep_.points, x, {}, &SweepPoint::x);
         sweep_.points.insert(place, {x, std::move(measured)});
-        sweep_.judge();
         return true;
     }
 
@@ -62,21 +57,6 @@ private:
     Results& results_;
 };
 
-double crossing(const Sweep& sweep, double duty,
-                const std::function<double(const Measured&)>& dutyOf) {
-    const auto& points = sweep.points;
-    double found = 0;
-    for (std::size_t i = 0; i < points.size() && points[i].x <= sweep.withoutOverflow; ++i) {
-        const double here = dutyOf(points[i].measured);
-        if (here > duty) continue;
-        found = points[i].x;
-        if (i + 1 == points.size()) continue;
-        const double next = dutyOf(points[i + 1].measured);
-        if (next > duty) found += (points[i + 1].x - found) * (duty - here) / (next - here);
-    }
-    return found;
-}
-
 bool raise(const SweepPlan& plan, Sweep& sweep, Sweeper& sweeper) {
     const auto far = [&] {
         return !sweep.points.empty() && sweep.points.back().measured.duty(0.5) > 100;
@@ -85,20 +65,27 @@ bool raise(const SweepPlan& plan, Sweep& sweep, Sweeper& sweeper) {
         if (far()) break;
         if (!sweeper.add(x)) return false;
     }
-    for (double x = plan.first.back() * 1.5; sweep.overflow == 0 && x <= plan.most; x *= 1.5) {
+    const auto overflown = [&] { return sweep.above(passes) > 0; };
+    for (double x = plan.first.back() * 1.5; !overflown() && x <= plan.most; x *= 1.5) {
         if (!sweeper.add(x)) return false;
     }
     return true;
 }
 
-bool refine(const SweepPlan& plan, Sweep& sweep, Sweeper& sweeper) {
-    for (int i = 0; i < plan.bisections && sweep.overflow > 0 && sweep.withoutOverflow > 0; ++i) {
-        const double middle =
-            rounded(std::sqrt(sweep.withoutOverflow * sweep.overflow), plan.grain);
-        if (sweep.overflow / sweep.withoutOverflow < enough || known(sweep, middle)) break;
+// Halves what is between the greatest x that holds, with all below, and the one above it.
+bool refine(const SweepPlan& plan, Sweep& sweep, Sweeper& sweeper, const Condition& condition) {
+    for (int i = 0; i < plan.bisections; ++i) {
+        const double below = sweep.greatest(condition), above = sweep.above(condition);
+        if (below == 0 || above == 0 || above / below < enough) break;
+        const double middle = rounded(std::sqrt(below * above), plan.grain);
+        if (known(sweep, middle)) break;
         if (!sweeper.add(middle)) return false;
     }
-    const double found = sweep.withoutOverflow;
+    return true;
+}
+
+bool addAround(const SweepPlan& plan, Sweep& sweep, Sweeper& sweeper) {
+    const double found = sweep.withoutOverflow();
     for (const double times : plan.around) {
         if (found > 0 && found * times <= plan.most && !sweeper.add(found * times)) return false;
     }
@@ -107,29 +94,49 @@ bool refine(const SweepPlan& plan, Sweep& sweep, Sweeper& sweeper) {
 
 }  // namespace
 
-void Sweep::judge() {
-    withoutOverflow = overflow = 0;
+double Sweep::greatest(const Condition& condition) const {
+    double found = 0;
     for (const SweepPoint& point : points) {
-        if (!point.measured.overflows()) withoutOverflow = point.x;
+        if (!condition(point.measured)) break;
+        found = point.x;
     }
-    for (const SweepPoint& point : points) {
-        if (overflow == 0 && point.x > withoutOverflow) overflow = point.x;
-    }
+    return found;
 }
 
-double Sweep::atDuty(double duty) const {
-    return crossing(*this, duty, [](const Measured& measured) { return measured.duty(0.99); });
+double Sweep::above(const Condition& condition) const {
+    const auto found = std::ranges::find_if_not(points, condition, &SweepPoint::measured);
+    return found == points.end() ? 0 : found->x;
 }
 
-std::vector<double> Sweep::atDutyOfBlocks(double duty) const {
+double Sweep::withoutOverflow() const { return greatest(passes); }
+double Sweep::overflow() const { return above(passes); }
+
+Condition dutyWithin(double percent) {
+    return [percent](const Measured& measured) {
+        return passes(measured) && measured.duty(0.99) <= percent;
+    };
+}
+
+Quantity capacityOf(const Sweep& sweep, double wanted) {
+    constexpr double most = 70;
+    const double above = sweep.above(dutyWithin(most));
+    const auto point = std::ranges::find(sweep.points, above, &SweepPoint::x);
+    const double median = point == sweep.points.end() ? most : point->measured.duty(0.5);
+    Quantity capacity = judgedCapacity(sweep.greatest(dutyWithin(most)), median, most, wanted);
+    capacity.repeats = sweep.dutyWithinByBlocks(most);
+    return capacity;
+}
+
+std::vector<double> Sweep::dutyWithinByBlocks(double percent) const {
     std::size_t blocks = 0;
     for (const SweepPoint& point : points) {
         blocks = std::max(blocks, point.measured.blockP99.size());
     }
     std::vector<double> found;
     for (std::size_t i = 0; i < blocks && blocks > 1; ++i) {
-        found.push_back(crossing(
-            *this, duty, [i](const Measured& measured) { return measured.dutyOfBlock(i); }));
+        found.push_back(greatest([i, percent](const Measured& measured) {
+            return passes(measured) && measured.dutyOfBlock(i) <= percent;
+        }));
     }
     return found;
 }
@@ -147,17 +154,18 @@ bool Steps::keepsOn() {
 }
 
 int expectedSteps(const SweepPlan& plan) {
-    // Where a loop overflows it is measured again: at what lies above, and half of the bisections.
-    const auto above = std::ranges::count_if(plan.around, [](double part) { return part > 1; });
-    return static_cast<int>(plan.first.size() + plan.around.size()) + static_cast<int>(above) +
-           plan.bisections * 3 / 2 + 2;
+    const int refinements = plan.duty > 0 ? 2 : 1;
+    return static_cast<int>(plan.first.size() + plan.around.size()) +
+           plan.bisections * refinements + 2;
 }
 
 Sweep sweepUpwards(const SweepPlan& plan, const SweepSubject& subject, Progress& progress,
                    Results& results) {
     Sweep sweep;
     Sweeper sweeper{sweep, plan, subject, progress, results};
-    sweep.complete = raise(plan, sweep, sweeper) && refine(plan, sweep, sweeper);
+    sweep.complete = raise(plan, sweep, sweeper) && refine(plan, sweep, sweeper, passes) &&
+                     (plan.duty == 0 || refine(plan, sweep, sweeper, dutyWithin(plan.duty))) &&
+                     addAround(plan, sweep, sweeper);
     return sweep;
 }
 
@@ -172,9 +180,10 @@ Series lineOf(const Sweep& sweep, std::string name,
 }
 
 void markOverflow(const Sweep& sweep, Figure& figure) {
-    if (sweep.overflow == 0 || sweep.withoutOverflow == 0) return;
-    figure.marks.push_back({Mark::Along::X, sweep.withoutOverflow,
-                            "the last without overflow: " + number(sweep.withoutOverflow)});
+    const double found = sweep.withoutOverflow();
+    if (sweep.overflow() == 0 || found == 0) return;
+    figure.marks.push_back(
+        {Mark::Along::X, found, "the last without overflow: " + readable(found)});
 }
 
 void noteRefusals(const std::vector<std::string>& refusals, Results& results) {
@@ -190,14 +199,7 @@ std::string conditions(const RunOptions& options, std::uint32_t threads, double 
            (options.priority == 0
                 ? "no real-time priority"
                 : "SCHED_FIFO " + std::to_string(options.priority) + ", CPUs kept awake") +
-           (frequency > 0 ? ", " + number(frequency) + " Hz" : "");
-}
-
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f", value < 10 && value != std::floor(value) ? 2 : 0,
-                  value);
-    return text;
+           (frequency > 0 ? ", " + readable(frequency) + " Hz" : "");
 }
 
 }  // namespace cortex::profiler

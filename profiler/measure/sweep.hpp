@@ -14,25 +14,33 @@ struct SweepPoint {
     Measured measured;
 };
 
+using Condition = std::function<bool(const Measured&)>;
+
 // One quantity raised until the loop overflows.
 struct Sweep {
     std::vector<SweepPoint> points;  // by x
-    double withoutOverflow = 0;      // greatest x
-    double overflow = 0;             // least x above it that did; 0: not reached
     std::uint32_t threads = 1;
     bool complete = false;
 
-    // Greatest x at which p99 of the duty cycle is at most `duty` %, interpolated; 0: none.
-    double atDuty(double duty) const;
-    std::vector<double> atDutyOfBlocks(double duty) const;  // the same by each block alone
-    void judge();                                           // after a point was added
+    // The greatest x that was measured such that it and all below it hold; 0: none. And the least
+    // above, which does not; 0: all hold.
+    double greatest(const Condition& condition) const;
+    double above(const Condition& condition) const;
+    double withoutOverflow() const;
+    double overflow() const;
+    // greatest() with p99 of the duty cycle within that, by each block alone: its noise.
+    std::vector<double> dutyWithinByBlocks(double percent) const;
 };
+Condition dutyWithin(double percent);  // p99, without overflow
+// The greatest x within 70 % of duty cycle, at least `wanted`.
+Quantity capacityOf(const Sweep& sweep, double wanted);
 
 struct SweepPlan {
     std::vector<double> first;  // ascending; further ones follow until there is an overflow
     double most = 0;            // not beyond
     int bisections = 5;
     double grain = 1;            // x are multiples of it
+    double duty = 0;             // in %: where p99 reaches it is looked for, too
     std::vector<double> around;  // multiples of the overflow point, in the end
 };
 
@@ -67,11 +75,14 @@ Sweep sweepUpwards(const SweepPlan& plan, const SweepSubject& subject, Progress&
 Series lineOf(const Sweep& sweep, std::string name,
               const std::function<double(const Measured&)>& value,
               const std::function<bool(const SweepPoint&)>& holds = {}, bool baseline = false);
+inline constexpr const char* overflowText =
+    "Overflow: p99 of the cycle is longer than the period, or more ticks are missed than by the "
+    "sleeper and 1 in 100. The last without overflow is the largest number at which it and all "
+    "smaller ones passed, each measured once.";
 // Vertical, where it was found.
 void markOverflow(const Sweep& sweep, Figure& figure);
 void noteRefusals(const std::vector<std::string>& refusals, Results& results);
 // "2 threads, no real-time priority, 1000 Hz"
 std::string conditions(const RunOptions& options, std::uint32_t threads, double frequency);
-std::string number(double value);
 
 }  // namespace cortex::profiler

@@ -33,9 +33,6 @@ void noteStopSignals() {
 
 bool stopAsked() { return stops.load() > 0; }
 
-TerminalProgress::TerminalProgress(double seconds)
-    : total_{std::max(seconds, 0.1)}, terminal_{isatty(STDERR_FILENO) != 0} {}
-
 void TerminalProgress::begin(std::string_view name, double seconds) {
     before_ += own_;
     own_ = seconds;
@@ -44,30 +41,12 @@ void TerminalProgress::begin(std::string_view name, double seconds) {
 }
 
 bool TerminalProgress::step(double part, std::string_view doing) {
-    const auto now = Clock::now();
-    const bool isNew = doing != doing_;
-    const std::chrono::milliseconds pause{terminal_ ? 200 : 30'000};
-    if (!isNew && now - written_ < pause) return !stopAsked();
-    doing_ = doing;
-    written_ = now;
-    const double done = std::clamp((before_ + own_ * part) / total_, 0.0, 1.0);
-    std::string line =
-        "[" + std::to_string(static_cast<int>(100 * done)) + " %] " + name_ + ": " + doing_;
-    if (stopAsked()) line += " (stopping; once more to end at once)";
-    if (!terminal_) {
-        std::fprintf(stderr, "%s\n", line.c_str());
-    } else {
-        line.resize(std::min(line.size(), terminalWidth(STDERR_FILENO) - 1));
-        std::fprintf(stderr, "\r\033[K%s", line.c_str());
-        shown_ = true;
+    if (doing != doing_) {
+        const double done = std::clamp((before_ + own_ * part) / std::max(total_, 0.1), 0.0, 1.0);
+        doing_ = doing;
+        std::fprintf(stderr, "[%2.0f %%] %s: %s\n", 100 * done, name_.c_str(), doing_.c_str());
     }
-    std::fflush(stderr);
     return !stopAsked();
-}
-
-void TerminalProgress::clear() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-    shown_ = false;
 }
 
 std::size_t terminalWidth(int file) {

@@ -3,7 +3,6 @@
 
 #include "measure/measurement.hpp"
 
-#include <chrono>
 #include <cstddef>
 #include <string>
 
@@ -13,24 +12,18 @@ namespace cortex::profiler {
 void noteStopSignals();
 bool stopAsked();
 
-// On standard error: one line that is written again and again, or a line per step where it is no
-// terminal. Several measurements one after the other, each with its share of the time.
+// A line on standard error whenever something else is done. Several measurements one after the
+// other, each with its share of the time.
 class TerminalProgress final : public Progress {
 public:
-    explicit TerminalProgress(double seconds);
-    ~TerminalProgress() override { clear(); }
+    explicit TerminalProgress(double seconds) : total_{seconds} {}
 
     void begin(std::string_view name, double seconds);  // of the next measurement
     bool step(double part, std::string_view doing) override;
-    void clear();
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     double total_, before_ = 0, own_ = 0;
     std::string name_, doing_;
-    bool terminal_, shown_ = false;
-    Clock::time_point written_{};
 };
 
 std::size_t terminalWidth(int file);       // 100 where it is no terminal

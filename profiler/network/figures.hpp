@@ -9,31 +9,25 @@
 
 // The parts of what distribution costs; each starts and ends what it measures, in this domain and
 // the next.
-namespace cortex::network {
+namespace cortex::profiler {
 
 // Thrown through a part that is told to stop.
 struct Stopped {};
 
-struct Options {
+struct CommsRun {
     int seconds = 2;  // of each measurement
-    int rounds = 10;  // of discovery
     int domain = 1;
-    bool alone = false;  // on a loopback interface of its own
-    profiler::Progress& progress;
-    profiler::Results& results;
+    Progress& progress;
+    Results& results;
 
     void step(double part, const std::string& doing) const;
-    void add(profiler::Quantity quantity) const;
 };
 
+double medianMicroseconds(const std::vector<std::int64_t>& times);  // ns in
 // Median, with p99 as a quantity of its own; ns in, us out.
-void addTimes(const Options& options, profiler::Quantity quantity,
-              const std::vector<std::int64_t>& times);
+void addTimes(const CommsRun& run, Quantity quantity, const std::vector<std::int64_t>& times);
 
-void loopCost(const Options& options);
-void latency(const Options& options);
-void discovery(const Options& options);
-void wire(const Options& options);
-void footprint(const Options& options);
+void measureLoopCost(const CommsRun& run);
+void measureTransit(const CommsRun& run);
 
-}  // namespace cortex::network
+}  // namespace cortex::profiler

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
 
 #include "../bare/stream.hpp"
-#include "clocks.hpp"
 #include "dds/participant.hpp"
 #include "figures.hpp"
 #include "plant.hpp"
 #include "roles.hpp"
-#include "statistics.hpp"
 #include "wire/cdr.hpp"
 #include "wire/ids.hpp"
 #include "wire/messages.hpp"
@@ -23,12 +22,10 @@
 #include <utility>
 #include <vector>
 
-namespace cortex::network {
+namespace cortex::profiler {
 namespace {
 
 using namespace std::chrono_literals;
-using bare::Octets;
-using bare::Stream;
 
 // ns from the stamp of a value to the callback of a bare reader, and to that in which an agent
 // hands it to its links.
@@ -64,7 +61,7 @@ public:
 
 private:
     void add(std::vector<std::int64_t>& to, std::int64_t stamp) {
-        const std::int64_t now = steadyNow();
+        const std::int64_t now = monotonicNow();
         const std::lock_guard lock{mutex_};
         to.push_back(now - stamp);
     }
@@ -122,15 +119,14 @@ std::size_t octetsOf(int samples) {
     return comms::encodedSize(block);
 }
 
-Latencies measure(const Options& options, int samples) {
+Latencies measure(const CommsRun& run, int samples) {
     // The stream's own octets: encapsulation and length.
-    const Child sender{senderWords(options.domain, samples, octetsOf(samples) - 8)};
+    const Child sender{senderWords(run.domain, samples, octetsOf(samples) - 8)};
     const OnCpu other{1};
     Arrivals arrivals;
-    const Stream stream{options.domain + 1,
-                        Stream::Role::Reader,
-                        {[&](const Octets::Data& data) { arrivals.bare(data); }, {}}};
-    Linker linker{options.domain, "sender", samplePaths("sender", samples),
+    const Stream stream{run.domain + 1, Stream::Role::Reader,
+                        [&](const Octets::Data& data) { arrivals.bare(data); }};
+    Linker linker{run.domain, "sender", samplePaths("sender", samples),
                   [&](comms::Block&& block) { arrivals.linked(block); }};
     const auto speakFor = [&](std::chrono::seconds time, auto until) {
         const auto end = std::chrono::steady_clock::now() + time;
@@ -143,19 +139,19 @@ Latencies measure(const Options& options, int samples) {
     if (!arrivals.both()) throw Error("nothing came from the sender");
     speakFor(1s, [] { return false; });
     arrivals.take();
-    speakFor(std::chrono::seconds{4 * options.seconds}, [] { return false; });
+    speakFor(std::chrono::seconds{4 * run.seconds}, [] { return false; });
     return arrivals.take();
 }
 
 }  // namespace
 
-void latency(const Options& options) {
+void measureTransit(const CommsRun& run) {
     for (const int samples : {1, 100}) {
         const std::string items = std::to_string(samples * itemsPerSample);
-        options.step(0.35, items + " items on their way to another agent");
-        const Latencies all = measure(options, samples);
-        const double bare = median(all.bare);
-        addTimes(options,
+        run.step(0.35, items + " items on their way to another agent");
+        const Latencies all = measure(run, samples);
+        const double bare = medianMicroseconds(all.bare);
+        addTimes(run,
                  {.id = "comms/latency/" + items,
                   .what = "a value at 1 kHz from the task that writes it to where another "
                           "agent takes it from DDS: " +
@@ -163,10 +159,10 @@ void latency(const Options& options) {
                   .unit = "us",
                   .baseline = bare,
                   .baselineName = "raw Fast DDS, from write() to callback",
-                  .aim = profiler::Aim::AtMost,
+                  .aim = Aim::AtMost,
                   .limit = 1.5 * bare},
                  all.linked);
-        addTimes(options,
+        addTimes(run,
                  {.id = "comms/latency/" + items + "/raw",
                   .what = "raw Fast DDS with as many octets, every other second",
                   .unit = "us"},
@@ -174,4 +170,4 @@ void latency(const Options& options) {
     }
 }
 
-}  // namespace cortex::network
+}  // namespace cortex::profiler

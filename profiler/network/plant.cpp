@@ -2,14 +2,12 @@
 #include "plant.hpp"
 
 #include "cortex/core/agent.hpp"
-
-#include "statistics.hpp"
+#include "cortex/core/clock.hpp"
 
 #include <algorithm>
 #include <memory>
-#include <utility>
 
-namespace cortex::network {
+namespace cortex::profiler {
 namespace {
 
 class Worker final : public cs::SimplexCS {
@@ -23,7 +21,7 @@ private:
         }
     }
     void stateActive(const Tick& /*tick*/) override {
-        for (Data<std::int64_t>& stamp : stamps_) stamp = steadyNow();
+        for (Data<std::int64_t>& stamp : stamps_) stamp = monotonicNow();
     }
     std::vector<Data<std::int64_t>> stamps_;
 };
@@ -40,7 +38,6 @@ SimplexTree treeOf(const Plant::Options& options) {
 }
 
 std::unique_ptr<CommunicationInterface> interfaceOf(const Plant::Options& options) {
-    if (options.wakes) return std::make_unique<Waker>();
     if (options.network) return std::make_unique<comms::DdsInterface>(*options.network);
     return nullptr;
 }
@@ -51,17 +48,13 @@ Plant::Plant(const Options& options)
     : links{options.links},
       tree{treeOf(options)},
       cluster{options.name, options.cluster},
-      network{cluster.addInterface<TimedInterface>(interfaceOf(options), options.onLink)} {
+      network{cluster.addInterface<TimedInterface>(interfaceOf(options))} {
     cluster.addSimplexTree(tree);
 }
 
 void Plant::start() {
     cluster.start();
     if (links.empty()) cluster.call("/" + cluster.agent().name() + "/worker", "startup");
-}
-
-std::uint32_t Plant::indexOf(const std::string& path) {
-    return cluster.agent().structure().find(path);
 }
 
 bool Plant::linked() {
@@ -80,4 +73,4 @@ std::vector<std::string> samplePaths(const std::string& agent, int count) {
     return paths;
 }
 
-}  // namespace cortex::network
+}  // namespace cortex::profiler

@@ -11,26 +11,23 @@
 #include <string>
 #include <vector>
 
-namespace cortex::network {
+namespace cortex::profiler {
 
 inline constexpr int itemsPerSample = 10;
 
 // An agent of this process: a worker, and samples of ten items `/<name>/n0`, …, the last of which
-// the worker stamps with steadyNow() in each cycle. With links it stamps nothing and observes.
+// the worker stamps with monotonicNow() in each cycle. With links it stamps nothing and observes.
 struct Plant {
     struct Options {
         std::string name;
         int samples = 1;
         std::vector<std::string> links{};  // paths of samples of other agents
         std::optional<comms::NetworkOptions> network{};
-        TimedInterface::OnLink onLink{};
         cs::ClusterOptions cluster{};
-        bool wakes = false;  // a thread in each cycle, in place of a network
     };
     explicit Plant(const Options& options);
 
-    void start();  // after setting its trigger; the worker too
-    std::uint32_t indexOf(const std::string& path);
+    void start();   // after setting its trigger; the worker too
     bool linked();  // values of all that it links are there
 
     std::vector<std::string> links;
@@ -41,6 +38,5 @@ struct Plant {
 
 std::string samplePath(const std::string& agent, int number);
 std::vector<std::string> samplePaths(const std::string& agent, int count);
-using profiler::loopback;
 
-}  // namespace cortex::network
+}  // namespace cortex::profiler

@@ -6,33 +6,33 @@
 #include <string>
 #include <vector>
 
-// What other processes of this program do until their standard input ends. Domain -1: no network.
-namespace cortex::network {
+#include <sched.h>
 
-using profiler::Child;
-using profiler::inputEnds;
+// What other processes of this program do until their standard input ends.
+namespace cortex::profiler {
 
-// An agent at 1 kHz that links so many samples of another. Says when it began to join, by
-// steadyNow(), and "linked" as soon as all their values are there.
-struct AgentRole {
-    std::string name;
-    int domain = 0, samples = 0;
-    std::string owner = "-";
-    int links = 0;
-};
-std::vector<std::string> wordsOf(const AgentRole& role);
+// An agent at 1 kHz with so many samples.
+std::vector<std::string> agentWords(const std::string& name, int domain, int samples);
 
 // An agent "sender" whose samples are linked, and octets of bare Fast DDS of the given number in
 // turn with them, in the next domain.
 std::vector<std::string> senderWords(int domain, int samples, std::size_t octets);
 
-// A tool that looks at everything at a rate, 0 for every cycle. Says "ready" when values are there.
-std::vector<std::string> viewerWords(const std::string& name, int domain, int rate);
+int playAgent(const std::vector<std::string>& words);
+int playSender(const std::vector<std::string>& words);
 
-// A bare participant that writes nothing. Says when it began to join.
-std::vector<std::string> bareWords(int domain);
+// Puts this thread, and those that it makes from then on, on the n-th CPU that it may use, as long
+// as there are more than n, until the end of this object. Other than cs::OnCpu it does not look up
+// which CPUs the process may use: the loop of a cluster that is made later stays there, too.
+class OnCpu {
+public:
+    explicit OnCpu(int number);
+    ~OnCpu();
+    OnCpu(const OnCpu&) = delete;
+    OnCpu& operator=(const OnCpu&) = delete;
 
-// For main(): plays the role of these words.
-int playRole(const std::vector<std::string>& words);
+private:
+    cpu_set_t before_{};
+};
 
-}  // namespace cortex::network
+}  // namespace cortex::profiler

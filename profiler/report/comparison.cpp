@@ -4,7 +4,10 @@
 #include "report/machine_facts.hpp"
 #include "report/number_text.hpp"
 #include "report/quantity_text.hpp"
-#include "report/text_columns.hpp"
+#include "report/statistics.hpp"
+#include "report/summary_text.hpp"
+#include "text/plain_text.hpp"
+#include "text/text_table.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,13 +18,7 @@ namespace {
 
 constexpr double unknownNoise = 0.05, leastNoise = 0.01;
 constexpr double deviations = 3, deviationOfMad = 1.4826;  // of normally distributed repeats
-constexpr std::array verdicts{"worse", "better", "noise", "not comparable"};
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
+constexpr std::array changes{"worse", "better", "noise", "not comparable"};
 
 double spread(std::vector<double> values) {
     if (values.size() < 5) return std::ranges::max(values) - std::ranges::min(values);
@@ -36,17 +33,17 @@ const Quantity* find(const std::vector<Quantity>& quantities, const std::string&
 }
 
 Compared compared(const Quantity& before, const Quantity& after) {
-    Compared result{before, after, Verdict::Noise, 0, {}};
+    Compared result{before, after, Change::Noise, 0, {}};
     if (!std::isfinite(before.value) || !std::isfinite(after.value) || before.unit != after.unit ||
         before.lessIsBetter != after.lessIsBetter) {
-        result.verdict = Verdict::NotComparable;
+        result.change = Change::NotComparable;
         return result;
     }
     const double change = after.value - before.value;
     result.noise = std::max(noiseOf(before), noiseOf(after));
     if (before.value * after.value > 0) result.ratio = after.value / before.value;
     if (std::abs(change) > result.noise) {
-        result.verdict = (change < 0) == before.lessIsBetter ? Verdict::Better : Verdict::Worse;
+        result.change = (change < 0) == before.lessIsBetter ? Change::Better : Change::Worse;
     }
     return result;
 }
@@ -84,20 +81,20 @@ std::string percent(double part, double of) {
                : readable(std::round(std::abs(part / of) * 1000) / 10) + " %";
 }
 
-std::vector<std::string> rowOf(const Compared& each) {
-    const bool told = each.verdict != Verdict::NotComparable;
-    return {each.before.what,
-            valueText(each.before),
-            valueText(each.after),
-            each.ratio ? readable(*each.ratio) + "×" : "",
-            told ? percent(each.noise, each.before.value) : "",
-            verdicts[static_cast<std::size_t>(each.verdict)]};
+explorer::TextLine rowOf(const Compared& each) {
+    const bool told = each.change != Change::NotComparable;
+    return {{each.before.what},
+            {valueText(each.before)},
+            {valueText(each.after)},
+            {each.ratio ? readable(*each.ratio) + "×" : ""},
+            {told ? percent(each.noise, each.before.value) : ""},
+            {changes[static_cast<std::size_t>(each.change)]}};
 }
 
 std::string counts(const Comparison& comparison) {
-    std::array<std::size_t, verdicts.size()> found{};
+    std::array<std::size_t, changes.size()> found{};
     for (const Compared& each : comparison.quantities) {
-        ++found[static_cast<std::size_t>(each.verdict)];
+        ++found[static_cast<std::size_t>(each.change)];
     }
     return std::to_string(found[0]) + " worse, " + std::to_string(found[1]) + " better, " +
            std::to_string(found[2]) + " within noise, " + std::to_string(found[3]) +
@@ -107,8 +104,8 @@ std::string counts(const Comparison& comparison) {
 std::string only(const char* side, const std::vector<Quantity>& quantities) {
     std::string text;
     for (const Quantity& each : quantities) {
-        text += std::string{"only "} + side + ": " + printable(each.what) + ", " +
-                printable(valueText(each)) + "\n";
+        text += std::string{"only "} + side + ": " + explorer::printable(each.what) + ", " +
+                explorer::printable(valueText(each)) + "\n";
     }
     return text;
 }
@@ -145,29 +142,28 @@ Comparison compare(const Results& before, const Results& after) {
 std::string comparisonText(const Comparison& comparison, std::size_t width) {
     std::string text;
     if (!comparison.otherMachine.empty()) {
-        text += "DIFFERENT MACHINES or settings: the verdicts below say little of the code.\n";
+        text += "DIFFERENT MACHINES or settings: the changes below say little of the code.\n";
         for (const std::string& each : comparison.otherMachine) {
-            text += "  " + printable(each) + "\n";
+            text += "  " + explorer::printable(each) + "\n";
         }
         text += "\n";
     }
-    text += "before: " + printable(comparison.before) + "\nafter:  " + printable(comparison.after) +
-            "\n";
+    text += "before: " + explorer::printable(comparison.before) +
+            "\nafter:  " + explorer::printable(comparison.after) + "\n";
     if (!comparison.complete) text += "Not complete: one of the two runs was stopped.\n";
-    std::vector<std::vector<std::string>> rows;
-    for (const Verdict verdict :
-         {Verdict::Worse, Verdict::Better, Verdict::NotComparable, Verdict::Noise}) {
+    explorer::TextTable table{{{"", "what", 9, 0, false, true},
+                               {"", "before", 5},
+                               {"", "after", 6},
+                               {"", "ratio", 7},
+                               {"", "noise", 4},
+                               {"", "", 8, 0, false}}};
+    for (const Change change :
+         {Change::Worse, Change::Better, Change::NotComparable, Change::Noise}) {
         for (const Compared& each : comparison.quantities) {
-            if (each.verdict == verdict) rows.push_back(rowOf(each));
+            if (each.change == change) table.add(rowOf(each));
         }
     }
-    text += "\n" + textColumns({{"what", 9, false},
-                                {"before", 5},
-                                {"after", 6},
-                                {"ratio", 7},
-                                {"noise", 4},
-                                {"", 8, false}},
-                               rows, width);
+    text += "\n" + tableText(table, width);
     text += "\n" + counts(comparison);
     return text + only("before", comparison.onlyBefore) + only("after", comparison.onlyAfter);
 }

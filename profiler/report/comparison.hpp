@@ -11,11 +11,11 @@
 namespace cortex::profiler {
 
 // NotComparable: no value on a side, or another unit or direction.
-enum class Verdict { Worse, Better, Noise, NotComparable };
+enum class Change { Worse, Better, Noise, NotComparable };
 
 struct Compared {
     Quantity before, after;
-    Verdict verdict = Verdict::Noise;
+    Change change = Change::Noise;
     double noise = 0;             // in the unit of the quantity: what is less is no change
     std::optional<double> ratio;  // after / before, where both are of one sign
 };

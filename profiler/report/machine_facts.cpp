@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/machine_facts.hpp"
 
-#include <algorithm>
-#include <cstdint>
-#include <cstdlib>
 #include <fstream>
 #include <set>
 
@@ -11,8 +8,6 @@
 #include <sys/resource.h>
 #include <sys/utsname.h>
 #include <unistd.h>
-
-#include <gnu/libc-version.h>
 
 namespace cortex::profiler {
 namespace {
@@ -70,32 +65,6 @@ std::string caches(const fs::path& root) {
     return joined(found);
 }
 
-// Whether a core of the CPU runs two threads.
-std::string simultaneous(const fs::path& root) {
-    const std::string control = lineOf(root / cpus / "smt/control");
-    return control.starts_with("not") ? "none" : control;
-}
-
-std::string governors(const fs::path& root) {
-    std::set<std::string> found;
-    std::error_code ignored;
-    for (const auto& each : fs::directory_iterator{root / cpus, ignored}) {
-        const std::string governor = lineOf(each.path() / "cpufreq/scaling_governor");
-        if (!governor.empty()) found.insert(governor);
-    }
-    return joined(found);
-}
-
-// What programs have asked for, this one not yet; the kernel's own default is 2000 s.
-std::string idleCpus(const fs::path& root) {
-    std::int32_t limit = 0;  // us
-    std::ifstream file{root / "dev/cpu_dma_latency", std::ios::binary};
-    if (!file.read(reinterpret_cast<char*>(&limit), sizeof limit)) return "unknown";
-    if (limit == 0) return "do not sleep";
-    constexpr std::int32_t unlimited = 2'000'000'000;
-    return limit >= unlimited ? "sleep" : "wake up within " + std::to_string(limit) + " us";
-}
-
 std::string preemption(const fs::path& root, const std::string& kernelVersion) {
     if (lineOf(root / "sys/kernel/realtime") == "1" ||
         kernelVersion.find("PREEMPT_RT") != std::string::npos) {
@@ -127,13 +96,6 @@ std::string priorityLimit() {
     return limit.rlim_cur == 0 ? "none" : "up to " + std::to_string(limit.rlim_cur);
 }
 
-std::string memoryLimit() {
-    rlimit limit{};
-    getrlimit(RLIMIT_MEMLOCK, &limit);
-    if (geteuid() == 0 || limit.rlim_cur == RLIM_INFINITY) return "any amount";
-    return std::to_string(limit.rlim_cur >> 10) + " KiB";
-}
-
 std::string virtualised(const fs::path& root) {
     const std::string flags = " " + cpuinfo(root, "flags") + " ";
     if (flags.find(" hypervisor ") != std::string::npos) return "yes";
@@ -142,18 +104,14 @@ std::string virtualised(const fs::path& root) {
 
 std::string load(const fs::path& root) {
     const std::string line = lineOf(root / "proc/loadavg");  // "0.33 0.42 3.20 1/200 4711"
-    std::size_t end = 0;
-    for (int i = 0; i < 3 && end != std::string::npos; ++i) end = line.find(' ', end + 1);
-    return line.substr(0, end);
+    return line.substr(0, line.rfind(' ', line.find('/')));
 }
 
 std::string compiler() {
 #if defined __clang__
-    const std::string name = "clang " + std::to_string(__clang_major__) + "." +
-                             std::to_string(__clang_minor__) + "." +
-                             std::to_string(__clang_patchlevel__);
+    const std::string name = "clang " __clang_version__;
 #else
-    const std::string name = std::string{"g++ "} + __VERSION__;
+    const std::string name = "g++ " __VERSION__;
 #endif
 #if defined __OPTIMIZE__
     return name + ", optimised";
@@ -172,21 +130,15 @@ std::vector<std::pair<std::string, std::string>> machineFacts(const fs::path& ro
         {"CPU", otherwise(cpuinfo(root, "model name"), system.machine)},
         {"CPUs", usableCpus()},
         {"caches", otherwise(caches(root), "unknown")},
-        {"simultaneous threads", otherwise(simultaneous(root), "unknown")},
         {"virtualised", virtualised(root)},
-        {"governor", otherwise(governors(root), "not set here")},
-        {"idle CPUs", idleCpus(root)},
         {"isolated CPUs", otherwise(lineOf(root / cpus / "isolated"), "none")},
-        {"CPUs without ticks", otherwise(lineOf(root / cpus / "nohz_full"), "none")},
         {"kernel", std::string{system.sysname} + " " + system.release + " " + system.machine},
         {"preemption", preemption(root, system.version)},
         {"throttling", throttling(root)},
         {"clock source", otherwise(lineOf(root / clock), "unknown")},
         {"real-time priorities", priorityLimit()},
-        {"memory that may be locked", memoryLimit()},
         {loadFact, otherwise(load(root), "unknown")},
         {"compiler", compiler()},
-        {"C library", std::string{"glibc "} + gnu_get_libc_version()},
     };
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace cortex::profiler {
+
+inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 struct Axis {
     std::string label, unit;
@@ -17,7 +19,8 @@ struct Point {
     double x = 0, y = 0;
 };
 
-// One line of a plot. Baselines are drawn apart from what is measured of CorteX.
+// One line of a plot. Baselines are drawn apart from what is measured of CorteX. Series whose names
+// begin alike up to a comma belong together: "same cycle, p50" and "same cycle, p99".
 struct Series {
     std::string name;  // of the legend: "p99", "bare sleeper"
     std::vector<Point> points;
@@ -34,10 +37,9 @@ struct Mark {
 
 // One plot of the report and one CSV file.
 struct Figure {
-    std::string id;  // file name without extension, ordered: "fig23-duty-cycle"
-    std::string title;
-    std::string
-        paper;  // "Fig. 23: …", what the paper shows and states; empty: no figure of its own
+    std::string id;     // file name without extension, ordered: "fig23-duty-cycle"
+    std::string title;  // begins with the number of the paper's figure, where it has one
+    std::string paper;  // what the paper shows and states
     std::string setup;  // what was run to get it
     Axis x, y;
     std::vector<Series> series;
@@ -53,12 +55,21 @@ struct Quantity {
     std::string unit;
     double value = 0;
     std::vector<double> repeats{};  // of which `value` is the median or the best; the noise of it
-    std::optional<double> baseline{};
+    double baseline = none;
     std::string baselineName{};
     Aim aim = Aim::None;
     double limit = 0;
     std::string paper{};  // what the paper has for it
     bool lessIsBetter = true;
+    std::string doubt{};  // why this run cannot judge the aim; empty: it is judged
+    std::string group{};  // heading in the summary
+
+    Quantity& ofRepeats(std::vector<double> all);
+    Quantity& beside(double other, std::string name);
+    Quantity& atMost(double aimed);
+    Quantity& atLeast(double aimed);  // and more is better
+    Quantity& moreIsBetter();
+    Quantity& inPaper(std::string text);
 };
 
 // What one run of the profiler found, whole or up to where it was stopped.
@@ -70,7 +81,9 @@ struct Results {
     std::vector<std::string> notes;                            // refusals, what was left out
     std::vector<Quantity> quantities;
     std::vector<Figure> figures;
-    bool complete = false;
+    bool complete = false;  // all that was asked for was measured
+
+    Quantity& add(std::string id, std::string what, std::string unit, double value);
 };
 
 }  // namespace cortex::profiler

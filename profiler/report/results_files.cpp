@@ -5,6 +5,7 @@
 
 #include "report/html_report.hpp"
 #include "report/number_text.hpp"
+#include "report/pictures.hpp"
 #include "report/quantity_text.hpp"
 #include "report/results_json.hpp"
 
@@ -67,6 +68,14 @@ std::string fileName(std::string id) {
     return id;
 }
 
+// As it stands within a page; empty where it was not drawn.
+std::string picture(const fs::path& file) {
+    std::ifstream stream{file, std::ios::binary};
+    const std::string text{std::istreambuf_iterator<char>{stream}, {}};
+    const std::size_t begin = text.find("<svg");
+    return begin == std::string::npos ? "" : text.substr(begin);
+}
+
 }  // namespace
 
 std::vector<std::string> figureFiles(const Results& results) {
@@ -96,16 +105,15 @@ std::string figureCsv(const Figure& figure) {
 
 std::string summaryCsv(const Results& results) {
     std::string text = row({"id", "what", "unit", "value", "repeats", "baseline", "baseline name",
-                            "ratio", "aim", "limit", "met", "paper"});
+                            "ratio", "aim", "limit", "verdict", "paper"});
     for (const Quantity& each : results.quantities) {
         const std::optional<double> ratio = ratioToBaseline(each);
-        const std::optional<bool> reached = met(each);
+        const std::string verdict = verdictText(each);
         const std::string aim = each.aim == Aim::AtMost ? "at most" : "at least";
-        text += row(
-            {each.id, each.what, each.unit, exact(each.value), std::to_string(each.repeats.size()),
-             each.baseline ? exact(*each.baseline) : "", each.baselineName,
-             ratio ? exact(*ratio) : "", reached ? aim : "", reached ? exact(each.limit) : "",
-             reached ? (*reached ? "yes" : "no") : "", each.paper});
+        text += row({each.id, each.what, each.unit, exact(each.value),
+                     std::to_string(each.repeats.size()), exact(each.baseline), each.baselineName,
+                     ratio ? exact(*ratio) : "", verdict.empty() ? "" : aim,
+                     verdict.empty() ? "" : exact(each.limit), verdict, each.paper});
     }
     return text;
 }
@@ -120,7 +128,12 @@ void save(const Results& results, const fs::path& folder) {
     for (std::size_t i = 0; i < names.size(); ++i) {
         write(folder / (names[i] + ".csv"), figureCsv(results.figures[i]));
     }
-    write(folder / "report.html", htmlReport(results));
+    Results shown = results;
+    const std::string trouble = drawPictures(results.figures, names, folder);
+    if (!trouble.empty()) shown.notes.insert(shown.notes.begin(), trouble);
+    std::vector<std::string> pictures;
+    for (const std::string& name : names) pictures.push_back(picture(folder / (name + ".svg")));
+    write(folder / "report.html", htmlReport(shown, pictures));
 }
 
 Results load(const fs::path& folder) {

@@ -9,9 +9,9 @@
 
 namespace cortex::profiler {
 
-// Writes results.json, summary.csv, one CSV per figure and report.html; makes the folder. Each file
-// is either the one before or the new one, whenever the program is killed: may be called after each
-// measurement. Throws cortex::Error.
+// Writes results.json, summary.csv, a CSV file and a picture of each figure, and report.html; makes
+// the folder. Each file but a picture is either the one before or the new one, whenever the program
+// is killed: may be called after each measurement. Throws cortex::Error.
 void save(const Results& results, const std::filesystem::path& folder);
 
 // What `save` wrote, from results.json alone. Throws cortex::Error that names the file, what is

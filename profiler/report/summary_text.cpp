@@ -2,17 +2,20 @@
 #include "report/summary_text.hpp"
 
 #include "report/quantity_text.hpp"
-#include "report/text_columns.hpp"
+#include "text/plain_text.hpp"
+#include "text/text_table.hpp"
 
 namespace cortex::profiler {
 namespace {
 
-std::string listed(const std::vector<std::string>& entries, std::size_t width) {
-    std::string text;
+std::string listed(const std::string& heading, const std::vector<std::string>& entries,
+                   std::size_t width) {
+    if (entries.empty()) return {};
+    std::string text = "\n" + heading + (heading.empty() ? "" : "\n");
     for (const std::string& entry : entries) {
         std::string before = "- ";
-        for (const std::string& line :
-             wrappedText(printable(entry), width - std::min<std::size_t>(width, 2))) {
+        for (const std::string& line : explorer::wrapped(explorer::printable(entry),
+                                                         width - std::min<std::size_t>(width, 2))) {
             text += before + line + "\n";
             before = "  ";
         }
@@ -22,35 +25,47 @@ std::string listed(const std::vector<std::string>& entries, std::size_t width) {
 
 }  // namespace
 
-std::string summaryText(const Results& results, std::size_t width) {
-    std::vector<std::vector<std::string>> rows;
-    for (const Quantity& each : results.quantities) {
-        const std::optional<bool> reached = met(each);
-        rows.push_back({each.what, valueText(each), baselineText(each), ratioText(each),
-                        aimText(each), reached ? (*reached ? "met" : "NOT met") : "", each.paper});
-    }
+std::string tableText(const explorer::TextTable& table, std::size_t width) {
     std::string text;
-    if (rows.empty()) {
-        text = "Nothing was measured.\n";
-    } else {
-        text = textColumns({{"what", 9, false},
-                            {"here", 8},
-                            {"beside it", 3},
-                            {"ratio", 6},
-                            {"aim", 5},
-                            {"", 7, false},
-                            {"paper", 1, false}},
-                           rows, width);
+    for (const explorer::TextLine& line : table.lines(width)) {
+        text += explorer::rendered(line, explorer::anyWidth, false) + "\n";
     }
+    return text;
+}
+
+std::string summaryText(const Results& results, std::size_t width) {
+    explorer::TextTable table{{{"", "what", 9, 0, false, true},
+                               {"", "here", 8},
+                               {"", "beside it", 3},
+                               {"", "ratio", 6},
+                               {"", "aim", 5},
+                               {"", "", 7, 0, false},
+                               {"", "paper", 1, 0, false}}};
+    std::string group;
+    for (const Quantity& each : results.quantities) {
+        if (each.group != group) {
+            table.add({{""}});
+            table.add({{(group = each.group) + ":"}});
+        }
+        table.add({{each.what},
+                   {valueText(each)},
+                   {baselineText(each)},
+                   {ratioText(each)},
+                   {aimText(each)},
+                   {verdictText(each)},
+                   {each.paper}});
+    }
+    std::string text =
+        results.quantities.empty() ? "Nothing was measured.\n" : tableText(table, width);
     const Aims aims = aimsOf(results);
     if (aims.all > 0) {
-        text += "\nAims met: " + std::to_string(aims.all - aims.missed.size()) + " of " +
-                std::to_string(aims.all) + (aims.missed.empty() ? "\n" : "; not met:\n") +
-                listed(aims.missed, width);
+        const std::size_t met = aims.all - aims.missed.size() - aims.notJudged.size();
+        text += "\nAims met: " + std::to_string(met) + " of " + std::to_string(aims.all) + "\n" +
+                listed("Missed:", aims.missed, width) +
+                listed("Not judged, run it again:", aims.notJudged, width);
     }
-    if (!results.complete) text += "\nNot complete: the run was stopped, or still goes on.\n";
-    if (!results.notes.empty()) text += "\n" + listed(results.notes, width);
-    return text;
+    if (!results.complete) text += "\nNot complete: not everything was measured.\n";
+    return text + listed("", results.notes, width);
 }
 
 }  // namespace cortex::profiler

@@ -45,19 +45,23 @@ std::string include(const std::string& file) {
 }
 
 TypeModel types(Content content, int each) {
-    const TemporaryFolder folder;
-    std::ofstream{folder.path() + "/types.xml"}
+    std::string folder =
+        (std::filesystem::temp_directory_path() / "cortex-profiler-XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr) throw Error("no folder for files: " + folder);
+    std::ofstream{folder + "/types.xml"}
         << "<ontology name=\"generated\" version=\"1.0\">\n"
         << include("base.xml") << "  <type name=\"Loaded\" extends=\"Active\">\n"
         << items(content, each) << "  </type>\n  <type name=\"Target\" extends=\"Concept\"/>\n"
         << "</ontology>\n";
-    std::ofstream{folder.path() + "/rules.xml"}
+    std::ofstream{folder + "/rules.xml"}
         << "<morphology name=\"generated\" version=\"1.0\">\n"
         << include("base-morphology.xml") << "  <include file=\"types.xml\"/>\n"
         << "  <rules type=\"Loaded\">\n"
         << "    <relationship name=\"related\" direction=\"input\" target=\"Target\"/>\n"
         << "  </rules>\n</morphology>\n";
-    return TypeModel::load(folder.path() + "/rules.xml");
+    TypeModel model = TypeModel::load(folder + "/rules.xml");
+    std::filesystem::remove_all(folder);
+    return model;
 }
 
 }  // namespace
@@ -76,16 +80,6 @@ SimplexTree Loaded::tree(Content content, int each) {
         }
     }
     return tree;
-}
-
-TemporaryFolder::TemporaryFolder() {
-    path_ = (std::filesystem::temp_directory_path() / "cortex-profiler-XXXXXX").string();
-    if (mkdtemp(path_.data()) == nullptr) throw Error("no folder for files: " + path_);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace cortex::profiler

@@ -5,8 +5,6 @@
 
 #include "subject.hpp"
 
-#include <string>
-
 namespace cortex::profiler {
 
 enum class Content { Nothing, Data, Relationships, Commands };
@@ -16,19 +14,6 @@ enum class Content { Nothing, Data, Relationships, Commands };
 struct Loaded {
     static constexpr int simplexes = 25, most = 100;
     static SimplexTree tree(Content content, int each);
-};
-
-// A folder for files, away with this object. Throws Error.
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::string& path() const { return path_; }
-
-private:
-    std::string path_;
 };
 
 }  // namespace cortex::profiler

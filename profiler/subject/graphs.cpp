@@ -2,7 +2,6 @@
 #include "graphs.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <random>
 #include <string>
 
@@ -38,32 +37,6 @@ Edges random(std::uint32_t count) {
     return edges;
 }
 
-class Busy final : public cs::SimplexCS {
-public:
-    using SimplexCS::SimplexCS;
-    double nanoseconds = 0;
-
-private:
-    void loopStart(const Tick& /*tick*/) override { work(nanoseconds); }
-};
-
-void steps(std::int64_t count) {
-    for (std::int64_t i = 0; i < count; ++i) asm volatile("" : "+r"(i));
-}
-
-double stepsPerNanosecond() {
-    using Clock = std::chrono::steady_clock;
-    constexpr std::int64_t count = 100'000;
-    double best = 0;
-    for (int i = 0; i < 20; ++i) {
-        const auto begin = Clock::now();
-        steps(count);
-        const std::chrono::duration<double, std::nano> time = Clock::now() - begin;
-        best = std::max(best, static_cast<double>(count) / time.count());
-    }
-    return best;
-}
-
 }  // namespace
 
 const char* name(Shape shape) {
@@ -88,28 +61,16 @@ std::string taskPath(std::uint32_t task) {
     return "/s" + std::string(6 - std::min<std::size_t>(6, number.size()), '0') + number;
 }
 
-SimplexTree simplexesOf(const TaskEdges& edges, double workNanoseconds) {
+SimplexTree simplexesOf(const TaskEdges& edges) {
     SimplexTree tree{subjectTypes()};
     std::vector<Simplex*> all;
     for (std::uint32_t i = 0; i < edges.count; ++i) {
-        const std::string path = taskPath(i);
-        if (workNanoseconds > 0) {
-            auto& busy = tree.add<Busy>(path, "Empty");
-            busy.nanoseconds = workNanoseconds;
-            all.push_back(&busy);
-        } else {
-            all.push_back(&tree.add<Empty>(path, "Empty"));
-        }
+        all.push_back(&tree.add<Empty>(taskPath(i), "Empty"));
     }
     for (const auto& [before, after] : edges.edges) {
         tree.relate(*all[after], "before", *all[before]);
     }
     return tree;
-}
-
-void work(double nanoseconds) {
-    static const double perNanosecond = stepsPerNanosecond();
-    steps(static_cast<std::int64_t>(nanoseconds * perNanosecond));
 }
 
 }  // namespace cortex::profiler

@@ -28,11 +28,8 @@ struct TaskEdges {
 // at random, the same in every run.
 TaskEdges makeEdges(Shape shape, std::uint32_t count);
 
-// The simplexes of these tasks with empty hooks, or so much work in each.
+// The simplexes of these tasks, with empty hooks.
 std::string taskPath(std::uint32_t task);  // by path they stand in the order of their numbers
-SimplexTree simplexesOf(const TaskEdges& edges, double workNanoseconds = 0);
-
-// Arithmetic without memory that takes about so long on this machine; found out at the first call.
-void work(double nanoseconds);
+SimplexTree simplexesOf(const TaskEdges& edges);
 
 }  // namespace cortex::profiler

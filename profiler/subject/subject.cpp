@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "subject.hpp"
 
+#include "cortex/core/agent.hpp"
+#include "cortex/core/clock.hpp"
+#include "cortex/core/error.hpp"
+
+#include <algorithm>
 #include <tuple>
 #include <utility>
 
@@ -51,6 +56,20 @@ void Partner::populate() {
     }
 }
 
+void WorkingPartner::populate() {
+    Partner::populate();
+    level_ = data<double>("level");
+    OutputSimplex demand = output("demand");
+    position_ = demand.data<double>("position");
+    velocity_ = demand.data<double>("velocity");
+}
+
+void WorkingPartner::stateActive(const Tick& tick) {
+    level_ = static_cast<double>(tick.cycle % 1000) * 1e-3;
+    position_ = level_;
+    velocity_ = -level_;
+}
+
 void Partner::loopStart(const Tick& tick) {
     number_ = static_cast<double>(tick.cycle);
     for (std::uint32_t i = 0; i < commandsPerCycle; ++i) {
@@ -66,8 +85,7 @@ Outcome Partner::ping(Call& call) {
 
 void TimedPartner::loopStart(const Tick& tick) {
     if (recording_ && samples_.size() < samples_.capacity()) {
-        const auto now = std::chrono::steady_clock::now().time_since_epoch();
-        samples_.push_back({std::chrono::nanoseconds{now}.count(), newestAnswer().latencyCycles});
+        samples_.push_back({monotonicNow(), newestAnswer().latencyCycles});
     }
     Partner::loopStart(tick);
 }
@@ -77,7 +95,26 @@ SubjectCluster::SubjectCluster(SimplexTree&& simplexes, cs::ClusterOptions optio
     cluster.addSimplexTree(tree);
     trigger = &cluster.setTriggerSource<BurstTrigger>();
     cluster.start();
+    trigger->burst(1);
+    postToAll(cluster.agent(), LifeCycle::Startup);
     trigger->burst(100);
+    if (!allActive(cluster.image())) throw Error("not all simplexes of the cluster are Active");
+}
+
+void postToAll(AgentRuntime& agent, LifeCycle command) {
+    const auto& all = agent.structure().simplexes;
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
+        if (!all[i].layout->type->isA("Active")) continue;
+        agent.postLifeCycle(i, command, false);
+    }
+}
+
+bool allActive(const Image& image) {
+    const auto& all = image.structure().simplexes;
+    return std::ranges::all_of(all, [&](const SimplexInfo& info) {
+        return !info.layout->type->isA("Active") || image.get<std::int64_t>(info.path, "state") ==
+                                                        static_cast<std::int64_t>(State::Active);
+    });
 }
 
 TypeModel subjectTypes() {
@@ -98,9 +135,9 @@ SimplexTree emptySimplexes(int count, int chain) {
 namespace {
 
 template <class T>
-std::pair<T*, T*> addPair(SimplexTree& tree, int number) {
-    T& first = tree.add<T>("/p" + std::to_string(number), "Partner");
-    T& second = tree.add<T>("/p" + std::to_string(number + 1), "Partner");
+std::pair<T*, T*> addPair(SimplexTree& tree, int number, const char* type) {
+    T& first = tree.add<T>("/p" + std::to_string(number), type);
+    T& second = tree.add<T>("/p" + std::to_string(number + 1), type);
     tree.relate(first, "after", second);
     tree.relate(second, "late", first);
     return {&first, &second};
@@ -110,7 +147,7 @@ std::pair<T*, T*> addPair(SimplexTree& tree, int number) {
 
 SimplexTree partners(int count) {
     SimplexTree tree{subjectTypes()};
-    for (int i = 0; i + 1 < count; i += 2) addPair<Partner>(tree, i);
+    for (int i = 0; i + 1 < count; i += 2) addPair<Partner>(tree, i, "Partner");
     return tree;
 }
 
@@ -121,9 +158,10 @@ TimedPartners timedPartners(int count) {
     const int start = 1'000'000;
     for (int i = 0; i + 1 < count; i += 2) {
         if (i != middle)
-            addPair<Partner>(made.tree, start + i);
+            addPair<WorkingPartner>(made.tree, start + i, "WorkingPartner");
         else
-            std::tie(made.first, made.second) = addPair<TimedPartner>(made.tree, start + i);
+            std::tie(made.first, made.second) =
+                addPair<TimedPartner>(made.tree, start + i, "WorkingPartner");
     }
     return made;
 }

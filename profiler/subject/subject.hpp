@@ -6,8 +6,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <memory>
-#include <string>
 #include <vector>
 
 namespace cortex::profiler {
@@ -47,9 +45,9 @@ public:
 protected:
     void loopStart(const Tick& tick) override;
     const AnswerHead& newestAnswer() const { return ping_.answer(); }
+    void populate() override;
 
 private:
-    void populate() override;
     Outcome ping(Call& call);
 
     CommandSender ping_;
@@ -58,11 +56,24 @@ private:
     Result<double> answered_;
 };
 
-// A partner that also notes when its task began, which is before it sends its commands and after it
-// executed those that it got.
-class TimedPartner final : public Partner {
+// A partner that while it is Active writes an item of its own and an output with two limited items,
+// as a controller of an axis does.
+class WorkingPartner : public Partner {
 public:
     using Partner::Partner;
+
+private:
+    void populate() override;
+    void stateActive(const Tick& tick) override;
+
+    Data<double> level_, position_, velocity_;
+};
+
+// A partner that also notes when its task began, which is before it sends its commands and after it
+// executed those that it got.
+class TimedPartner final : public WorkingPartner {
+public:
+    using WorkingPartner::WorkingPartner;
     struct Sample {
         std::int64_t begun = 0;          // ns, monotonic
         std::int64_t latencyCycles = 0;  // as the newest answer says
@@ -84,14 +95,14 @@ private:
     bool recording_ = false;
 };
 
-// Partners of which the pair in the middle is timed. The commands of `first` are executed in the
-// same cycle, those of `second` in the next.
+// Working partners of which the pair in the middle is timed. The commands of `first` are executed
+// in the same cycle, those of `second` in the next.
 struct TimedPartners {
     SimplexTree tree;
     TimedPartner *first, *second;
 };
 
-// A started cluster on a BurstTrigger.
+// A started cluster on a BurstTrigger, all simplexes Active.
 struct SubjectCluster {
     SubjectCluster(SimplexTree&& simplexes, cs::ClusterOptions options);
 
@@ -99,6 +110,10 @@ struct SubjectCluster {
     cs::ClusterCS cluster;
     BurstTrigger* trigger;
 };
+
+// To every active simplex, between two cycles: all have followed some cycles later.
+void postToAll(AgentRuntime& agent, LifeCycle command);
+bool allActive(const Image& image);
 
 TypeModel subjectTypes();
 SimplexTree emptySimplexes(int count, int chain);

@@ -26,31 +26,31 @@ Compared compared(const Quantity& before, const Quantity& after) {
     return compare(first, second).quantities.at(0);
 }
 
-Verdict verdict(const Quantity& before, const Quantity& after) {
-    return compared(before, after).verdict;
+Change change(const Quantity& before, const Quantity& after) {
+    return compared(before, after).change;
 }
 
 TEST(ReportComparison, WithoutRepeatsFivePercentAreNoise) {
-    EXPECT_EQ(verdict(quantity(100), quantity(104.9)), Verdict::Noise);
-    EXPECT_EQ(verdict(quantity(100), quantity(106)), Verdict::Worse);
-    EXPECT_EQ(verdict(quantity(100), quantity(94)), Verdict::Better);
-    EXPECT_EQ(verdict(quantity(100, {100}), quantity(104.9, {104.9})), Verdict::Noise);
+    EXPECT_EQ(change(quantity(100), quantity(104.9)), Change::Noise);
+    EXPECT_EQ(change(quantity(100), quantity(106)), Change::Worse);
+    EXPECT_EQ(change(quantity(100), quantity(94)), Change::Better);
+    EXPECT_EQ(change(quantity(100, {100}), quantity(104.9, {104.9})), Change::Noise);
 }
 
 TEST(ReportComparison, QuietRepeatsMakeSmallChangesCount) {
     const std::vector<double> quiet{100, 100.1, 99.9, 100, 100.1};
 
-    EXPECT_EQ(verdict(quantity(100, quiet), quantity(102, {102, 102, 102.1, 101.9, 102})),
-              Verdict::Worse);
-    EXPECT_EQ(verdict(quantity(100, quiet), quantity(100.5, quiet)), Verdict::Noise);
+    EXPECT_EQ(change(quantity(100, quiet), quantity(102, {102, 102, 102.1, 101.9, 102})),
+              Change::Worse);
+    EXPECT_EQ(change(quantity(100, quiet), quantity(100.5, quiet)), Change::Noise);
 }
 
 TEST(ReportComparison, NoisyRepeatsOfOneSideAreEnoughToDoubt) {
     const Quantity noisy = quantity(100, {80, 90, 100, 110, 120});
 
-    EXPECT_EQ(verdict(noisy, quantity(130, {130, 130, 130, 130, 130})), Verdict::Noise);
-    EXPECT_EQ(verdict(quantity(130, {130, 130, 130, 130, 130}), noisy), Verdict::Noise);
-    EXPECT_EQ(verdict(noisy, quantity(150)), Verdict::Worse);
+    EXPECT_EQ(change(noisy, quantity(130, {130, 130, 130, 130, 130})), Change::Noise);
+    EXPECT_EQ(change(quantity(130, {130, 130, 130, 130, 130}), noisy), Change::Noise);
+    EXPECT_EQ(change(noisy, quantity(150)), Change::Worse);
 }
 
 TEST(ReportComparison, TheNoiseOfManyRepeatsIsNotMovedByOneOutlier) {
@@ -63,16 +63,16 @@ TEST(ReportComparison, MoreIsBetterWhereTheQuantitySaysSo) {
     Quantity before = quantity(100), after = quantity(200);
     before.lessIsBetter = after.lessIsBetter = false;
 
-    EXPECT_EQ(verdict(before, after), Verdict::Better);
-    EXPECT_EQ(verdict(after, before), Verdict::Worse);
+    EXPECT_EQ(change(before, after), Change::Better);
+    EXPECT_EQ(change(after, before), Change::Worse);
     EXPECT_EQ(compared(before, after).ratio, 2.0);
 }
 
 TEST(ReportComparison, FromNothingToSomethingIsAChangeWithoutARatio) {
-    EXPECT_EQ(verdict(quantity(0), quantity(0)), Verdict::Noise);
-    EXPECT_EQ(verdict(quantity(0), quantity(3)), Verdict::Worse);
+    EXPECT_EQ(change(quantity(0), quantity(0)), Change::Noise);
+    EXPECT_EQ(change(quantity(0), quantity(3)), Change::Worse);
     EXPECT_EQ(compared(quantity(0), quantity(3)).ratio, std::nullopt);
-    EXPECT_EQ(verdict(quantity(-5), quantity(3)), Verdict::Worse);
+    EXPECT_EQ(change(quantity(-5), quantity(3)), Change::Worse);
     EXPECT_EQ(compared(quantity(-5), quantity(3)).ratio, std::nullopt);
 }
 
@@ -80,9 +80,9 @@ TEST(ReportComparison, WhatIsNotANumberOrHasAnotherUnitIsNotCompared) {
     Quantity other = quantity(100);
     other.unit = "µs";
 
-    EXPECT_EQ(verdict(quantity(100), other), Verdict::NotComparable);
-    EXPECT_EQ(verdict(quantity(100), quantity(std::numeric_limits<double>::quiet_NaN())),
-              Verdict::NotComparable);
+    EXPECT_EQ(change(quantity(100), other), Change::NotComparable);
+    EXPECT_EQ(change(quantity(100), quantity(std::numeric_limits<double>::quiet_NaN())),
+              Change::NotComparable);
     EXPECT_EQ(noiseOf(quantity(100, {std::numeric_limits<double>::infinity(), 100})), 5);
 }
 

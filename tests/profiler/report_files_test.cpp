@@ -46,7 +46,7 @@ TEST(ReportFiles, WhatIsLoadedIsWhatWasSaved) {
     EXPECT_EQ(loaded.quantities[0].value, 1.0 / 3);
     EXPECT_EQ(loaded.quantities[0].repeats, saved.quantities[0].repeats);
     EXPECT_EQ(loaded.quantities[0].baseline, 2.0 / 3);
-    EXPECT_EQ(loaded.quantities[1].baseline, std::nullopt);
+    EXPECT_TRUE(std::isnan(loaded.quantities[1].baseline));
     EXPECT_EQ(loaded.quantities[1].aim, Aim::AtLeast);
     EXPECT_FALSE(loaded.quantities[1].lessIsBetter);
     ASSERT_EQ(loaded.figures.size(), 1U);
@@ -68,7 +68,7 @@ TEST(ReportFiles, WhatIsNotANumberComesBackAsThat) {
     const Results loaded = load(folder.path());
 
     EXPECT_TRUE(std::isnan(loaded.quantities[0].value));
-    EXPECT_TRUE(std::isnan(loaded.quantities[0].baseline.value()));
+    EXPECT_TRUE(std::isnan(loaded.quantities[0].baseline));
     EXPECT_TRUE(std::isnan(loaded.figures[0].series[0].points[1].y));
     EXPECT_EQ(loaded.figures[0].series[0].points[1].x, 10);
 }
@@ -100,6 +100,7 @@ TEST(ReportFiles, SavingAgainReplacesAndLeavesNothingBehind) {
         files.push_back(each.path().filename());
     }
     std::ranges::sort(files);
+    std::erase(files, "fig1-first.svg");  // only where there is gnuplot
     EXPECT_EQ(files, (std::vector<std::string>{"fig1-first.csv", "report.html", "results.json",
                                                "summary.csv"}));
 }
@@ -116,9 +117,9 @@ TEST(ReportFiles, FiguresAreTablesWithUnitsAndAllDigits) {
 TEST(ReportFiles, TheSummaryHasARowForEachQuantity) {
     EXPECT_EQ(
         summaryCsv(sampleResults()),
-        "id,what,unit,value,repeats,baseline,baseline name,ratio,aim,limit,met,paper\n"
-        "a/1,first,ns,0.3333333333333333,2,0.6666666666666666,bare,0.5,at most,0.5,yes,Fig. 1\n"
-        "a/2,second,,41234,0,,,,at least,50000,no,\n");
+        "id,what,unit,value,repeats,baseline,baseline name,ratio,aim,limit,verdict,paper\n"
+        "a/1,first,ns,0.3333333333333333,2,0.6666666666666666,bare,0.5,at most,0.5,met,Fig. 1\n"
+        "a/2,second,,41234,0,,,,at least,50000,MISSED,\n");
 }
 
 TEST(ReportFiles, NamesOfFilesStayInTheFolderAndApart) {
@@ -202,14 +203,13 @@ TEST(ReportFiles, WhatIsWrongIsSaidWithItsPlace) {
     };
 
     EXPECT_PRED2(says, refusal("cortex-profiler-results", "other"), "not written by");
-    EXPECT_PRED2(says, refusal("\"formatVersion\":1", "\"formatVersion\":2"), "another version");
-    EXPECT_PRED2(says, refusal("\"a/2\"", "7"), "quantities[1].id must be a text");
+    EXPECT_PRED2(says, refusal("\"formatVersion\":2", "\"formatVersion\":1"), "another version");
+    EXPECT_PRED2(says, refusal("\"a/2\"", "7"), "(/quantities/1/id) type must be string");
     EXPECT_PRED2(says, refusal("\"at least\"", "\"exactly\""), "must be one of 'none'");
-    EXPECT_PRED2(says, refusal("\"limit\"", "\"border\""), "quantities[0].limit is missing");
-    EXPECT_PRED2(says, refusal("\"x\":[1.0,", "\"x\":["), "as many x as y");
-    EXPECT_PRED2(says, refusal("\"y\":[0.1", "\"y\":[\"0.1\""), "figures[0].series[0].y[0]");
-    EXPECT_PRED2(says, refusal("\"marks\":[", "\"marks\":[null,"), "marks[0]");
-    EXPECT_PRED2(says, refusal("\"complete\":true", "\"complete\":1"), "complete must be true");
+    EXPECT_PRED2(says, refusal("\"limit\":0.5", "\"border\":0.5"), "(/quantities/0) key 'limit'");
+    EXPECT_PRED2(says, refusal("\"y\":0.1", "\"y\":\"0.1\""), "(/figures/0/series/0/points/0/y)");
+    EXPECT_PRED2(says, refusal("\"marks\":[", "\"marks\":[null,"), "(/figures/0/marks/0)");
+    EXPECT_PRED2(says, refusal("\"complete\":true", "\"complete\":1"), "(/complete)");
 }
 
 TEST(ReportFiles, ForeignJsonIsRefused) {

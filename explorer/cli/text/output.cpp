@@ -19,13 +19,6 @@ const char* colourOf(Severity severity) {
     return colours[static_cast<std::size_t>(severity)];
 }
 
-void appendEscaped(std::string& text, unsigned octet) {
-    constexpr std::string_view digits = "0123456789abcdef";
-    text += "\\x";
-    text += digits[octet / 16];
-    text += digits[octet % 16];
-}
-
 }  // namespace
 
 bool coloured(Stream stream) {
@@ -36,46 +29,9 @@ bool coloured(Stream stream) {
     return isatty(stream == Stream::Output ? STDOUT_FILENO : STDERR_FILENO) == 1;
 }
 
-std::size_t textWidth(std::string_view text) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 bool looksLikeFile(const std::string& argument) {
     std::error_code ignored;
     return argument.ends_with(".xml") || std::filesystem::is_regular_file(argument, ignored);
-}
-
-std::string printable(std::string_view text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto octet = static_cast<unsigned char>(text[i]);
-        const unsigned next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
-        const bool secondSet = octet == 0xC2 && next >= 0x80 && next < 0xA0;  // U+0080 to U+009F
-        if (octet < 0x20 || octet == 0x7F) {
-            appendEscaped(result, octet);
-        } else if (secondSet) {
-            appendEscaped(result, next);
-            ++i;
-        } else {
-            result += text[i];
-        }
-    }
-    return result;
-}
-
-std::string plural(std::size_t count, const std::string& thing) {
-    const char* ending = thing.ends_with('x') ? "es" : "s";
-    return std::to_string(count) + " " + thing + (count == 1 ? "" : ending);
-}
-
-std::string joined(const std::vector<std::string>& parts, std::string_view separator) {
-    std::string result;
-    for (const std::string& part : parts) {
-        if (!result.empty()) result += separator;
-        result += part;
-    }
-    return result;
 }
 
 void Columns::print(std::ostream& stream) const {

@@ -3,6 +3,8 @@
 
 #include "cortex/core/report.hpp"
 
+#include "text/plain_text.hpp"
+
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -37,15 +39,6 @@ private:
 
 // A file that is there, or a name as files of models have it; no type's name has a dot.
 bool looksLikeFile(const std::string& argument);
-
-// Text from files and arguments may hold anything: control characters, which a terminal would obey,
-// become visible escapes.
-std::string printable(std::string_view text);
-
-std::size_t textWidth(std::string_view text);  // characters of UTF-8
-
-std::string plural(std::size_t count, const std::string& thing);  // "1 error", "3 errors"
-std::string joined(const std::vector<std::string>& parts, std::string_view separator = ", ");
 
 // Lines of cells in aligned columns; cells beyond the last column of text are not padded.
 class Columns {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "text/text_table.hpp"
 
-#include "text/output.hpp"
+#include "text/plain_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,17 +10,8 @@
 namespace cortex::explorer {
 namespace {
 
-constexpr std::size_t gap = 2;  // between columns
-
-bool continues(char c) { return (c & 0xC0) == 0x80; }  // a character of UTF-8
-
-std::string clipped(const std::string& text, std::size_t width) {
-    std::size_t end = 0;
-    for (std::size_t characters = 0; end < text.size(); ++end) {
-        if (!continues(text[end]) && characters++ == width) break;
-    }
-    return text.substr(0, end);
-}
+constexpr std::size_t gap = 2;            // between columns
+constexpr std::size_t leastWrapped = 24;  // characters of a column that is wrapped
 
 std::string aligned(const std::string& text, std::size_t width, bool right) {
     const std::string visible = printable(text);
@@ -48,19 +39,26 @@ std::string rendered(const TextLine& line, std::size_t width, bool coloured) {
     return result;
 }
 
-std::vector<std::size_t> TextTable::fitting(const std::vector<std::size_t>& widths,
+std::vector<std::size_t> TextTable::fitting(std::vector<std::size_t>& widths,
                                             std::size_t width) const {
     std::vector<std::size_t> shown(columns_.size());
     std::iota(shown.begin(), shown.end(), 0U);
-    const auto needed = [&] {
+    const auto others = [&] {  // and the least of what is wrapped
         std::size_t sum = gap * (shown.size() - 1);
-        for (const std::size_t each : shown) sum += widths[each];
+        for (const std::size_t each : shown) sum += columns_[each].wraps ? 0 : widths[each];
         return sum;
     };
-    while (shown.size() > 1 && needed() > width) {
-        const auto least = std::ranges::min_element(
-            shown, {}, [&](std::size_t each) { return columns_[each].importance; });
-        shown.erase(least);
+    const auto wrapping = std::ranges::find_if(columns_, &TableColumn::wraps);
+    const std::size_t place = static_cast<std::size_t>(wrapping - columns_.begin());
+    const std::size_t least =
+        wrapping == columns_.end() ? 0 : std::min(widths[place], leastWrapped);
+    while (shown.size() > 1 && others() + least > width) {
+        shown.erase(std::ranges::min_element(
+            shown, {}, [&](std::size_t each) { return columns_[each].importance; }));
+    }
+    if (wrapping != columns_.end() && width != anyWidth) {
+        const std::size_t left = width - std::min(width, others());
+        widths[place] = std::min(widths[place], std::max(left, leastWrapped));
     }
     return shown;
 }
@@ -90,6 +88,18 @@ TextLine TextTable::groups(const std::vector<std::size_t>& shown,
     return any ? TextLine{{text, Look::Faint}} : TextLine{};
 }
 
+std::vector<TextLine> TextTable::split(const TextLine& row,
+                                       const std::vector<std::size_t>& widths) const {
+    std::vector<TextLine> lines{row};
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        if (!columns_[i].wraps) continue;
+        const std::vector<std::string> parts = wrapped(printable(row[i].text), widths[i]);
+        lines.resize(std::max<std::size_t>(1, parts.size()), TextLine(row.size()));
+        for (std::size_t n = 0; n < parts.size(); ++n) lines[n][i] = {parts[n], row[i].look};
+    }
+    return lines;
+}
+
 std::vector<TextLine> TextTable::lines(std::size_t width) const {
     std::vector<std::size_t> widths;
     for (const TableColumn& each : columns_) {
@@ -114,7 +124,9 @@ std::vector<TextLine> TextTable::lines(std::size_t width) const {
     };
     add([&](std::size_t each) { return Span{columns_[each].heading, Look::Strong}; });
     for (const TextLine& row : rows_) {
-        add([&](std::size_t each) { return each < row.size() ? row[each] : Span{}; });
+        for (const TextLine& cells : split(row, widths)) {
+            add([&](std::size_t each) { return each < cells.size() ? cells[each] : Span{}; });
+        }
     }
     return result;
 }

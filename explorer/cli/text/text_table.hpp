@@ -28,6 +28,7 @@ struct TableColumn {
     int importance = 0;     // columns of the least are left out first where there is no room
     std::size_t width = 0;  // at least, so that it does not jump
     bool right = true;      // aligned to the right
+    bool wraps = false;     // into lines where there is no room; of one column at most
 };
 
 // Cells in aligned columns, as many as fit.
@@ -39,8 +40,10 @@ public:
     std::vector<TextLine> lines(std::size_t width) const;  // headings first
 
 private:
-    std::vector<std::size_t> fitting(const std::vector<std::size_t>& widths,
-                                     std::size_t width) const;
+    // The columns that are shown; narrows the one that is wrapped.
+    std::vector<std::size_t> fitting(std::vector<std::size_t>& widths, std::size_t width) const;
+    // A row as the lines of cells that it takes.
+    std::vector<TextLine> split(const TextLine& row, const std::vector<std::size_t>& widths) const;
     TextLine groups(const std::vector<std::size_t>& shown,
                     const std::vector<std::size_t>& widths) const;
 

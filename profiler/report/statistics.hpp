@@ -4,9 +4,13 @@
 #include "report/results.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cortex::profiler {
+
+double median(std::vector<double> values);                   // 0 of none
+double percentile(std::vector<double> values, double part);  // of (0, 1]; 0 of none
 
 // Distribution of times on a logarithmic scale, 512 bins an octave (0.2 %); mean, deviation and
 // maximum are exact. add() takes ns and does not allocate; all else is in us.
@@ -33,5 +37,12 @@ private:
     double sum_ = 0, squares_ = 0;
     std::int64_t greatest_ = 0;
 };
+
+// A straight line through points by least squares, and how far the farthest is from it as a part of
+// what y ranges over.
+struct Line {
+    double slope = 0, offset = 0, residual = 0;
+};
+Line fit(std::span<const Point> points);
 
 }  // namespace cortex::profiler

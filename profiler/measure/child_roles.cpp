@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "comms_roles.hpp"
-
-#include "measure/endurance_role.hpp"
+#include "measure/client.hpp"
 #include "measure/memory_roles.hpp"
 #include "network/roles.hpp"
-#include "observers/client.hpp"
 
 #include <exception>
 #include <iostream>
@@ -21,16 +18,11 @@ struct Role {
     std::size_t words;
     int (*play)(const Words& words);
 };
-int client(const Words& words) {
-    return observers::runClient(std::stoi(words[1]),
-                                static_cast<observers::Load>(std::stoi(words[2])),
-                                std::stoi(words[3]));
-}
 
-constexpr Role roles[]{{"--memory", 5, playMemoryRole},    {"--size", 2, playSizeRole},
-                       {"--endure", 5, playEnduranceRole}, {"--client", 4, client},
-                       {"--agent", 6, network::playRole},  {"--sender", 4, network::playRole},
-                       {"--viewer", 4, network::playRole}, {"--bare", 2, network::playRole}};
+constexpr Role roles[]{{"--memory", 5, playMemoryRole},
+                       {"--client", 4, playClient},
+                       {"--agent", 4, playAgent},
+                       {"--sender", 4, playSender}};
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/histogram.hpp"
+#include "report/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,31 @@
 
 namespace cortex::profiler {
 namespace {
+
+TEST(Statistics, TheMedianOfAnEvenNumberIsBetweenTheTwoInTheMiddle) {
+    EXPECT_EQ(median({}), 0);
+    EXPECT_EQ(median({3, 1, 2}), 2);
+    EXPECT_EQ(median({4, 1, 3, 2}), 2.5);
+}
+
+TEST(Statistics, APercentileIsTheValueOfItsRank) {
+    EXPECT_EQ(percentile({}, 0.5), 0);
+    EXPECT_EQ(percentile({5}, 0.01), 5);
+    EXPECT_EQ(percentile({4, 1, 3, 2}, 0.5), 2);
+    EXPECT_EQ(percentile({4, 1, 3, 2}, 1), 4);
+}
+
+TEST(Statistics, OnlyAStraightLineIsStraight) {
+    std::vector<Point> straight, bent;
+    for (int x = 0; x <= 10; ++x) {
+        straight.push_back({x * 1.0, 3.0 * x + 7});
+        bent.push_back({x * 1.0, 1.0 * x * x});
+    }
+
+    EXPECT_NEAR(fit(straight).slope, 3, 1e-9);
+    EXPECT_NEAR(fit(straight).residual, 0, 1e-9);
+    EXPECT_GT(fit(bent).residual, 0.1);
+}
 
 TEST(Histogram, IsEmptyAtFirstAndSaysZero) {
     const Histogram histogram;

@@ -1,11 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "histogram.hpp"
+#include "report/statistics.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 namespace cortex::profiler {
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::ranges::sort(values);
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+double percentile(std::vector<double> values, double part) {
+    if (values.empty()) return 0;
+    const auto rank =
+        static_cast<std::ptrdiff_t>(std::ceil(part * static_cast<double>(values.size())) - 1);
+    const auto place = values.begin() + std::max<std::ptrdiff_t>(rank, 0);
+    std::ranges::nth_element(values, place);
+    return *place;
+}
 
 // Bin: octave and the next nine bits.
 void Histogram::add(std::int64_t nanoseconds, std::uint64_t times) {
@@ -62,6 +78,28 @@ std::vector<Point> Histogram::shareAbove() const {
         points.push_back({x, static_cast<double>(count_ - below) / static_cast<double>(count_)});
     }
     return points;
+}
+
+Line fit(std::span<const Point> points) {
+    if (points.size() < 2) return {};
+    const auto count = static_cast<double>(points.size());
+    double x = 0, y = 0, xx = 0, xy = 0;
+    for (const Point& each : points) {
+        x += each.x;
+        y += each.y;
+        xx += each.x * each.x;
+        xy += each.x * each.y;
+    }
+    Line line;
+    line.slope = (count * xy - x * y) / (count * xx - x * x);
+    line.offset = (y - line.slope * x) / count;
+    const auto [least, most] = std::ranges::minmax_element(points, {}, &Point::y);
+    if (most->y <= least->y) return line;
+    for (const Point& each : points) {
+        const double distance = std::abs(each.y - line.offset - line.slope * each.x);
+        line.residual = std::max(line.residual, distance / (most->y - least->y));
+    }
+    return line;
 }
 
 }  // namespace cortex::profiler

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/plain_text.hpp"
+
+#include <algorithm>
+
+namespace cortex::explorer {
+namespace {
+
+bool continues(char c) { return (c & 0xC0) == 0x80; }  // a character of UTF-8
+
+void appendEscaped(std::string& text, unsigned octet) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    text += "\\x";
+    text += digits[octet / 16];
+    text += digits[octet % 16];
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto octet = static_cast<unsigned char>(text[i]);
+        const unsigned next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
+        const bool secondSet = octet == 0xC2 && next >= 0x80 && next < 0xA0;  // U+0080 to U+009F
+        if (octet < 0x20 || octet == 0x7F) {
+            appendEscaped(result, octet);
+        } else if (secondSet) {
+            appendEscaped(result, next);
+            ++i;
+        } else {
+            result += text[i];
+        }
+    }
+    return result;
+}
+
+std::size_t textWidth(std::string_view text) {
+    return text.size() - static_cast<std::size_t>(std::ranges::count_if(text, continues));
+}
+
+std::string clipped(const std::string& text, std::size_t width) {
+    std::size_t end = 0;
+    for (std::size_t characters = 0; end < text.size(); ++end) {
+        if (!continues(text[end]) && characters++ == width) break;
+    }
+    return text.substr(0, end);
+}
+
+std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
+    std::vector<std::string> lines(1);
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(' ', begin), text.size());
+        const std::string word = text.substr(begin, end - begin);
+        if (!lines.back().empty() && textWidth(lines.back()) + 1 + textWidth(word) > width) {
+            lines.emplace_back();
+        }
+        lines.back() += (lines.back().empty() ? "" : " ") + word;
+        begin = end + 1;
+    }
+    return lines;
+}
+
+std::string plural(std::size_t count, const std::string& thing) {
+    const char* ending = thing.ends_with('x') ? "es" : "s";
+    return std::to_string(count) + " " + thing + (count == 1 ? "" : ending);
+}
+
+std::string joined(const std::vector<std::string>& parts, std::string_view separator) {
+    std::string result;
+    for (const std::string& part : parts) {
+        if (!result.empty()) result += separator;
+        result += part;
+    }
+    return result;
+}
+
+}  // namespace cortex::explorer
