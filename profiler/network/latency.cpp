@@ -120,7 +120,7 @@ std::size_t octetsOf(int samples) {
 }
 
 Latencies measure(const CommsRun& run, int samples) {
-    // The stream's own octets: encapsulation and length.
+    // The stream's own bytes: encapsulation and length.
     const Child sender{senderWords(run.domain, samples, octetsOf(samples) - 8)};
     const OnCpu other{1};
     Arrivals arrivals;
@@ -155,7 +155,7 @@ void measureTransit(const CommsRun& run) {
                  {.id = "comms/latency/" + items,
                   .what = "a value at 1 kHz from the task that writes it to where another "
                           "agent takes it from DDS: " +
-                          items + " items, " + std::to_string(octetsOf(samples)) + " octets",
+                          items + " items, " + std::to_string(octetsOf(samples)) + " bytes",
                   .unit = "us",
                   .baseline = bare,
                   .baselineName = "raw Fast DDS, from write() to callback",
@@ -164,7 +164,7 @@ void measureTransit(const CommsRun& run) {
                  all.linked);
         addTimes(run,
                  {.id = "comms/latency/" + items + "/raw",
-                  .what = "raw Fast DDS with as many octets, every other second",
+                  .what = "raw Fast DDS with as many bytes, every other second",
                   .unit = "us"},
                  all.bare);
     }

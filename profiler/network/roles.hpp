@@ -14,7 +14,7 @@ namespace cortex::profiler {
 // An agent at 1 kHz with so many samples.
 std::vector<std::string> agentWords(const std::string& name, int domain, int samples);
 
-// An agent "sender" whose samples are linked, and octets of bare Fast DDS of the given number in
+// An agent "sender" whose samples are linked, and bytes of bare Fast DDS of the given number in
 // turn with them, in the next domain.
 std::vector<std::string> senderWords(int domain, int samples, std::size_t octets);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/machine_facts.hpp"
 
+#include "cortex/core/machine.hpp"
+
+#include <cstdint>
 #include <fstream>
 #include <set>
 
@@ -15,14 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* cpus = "sys/devices/system/cpu";
-
-std::string lineOf(const fs::path& file) {
-    std::ifstream stream{file};
-    std::string line;
-    std::getline(stream, line);
-    line.erase(line.find_last_not_of(" \t\r\n") + 1);
-    return line;
-}
 
 std::string otherwise(const std::string& text, const char* replacement) {
     return text.empty() ? replacement : text;
@@ -56,37 +51,41 @@ std::string caches(const fs::path& root) {
     std::set<std::string> found;
     std::error_code ignored;
     for (const auto& each : fs::directory_iterator{root / cpus / "cpu0/cache", ignored}) {
-        const std::string level = lineOf(each.path() / "level"),
-                          type = lineOf(each.path() / "type");
+        const std::string level = firstLineOf(each.path() / "level"),
+                          type = firstLineOf(each.path() / "type");
         if (level.empty()) continue;
         const char* kind = type == "Data" ? "d" : type == "Instruction" ? "i" : "";
-        found.insert("L" + level + kind + " " + lineOf(each.path() / "size"));
+        found.insert("L" + level + kind + " " + firstLineOf(each.path() / "size"));
     }
     return joined(found);
 }
 
-std::string preemption(const fs::path& root, const std::string& kernelVersion) {
-    if (lineOf(root / "sys/kernel/realtime") == "1" ||
-        kernelVersion.find("PREEMPT_RT") != std::string::npos) {
-        return "PREEMPT_RT";
+std::string governors(const fs::path& root) {
+    std::set<std::string> found;
+    std::error_code ignored;
+    for (const auto& each : fs::directory_iterator{root / cpus, ignored}) {
+        const std::string governor = firstLineOf(each.path() / "cpufreq/scaling_governor");
+        if (!governor.empty()) found.insert(governor);
     }
-    const std::string modes = lineOf(root / "sys/kernel/debug/sched/preempt");  // "none (full)"
-    const std::size_t begin = modes.find('('), end = modes.find(')');
-    const std::size_t at = kernelVersion.find("PREEMPT");
-    if (begin != std::string::npos && end > begin) {
-        return modes.substr(begin + 1, end - begin - 1) + ", not PREEMPT_RT";
-    }
-    return at == std::string::npos
-               ? "voluntary or none"
-               : kernelVersion.substr(at, kernelVersion.find(' ', at) - at) + ", not PREEMPT_RT";
+    return joined(found);
+}
+
+// What programs have asked for, this one not yet; the kernel's own default is 2000 s.
+std::string idleCpus(const fs::path& root) {
+    std::int32_t limit = 0;  // us
+    std::ifstream file{root / "dev/cpu_dma_latency", std::ios::binary};
+    if (!file.read(reinterpret_cast<char*>(&limit), sizeof limit)) return "unknown";
+    if (limit == 0) return "do not sleep";
+    constexpr std::int32_t unlimited = 2'000'000'000;
+    return limit >= unlimited ? "sleep" : "wake up within " + std::to_string(limit) + " us";
 }
 
 std::string throttling(const fs::path& root) {
-    const std::string runtime = lineOf(root / "proc/sys/kernel/sched_rt_runtime_us");
+    const std::string runtime = firstLineOf(root / "proc/sys/kernel/sched_rt_runtime_us");
     if (runtime.empty()) return "unknown";
     if (runtime == "-1") return "real-time threads are not throttled";
     return "real-time threads have " + runtime + " of each " +
-           lineOf(root / "proc/sys/kernel/sched_rt_period_us") + " us";
+           firstLineOf(root / "proc/sys/kernel/sched_rt_period_us") + " us";
 }
 
 std::string priorityLimit() {
@@ -96,14 +95,8 @@ std::string priorityLimit() {
     return limit.rlim_cur == 0 ? "none" : "up to " + std::to_string(limit.rlim_cur);
 }
 
-std::string virtualised(const fs::path& root) {
-    const std::string flags = " " + cpuinfo(root, "flags") + " ";
-    if (flags.find(" hypervisor ") != std::string::npos) return "yes";
-    return flags.size() > 2 ? "no" : "unknown";
-}
-
 std::string load(const fs::path& root) {
-    const std::string line = lineOf(root / "proc/loadavg");  // "0.33 0.42 3.20 1/200 4711"
+    const std::string line = firstLineOf(root / "proc/loadavg");  // "0.33 0.42 3.20 1/200 4711"
     return line.substr(0, line.rfind(' ', line.find('/')));
 }
 
@@ -130,12 +123,14 @@ std::vector<std::pair<std::string, std::string>> machineFacts(const fs::path& ro
         {"CPU", otherwise(cpuinfo(root, "model name"), system.machine)},
         {"CPUs", usableCpus()},
         {"caches", otherwise(caches(root), "unknown")},
-        {"virtualised", virtualised(root)},
-        {"isolated CPUs", otherwise(lineOf(root / cpus / "isolated"), "none")},
+        {"virtualised", isVirtualMachine(root) ? "yes" : "no"},
+        {"governor", otherwise(governors(root), "not set here")},
+        {"idle CPUs", idleCpus(root)},
+        {"isolated CPUs", otherwise(firstLineOf(root / cpus / "isolated"), "none")},
         {"kernel", std::string{system.sysname} + " " + system.release + " " + system.machine},
-        {"preemption", preemption(root, system.version)},
+        {"preemption", otherwise(preemption(root), "unknown")},
         {"throttling", throttling(root)},
-        {"clock source", otherwise(lineOf(root / clock), "unknown")},
+        {"clock source", otherwise(firstLineOf(root / clock), "unknown")},
         {"real-time priorities", priorityLimit()},
         {loadFact, otherwise(load(root), "unknown")},
         {"compiler", compiler()},
