@@ -61,10 +61,11 @@ std::int64_t RecordingClock::sleep() {
     return time - until;
 }
 
-// Until there is a plan: nobody counts the deadlines of this time.
+// Waits for the next plan, or to be interrupted. Deadlines that pass meanwhile are not counted.
 void RecordingClock::rest() {
-    while (!asked_.exchange(false) && !interrupted_) asked_.wait(false);
-    call(plan_.prepares);
+    bool planned = false;
+    while (!(planned = asked_.exchange(false)) && !interrupted_) asked_.wait(false);
+    if (planned) call(plan_.prepares);
     origin_ = monotonicNow() - (next_ - 1) * period_;
     skipped_ = 0;
     phaseEnds_ = next_ + plan_.runIn;

@@ -25,17 +25,17 @@ void blockStopSignals() {
 }
 
 bool waitForInterrupt(double seconds, const std::function<bool()>& done) {
-    using Clock = std::chrono::steady_clock;
     blockStopSignals();
     const sigset_t signals = stopSignals();
-    const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                        std::chrono::duration<double>{seconds});
+    const auto end = std::chrono::steady_clock::now() +
+                     std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                         std::chrono::duration<double>{seconds});
     constexpr timespec poll{0, 50'000'000};
     for (;;) {
         const int signal = sigtimedwait(&signals, nullptr, &poll);
         if (signal > 0) return true;
         if (done && done()) return false;
-        if (seconds > 0 && Clock::now() >= end) return false;
+        if (seconds > 0 && std::chrono::steady_clock::now() >= end) return false;
     }
 }
 

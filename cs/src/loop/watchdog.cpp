@@ -30,16 +30,16 @@ Watchdog::~Watchdog() {
 }
 
 void Watchdog::run() {
-    using Clock = std::chrono::steady_clock;
     std::int64_t seen = 0;
-    auto since = Clock::now();
+    auto since = std::chrono::steady_clock::now();
     std::unique_lock lock{mutex_};
     while (!wake_.wait_for(lock, limit_ / 4, [this] { return stopping_; })) {
         const std::int64_t cycle = executing();
         if (cycle != seen) {
             seen = cycle;
-            since = Clock::now();
-        } else if (cycle != 0 && reported() != cycle && Clock::now() - since >= limit_) {
+            since = std::chrono::steady_clock::now();
+        } else if (cycle != 0 && reported() != cycle &&
+                   std::chrono::steady_clock::now() - since >= limit_) {
             reported_.store(cycle, std::memory_order_release);
             report_({cycle, nominalTime_.load(std::memory_order_relaxed)},
                     findHungHook(runner_, agent_));
