@@ -63,9 +63,8 @@ std::int64_t RecordingClock::sleep() {
 
 // Waits for the next plan, or to be interrupted. Deadlines that pass meanwhile are not counted.
 void RecordingClock::rest() {
-    bool planned = false;
-    while (!(planned = asked_.exchange(false)) && !interrupted_) asked_.wait(false);
-    if (planned) call(plan_.prepares);
+    while (!asked_.exchange(false) && !interrupted_) asked_.wait(false);
+    if (!interrupted_) call(plan_.prepares);
     origin_ = monotonicNow() - (next_ - 1) * period_;
     skipped_ = 0;
     phaseEnds_ = next_ + plan_.runIn;
