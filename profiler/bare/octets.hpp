@@ -17,11 +17,11 @@ class Octets final : public eprosima::fastdds::dds::TopicDataType {
 
 public:
     using Data = std::vector<std::uint8_t>;
-    static constexpr std::uint32_t Largest = 65000;
+    static constexpr std::uint32_t largest = 65000;
 
     Octets() {
         setName("Octets");
-        m_typeSize = Largest + 8;
+        m_typeSize = largest + 8;
         m_isGetKeyDefined = false;
     }
     bool serialize(void* data, Payload* payload) override {
