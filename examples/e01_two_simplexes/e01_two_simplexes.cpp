@@ -19,7 +19,7 @@ private:
         amplitude_ = data<const double>("amplitude");
         position_ = output("axis").data<double>("position");
     }
-    void stateActive(const Tick& tick) override {  // every cycle while Active: neither
+    void stateActive(const Tick& tick) override {  // every cycle while Active: must do neither
         position_ = amplitude_ * std::sin(3 * tick.seconds());
     }
     Data<const double> amplitude_;
