@@ -82,14 +82,18 @@ MeasuredLoop::MeasuredLoop(SimplexTree&& tree, std::int64_t simplexes, std::uint
 MeasuredLoop::~MeasuredLoop() {
     ending_ = true;
     if (observer_.joinable()) observer_.join();
-    // One after the other, as stop() does it, takes a cycle each.
+    if (cluster_->running()) shutDown();
+    cluster_->stop();
+    Partner::commandsPerCycle = 1;
+    munlockall();  // a cluster with a priority locks all memory of the process
+}
+
+// All at once: one after the other, as stop() does it, takes a cycle each.
+void MeasuredLoop::shutDown() {
     RecordingPlan rest{.loopPeriods = 5, .runIn = 0};
     rest.prepares = [this] { postToAll(cluster_->agent(), LifeCycle::Shutdown); };
     clock_->record(rest);
     while (!clock_->waitUntilDone(100ms)) continue;
-    cluster_->stop();
-    Partner::commandsPerCycle = 1;
-    munlockall();  // a cluster with a priority locks all memory of the process
 }
 
 void MeasuredLoop::start() {

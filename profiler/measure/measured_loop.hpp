@@ -69,6 +69,7 @@ private:
     MeasuredLoop(SimplexTree&& tree, std::int64_t simplexes, std::uint32_t commands,
                  double frequency, const RunOptions& options);
     void start();
+    void shutDown();
     void observe();
     void count(Counts& counts);
     void checkActive() const;
