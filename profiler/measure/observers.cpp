@@ -140,7 +140,7 @@ std::optional<LoopAndSleeper> Observation::measure(const std::string& name, doub
     const Recording& found = clock_->recording();
     if (!found.complete) return std::nullopt;
     if (!allActive(cluster_.image())) throw Error("the loop that is watched is not Active");
-    const LoopAndSleeper judged{latenessOf(found.cycles), latenessOf(found.sleeps)};
+    LoopAndSleeper judged{latenessOf(found.cycles), latenessOf(found.sleeps)};
     add(name, judged);
     results_
         .add("observers/" + name + "/allocations",
