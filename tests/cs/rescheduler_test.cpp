@@ -31,17 +31,17 @@ TEST(Rescheduler, ExpectsEachThreadToRunItsShareAfterWhatItWaitsFor) {
     EXPECT_NEAR(expectedMicroseconds(two, costs), 250, 30);  // and the wake of a thread
 }
 
-// A hundred tasks that two threads share, and what a look at them offers.
+// Two thousand tasks on one thread, and what a look at them offers. None has run, so each counts
+// with the time that is assumed: two threads are better, whatever the machine does.
 class ReschedulerTest : public testing::Test {
 protected:
     ReschedulerTest() {
-        for (int i = 0; i < 100; ++i) cluster_.probe("/p" + std::to_string(100 + i));
+        for (int i = 0; i < 2000; ++i) cluster_.probe("/p" + std::to_string(1000 + i));
         cluster_.start();
-        cluster_.step(10);
         for (const SimplexInfo& info : agent().structure().simplexes) {
             graph_.nodes.push_back({info.path, info.path.starts_with("/p"), 1, 0});
         }
-        plan = std::make_unique<Plan>(Plan{schedule(2), nullptr});
+        plan = std::make_unique<Plan>(Plan{schedule(1), nullptr});
         rescheduler = std::make_unique<Rescheduler>(agent(), plan->schedule, maker());
     }
     AgentRuntime& agent() { return cluster_.cluster->agent(); }
@@ -58,7 +58,7 @@ protected:
         return exchanged;
     }
 
-    std::atomic<std::uint32_t> threads{1};  // of the schedule that it is made; 1 is better
+    std::atomic<std::uint32_t> threads{2};  // of the schedule that it is made; 2 are better
     std::unique_ptr<Plan> plan;
     std::unique_ptr<Rescheduler> rescheduler;
 
@@ -79,15 +79,15 @@ TEST_F(ReschedulerTest, OffersABetterPlanWhereItIsAsked) {
     rescheduler->look();
     EXPECT_TRUE(rescheduler->isLooking());
     EXPECT_TRUE(exchanged());
-    EXPECT_EQ(plan->schedule.threads, 1U);
+    EXPECT_EQ(plan->schedule.threads, 2U);
     EXPECT_EQ(plan->schedule.tasks, tasks);
 }
 
 TEST_F(ReschedulerTest, OffersNothingWhereNoPlanIsBetter) {
-    threads = 2;
+    threads = 1;
     rescheduler->look();
     EXPECT_FALSE(exchanged());
-    EXPECT_EQ(plan->schedule.threads, 2U);
+    EXPECT_EQ(plan->schedule.threads, 1U);
 }
 
 TEST_F(ReschedulerTest, LooksOnceSomeTimeAfterTheLastStartup) {
