@@ -47,6 +47,8 @@ bool RecordingClock::waitUntilDone(std::chrono::milliseconds limit) const {
     return true;
 }
 
+// Sleeps to the next deadline and returns how late this thread woke up, in ns. A deadline that has
+// passed costs no sleep.
 std::int64_t RecordingClock::sleep() {
     const std::int64_t until = deadline();
     std::int64_t time = monotonicNow();
@@ -72,6 +74,8 @@ void RecordingClock::rest() {
     phase_ = Phase::RunningIn;
 }
 
+// Completes the record of the cycle that ended at `end`. Deadlines that passed meanwhile are
+// skipped, as the product's own clock does.
 void RecordingClock::finishCycle(std::int64_t end) {
     const std::int64_t late = end - deadline();
     skipped_ = late < 0 ? 0 : late / period_ + 1;
@@ -99,6 +103,7 @@ void RecordingClock::finish(bool complete) {
     done_.store(true, std::memory_order_release);
 }
 
+// Each block goes Looping, Sleeping, Working; a phase without periods is left out.
 void RecordingClock::advance() {
     if (abandoned_.load(std::memory_order_relaxed)) {
         finish(false);
@@ -132,6 +137,7 @@ void RecordingClock::advance() {
         finish(true);
 }
 
+// One period of the bare sleeper.
 void RecordingClock::recordSleep() {
     const std::int64_t lateness = sleep();
     const std::int64_t late = std::max<std::int64_t>(lateness, 0) / period_;
@@ -149,6 +155,7 @@ std::int64_t RecordingClock::skipPassed() {
     return passed;
 }
 
+// One period of the bare work.
 void RecordingClock::recordWork() {
     work_->prepare(deadline());
     const std::int64_t lateness = sleep();
@@ -166,6 +173,7 @@ std::int64_t RecordingClock::meanDuration() const {
     return sum / std::max<std::int64_t>(1, std::ssize(recording_.cycles));
 }
 
+// Returns when the loop is to run a cycle. Every other phase happens in here, between two cycles.
 cs::Trigger RecordingClock::waitForTick() {
     const std::int64_t end = monotonicNow();
     if (phase_ != Phase::Resting) finishCycle(end);

@@ -82,8 +82,11 @@ private:
     std::int64_t meanDuration() const;
 
     const std::int64_t period_;
-    std::int64_t origin_ = 0, next_ = 0, phaseEnds_ = 0, settled_ = 0;
-    std::int64_t wokenAt_ = 0, skipped_ = 0;
+    std::int64_t origin_ = 0;                   // ns; deadline n is origin_ + n * period_
+    std::int64_t next_ = 0;                     // number of the next deadline
+    std::int64_t phaseEnds_ = 0, settled_ = 0;  // numbers of deadlines
+    std::int64_t wokenAt_ = 0;                  // ns
+    std::int64_t skipped_ = 0;                  // deadlines that passed since the last cycle
     std::unique_ptr<RegisterWork> work_;
     std::int64_t rounds_ = 0;  // of work
     int block_ = 0;

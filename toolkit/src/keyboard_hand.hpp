@@ -10,9 +10,11 @@
 
 namespace cortex::toolkit {
 
-// Reads a terminal's keys on a thread of its own; the loop only reads atomics. A key works for as
-// long as the terminal repeats it:
-//   w s  x   a d  y   q e  z   u o  roll   i k  pitch   j l  yaw   blank  press or release
+// The operator's hand, moved by the keys of a terminal. A thread of its own reads the keys, and the
+// loop only reads atomics. A key moves its axis for as long as the terminal repeats it. In each
+// pair the first key moves forward and the second one back:
+//   w s  x   a d  y   q e  z   u o  roll   i k  pitch   j l  yaw
+// The blank presses the button, and releases it the next time.
 class KeyboardHand {
 public:
     static constexpr std::size_t axisCount = 6;  // x y z roll pitch yaw
@@ -24,6 +26,7 @@ public:
 
     // -1, 0 or 1 for each axis; `cycleTime`: nominal time, ns, of the loop.
     std::array<double, axisCount> motion(std::int64_t cycleTime) CORTEX_REALTIME;
+    // Whether the button is pressed.
     bool pressed() const CORTEX_REALTIME { return pressed_.load(std::memory_order_relaxed); }
 
 private:
@@ -33,7 +36,8 @@ private:
     struct Axis {
         std::atomic<std::int64_t> strokes{0};  // how many keys came
         std::atomic<int> direction{0};
-        std::int64_t seen = 0, until = 0;  // used by the loop only
+        // Used by the loop only: the strokes that it has seen, and when the last one ends, in ns.
+        std::int64_t seen = 0, until = 0;
     };
     std::array<Axis, axisCount> axes_;
     std::atomic<bool> pressed_{false};

@@ -23,14 +23,15 @@ public:
     // The first answer may come before its receiver is ready, who then sends the command again.
     // False: too many new senders command at the same time. Throws Error.
     bool send(const Answer& answer, std::int64_t now);
+    // Closes the topics of senders that have not been known for a minute.
     void keep(const std::function<bool(const std::string&)>& isKnown, std::int64_t now);
 
 private:
     struct Way {
         std::unique_ptr<Writer<Answer>> writer;
-        std::int64_t used = 0;
+        std::int64_t used = 0;  // ns, when its sender was last known
     };
-    bool makeRoom(std::int64_t now);
+    bool makeRoom(std::int64_t now);  // closes the topic that was unused for longest
 
     Participant& participant_;
     std::map<std::string, Way> ways_;  // by sender

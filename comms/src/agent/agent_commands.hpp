@@ -20,17 +20,21 @@ class SecurityIdentity;
 
 // Passes valid commands from the network to the loop and answers the others at once. It sends the
 // answers of the loop, and tells the loop when a sender is lost. The loop calls read() and write();
-// the communication thread calls the rest.
+// the communication thread calls the rest. Times are ns of monotonicNow(). A command from outside
+// comes from another agent or a tool. Its sender is a name and an epoch, which grows with each
+// start.
 class AgentCommands {
 public:
     // With an identity, a sender must prove that it may command.
     AgentCommands(AgentSelf& self, std::function<void(const Answer&)> send,
                   SecurityIdentity* identity = nullptr);
 
+    // For each command that was received, those for other agents included.
     void take(const Command& command, std::int64_t now);
-    // Called with each presence of a sender, and when it is lost.
+    // With each presence of a sender, and when it is lost.
     void heard(const Presence& presence, std::int64_t now);
     void lost(const std::string& sender, std::int64_t epoch);
+    // Sends the answers of the loop. A sender whose presence is overdue is reported to the loop.
     void step(std::int64_t now);
     bool knows(const std::string& sender) const { return senders_.contains(sender); }
 
@@ -40,7 +44,8 @@ public:
 private:
     struct HeardSender {
         Sender sender;
-        std::int64_t lastHeard = 0, patience = shortestPatience;
+        std::int64_t lastHeard = 0;
+        std::int64_t patience = shortestPatience;  // ns of silence after which it counts as lost
         std::uint64_t newest = 0;              // sequence number of the newest command in the loop
         std::set<std::uint64_t> turnedAway{};  // refused numbers that are not acknowledged
     };
@@ -49,11 +54,11 @@ private:
         Reason reason;
         std::string why;
     };
-    bool believable(const Command& command);
-    bool remember(const Sender& sender, std::int64_t now);
-    bool reportLost(const Sender& sender);
+    bool believable(const Command& command);                // its names and numbers fit together
+    bool remember(const Sender& sender, std::int64_t now);  // false: there are too many senders
+    bool reportLost(const Sender& sender);                  // false: the loop has no room for it
     void refuse(const Command& command, const Refusal& refusal);
-    void turnAway(const Command& command, HeardSender& from);
+    void turnAway(const Command& command, HeardSender& from);  // the loop accepts no more
     bool permitted(const Command& command, const OutsideCommand& message,
                    const std::vector<std::uint64_t>& record, Refusal& refusal);
     bool encode(const Command& command, OutsideCommand& message, std::vector<std::uint64_t>& record,
@@ -66,7 +71,8 @@ private:
     CommandPipe pipe_;
     SpscRing<Sender> lostSenders_;
     std::map<std::string, HeardSender> senders_;  // by name
-    Id reportedLink_{};                           // of the last command that was not permitted
+    // The last command that was not permitted: its repetitions are not reported again.
+    Id reportedLink_{};
     std::uint64_t reportedNumber_ = 0;
 };
 

@@ -14,8 +14,9 @@
 namespace cortex::comms {
 
 // Sends the values of this agent's simplexes that others ask for: one stream for links, and one for
-// each rate of views. A stream has a writer only while somebody asks for it. Communication thread
-// only.
+// each rate of views. A link is the input of another agent, a view is what a tool wants to see;
+// both ask with the message Interest. A stream has a writer only while somebody asks for it.
+// Communication thread only. Times are ns of monotonicNow().
 class AgentStreams {
 public:
     AgentStreams(AgentSelf& self, const Id& structureHash, Participant& participant);
@@ -32,13 +33,17 @@ private:
         std::vector<std::uint32_t> simplexes = {};
         std::unique_ptr<Writer<Block>> writer = {};
         Block block = {};
-        std::int64_t due = 0, againDue = 0;
+        std::int64_t due = 0;       // when its next values are to be sent
+        std::int64_t againDue = 0;  // when its last block is to be sent again if nothing is newer
     };
 
+    // These mark the simplexes that one asker wants.
     void addLinks(const Interest& interest, std::vector<bool>& wanted);
     void addView(const View& view);
     void addBelow(const std::string& prefix, std::vector<bool>& wanted);
+    // Makes, changes or closes the writer, so that the stream has what is wanted.
     void open(Stream& stream, const std::vector<bool>& wanted);
+    // Sends the last block again.
     void sayAgain(Stream& stream, std::int64_t now);
     void write(Stream& stream, const Image& image);
 

@@ -36,8 +36,9 @@ struct MirrorState {
     MirrorCommands commands;
     MirrorView view;
     std::vector<std::function<void(const AgentEvent&)>> listeners;
-    std::uint32_t speakers = 0;  // presences that are to come, those that have come included
-    Moment news = std::chrono::steady_clock::now();  // when the last of them was found
+    // How many participants send presences, whether theirs has come already or not.
+    std::uint32_t speakers = 0;
+    Moment news = std::chrono::steady_clock::now();  // when the last of them was discovered
     bool stopping = false;
     std::string failure;  // why the thread has ended
 };
@@ -49,10 +50,13 @@ public:
     ~MirrorThread();
 
     const std::string& name() const { return name_; }
+    // Sends a command; `budget`: how long its answer may take. Returns its number, by which the
+    // answer is found. Throws Error if no agent has the path or its type has no such command.
     std::uint64_t send(std::string_view path, std::string_view command,
                        const Mirror::Arguments& arguments, Mirror::Milliseconds budget);
-    std::uint64_t refused() const;
+    std::uint64_t refused() const;  // malformed messages, since the start
 
+    // Calls `function` with the state, under the mutex.
     template <class Function>
     auto read(Function function) {
         const std::lock_guard lock{mutex_};
@@ -77,10 +81,10 @@ public:
 
 private:
     void run();
-    bool turn();
-    void take(const MirrorSample& sample, Moment now);
-    void serve(Moment now);
-    void tellListeners();
+    bool turn();                                        // false: the thread is to end
+    void take(const MirrorSample& sample, Moment now);  // what was received
+    void serve(Moment now);                             // sends what is due, finds who is lost
+    void tellListeners();                               // outside of the mutex
 
     std::string name_;
     Sender tool_;

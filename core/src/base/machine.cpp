@@ -40,6 +40,8 @@ bool hasWord(const std::string& text, const std::string& word) {
     return false;
 }
 
+// Asked in turn: the real-time kernel's own mark, the scheduler's setting of now, the one of the
+// kernel's command line, and the version string. A dynamic kernel may differ from its version.
 std::string preemption(const fs::path& root) {
     const std::string version = firstLineOf(root / "proc/version");
     if (firstLineOf(root / "sys/kernel/realtime") == "1" || hasWord(version, "PREEMPT_RT")) {

@@ -32,22 +32,26 @@ public:
         recentCommand_ = CommandTable::none;
     }
     bool handles(std::uint32_t command) const { return handlers_[command].function != nullptr; }
-    void addReceiving(Lane& lane);  // in canonical order
+    // Setup: the lanes on which this simplex receives and sends, in canonical order.
+    void addReceiving(Lane& lane);
     void addSending(Lane& lane);
 
     const CommandTable& table() const { return table_; }
     bool hasLanes() const { return receiving_ != nullptr; }
-    // Step (1). What a handler throws passes through, after its command was answered Failed.
-    // `dead`: its commands are refused.
+    // Executes what has arrived; the task calls it before its hooks. What a handler throws passes
+    // through, after its command was answered Failed. `dead`: commands are refused.
     void process(State state, LoopThread& thread, bool dead) CORTEX_REALTIME;
-    // False: the handler threw on its last call.
+    // Ends the long command, if there is one. False: the handler threw on its last call.
     bool cancelActivity(LoopThread& thread, bool callHandler, std::string_view why);
-    void enqueue(OutsideEntry& entry) CORTEX_REALTIME;  // between cycles
-    // Between cycles: the long command is cancelled in the next step (1).
+    // Between cycles: a command from outside is executed in the next process().
+    void enqueue(OutsideEntry& entry) CORTEX_REALTIME;
+    // Between cycles: the long command is cancelled in the next process().
     void requestCancel(const char* why) CORTEX_REALTIME { cancelWhy_ = why; }
+    // Null: no long command is running, or it came along a lane.
     const OutsideEntry* activityOrigin() const CORTEX_REALTIME;
 
     LoopThread& thread() { return *thread_; }
+    // What send() returns where the lane has no room; it is counted and told once.
     Outcome mailboxFull(CommandSender::State& state) CORTEX_REALTIME;
 
 private:

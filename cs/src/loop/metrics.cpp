@@ -45,7 +45,7 @@ void MetricSeries::add(double figure) {
     sum_ += figure;
     greatest_ = std::max(greatest_, figure);
     ++count_;
-    // Bin: octave and the next five bits of the scaled integer.
+    // The octave, then the five bits behind the highest one of the scaled figure, are its bin.
     const auto scaled = static_cast<std::uint64_t>(std::max(0.0, figure * scale_)) + binsPerOctave;
     const auto octave = static_cast<unsigned>(std::bit_width(scaled)) - 6U;
     const auto bin = static_cast<std::size_t>(octave) * binsPerOctave +
@@ -60,6 +60,7 @@ void MetricSeries::write() {
     maxItem_ = greatest_;
 }
 
+// A percentile is the upper end of its bin, so it is never too low.
 void MetricSeries::writePercentiles() {
     if (count_ == 0) return;
     findPercentiles(bins_, count_, percentileItems_, [this](std::uint32_t bin) {
@@ -94,6 +95,7 @@ ClusterMetrics::ClusterMetrics(AgentRuntime& agent, std::int64_t period, std::ui
     aliveItem_ = cluster.data<bool>("alive");
 }
 
+// All arguments in ns. Durations and jitter are shown in µs, the duty cycle in % of the period.
 void ClusterMetrics::cycleEnded(std::int64_t sinceLastWakeUp, std::int64_t lateness,
                                 std::int64_t work) {
     if (sinceLastWakeUp > 0) series_[0].add(static_cast<double>(sinceLastWakeUp) * 1e-3);
@@ -128,6 +130,7 @@ void ClusterMetrics::write(const RunnerCounts& counts) {
     aliveItem_ = !hung_;
 }
 
+// The latencies of commands are counted by each thread of the loop; here they are added up.
 void ClusterMetrics::writeLatency() {
     std::ranges::fill(latencySum_, 0);
     std::uint64_t count = 0;

@@ -18,14 +18,19 @@ std::string defaultDiscoveryServer();
 
 // The network that an agent or a tool joins. Joining throws Error if an option cannot be fulfilled.
 struct NetworkOptions {
+    // The DDS domain, 0 to 230. Only agents and tools of one domain meet.
     int domain = defaultDomain();
-    std::vector<std::string> interfaces;  // names or IPv4 addresses; none: all
-    std::vector<std::string> peers;       // "host" or "host:port", where multicast does not reach
-    // "host" or "host:port", instead of peers and multicast; several are joined by ";".
+    // Names ("eth0") or IPv4 addresses of this machine's interfaces to use. None: all.
+    std::vector<std::string> interfaces;
+    // "host" or "host:port" of agents and tools that multicast does not reach.
+    std::vector<std::string> peers;
+    // "host" or "host:port" of a Fast DDS Discovery Server, which replaces peers and multicast.
+    // Several are joined by ";".
     std::string discoveryServer = defaultDiscoveryServer();
-    bool sharedMemory = false;  // besides UDP
-    std::string security =
-        defaultSecurity();  // folder made by `cortex security create-agent`; empty: none
+    // Besides UDP, processes of one machine exchange data through shared memory.
+    bool sharedMemory = false;
+    // A folder made by `cortex security create-agent`. Empty: no security.
+    std::string security = defaultSecurity();
 };
 
 }  // namespace cortex::comms
