@@ -94,7 +94,7 @@ void measureItems(const Rounds& rounds, Results& results) {
                    simplexes, 100));
 }
 
-void run(const RunOptions& options, Progress& progress, Results& results) {
+void runAccess(const RunOptions& options, Progress& progress, Results& results) {
     const Rounds rounds{5, options.quick ? 0.05 : 0.3};
     if (!progress.step(0, "items")) return;
     measureItems(rounds, results);
@@ -105,7 +105,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 
 Measurement accessMeasurement() {
     return {"access", "data through a handle and by path in an image", "Access to data",
-            [](const RunOptions& options) { return options.quick ? 2.0 : 10.0; }, run};
+            [](const RunOptions& options) { return options.quick ? 2.0 : 10.0; }, runAccess};
 }
 
 }  // namespace cortex::profiler

@@ -24,7 +24,7 @@ SweepPlan plan(const RunOptions& options) {
 
 double loopSeconds(const RunOptions& options) { return options.quick ? 0.25 : 2; }
 
-double seconds(const RunOptions& options) {
+double commandsSeconds(const RunOptions& options) {
     return expectedSteps(plan(options)) *
            (loopSeconds(options) * 1.25 + settlingSeconds(options) + 0.1);
 }
@@ -84,7 +84,7 @@ void addQuantities(const Sweep& sweep, Results& results) {
     }
 }
 
-void run(const RunOptions& options, Progress& progress, Results& results) {
+void runCommands(const RunOptions& options, Progress& progress, Results& results) {
     const auto periods = [&](double frequency) {
         return std::max<std::int64_t>(200, std::llround(frequency * loopSeconds(options)));
     };
@@ -106,7 +106,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 
 Measurement commandsMeasurement() {
     return {"commands", "latency of commands against the frequency of the loop (Fig. 29)",
-            "Latency of commands against the frequency (Fig. 29)", seconds, run};
+            "Latency of commands against the frequency (Fig. 29)", commandsSeconds, runCommands};
 }
 
 }  // namespace cortex::profiler

@@ -17,9 +17,9 @@ std::vector<double> microseconds(const std::vector<std::int64_t>& times) {
     return values;
 }
 
-double seconds(const RunOptions& options) { return options.quick ? 30 : 90; }
+double commsSeconds(const RunOptions& options) { return options.quick ? 30 : 90; }
 
-void run(const RunOptions& options, Progress& progress, Results& results) {
+void runComms(const RunOptions& options, Progress& progress, Results& results) {
     const Domain domain = measurementDomain();
     const CommsRun parts{options.quick ? 1 : 5, domain.number, progress, results};
     results.notes.push_back("comms: " + domain.text());
@@ -50,8 +50,8 @@ void addTimes(const CommsRun& run, Quantity quantity, const std::vector<std::int
 }
 
 Measurement commsMeasurement() {
-    return {"comms", "cost and latency of the network, beside raw Fast DDS", "Network", seconds,
-            run};
+    return {"comms", "cost and latency of the network, beside raw Fast DDS", "Network",
+            commsSeconds, runComms};
 }
 
 }  // namespace cortex::profiler

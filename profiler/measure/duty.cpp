@@ -84,12 +84,12 @@ void addCommands(const Sweep& sweep, Results& results) {
         .atMost(0);
 }
 
-double seconds(const RunOptions& options) {
+double dutySeconds(const RunOptions& options) {
     return simplexSweepSeconds(options) + statedLoadSeconds(options);
 }
 
-void run(const RunOptions& options, Progress& progress, Results& results) {
-    const double sweepPart = simplexSweepSeconds(options) / seconds(options);
+void runDuty(const RunOptions& options, Progress& progress, Results& results) {
+    const double sweepPart = simplexSweepSeconds(options) / dutySeconds(options);
     PartProgress sweeping{progress, 0, sweepPart}, judging{progress, sweepPart, 1};
     const Sweep& sweep = simplexSweep(options, sweeping, results);
     if (sweep.points.empty()) return;
@@ -105,7 +105,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 
 Measurement dutyMeasurement() {
     return {"duty", "duty cycle against the number of simplexes (Fig. 23)",
-            "Duty cycle against the number of simplexes (Fig. 23)", seconds, run};
+            "Duty cycle against the number of simplexes (Fig. 23)", dutySeconds, runDuty};
 }
 
 }  // namespace cortex::profiler

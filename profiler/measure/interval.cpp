@@ -82,7 +82,7 @@ void addQuantities(const Sweep& sweep, const Holds& below, Results& results) {
     results.quantities.push_back(std::move(error));
 }
 
-void run(const RunOptions& options, Progress& progress, Results& results) {
+void runInterval(const RunOptions& options, Progress& progress, Results& results) {
     const Sweep& sweep = simplexSweep(options, progress, results);
     if (sweep.points.empty()) return;
     const Holds below = [&](const SweepPoint& point) { return point.x <= sweep.withoutOverflow(); };
@@ -98,7 +98,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 Measurement intervalMeasurement() {
     return {"interval",
             "interval between executions of a task, below and above overflow (Fig. 24 to 26)",
-            "Interval between executions (Fig. 24 to 26)", simplexSweepSeconds, run};
+            "Interval between executions (Fig. 24 to 26)", simplexSweepSeconds, runInterval};
 }
 
 }  // namespace cortex::profiler

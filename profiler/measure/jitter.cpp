@@ -15,7 +15,7 @@ namespace {
 
 using Value = std::function<double(const Measured&)>;
 
-constexpr int simplexes = 50;
+constexpr int jitterSimplexes = 50;
 constexpr double judgedFrequency = 1000;
 
 std::vector<double> frequencies() {
@@ -30,7 +30,7 @@ std::int64_t periodsEach(const RunOptions& options, double frequency) {
     return std::max<std::int64_t>(50, std::llround(frequency * secondsEach(options) / 2));
 }
 
-double seconds(const RunOptions& options) {
+double jitterSeconds(const RunOptions& options) {
     double sum = 2 * judgedSeconds(options);
     for (const double frequency : frequencies()) {
         const std::int64_t periods = 2 * periodsEach(options, frequency) + RecordingPlan{}.runIn;
@@ -72,7 +72,7 @@ bool measureJitter(const RunOptions& options, Steps& steps, Results& results) {
     Sweep sweep;
     for (const double frequency : frequencies()) {
         if (!steps.next(readable(frequency) + " Hz")) break;
-        const auto loop = MeasuredLoop::ofEmpty(simplexes, frequency, options);
+        const auto loop = MeasuredLoop::ofEmpty(jitterSimplexes, frequency, options);
         sweep.threads = loop->threads();
         noteRefusals(loop->refusals(), results);
         const std::int64_t half = periodsEach(options, frequency) / 2;
@@ -128,7 +128,7 @@ void addMissed(const Measured& measured, Results& results) {
 
 void judgeLateness(const RunOptions& options, Steps& steps, Results& results) {
     if (!steps.next("lateness at 1 kHz beside a bare sleeper")) return;
-    const auto loop = MeasuredLoop::ofEmpty(simplexes, judgedFrequency, options);
+    const auto loop = MeasuredLoop::ofEmpty(jitterSimplexes, judgedFrequency, options);
     const int blocks = judgedSeconds(options);
     int asked = 0;
     const Measured measured = loop->run({blocks, 1000, 1000}, [&] {
@@ -147,7 +147,7 @@ void judgeLateness(const RunOptions& options, Steps& steps, Results& results) {
     addMissed(measured, results);
 }
 
-void run(const RunOptions& options, Progress& progress, Results& results) {
+void runJitter(const RunOptions& options, Progress& progress, Results& results) {
     Steps steps{progress, static_cast<int>(frequencies().size()) + 11};
     if (measureJitter(options, steps, results)) judgeLateness(options, steps, results);
 }
@@ -156,7 +156,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 
 Measurement jitterMeasurement() {
     return {"jitter", "jitter against the frequency of the loop, lateness at 1 kHz (Fig. 30)",
-            "Jitter and lateness (Fig. 30)", seconds, run};
+            "Jitter and lateness (Fig. 30)", jitterSeconds, runJitter};
 }
 
 }  // namespace cortex::profiler

@@ -40,7 +40,7 @@ double sweepSeconds(const RunOptions& options) {
            (periods / options.frequency + 0.1 + settlingSeconds(options));
 }
 
-double seconds(const RunOptions& options) {
+double latencySeconds(const RunOptions& options) {
     return sweepSeconds(options) + statedLoadSeconds(options);
 }
 
@@ -169,7 +169,7 @@ void addLatency(const Sweep& sweep, Results& results) {
         .atMost(0);
 }
 
-void run(const RunOptions& options, Progress& progress, Results& results) {
+void runLatency(const RunOptions& options, Progress& progress, Results& results) {
     const SweepSubject subject{"commands per simplex",
                                [&](double commands) {
                                    return MeasuredLoop::ofPartners(
@@ -177,7 +177,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
                                        options.frequency, options);
                                },
                                [&](double) { return portion(options); }};
-    const double sweepPart = sweepSeconds(options) / seconds(options);
+    const double sweepPart = sweepSeconds(options) / latencySeconds(options);
     PartProgress sweeping{progress, 0, sweepPart}, judging{progress, sweepPart, 1};
     const Sweep sweep = sweepUpwards(plan(options), subject, sweeping, results);
     if (sweep.points.empty()) return;
@@ -198,7 +198,8 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 
 Measurement latencyMeasurement() {
     return {"latency", "latency of commands against how many are sent (Fig. 27 and 28)",
-            "Latency of commands against their number (Fig. 27 and 28)", seconds, run};
+            "Latency of commands against their number (Fig. 27 and 28)", latencySeconds,
+            runLatency};
 }
 
 }  // namespace cortex::profiler

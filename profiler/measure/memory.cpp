@@ -164,11 +164,11 @@ bool fill(const Filling& filling, const RunOptions& options, Progress& progress,
     return true;
 }
 
-double seconds(const RunOptions& options) {
+double memorySeconds(const RunOptions& options) {
     return runSeconds(options) + (options.quick ? 10 : 40);
 }
 
-void run(const RunOptions& options, Progress& progress, Results& results) {
+void runMemory(const RunOptions& options, Progress& progress, Results& results) {
     OverTime seen;
     const bool whole = observe(options, progress, seen);
     if (!seen.last.empty()) addOverTime(options, seen, results);
@@ -187,7 +187,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 
 Measurement memoryMeasurement() {
     return {"memory", "memory over time and by content (Fig. 18 to 22)", "Memory (Fig. 18 to 22)",
-            seconds, run};
+            memorySeconds, runMemory};
 }
 
 }  // namespace cortex::profiler

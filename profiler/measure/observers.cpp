@@ -29,9 +29,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::int64_t perSecond = 1000;     // cycles
-constexpr int itemSimplexes = 1000;          // of ten items
-constexpr double viewRate = 30, seen = 0.9;  // part of the images that is to be seen
+constexpr std::int64_t cyclesPerSecond = 1000;  // cycles
+constexpr int itemSimplexes = 1000;             // of ten items
+constexpr double viewRate = 30, seen = 0.9;     // part of the images that is to be seen
 
 int blocks(const RunOptions& options) { return options.quick ? 5 : 60; }  // of 2 s
 int clientCount(const RunOptions& options) { return options.quick ? 10 : 50; }
@@ -116,7 +116,7 @@ Observation::Observation(const RunOptions& options, Progress& progress, Results&
 
 void Observation::runOn() {
     RecordingPlan plan;
-    plan.runIn = 3600 * perSecond;
+    plan.runIn = 3600 * cyclesPerSecond;
     plan.prepares = [this] { postToAll(cluster_.agent(), LifeCycle::Startup); };
     clock_->record(plan);
 }
@@ -124,8 +124,8 @@ void Observation::runOn() {
 std::optional<LoopAndSleeper> Observation::measure(const std::string& name, double from) {
     clock_->abandon();
     while (!clock_->waitUntilDone(100ms)) continue;
-    RecordingPlan plan{blocks(options_), perSecond, perSecond};
-    plan.runIn = perSecond;
+    RecordingPlan plan{blocks(options_), cyclesPerSecond, cyclesPerSecond};
+    plan.runIn = cyclesPerSecond;
     std::uint64_t before = 0, after = 0;
     plan.prepares = [this] { postToAll(cluster_.agent(), LifeCycle::Startup); };
     plan.begins = [&] { before = countedAllocations(); };
@@ -153,7 +153,7 @@ std::optional<LoopAndSleeper> Observation::measure(const std::string& name, doub
 }
 
 double Observation::loopSeconds() const {
-    return static_cast<double>(clock_->recording().cycles.size()) / perSecond;
+    return static_cast<double>(clock_->recording().cycles.size()) / cyclesPerSecond;
 }
 
 std::optional<LoopAndSleeper> Observation::measureWatched() {
@@ -209,16 +209,16 @@ void Observation::addSeen(std::vector<std::unique_ptr<Child>>& clients) {
     addAim("images/30", "images of a second of the loop that the worst tool at 30 Hz sees", "1/s",
            least, seen * viewRate);
     addAim("images/every", "images of a second of the loop that the tool at every cycle sees",
-           "1/s", every, seen * perSecond);
+           "1/s", every, seen * cyclesPerSecond);
     addAim("whole", "images with all simplexes, of one cycle, the worst of all tools", "%",
            100 * whole, 100);
 }
 
-double seconds(const RunOptions& options) {
+double observersSeconds(const RunOptions& options) {
     return 2 * (2 * blocks(options) + 1) + 0.5 * clientCount(options);
 }
 
-void run(const RunOptions& options, Progress& progress, Results& results) {
+void runObservers(const RunOptions& options, Progress& progress, Results& results) {
     Observation observation{options, progress, results};
     observation.runOn();
     const auto alone = observation.measure("alone", 0);
@@ -237,7 +237,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 
 Measurement observersMeasurement() {
     return {"observers", "whether a loop notices 50 tools that watch it, and what they see",
-            "Observers", seconds, run};
+            "Observers", observersSeconds, runObservers};
 }
 
 }  // namespace cortex::profiler

@@ -202,11 +202,11 @@ void measureCluster(Results& results) {
     results.quantities.push_back(std::move(task));
 }
 
-double seconds(const RunOptions& options) {
+double schedulerSeconds(const RunOptions& options) {
     return (options.quick ? 15.0 : 40.0) * static_cast<double>(threadCounts().size()) / 2;
 }
 
-void run(const RunOptions& options, Progress& progress, Results& results) {
+void runScheduler(const RunOptions& options, Progress& progress, Results& results) {
     const Rounds rounds{5, options.quick ? 0.02 : 0.05};
     measureCluster(results);
     double done = 0;
@@ -221,7 +221,7 @@ void run(const RunOptions& options, Progress& progress, Results& results) {
 
 Measurement schedulerMeasurement() {
     return {"scheduler", "running tasks in their order, beside oneTBB and a plain loop",
-            "Scheduling", seconds, run};
+            "Scheduling", schedulerSeconds, runScheduler};
 }
 
 }  // namespace cortex::profiler

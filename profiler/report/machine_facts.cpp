@@ -95,7 +95,7 @@ std::string priorityLimit() {
     return limit.rlim_cur == 0 ? "none" : "up to " + std::to_string(limit.rlim_cur);
 }
 
-std::string load(const fs::path& root) {
+std::string loadOf(const fs::path& root) {
     const std::string line = firstLineOf(root / "proc/loadavg");  // "0.33 0.42 3.20 1/200 4711"
     return line.substr(0, line.rfind(' ', line.find('/')));
 }
@@ -132,7 +132,7 @@ std::vector<std::pair<std::string, std::string>> machineFacts(const fs::path& ro
         {"throttling", throttling(root)},
         {"clock source", otherwise(firstLineOf(root / clock), "unknown")},
         {"real-time priorities", priorityLimit()},
-        {loadFact, otherwise(load(root), "unknown")},
+        {loadFact, otherwise(loadOf(root), "unknown")},
         {"compiler", compiler()},
     };
 }

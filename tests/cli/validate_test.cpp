@@ -184,6 +184,25 @@ TEST(CortexValidate, ChecksEachSystemWhereAFileIsNotThere) {
         << outcome.output;
 }
 
+TEST(CortexValidate, DoesNotMissTypesThatMayStandInAFileThatCannotBeRead) {
+    const ModelFolder folder;
+    folder.write("plant.xml",
+                 "<system name=\"plant\"><ontology file=\"types.xml\"/>"
+                 "<cluster name=\"plant\" frequency=\"10\"/></system>\n");
+
+    const Outcome missing = cortex({"validate", "plant.xml"}, {}, folder.path());
+    folder.write("types.xml", "<ontology name=\"types\" version=\"1.0\"><type></ontology>\n");
+    const Outcome malformed = cortex({"validate", "plant.xml"}, {}, folder.path());
+    folder.write("types.xml", "<ontology name=\"types\" version=\"1.0\"/>\n");
+    const Outcome empty = cortex({"validate", "plant.xml"}, {}, folder.path());
+
+    EXPECT_NE(missing.output.find("there is no file 'types.xml'"), std::string::npos);
+    EXPECT_EQ(missing.output.find("agent-type"), std::string::npos) << missing.output;
+    EXPECT_NE(malformed.output.find("xml-syntax"), std::string::npos) << malformed.output;
+    EXPECT_EQ(malformed.output.find("agent-type"), std::string::npos) << malformed.output;
+    EXPECT_NE(empty.output.find("agent-type"), std::string::npos) << empty.output;
+}
+
 TEST(CortexValidate, SaysThatAFolderIsNoFile) {
     const Outcome outcome = cortex({"validate", ontology});
 

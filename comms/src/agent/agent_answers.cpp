@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/agent_answers.hpp"
 
+#include "cortex/core/clock.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -9,7 +11,7 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::size_t mostWays = 256;
-constexpr std::int64_t second = 1'000'000'000, longestUnused = 60 * second;
+constexpr std::int64_t longestUnused = 60 * nsPerSecond;
 
 }  // namespace
 
@@ -25,12 +27,12 @@ bool AgentAnswers::send(const Answer& answer, std::int64_t now) {
     return true;
 }
 
-// A participant that invents senders gets at most that many endpoints a second.
+// A participant that invents senders gets at most that many endpoints a nsPerSecond.
 bool AgentAnswers::makeRoom(std::int64_t now) {
     if (ways_.size() < mostWays) return true;
     const auto oldest =
         std::ranges::min_element(ways_, {}, [](const auto& each) { return each.second.used; });
-    if (now - oldest->second.used < second) return false;
+    if (now - oldest->second.used < nsPerSecond) return false;
     ways_.erase(oldest);
     return true;
 }

@@ -13,7 +13,6 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::int64_t longestTime = std::int64_t{1} << 60U;  // ns: sums do not overflow
-constexpr std::int64_t second = 1'000'000'000;                // ns
 constexpr std::int64_t longestDetour = 100'000'000;           // ns that the network may add
 constexpr std::size_t mostDelays = 1'000;
 
@@ -219,11 +218,11 @@ Interest AgentLinks::interest() const {
 // name.
 bool AgentLinks::askAgain(std::int64_t now) {
     if (now < askDue_) return false;
-    askDue_ = now + second;
+    askDue_ = now + nsPerSecond;
     const std::lock_guard lock{mutex_};
     return std::ranges::any_of(owners_, [&](const auto& each) {
         const Owner& owner = each.second;
-        return now - owner.newestCame > std::max(second, owner.patience);
+        return now - owner.newestCame > std::max(nsPerSecond, owner.patience);
     });
 }
 

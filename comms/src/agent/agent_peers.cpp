@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t longestLead = 86'400'000'000;      // us that another clock may be ahead
 constexpr std::int64_t longestAbsence = 600'000'000'000;  // ns until a lost agent is given up
 constexpr std::size_t mostPeers = 1'024;
-constexpr std::size_t longestName = 127;
+constexpr std::size_t longestAgentName = 127;
 constexpr std::size_t mostPaths = 100'000;  // in one interest
 
 std::int64_t utcMicroseconds() {
@@ -35,7 +35,7 @@ AgentPeers::AgentPeers(AgentSelf& self, std::function<void(const std::string&, s
     : self_{self}, lost_{std::move(lost)} {}
 
 bool AgentPeers::plausible(const std::string& name, std::int64_t epoch) {
-    if (name.empty() || name.size() > longestName || epoch <= 0) {
+    if (name.empty() || name.size() > longestAgentName || epoch <= 0) {
         self_.rejections.add("a name or epoch that cannot be");
         return false;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/agent_streams.hpp"
 
+#include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/path.hpp"
 
@@ -13,8 +14,7 @@
 namespace cortex::comms {
 namespace {
 
-constexpr std::int64_t second = 1'000'000'000;  // ns
-constexpr std::int64_t again = second / 10;
+constexpr std::int64_t again = nsPerSecond / 10;
 
 }  // namespace
 
@@ -124,7 +124,7 @@ void AgentStreams::step(std::int64_t now) {
         stream.againDue = now + again;
         if (stream.rate == 0) continue;
         // The stream keeps to a grid of its own, which begins anew after a missed time.
-        const std::int64_t interval = second / stream.rate;
+        const std::int64_t interval = nsPerSecond / stream.rate;
         stream.due = std::max(stream.due + interval, now + interval / 2);
     }
 }

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace files = security_files;
 
 constexpr std::size_t longestName = 48;  // leaves room for the host and process of a tool
-constexpr std::time_t day = 86'400;
+constexpr std::time_t secondsOfDay = 86'400;
 
 // A new folder. It is removed again unless everything in it could be written.
 class NewFolder {
@@ -111,7 +111,7 @@ void check(const AgentRights& rights, int days) {
 
 void createAuthority(const fs::path& folder, int days) {
     if (days < 1) throw Error{"an authority is valid for at least one day"};
-    const std::time_t until = std::time(nullptr) + days * day;
+    const std::time_t until = std::time(nullptr) + days * secondsOfDay;
     const Signer identities = newAuthority("identity authority", until);
     const Signer rights = newAuthority("permissions authority", until);
     NewFolder made{folder};
@@ -141,7 +141,7 @@ AgentRights createAgent(const fs::path& authority, const fs::path& folder, Agent
                     "' was changed; make a new authority"};
     }
     const std::time_t end =
-        std::min({std::time(nullptr) + days * day, endOf(identities.certificate.get()),
+        std::min({std::time(nullptr) + days * secondsOfDay, endOf(identities.certificate.get()),
                   endOf(permits.certificate.get())});
     rights.until = utcText(end);
     const auto sign = [&](const std::string& text) {

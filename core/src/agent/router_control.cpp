@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/clock.hpp"
+
 #include "agent/router.hpp"
 #include "commands/command_port.hpp"
 
@@ -10,7 +12,6 @@ namespace {
 
 constexpr std::array<std::string_view, 4> controlCommands{"takeControl", "renewControl",
                                                           "handOverControl", "releaseControl"};
-constexpr std::int64_t second = 1'000'000'000;
 
 bool takesText(const RecordLayout& request, std::string_view name) {
     const ItemLayout* item = request.find(name);
@@ -161,8 +162,8 @@ void Router::deliverLifeCycle(OutsideEntry& entry) {
     entry.stateBefore = state;
     entry.takenCycle = 0;
     entry.deadline =
-        runtime_.nominalTime() + second +
-        static_cast<std::int64_t>(type.transitionTimeout * static_cast<double>(second));
+        runtime_.nominalTime() + nsPerSecond +
+        static_cast<std::int64_t>(type.transitionTimeout * static_cast<double>(nsPerSecond));
     runtime_.postLifeCycle(entry.simplex, entry.watched, false);
     entry.settle({Outcome::Running, Reason::None, {}}, clock);
 }

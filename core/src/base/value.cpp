@@ -48,8 +48,8 @@ std::string elementText(const std::string& element) {
 
 // Splits at blanks outside of double quotes. False: a quote is not closed or stands inside a word.
 bool splitStrings(std::string_view text, std::vector<std::string>& parts) {
-    constexpr std::string_view blanks = " \t\r\n";
-    std::size_t i = text.find_first_not_of(blanks);
+    constexpr std::string_view separators = " \t\r\n";
+    std::size_t i = text.find_first_not_of(separators);
     while (i != std::string_view::npos && i < text.size()) {
         std::string part;
         if (text[i] == '"') {
@@ -59,15 +59,15 @@ bool splitStrings(std::string_view text, std::vector<std::string>& parts) {
             }
             if (i == text.size()) return false;
             ++i;
-            if (i < text.size() && blanks.find(text[i]) == std::string_view::npos) return false;
+            if (i < text.size() && separators.find(text[i]) == std::string_view::npos) return false;
         } else {
-            const std::size_t end = std::min(text.find_first_of(blanks, i), text.size());
+            const std::size_t end = std::min(text.find_first_of(separators, i), text.size());
             part = text.substr(i, end - i);
             if (part.find('"') != std::string::npos) return false;
             i = end;
         }
         parts.push_back(std::move(part));
-        i = text.find_first_not_of(blanks, i);
+        i = text.find_first_not_of(separators, i);
     }
     return true;
 }

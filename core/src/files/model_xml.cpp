@@ -30,8 +30,8 @@ std::string trimmed(std::string_view text) {
 std::pair<std::string, std::string> syntaxError(const XMLDocument& document) {
     switch (document.ErrorID()) {
         case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-            return {"an element is closed that is not the open one",
-                    "close elements in the reverse order of opening"};
+            return {"this element is open when the end of another one comes",
+                    "close it with /> or with its own end tag"};
         case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
             return {"an attribute is given twice or is not of the form name=\"value\"",
                     "write each attribute once, with its value in quotes"};

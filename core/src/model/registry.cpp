@@ -17,7 +17,7 @@ namespace cortex {
 namespace {
 
 using Library = std::unique_ptr<void, int (*)(void*)>;
-using Entry = const PluginDescription* (*)();
+using PluginEntry = const PluginDescription* (*)();
 
 // Rounding, flush-to-zero and exception masks; not the flags of what has happened.
 unsigned floatingPointMode() {
@@ -55,7 +55,7 @@ Library open(const std::filesystem::path& file, const std::string& who) {
 }
 
 const PluginDescription& describe(void* library, const std::string& who) {
-    const auto entry = reinterpret_cast<Entry>(dlsym(library, "cortexPlugin"));
+    const auto entry = reinterpret_cast<PluginEntry>(dlsym(library, "cortexPlugin"));
     const PluginDescription* plugin = entry != nullptr ? entry() : nullptr;
     if (plugin == nullptr) {
         throw Error{who + "exports no cortexPlugin(); add CORTEX_PLUGIN(…) to one source file"};

@@ -15,10 +15,10 @@ namespace cortex {
 
 namespace {
 
-constexpr std::size_t alignment = 64;
+constexpr std::size_t cacheLine = 64;
 
 constexpr std::size_t aligned(std::size_t octets) {
-    return (octets + alignment - 1) / alignment * alignment;
+    return (octets + cacheLine - 1) / cacheLine * cacheLine;
 }
 
 // Where each block of an arena starts; floats come first.
@@ -140,11 +140,11 @@ Value loadValue(const DataItem& item, const void* cells) {
 }
 
 void Tables::AlignedDelete::operator()(std::byte* memory) const {
-    ::operator delete[](memory, std::align_val_t{alignment});
+    ::operator delete[](memory, std::align_val_t{cacheLine});
 }
 
 Tables::Memory Tables::allocate(std::size_t octets) {
-    Memory memory{new (std::align_val_t{alignment}) std::byte[octets]};
+    Memory memory{new (std::align_val_t{cacheLine}) std::byte[octets]};
     std::memset(memory.get(), 0, octets);
     return memory;
 }

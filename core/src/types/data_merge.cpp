@@ -30,7 +30,7 @@ constexpr Shape shape[] = {
      [](const DataItem& i) { return std::string{i.measured ? "true" : "false"}; }},
 };
 
-std::string safeText(const Safe& safe) {
+std::string safeStated(const Safe& safe) {
     switch (safe.kind) {
         case Safe::Kind::None:
             return "";
@@ -93,7 +93,8 @@ void intersectValues(DataItem& item, const FromParent<DataItem>& second, const s
     }
     if (item.safe.kind != Safe::Kind::None && other.safe.kind != Safe::Kind::None &&
         item.safe != other.safe && !stated("safe", false)) {
-        context.restate("safe", safeText(item.safe), safeText(other.safe), first, second.parent);
+        context.restate("safe", safeStated(item.safe), safeStated(other.safe), first,
+                        second.parent);
     }
     if (item.safe.kind == Safe::Kind::None) item.safe = other.safe;
 }

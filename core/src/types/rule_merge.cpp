@@ -2,6 +2,7 @@
 #include "cortex/core/findings.hpp"
 
 #include "base/text.hpp"
+#include "types/type_attributes.hpp"
 #include "types/type_merge.hpp"
 
 #include <algorithm>
@@ -11,18 +12,8 @@ namespace cortex {
 
 namespace {
 
-std::string countText(std::uint32_t count) {
-    return count == Rule::many ? "*" : std::to_string(count);
-}
-
 std::string countsText(const Rule& rule) {
     return countText(rule.min) + " to " + countText(rule.max);
-}
-
-std::string joined(const std::vector<std::string>& names) {
-    std::string result;
-    for (const std::string& each : names) result += (result.empty() ? "" : " ") + each;
-    return result;
 }
 
 // An attribute without order: two parents that state different ones leave it to the child.

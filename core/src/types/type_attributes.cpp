@@ -54,6 +54,10 @@ std::string optionalText(const std::optional<T>& number) {
     return number ? toText(*number) : "";
 }
 
+std::string freeText(const std::string& text) { return text.empty() ? "" : literal(text); }
+
+}  // namespace
+
 std::string countText(std::uint32_t count) {
     return count == Rule::many ? "*" : std::to_string(count);
 }
@@ -63,10 +67,6 @@ std::string joined(const std::vector<std::string>& names) {
     for (const std::string& each : names) result += (result.empty() ? "" : " ") + each;
     return result;
 }
-
-std::string freeText(const std::string& text) { return text.empty() ? "" : literal(text); }
-
-}  // namespace
 
 std::vector<TypeAttribute> attributesOf(const Type& type) {
     const Type plain;

@@ -3,6 +3,7 @@
 
 #include "cortex/core/type_model.hpp"
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,9 @@ struct TypeAttribute {
 
     bool stated() const { return value != byDefault; }
 };
+
+std::string countText(std::uint32_t count);                 // of a rule; "*": any number
+std::string joined(const std::vector<std::string>& names);  // with blanks between
 
 // All attributes, sorted by name; descriptions are none. Labels are "label <number>".
 std::vector<TypeAttribute> attributesOf(const Type& type);

@@ -14,13 +14,12 @@ namespace cortex::cs {
 
 namespace {
 
-constexpr std::int64_t second = 1'000'000'000;
 // An interrupt is seen after at most this, however long the period.
-constexpr std::int64_t longestSleep = second / 10;
+constexpr std::int64_t longestSleep = nsPerSecond / 10;
 
 void sleepUntil(std::int64_t deadline) {
-    const timespec time{static_cast<time_t>(deadline / second),
-                        static_cast<long>(deadline % second)};
+    const timespec time{static_cast<time_t>(deadline / nsPerSecond),
+                        static_cast<long>(deadline % nsPerSecond)};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == EINTR) {
     }
 }

@@ -61,6 +61,13 @@ void checkClusters(const SystemDescription& system, Report& report) {
     }
 }
 
+// Whether a file could not be read, so that what it may contain is unknown.
+bool lacksPart(const Report& report) {
+    return std::ranges::any_of(report.findings, [](const Finding& finding) {
+        return finding.rule.starts_with("file-") || finding.rule.starts_with("xml-");
+    });
+}
+
 // The simplex of the agent itself, as a running one has it.
 void addAgents(SimplexTree& tree) {
     const bool cluster = tree.types().find("Cluster") != nullptr;
@@ -89,8 +96,10 @@ Model readSystem(std::span<const fs::path> files) {
     if (model.hasSystem) checkClusters(model.tree->description(), model.report);
     addAgents(*model.tree);
     model.tree->createRelated();
-    // Without a system, what validate() says of types alone needs the base types.
-    const bool whole = model.hasSystem || model.types().find("Agent") != nullptr;
+    // Without the base types, validate() has nothing to judge by. Whether they are missing is known
+    // only if every file was read.
+    const bool whole =
+        model.types().find("Agent") != nullptr || (model.hasSystem && !lacksPart(model.report));
     if (whole) model.report.append(validate(*model.tree));
     return model;
 }

@@ -12,9 +12,9 @@ namespace {
 
 using comms::AgentEvent;
 
-class Printer {
+class EventPrinter {
 public:
-    Printer(const EventOptions& options, Severity least) : options_{options}, least_{least} {}
+    EventPrinter(const EventOptions& options, Severity least) : options_{options}, least_{least} {}
 
     bool shows(const AgentEvent& event) const {
         if (event.severity < least_) return false;
@@ -66,7 +66,7 @@ Exit showEvents(const EventOptions& options) {
     checkPrefix(options.prefix);
     const auto least = severityFromName(options.severity);
     if (!least) throw Failure{Usage, "--severity is info, warning or error"};
-    const Printer printer{options, *least};
+    const EventPrinter printer{options, *least};
     Arrivals arrivals;
     Live live{options.network};
     live.mirror().onEvent([&](const AgentEvent& event) { arrivals.push(event); });

@@ -18,7 +18,7 @@ namespace {
 constexpr const char* jsonHelp = "Print JSON, as described in docs/command-line.md";
 
 // What is parsed into, and the verb that was chosen.
-struct Arguments {
+struct VerbArguments {
     ValidateOptions validate;
     DiffOptions diff;
     TypesOptions types;
@@ -30,8 +30,8 @@ struct Arguments {
     std::function<Exit()> run;
 };
 
-CLI::App* addVerb(CLI::App& app, Arguments& arguments, const char* name, const char* description,
-                  const char* examples) {
+CLI::App* addVerb(CLI::App& app, VerbArguments& arguments, const char* name,
+                  const char* description, const char* examples) {
     CLI::App* verb = app.add_subcommand(name, description);
     verb->footer(examples);
     verb->add_flag("--json", arguments.json, jsonHelp);
@@ -65,7 +65,7 @@ void refuseFileAsType(const std::string& type) {
     throw Failure{Usage, "'" + type + "' is a file, not a type; did you mean --file " + type + "?"};
 }
 
-void addValidate(CLI::App& app, Arguments& arguments) {
+void addValidate(CLI::App& app, VerbArguments& arguments) {
     CLI::App* verb = addVerb(
         app, arguments, "validate", "Check model files as an agent does at its start",
         R"(Every finding is printed: what is wrong where, and what to write instead. Exit code 0: valid,
@@ -85,7 +85,7 @@ Examples:
     });
 }
 
-void addDiff(CLI::App& app, Arguments& arguments) {
+void addDiff(CLI::App& app, VerbArguments& arguments) {
     CLI::App* verb = addVerb(
         app, arguments, "diff", "Compare the types and rules of two models",
         R"(A contradiction keeps two agents from linking simplexes of that type, a difference is listed and
@@ -104,7 +104,7 @@ Example:
     });
 }
 
-void addTypes(CLI::App& app, Arguments& arguments) {
+void addTypes(CLI::App& app, VerbArguments& arguments) {
     CLI::App* verb =
         addVerb(app, arguments, "types", "Show the tree of types, or everything about one",
                 R"(Examples:
@@ -124,7 +124,7 @@ void addTypes(CLI::App& app, Arguments& arguments) {
     });
 }
 
-void addGraph(CLI::App& app, Arguments& arguments) {
+void addGraph(CLI::App& app, VerbArguments& arguments) {
     CLI::App* verb =
         addVerb(app, arguments, "graph", "Show relationships and the order of execution",
                 R"(Examples:
@@ -143,7 +143,7 @@ void addGraph(CLI::App& app, Arguments& arguments) {
     });
 }
 
-void addNewType(CLI::App& app, Arguments& arguments) {
+void addNewType(CLI::App& app, VerbArguments& arguments) {
     CLI::App* verb = addVerb(
         app, arguments, "new-type", "Make a commented skeleton of a type and its rules",
         R"(Two files: the ontology says what the type is, the morphology how it is joined to others.
@@ -170,7 +170,7 @@ Examples:
     });
 }
 
-void addNewSystem(CLI::App& app, Arguments& arguments) {
+void addNewSystem(CLI::App& app, VerbArguments& arguments) {
     CLI::App* verb =
         addVerb(app, arguments, "new-system", "Make a commented skeleton of a system",
                 R"(It is a small system that runs: one simulated axis, held where it is.
@@ -190,7 +190,7 @@ Examples:
     });
 }
 
-void addVerbs(CLI::App& app, Arguments& arguments) {
+void addVerbs(CLI::App& app, VerbArguments& arguments) {
     app.footer(
         R"(Exit codes: 0 yes, 1 no (findings, a difference, refused), 2 wrong usage, 3 not found, no answer.
 Help on a verb: cortex VERB --help
@@ -290,7 +290,7 @@ void printFailure(const Failure& failure, bool json) {
 }
 
 int runProgram(int count, char** values) {
-    Arguments arguments;
+    VerbArguments arguments;
     CLI::App app{"cortex: look at, check and make models of control systems", "cortex"};
     addVerbs(app, arguments);
     const Exit parsed = parse(app, count, values);

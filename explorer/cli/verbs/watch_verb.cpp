@@ -58,9 +58,9 @@ Reading read(const Watched& watched, const comms::AgentImage& image) {
 }
 
 // Prints what was watched, once for every image.
-class Printer {
+class ImagePrinter {
 public:
-    Printer(const WatchOptions& options, std::vector<Watched>& watched)
+    ImagePrinter(const WatchOptions& options, std::vector<Watched>& watched)
         : options_{options}, watched_{watched} {}
 
     void head() const {
@@ -114,7 +114,7 @@ std::int64_t now() {
 
 // A moment of all agents that are watched: that of the newest image, or of its being lost.
 void run(const WatchOptions& options, Live& live, std::vector<Watched>& watched) {
-    Printer printer{options, watched};
+    ImagePrinter printer{options, watched};
     printer.head();
     std::uint64_t images = 0;
     for (std::uint64_t lines = 0; options.count == 0 || lines < options.count; ++lines) {

@@ -8,6 +8,8 @@
 
 namespace cortex {
 
+inline constexpr std::int64_t nsPerSecond = 1'000'000'000;
+
 // Nanoseconds of the monotonic clock, which is the same for all processes of a host.
 inline std::int64_t monotonicNow() CORTEX_REALTIME {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
