@@ -44,7 +44,7 @@ quick() {
         prepareLocale
         say "testing ${folders[*]}"
         ctest --preset dev -j "$jobs" --no-tests=error -E '^Shards/' \
-            -L "^(unit|concurrent)-($(IFS='|'; echo "${folders[*]}"))$" 2>&1 | ctestOutput
+            -L "^(unit|concurrent)-($(IFS='|'; echo "${folders[*]}"))(-|$)" 2>&1 | ctestOutput
     fi
     say "left out: tests of other folders than: ${folders[*]:-none}; tests of programs, networks and
    real time; the thousand random systems of determinism; sanitizers, coverage, clang-tidy, docs.

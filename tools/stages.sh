@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # The stages of `./run test`, and the other commands that run tests or tools. Sourced by `./run`.
-stages=(format tidy coverage asan tsan package instructions profiler docs)
+stages=(format tidy coverage tsan fuzz realtime package instructions profiler docs)
 
 # --- what a stage reports ---------------------------------------------------------------------
 
@@ -10,33 +10,45 @@ note() { printf '%s; ' "$*" >>"$logs/${stage:-test}.note"; }
 # What a reader wants to see of ctest: all on a terminal, else every 100th test that passed.
 ctestOutput() {
     if [[ -t 1 ]]; then cat; else
-        awk '/^ *Start +[0-9]+:/ || / Passed +[0-9.]+ sec$/ && ++passed % 100 {next} {print}'
+        awk '/^ *Start +[0-9]+:/ || /^\[ (RUN     |      OK) \]/ {next}
+            / Passed +[0-9.]+ sec$/ && ++passed % 100 {next} {print}'
     fi
 }
 
 # runTests PRESET [ctest option…]: fails on a failure and, where CI=true, on a test that was skipped.
 runTests() {
-    local preset=$1 log=$logs/ctest-$1.log status=0
+    local preset=$1 folder=build/$1 log=$logs/ctest-$1.log status=0
+    [[ $preset == realtime ]] && folder=build/release
     shift
     prepareLocale
-    say "testing build/$preset"
+    say "testing $folder"
     ctest --preset "$preset" -j "$jobs" --no-tests=error "$@" 2>&1 | tee "$log" | ctestOutput ||
         status=$?
-    grep -E 'tests passed, .* out of' "$log" >>"$logs/${stage:-soak}.closing" || true
-    tellSkipped "$log" "build/$preset/Testing/Temporary/LastTest.log" || status=$?
+    countPassed "$log" "$folder/Testing/Temporary/LastTest.log" >>"$logs/${stage:-soak}.closing"
+    tellSkipped "$log" "$folder/Testing/Temporary/LastTest.log" || status=$?
     return "$status"
+}
+
+# countPassed CTEST-LOG TEST-LOG: a process runs many tests, and says how many of them passed.
+countPassed() {
+    awk '/^\[  PASSED  \]/ {tests += $4}
+        / tests? failed out of / {failed = $4; all = $NF}
+        END {printf "%d tests passed; %d of %d processes failed\n", tests, failed, all}' "$2" "$1"
 }
 
 # tellSkipped CTEST-LOG TEST-LOG: keeps the name and the reason of each test that did not run.
 tellSkipped() {
     local list=$logs/${stage:-soak}.skipped count
     awk '/^[0-9]+\/[0-9]+ Testing: / {name = substr($0, index($0, "Testing: ") + 9)}
+        /^\[ RUN      \] / {name = substr($0, 14)}
         /: Skipped$/ {if ((getline why) > 0) reason[name] = why}
         /^not run: / {reason[name] = substr($0, 10)}
         FILENAME == ARGV[2] && /\*\*\*(Skipped|Not Run)/ {
             sub(/^.*Test +#[0-9]+: /, ""); sub(/ *\.+ *\*\*\*.*$/, "")
-            printf "%s: %s\n", $0, ($0 in reason) ? reason[$0] : "did not run"
-        }' "$2" "$1" >"$list"
+            if (!($0 in reason)) reason[$0] = "did not run"
+        }
+        END {for (name in reason) printf "%s: %s\n", name, reason[name]}' "$2" "$1" |
+        sort >"$list"
     count=$(wc -l <"$list")
     note "$count skipped"
     [[ ${CI:-} != true ]] || ((count == 0))
@@ -86,7 +98,7 @@ stage_coverage() {
 measureCoverage() {
     local status=0
     say "counting covered lines and branches of core, cs and comms"
-    gcovr --filter core/ --filter cs/ --filter comms/ -j "$jobs" \
+    gcovr --gcov-executable "llvm-cov-19 gcov" --filter core/ --filter cs/ --filter comms/ -j "$jobs" \
         --json build/coverage/coverage.json build/coverage >"$logs/gcovr.log" 2>&1 ||
         { cat "$logs/gcovr.log"; return 1; }
     requireCoverage 90 core cs || status=$?
@@ -102,25 +114,20 @@ requireCoverage() {
     for folder in "$@"; do filters+=(--filter "$folder/"); done
     gcovr --add-tracefile build/coverage/coverage.json "${filters[@]}" --txt \
         --print-summary --fail-under-line "$percent" | tee "$logs/coverage-$1.txt" || status=$?
-    note "$*: $(awk '/^(lines|branches):/ {print $1, $2}' "$logs/coverage-$1.txt" | paste -sd' ')"
+    note "$*: $(awk '/^lines:/ {print $2}' "$logs/coverage-$1.txt") of the lines"
     return "$status"
 }
 
-stage_asan() {
-    build fuzz -- tests-unit tests-concurrent fuzz-targets
-    runTests fuzz
-    fuzz
-}
-
 # Each fuzz target for a while, one per core; shipped files and committed seeds to begin with.
-fuzz() {
-    local seconds=${FUZZ_SECONDS:-30} targets=(build/fuzz/bin/fuzz-*) name
+stage_fuzz() {
+    build coverage -- fuzz-targets
+    local seconds=${FUZZ_SECONDS:-30} targets=(build/coverage/bin/fuzz-*) name
     say "fuzzing ${#targets[@]} targets for $seconds s each"
     for name in "${targets[@]##*/}"; do
         mkdir -p "build/fuzz/corpus/$name"
         echo "$name"
     done | xargs -P "$jobs" -I{} bash -c '
-        build/fuzz/bin/{} -max_total_time='"$seconds"' -timeout=10 -rss_limit_mb=4096 \
+        build/coverage/bin/{} -max_total_time='"$seconds"' -timeout=10 -rss_limit_mb=4096 \
             -max_len=16384 -dict=tests/fuzz/cortex.dict \
             -artifact_prefix=build/fuzz/{}- build/fuzz/corpus/{} \
             tests/fuzz/seeds/{} >build/logs/{}.log 2>&1 ||
@@ -133,9 +140,18 @@ stage_tsan() {
     runTests tsan
 }
 
-# The build of the four stages that look at what users get. It compiles each file by itself, so that
-# a missing include is found.
-buildRelease() { build release -DCORTEX_BENCH=ON -- all all_verify_interface_header_sets; }
+# The build of the stages that look at what users get, with the tests that need an optimised one. It
+# compiles each file by itself, so that a missing include is found.
+buildRelease() {
+    build release -DCORTEX_BENCH=ON -DCORTEX_TESTS=ON -- all all_verify_interface_header_sets \
+        tests-realtime
+}
+
+# Tests that no sanitizer may slow down or hide the allocator from.
+stage_realtime() {
+    buildRelease
+    runTests realtime
+}
 
 stage_package() {
     local prefix=$PWD/build/package

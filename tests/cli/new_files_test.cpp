@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -28,18 +30,20 @@ std::string withExamples(const std::string& text) {
     return result;
 }
 
-std::string validate(const std::string& file, const ModelFolder& folder) {
-    const Outcome outcome = cortex({"validate", file}, {}, folder.path());
+std::string validate(std::vector<std::string> files, const ModelFolder& folder) {
+    files.insert(files.begin(), "validate");
+    const Outcome outcome = cortex(files, {}, folder.path());
     return outcome.exit == 0 && outcome.output.find("warning") == std::string::npos
                ? ""
                : outcome.output + outcome.errors;
 }
 
 // Against the schema of editors and other tools, too.
-std::string xmllint(const std::string& kind, const std::string& file, const ModelFolder& folder) {
-    const Outcome outcome = runProgram(
-        "xmllint", {"--noout", "--schema", CORTEX_SOURCE_DIR "/ontology/" + kind + ".xsd", file},
-        {}, folder.path());
+std::string xmllint(const std::string& kind, std::vector<std::string> files,
+                    const ModelFolder& folder) {
+    const std::string schema = CORTEX_SOURCE_DIR "/ontology/" + kind + ".xsd";
+    files.insert(files.begin(), {"--noout", "--schema", schema});
+    const Outcome outcome = runProgram("xmllint", files, {}, folder.path());
     return outcome.exit == 0 ? "" : outcome.errors;
 }
 
@@ -55,23 +59,28 @@ TEST(CortexNewType, MakesFilesThatAreValidAsTheyAreAndWithTheirExamplesForEveryT
     const json types = json::parse(listed.output).at("types");
     ASSERT_GT(types.size(), 40U);
 
+    std::vector<std::string> ontologies, morphologies;
     for (const json& type : types) {
         const std::string parent = type["name"];
+        ontologies.push_back("my-" + parent + ".xml");
+        morphologies.push_back("my-" + parent + "-morphology.xml");
         const Outcome made =
-            cortex({"new-type", "Mine", "--extends", parent, "-o", "mine.xml", "--force"}, {},
+            cortex({"new-type", "My" + parent, "--extends", parent, "-o", ontologies.back()}, {},
                    folder.path());
         ASSERT_EQ(made.exit, 0) << parent << made.errors;
-        EXPECT_EQ(validate("mine-morphology.xml", folder), "") << parent;
-        EXPECT_EQ(validate("mine.xml", folder), "") << parent;
-
-        folder.write("mine.xml", withExamples(folder.read("mine.xml")));
-        folder.write("mine-morphology.xml", withExamples(folder.read("mine-morphology.xml")));
-        EXPECT_NE(folder.read("mine.xml").find("\n    <data name=\"exampleItem\""),
-                  std::string::npos);
-        EXPECT_EQ(validate("mine-morphology.xml", folder), "") << parent << folder.read("mine.xml");
-        EXPECT_EQ(xmllint("ontology", "mine.xml", folder), "") << parent;
-        EXPECT_EQ(xmllint("morphology", "mine-morphology.xml", folder), "") << parent;
     }
+    EXPECT_EQ(validate(morphologies, folder), "");
+    EXPECT_EQ(validate(ontologies, folder), "");
+
+    for (const auto& files : {ontologies, morphologies}) {
+        for (const std::string& file : files) folder.write(file, withExamples(folder.read(file)));
+    }
+    for (const std::string& file : ontologies) {
+        EXPECT_NE(folder.read(file).find("\n    <data name=\"exampleItem\""), std::string::npos);
+    }
+    EXPECT_EQ(validate(morphologies, folder), "");
+    EXPECT_EQ(xmllint("ontology", ontologies, folder), "");
+    EXPECT_EQ(xmllint("morphology", morphologies, folder), "");
 }
 
 TEST(CortexNewType, PrintsBothFilesWhereNoneIsNamed) {
@@ -119,7 +128,7 @@ TEST(CortexNewType, RefersToFilesThatWereGivenAsSeenFromTheOnesItWrites) {
     EXPECT_NE(folder.read("mine/B.xml").find("<include file=\"../model/base types.xml\"/>"),
               std::string::npos)
         << folder.read("mine/B.xml");
-    EXPECT_EQ(validate("mine/B-morphology.xml", folder), "");
+    EXPECT_EQ(validate({"mine/B-morphology.xml"}, folder), "");
 }
 
 TEST(CortexNewType, ExtendsSeveralTypesThatAgree) {
@@ -130,7 +139,7 @@ TEST(CortexNewType, ExtendsSeveralTypesThatAgree) {
                folder.path())
             .exit,
         0);
-    EXPECT_EQ(validate("t-morphology.xml", folder), "");
+    EXPECT_EQ(validate({"t-morphology.xml"}, folder), "");
     const Outcome commas =
         cortex({"new-type", "Tool", "--extends", "Gripper,OneDofManipulator"}, {}, folder.path());
     EXPECT_NE(commas.output.find("extends=\"Gripper OneDofManipulator\""), std::string::npos)
@@ -173,8 +182,8 @@ TEST(CortexNewSystem, MakesASystemThatIsValid) {
 
     EXPECT_EQ(made.exit, 0) << made.errors;
     EXPECT_EQ(made.output, "wrote mixer.xml\n");
-    EXPECT_EQ(validate("mixer.xml", folder), "");
-    EXPECT_EQ(xmllint("system", "mixer.xml", folder), "");
+    EXPECT_EQ(validate({"mixer.xml"}, folder), "");
+    EXPECT_EQ(xmllint("system", {"mixer.xml"}, folder), "");
     EXPECT_NE(folder.read("mixer.xml").find("<system name=\"mixer\">"), std::string::npos);
 }
 
@@ -189,7 +198,7 @@ TEST(CortexNewSystem, PrintsTheSameWhereNoFileIsNamed) {
     EXPECT_EQ(json::parse(asJson.output)["files"][0]["written"], false);
     EXPECT_EQ(filesIn(folder), 0U);
     folder.write("plant.xml", text.output);
-    EXPECT_EQ(validate("plant.xml", folder), "");
+    EXPECT_EQ(validate({"plant.xml"}, folder), "");
 }
 
 TEST(CortexNewSystem, RefusesHostileNames) {

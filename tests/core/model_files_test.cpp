@@ -83,9 +83,9 @@ TEST(ModelFiles, RefusesAPhaseThatNeverComes) {
 TEST(ModelFiles, ChecksTheFormOfClusterAttributes) {
     for (const char* attribute :
          {"frequency='nan'", "frequency='1e6'", "threads='0'", "threads='300'", "priority='100'",
-          "cpus='a'", "cpus=''", "lockMemory='yes'", "keepCpusAwake='no'", "overflow='warn'",
-          "catchUpCycles='-1'", "warnDuty='-1'", "watchdogPeriods='0'", "control='maybe'",
-          "imageReaders='many'"}) {
+          "cpus='a'", "cpus=''", "acrossCaches='1 2'", "lockMemory='yes'", "keepCpusAwake='no'",
+          "overflow='warn'", "catchUpCycles='-1'", "warnDuty='-1'", "watchdogPeriods='0'",
+          "control='maybe'", "imageReaders='many'"}) {
         EXPECT_TRUE(finds(readOne("<system name='s'>\n<cluster name='c' " + std::string{attribute} +
                                   "/></system>"),
                           "attribute-value", "/c", 2))

@@ -16,7 +16,9 @@ namespace cortex::determinism {
 
 namespace {
 
-#if defined(__has_feature)
+#if defined(__SANITIZE_ADDRESS__)
+#define CORTEX_UNDER_SANITIZER
+#elif defined(__has_feature)
 #if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
 #define CORTEX_UNDER_SANITIZER
 #endif

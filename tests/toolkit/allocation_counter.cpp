@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands in for the malloc family of glibc, which operator new and Eigen end in.
+// Stands in for the malloc family of glibc, which operator new and Eigen end in. A sanitizer brings
+// its own malloc, and tells of each allocation.
 #include "toolkit/allocation_counter.hpp"
 
 #include <cerrno>
@@ -21,7 +22,13 @@ namespace cortex::toolkit::test {
 std::uint64_t allocationCount() { return count; }
 }  // namespace cortex::toolkit::test
 
-#ifndef CORTEX_TEST_SANITIZED
+#ifdef CORTEX_TEST_SANITIZED
+#include <sanitizer/allocator_interface.h>
+namespace {
+const int hooks = __sanitizer_install_malloc_and_free_hooks(
+    [](const volatile void*, std::size_t) { ++count; }, [](const volatile void*) {});
+}
+#else
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" {
 void* __libc_malloc(std::size_t);

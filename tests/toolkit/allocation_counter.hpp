@@ -5,7 +5,7 @@
 
 namespace cortex::toolkit::test {
 
-/// Allocations of this thread so far. Always 0 under a sanitizer, which brings its own malloc.
+// Allocations of this thread so far.
 std::uint64_t allocationCount();
 
 }  // namespace cortex::toolkit::test

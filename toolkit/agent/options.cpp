@@ -57,6 +57,7 @@ cs::ClusterOptions optionsOf(const Attributes& attributes, const CommandLine& li
     options.threads = line.threads.value_or(count(attributes, "threads", options.threads));
     options.priority =
         line.priority.value_or(static_cast<int>(number(attributes, "priority", options.priority)));
+    options.acrossCaches = word(attributes, "acrossCaches") == "true";
     options.lockMemory = word(attributes, "lockMemory") != "false";
     options.keepCpusAwake = word(attributes, "keepCpusAwake") != "false";
     options.cpus = cpusOf(word(attributes, "cpus"));

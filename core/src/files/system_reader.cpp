@@ -104,6 +104,7 @@ constexpr std::array clusterAttributes{
     ClusterAttribute{"threads", between<1, 256>, "a whole number from 1 to 256"},
     ClusterAttribute{"priority", between<0, 99>, "a whole number from 0, for none, to 99"},
     ClusterAttribute{"cpus", counts, "CPU numbers separated by blanks"},
+    ClusterAttribute{"acrossCaches", truth, "true or false"},
     ClusterAttribute{"lockMemory", truth, "true or false"},
     ClusterAttribute{"keepCpusAwake", truth, "true or false"},
     ClusterAttribute{"overflow", overflow, "skip, catchUp or halt"},

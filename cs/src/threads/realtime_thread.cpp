@@ -176,7 +176,7 @@ std::uint32_t threadsWithCommonCache(std::uint32_t wanted, const std::vector<int
                          listed({first, cpu}) +
                          " have no last-level cache in common, so threads that share the tasks "
                          "would be slower than one. Name CPUs in 'cpus' that share a cache, or set "
-                         "ClusterOptions::acrossCaches.");
+                         "acrossCaches, in code or at <cluster>.");
         return 1;
     }
     return wanted;
