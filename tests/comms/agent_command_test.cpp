@@ -188,7 +188,7 @@ TEST_F(DdsCommand, OfAToolThatStopsLosesItsControl) {
     ASSERT_EQ(taken->outcome, "Done") << taken->why;
     ASSERT_TRUE(tool.presences->write(tool.presence("stopping")));
 
-    EXPECT_TRUE(agent.sees("control of / by operator is lost: its holder was lost"));
+    EXPECT_TRUE(agent.sees("operator no longer has control of /: it is gone"));
 }
 
 TEST_F(DdsCommand, OfAToolThatIsNotHeardForASecondLosesItsControl) {
@@ -200,7 +200,7 @@ TEST_F(DdsCommand, OfAToolThatIsNotHeardForASecondLosesItsControl) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds{1100};
     EXPECT_TRUE(comesTrue([&] { return std::chrono::steady_clock::now() > end; }));
 
-    EXPECT_TRUE(agent.sees("control of / by operator is lost: its holder was lost"));
+    EXPECT_TRUE(agent.sees("operator no longer has control of /: it is gone"));
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST(DdsLink, GoesLiveWithValueAndConstantsWhenTheReaderStartsFirst) {
     EXPECT_EQ(near.rig.agent->images().newest().value("/far", "origin"),
               (Value{std::vector{1.0, 2.0, 3.0}}));
     EXPECT_TRUE(near.rig.hasEvent("/far: linked"));
-    EXPECT_TRUE(near.rig.hasEvent("/near: agent away is heard"));
+    EXPECT_TRUE(near.rig.hasEvent("/near: agent away was found"));
 }
 
 TEST(DdsLink, GoesLiveWhenTheOwnerStartsFirst) {

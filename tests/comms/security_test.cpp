@@ -220,10 +220,10 @@ TEST_F(Secured, AnotherAgentsNameIsRefusedInEverySample) {
     };
 
     EXPECT_TRUE(said("uses the name station, and its certificate is that of another"));
-    EXPECT_FALSE(agent.rig.hasEvent("agent station is heard"));
+    EXPECT_FALSE(agent.rig.hasEvent("agent station was found"));
     lie.name = "display";
     lie.agent = agentId(lie.name);
-    EXPECT_TRUE(said("agent display is heard"));
+    EXPECT_TRUE(said("agent display was found"));
 }
 
 TEST_F(Secured, AgentWithAWrongFolderDoesNotStart) {

@@ -136,7 +136,8 @@ TEST_F(Control, IsLostTwoSecondsAfterTheLastRenewal) {
 
     EXPECT_EQ(ask("hall", "/army", "poke").outcome, Outcome::Done);
     EXPECT_EQ(shown("leasePrefix"), "");
-    EXPECT_TRUE(rig.hasEvent("/rig: control of /army by desk is lost: it was not renewed for 2 s"));
+    EXPECT_TRUE(
+        rig.hasEvent("/rig: desk no longer has control of /army: it was not renewed for 2 s"));
     EXPECT_EQ(renew("desk", "/army").reason, Reason::Authority);
 }
 
@@ -161,7 +162,7 @@ TEST_F(Control, IsLostWithItsHolder) {
     rig.step();
 
     EXPECT_EQ(take("hall", "/").outcome, Outcome::Done);
-    EXPECT_TRUE(rig.hasEvent("control of /arm by desk is lost: its holder was lost"));
+    EXPECT_TRUE(rig.hasEvent("desk no longer has control of /arm: it is gone"));
 }
 
 TEST_F(Control, IsLostWhenItsHolderStartsAnew) {

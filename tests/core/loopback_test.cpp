@@ -222,7 +222,7 @@ TEST_F(Loopback, LostToolLosesItsControl) {
         answer("tool", hub.post("tool", "/away", "takeControl", {{"prefix", all}}, 10)).done());
     hub.setConnected("tool", false);
     step();
-    EXPECT_TRUE(away.hasEvent("control of / by tool is lost"));
+    EXPECT_TRUE(away.hasEvent("tool no longer has control of /"));
     EXPECT_THROW(hub.post("tool", "/plate", "set", {}, 10), Error);
 
     hub.setConnected("tool", true);

@@ -110,7 +110,8 @@ TEST(DataFlow, ALossIsSeenByTheReaderWithItsFirstCause) {
 
     EXPECT_EQ(chain.cluster.state("/a-reader"), State::Active);  // propagate: it runs on
     EXPECT_EQ(chain.cluster.quality("/a-reader"), Quality::Bad);
-    EXPECT_TRUE(chain.cluster.hasEvent("/a-reader: in /s is bad, first cause /z-writer"));
+    EXPECT_TRUE(
+        chain.cluster.hasEvent("/a-reader: input in from /s is bad, first cause /z-writer"));
 }
 
 TEST(DataFlow, OnLossHoldRunsOnWithTheLastValueAndReturns) {
@@ -152,7 +153,8 @@ TEST(DataFlow, OnLossFaultEntersFaultAndNamesTheInput) {
 
     EXPECT_EQ(chain.cluster.state("/a-reader"), State::Fault);
     EXPECT_EQ(chain.cluster.integer("/a-reader", "faultCode"), -2);
-    EXPECT_TRUE(chain.cluster.hasEvent("fault -2: vital /s is bad, first cause /z-writer"));
+    EXPECT_TRUE(
+        chain.cluster.hasEvent("fault -2: input vital from /s is bad, first cause /z-writer"));
 }
 
 TEST(DataFlow, OnLossSafeSkipsTheStateFunctionWritesSafeDemandsAndResumes) {
@@ -199,7 +201,7 @@ TEST(DataFlow, AMeasurementOlderThanMaxAgeIsALoss) {
     EXPECT_FALSE(chain.cluster.hasEvent("ms old"));
 
     chain.cluster.step(20);
-    EXPECT_TRUE(chain.cluster.hasEvent("/a-reader: in /s is 51 ms old, allowed 50"));
+    EXPECT_TRUE(chain.cluster.hasEvent("/a-reader: input in from /s is 51 ms old, allowed 50 ms"));
 }
 
 TEST(DataFlow, AStampIsTheOldestOfTheInputs) {

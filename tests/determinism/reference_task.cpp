@@ -233,19 +233,21 @@ SlotState Reference::readInputs(int simplex) {
 
 void Reference::inputLost(int simplex, Link& link) {
     const SlotState& source = link.source->state;
-    std::string text = link.rule->name + " " + at(link.target).path;
+    std::string text = "input " + link.rule->name + " from " + at(link.target).path;
     if (!link.lost) return post(simplex, Severity::Info, EventKind::Message, text + " is back");
     if (source.quality >= Quality::Bad) {
         text += std::string{" is "} + name(source.quality);
         if (source.cause != noSimplex) text += ", first cause " + all_[source.cause].path;
     } else {
-        text += " is " + inText(static_cast<double>(now_ - source.time) * 1e-6) +
-                " ms old, allowed " + inText(static_cast<double>(link.maxAge) * 1e-6);
+        const auto tenths = std::ceil(static_cast<double>(now_ - source.time) / 1e5);
+        text += " is " + inText(tenths / 10) + " ms old, allowed " +
+                inText(static_cast<double>(link.maxAge) * 1e-6) + " ms";
     }
     if (link.rule->onLoss == OnLoss::Fault && at(simplex).task->state == State::Active) {
         return fault(simplex, -2, text);
     }
-    post(simplex, Severity::Warning, EventKind::Message, text + "; " + name(link.rule->onLoss));
+    post(simplex, Severity::Warning, EventKind::Message,
+         text + "; reaction: " + name(link.rule->onLoss));
 }
 
 void Reference::finish(int simplex, SlotState state, std::int64_t elapsed) {

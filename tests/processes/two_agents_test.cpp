@@ -130,8 +130,8 @@ protected:
 
 // The selector chose hold in the first cycle in which the hand was older than its rule allows.
 void TwoAgents::expectHoldInTime() {
-    ASSERT_TRUE(station.waitFor([&] { return station.hasEvent(selector, "otherwise: the hand"); }));
-    const auto held = station.event(selector, "otherwise: the hand");
+    ASSERT_TRUE(station.waitFor([&] { return station.hasEvent(selector, "follows 'otherwise'"); }));
+    const auto held = station.event(selector, "follows 'otherwise'");
     const auto why = station.event(selector, " ms old, allowed ");
     ASSERT_TRUE(why);
     EXPECT_EQ(why->cycle, held->cycle);
@@ -222,7 +222,7 @@ TEST_F(TwoAgents, OperatorAndToolsTakeARobotAgainThatWasKilled) {
         EXPECT_GT(station.epochOf("robot"), epoch);
     }
     EXPECT_TRUE(follows()) << outputs();
-    EXPECT_TRUE(station.hasEvent("/operator", "agent robot is heard"));
+    EXPECT_TRUE(station.hasEvent("/operator", "agent robot was found"));
     std::cout << "robot killed " << recoveries.size()
               << " times, until it was active again: " << summary(recoveries) << std::endl;
     robot.kill9();

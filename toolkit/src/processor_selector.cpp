@@ -50,7 +50,7 @@ ProcessorSelector::Reason ProcessorSelector::reason(const Tick& tick) {
 
 void ProcessorSelector::select(Reason reason) {
     if (reason != reason_ && reason == InputLost)
-        event(Severity::Warning, "otherwise: the hand or its button is lost");
+        event(Severity::Warning, "follows 'otherwise': the hand or its button is lost");
     if (reason != reason_ && reason_ == InputLost)
         event(Severity::Info, "the hand and its button are back: press anew to move");
     reason_ = reason;

@@ -127,7 +127,7 @@ void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
     peer.missed = false;
     if (!std::exchange(peer.heard, true) && peer.agent) {
         self_.event(Severity::Info, self_.simplex,
-                    "agent " + peer.name + " is heard, from " + presence.host);
+                    "agent " + peer.name + " was found, on host " + presence.host);
     }
     if (!complete) sayIfKnown(peer);
 }
@@ -137,8 +137,9 @@ void AgentPeers::sayIfKnown(const Peer& peer) const {
     if (!peer.agent || !peer.model().complete()) return;
     const Presence& presence = *peer.model().presence();
     self_.event(Severity::Info, self_.simplex,
-                "agent " + peer.name + " is known: " + std::to_string(presence.simplexes) +
-                    " simplexes of " + std::to_string(presence.types) + " types");
+                "agent " + peer.name +
+                    " has described itself: " + std::to_string(presence.simplexes) +
+                    " simplexes, " + std::to_string(presence.types) + " types");
 }
 
 void AgentPeers::lose(Peer& peer, const std::string& why) {
@@ -157,7 +158,7 @@ void AgentPeers::expire(std::int64_t now) {
         const std::int64_t patience =
             patienceWith(*peer.model().presence(), peer.agent ? crowd : 0);
         if (now - peer.lastHeard <= patience) continue;
-        lose(peer, "not heard for " + std::to_string(patience / 1'000'000) + " ms");
+        lose(peer, "nothing was received for " + std::to_string(patience / 1'000'000) + " ms");
         peer.missed = peer.agent;
     }
 }

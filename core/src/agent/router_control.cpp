@@ -109,12 +109,12 @@ void Router::senderLost(const Sender& sender) {
         }
     }
     Lease lost;
-    while (leases_.takeLeaseOf(sender, lost)) controlLost(lost, "its holder was lost");
+    while (leases_.takeLeaseOf(sender, lost)) controlLost(lost, "it is gone");
 }
 
 void Router::controlLost(const Lease& lease, std::string_view how) {
-    EventText text{"control of "};
-    text << lease.prefix.view() << " by " << lease.holder.nameText() << " is lost: " << how;
+    EventText text{lease.holder.nameText()};
+    text << " no longer has control of " << lease.prefix.view() << ": " << how;
     event(Severity::Warning, EventKind::Agent, runtime_.agentSimplex(), text);
     for (const std::uint32_t simplex : leaseMinded_) {
         const SimplexInfo& info = structure_.simplexes[simplex];

@@ -55,7 +55,7 @@ void ElementReader::children(const XmlElement& element, std::span<const Child> k
 void ElementReader::wrongValue(const XmlElement& element, const XmlAttribute& attribute,
                                const std::string& expected) const {
     error(finding::attributeValue, attribute.line,
-          "<" + element.name + "> has " + attribute.name + "=" + inQuotes(attribute.value),
+          "<" + element.name + "> cannot have " + attribute.name + "=" + inQuotes(attribute.value),
           "write " + expected);
 }
 

@@ -30,7 +30,7 @@ std::string trimmed(std::string_view text) {
 std::pair<std::string, std::string> syntaxError(const XMLDocument& document) {
     switch (document.ErrorID()) {
         case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-            return {"this element is open when the end of another one comes",
+            return {"the element that begins here is not closed before the end of another",
                     "close it with /> or with its own end tag"};
         case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
             return {"an attribute is given twice or is not of the form name=\"value\"",

@@ -210,7 +210,7 @@ void readSimplex(const XmlElement& element, const std::string& file, SystemDescr
     if (!added) {
         reader.error(finding::duplicatePath, element.line,
                      "the path is given twice, first at " + same->second.text(),
-                     "give this simplex another path, or join the two");
+                     "give this simplex another path, or merge both into one element");
         return;
     }
     system.simplexes.push_back(std::move(entry));

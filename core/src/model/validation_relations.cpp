@@ -93,10 +93,10 @@ void reportTwice(const Checked& checked, const Simplex& owner, const Rule& rule,
     const auto count = std::ranges::count(owner.relations(), rule.name, &Relation::rule);
     const auto paths = fitting(checked, owner, rule);
     const bool enough = count > static_cast<std::ptrdiff_t>(rule.min);
-    checked.report.error(
-        owner.path(), finding::targetTwice, relation.place,
-        ruleText(owner, rule) + " relates " + relation.target + " twice",
-        enough || paths.empty() ? "remove this <relate>" : writeOneOf(rule.name, paths));
+    checked.report.error(owner.path(), finding::targetTwice, relation.place,
+                         ruleText(owner, rule) + " relates " + relation.target + " a second time",
+                         enough || paths.empty() ? "remove this <relate>, or correct its target"
+                                                 : writeOneOf(rule.name, paths));
 }
 
 }  // namespace

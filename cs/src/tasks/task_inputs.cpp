@@ -85,8 +85,8 @@ SlotState TaskInputs::read(Task& task, const Tick& tick) {
 // An input was lost, or is back.
 void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
-    EventText text{input.rule->name};
-    text << " " << set_.structure.simplexes[input.target].path;
+    EventText text{"input "};
+    text << input.rule->name << " from " << set_.structure.simplexes[input.target].path;
     if (!input.lost) {
         text << " is back";
         set_.agent.post(*simplex.thread_->loop, Severity::Info, EventKind::Message, task.index,
@@ -100,13 +100,14 @@ void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick) {
             text << ", first cause " << set_.structure.simplexes[cause].path;
         }
     } else {
-        text << " is " << static_cast<double>(ageOf(input, tick)) * 1e-6 << " ms old, allowed "
-             << static_cast<double>(input.maxAge) * 1e-6;
+        constexpr std::int64_t tenth = 100'000;  // of a millisecond
+        text << " is " << static_cast<double>((ageOf(input, tick) + tenth - 1) / tenth) / 10
+             << " ms old, allowed " << static_cast<double>(input.maxAge) * 1e-6 << " ms";
     }
     if (input.rule->onLoss == OnLoss::Fault && simplex.state_ == State::Active) {
         simplex.fault(InputLost, text.view());
     } else {
-        text << "; " << name(input.rule->onLoss);
+        text << "; reaction: " << name(input.rule->onLoss);
         set_.agent.post(*simplex.thread_->loop, Severity::Warning, EventKind::Message, task.index,
                         text);
     }
