@@ -27,7 +27,7 @@ std::uint64_t allocationCount() { return count; }
 namespace {
 const int hooks = __sanitizer_install_malloc_and_free_hooks(
     [](const volatile void*, std::size_t) { ++count; }, [](const volatile void*) {});
-}
+}  // namespace
 #else
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" {

@@ -101,8 +101,9 @@ void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick) {
         }
     } else {
         constexpr std::int64_t tenth = 100'000;  // of a millisecond
-        text << " is " << static_cast<double>((ageOf(input, tick) + tenth - 1) / tenth) / 10
-             << " ms old, allowed " << static_cast<double>(input.maxAge) * 1e-6 << " ms";
+        const std::int64_t tenths = (ageOf(input, tick) + tenth - 1) / tenth;
+        text << " is " << static_cast<double>(tenths) / 10 << " ms old, allowed "
+             << static_cast<double>(input.maxAge) * 1e-6 << " ms";
     }
     if (input.rule->onLoss == OnLoss::Fault && simplex.state_ == State::Active) {
         simplex.fault(InputLost, text.view());
