@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/lane.hpp"
+#include "commands/lane_block.hpp"
 #include "support/agent_rig.hpp"
 
 #include <memory>

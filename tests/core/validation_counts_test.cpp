@@ -43,6 +43,15 @@ TEST(Validation, NamesTheRuleThatShouldRefineTheOneThatLacksSimplexes) {
     EXPECT_TRUE(bare.remedy.starts_with("relate 2 with ")) << bare.remedy;
 }
 
+TEST(Validation, SuggestsWhatStandsBesideTheTargetsOfOthersOfTheType) {
+    const auto finding = only(checkSmall(
+        simplex("/arm1", "Arm", relate("tool", "/tools/1")) + simplex("/arm2", "Arm") +
+        simplex("/a", "Welder") + simplex("/tools/1", "Welder") + simplex("/tools/2", "Welder")));
+
+    EXPECT_EQ(finding.rule, "below-min");
+    EXPECT_EQ(finding.remedy, "relate one with <relate rule=\"tool\" to=\"/tools/2\"/>");
+}
+
 TEST(Validation, FindsMoreThanTheMaximum) {
     const auto finding =
         only(checkSmall(simplex("/arm", "Arm", relate("tool", "/w1") + relate("tool", "/w2")) +

@@ -5,7 +5,7 @@
 
 #include "agent/router.hpp"
 #include "commands/command_port.hpp"
-#include "commands/lane.hpp"
+#include "commands/lane_block.hpp"
 
 #include <algorithm>
 

@@ -7,47 +7,21 @@
 
 #include "commands/final_answers.hpp"
 #include "commands/lane_position.hpp"
+#include "commands/lane_slot.hpp"
 #include "commands/sender_state.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
 namespace cortex {
 
 class CommandPort;
-
-// How a command ended; words only where there is something to say.
-struct Verdict {
-    Outcome outcome = Outcome::Done;
-    Reason reason = Reason::None;
-    std::optional<EventText> why;
-
-    bool good() const { return outcome == Outcome::Done || outcome == Outcome::Running; }
-};
-
-// Of what a handler returned and said; what only the framework may answer counts as Failed.
-Verdict verdictOf(Outcome outcome, const Call& call) CORTEX_REALTIME;
-
-// Head of a command in a lane; its request, then its response follow. Answered in place, so that
-// a command of few parameters and its answer share one cache line.
-struct LaneSlot {
-    std::int64_t cycles = 0;  // sent in that cycle; once answered, the latency
-    std::int64_t time = 0;    // ns; as `cycles`
-    std::uint16_t command = 0;
-    std::uint16_t handle = 0;  // of the sender, on this lane
-    Outcome outcome = Outcome::None;
-    Reason reason = Reason::None;
-    bool hasReason = false;
-};
 
 // Bounded single-producer single-consumer lane from one sender to one receiver, with its answers
 // back in the same slots.
@@ -174,28 +148,6 @@ private:
 };
 
 static_assert(sizeof(Lane) == 2 * Lane::lineSize);
-
-// All lanes of an agent, one behind the other with their slots, in the order given.
-class LaneBlock {
-public:
-    struct Plan {
-        Lane::Shape shape;
-        std::vector<CommandSender::State*> handles;  // that get the lane
-    };
-    explicit LaneBlock(std::vector<Plan> plans);
-    ~LaneBlock();
-    LaneBlock(const LaneBlock&) = delete;
-    LaneBlock& operator=(const LaneBlock&) = delete;
-
-    std::span<Lane* const> lanes() const { return lanes_; }
-
-private:
-    struct Line {
-        alignas(64) std::byte octets[64];
-    };
-    std::vector<Line> memory_;
-    std::vector<Lane*> lanes_;
-};
 
 inline bool Lane::post(std::uint16_t command, std::uint16_t handle, const std::byte* request,
                        std::uint32_t size, const ChunkClock& clock) {

@@ -7,10 +7,7 @@
 #include "commands/lane.hpp"
 #include "tables/lookup.hpp"
 
-#include <algorithm>
-#include <bit>
 #include <memory>
-#include <new>
 #include <string>
 #include <utility>
 
@@ -42,69 +39,7 @@ const ItemLayout& parameterAt(const CommandSender::State* state, std::string_vie
     return *item;
 }
 
-std::uint32_t slotsOf(const Lane::Shape& shape) {
-    return std::bit_ceil(std::max(shape.capacity, 1U));
-}
-
-std::size_t linesOfSlot(const Lane::Shape& shape) {
-    const std::size_t octets = sizeof(LaneSlot) + shape.requestSize + shape.responseSize;
-    return (octets + Lane::lineSize - 1) / Lane::lineSize;
-}
-
 }  // namespace
-
-Verdict verdictOf(Outcome outcome, const Call& call) {
-    Verdict verdict{outcome, call.reason(), {}};
-    if (!call.why().empty()) verdict.why.emplace(call.why());
-    if (outcome == Outcome::None || outcome >= Outcome::MailboxFull) {
-        verdict.outcome = Outcome::Failed;
-    }
-    return verdict;
-}
-
-Lane::Lane(const Shape& shape, std::vector<CommandSender::State*> handles)
-    : capacity_{shape.capacity},
-      onlyHandle_{handles.size() == 1 ? handles.front() : nullptr},
-      lines_{static_cast<std::uint16_t>(linesOfSlot(shape))},
-      requestWords_{static_cast<std::uint16_t>(shape.requestSize / 8U)},
-      bits_{static_cast<std::uint8_t>(std::bit_width(slotsOf(shape)) - 1)},
-      delayed_{shape.delayed},
-      hasLong_{shape.hasLong},
-      finals_{shape.hasLong ? std::make_unique<FinalAnswers>(shape.capacity, shape.responseSize,
-                                                             shape.delayed)
-                            : nullptr},
-      rest_{std::make_unique<Rest>(Rest{shape, std::move(handles), {}})} {
-    rest_->reasons.resize(slotsOf(shape));
-    for (std::uint32_t i = 0; i < slotsOf(shape); ++i) new (place(i)) LaneSlot;
-}
-
-std::size_t Lane::octets(const Shape& shape) {
-    return sizeof(Lane) + slotsOf(shape) * linesOfSlot(shape) * lineSize;
-}
-
-LaneBlock::LaneBlock(std::vector<Plan> plans) {
-    std::size_t octets = 0;
-    for (const Plan& plan : plans) octets += Lane::octets(plan.shape);
-    memory_.resize(octets / Lane::lineSize);
-    std::byte* place = memory_.empty() ? nullptr : memory_.front().octets;
-    for (Plan& plan : plans) {
-        const std::vector<CommandSender::State*> handles = plan.handles;
-        lanes_.push_back(new (place) Lane{plan.shape, std::move(plan.handles)});
-        for (CommandSender::State* handle : handles) handle->lane = lanes_.back();
-        place += Lane::octets(plan.shape);
-    }
-}
-
-LaneBlock::~LaneBlock() {
-    for (Lane* lane : lanes_) std::destroy_at(lane);
-}
-
-void Lane::takeFinals(std::int64_t cycle) {
-    finals_->take(cycle, taken_,
-                  [this](std::uint16_t index, const AnswerHead& answer, const std::byte* response) {
-                      handle(index).storeFinal(answer, response);
-                  });
-}
 
 CommandSender::State::State(const CommandTable& commands, std::uint32_t entry,
                             std::uint32_t edgeIndex, std::uint32_t room)

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace cortex {
@@ -99,6 +101,21 @@ void reportTwice(const Checked& checked, const Simplex& owner, const Rule& rule,
                                                  : writeOneOf(rule.name, paths));
 }
 
+std::string_view parentOf(std::string_view path) { return path.substr(0, path.rfind('/')); }
+
+// What other simplexes of the same type relate under the rule.
+std::set<std::string_view> targetsOfPeers(const Checked& checked, const Simplex& owner,
+                                          const Rule& rule) {
+    std::set<std::string_view> targets;
+    for (const auto& [path, simplex] : checked.tree.simplexes()) {
+        if (&simplex->type() != &owner.type()) continue;
+        for (const Relation& each : simplex->relations()) {
+            if (each.rule == rule.name) targets.insert(each.target);
+        }
+    }
+    return targets;
+}
+
 }  // namespace
 
 std::string meantRule(const Checked& checked, const Simplex& owner, const Relation& relation) {
@@ -123,6 +140,9 @@ Place placeFor(const Simplex& owner, const Rule& rule) {
 std::vector<std::string> fitting(const Checked& checked, const Simplex& owner, const Rule& rule) {
     std::vector<std::string> paths;
     if (!looksForNearest(checked.report)) return paths;
+    const std::set<std::string_view> targets = targetsOfPeers(checked, owner, rule);
+    std::set<std::string_view> folders;
+    for (const std::string_view target : targets) folders.insert(parentOf(target));
     for (const auto& [path, simplex] : checked.tree.simplexes()) {
         const auto related = [&](const Relation& each) {
             return each.rule == rule.name && each.target == path;
@@ -132,9 +152,9 @@ std::vector<std::string> fitting(const Checked& checked, const Simplex& owner, c
         const bool fits = simplex.get() != &owner && simplex->type().isA(rule.target) && !written;
         if (fits && std::ranges::none_of(owner.relations(), related)) paths.push_back(path);
     }
-    std::ranges::sort(paths, [&](const std::string& left, const std::string& right) {
-        const auto a = commonLevels(owner.path(), left), b = commonLevels(owner.path(), right);
-        return a != b ? a > b : left < right;
+    std::ranges::sort(paths, {}, [&](const std::string& path) {
+        return std::tuple{!folders.contains(parentOf(path)), targets.contains(path),
+                          -static_cast<std::ptrdiff_t>(commonLevels(owner.path(), path)), path};
     });
     return paths;
 }
