@@ -62,8 +62,8 @@ TEST_F(AgentPeersTest, OfTwoStartsThatAreHeardTheLaterCounts) {
 TEST_F(AgentPeersTest, AnAgentIsKnownOnceAllOfItsModelIsThere) {
     const auto known = [&] {
         return listener.rig.hasEvent(
-            "agent rig is known: " + std::to_string(told.presence.simplexes) + " simplexes of " +
-            std::to_string(told.presence.types) + " types");
+            "agent rig has described itself: " + std::to_string(told.presence.simplexes) +
+            " simplexes, " + std::to_string(told.presence.types) + " types");
     };
     hear(first, 0);
     for (const Model& model : told.models) {

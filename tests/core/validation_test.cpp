@@ -128,7 +128,7 @@ TEST(Validation, FindsATargetRelatedTwiceUnderOneRule) {
 
     EXPECT_EQ(only(twice).rule, "target-twice");
     EXPECT_EQ(only(twice).place.line, 5);
-    EXPECT_EQ(only(twice).remedy, "remove this <relate>");
+    EXPECT_EQ(only(twice).remedy, "remove this <relate>, or correct its target");
     EXPECT_EQ(underTwoRules.count("target-twice"), 0U);
 }
 
