@@ -31,7 +31,7 @@ runTests() {
 
 # countPassed CTEST-LOG TEST-LOG: a process runs many tests, and says how many of them passed.
 countPassed() {
-    awk '/^\[  PASSED  \]/ {tests += $4}
+    awk 'FILENAME == ARGV[1] && /^\[  PASSED  \]/ {tests += $4}
         / tests? failed out of / {failed = $4; all = $NF}
         END {printf "%d tests passed; %d of %d processes failed\n", tests, failed, all}' "$2" "$1"
 }
