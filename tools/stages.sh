@@ -97,9 +97,9 @@ stage_coverage() {
 
 measureCoverage() {
     local status=0
-    say "counting covered lines and branches of core, cs and comms"
-    gcovr --gcov-executable "llvm-cov-19 gcov" --filter core/ --filter cs/ --filter comms/ -j "$jobs" \
-        --json build/coverage/coverage.json build/coverage >"$logs/gcovr.log" 2>&1 ||
+    say "counting covered lines of core, cs and comms"
+    gcovr --gcov-executable "llvm-cov-19 gcov" --filter core/ --filter cs/ --filter comms/ \
+        -j "$jobs" --json build/coverage/coverage.json build/coverage >"$logs/gcovr.log" 2>&1 ||
         { cat "$logs/gcovr.log"; return 1; }
     requireCoverage 90 core cs || status=$?
     requireCoverage 85 comms || status=$?
