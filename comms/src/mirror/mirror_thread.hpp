@@ -54,7 +54,7 @@ public:
     // answer is found. Throws Error if no agent has the path or its type has no such command.
     std::uint64_t send(std::string_view path, std::string_view command,
                        const Mirror::Arguments& arguments, Mirror::Milliseconds budget);
-    std::uint64_t refused() const;  // malformed messages, since the start
+    std::uint64_t refused() const;  // messages not believed or dropped, since the start
 
     // Calls `function` with the state, under the mutex.
     template <class Function>
