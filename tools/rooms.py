@@ -15,7 +15,7 @@ import tempfile
 # A room may include itself and the rooms before it.
 ROOMS = {
     "core": ["base", "types", "files", "tables", "commands", "model", "agent"],
-    "comms": ["wire", "security", "peers", "dds", "agent", "mirror"],
+    "comms": ["wire", "security", "peers", "rtps", "dds", "agent", "mirror"],
     "cs": ["threads", "clocks", "tasks", "loop"],
     "explorer/cli": ["text", "models", "live", "doctor", "verbs"],
 }

@@ -136,18 +136,18 @@ struct DiscoveryServer::Impl {
 };
 
 DiscoveryServer::DiscoveryServer(const NetworkOptions& options) : impl_{std::make_unique<Impl>()} {
-    namespace rtps = eprosima::fastrtps::rtps;
+    namespace fastrtps = eprosima::fastrtps::rtps;
     setUpFastDds();
     impl_->port = freePort();
     dds::DomainParticipantQos qos = participantQos(options, "server");
-    rtps::Locator_t locator;
-    rtps::IPLocator::setIPv4(locator, "127.0.0.1");
+    fastrtps::Locator_t locator;
+    fastrtps::IPLocator::setIPv4(locator, "127.0.0.1");
     locator.port = impl_->port;
     auto& builtin = qos.wire_protocol().builtin;
     builtin.initialPeersList.clear();
-    builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::SERVER;
+    builtin.discovery_config.discoveryProtocol = fastrtps::DiscoveryProtocol_t::SERVER;
     builtin.metatrafficUnicastLocatorList.push_back(locator);
-    rtps::get_server_client_default_guidPrefix(0, qos.wire_protocol().prefix);
+    fastrtps::get_server_client_default_guidPrefix(0, qos.wire_protocol().prefix);
     impl_->participant = dds::DomainParticipantFactory::get_instance()->create_participant(
         static_cast<dds::DomainId_t>(options.domain), qos);
 }

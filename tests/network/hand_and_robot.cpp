@@ -139,10 +139,11 @@ void start(cs::ClusterCS& cluster, SimplexTree& tree, const comms::NetworkOption
 
 }  // namespace
 
-comms::NetworkOptions network(const std::string& peer) {
+comms::NetworkOptions network(const std::string& peer, const std::string& security) {
     comms::NetworkOptions options;
     options.domain = 7;
     if (!peer.empty()) options.peers = {peer};
+    options.security = security;
     return options;
 }
 
@@ -168,7 +169,7 @@ RobotProcess::Memory* shared(int file) {
 
 }  // namespace
 
-void runRobot(int file, const std::string& peer) {
+void runRobot(int file, const std::string& peer, const std::string& security) {
     RobotProcess::Memory& memory = *shared(file);
     const pid_t parent = getppid();
     memory.origin = std::numeric_limits<std::int64_t>::max();
@@ -178,7 +179,7 @@ void runRobot(int file, const std::string& peer) {
     tree.relateRemote(tree.add<Watcher>("/robot/watcher", "Watcher", memory), "button",
                       "/hand/button");
     cs::ClusterCS cluster{"robot"};
-    start(cluster, tree, network(peer));
+    start(cluster, tree, network(peer, security));
     // The watcher does not start before it has a button.
     for (bool started = false; !cs::waitForInterrupt(0.0005) && getppid() == parent;) {
         started = started || startUp(cluster, "robot").outcome == Outcome::Done;
@@ -188,12 +189,13 @@ void runRobot(int file, const std::string& peer) {
     }
 }
 
-RobotProcess::RobotProcess(const std::string& peer) : file_{memfd_create("robot", 0)} {
+RobotProcess::RobotProcess(const std::string& peer, const std::string& security)
+    : file_{memfd_create("robot", 0)} {
     if (ftruncate(file_, sizeof(Memory)) != 0) throw std::runtime_error("no shared memory");
     memory_ = shared(file_);
     std::string program = "/proc/self/exe", role = "robot", file = std::to_string(file_);
-    std::string copy = peer;
-    char* words[] = {program.data(), role.data(), file.data(), copy.data(), nullptr};
+    std::string copy = peer, folder = security;
+    char* words[] = {program.data(), role.data(), file.data(), copy.data(), folder.data(), nullptr};
     process_ = fork();
     if (process_ < 0) throw std::runtime_error("cannot fork");
     if (process_ > 0) return;
@@ -224,6 +226,10 @@ std::vector<Executed> RobotProcess::executed() const { return memory_->executed.
 
 Station::Station(const comms::NetworkOptions& network) : mirror_{"station", network} {
     mirror_.view({"/"}, 100);
+    mirror_.onEvent([this](const comms::AgentEvent& event) {
+        const std::lock_guard lock{mutex_};
+        if (event.severity == Severity::Warning) warnings_.push_back(event.text);
+    });
     thread_ = std::thread{[this] {
         for (auto next = Clock::now(); !stop_; next = std::max(next + 20ms, Clock::now())) {
             if (sends_) send();
@@ -283,6 +289,11 @@ std::map<std::int64_t, Station::Sent> Station::end() {
         std::this_thread::sleep_for(1ms);
     }
     return sent_;
+}
+
+std::vector<std::string> Station::warnings() const {
+    const std::lock_guard lock{mutex_};
+    return warnings_;
 }
 
 std::int64_t Station::count() {

@@ -20,7 +20,8 @@
 
 namespace cortex::test {
 
-comms::NetworkOptions network(const std::string& peer);
+// Empty: no peer, no security.
+comms::NetworkOptions network(const std::string& peer, const std::string& security = "");
 
 using Clock = std::chrono::steady_clock;
 
@@ -84,7 +85,7 @@ private:
 // commands.
 class RobotProcess {
 public:
-    explicit RobotProcess(const std::string& peer);  // empty: none
+    explicit RobotProcess(const std::string& peer, const std::string& security = "");
     ~RobotProcess();
     RobotProcess(const RobotProcess&) = delete;
     RobotProcess& operator=(const RobotProcess&) = delete;
@@ -92,6 +93,7 @@ public:
     std::int64_t newest() const;  // of the button, which is good: cycle of the hand; else 0
     int presses() const;          // that were seen
     void end();
+    pid_t pid() const { return process_; }
     std::vector<Seen> seen() const;
     Clock::time_point timeOf(std::int64_t wakeUp) const;
     std::vector<Executed> executed() const;
@@ -118,13 +120,16 @@ public:
         Outcome outcome = Outcome::None;
         std::int64_t latest = 0;  // cycle of the robot in which it may still be executed
     };
-    std::map<std::int64_t, Sent> end();  // by number; when all are answered, 20 s at most
-    std::int64_t count();                // of the robot
+    std::map<std::int64_t, Sent> end();         // by number; when all are answered, 20 s at most
+    std::int64_t count();                       // of the robot
+    std::vector<std::string> warnings() const;  // of all agents
 
 private:
     void send();
     void poll();
 
+    mutable std::mutex mutex_;
+    std::vector<std::string> warnings_;
     comms::Mirror mirror_;
     std::map<std::int64_t, Sent> sent_;
     std::map<std::uint64_t, std::int64_t> pending_;

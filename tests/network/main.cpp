@@ -6,7 +6,8 @@
 int main(int count, char** words) {
     const std::string role = count > 2 ? words[1] : "";
     if (role == "robot") {
-        cortex::test::runRobot(std::stoi(words[2]), count > 3 ? words[3] : "");
+        cortex::test::runRobot(std::stoi(words[2]), count > 3 ? words[3] : "",
+                               count > 4 ? words[4] : "");
         return 0;
     }
     if (role == "station") cortex::test::runStation(words[2]);

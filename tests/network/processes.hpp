@@ -7,7 +7,7 @@
 // cut off or killed are processes of their own.
 namespace cortex::test {
 
-void runRobot(int file, const std::string& peer);
+void runRobot(int file, const std::string& peer, const std::string& security);
 [[noreturn]] void runStation(const std::string& domain);
 
 }  // namespace cortex::test

@@ -3,16 +3,30 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
+#include <string_view>
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
 
 namespace cortex::comms {
 
-// Counts the other participants that Fast DDS has discovered. Any thread.
+// Counts the other participants that Fast DDS has discovered, and tells their writers. Any thread.
 class DiscoveryCounter : public eprosima::fastdds::dds::DomainParticipantListener {
 public:
+    using Guid = eprosima::fastrtps::rtps::GUID_t;
+
+    // Of each writer of others; to be set before the participant is made.
+    std::function<void(const Guid&, std::string_view topic)> onWriter;
+
     std::uint32_t known() const { return known_; }
+
+    void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* /*us*/,
+                                eprosima::fastrtps::rtps::WriterDiscoveryInfo&& info) override {
+        if (info.status == info.DISCOVERED_WRITER && onWriter) {
+            onWriter(info.info.guid(), info.info.topicName().c_str());
+        }
+    }
 
     void on_participant_discovery(
         eprosima::fastdds::dds::DomainParticipant* /*us*/,

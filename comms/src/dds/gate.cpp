@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dds/gate.hpp"
 
+#include "cortex/core/clock.hpp"
+
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 
@@ -15,7 +19,7 @@ namespace cortex::comms {
 namespace {
 
 namespace transport = eprosima::fastdds::rtps;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace fastrtps = eprosima::fastrtps::rtps;
 
 static_assert(
     FASTRTPS_VERSION_MAJOR == 2 && FASTRTPS_VERSION_MINOR == 9,
@@ -23,6 +27,12 @@ static_assert(
     "find out which of them it still has, and whether its lock order allows the gate.");
 
 constexpr std::chrono::milliseconds longestWait{250};
+
+std::uint32_t addressOf(const fastrtps::Locator_t& locator) {
+    const fastrtps::octet* const ip = locator.address + 12;
+    return static_cast<std::uint32_t>(ip[0]) << 24 | static_cast<std::uint32_t>(ip[1]) << 16 |
+           static_cast<std::uint32_t>(ip[2]) << 8 | ip[3];
+}
 
 class GatedTransport final : public transport::ChainingTransport {
 public:
@@ -34,17 +44,25 @@ public:
 
     transport::TransportDescriptorInterface* get_configuration() override { return lower_.get(); }
 
-    bool send(rtps::SenderResource* lower, const rtps::octet* octets, std::uint32_t size,
-              rtps::LocatorsIterator* begin, rtps::LocatorsIterator* end,
+    bool send(fastrtps::SenderResource* lower, const fastrtps::octet* octets, std::uint32_t size,
+              fastrtps::LocatorsIterator* begin, fastrtps::LocatorsIterator* end,
               const std::chrono::steady_clock::time_point& timeout) override {
+        gate_->filter.noteSent({const_cast<fastrtps::octet*>(octets), size});  // only read
         return lower->send(octets, size, begin, end, timeout);
     }
 
-    void receive(transport::TransportReceiverInterface* upper, const rtps::octet* octets,
-                 std::uint32_t size, const rtps::Locator_t& local,
-                 const rtps::Locator_t& remote) override {
+    void receive(transport::TransportReceiverInterface* upper, const fastrtps::octet* octets,
+                 std::uint32_t size, const fastrtps::Locator_t& local,
+                 const fastrtps::Locator_t& remote) override {
+        // The buffer of Fast DDS, into which it writes each datagram. It only passes it on as
+        // const.
+        const rtps::Bytes datagram{const_cast<fastrtps::octet*>(octets), size};
+        const std::size_t left = gate_->filter.admit(datagram, addressOf(remote), monotonicNow());
+        if (left == 0) return;
         const std::unique_lock passing = gate_->pass();
-        if (passing) upper->OnDataReceived(octets, size, local, remote);
+        if (passing) {
+            upper->OnDataReceived(octets, static_cast<std::uint32_t>(left), local, remote);
+        }
     }
 
 private:
@@ -86,7 +104,9 @@ std::unique_lock<std::mutex> Gate::pass() {
 }
 
 std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos) {
-    auto gate = std::make_shared<Gate>();
+    rtps::Prefix us;
+    std::copy_n(qos.wire_protocol().prefix.value, us.size(), us.begin());
+    auto gate = std::make_shared<Gate>(us);
     auto& lower = qos.transport().user_transports.front();
     lower = std::make_shared<GatedTransportDescriptor>(lower, gate);
     return gate;

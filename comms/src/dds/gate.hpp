@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "rtps/datagram_filter.hpp"
+
 #include <atomic>
 #include <condition_variable>
 #include <memory>
@@ -10,7 +12,8 @@
 
 namespace cortex::comms {
 
-// Holds back what a participant receives until it can process it, and passes it on one by one.
+// Holds back what a participant receives until it can process it, drops what could harm it, and
+// passes the rest on one by one.
 //
 // **Invariants**
 // 1. A gate is closed for input at first. open() lets messages pass; it is called once the first
@@ -28,10 +31,13 @@ namespace cortex::comms {
 // 7. pass() waits at most 250 ms for open(). So a participant that never opens its gate
 //    receives late, but the threads of Fast DDS never hang. After that time the gate counts as
 //    open.
-// 8. `isOpen_` only changes from false to true, and is written under `mutex_`, so that no waiting
+// 8. What the filter drops takes no lock but the filter's own.
+// 9. `isOpen_` only changes from false to true, and is written under `mutex_`, so that no waiting
 //    thread misses it.
 class Gate {
 public:
+    explicit Gate(const rtps::Prefix& us = {}) : filter{us} {}
+
     void open();
     // Drops everything from now on.
     void close() { isClosed_ = true; }
@@ -41,6 +47,8 @@ public:
     // Nothing passes while the result owns the lock. A thread that processes a message must not
     // call it.
     std::unique_lock<std::mutex> hold() { return std::unique_lock{passing_}; }
+
+    rtps::DatagramFilter filter;  // every datagram passes it first
 
 private:
     std::atomic<bool> isOpen_{false}, isClosed_{false};

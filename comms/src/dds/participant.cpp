@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dds/participant.hpp"
 
+#include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
 
 #include "dds/discovery_counter.hpp"
@@ -15,6 +16,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -42,6 +44,13 @@ Entity* created(Entity* entity, const std::string& what) {
                     "the environment to see its reason"};
     }
     return entity;
+}
+
+rtps::WriterGuid writerGuid(const DiscoveryCounter::Guid& guid) {
+    rtps::WriterGuid bytes;
+    std::ranges::copy(guid.guidPrefix.value, bytes.begin());
+    std::ranges::copy(guid.entityId.value, bytes.begin() + sizeof guid.guidPrefix.value);
+    return bytes;
 }
 
 }  // namespace
@@ -184,6 +193,9 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
     const std::lock_guard lock{joining};
     dds::DomainParticipantQos qos = participantQos(options, name);
     impl_->gate = addGate(qos);
+    impl_->listener->onWriter = [gate = impl_->gate](const auto& guid, std::string_view topic) {
+        if (mayBeFragmented(topic)) gate->filter.allowFragments(writerGuid(guid), monotonicNow());
+    };
     setUpFastDds();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
     const auto join = [&] {
@@ -266,10 +278,15 @@ SecurityIdentity* Participant::identity() const {
 }
 
 std::vector<std::string> Participant::takeRefusals() {
-    return impl_->guard ? impl_->guard->takeRefusals() : std::vector<std::string>{};
+    auto refusals = impl_->guard ? impl_->guard->takeRefusals() : std::vector<std::string>{};
+    std::ranges::move(impl_->gate->filter.takeReports(monotonicNow()),
+                      std::back_inserter(refusals));
+    return refusals;
 }
 
-std::uint64_t Participant::refused() const { return impl_->guard ? impl_->guard->refused() : 0; }
+std::uint64_t Participant::refused() const {
+    return impl_->gate->filter.dropped() + (impl_->guard ? impl_->guard->refused() : 0);
+}
 
 std::uint32_t Participant::pending() const { return impl_->guard ? impl_->guard->pending() : 0; }
 

@@ -85,7 +85,8 @@ public:
     std::uint64_t malformed() const;  // samples that did not decode, or at which a callback threw
 
     SecurityIdentity* identity() const;  // null: without security
-    // What security has refused since the last call, as sentences, and how often since the start.
+    // What security and the filter of datagrams have refused since the last call, as sentences, and
+    // how often since the start.
     std::vector<std::string> takeRefusals();
     std::uint64_t refused() const;
     std::uint32_t pending() const;  // others that are not authenticated yet

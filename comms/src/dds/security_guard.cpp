@@ -8,7 +8,7 @@
 namespace cortex::comms {
 namespace {
 
-namespace rtps = eprosima::fastrtps::rtps;
+namespace fastrtps = eprosima::fastrtps::rtps;
 constexpr std::size_t mostFound = 4'096;
 constexpr std::size_t longestName = 64;  // of a foreign name in an event
 constexpr std::chrono::seconds usualHandshake{2}, longestHandshake{5};
@@ -30,9 +30,9 @@ void SecurityGuard::refuse(const Id&) {
     refusals_.add("a participant sends values in the name of another: refused");
 }
 
-void SecurityGuard::on_participant_discovery(Dds*, rtps::ParticipantDiscoveryInfo&& info) {
+void SecurityGuard::on_participant_discovery(Dds*, fastrtps::ParticipantDiscoveryInfo&& info) {
     count(info);
-    using Info = rtps::ParticipantDiscoveryInfo;
+    using Info = fastrtps::ParticipantDiscoveryInfo;
     const std::lock_guard lock{mutex_};
     if (info.status == Info::DISCOVERED_PARTICIPANT) {
         if (found_.size() >= mostFound) found_.clear();
@@ -43,18 +43,19 @@ void SecurityGuard::on_participant_discovery(Dds*, rtps::ParticipantDiscoveryInf
     }
 }
 
-void SecurityGuard::onParticipantAuthentication(Dds*, rtps::ParticipantAuthenticationInfo&& info) {
+void SecurityGuard::onParticipantAuthentication(Dds*,
+                                                fastrtps::ParticipantAuthenticationInfo&& info) {
     std::string name;
     {
         const std::lock_guard lock{mutex_};
         if (const auto known = found_.find(info.guid); known != found_.end()) {
             known->second.pending = false;
             known->second.refused =
-                info.status != rtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT;
+                info.status != fastrtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT;
             name = known->second.name;
         }
     }
-    if (info.status == rtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) return;
+    if (info.status == fastrtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) return;
     ++refused_;
     refusals_.add("a participant" + calledItself(name) +
                   " is refused: it has no certificate of our authority");

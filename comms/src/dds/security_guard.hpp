@@ -33,7 +33,6 @@ inline const std::string& claimedName(const EventMessage& sample) { return sampl
 // Guards a participant with security: asks Fast DDS for security, notices participants that Fast
 // DDS refused, and refuses samples whose name is not that of their sender. Any thread.
 class SecurityGuard final : public DiscoveryCounter {
-    using Guid = eprosima::fastrtps::rtps::GUID_t;
     using Dds = eprosima::fastdds::dds::DomainParticipant;
 
 public:

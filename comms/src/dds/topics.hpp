@@ -6,6 +6,7 @@
 
 #include <concepts>
 #include <string>
+#include <string_view>
 
 // The topics of docs/protocol.md.
 namespace cortex::comms {
@@ -40,6 +41,13 @@ inline Topic answerTo(const std::string& sender) {  // of a command
     return {"cortex/1/answer/" + toHex(agentId(sender)), Qos::Exchange};
 }
 }  // namespace topics
+
+// Whether samples of a topic may be so large that they are sent in fragments. All others fit one
+// datagram.
+inline bool mayBeFragmented(std::string_view topic) {
+    return topic == topics::model.name || topic.starts_with("cortex/1/link/") ||
+           topic.starts_with("cortex/1/view/");
+}
 
 // Whether samples of a message have a key, as those of most topics do.
 template <class M>

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rtps/datagram_filter.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cortex::comms::rtps {
+namespace {
+
+constexpr std::int64_t interval = 1'000'000'000;  // ns, between two reports of one kind
+constexpr std::int64_t longestGap = 4096;         // Fast DDS takes memory for each number of it
+
+Prefix prefixAt(Bytes bytes) {
+    Prefix prefix;
+    std::copy_n(bytes.begin(), prefix.size(), prefix.begin());
+    return prefix;
+}
+
+WriterGuid guidOf(const Prefix& prefix, Bytes entity) {
+    WriterGuid guid;
+    std::ranges::copy(prefix, guid.begin());
+    std::copy_n(entity.begin(), 4, guid.begin() + prefix.size());
+    return guid;
+}
+
+// The datagram without a part of it: what stood behind moves to the front.
+Bytes takenOut(Bytes datagram, Bytes part) {
+    const auto behind =
+        datagram.subspan(static_cast<std::size_t>(&part.back() - &datagram.front()) + 1);
+    std::ranges::copy(behind, part.begin());
+    return datagram.first(datagram.size() - part.size());
+}
+
+bool isOfSecurity(Kind kind) { return kind >= Kind::SecureBody && kind <= Kind::SignedPostfix; }
+
+std::string textOf(std::uint32_t address) {
+    std::string text;
+    for (int shift = 24; shift >= 0; shift -= 8) {
+        text += std::to_string(address >> shift & 0xff) + (shift > 0 ? "." : "");
+    }
+    return text;
+}
+
+}  // namespace
+
+std::size_t DatagramFilter::admit(Bytes datagram, std::uint32_t address, std::int64_t now) {
+    const std::lock_guard lock{mutex_};
+    const Refusal refusal = judge(datagram, address, now);
+    if (refusal == Refusal::None) return datagram.size();
+    Dropped& dropped = dropped_[static_cast<std::size_t>(refusal)];
+    ++dropped.count;
+    dropped.address = address;
+    return 0;
+}
+
+// Framing and content of everything come first, so that nothing is noted of a datagram that is
+// dropped for them. Fast DDS verifies what is signed before it reads it; changed, it would not be
+// what was signed.
+Refusal DatagramFilter::judge(Bytes& datagram, std::uint32_t address, std::int64_t now) {
+    if (!hasHeader(datagram)) return Refusal::Framing;
+    SecureOrder order;
+    for (std::size_t at = headerSize; at < datagram.size();) {
+        const auto [submessage, refusal] = cutSubmessage(datagram.subspan(at));
+        if (refusal != Refusal::None) return refusal;
+        if (submessage.kind >= Kind::FirstOfVendors) {
+            if (order.isOpen()) return Refusal::Framing;
+            datagram = takenOut(datagram, submessage.whole);
+            continue;
+        }
+        if (!order.admits(submessage)) return Refusal::Framing;
+        const bool isVerified = order.isSigned() && !isOfSecurity(submessage.kind);
+        const Refusal found = isVerified ? Refusal::None : judgeContent(submessage);
+        if (found != Refusal::None) return found;
+        at += submessage.whole.size();
+    }
+    if (order.isOpen()) return Refusal::Framing;
+    const Prefix sender = prefixAt(datagram.subspan(senderAt));
+    if (!participants_.admits(sender, address, now)) return Refusal::Participants;
+    return order.isSigned() ? Refusal::None : judgeNumbers(datagram, sender, now);
+}
+
+Refusal DatagramFilter::judgeNumbers(Bytes datagram, Prefix sender, std::int64_t now) {
+    bool isForUs = true;
+    for (std::size_t at = headerSize; at < datagram.size();) {
+        const Submessage submessage = cutSubmessage(datagram.subspan(at)).submessage;
+        if (submessage.kind == Kind::InfoSource) sender = prefixAt(submessage.body.subspan(8));
+        if (submessage.kind == Kind::InfoDestination) {
+            const Prefix destination = prefixAt(submessage.body);
+            isForUs = destination == us_ || destination == Prefix{};
+        }
+        const Refusal found = isForUs ? judgeNumber(submessage, sender, now) : Refusal::None;
+        if (found != Refusal::None) return found;
+        at += submessage.whole.size();
+    }
+    return Refusal::None;
+}
+
+Refusal DatagramFilter::judgeNumber(const Submessage& submessage, const Prefix& sender,
+                                    std::int64_t now) {
+    const auto unless = [](bool good) { return good ? Refusal::None : Refusal::Number; };
+    const Bytes body = submessage.body;
+    const bool little = submessage.little();
+    switch (submessage.kind) {
+        case Kind::Data:
+            return unless(numbers_.admits(guidOf(sender, body.subspan(8)),
+                                          readNumber(body.subspan(12), little), 0, now));
+        case Kind::DataFragments: {
+            const WriterGuid writer = guidOf(sender, body.subspan(8));
+            if (fragmented_.find(writer) == nullptr) return Refusal::Fragment;
+            return unless(numbers_.admits(writer, readNumber(body.subspan(12), little),
+                                          readU32(body.subspan(20), little), now));
+        }
+        case Kind::Heartbeat:
+            return unless(admitsHeartbeat(submessage, sender, now));
+        case Kind::Gap:
+            return unless(admitsGap(submessage, sender, now));
+        case Kind::AckNack: {
+            const auto* const sent = sent_.find(guidOf(us_, body.subspan(4)));
+            return unless(sent == nullptr ||
+                          readNumber(body.subspan(8), little) <= sent->value + 1);
+        }
+        default:
+            return Refusal::None;
+    }
+}
+
+bool DatagramFilter::admitsHeartbeat(const Submessage& heartbeat, const Prefix& sender,
+                                     std::int64_t now) {
+    const bool little = heartbeat.little();
+    const WriterGuid writer = guidOf(sender, heartbeat.body.subspan(4));
+    const Bytes first = heartbeat.body.subspan(8);
+    const std::int64_t last = readNumber(heartbeat.body.subspan(16), little);
+    if (!numbers_.admits(writer, last, readU32(heartbeat.body.subspan(24), little), now))
+        return false;
+    writeNumber(first, little, numbers_.stepTo(writer, readNumber(first, little)));
+    return true;
+}
+
+bool DatagramFilter::admitsGap(const Submessage& gap, const Prefix& sender, std::int64_t now) {
+    const bool little = gap.little();
+    const WriterGuid writer = guidOf(sender, gap.body.subspan(4));
+    const std::int64_t start = readNumber(gap.body.subspan(8), little);
+    const Bytes base = gap.body.subspan(16), bits = gap.body.subspan(24);
+    const std::int64_t end = readNumber(base, little);
+    if (!numbers_.admits(writer, end - 1, static_cast<std::uint32_t>(start), now)) return false;
+    if (end - start > longestGap) {
+        writeNumber(base, little, start + longestGap);
+        writeU32(bits, little, 0);
+    }
+    return true;
+}
+
+void DatagramFilter::noteSent(Bytes datagram) {
+    if (!hasHeader(datagram)) return;
+    const std::lock_guard lock{mutex_};
+    for (std::size_t at = headerSize; at < datagram.size();) {
+        const auto [submessage, refusal] = cutSubmessage(datagram.subspan(at));
+        if (refusal != Refusal::None || !isLongEnough(submessage)) return;
+        const bool isData = submessage.kind == Kind::Data || submessage.kind == Kind::DataFragments;
+        if (isData || submessage.kind == Kind::Heartbeat) {
+            const WriterGuid writer = guidOf(us_, submessage.body.subspan(isData ? 8 : 4));
+            const std::int64_t number =
+                readNumber(submessage.body.subspan(isData ? 12 : 16), submessage.little());
+            if (auto* const known = sent_.find(writer)) {
+                known->value = std::max(known->value, number);
+            } else {
+                sent_.placeFor(writer) = {writer, number, number};
+            }
+        }
+        at += submessage.whole.size();
+    }
+}
+
+void DatagramFilter::allowFragments(const WriterGuid& writer, std::int64_t now) {
+    const std::lock_guard lock{mutex_};
+    if (fragmented_.find(writer) == nullptr) fragmented_.placeFor(writer) = {writer, now, true};
+}
+
+std::uint64_t DatagramFilter::dropped(Refusal reason) const {
+    const std::lock_guard lock{mutex_};
+    return dropped_[static_cast<std::size_t>(reason)].count;
+}
+
+std::uint64_t DatagramFilter::dropped() const {
+    const std::lock_guard lock{mutex_};
+    std::uint64_t all = 0;
+    for (const Dropped& each : dropped_) all += each.count;
+    return all;
+}
+
+std::vector<std::string> DatagramFilter::takeReports(std::int64_t now) {
+    std::vector<std::string> reports;
+    const std::lock_guard lock{mutex_};
+    for (std::size_t i = 0; i < refusals; ++i) {
+        Dropped& dropped = dropped_[i];
+        if (dropped.count == dropped.reported || now - dropped.told < interval) continue;
+        const std::uint64_t count = dropped.count - std::exchange(dropped.reported, dropped.count);
+        dropped.told = now;
+        reports.push_back(std::to_string(count) +
+                          (count == 1 ? " datagram was dropped: " : " datagrams were dropped: ") +
+                          wordsOf(static_cast<Refusal>(i)) + "; the last came from " +
+                          textOf(dropped.address));
+    }
+    return reports;
+}
+
+}  // namespace cortex::comms::rtps

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rtps/participant_limits.hpp"
+#include "rtps/refusal.hpp"
+#include "rtps/submessages.hpp"
+#include "rtps/writer_numbers.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace cortex::comms::rtps {
+
+// Judges each datagram before Fast DDS sees it, and drops what could end, stop or mute a
+// participant. Fast DDS 2.9 trusts what it reads: docs/security.md lists what follows from that.
+// It takes no memory while it judges. Any thread.
+class DatagramFilter {
+public:
+    explicit DatagramFilter(const Prefix& us) : us_{us} {}
+
+    // What is left of a datagram from an IPv4 address: its first bytes, 0 if it is dropped. The
+    // bytes may be changed: statistics of Fast DDS are taken out, parameters that nobody needs
+    // become padding, and great steps of numbers become smaller.
+    std::size_t admit(Bytes datagram, std::uint32_t address, std::int64_t now);
+
+    // What is sent is noted: nobody can acknowledge more than our writers have written.
+    void noteSent(Bytes datagram);
+
+    // Samples of this writer may come in fragments.
+    void allowFragments(const WriterGuid& writer, std::int64_t now);
+
+    std::uint64_t dropped(Refusal reason) const;
+    std::uint64_t dropped() const;  // for any reason
+    // A sentence for each reason for which something was dropped, at most one a second.
+    std::vector<std::string> takeReports(std::int64_t now);
+
+private:
+    Refusal judge(Bytes& datagram, std::uint32_t address, std::int64_t now);
+    Refusal judgeNumbers(Bytes datagram, Prefix sender, std::int64_t now);
+    Refusal judgeNumber(const Submessage& submessage, const Prefix& sender, std::int64_t now);
+    bool admitsHeartbeat(const Submessage& heartbeat, const Prefix& sender, std::int64_t now);
+    bool admitsGap(const Submessage& gap, const Prefix& sender, std::int64_t now);
+
+    const Prefix us_;
+    mutable std::mutex mutex_;
+    ParticipantLimits participants_;
+    WriterNumbers numbers_;
+    RecentTable<WriterGuid, std::int64_t> sent_{256};  // the newest number of each of our writers
+    RecentTable<WriterGuid, bool> fragmented_{4096};
+    struct Dropped {
+        std::uint64_t count = 0, reported = 0;
+        std::uint32_t address = 0;  // of the last
+        std::int64_t told = 0;      // when
+    };
+    std::array<Dropped, refusals> dropped_{};
+};
+
+}  // namespace cortex::comms::rtps

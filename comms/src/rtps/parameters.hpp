@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rtps/octets.hpp"
+
+#include <cstddef>
+
+namespace cortex::comms::rtps {
+
+enum class Parameters {
+    Inline,            // of one sample
+    InlineOfFragment,  // of a fragment
+    Discovery,         // what participants and endpoints say of themselves
+};
+
+// The size of a list of parameters (RTPS 2.3, 9.4.2.11) with its end, 0 if it has none within
+// `list` or a parameter is out of bounds. Two kinds are changed into padding, which readers skip:
+// 1. The hash of the key in a fragment. Fast DDS 2.9 keeps such a sample in two lists before it is
+//    complete, and forgets one of them if the writer goes.
+// 2. Descriptions of types by TypeObject. CorteX needs none, and decoding one may reserve any
+//    amount of memory.
+std::size_t parametersSize(Bytes list, bool little, Parameters in);
+
+}  // namespace cortex::comms::rtps

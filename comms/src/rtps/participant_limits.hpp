@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rtps/recent_table.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace cortex::comms::rtps {
+
+using Prefix = std::array<std::uint8_t, 12>;  // of a participant
+
+// Bounds how many participants an address, and all together, may have: each one that Fast DDS
+// knows costs memory and time. A participant that was silent for 15 s makes room where it is
+// needed. So those that are refused come in once a flood is over. One thread at a time.
+class ParticipantLimits {
+public:
+    static constexpr std::size_t mostOfAddress = 400, most = 1024;
+    static constexpr std::int64_t patience = 15'000'000'000;  // ns
+
+    bool admits(const Prefix& participant, std::uint32_t address, std::int64_t now);
+
+private:
+    RecentTable<Prefix, std::uint32_t> heard_{4 * most};  // addresses
+};
+
+}  // namespace cortex::comms::rtps

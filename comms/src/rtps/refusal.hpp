@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace cortex::comms::rtps {
+
+// Why a datagram was dropped before Fast DDS saw it.
+enum class Refusal : std::uint8_t {
+    None,
+    Framing,       // not RTPS, or submessages that do not add up to the datagram
+    Content,       // a submessage that is too short, or whose counts and sets are out of bounds
+    Parameters,    // a list of parameters without an end, or with counts beyond it
+    Number,        // a sequence number that its writer cannot have reached
+    Fragment,      // a fragment where none is needed, or of a sample that is too large
+    Participants,  // more participants than an address or the network may have
+};
+inline constexpr std::size_t refusals = 7;
+
+// What an event says of it, behind "N datagrams from ADDRESS were dropped: ".
+constexpr const char* wordsOf(Refusal refusal) {
+    constexpr const char* words[refusals] = {
+        "",
+        "they are no messages of RTPS",
+        "a submessage is out of bounds",
+        "a list of parameters is out of bounds",
+        "their sequence numbers do not follow those of their writer",
+        "they are fragments of what is never sent in fragments, or of too much",
+        "there are too many participants",
+    };
+    return words[static_cast<std::size_t>(refusal)];
+}
+
+}  // namespace cortex::comms::rtps

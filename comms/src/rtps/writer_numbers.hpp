@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rtps/recent_table.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace cortex::comms::rtps {
+
+using WriterGuid = std::array<std::uint8_t, 16>;  // prefix of the participant, id of the entity
+
+// Judges sequence numbers by those that the same writer had before. One number too high would make
+// a reader of Fast DDS skip all true samples up to it, and count through all numbers between.
+//
+// A number up to 4 above the newest passes. A greater one waits: it passes once the writer goes on
+// from there or says it again, and not where the writer goes on from its newest. So a true writer
+// of which much was lost loses one datagram more; a single forged one has no effect. Numbers below
+// pass, as the reader has them. One thread at a time.
+class WriterNumbers {
+public:
+    // Whether a sample, or the end of a range that a writer states, may have this number. `saying`
+    // tells two statements of one number apart: a count of heartbeats, the number of a fragment.
+    bool admits(const WriterGuid& writer, std::int64_t number, std::uint32_t saying,
+                std::int64_t now);
+
+    // How far the reader may be moved on at once, of `first`: the numbers below are lost or not
+    // relevant. Fast DDS counts through them, so a great step is taken in several.
+    std::int64_t stepTo(const WriterGuid& writer, std::int64_t first);
+
+private:
+    struct Numbers {
+        std::int64_t newest;         // that was admitted
+        std::int64_t candidate = 0;  // that waits for the next
+        std::uint32_t saying = 0;    // of the candidate
+        std::int64_t first = 0;      // to which the reader was moved on
+        int below = 0;               // numbers far below the newest, one after another
+    };
+    RecentTable<WriterGuid, Numbers> writers_{4096};
+};
+
+}  // namespace cortex::comms::rtps
