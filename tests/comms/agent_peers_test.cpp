@@ -47,16 +47,36 @@ struct AgentPeersTest : testing::Test {
     const std::int64_t first = told.epoch();
 };
 
-TEST_F(AgentPeersTest, OfTwoStartsThatAreHeardTheLaterCounts) {
+TEST_F(AgentPeersTest, OfTwoStartsTheOneThatWasHeardFirstCounts) {
     tell(first, 0);
-    tell(first + 1, millisecond);
+    for (int tenth = 1; tenth <= 30; ++tenth) {
+        hear(first, tenth * 100 * millisecond);
+        tell(first + 1, (tenth * 100 + 50) * millisecond);
+        hear(first - 1, (tenth * 100 + 50) * millisecond);
+    }
+    EXPECT_EQ(peer().epoch(), first);
+    EXPECT_TRUE(lost.empty());
+}
+
+TEST_F(AgentPeersTest, AStartThatIsSilentWhileAnotherSpeaksLeavesItsName) {
+    tell(first, 0);
+    tell(first + 1, 300 * millisecond);
+    EXPECT_EQ(peer().epoch(), first);
+
+    hear(first + 1, 301 * millisecond);
+
     EXPECT_EQ(peer().epoch(), first + 1);
     EXPECT_EQ(lost, std::vector{first});
     EXPECT_TRUE(peer().current->model.structure());
-
-    hear(first, 2 * millisecond);
-
+    hear(first, 302 * millisecond);
     EXPECT_EQ(peer().epoch(), first + 1);
+}
+
+TEST_F(AgentPeersTest, AStartThatSaysGoodbyeLeavesItsNameAtOnce) {
+    tell(first, 0);
+    hear(first, millisecond, "stopping");
+    hear(first - 1, 2 * millisecond);
+    EXPECT_EQ(peer().epoch(), first - 1);
 }
 
 TEST_F(AgentPeersTest, AnAgentIsKnownOnceAllOfItsModelIsThere) {
@@ -97,13 +117,13 @@ TEST_F(AgentPeersTest, WhoSaysThatItStopsIsNotMissed) {
 // Its clock was set back between two starts.
 TEST_F(AgentPeersTest, AnEarlierStartCountsWithAllItSaidOnceTheLaterIsNotHeard) {
     tell(first, 0);
-    for (int tenth = 1; tenth <= 10; ++tenth) {
+    for (int tenth = 1; tenth <= 3; ++tenth) {
         if (tenth == 1) tell(first - 1'000'000, 100 * millisecond);
         hear(first - 1'000'000, tenth * 100 * millisecond);
         EXPECT_EQ(peer().epoch(), first);
     }
 
-    hear(first - 1'000'000, 1001 * millisecond);
+    hear(first - 1'000'000, 301 * millisecond);
 
     EXPECT_EQ(lost, std::vector{first});
     EXPECT_TRUE(peer().heard);
@@ -112,12 +132,12 @@ TEST_F(AgentPeersTest, AnEarlierStartCountsWithAllItSaidOnceTheLaterIsNotHeard) 
 }
 
 // Said by nobody, or by one that fell over at once.
-TEST_F(AgentPeersTest, ALaterStartThatIsNotHeardAgainGivesTheNameBack) {
+TEST_F(AgentPeersTest, AStartThatIsNotHeardAgainGivesTheNameBack) {
     tell(first, 0);
-    hear(first + 1'000'000, 100 * millisecond);
-    hear(first + 2'000'000, 150 * millisecond);
-    EXPECT_EQ(peer().epoch(), first + 2'000'000);
-    for (int tenth = 2; tenth <= 12; ++tenth) hear(first, tenth * 100 * millisecond);
+    hear(first + 1'000'000, 310 * millisecond);
+    hear(first + 2'000'000, 350 * millisecond);
+    EXPECT_EQ(peer().epoch(), first + 1'000'000);
+    for (int tenth = 4; tenth <= 12; ++tenth) hear(first, tenth * 100 * millisecond);
 
     EXPECT_EQ(peer().epoch(), first);
     EXPECT_TRUE(peer().heard);
@@ -153,6 +173,76 @@ TEST_F(AgentPeersTest, AGoodbyeOfAnEarlierStartChangesNothing) {
     EXPECT_EQ(peer().epoch(), first);
     EXPECT_FALSE(peer().heard);
     EXPECT_EQ(lost, std::vector{first});
+}
+
+// This agent is "near".
+struct FirstOfNameTest : AgentPeersTest {
+    void hearOurs(std::int64_t epoch, std::int64_t uptime, std::int64_t now,
+                  const char* state = "running") {
+        Presence presence = told.presence;
+        presence.name = self.name;
+        presence.agent = self.id;
+        presence.host = "elsewhere";
+        presence.epoch = epoch;
+        presence.state = state;
+        if (uptime > 0) presence.extras = {{"uptime", std::to_string(uptime)}};
+        peers.expire(now);
+        peers.take(presence, now);
+    }
+    bool says(const std::string& text) { return listener.rig.hasEvent(text); }
+
+    const std::string rival = "another start of near is heard, on host elsewhere; ";
+    static constexpr std::int64_t second = 1000 * millisecond;
+};
+
+TEST_F(FirstOfNameTest, AStartThatWasThereFirstIsNotSilenced) {
+    peers.expire(second);
+    hearOurs(self.epoch + 5, 60 * second, 4 * second);
+    hearOurs(self.epoch - 5, 60 * second, 5 * second);
+    EXPECT_FALSE(peers.isSecond());
+    EXPECT_TRUE(says(rival + "this one was there first, and nobody listens to that one"));
+}
+
+TEST_F(FirstOfNameTest, AStartThatMeetsALongerOneIsSilentUntilThatEnds) {
+    peers.expire(second);
+    hearOurs(self.epoch + 3'600'000'000, 60 * second, 2 * second);  // its clock is ahead
+    EXPECT_TRUE(peers.isSecond());
+    EXPECT_TRUE(says(rival + "it was there first, so this one is silent until it ends"));
+    for (int i = 3; i < 9; ++i) hearOurs(self.epoch + 3'600'000'000, 60 * second, i * second);
+    EXPECT_TRUE(peers.isSecond());
+
+    peers.expire(9 * second + millisecond);
+
+    EXPECT_FALSE(peers.isSecond());
+    EXPECT_TRUE(says("the other start of near has ended; this one speaks again"));
+}
+
+TEST_F(FirstOfNameTest, AGoodbyeOfTheFirstEndsTheSilenceOfTheSecond) {
+    hearOurs(self.epoch - 1, 60 * second, second);
+    EXPECT_TRUE(peers.isSecond());
+    hearOurs(self.epoch - 1, 60 * second, 2 * second, "stopping");
+    peers.expire(2 * second + millisecond);
+    EXPECT_FALSE(peers.isSecond());
+}
+
+TEST_F(FirstOfNameTest, OfTwoThatBeganAtOnceTheEpochsDecide) {
+    peers.expire(second);
+    hearOurs(self.epoch + 1, 400 * millisecond, second + 100 * millisecond);
+    EXPECT_FALSE(peers.isSecond());
+    hearOurs(self.epoch - 1, 1, second + 100 * millisecond);
+    EXPECT_TRUE(peers.isSecond());
+}
+
+TEST_F(FirstOfNameTest, AStartThatDoesNotSayHowLongItRunsWasThereFirst) {
+    hearOurs(self.epoch + 1, 0, second);
+    EXPECT_TRUE(peers.isSecond());
+}
+
+TEST_F(FirstOfNameTest, AGoodbyeThatWeDidNotSayIsReported) {
+    peers.expire(second);
+    hearOurs(self.epoch, second, 2 * second, "stopping");
+    EXPECT_FALSE(peers.isSecond());
+    EXPECT_TRUE(says("somebody else says that near is stopping"));
 }
 
 }  // namespace

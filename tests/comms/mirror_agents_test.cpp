@@ -8,6 +8,7 @@
 #include "mirror/mirror_commands.hpp"
 #include "wire/ids.hpp"
 #include "wire/named_values.hpp"
+#include "wire/presence_extras.hpp"
 
 #include <gtest/gtest.h>
 
@@ -118,13 +119,16 @@ TEST_F(MirrorAgentsTest, AreLostAtOnceWhenTheySayGoodbye) {
     EXPECT_EQ(lost.size(), 2U);
 }
 
-TEST_F(MirrorAgentsTest, AreReplacedByALaterStartAndNotByAnEarlierOne) {
+TEST_F(MirrorAgentsTest, AreReplacedByAnotherStartOnlyWhenTheyAreSilent) {
     tellAll();
     const auto structure = agents.find("rig")->structure;
     Presence later = agent.presence;
     ++later.epoch;
+    agents.take(later, begin + 300ms);
+    EXPECT_EQ(status().epoch, agent.presence.epoch);
+    EXPECT_TRUE(lost.empty());
 
-    agents.take(later, begin);
+    agents.take(later, begin + 301ms);
 
     EXPECT_EQ(status().epoch, later.epoch);
     EXPECT_EQ(status().missing, agent.presence.types + agent.presence.simplexes);

@@ -245,5 +245,26 @@ TEST_F(TwoAgents, TheRobotStartsFirstAndWaitsForTheOperator) {
     EXPECT_TRUE(follows()) << outputs();
 }
 
+TEST_F(TwoAgents, ASecondStartOfAnAgentIsSilentUntilTheFirstEnds) {
+    ASSERT_TRUE(follows()) << outputs();
+    const std::int64_t first = station.epochOf("robot");
+    AgentProcess second{folder, example("robot.xml"), options()};
+    const auto says = [&](const std::string& words) {
+        return station.waitFor([&] { return second.output().find(words) != std::string::npos; });
+    };
+    EXPECT_TRUE(says("another start of robot is heard")) << second.output();
+    EXPECT_TRUE(says("it was there first, so this one is silent until it ends"));
+    EXPECT_TRUE(station.waitFor(
+        [&] { return station.hasEvent("/robot", "another start of robot is heard"); }));
+    EXPECT_TRUE(follows());
+    EXPECT_EQ(station.epochOf("robot"), first);
+
+    robot.kill9();
+
+    EXPECT_TRUE(says("the other start of robot has ended; this one speaks again"));
+    EXPECT_TRUE(station.waitFor([&] { return station.epochOf("robot") > first; }));
+    EXPECT_TRUE(follows()) << second.output();
+}
+
 }  // namespace
 }  // namespace cortex::test

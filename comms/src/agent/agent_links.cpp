@@ -103,6 +103,7 @@ void AgentLinks::claim(Link& link, Peer& peer) {
     const auto known = link.claims.find(peer.name);
     if (known != link.claims.end()) {
         known->second.heard = peer.heard;
+        known->second.since = peer.since;
         if (peer.current && known->second.epoch == peer.epoch()) return;
         link.claims.erase(known);
     }
@@ -123,6 +124,7 @@ AgentLinks::Claim AgentLinks::makeClaim(const Link& link, Peer& peer, std::uint3
     const Structure& ours = self_.structure();
     Claim claim;
     claim.epoch = peer.epoch();
+    claim.since = peer.since;
     claim.theirs = theirs;
     claim.simplexes = presence.simplexes;
     claim.structureHash = presence.structureHash;
@@ -137,13 +139,17 @@ AgentLinks::Claim AgentLinks::makeClaim(const Link& link, Peer& peer, std::uint3
     return claim;
 }
 
-// Of several agents that have the path, the one that started first stays linked.
+// Of several agents that have the path, the one that was heard first stays linked. Of those that
+// were there before this agent, it is the one that says it started first.
 void AgentLinks::choose(Link& link) {
     const std::string* chosen = nullptr;
     const auto usable = [](const Claim& claim) { return claim.heard && claim.binding.usable; };
+    const auto isBefore = [](const Claim& one, const Claim& other) {
+        return std::pair{one.since, one.epoch} < std::pair{other.since, other.epoch};
+    };
     for (const auto& [agent, claim] : link.claims) {
         if (!usable(claim)) continue;
-        if (chosen == nullptr || claim.epoch < link.claims.at(*chosen).epoch) chosen = &agent;
+        if (chosen == nullptr || isBefore(claim, link.claims.at(*chosen))) chosen = &agent;
     }
     for (auto& [agent, claim] : link.claims) {
         if (!usable(claim) || agent == *chosen || std::exchange(claim.reported, true)) continue;

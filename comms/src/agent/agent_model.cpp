@@ -7,6 +7,7 @@
 #include "wire/cdr.hpp"
 #include "wire/ids.hpp"
 #include "wire/named_values.hpp"
+#include "wire/presence_extras.hpp"
 #include "wire/type_messages.hpp"
 
 #include <map>

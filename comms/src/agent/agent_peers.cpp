@@ -48,26 +48,16 @@ bool AgentPeers::plausible(const std::string& name, std::int64_t epoch) {
     return false;
 }
 
-// A later start of our own name outranks this one. Nothing is taken from an earlier start or from
-// ourselves.
-bool AgentPeers::isOurs(const Presence& presence) {
-    if (presence.name != self_.name) return false;
-    if (presence.role != "agent") {
-        self_.rejections.add("a " + presence.role + " uses our name");
-    } else if (presence.epoch > self_.epoch && !std::exchange(outranked_, true)) {
-        self_.event(Severity::Error, self_.simplex,
-                    "a later start of " + self_.name + " is heard, on " + presence.host +
-                        ": this one falls silent on the network");
-    }
-    return true;
-}
-
 void AgentPeers::take(const Presence& presence, std::int64_t now) {
     if (!plausible(presence.name, presence.epoch)) return;
     if (presence.agent != agentId(presence.name)) {
         return self_.rejections.add("the id of " + presence.name + " is not that of its name");
     }
-    if (isOurs(presence)) return;
+    if (began_ == 0) began_ = now;
+    if (presence.name == self_.name) {
+        if (presence.role == "agent") return name_.hear(presence, now);
+        return self_.rejections.add("a " + presence.role + " uses our name");
+    }
     if (Peer* peer = place(presence.name)) hear(*peer, presence, now);
 }
 
@@ -103,12 +93,14 @@ void AgentPeers::makeCurrent(Peer& peer, std::int64_t epoch) {
     changed_ = true;
 }
 
-// An earlier start is outranked only while the later one is present: clocks are set back too.
 void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
-    if (peer.current && presence.epoch < peer.epoch() &&
-        (peer.heard || presence.state != "running")) {
-        if (peer.other && peer.other->model.epoch() == presence.epoch) peer.other->spoke = now;
-        return;
+    if (peer.current && presence.epoch != peer.epoch()) {
+        const bool isHere =
+            peer.heard && now - peer.lastHeard <= patienceWithRival(*peer.model().presence());
+        if (isHere || presence.state != "running") {
+            if (peer.other && peer.other->model.epoch() == presence.epoch) peer.other->spoke = now;
+            return;
+        }
     }
     if (!peer.current || presence.epoch != peer.epoch()) makeCurrent(peer, presence.epoch);
     peer.current->spoke = now;
@@ -119,12 +111,13 @@ void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
     changed_ = changed_ || peer.model().complete() != complete;
     if (presence.state != "running") peer.missed = false;
     if (presence.state == "stopping") return lose(peer, "it stopped");
-    if (presence.state == "silent") return lose(peer, "it fell silent");
+    if (presence.state == "silent") return lose(peer, "another start of it was there first");
     peer.lastHeard = now;
     const bool agent = presence.role == "agent";
     changed_ = changed_ || agent != peer.agent || !peer.heard;
     peer.agent = agent;
     peer.missed = false;
+    if (!peer.heard) peer.since = now - began_ > timeToMeet ? now : 0;
     if (!std::exchange(peer.heard, true) && peer.agent) {
         self_.event(Severity::Info, self_.simplex,
                     "agent " + peer.name + " was found, on host " + presence.host);
@@ -152,6 +145,7 @@ void AgentPeers::lose(Peer& peer, const std::string& why) {
 }
 
 void AgentPeers::expire(std::int64_t now) {
+    name_.expire(now);
     const std::uint32_t crowd = agents();
     for (auto& [name, peer] : peers_) {
         if (!peer.heard) continue;
@@ -199,6 +193,11 @@ void AgentPeers::take(const Interest& interest, std::int64_t now) {
     if (start == nullptr) return;
     start->interest = interest;
     changed_ = true;
+}
+
+bool AgentPeers::isOther(const std::string& name, std::int64_t epoch) const {
+    const auto found = peers_.find(name);
+    return found != peers_.end() && found->second.heard && found->second.epoch() != epoch;
 }
 
 bool AgentPeers::missesAny(std::int64_t now) const {

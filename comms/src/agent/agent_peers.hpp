@@ -2,6 +2,7 @@
 #pragma once
 
 #include "agent/agent_self.hpp"
+#include "agent/first_of_name.hpp"
 #include "peers/peer_model.hpp"
 #include "wire/messages.hpp"
 
@@ -30,18 +31,20 @@ struct Peer {
 
     std::string name;
     bool heard = false;                // not long ago
+    std::int64_t since = 0;            // it is heard; 0: it was there when this agent began
     bool agent = false;                // or a tool
     bool missed = false;               // lost without a word
     std::int64_t lastHeard = 0;        // monotonicNow()
     std::optional<PeerStart> current;  // its presence has come
-    std::optional<PeerStart> other;    // outranked, or its presence has not come yet
+    std::optional<PeerStart> other;  // another start of the name, or its presence has not come yet
 };
 
 using Peers = std::map<std::string, Peer, std::less<>>;  // by name
 
 // The agents and tools of the domain from which presences arrive. Of several starts of one name the
-// one with the greatest epoch wins. A participant that is silent for longer than it announced is
-// lost. Everything that others send is checked. Communication thread only.
+// one that was heard first counts, until it is silent while another speaks. A participant that is
+// silent for longer than it announced is lost. Everything that others send is checked.
+// Communication thread only.
 class AgentPeers {
 public:
     // `lost` is called for each participant that is lost.
@@ -55,14 +58,15 @@ public:
 
     // Whether anything became known or lost since the last call.
     bool takeChanged() { return std::exchange(changed_, false); }
-    bool outranked() const { return outranked_; }  // a later start of our own name exists
+    bool isSecond() const { return name_.isSecond(); }  // another start of our name was first
+    // Whether a participant that is present has this name and another epoch.
+    bool isOther(const std::string& name, std::int64_t epoch) const;
     Peers& all() { return peers_; }
     std::uint32_t agents() const;            // number of agents that are present
     bool missesAny(std::int64_t now) const;  // agents that fell silent without a word, not long ago
 
 private:
     bool plausible(const std::string& name, std::int64_t epoch);
-    bool isOurs(const Presence& presence);
     Peer* place(const std::string& name);
     void makeCurrent(Peer& peer, std::int64_t epoch);
     void hear(Peer& peer, const Presence& presence, std::int64_t now);
@@ -73,8 +77,10 @@ private:
     AgentSelf& self_;
     std::function<void(const std::string&, std::int64_t)> lost_;
     Peers peers_;
-    bool changed_ = false, outranked_ = false;
-    std::string early_;  // whose clock was last said to be ahead
+    FirstOfName name_{self_};
+    bool changed_ = false;
+    std::int64_t began_ = 0;  // monotonic, ns
+    std::string early_;       // whose clock was last said to be ahead
 };
 
 }  // namespace cortex::comms

@@ -5,6 +5,7 @@
 #include "cortex/core/error.hpp"
 
 #include "security/security_identity.hpp"
+#include "wire/presence_extras.hpp"
 #include "wire/presence_interval.hpp"
 
 #include <algorithm>
@@ -158,7 +159,7 @@ void AgentThread::step() {
     commands_.step(now);
     answers_.keep([this](const std::string& sender) { return commands_.knows(sender); }, now);
     sendEvents();
-    if (peers_.outranked()) fallSilent();
+    if (peers_.isSecond() != silent_) beSilent(!silent_);
     if (!silent_) sendPresence(now);
     if (links_.anyUnbound() || peers_.missesAny(now)) participant_.announce();
 }
@@ -167,12 +168,19 @@ void AgentThread::takeMessages(std::int64_t now) {
     received_.take(messages_);
     for (auto& [presence, came] : messages_.presences) {
         peers_.take(presence, came);
-        if (presence.state != "stopping") commands_.heard(presence, came);
+        if (presence.state != "stopping" && !peers_.isOther(presence.name, presence.epoch)) {
+            commands_.heard(presence, came);
+        }
     }
     for (auto& [model, came] : messages_.models) peers_.take(model, came);
     for (auto& [interest, came] : messages_.interests) peers_.take(interest, came);
     for (auto& [command, came] : messages_.commands) {
-        if (!silent_) commands_.take(command, now);
+        if (silent_) continue;
+        if (peers_.isOther(command.sender, command.senderEpoch)) {
+            commands_.refuseOther(command);
+        } else {
+            commands_.take(command, now);
+        }
     }
     messages_.presences.clear();
     messages_.models.clear();
@@ -232,6 +240,8 @@ void AgentThread::sendEvents() {
 Presence AgentThread::presence(const char* state) const {
     Presence presence = model_.presence(state, peers_.agents() + 1, lastEvent_);
     presence.interval = intervalAmong(presenceOut_->readers());
+    presence.extras.insert(presence.extras.begin(),
+                           {uptimeOfAgent, std::to_string(monotonicNow() - began_)});
     return presence;
 }
 
@@ -242,14 +252,20 @@ void AgentThread::sendPresence(std::int64_t now) {
     presenceDue_ = std::max(presenceDue_ + said.interval, now + said.interval / 2);
 }
 
-// The network belongs to the later start. This is the last message of the earlier one.
-void AgentThread::fallSilent() {
-    if (std::exchange(silent_, true)) return;
-    presenceOut_->write(presence("silent"));
+// While another start of the name was there first, nothing is said but this. What others know of
+// this start they keep.
+void AgentThread::beSilent(bool silent) {
+    silent_ = silent;
+    if (silent) {
+        presenceOut_->write(presence("silent"));
+    } else {
+        presenceDue_ = 0;
+        sendInterest();
+    }
 }
 
 // Leaves the network after the last cycle. A silent agent disposes of nothing, because the keys
-// belong to the later start. The last presence is sent more than once: the end of the writer
+// belong to the other start. The last presence is sent more than once: the end of the writer
 // travels through another socket. Under load it overtakes the last sample, which best-effort
 // readers do not get again.
 void AgentThread::leave() {

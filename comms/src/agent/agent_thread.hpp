@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/clock.hpp"
 #include "cortex/core/event_count.hpp"
 
 #include "agent/agent_answers.hpp"
@@ -58,7 +59,7 @@ private:
     void sendEvents();
     Presence presence(const char* state) const;
     void sendPresence(std::int64_t now);
-    void fallSilent();
+    void beSilent(bool silent);
     void sendAnswer(const Answer& answer);
     void leave();
 
@@ -87,6 +88,7 @@ private:
     ReceivedMessages messages_;
     std::vector<EventMessage> eventsToSend_;
     std::uint64_t lastEvent_ = 0;  // number of the last event that was written
+    std::int64_t began_ = monotonicNow();
     std::int64_t presenceDue_ = 0;
     std::uint32_t seen_ = 0;  // value of signals_
     bool silent_ = false;

@@ -2,10 +2,10 @@
 #include "mirror/mirror_agents.hpp"
 
 #include "wire/ids.hpp"
+#include "wire/presence_extras.hpp"
 #include "wire/presence_interval.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <utility>
 
@@ -31,20 +31,15 @@ bool showsAny(const Structure& structure, const MirrorView& view) {
     return any;
 }
 
-// 0: the presence does not say so.
-std::uint64_t numberIn(const Presence& presence, std::string_view name) {
-    std::uint64_t number = 0;
-    for (const Extra& extra : presence.extras) {
-        if (extra.name != name) continue;
-        std::from_chars(extra.value.data(), extra.value.data() + extra.value.size(), number);
-    }
-    return number;
-}
-
 }  // namespace
 
 bool MirrorAgent::foreign() const {
     return present() && std::ranges::count(model.presence()->majors, major) == 0;
+}
+
+bool MirrorAgent::holdsName(Moment now) const {
+    return !lost && present() &&
+           now - heard <= std::chrono::nanoseconds{patienceWithRival(*model.presence())};
 }
 
 std::chrono::nanoseconds MirrorAgent::patience() const {
@@ -79,17 +74,18 @@ AgentStatus MirrorAgent::status(Moment now) const {
     return status;
 }
 
-// Null: the sample is refused, or comes from an earlier start while a later one is present.
+// Null: the sample is refused, or another start of the name was there first.
 MirrorAgent* MirrorAgents::at(const std::string& name, std::int64_t epoch, Moment now) {
     const auto found = agents_.find(name);
     if (found != agents_.end()) {
         if (epoch == found->second.model.epoch()) return &found->second;
-        if (epoch < found->second.model.epoch() && !found->second.lost) return nullptr;
+        if (found->second.holdsName(now)) return nullptr;
         lose(found->second, "another start of it has taken its place");
         if (found->second.tables) forgottenImages_ += found->second.tables->published();
         std::optional<PeerModel> aside = takeAside(name, epoch);
         aside_.insert_or_assign(name, std::move(found->second.model));
         found->second = MirrorAgent{name, epoch, now};
+        found->second.since = sinceAt(now);
         if (aside) found->second.model = std::move(*aside);
         return &found->second;
     }
@@ -99,8 +95,15 @@ MirrorAgent* MirrorAgents::at(const std::string& name, std::int64_t epoch, Momen
     }
     names_[agentId(name)] = name;
     MirrorAgent& agent = agents_.try_emplace(name, name, epoch, now).first->second;
+    agent.since = sinceAt(now);
     if (std::optional<PeerModel> aside = takeAside(name, epoch)) agent.model = std::move(*aside);
     return &agent;
+}
+
+// Those that are met within two seconds were there before.
+Moment MirrorAgents::sinceAt(Moment now) {
+    if (began_ == Moment{}) began_ = now;
+    return now - began_ > std::chrono::seconds{2} ? now : Moment{};
 }
 
 std::optional<PeerModel> MirrorAgents::takeAside(const std::string& name, std::int64_t epoch) {
@@ -134,19 +137,25 @@ void MirrorAgents::take(const Presence& presence, Moment now) {
         }
         return;
     }
+    MirrorAgent* const known = find(presence.name);
+    const bool isOther = known != nullptr && known->model.epoch() != presence.epoch;
+    if (isOther && presence.state != "running") return;
     MirrorAgent* agent = at(presence.name, presence.epoch, now);
     if (agent == nullptr || !agent->model.add(presence)) return;
     finish(*agent);
     if (presence.state == "stopping") return lose(*agent, "the agent has ended");
-    if (presence.state == "silent") return lose(*agent, "a later start of it has its name");
+    if (presence.state == "silent") return lose(*agent, "another start of it was there first");
+    if (agent->lost) agent->since = sinceAt(now);
     agent->heard = now;
     agent->lost = agent->missed = false;
     agent->cycle = std::max(agent->cycle, presence.cycle);
 }
 
 void MirrorAgents::take(const Model& model, Moment now) {
-    MirrorAgent* agent = at(model.agent, model.epoch, now);
-    if (agent == nullptr) return setAside(model);
+    MirrorAgent* agent = find(model.agent);
+    const bool isOther = agent != nullptr && !agent->lost && agent->model.epoch() != model.epoch;
+    if (!isOther) agent = at(model.agent, model.epoch, now);
+    if (isOther || agent == nullptr) return setAside(model);
     if (agent->model.add(model)) finish(*agent);
 }
 
@@ -258,7 +267,8 @@ MirrorAgent* MirrorAgents::ownerOf(std::string_view path) {
         if (index == noSimplex || agent.structure->simplexes[index].remote) continue;
         const bool before =
             owner == nullptr || (owner->lost && !agent.lost) ||
-            (owner->lost == agent.lost && agent.model.epoch() < owner->model.epoch());
+            (owner->lost == agent.lost && std::pair{agent.since, agent.model.epoch()} <
+                                              std::pair{owner->since, owner->model.epoch()});
         if (before) owner = &agent;
     }
     return owner;

@@ -23,6 +23,7 @@ struct MirrorAgent {
 
     PeerModel model;
     Moment heard;                                   // last
+    Moment since{};                                 // it is heard; none: it was there before
     bool lost = false, missed = false;              // missed: lost without saying so
     std::int64_t cycle = 0;                         // newest
     std::shared_ptr<const Structure> structure;     // once it is complete
@@ -33,12 +34,14 @@ struct MirrorAgent {
     bool present() const { return model.presence().has_value(); }
     // It speaks no version of the protocol that this mirror does, so only its presence is known.
     bool foreign() const;
+    // Whether it keeps its name although another start of it is heard.
+    bool holdsName(Moment now) const;
     bool settled() const { return lost || foreign() || (present() && model.complete()); }
     std::chrono::nanoseconds patience() const;  // how long it may be silent
     AgentStatus status(Moment now) const;
 };
 
-// The agents of the domain. Of several starts of one name the one with the greatest epoch wins. An
+// The agents of the domain. Of several starts of one name the one that was heard first counts. An
 // agent that is silent for longer than it announced is lost, and forgotten after a minute. Used
 // under the mutex of the mirror.
 class MirrorAgents {
@@ -73,6 +76,7 @@ public:
 
 private:
     MirrorAgent* at(const std::string& name, std::int64_t epoch, Moment now);
+    Moment sinceAt(Moment now);
     std::optional<PeerModel> takeAside(const std::string& name, std::int64_t epoch);
     void setAside(const Model& model);
     void forget(MirrorAgent& agent);
@@ -80,6 +84,7 @@ private:
     void finish(MirrorAgent& agent);
 
     OnLost onLost_;
+    Moment began_{};
     Map agents_;
     std::map<std::string, PeerModel, std::less<>> aside_;  // of a start that may be alive
     std::map<Id, Moment> tools_;

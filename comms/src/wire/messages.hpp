@@ -19,11 +19,6 @@ struct Extra {
     bool operator==(const Extra&) const = default;
 };
 
-// An extra of Presence: the number of agents that its sender hears, itself included.
-inline constexpr const char* agentsHeard = "agents";
-// An extra of Presence: the number of the last event that its sender wrote.
-inline constexpr const char* eventsWritten = "events";
-
 struct NamedValue {
     std::string name, kind;
     std::vector<std::int64_t> ints;

@@ -29,4 +29,11 @@ inline std::int64_t patienceWith(const Presence& presence, std::uint32_t crowd =
     return std::max(4 * std::max(said, intervalAmong(crowd)), shortestPatience);
 }
 
+// While another start of its name is heard, a participant that is silent for so long has ended and
+// left its name to that start.
+inline std::int64_t patienceWithRival(const Presence& presence) {
+    return std::min(3 * std::clamp(presence.interval, shortestInterval, longestInterval),
+                    patienceWith(presence));
+}
+
 }  // namespace cortex::comms

@@ -61,7 +61,7 @@ void examineSecurity(const std::vector<comms::AgentStatus>& agents, Diagnoses& f
                      "give each of them a folder of the same authority"});
 }
 
-// Agents of one name follow each other with other starts; the older one says that it falls silent.
+// The agent that was there first says that it hears another start of its name.
 void examineNames(const std::map<std::string, std::set<std::int64_t>>& starts,
                   const std::vector<comms::AgentEvent>& events, Diagnoses& found) {
     std::set<std::string> doubled;
@@ -69,7 +69,7 @@ void examineNames(const std::map<std::string, std::set<std::int64_t>>& starts,
         if (epochs.size() > 1) doubled.insert(agent);
     }
     for (const comms::AgentEvent& each : events) {
-        if (each.text.find("falls silent") != std::string::npos) doubled.insert(each.agent);
+        if (each.text.starts_with("another start of ")) doubled.insert(each.agent);
     }
     for (const std::string& each : doubled) {
         found.push_back({Level::Error, "name", "several agents are called " + each,

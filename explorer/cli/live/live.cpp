@@ -105,7 +105,7 @@ FoundSimplex Live::find(const std::string& path) {
                                 (lacking.empty() ? "" : "; " + lacking)};
 }
 
-// One path of several agents: its owner is the one that started first.
+// One path may have several agents.
 std::vector<FoundSimplex> Live::below(const std::string& prefix) const {
     std::vector<FoundSimplex> found;
     for (const comms::AgentStatus& agent : mirror_->agents()) {

@@ -94,7 +94,8 @@ public:
     bool waitUntilComplete(Milliseconds limit) const;
     // Null until everything of the agent has come. A later start has a structure of its own.
     std::shared_ptr<const Structure> structure(const std::string& agent) const;
-    // The agent that owns this simplex. Of several that claim it, the one that started first.
+    // The agent that owns this simplex. Of several that claim it, the one that was heard
+    // first; of those that were there before this mirror, the one that says it started first.
     std::optional<std::string> ownerOf(std::string_view path) const;
     // The same as soon as it is known. None: everything has come and nobody owns it, or `limit` is
     // over.

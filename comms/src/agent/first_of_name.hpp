@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "agent/agent_self.hpp"
+#include "wire/messages.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace cortex::comms {
+
+// How long after a start another start of a name, or another owner of a path, counts as having been
+// there at once. ns
+inline constexpr std::int64_t timeToMeet = 2'000'000'000;
+
+// Whether this start of the agent's name was there first. Of two that meet within 2 s of a start
+// the longer one goes on, and the other is silent until that one ends. Later nobody silences this
+// one.
+class FirstOfName {
+public:
+    explicit FirstOfName(AgentSelf& self) : self_{self} {}
+
+    void hear(const Presence& ours, std::int64_t now);  // of our name
+    void expire(std::int64_t now);
+    bool isSecond() const { return isSecond_; }
+
+private:
+    bool comesBefore(const Presence& rival, std::int64_t now) const;
+    void tell(Severity severity, const std::string& text, std::int64_t now);
+
+    AgentSelf& self_;
+    std::int64_t began_ = 0, rivalHeard_ = 0, rivalPatience_ = 0, told_ = 0;  // monotonic, ns
+    bool isSecond_ = false;
+};
+
+}  // namespace cortex::comms
