@@ -298,7 +298,35 @@ TEST(EventSinks, SayOnceThatALogFileCannotBeWrittenAnyMore) {
     log.stop();
 
     EXPECT_EQ(::testing::internal::GetCapturedStderr(),
-              "cannot write the log file /dev/full: its events are lost\n");
+              "cannot write the log file /dev/full: events are lost until it can be written "
+              "again\n");
+}
+
+TEST(EventSinks, GoOnWithALogFileThatCanBeWrittenAgainAndSayWhatIsMissing) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "/dev/full is missing";
+    const std::filesystem::path folder = ::testing::TempDir();
+    const auto name = folder / "cortex-log", real = folder / "cortex-real-log";
+    std::filesystem::remove(name);
+    std::filesystem::remove(real);
+    std::filesystem::create_symlink("/dev/full", name);
+    EventLog log{test::makePlant().structure, 1, 4};
+    log.addSink(logEvents(name));
+    ::testing::internal::CaptureStderr();
+    log.ring(0).post(eventAt(1, 0, 0));
+    log.ring(0).post(eventAt(2, 0, 0));
+    log.complete(2);
+    log.flush();
+
+    std::filesystem::remove(name);
+    std::filesystem::create_symlink(real, name);
+    log.ring(0).post(eventAt(3, 0, 0));
+    log.stop();
+
+    ::testing::internal::GetCapturedStderr();
+    std::stringstream text;
+    text << std::ifstream{real}.rdbuf();
+    EXPECT_EQ(text.str(),
+              "(2 events are missing here)\n1970-01-01T00:00:00.003Z info /robot 3.0.0\n");
 }
 
 }  // namespace

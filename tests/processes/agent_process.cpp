@@ -70,8 +70,8 @@ void AgentProcess::kill9() {
     pid_ = 0;
 }
 
-int AgentProcess::endInOrder() {
-    kill(pid_, SIGTERM);
+int AgentProcess::endInOrder(int signal) {
+    kill(pid_, signal);
     return waitForEnd();
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/model_folder.hpp"
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -22,10 +23,10 @@ public:
     AgentProcess(const AgentProcess&) = delete;
     AgentProcess& operator=(const AgentProcess&) = delete;
 
-    void start();      // again, after an end
-    void kill9();      // and waits for the end
-    int endInOrder();  // SIGTERM; the exit code, -1 after a signal
-    int waitForEnd();  // that comes by itself
+    void start();                          // again, after an end
+    void kill9();                          // and waits for the end
+    int endInOrder(int signal = SIGTERM);  // the exit code, -1 after a signal
+    int waitForEnd();                      // that comes by itself
 
     pid_t pid() const { return pid_; }
     std::string output() const;  // of all its starts

@@ -174,8 +174,8 @@ TEST_F(TwoAgents, TheArmFollowsTheHandOfTheOtherAgent) {
 
     EXPECT_LT(station.real("/tracking", "rmsPosition"), 10);
     EXPECT_GT(station.real("/tracking", "rmsSpeed"), 0.05);
-    EXPECT_EQ(operator_.endInOrder(), 0) << outputs();
-    EXPECT_EQ(robot.endInOrder(), 0) << outputs();
+    EXPECT_EQ(operator_.endInOrder(SIGHUP), 0) << outputs();
+    EXPECT_EQ(robot.endInOrder(SIGPIPE), 0) << outputs();
     EXPECT_NE(robot.output().find("/tracking (TrackingMonitor)"), std::string::npos);
 }
 

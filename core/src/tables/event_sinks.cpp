@@ -28,11 +28,16 @@ EventLog::Sink printEvents(std::ostream& out) {
 EventLog::Sink logEvents(const std::filesystem::path& file) {
     auto out = std::make_shared<std::ofstream>(file, std::ios::app);
     if (!*out) throw Error("cannot write the log file " + file.string() + ": give another --log");
-    return [out, file, failed = false](const Event& event, const Structure& structure) mutable {
+    return [out, file, lost = 0](const Event& event, const Structure& structure) mutable {
+        if (!*out) *out = std::ofstream{file, std::ios::app};  // the disk may have room again
+        if (lost > 0) *out << "(" << lost << " events are missing here)\n";
         writeLine(*out, event, structure);
-        if (*out || failed) return;
-        failed = true;
-        std::cerr << "cannot write the log file " << file.string() << ": its events are lost\n";
+        if (*out) {
+            lost = 0;
+        } else if (++lost == 1) {
+            std::cerr << "cannot write the log file " << file.string()
+                      << ": events are lost until it can be written again\n";
+        }
     };
 }
 

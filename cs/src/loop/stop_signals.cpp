@@ -5,23 +5,38 @@
 #include <csignal>
 #include <ctime>
 
+#include <unistd.h>
+
 namespace cortex::cs {
 
 namespace {
 
+bool isLeftToDefault(int signal) {
+    struct sigaction action{};
+    sigaction(signal, nullptr, &action);
+    return action.sa_handler == SIG_DFL;
+}
+
+// A process that was started with `nohup` ignores that its terminal goes.
 sigset_t stopSignals() {
     sigset_t signals;
     sigemptyset(&signals);
-    sigaddset(&signals, SIGINT);
-    sigaddset(&signals, SIGTERM);
+    for (const int each : {SIGINT, SIGTERM, SIGHUP}) {
+        if (each != SIGHUP || isLeftToDefault(each)) sigaddset(&signals, each);
+    }
     return signals;
 }
 
 }  // namespace
 
+// SIGPIPE comes to the thread that wrote, which nobody waits for. So it is passed on.
 void blockStopSignals() {
     const sigset_t signals = stopSignals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    if (!isLeftToDefault(SIGPIPE)) return;
+    struct sigaction passOn{};
+    passOn.sa_handler = [](int) { kill(getpid(), SIGTERM); };
+    sigaction(SIGPIPE, &passOn, nullptr);
 }
 
 bool waitForInterrupt(double seconds, const std::function<bool()>& done) {

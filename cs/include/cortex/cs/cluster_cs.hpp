@@ -116,8 +116,9 @@ private:
     std::unique_ptr<Implementation> implementation_;
 };
 
-// Blocks until SIGINT or SIGTERM, or `seconds` have passed (0: no limit), or `done` returns true.
-// Call before start() makes threads: it blocks the signals in the calling thread.
+// Blocks until a signal asks for the end, or `seconds` have passed (0: no limit), or `done` returns
+// true. The signals are SIGINT, SIGTERM, SIGPIPE and SIGHUP, the last two unless the process ignores
+// or handles them. blockStopSignals() is called before start() makes threads.
 void blockStopSignals();
 bool waitForInterrupt(double seconds = 0, const std::function<bool()>& done = {});
 
