@@ -141,6 +141,24 @@ TEST_F(FilterTest, DropsListsOfParametersThatDoNotEndOrCountTooMuch) {
     EXPECT_EQ(said(parameter(0x02, Datagram{10, 0, 0, 0, 0, 0, 0, 0}) + endOfList), Refusal::None);
 }
 
+TEST_F(FilterTest, DropsMessagesOfAHandshakeThatCountTooMuch) {
+    const auto said = [&](const Datagram& tokens) {
+        return refusal(header() + data(1, 0x000201c3, 4,
+                                       Datagram{0, 1, 0, 0} + Datagram(96) + text("auth") +
+                                           Datagram(3) + tokens));
+    };
+    const Datagram none{0, 0, 0, 0}, one{1, 0, 0, 0}, many{0, 0, 0, 16};
+    const Datagram name = text("tok");
+    EXPECT_EQ(said(none), Refusal::None);
+    EXPECT_EQ(said(one + name + none + none), Refusal::None);
+    EXPECT_EQ(said(one + name + one + name + name + one + name + name), Refusal::None);
+    EXPECT_EQ(said(many), Refusal::Parameters);
+    EXPECT_EQ(said(one + name + many), Refusal::Parameters);
+    EXPECT_EQ(said(one + name + none + many), Refusal::Parameters);
+    EXPECT_EQ(said(one + name + none + one + name + many), Refusal::Parameters);
+    EXPECT_EQ(refusal(header() + data(1, 0x000201c3)), Refusal::Parameters);
+}
+
 TEST_F(FilterTest, HidesDescriptionsOfTypesAndKeysOfFragments) {
     const auto hidden = [](Datagram datagram, std::uint8_t id) {
         const auto at = std::ranges::search(datagram, Datagram{id, 0, 16, 0}).begin();

@@ -147,4 +147,16 @@ std::size_t parametersSize(Bytes list, bool little, Parameters in) {
     return 0;
 }
 
+bool handshakeFits(Bytes message, bool little) {
+    constexpr std::size_t identities = 96;
+    constexpr std::uint32_t mostTokens = 8;
+    if (message.size() < identities) return false;
+    Content content{message.subspan(identities), little};
+    content.text(longestName);
+    const std::uint32_t tokens = content.count();
+    if (tokens > mostTokens) return false;
+    for (std::uint32_t i = 0; i < tokens && content.fits(); ++i) takeToken(content);
+    return content.fits();
+}
+
 }  // namespace cortex::comms::rtps

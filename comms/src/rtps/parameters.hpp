@@ -21,4 +21,8 @@ enum class Parameters {
 //    amount of memory.
 std::size_t parametersSize(Bytes list, bool little, Parameters in);
 
+// Whether a message of the handshake of DDS-Security 1.1 (7.4.3.3), which everybody may send, has
+// as much as it says: two identities, a destination, a source, a kind, and up to 8 tokens.
+bool handshakeFits(Bytes message, bool little);
+
 }  // namespace cortex::comms::rtps

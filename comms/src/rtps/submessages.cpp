@@ -77,6 +77,8 @@ Bytes payloadOf(const Submessage& submessage, std::size_t at, Parameters in) {
     return size != 0 ? rest.subspan(size) : Bytes{};
 }
 
+constexpr std::uint32_t handshakeWriter = 0x000201c3;
+
 bool isOfDiscovery(std::uint32_t writer) {  // those that send lists of parameters
     constexpr std::array discovery{0x000100c2u, 0x000002c2u, 0x000003c2u, 0x000004c2u,
                                    0xff0003c2u, 0xff0004c2u, 0xff0101c2u};
@@ -95,13 +97,16 @@ Refusal judgeData(const Submessage& submessage) {
     if (payload.data() == nullptr) return Refusal::Parameters;
     if (!hasData && !hasKey) return Refusal::None;
     if (payload.size() < 4) return Refusal::Content;
-    if (!hasData || !isOfDiscovery(readU32(submessage.body.subspan(8), false)))
-        return Refusal::None;
-    constexpr std::uint8_t bigList = 2, littleList = 3;  // the encapsulations PL_CDR
-    if (payload[0] != 0 || (payload[1] != bigList && payload[1] != littleList))
-        return Refusal::Content;
-    const bool little = payload[1] == littleList;
-    const bool fits = parametersSize(payload.subspan(4), little, Parameters::Discovery) != 0;
+    const std::uint32_t writer = readU32(submessage.body.subspan(8), false);
+    if (!hasData || (!isOfDiscovery(writer) && writer != handshakeWriter)) return Refusal::None;
+    // Encapsulation: plain or a list of parameters, each in one of two byte orders.
+    const std::uint8_t plain = writer == handshakeWriter ? 0 : 2;
+    if (payload[0] != 0 || (payload[1] & ~1) != plain) return Refusal::Content;
+    const bool little = (payload[1] & 1) != 0;
+    const Bytes content = payload.subspan(4);
+    const bool fits = writer == handshakeWriter
+                          ? handshakeFits(content, little)
+                          : parametersSize(content, little, Parameters::Discovery) != 0;
     return fits ? Refusal::None : Refusal::Parameters;
 }
 
