@@ -28,7 +28,7 @@ static_assert(
 
 constexpr std::chrono::milliseconds longestWait{250};
 
-std::uint32_t addressOf(const fastrtps::Locator_t& locator) {
+std::uint32_t ipOf(const fastrtps::Locator_t& locator) {
     const fastrtps::octet* const ip = locator.address + 12;
     return static_cast<std::uint32_t>(ip[0]) << 24 | static_cast<std::uint32_t>(ip[1]) << 16 |
            static_cast<std::uint32_t>(ip[2]) << 8 | ip[3];
@@ -57,7 +57,7 @@ public:
         // The buffer of Fast DDS, into which it writes each datagram. It only passes it on as
         // const.
         const rtps::Bytes datagram{const_cast<fastrtps::octet*>(octets), size};
-        const std::size_t left = gate_->filter.admit(datagram, addressOf(remote), monotonicNow());
+        const std::size_t left = gate_->filter.admit(datagram, ipOf(remote), monotonicNow());
         if (left == 0) return;
         const std::unique_lock passing = gate_->pass();
         if (passing) {

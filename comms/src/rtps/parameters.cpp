@@ -8,25 +8,25 @@ namespace {
 
 // Identifiers of parameters: RTPS 2.3, 9.6.3; DDS-Security 1.1, 7.4.1; DDS-XTypes 1.3, 7.6.3.
 enum Id : std::uint16_t {
-    padding = 0x0000,
-    sentinel = 0x0001,
-    leaseDuration = 0x0002,
-    topicName = 0x0005,
-    typeName = 0x0007,
-    partition = 0x0029,
-    userData = 0x002c,
-    groupData = 0x002d,
-    topicData = 0x002e,
-    propertyList = 0x0059,
-    entityName = 0x0062,
-    typeIdV1 = 0x0069,
-    keyHash = 0x0070,
-    statusInfo = 0x0071,
-    typeObjectV1 = 0x0072,
-    dataRepresentation = 0x0073,
-    typeInformation = 0x0075,
-    identityToken = 0x1001,
-    permissionsToken = 0x1002,
+    Padding = 0x0000,
+    Sentinel = 0x0001,
+    LeaseDuration = 0x0002,
+    TopicName = 0x0005,
+    TypeName = 0x0007,
+    Partition = 0x0029,
+    UserData = 0x002c,
+    GroupData = 0x002d,
+    TopicData = 0x002e,
+    PropertyList = 0x0059,
+    EntityName = 0x0062,
+    TypeIdV1 = 0x0069,
+    KeyHash = 0x0070,
+    StatusInfo = 0x0071,
+    TypeObjectV1 = 0x0072,
+    DataRepresentation = 0x0073,
+    TypeInformation = 0x0075,
+    IdentityToken = 0x1001,
+    PermissionsToken = 0x1002,
 };
 
 constexpr std::uint32_t longestName = 256;
@@ -87,28 +87,28 @@ void takeToken(Content& content) {
 bool discoveryFits(std::uint16_t id, Bytes bytes, bool little) {
     Content content{bytes, little};
     switch (id) {
-        case leaseDuration:
+        case LeaseDuration:
             return bytes.size() >= 8 && content.count() <= longestLease;
-        case topicName:
-        case typeName:
-        case entityName:
+        case TopicName:
+        case TypeName:
+        case EntityName:
             content.text(longestName);
             return content.fits();
-        case userData:
-        case groupData:
-        case topicData:
+        case UserData:
+        case GroupData:
+        case TopicData:
             content.text(longestData);
             return content.fits();
-        case partition:
+        case Partition:
             content.texts(mostProperties, longestName);
             return content.fits();
-        case dataRepresentation:
+        case DataRepresentation:
             return bytes.size() >= 4 && readU32(bytes, little) <= (bytes.size() - 4) / 2;
-        case propertyList:
+        case PropertyList:
             takePairs(content, longestData);
             return content.fits();
-        case identityToken:
-        case permissionsToken:
+        case IdentityToken:
+        case PermissionsToken:
             takeToken(content);
             return content.fits();
         default:
@@ -117,14 +117,14 @@ bool discoveryFits(std::uint16_t id, Bytes bytes, bool little) {
 }
 
 bool inlineFits(std::uint16_t id, Bytes bytes) {
-    if (id == keyHash) return bytes.size() == 16;
-    return id != statusInfo || bytes.size() == 4;
+    if (id == KeyHash) return bytes.size() == 16;
+    return id != StatusInfo || bytes.size() == 4;
 }
 
 bool isSkipped(std::uint16_t id, Parameters in) {
-    if (in == Parameters::InlineOfFragment) return id == keyHash;
+    if (in == Parameters::InlineOfFragment) return id == KeyHash;
     return in == Parameters::Discovery &&
-           (id == typeIdV1 || id == typeObjectV1 || id == typeInformation);
+           (id == TypeIdV1 || id == TypeObjectV1 || id == TypeInformation);
 }
 
 }  // namespace
@@ -133,11 +133,11 @@ std::size_t parametersSize(Bytes list, bool little, Parameters in) {
     for (std::size_t at = 0; at + 4 <= list.size();) {
         const std::uint16_t id = readU16(list.subspan(at), little);
         const std::size_t size = readU16(list.subspan(at + 2), little);
-        if (id == sentinel) return at + 4;
+        if (id == Sentinel) return at + 4;
         if (size % 4 != 0 || size > list.size() - at - 4) return 0;
         const Bytes content = list.subspan(at + 4, size);
         if (isSkipped(id, in)) {
-            list[at] = list[at + 1] = padding;
+            list[at] = list[at + 1] = Padding;
         } else if (!(in == Parameters::Discovery ? discoveryFits(id, content, little)
                                                  : inlineFits(id, content))) {
             return 0;

@@ -117,8 +117,8 @@ private:
 };
 
 // Blocks until a signal asks for the end, or `seconds` have passed (0: no limit), or `done` returns
-// true. The signals are SIGINT, SIGTERM, SIGPIPE and SIGHUP, the last two unless the process ignores
-// or handles them. blockStopSignals() is called before start() makes threads.
+// true. The signals are SIGINT, SIGTERM, SIGPIPE and SIGHUP, the last two unless the process
+// ignores or handles them. blockStopSignals() is called before start() makes threads.
 void blockStopSignals();
 bool waitForInterrupt(double seconds = 0, const std::function<bool()>& done = {});
 
