@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t mostHeard = 4096, header = 20;
 
-[[noreturn]] void fail(const std::string& what) {
+[[noreturn]] void failWith(const std::string& what) {
     throw std::runtime_error(what + ": " + std::strerror(errno));
 }
 
@@ -56,9 +56,9 @@ std::vector<std::size_t> submessagesOf(const std::vector<std::uint8_t>& bytes) {
 Attacker::Attacker(const Host& host, std::uint64_t seed) : random_{seed} {
     host.within([this] {
         capture_ = socket(AF_PACKET, SOCK_DGRAM | SOCK_CLOEXEC, htons(ETH_P_IP));
-        if (capture_ < 0) fail("a socket for all packets");
+        if (capture_ < 0) failWith("a socket for all packets");
         socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-        if (socket_ < 0) fail("a socket");
+        if (socket_ < 0) failWith("a socket");
     });
 }
 
