@@ -243,7 +243,7 @@ TEST_F(FilterTest, GreatStepsOfNumbersBecomeSmaller) {
 TEST_F(FilterTest, NobodyAcknowledgesMoreThanWasWritten) {
     EXPECT_EQ(refusal(header() + ackNack(1'000)), Refusal::None);  // nothing is known of it
     Datagram ours = header() + data(41) + heartbeat(1, 42);
-    filter.noteSent(ours);
+    filter.noteSent(ours, now);
     EXPECT_EQ(refusal(header() + ackNack(43)), Refusal::None);
     EXPECT_EQ(refusal(header() + ackNack(44)), Refusal::Number);
     // A destination that is not this participant.

@@ -325,8 +325,7 @@ TEST(EventSinks, GoOnWithALogFileThatCanBeWrittenAgainAndSayWhatIsMissing) {
     ::testing::internal::GetCapturedStderr();
     std::stringstream text;
     text << std::ifstream{real}.rdbuf();
-    EXPECT_EQ(text.str(),
-              "(2 events are missing here)\n1970-01-01T00:00:00.003Z info /robot 3.0.0\n");
+    EXPECT_EQ(text.str(), "(events missing here: 2)\n1970-01-01T00:00:00.003Z info /robot 3.0.0\n");
 }
 
 }  // namespace

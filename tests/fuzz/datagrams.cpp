@@ -33,6 +33,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint64_t before = malformed();
     filter().admit(datagram, 0x7f000001, now);
     if (malformed() != before) std::abort();
-    filter().noteSent(datagram);
+    filter().noteSent(datagram, now);
     return 0;
 }

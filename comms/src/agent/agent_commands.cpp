@@ -178,13 +178,6 @@ void AgentCommands::refuse(const Command& command, const Refusal& refusal) {
     send_(answer);
 }
 
-void AgentCommands::refuseOther(const Command& command) {
-    if (command.target != self_.name || !believable(command)) return;
-    self_.rejections.add("a command of another start of " + command.sender);
-    refuse(command, {Outcome::Rejected, Reason::Restarted,
-                     "another start of " + command.sender + " is present"});
-}
-
 bool AgentCommands::remember(const Sender& sender, std::int64_t now) {
     const std::string name{sender.nameText()};
     const auto known = senders_.find(name);

@@ -31,7 +31,6 @@ public:
 
     // For each command that was received, those for other agents included.
     void take(const Command& command, std::int64_t now);
-    void refuseOther(const Command& command);  // of a start of its sender that does not count
     // With each presence of a sender, and when it is lost.
     void heard(const Presence& presence, std::int64_t now);
     void lost(const std::string& sender, std::int64_t epoch);

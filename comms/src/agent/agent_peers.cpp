@@ -53,7 +53,6 @@ void AgentPeers::take(const Presence& presence, std::int64_t now) {
     if (presence.agent != agentId(presence.name)) {
         return self_.rejections.add("the id of " + presence.name + " is not that of its name");
     }
-    if (began_ == 0) began_ = now;
     if (presence.name == self_.name) {
         if (presence.role == "agent") return name_.hear(presence, now);
         return self_.rejections.add("a " + presence.role + " uses our name");
@@ -117,7 +116,7 @@ void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
     changed_ = changed_ || agent != peer.agent || !peer.heard;
     peer.agent = agent;
     peer.missed = false;
-    if (!peer.heard) peer.since = now - began_ > timeToMeet ? now : 0;
+    if (!peer.heard) peer.since = name_.isNew(now) ? 0 : now;
     if (!std::exchange(peer.heard, true) && peer.agent) {
         self_.event(Severity::Info, self_.simplex,
                     "agent " + peer.name + " was found, on host " + presence.host);

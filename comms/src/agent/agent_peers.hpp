@@ -79,8 +79,7 @@ private:
     Peers peers_;
     FirstOfName name_{self_};
     bool changed_ = false;
-    std::int64_t began_ = 0;  // monotonic, ns
-    std::string early_;       // whose clock was last said to be ahead
+    std::string early_;  // whose clock was last said to be ahead
 };
 
 }  // namespace cortex::comms

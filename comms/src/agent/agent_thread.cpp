@@ -177,7 +177,8 @@ void AgentThread::takeMessages(std::int64_t now) {
     for (auto& [command, came] : messages_.commands) {
         if (silent_) continue;
         if (peers_.isOther(command.sender, command.senderEpoch)) {
-            commands_.refuseOther(command);
+            // It comes again, and is taken once that start counts.
+            self_.rejections.add("a command of another start of " + command.sender);
         } else {
             commands_.take(command, now);
         }

@@ -20,6 +20,10 @@ void FirstOfName::tell(Severity severity, const std::string& text, std::int64_t 
     self_.event(severity, self_.simplex, text);
 }
 
+bool FirstOfName::isNew(std::int64_t now) const {
+    return began_ == 0 || now - began_ <= timeToMeet;
+}
+
 // Of two that began nearly at once both must come to the same end, so their epochs decide.
 bool FirstOfName::comesBefore(const Presence& rival, std::int64_t now) const {
     const auto uptime = static_cast<std::int64_t>(numberIn(rival, uptimeOfAgent));
@@ -42,7 +46,7 @@ void FirstOfName::hear(const Presence& ours, std::int64_t now) {
     rivalPatience_ = patienceWith(ours);
     if (!runs || isSecond_) return;
     const std::string rival = "another start of " + self_.name + " is heard, on host " + ours.host;
-    if (now - began_ <= timeToMeet && comesBefore(ours, now)) {
+    if (isNew(now) && comesBefore(ours, now)) {
         isSecond_ = true;
         told_ = 0;
         tell(Severity::Error, rival + "; it was there first, so this one is silent until it ends",

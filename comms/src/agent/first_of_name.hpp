@@ -9,10 +9,6 @@
 
 namespace cortex::comms {
 
-// How long after a start another start of a name, or another owner of a path, counts as having been
-// there at once. ns
-inline constexpr std::int64_t timeToMeet = 2'000'000'000;
-
 // Whether this start of the agent's name was there first. Of two that meet within 2 s of a start
 // the longer one goes on, and the other is silent until that one ends. Later nobody silences this
 // one.
@@ -23,6 +19,8 @@ public:
     void hear(const Presence& ours, std::int64_t now);  // of our name
     void expire(std::int64_t now);
     bool isSecond() const { return isSecond_; }
+    // Whether what is heard now was there before this start.
+    bool isNew(std::int64_t now) const;
 
 private:
     bool comesBefore(const Presence& rival, std::int64_t now) const;

@@ -47,7 +47,8 @@ public:
     bool send(fastrtps::SenderResource* lower, const fastrtps::octet* octets, std::uint32_t size,
               fastrtps::LocatorsIterator* begin, fastrtps::LocatorsIterator* end,
               const std::chrono::steady_clock::time_point& timeout) override {
-        gate_->filter.noteSent({const_cast<fastrtps::octet*>(octets), size});  // only read
+        gate_->filter.noteSent({const_cast<fastrtps::octet*>(octets), size},  // only read
+                               monotonicNow());
         return lower->send(octets, size, begin, end, timeout);
     }
 

@@ -109,6 +109,10 @@ struct Writer<M>::Impl {
     std::function<void(const dds::TopicDescription*)> release;
     dds::Publisher* publisher;
     dds::DataWriter* writer;
+    // With security, the sending thread of Fast DDS 2.9 ends the process if the last reader of a
+    // writer goes while a message to it is being put together. So the writer has a reader of its
+    // own, which goes after it.
+    std::unique_ptr<Reader<M>> ours;
 };
 
 template <class M>
@@ -227,15 +231,20 @@ Participant::~Participant() = default;
 template <class M>
 std::unique_ptr<Writer<M>> Participant::writer(const Topic& topic) {
     using Entity = typename Writer<M>::Impl;
-    const auto held = impl_->gate->hold();
+    auto held = impl_->gate->hold();
     dds::DataWriter* made =
         created(impl_->publisher->create_datawriter(
                     impl_->topic<M>(topic.name),
                     writerQos(topic.qos, impl_->othersOnHost, impl_->guard != nullptr)),
                 "a writer of topic '" + topic.name + "' of '" + impl_->name + "'");
     const auto release = [self = impl_.get()](auto* used) { self->release(used); };
-    return std::unique_ptr<Writer<M>>{new Writer<M>{
-        std::unique_ptr<Entity>{new Entity{impl_->gate, release, impl_->publisher, made}}}};
+    std::unique_ptr<Writer<M>> writer{new Writer<M>{std::unique_ptr<Entity>{
+        new Entity{impl_->gate, release, impl_->publisher, made, nullptr}}}};
+    held.unlock();
+    if (impl_->guard != nullptr && isSentByThread(topic.qos)) {
+        writer->impl_->ours = reader<M>({topic.name, Qos::Cycle}, [](M&&) {});
+    }
+    return writer;
 }
 
 template <class M>

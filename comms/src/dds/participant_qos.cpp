@@ -207,6 +207,9 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     return qos;
 }
 
+// Late joiners get much at once. Everything else is sent one sample at a time.
+bool isSentByThread(Qos qos) { return qos == Qos::State || qos == Qos::Log; }
+
 dds::DataWriterQos writerQos(Qos qos, int othersOnHost, bool secured) {
     const Profile& profile = profileOf(qos);
     dds::DataWriterQos writer;
@@ -218,8 +221,7 @@ dds::DataWriterQos writerQos(Qos qos, int othersOnHost, bool secured) {
             profile.depth;
     }
     writer.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
-    // Late joiners get much at once. Everything else is sent one sample at a time.
-    if (secured && (qos == Qos::State || qos == Qos::Log)) {
+    if (secured && isSentByThread(qos)) {
         writer.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
         writer.publish_mode().flow_controller_name = packets;
     }

@@ -17,6 +17,8 @@ namespace cortex::comms {
 // Throws Error if this machine cannot provide what the options ask for.
 eprosima::fastdds::dds::DomainParticipantQos participantQos(const NetworkOptions& options,
                                                             const std::string& name);
+// Whether, with security, a thread of Fast DDS sends samples of such topics.
+bool isSentByThread(Qos qos);
 // While one reader lacks a sample, Fast DDS sends heartbeats to all readers, and all answer. So
 // heartbeats are less frequent in a crowd. `othersOnHost`: participants in the domain.
 eprosima::fastdds::dds::DataWriterQos writerQos(Qos qos, int othersOnHost = 0,

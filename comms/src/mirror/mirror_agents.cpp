@@ -100,10 +100,10 @@ MirrorAgent* MirrorAgents::at(const std::string& name, std::int64_t epoch, Momen
     return &agent;
 }
 
-// Those that are met within two seconds were there before.
+// Those that are met within two seconds of the first were there before.
 Moment MirrorAgents::sinceAt(Moment now) {
     if (began_ == Moment{}) began_ = now;
-    return now - began_ > std::chrono::seconds{2} ? now : Moment{};
+    return now - began_ > std::chrono::nanoseconds{timeToMeet} ? now : Moment{};
 }
 
 std::optional<PeerModel> MirrorAgents::takeAside(const std::string& name, std::int64_t epoch) {

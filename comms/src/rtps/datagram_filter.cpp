@@ -106,7 +106,9 @@ Refusal DatagramFilter::judgeNumber(const Submessage& submessage, const Prefix& 
                                           readNumber(body.subspan(12), little), 0, now));
         case Kind::DataFragments: {
             const WriterGuid writer = guidOf(sender, body.subspan(8));
-            if (fragmented_.find(writer) == nullptr) return Refusal::Fragment;
+            auto* const known = fragmented_.find(writer);
+            if (known == nullptr) return Refusal::Fragment;
+            known->met = now;
             return unless(numbers_.admits(writer, readNumber(body.subspan(12), little),
                                           readU32(body.subspan(20), little), now));
         }
@@ -150,7 +152,7 @@ bool DatagramFilter::admitsGap(const Submessage& gap, const Prefix& sender, std:
     return true;
 }
 
-void DatagramFilter::noteSent(Bytes datagram) {
+void DatagramFilter::noteSent(Bytes datagram, std::int64_t now) {
     if (!hasHeader(datagram)) return;
     const std::lock_guard lock{mutex_};
     for (std::size_t at = headerSize; at < datagram.size();) {
@@ -162,9 +164,10 @@ void DatagramFilter::noteSent(Bytes datagram) {
             const std::int64_t number =
                 readNumber(submessage.body.subspan(isData ? 12 : 16), submessage.little());
             if (auto* const known = sent_.find(writer)) {
+                known->met = now;
                 known->value = std::max(known->value, number);
             } else {
-                sent_.placeFor(writer) = {writer, number, number};
+                sent_.placeFor(writer) = {writer, now, number};
             }
         }
         at += submessage.whole.size();

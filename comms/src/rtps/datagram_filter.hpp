@@ -28,7 +28,7 @@ public:
     std::size_t admit(Bytes datagram, std::uint32_t address, std::int64_t now);
 
     // What is sent is noted: nobody can acknowledge more than our writers have written.
-    void noteSent(Bytes datagram);
+    void noteSent(Bytes datagram, std::int64_t now);
 
     // Samples of this writer may come in fragments.
     void allowFragments(const WriterGuid& writer, std::int64_t now);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "rtps/octets.hpp"
+#include "rtps/bytes.hpp"
 
 #include <cstddef>
 

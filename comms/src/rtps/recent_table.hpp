@@ -24,7 +24,7 @@ public:
         Value value;
     };
 
-    // `places` is a multiple of 8 whose eighth is a power of 2.
+    // `places` is a multiple of 8.
     explicit RecentTable(std::size_t places) : entries_(places) {}
 
     Entry* find(const Key& key) {

@@ -18,7 +18,7 @@ enum class Refusal : std::uint8_t {
 };
 inline constexpr std::size_t refusals = 7;
 
-// What an event says of it, behind "N datagrams from ADDRESS were dropped: ".
+// What an event says of it, behind "N datagrams were dropped: ".
 constexpr const char* wordsOf(Refusal refusal) {
     constexpr const char* words[refusals] = {
         "",

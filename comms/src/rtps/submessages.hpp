@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "rtps/octets.hpp"
+#include "rtps/bytes.hpp"
 #include "rtps/refusal.hpp"
 
 #include <cstddef>
@@ -50,7 +50,7 @@ struct Cut {
 };
 Cut cutSubmessage(Bytes rest);
 
-// Whether `size` bytes begin as a message of RTPS 2.
+// Whether it begins as a message of RTPS 2.
 bool hasHeader(Bytes message);
 
 // Whether it has at least the size of its kind.

@@ -29,6 +29,9 @@ inline std::int64_t patienceWith(const Presence& presence, std::uint32_t crowd =
     return std::max(4 * std::max(said, intervalAmong(crowd)), shortestPatience);
 }
 
+// What is heard within this time after a start was there before.
+inline constexpr std::int64_t timeToMeet = 2'000'000'000;
+
 // While another start of its name is heard, a participant that is silent for so long has ended and
 // left its name to that start.
 inline std::int64_t patienceWithRival(const Presence& presence) {

@@ -30,7 +30,7 @@ EventLog::Sink logEvents(const std::filesystem::path& file) {
     if (!*out) throw Error("cannot write the log file " + file.string() + ": give another --log");
     return [out, file, lost = 0](const Event& event, const Structure& structure) mutable {
         if (!*out) *out = std::ofstream{file, std::ios::app};  // the disk may have room again
-        if (lost > 0) *out << "(" << lost << " events are missing here)\n";
+        if (lost > 0) *out << "(events missing here: " << lost << ")\n";
         writeLine(*out, event, structure);
         if (*out) {
             lost = 0;
