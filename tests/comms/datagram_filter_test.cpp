@@ -215,6 +215,20 @@ TEST_F(FilterTest, AWriterOfWhichMuchWasLostGoesOn) {
     EXPECT_EQ(refusal(header() + data(10'060'001)), Refusal::Number);
 }
 
+// What a new reader gets of a writer that took samples back, and again when it was lost.
+TEST_F(FilterTest, AGapAndWhatFollowsItPassTogether) {
+    ASSERT_EQ(refusal(header() + data(3)), Refusal::None);
+    EXPECT_EQ(refusal(header() + gap(4, 10) + data(10)), Refusal::None);
+    EXPECT_EQ(refusal(header() + gap(11, 300)), Refusal::Number);
+    EXPECT_EQ(refusal(header() + gap(11, 300)), Refusal::Number) << "at once: one datagram, twice";
+    now += 100'000'000;
+    EXPECT_EQ(refusal(header() + gap(11, 300)), Refusal::None);
+    EXPECT_EQ(refusal(header() + gap(300, 600) + data(600, 0x203)), Refusal::Number)
+        << "another writer";
+    EXPECT_EQ(refusal(header() + gap(300, 900) + data(1'000)), Refusal::Number);
+    EXPECT_EQ(refusal(header() + data(300)), Refusal::None);
+}
+
 TEST_F(FilterTest, AWriterThatWasForgedBeforeItWasMetIsBelieved) {
     EXPECT_EQ(refusal(header() + data((1LL << 40) + 1)), Refusal::Number);
     ASSERT_EQ(refusal(header() + data(1LL << 40)), Refusal::None);

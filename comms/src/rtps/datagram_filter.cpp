@@ -2,6 +2,7 @@
 #include "rtps/datagram_filter.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace cortex::comms::rtps {
@@ -9,6 +10,7 @@ namespace {
 
 constexpr std::int64_t interval = 1'000'000'000;  // ns, between two reports of one kind
 constexpr std::int64_t longestGap = 4096;         // Fast DDS takes memory for each number of it
+constexpr std::int64_t whileOfGap = 8'000'000;    // ns, within which a gap is said once
 
 Prefix prefixAt(Bytes bytes) {
     Prefix prefix;
@@ -79,20 +81,30 @@ Refusal DatagramFilter::judge(Bytes& datagram, std::uint32_t address, std::int64
     return order.isSigned() ? Refusal::None : judgeNumbers(datagram, sender, now);
 }
 
+// A gap that goes further than its writer did passes if the writer goes on behind it in the same
+// datagram: what Fast DDS sends to a new reader of a writer that took samples back.
 Refusal DatagramFilter::judgeNumbers(Bytes datagram, Prefix sender, std::int64_t now) {
     bool isForUs = true;
+    std::optional<WriterGuid> ofGap;
     for (std::size_t at = headerSize; at < datagram.size();) {
         const Submessage submessage = cutSubmessage(datagram.subspan(at)).submessage;
+        at += submessage.whole.size();
         if (submessage.kind == Kind::InfoSource) sender = prefixAt(submessage.body.subspan(8));
         if (submessage.kind == Kind::InfoDestination) {
             const Prefix destination = prefixAt(submessage.body);
             isForUs = destination == us_ || destination == Prefix{};
         }
-        const Refusal found = isForUs ? judgeNumber(submessage, sender, now) : Refusal::None;
-        if (found != Refusal::None) return found;
-        at += submessage.whole.size();
+        if (!isForUs) continue;
+        const Refusal found = judgeNumber(submessage, sender, now);
+        if (found != Refusal::None) {
+            if (submessage.kind != Kind::Gap || ofGap) return found;
+            ofGap = guidOf(sender, submessage.body.subspan(4));
+        } else if (submessage.kind == Kind::Data &&
+                   ofGap == guidOf(sender, submessage.body.subspan(8))) {
+            ofGap.reset();
+        }
     }
-    return Refusal::None;
+    return ofGap ? Refusal::Number : Refusal::None;
 }
 
 Refusal DatagramFilter::judgeNumber(const Submessage& submessage, const Prefix& sender,
@@ -144,12 +156,12 @@ bool DatagramFilter::admitsGap(const Submessage& gap, const Prefix& sender, std:
     const std::int64_t start = readNumber(gap.body.subspan(8), little);
     const Bytes base = gap.body.subspan(16), bits = gap.body.subspan(24);
     const std::int64_t end = readNumber(base, little);
-    if (!numbers_.admits(writer, end - 1, static_cast<std::uint32_t>(start), now)) return false;
     if (end - start > longestGap) {
         writeNumber(base, little, start + longestGap);
         writeU32(bits, little, 0);
     }
-    return true;
+    // It has no count: a gap that is said again after a while is another statement of it.
+    return numbers_.admits(writer, end - 1, static_cast<std::uint32_t>(now / whileOfGap), now);
 }
 
 void DatagramFilter::noteSent(Bytes datagram, std::int64_t now) {
