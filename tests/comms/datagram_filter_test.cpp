@@ -251,6 +251,7 @@ TEST_F(FilterTest, GreatStepsOfNumbersBecomeSmaller) {
               header() + heartbeat(step, 10 * step));
     EXPECT_EQ(admitted(header() + heartbeat(10 * step, 10 * step, 2)),
               header() + heartbeat(2 * step, 10 * step, 2));
+    EXPECT_EQ(admitted(header() + heartbeat(1, 0, 3)), header() + heartbeat(1, 0, 3));
     EXPECT_EQ(admitted(header() + gap(1, 10 * step, 32, 1)), header() + gap(1, 4097, 0, 1));
 }
 

@@ -52,7 +52,9 @@ std::int64_t WriterNumbers::stepTo(const WriterGuid& writer, std::int64_t first)
     auto* const known = writers_.find(writer);
     if (known == nullptr) return first;
     std::int64_t& before = known->value.first;
-    return before = std::max(before, std::min(first, before + longestCount));
+    const std::int64_t step = std::min(first, before + longestCount);
+    before = std::max(before, step);
+    return step;
 }
 
 }  // namespace cortex::comms::rtps
