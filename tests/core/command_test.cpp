@@ -65,6 +65,24 @@ TEST_F(Command, TableHasTheCommandsOfTheTypeThenCancelThenSet) {
     EXPECT_EQ(table.settable.size(), 5U);
 }
 
+TEST_F(Command, ParametersWithoutADefaultAreRequired) {
+    const auto lift = [&](const std::map<std::string, Value>& arguments) -> std::string {
+        try {
+            record("lift", arguments);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const Value load = std::vector{2.0}, arms = std::vector<std::int64_t>{1, 2};
+    EXPECT_EQ(lift({}),
+              "command 'lift' needs the parameters 'load' (float), 'arms' (int array of 2): they "
+              "have no default");
+    EXPECT_EQ(lift({{"arms", arms}}),
+              "command 'lift' needs the parameter 'load' (float): it has no default");
+    EXPECT_EQ(lift({{"arms", arms}, {"load", load}}), "") << "slow has a default";
+}
+
 TEST_F(Command, TableOfATypeWithoutLongCommandsOrSettableItemsHasNoBuiltInOnes) {
     const CommandTable boss = commandTable(types.at("Boss"));
 

@@ -215,7 +215,8 @@ TEST_F(Control, IsHandedOverWithAllBelowAndNotFromBelowAWiderOne) {
 
 TEST_F(Control, IsHandedOverToANameOnly) {
     take("desk", "/arm");
-    EXPECT_EQ(ask("desk", "/rig", "handOverControl", {{"prefix", text("/arm")}}).reason,
+    EXPECT_EQ(ask("desk", "/rig", "handOverControl", {{"prefix", text("/arm")}, {"to", text("")}})
+                  .reason,
               Reason::Range);
 }
 

@@ -271,16 +271,19 @@ TEST(Validation, ChecksTheRatesOfASystemMadeInCode) {
          {std::tuple{"/a", 0, -1}, {"/b", 2, 2}, {"/c", 2, -2}, {"/d", 2, 1}}) {
         system.simplexes.push_back({path, "Switch", every, phase, {}, {}, {}});
     }
+    system.simplexes.push_back({"/lamp", "Lamp", 2, 0, {}, {}, {}});
     SimplexTree tree{smallTypes()};
     Report report;
     tree.add(system, nullptr, report);
 
     report.append(validate(tree));
 
-    ASSERT_EQ(report.findings.size(), 3U) << report.text();
+    ASSERT_EQ(report.findings.size(), 4U) << report.text();
     EXPECT_EQ(report.findings[0].rule, "every-range");
     EXPECT_EQ(report.findings[1].rule, "phase-range");
     EXPECT_EQ(report.findings[2].rule, "phase-range");
+    EXPECT_EQ(report.findings[3].rule, "every-without-task");
+    EXPECT_EQ(report.findings[3].path, "/lamp");
 }
 
 TEST(Validation, WantsTheTypeOfTheAgentItself) {

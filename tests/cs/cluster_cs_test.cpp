@@ -393,16 +393,35 @@ TEST(ClusterCS, StartsNothingUpWhileItStops) {
     EXPECT_TRUE(cluster.hasEvent("/eager: no startup: the cluster is stopping"));
 }
 
-TEST(ClusterCS, WarnsOfACommandThatNobodyHandles) {
+TEST(ClusterCS, RefusesAClassWithoutAHandlerForACommandOfItsType) {
     ProbeCluster cluster;
     cluster.tree.add<cs::SimplexCS>("/mute", "Probe");
     cluster.probe("/a");
-    cluster.start();
+    const std::string text = refusal(cluster);
+    const auto says = [&](const char* words) { return text.find(words) != std::string::npos; };
 
-    EXPECT_TRUE(cluster.hasEvent("/mute: no handler for the command poke"));
-    EXPECT_TRUE(cluster.hasEvent("/mute: no handler for the command add"));
-    EXPECT_FALSE(cluster.hasEvent("/a: no handler"));
-    EXPECT_FALSE(cluster.hasEvent("command startup"));
+    EXPECT_TRUE(says("/mute: its type Probe has the command 'poke', but its class has no handler"))
+        << text;
+    EXPECT_TRUE(says("register one in populate(): on<&Class::function>(\"add\")")) << text;
+    EXPECT_FALSE(says("/a: ")) << text;
+    EXPECT_FALSE(says("'startup'")) << text;
+}
+
+TEST(ClusterCS, RefusesASenderThatLeavesOutAParameterWithoutDefault) {
+    for (const bool takesIt : {false, true}) {
+        ProbeCluster cluster;
+        Probe& a = cluster.probe("/a");
+        cluster.tree.relate(a, "after", cluster.probe("/b"));
+        a.onPopulate = [&](Probe& self) {
+            CommandSender sender = self.output("after").command("add");
+            if (takesIt) sender.argument<double>("amount");
+        };
+        const std::string text = refusal(cluster);
+        EXPECT_EQ(text.find("/a: it sends 'add' to /b without 'amount', which has no default") ==
+                      std::string::npos,
+                  takesIt)
+            << text;
+    }
 }
 
 TEST(ClusterCS, TellsTheWarningsOfItsModelAsEvents) {

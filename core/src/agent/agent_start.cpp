@@ -158,17 +158,6 @@ void AgentRuntime::registerHandler(std::uint32_t simplex, std::string_view comma
     portOf(simplex).setHandler(index, handler);
 }
 
-std::vector<std::string_view> AgentRuntime::unhandledCommands(std::uint32_t simplex) const {
-    std::vector<std::string_view> names;
-    const CommandTable& table = commands(simplex);
-    for (std::uint32_t i = 0; i < table.entries.size(); ++i) {
-        const bool builtIn = table.entries[i].command == nullptr ||
-                             lifeCycleCommand(table.entries[i].name) != LifeCycle::None;
-        if (!builtIn && !ports_[simplex]->handles(i)) names.push_back(table.entries[i].name);
-    }
-    return names;
-}
-
 CommandSender AgentRuntime::makeSender(std::uint32_t edge, std::string_view command,
                                        std::uint32_t capacity) {
     const SimplexInfo& target = structure_->simplexes[structure_->edges[edge].target];

@@ -101,6 +101,7 @@ std::pair<void*, std::size_t> CommandSender::argumentCells(std::string_view name
     if (entry.command == nullptr) {  // `set`: the flag of this item
         state_->request()[&item - entry.request.items.data()] = std::byte{1};
     }
+    state_->given.emplace(name);
     return {state_->request() + item.offset, item.item->length};
 }
 

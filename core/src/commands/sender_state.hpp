@@ -6,6 +6,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -46,6 +49,7 @@ struct alignas(64) CommandSender::State {
     std::uint32_t edge = noSimplex, capacity = 0;
     std::pair<std::uint32_t, std::uint32_t> sizes;  // of request and response, bytes
     std::vector<std::uint64_t> records;             // where they do not fit
+    std::set<std::string, std::less<>> given;       // parameters of which the sender has a handle
     std::uint64_t sent = 0, answered = 0;           // counted where handles share the lane
 };
 

@@ -55,6 +55,11 @@ void checkRate(const Checked& checked, const Simplex& simplex) {
                              "phase=\"" + std::to_string(simplex.phase()) +
                                  "\" is not below every=\"" + every + "\"",
                              "write phase=\"0\"");
+    } else if (simplex.every() > 1 && !simplex.type().active()) {
+        checked.report.error(simplex.path(), finding::everyWithoutTask, simplex.place(),
+                             "every=\"" + every + "\": its type " + simplex.type().name + " is " +
+                                 name(simplex.type().role) + ", so it has no task",
+                             "leave every out; its writer says how often it changes");
     }
 }
 

@@ -39,7 +39,6 @@ struct ClusterCS::Implementation {
     void populate(std::span<SimplexCS* const> simplexes) const;
     void warn(std::uint32_t simplex, const EventText& text) const;
     void warnOfModel() const;
-    void warnOfUnhandled(const SimplexCS& simplex) const;
 };
 
 namespace {
@@ -148,7 +147,9 @@ void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) 
             std::string_view what = error.what();
             if (what.starts_with(path)) what.remove_prefix(path.size());
             report.error(simplex->path(), finding::populate, simplex->place(), std::string{what});
+            continue;
         }
+        agent->checkCommands(simplex->index(), report);
     }
     if (!report.ok()) refuse(std::move(report));
 }
@@ -167,13 +168,6 @@ void ClusterCS::Implementation::warnOfModel() const {
         const std::string place = finding.place.text();
         if (!place.empty()) text << " [" << place << "]";
         warn(agent->structure().find(finding.path), text);
-    }
-}
-
-void ClusterCS::Implementation::warnOfUnhandled(const SimplexCS& simplex) const {
-    for (const std::string_view command : agent->unhandledCommands(simplex.index())) {
-        EventText text{"no handler for the command "};
-        warn(simplex.index(), text << command << ": register one in populate()");
     }
 }
 
@@ -241,7 +235,6 @@ void ClusterCS::startAll() {
     self.agent->start();
     self.loop->start();
     self.warnOfModel();
-    for (const SimplexCS* simplex : simplexes) self.warnOfUnhandled(*simplex);
 }
 
 bool ClusterCS::stop() {

@@ -124,8 +124,8 @@ public:
     void registerHandler(std::uint32_t simplex, std::string_view command, Handler handler);
     CommandSender makeSender(std::uint32_t edge, std::string_view command, std::uint32_t capacity);
     const CommandTable& commands(std::uint32_t simplex) const { return *tableOf_[simplex]; }
-    // Commands of its type that would be rejected for want of a handler.
-    std::vector<std::string_view> unhandledCommands(std::uint32_t simplex) const;
+    // After populate(): a handler for each command of its type, and what it sends is complete.
+    void checkCommands(std::uint32_t simplex, Report& report) const;
 
 private:
     friend class Router;
