@@ -259,6 +259,32 @@ struct Told : testing::Test {
     }
 };
 
+TEST_F(Told, AttributesOfALaterVersionAreKeptAndHandedOn) {
+    Type later = xml.files.types.at("Base");
+    later.unknown = {{"condition.zoneFree", "/door.closed and\n\"clear\""}, {"zeta", ""}};
+    later.data[0].unknown = {{"audience", "maintenance"}};
+    later.commands[0].unknown = {{"needs", "2"}};
+    later.commands[0].request[0].unknown = {{"safe2", "1"}};
+    later.rules[0].unknown = {{"sameCount", "axes"}};
+    base() = describe(later);
+
+    const TypeModel model = modelOf(described, report);
+    EXPECT_EQ(report.text(), "");
+    EXPECT_EQ(describe(model.at("Base")), describe(later));
+    EXPECT_EQ(model.at("Child").data[0].unknown, UnknownAttributes{});
+    const std::string text = canonicalText(model.at("Base"));
+    EXPECT_NE(text.find("type Base\n condition.zoneFree \"/door.closed and\\n\\\"clear\\\"\"\n"
+                        " role active\n zeta \"\"\n"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("data x\n audience \"maintenance\"\n max 1"), std::string::npos) << text;
+
+    for (const Disagreement& each : compare(xml.files.types.at("Base"), model.at("Base"))) {
+        EXPECT_FALSE(each.contradiction) << each.text();
+    }
+    EXPECT_EQ(compare(xml.files.types.at("Base"), model.at("Base")).size(), 6U);
+}
+
 TEST_F(Told, WithAnotherHashATypeAndItsChildrenAreLeftOut) {
     ++base().hash[3];
     EXPECT_EQ(taken(), "Other ");

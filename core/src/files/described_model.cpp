@@ -64,6 +64,17 @@ private:
         if (!isName(name)) refuse("the " + what + " " + inQuotes(name) + ", which is not a name");
     }
 
+    // A name, or several joined by dots: later versions may group their attributes.
+    void addAttributeName(const std::string& name) {
+        addText(name);
+        std::size_t begin = 0;
+        for (std::size_t end = 0; end != std::string::npos; begin = end + 1) {
+            end = name.find('.', begin);
+            if (isName(name.substr(begin, end - begin))) continue;
+            return refuse("the attribute " + inQuotes(name) + ", which is not a name");
+        }
+    }
+
     void addItem(const DescribedItem& item) {
         addElement(item.name, item.description, item.attributes);
     }
@@ -80,7 +91,7 @@ private:
         // These have places of their own.
         std::set<std::string_view> names{"description", "extends", "name"};
         for (const DescribedAttribute& each : attributes) {
-            addName(each.name, "attribute");
+            addAttributeName(each.name);
             addText(each.text);
             if (!names.insert(each.name).second) {
                 refuse("the attribute " + inQuotes(each.name) + " twice");
@@ -198,8 +209,8 @@ private:
         std::vector<TypeDeclaration> declarations;
         for (const TypeDescription* each : types) {
             Report found;
-            TypeDeclaration type = readType(typeElement(*each), "", found);
-            RuleBlock block = readRules(rulesElement(*each), "", found);
+            TypeDeclaration type = readType(typeElement(*each), "", found, Unknown::Kept);
+            RuleBlock block = readRules(rulesElement(*each), "", found, Unknown::Kept);
             type.rules = std::move(block.rules);
             type.stated.merge(block.stated);
             type.stated.insert(wholeType);

@@ -32,6 +32,7 @@ struct ElementReader {
     const std::string& file;
     Report& report;
     std::string path;
+    bool keepsUnknown = false;  // attributes of later versions stay with the target
 
     Place place(int line) const { return {file, line}; }
     void error(const char* rule, int line, std::string message, std::string remedy = {}) const {
@@ -45,8 +46,8 @@ struct ElementReader {
         std::function<void(const XmlElement&)> read;
     };
     void children(const XmlElement& element, std::span<const Child> known) const;
-    // The element's attributes into `target`; `stated`, if any, is told their names, with "wrong "
-    // before those whose value is. False if a required one is missing.
+    // The element's attributes into `target`; `stated`, if any, is told the names of those that are
+    // known, with "wrong " before those whose value is. False if a required one is missing.
     template <class T>
     bool attributes(const XmlElement& element, std::span<const AttributeReader<T>> known, T& target,
                     const std::function<void(const std::string&)>& stated = {}) const;
@@ -64,6 +65,12 @@ bool ElementReader::attributes(const XmlElement& element, std::span<const Attrib
     for (const XmlAttribute& attribute : element.attributes) {
         const auto same = [&](const auto& reader) { return attribute.name == reader.name; };
         const auto reader = std::find_if(known.begin(), known.end(), same);
+        if constexpr (requires { target.unknown; }) {
+            if (reader == known.end() && keepsUnknown) {
+                target.unknown.emplace(attribute.name, attribute.value);
+                continue;
+            }
+        }
         if (reader == known.end()) {
             std::vector<std::string> valid;
             for (const auto& each : known) valid.emplace_back(each.name);

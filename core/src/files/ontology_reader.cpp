@@ -224,7 +224,8 @@ void readData(const ElementReader& reader, const XmlElement& element, bool param
               std::vector<DataItem>& items) {
     auto item = start<DataItem>(reader, element);
     std::span<const AttributeReader<D>> known = dataAttributes;
-    if (parameter) known = known.first(parameterAttributes);
+    // Of parameters, the others are found wrong when their command is merged.
+    if (parameter && !reader.keepsUnknown) known = known.first(parameterAttributes);
     const bool named =
         reader.attributes(element, known, item, into(stated, dataPrefix(prefix, nameOf(element))));
     const Child children[] = {descriptionInto(reader, item.description)};
@@ -253,8 +254,9 @@ void readCommand(const ElementReader& reader, const XmlElement& element, TypeDec
 
 }  // namespace
 
-TypeDeclaration readType(const XmlElement& element, const std::string& file, Report& report) {
-    const ElementReader reader{file, report, nameOf(element)};
+TypeDeclaration readType(const XmlElement& element, const std::string& file, Report& report,
+                         Unknown unknown) {
+    const ElementReader reader{file, report, nameOf(element), unknown == Unknown::Kept};
     auto type = start<TypeDeclaration>(reader, element);
     reader.attributes(element, std::span<const AttributeReader<T>>{typeAttributes}, type);
     const Child children[] = {
@@ -268,9 +270,10 @@ TypeDeclaration readType(const XmlElement& element, const std::string& file, Rep
     return type;
 }
 
-RuleBlock readRules(const XmlElement& element, const std::string& file, Report& report) {
+RuleBlock readRules(const XmlElement& element, const std::string& file, Report& report,
+                    Unknown unknown) {
     const XmlAttribute* name = element.find("type");
-    const ElementReader reader{file, report, name ? name->value : ""};
+    const ElementReader reader{file, report, name ? name->value : "", unknown == Unknown::Kept};
     auto block = start<RuleBlock>(reader, element);
     constexpr std::array attributes{
         AttributeReader<RuleBlock>{"type", textInto<&RuleBlock::type>, true}};

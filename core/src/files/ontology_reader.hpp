@@ -6,6 +6,7 @@
 
 #include "files/xml_element.hpp"
 
+#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,7 +21,13 @@ struct RuleBlock {
     Place place;
 };
 
-TypeDeclaration readType(const XmlElement& element, const std::string& file, Report& report);
-RuleBlock readRules(const XmlElement& element, const std::string& file, Report& report);
+// In a file an unknown attribute is a mistake; in the description of an agent it is of a later
+// version, and kept.
+enum class Unknown : std::uint8_t { Refused, Kept };
+
+TypeDeclaration readType(const XmlElement& element, const std::string& file, Report& report,
+                         Unknown unknown = Unknown::Refused);
+RuleBlock readRules(const XmlElement& element, const std::string& file, Report& report,
+                    Unknown unknown = Unknown::Refused);
 
 }  // namespace cortex

@@ -22,11 +22,13 @@ bool isSpelled(std::string_view attribute) {
     return attribute.starts_with("label ") || std::ranges::find(names, attribute) != names.end();
 }
 
-// What canonical text and XML write alike, with what is spelled here.
-Attributes attributesFrom(const std::vector<TypeAttribute>& canonical, Attributes spelled) {
+// What canonical text and XML write alike, with what is spelled here and what is unknown.
+Attributes attributesFrom(const std::vector<TypeAttribute>& canonical,
+                          const UnknownAttributes& unknown, Attributes spelled) {
+    for (const auto& [name, text] : unknown) spelled.push_back({name, text});
     constexpr std::array<std::string_view, 3> always{"direction", "kind", "target"};
     for (const TypeAttribute& each : canonical) {
-        if (isSpelled(each.name)) continue;
+        if (isSpelled(each.name) || unknown.contains(each.name)) continue;
         const bool given = each.stated() || std::ranges::find(always, each.name) != always.end();
         if (given) spelled.push_back({each.name, each.value});
     }
@@ -67,7 +69,8 @@ DescribedItem describe(const DataItem& item) {
     if (item.safe.kind != Safe::Kind::None) spelled.push_back({"safe", safeText(item.safe)});
     addText(spelled, "format", item.format);
     addText(spelled, "labels", labelsText(item));
-    return {item.name, attributesFrom(attributesOf(item), std::move(spelled)), item.description};
+    return {item.name, attributesFrom(attributesOf(item), item.unknown, std::move(spelled)),
+            item.description};
 }
 
 std::vector<DescribedItem> describe(const std::vector<DataItem>& items) {
@@ -77,12 +80,13 @@ std::vector<DescribedItem> describe(const std::vector<DataItem>& items) {
 }
 
 DescribedCommand describe(const Command& command) {
-    return {command.name, command.description, attributesFrom(attributesOf(command), {}),
-            describe(command.request), describe(command.response)};
+    return {command.name, command.description,
+            attributesFrom(attributesOf(command), command.unknown, {}), describe(command.request),
+            describe(command.response)};
 }
 
 DescribedRule describe(const Rule& rule) {
-    return {rule.name, rule.description, attributesFrom(attributesOf(rule), {})};
+    return {rule.name, rule.description, attributesFrom(attributesOf(rule), rule.unknown, {})};
 }
 
 }  // namespace
@@ -98,7 +102,7 @@ TypeDescription describe(const Type& type) {
     addText(spelled, "replaces", type.replaces);
     addText(spelled, "since", type.since);
     addText(spelled, "version", type.version);
-    described.attributes = attributesFrom(attributesOf(type), std::move(spelled));
+    described.attributes = attributesFrom(attributesOf(type), type.unknown, std::move(spelled));
     described.data = describe(type.data);
     for (const Command& each : type.commands) described.commands.push_back(describe(each));
     for (const Rule& each : type.rules) described.rules.push_back(describe(each));

@@ -191,6 +191,7 @@ Command mergeCommand(const std::vector<FromParent<Command>>& parents, const Comm
     if (own) {
         command.definedBy = context.type.type;
         command.place = own->place;
+        command.unknown = own->unknown;
         if (!parents.empty()) narrow(command, *own, stated, context);
     }
     for (const ParameterList& which : lists) {

@@ -263,6 +263,7 @@ DataItem mergeData(const std::vector<FromParent<DataItem>>& parents, const DataI
         }
     }
     if (own || parents.size() > 1) checkData(item, own ? &stating : nullptr, context);
+    if (own) item.unknown = own->unknown;
     keepOrigin(item, parents, stated);
     return item;
 }

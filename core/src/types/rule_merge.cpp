@@ -163,6 +163,7 @@ Rule mergeRule(const std::vector<FromParent<Rule>>& parents, const Rule* own, co
     if (own) {
         rule.definedBy = context.type.type;
         rule.place = own->place;
+        rule.unknown = own->unknown;
         if (parents.empty()) {
             checkNew(*own, stated, context);
         } else {

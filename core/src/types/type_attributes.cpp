@@ -56,6 +56,18 @@ std::string optionalText(const std::optional<T>& number) {
 
 std::string freeText(const std::string& text) { return text.empty() ? "" : literal(text); }
 
+// With those of a later version, each at its place; labels count as "label".
+std::vector<TypeAttribute> with(const UnknownAttributes& unknown,
+                                std::vector<TypeAttribute> attributes) {
+    for (const auto& [name, text] : unknown) {
+        const auto behind = std::ranges::find_if(attributes, [&](const TypeAttribute& each) {
+            return std::string_view{each.name}.substr(0, each.name.find(' ')) > name;
+        });
+        attributes.insert(behind, {name, literal(text), ""});
+    }
+    return attributes;
+}
+
 }  // namespace
 
 std::string countText(std::uint32_t count) {
@@ -72,17 +84,18 @@ std::vector<TypeAttribute> attributesOf(const Type& type) {
     const Type plain;
     std::vector<std::string> parents = type.parents;
     std::ranges::sort(parents);
-    return {{"abstract", truth(type.isAbstract), "false"},
-            {"extends", joined(parents), ""},
-            {"icon", freeText(type.icon), ""},
-            {"measures", truth(type.measures), "false"},
-            {"onLeaseLost", name(type.onLeaseLost), name(plain.onLeaseLost)},
-            {"replaces", freeText(type.replaces), ""},
-            {"role", name(type.role), name(plain.role)},
-            {"since", freeText(type.since), ""},
-            {"transitionTimeout", toText(type.transitionTimeout), toText(plain.transitionTimeout)},
-            {"version", freeText(type.version), ""},
-            {"writers", type.manyWriters ? "many" : "one", "one"}};
+    return with(type.unknown, {{"abstract", truth(type.isAbstract), "false"},
+                               {"extends", joined(parents), ""},
+                               {"icon", freeText(type.icon), ""},
+                               {"measures", truth(type.measures), "false"},
+                               {"onLeaseLost", name(type.onLeaseLost), name(plain.onLeaseLost)},
+                               {"replaces", freeText(type.replaces), ""},
+                               {"role", name(type.role), name(plain.role)},
+                               {"since", freeText(type.since), ""},
+                               {"transitionTimeout", toText(type.transitionTimeout),
+                                toText(plain.transitionTimeout)},
+                               {"version", freeText(type.version), ""},
+                               {"writers", type.manyWriters ? "many" : "one", "one"}});
 }
 
 std::vector<TypeAttribute> attributesOf(const DataItem& item) {
@@ -108,31 +121,32 @@ std::vector<TypeAttribute> attributesOf(const DataItem& item) {
                                           {"settable", item.settable.text(), ""},
                                           {"unit", item.unit, ""}};
     result.insert(result.end(), rest.begin(), rest.end());
-    return result;
+    return with(item.unknown, std::move(result));
 }
 
 std::vector<TypeAttribute> attributesOf(const Command& command) {
     const Command plain;
-    return {{"available", command.available.text(), plain.available.text()},
-            {"confirm", truth(command.confirm), "false"},
-            {"long", truth(command.isLong), "false"},
-            {"onBusy", name(command.onBusy), name(plain.onBusy)},
-            {"onSenderLost", name(command.onSenderLost), name(plain.onSenderLost)},
-            {"timeout", toText(command.timeout), "0"}};
+    return with(command.unknown,
+                {{"available", command.available.text(), plain.available.text()},
+                 {"confirm", truth(command.confirm), "false"},
+                 {"long", truth(command.isLong), "false"},
+                 {"onBusy", name(command.onBusy), name(plain.onBusy)},
+                 {"onSenderLost", name(command.onSenderLost), name(plain.onSenderLost)},
+                 {"timeout", toText(command.timeout), "0"}});
 }
 
 std::vector<TypeAttribute> attributesOf(const Rule& rule) {
     const Rule plain;
-    return {{"counterpart", rule.counterpart, ""},
-            {"create", joined(rule.create), ""},
-            {"delayed", truth(rule.delayed), "false"},
-            {"direction", name(rule.direction), name(plain.direction)},
-            {"max", countText(rule.max), "*"},
-            {"maxAge", toText(rule.maxAge), toText(plain.maxAge)},
-            {"min", countText(rule.min), "0"},
-            {"onLoss", name(rule.onLoss), name(plain.onLoss)},
-            {"refines", rule.refines, ""},
-            {"target", rule.target, ""}};
+    return with(rule.unknown, {{"counterpart", rule.counterpart, ""},
+                               {"create", joined(rule.create), ""},
+                               {"delayed", truth(rule.delayed), "false"},
+                               {"direction", name(rule.direction), name(plain.direction)},
+                               {"max", countText(rule.max), "*"},
+                               {"maxAge", toText(rule.maxAge), toText(plain.maxAge)},
+                               {"min", countText(rule.min), "0"},
+                               {"onLoss", name(rule.onLoss), name(plain.onLoss)},
+                               {"refines", rule.refines, ""},
+                               {"target", rule.target, ""}});
 }
 
 }  // namespace cortex

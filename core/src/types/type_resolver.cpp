@@ -229,6 +229,7 @@ void TypeResolver::resolveFlags(Type& type, const TypeDeclaration& declaration) 
     if (declaration.measures) type.measures = *declaration.measures;
     if (declaration.onLeaseLost) type.onLeaseLost = *declaration.onLeaseLost;
     if (!declaration.icon.empty()) type.icon = declaration.icon;
+    type.unknown = declaration.unknown;
     if (declaration.transitionTimeout) {
         const double timeout = *declaration.transitionTimeout;
         if (std::isfinite(timeout) && timeout > 0) {

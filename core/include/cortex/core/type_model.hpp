@@ -46,6 +46,10 @@ struct Safe {
     bool operator==(const Safe&) const = default;
 };
 
+// Attributes that a later version stated in a description, as they came: kept and handed on, and
+// otherwise without effect. Files have none; there an unknown attribute is an error.
+using UnknownAttributes = std::map<std::string, std::string>;
+
 // One data item of a type, or one parameter of a command.
 struct DataItem {
     std::string name;
@@ -66,6 +70,7 @@ struct DataItem {
     bool measured = false;
     double resolution = 0, deadband = 0;
     std::string format;
+    UnknownAttributes unknown;
     std::string definedBy;  // the type that last stated it
     Place place;
     bool operator==(const DataItem&) const = default;
@@ -82,6 +87,7 @@ struct Command {
     double timeout = 0;  // s; 0: none
     OnBusy onBusy = OnBusy::Reject;
     OnSenderLost onSenderLost = OnSenderLost::Continue;
+    UnknownAttributes unknown;
     std::string definedBy;
     Place place;
     bool operator==(const Command&) const = default;
@@ -102,6 +108,7 @@ struct Rule {
     OnLoss onLoss = OnLoss::Propagate;
     double maxAge = 0.05;  // s
     std::string description;
+    UnknownAttributes unknown;
     std::string definedBy;
     Place place;
     bool operator==(const Rule&) const = default;
@@ -125,6 +132,7 @@ struct TypeDeclaration {
     std::optional<OnLeaseLost> onLeaseLost;
     std::optional<double> transitionTimeout;  // s that StartingUp, ShuttingDown may take
     std::string icon, since, replaces;
+    UnknownAttributes unknown;
     Place place;
 };
 
@@ -145,6 +153,7 @@ struct Type {
     OnLeaseLost onLeaseLost = OnLeaseLost::Continue;
     double transitionTimeout = 10;
     std::string icon, since, replaces;
+    UnknownAttributes unknown;
     Place place;
 
     bool active() const { return role == Role::Active; }
