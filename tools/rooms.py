@@ -33,7 +33,7 @@ LAYERS = {
 PUBLIC = {
     "core": {
         "base": "clock data error event_count findings machine nearest_names path quality realtime "
-                "report spsc_ring state system_findings tick value xml_text",
+                "report service_threads spsc_ring state system_findings tick value xml_text",
         "types": "agreement type_model",
         "files": "model_files type_description",
         "tables": "event event_sinks image image_pool structure tables",

@@ -3,6 +3,7 @@
 
 #include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/service_threads.hpp"
 
 #include "security/security_identity.hpp"
 #include "wire/presence_extras.hpp"
@@ -60,6 +61,7 @@ AgentThread::AgentThread(const AgentAccess& agent, const NetworkOptions& options
     for (const Model& sample : model_.samples()) modelOut_->write(sample);
     sendInterest();
     participant_.speak();
+    const ServiceThreads named{"cortex-comms"};
     thread_ = std::thread{[this] { run(); }};
 }
 

@@ -3,6 +3,7 @@
 
 #include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/service_threads.hpp"
 
 #include "dds/discovery_counter.hpp"
 #include "dds/gate.hpp"
@@ -193,6 +194,7 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
     } else {
         impl_->listener = std::make_unique<DiscoveryCounter>();
     }
+    const ServiceThreads named{"cortex-dds"};
     static std::mutex joining;  // Fast DDS looks up the user, which is not safe for two threads
     const std::lock_guard lock{joining};
     dds::DomainParticipantQos qos = participantQos(options, name);

@@ -3,6 +3,7 @@
 
 #include "cortex/core/error.hpp"
 #include "cortex/core/nearest_names.hpp"
+#include "cortex/core/service_threads.hpp"
 
 #include <exception>
 #include <utility>
@@ -36,11 +37,10 @@ bool MirrorState::everybodyIsHere() const {
 }
 
 MirrorThread::MirrorThread(const std::string& name, const NetworkOptions& options)
-    : name_{name},
-      tool_{makeSender(name)},
-      state_{tool_},
-      endpoints_{options, tool_, inbox_},
-      thread_{[this] { run(); }} {}
+    : name_{name}, tool_{makeSender(name)}, state_{tool_}, endpoints_{options, tool_, inbox_} {
+    const ServiceThreads named{"cortex-mirror"};
+    thread_ = std::thread{[this] { run(); }};
+}
 
 MirrorThread::~MirrorThread() {
     change([](MirrorState& state) { state.stopping = true; });

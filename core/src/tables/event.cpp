@@ -2,6 +2,7 @@
 #include "cortex/core/event.hpp"
 
 #include "cortex/core/data.hpp"
+#include "cortex/core/service_threads.hpp"
 
 #include "types/enum_names.hpp"
 
@@ -121,6 +122,7 @@ void EventLog::addSink(Sink sink) { sinks_.push_back(std::move(sink)); }
 void EventLog::start() {
     stopping_ = false;
     batch_.reserve(usualBatch);
+    const ServiceThreads named{"cortex-events"};
     thread_ = std::thread{[this] { run(); }};
 }
 

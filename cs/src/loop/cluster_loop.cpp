@@ -2,6 +2,7 @@
 #include "loop/cluster_loop.hpp"
 
 #include "cortex/core/clock.hpp"
+#include "cortex/core/service_threads.hpp"
 
 #include "threads/realtime_thread.hpp"
 
@@ -49,9 +50,12 @@ void ClusterLoop::start() {
     const auto limit = std::max<std::chrono::nanoseconds>(
         100ms, std::chrono::nanoseconds{static_cast<std::int64_t>(
                    options_.watchdogPeriods * static_cast<double>(trigger_.period()))});
-    watchdog_ = std::make_unique<Watchdog>(
-        runner_, agent_, limit,
-        [this](const Tick& tick, const HungHook& hook) { hung(tick, hook); });
+    {
+        const ServiceThreads named{"cortex-watchdog"};
+        watchdog_ = std::make_unique<Watchdog>(
+            runner_, agent_, limit,
+            [this](const Tick& tick, const HungHook& hook) { hung(tick, hook); });
+    }
     startRescheduler();
     ended_.store(Ended::Running, std::memory_order_release);
     thread_ = std::thread{[this] { run(); }};
@@ -197,6 +201,7 @@ void ClusterLoop::cycle(const Trigger& trigger) {
 void ClusterLoop::startRescheduler() {
     if (agent_.threadCount() < 2 || !makeSchedule_) return;
     mayReschedule_ = trigger_.realTime() && !test_.forceThreads;
+    const ServiceThreads named{"cortex-schedule"};
     rescheduler_ = std::make_unique<Rescheduler>(
         agent_, plan_->schedule, Rescheduler::Maker{makeSchedule_, [this](Schedule schedule) {
                                                         return makePlan(std::move(schedule));

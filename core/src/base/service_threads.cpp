@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/service_threads.hpp"
+
+#include <pthread.h>
+
+namespace cortex {
+namespace {
+
+constexpr std::size_t serviceStack = 1 << 20;
+
+// What a new thread gets; returns what it was. The C library has it for the whole process.
+std::size_t setStackOfNewThreads(std::size_t bytes) {
+    pthread_attr_t attributes;
+    if (pthread_getattr_default_np(&attributes) != 0) return 0;
+    std::size_t before = 0;
+    pthread_attr_getstacksize(&attributes, &before);
+    if (bytes != 0) {
+        pthread_attr_setstacksize(&attributes, bytes);
+        pthread_setattr_default_np(&attributes);
+    }
+    pthread_attr_destroy(&attributes);
+    return before;
+}
+
+}  // namespace
+
+ServiceThreads::ServiceThreads(const char* name)
+    : stackBefore_{setStackOfNewThreads(serviceStack)} {
+    pthread_getname_np(pthread_self(), nameBefore_.data(), nameBefore_.size());
+    pthread_setname_np(pthread_self(), name);  // which new threads inherit
+}
+
+ServiceThreads::~ServiceThreads() {
+    pthread_setname_np(pthread_self(), nameBefore_.data());
+    setStackOfNewThreads(stackBefore_);
+}
+
+}  // namespace cortex
