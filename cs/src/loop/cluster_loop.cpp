@@ -4,6 +4,7 @@
 #include "cortex/core/clock.hpp"
 #include "cortex/core/service_threads.hpp"
 
+#include "tasks/crash_report.hpp"
 #include "threads/realtime_thread.hpp"
 
 #include <algorithm>
@@ -82,12 +83,10 @@ void ClusterLoop::addThreads(Plan& plan) {
     pool.priority = options_.priority;
     pool.affinity = options_.cpus;
     pool.oversubscribe = test_.forceThreads;
-    if (test_.onThreadStart) {
-        pool.onStart = [](void* options, std::uint32_t worker) {
-            static_cast<const TestOptions*>(options)->onThreadStart(worker);
-        };
-        pool.onStartContext = &test_;
-    }
+    pool.onStart = [](void* loop, std::uint32_t worker) {
+        static_cast<ClusterLoop*>(loop)->threadStarts(worker);
+    };
+    pool.onStartContext = this;
     plan.pool = std::make_unique<ThreadPool>(
         plan.schedule,
         [](void* loop, std::uint32_t chunk, std::uint32_t worker) {
@@ -106,7 +105,13 @@ void ClusterLoop::prepareThread() {
     append(plan_->pool->configureLoopThread());
     if (options_.priority > 0 && options_.lockMemory) append(lockMemory());
     if (options_.priority > 0 && options_.keepCpusAwake) awakeCpus_.emplace(realtimeReport_);
-    if (test_.onThreadStart) test_.onThreadStart(0);
+    threadStarts(0);
+}
+
+// On each thread that runs tasks, before its first cycle.
+void ClusterLoop::threadStarts(std::uint32_t worker) {
+    reportCrashesOfThisThread(agent_.structure(), runner_.position(worker));
+    if (test_.onThreadStart) test_.onThreadStart(worker);
 }
 
 void ClusterLoop::run() {

@@ -52,6 +52,7 @@ public:
 private:
     void run();
     void prepareThread();
+    void threadStarts(std::uint32_t worker);
     void addThreads(Plan& plan);
     void startRescheduler();
     std::unique_ptr<Plan> makePlan(Schedule schedule);
