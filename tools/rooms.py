@@ -39,7 +39,7 @@ PUBLIC = {
         "tables": "event event_sinks image image_pool structure tables",
         "commands": "argument_checks command loop_thread mailbox record",
         "model": "make_structure registry simplex simplex_tree validation",
-        "agent": "agent command_exchange loopback program_interface transport",
+        "agent": "agent command_exchange framework_item loopback program_interface transport",
     },
     "comms": {
         "wire": "network_options",

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/data.hpp"
 
+#include "cortex/core/command.hpp"
+#include "cortex/core/error.hpp"
+
 #include <array>
 #include <limits>
 #include <new>
@@ -17,6 +20,16 @@ static_assert(!std::is_assignable_v<Data<const double>&, double>);
 static_assert(!std::is_assignable_v<Data<const std::string_view>&, std::string_view>);
 static_assert(!std::is_assignable_v<Data<const bool>&, bool>);
 static_assert(!std::is_constructible_v<Data<double>, const double*>);
+// What an input gave is not written, and not bound where the member forgot `const`.
+static_assert(!std::is_assignable_v<Data<double>&, Data<const double>>);
+static_assert(std::is_assignable_v<Data<double>&, Data<const double>&>);  // copies the value
+static_assert(!std::is_assignable_v<Data<double>&, Data<std::int64_t>>);
+static_assert(!std::is_assignable_v<Data<const double>&, Data<const double>&>);
+static_assert(std::is_assignable_v<Data<const double>&, Data<const double>>);  // populate() binds
+static_assert(!std::is_assignable_v<Data<const double>&, Data<double>>);
+static_assert(!std::is_constructible_v<Data<double>, Data<const double>>);
+static_assert(
+    !std::is_assignable_v<TextArray<std::string_view>&, TextArray<const std::string_view>>);
 template <class T>
 constexpr bool counts = requires(Data<T> data) {
     data += data.get();
@@ -82,6 +95,67 @@ TEST(Data, IsUnboundUntilItIsObtained) {
     bool cell = false;
     EXPECT_FALSE(Data<bool>{}.bound());
     EXPECT_TRUE(Data<bool>{&cell}.bound());
+}
+
+TEST(Data, CopiesTheValueOfAHandleThatHasAName) {
+    double from = 3, to = 1;
+    Data<double> level{&to};
+    Data<double> other{&from};
+    const Data<const double> seen{&from};
+
+    level = other;
+    from = 4;
+
+    EXPECT_EQ(to, 3);
+    EXPECT_EQ(level, 3);
+    level = seen;
+    EXPECT_EQ(to, 4);
+    EXPECT_EQ(&(level = other), &level);
+}
+
+TEST(Data, IsBoundByWhatHasNoName) {
+    double first = 1, second = 2;
+    Data<double> level{&first};
+
+    level = Data<double>{&second};
+    level = 5;
+
+    EXPECT_EQ(first, 1);
+    EXPECT_EQ(second, 5);
+}
+
+template <class Action>
+std::string unboundIn(Action action) {
+    try {
+        action();
+    } catch (const UnboundHandle& unbound) {
+        return unbound.what();
+    }
+    return "nothing";
+}
+
+TEST(Data, ThatIsNotBoundSaysSoWhenItIsUsed) {
+    Data<double> level;
+    double cell = 1;
+    Data<double> bound{&cell};
+
+    EXPECT_EQ(unboundIn([&] { level = 1; }),
+              "handle Data<double> is not bound (forgotten in populate()?)");
+    EXPECT_EQ(unboundIn([&] { level += 1; }), unboundIn([&] { level = 1; }));
+    EXPECT_EQ(unboundIn([&] { bound = level; }), unboundIn([&] { level = 1; }));
+    EXPECT_EQ(unboundIn([&] { level = bound; }), unboundIn([&] { level = 1; }));
+    EXPECT_EQ(unboundIn([] { Data<const std::string_view>{}.get(); }),
+              "handle Data<std::string_view> is not bound (forgotten in populate()?)");
+    EXPECT_EQ(unboundIn([] { static_cast<void>(TextArray<std::string_view>{}[0]); }),
+              "handle Data<std::string_view> is not bound (forgotten in populate()?)");
+}
+
+TEST(Call, SaysThatAnArgumentWasNotGotInPopulate) {
+    Call call{nullptr, nullptr};
+    EXPECT_EQ(unboundIn([&] { static_cast<void>(call[Argument<double>{}]); }),
+              "handle Data<double> is not bound (forgotten in populate()?)");
+    EXPECT_EQ(unboundIn([&] { static_cast<void>(call[ArrayResult<bool>{}]); }),
+              "handle Data<bool> is not bound (forgotten in populate()?)");
 }
 
 TEST(Data, AssignsTextByValue) {

@@ -24,7 +24,12 @@ static_assert(
 
 template <class T>
 concept HasArray = requires(const InputSimplex& simplex) { simplex.array<T>(""); };
-static_assert(HasArray<bool> && !HasArray<std::string_view>);
+static_assert(HasArray<bool> && HasArray<std::string_view>);
+// No handle to another simplex's items that can be written.
+template <class T>
+concept GivesData = requires(T simplex) { simplex.template data<double>(""); };
+static_assert(GivesData<Simplex&>);
+static_assert(!GivesData<decltype(std::declval<RelatedSimplex>().simplex())>);
 
 constexpr const char* ontology = R"(<ontology name="handles" version="1.0">
   <include file="base.xml"/>
@@ -34,6 +39,7 @@ constexpr const char* ontology = R"(<ontology name="handles" version="1.0">
     <data name="mode" kind="int" default="7" safe="hold"/>
     <data name="label" kind="string" capacity="8" safe="hold"/>
     <data name="names" kind="string" length="2" capacity="8" safe="hold"/>
+    <data name="reach" kind="float" unit="mm" safe="hold"/>
     <data name="origin" kind="float" length="3" constant="true"/>
   </type>
   <type name="Mover" extends="Active"/>
@@ -222,6 +228,55 @@ TEST_F(SimplexTest, RefusesHandlesThatDoNotFitAndNamesWhatIsThere) {
               "data<…>() or array<…>() of its kind");
     EXPECT_THROW(tree.at("/free").data<std::string_view>("names"), Error);
     EXPECT_EQ(seen.array<double>("position").size(), 1U);
+}
+
+TEST_F(SimplexTest, RefusesTheUnitThatTheTypeDoesNotState) {
+    start();
+    const InputSimplex seen = worker.input("seen");
+
+    EXPECT_EQ(seen.data<double>("reach", "mm").get(), 0);
+    const std::string refusal = errorOf([&] { seen.data<double>("reach", "m"); });
+    EXPECT_EQ(refusal.find("/worker: /free.reach is in mm, the code assumes m: convert in the "
+                           "code, or state that unit in the type ["),
+              0U)
+        << refusal;
+    EXPECT_NE(refusal.find("types.xml:"), std::string::npos) << refusal;
+    EXPECT_NE(errorOf([&] {
+                  worker.data<double>("gain", "m");
+              }).find("/worker.gain is in no stated unit, the code assumes m"),
+              std::string::npos);
+    EXPECT_NE(errorOf([&] {
+                  worker.output("tip").data<double>("reach", "metre");
+              }).find("the code assumes the unit 'metre'"),
+              std::string::npos);
+}
+
+TEST_F(SimplexTest, ReadsAndWritesArraysOfStrings) {
+    tree.at("/free").set("names", Value{std::vector<std::string>{"left", "right"}});
+    start();
+    const TextArray<const std::string_view> seen =
+        worker.input("seen").array<std::string_view>("names");
+    const TextArray<std::string_view> own = tree.at("/free").array<std::string_view>("names");
+
+    own[0] = "middle";
+    EXPECT_EQ(seen[0].get(), "middle");
+    EXPECT_EQ(seen[1].get(), "right");
+    own[0] = own[1];  // the value, though neither handle has a name
+    EXPECT_EQ(seen[0].get(), "right");
+    EXPECT_EQ(seen.size(), 2U);
+    EXPECT_THROW(worker.input("seen").array<std::string_view>("torques"), Error);
+}
+
+TEST_F(SimplexTest, LeavesWhatTheFrameworkWritesToIt) {
+    start();
+
+    EXPECT_EQ(worker.data<const std::int64_t>("faultCode").get(), 0);
+    EXPECT_EQ(errorOf([&] { worker.data<std::int64_t>("faultCode"); }),
+              "/worker.faultCode is written by the framework: take a handle to const");
+    EXPECT_THROW(worker.data<std::int64_t>("state"), Error);
+    EXPECT_THROW(worker.data<std::string_view>("faultText"), Error);
+    EXPECT_THROW(worker.data<double>("taskTime"), Error);
+    EXPECT_THROW(tree.at("/robot").array<std::string_view>("leaseHolder"), Error);
 }
 
 TEST_F(SimplexTest, RefusesRulesThatDoNotFitAndNamesWhatIsThere) {

@@ -3,6 +3,7 @@
 
 #include "cortex/core/agent.hpp"
 #include "cortex/core/command_exchange.hpp"
+#include "cortex/core/framework_item.hpp"
 #include "cortex/core/record.hpp"
 
 #include <algorithm>
@@ -152,7 +153,7 @@ void AgentRig::step(int cycles) {
 
 void AgentRig::setState(Hand& hand, State state) {
     hand.state = state;
-    hand.data<std::int64_t>("state") = static_cast<std::int64_t>(state);
+    frameworkItem<std::int64_t>(*agent, hand.index(), "state") = static_cast<std::int64_t>(state);
 }
 
 std::vector<std::string> AgentRig::events() {

@@ -5,17 +5,34 @@
 
 #include "model/resolved_relations.hpp"
 #include "tables/lookup.hpp"
+#include "types/unit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
 
 namespace cortex {
 
 namespace {
 
-struct Access {
-    Kind kind;
-    bool array, write;
-};
+std::string placeOf(const DataItem& item) {
+    const std::string place = item.place.text();
+    return place.empty() ? "" : " [" + place + "]";
+}
 
-void checkShape(const DataItem& item, const Access& access, const std::string& where) {
+void checkUnit(const DataItem& item, std::string_view assumed, const std::string& where) {
+    if (assumed.empty()) return;
+    std::string why;
+    const std::optional<Unit> unit = parseUnit(assumed, why);
+    if (!unit)
+        throw Error(where + ": the code assumes the unit '" + std::string{assumed} + "': " + why);
+    if (unit->canonical == item.unit) return;
+    throw Error(where + " is in " + (item.unit.empty() ? "no stated unit" : item.unit) +
+                ", the code assumes " + unit->canonical +
+                ": convert in the code, or state that unit in the type" + placeOf(item));
+}
+
+void checkShape(const DataItem& item, const ItemAccess& access, const std::string& where) {
     const std::string asked = std::string{access.write ? "writing" : "reading"} + " one " +
                               (access.array ? "array of " : "") + name(access.kind);
     if (item.kind != access.kind || (item.length > 1 && !access.array)) {
@@ -25,6 +42,19 @@ void checkShape(const DataItem& item, const Access& access, const std::string& w
     if (access.write && item.constant) {
         throw Error(where + " is constant: take a handle to const");
     }
+    checkUnit(item, access.unit, where);
+}
+
+// What every active simplex, agent and cluster shows of itself. Of a long command the progress is
+// the simplex's own.
+bool isOfFramework(const Structure& structure, const SimplexInfo& info, std::string_view item) {
+    if (info.role != Role::Active || item == "progress") return false;
+    const Type& type = *info.layout->type;
+    return std::ranges::any_of(
+        std::array{"Active", "Activity", "Agent", "Cluster"}, [&](std::string_view each) {
+            const Type* base = structure.types->find(each);
+            return base != nullptr && type.isA(each) && base->findData(item) != nullptr;
+        });
 }
 
 const Type& typeOf(const Structure& structure, std::uint32_t simplex) {
@@ -81,7 +111,7 @@ const SlotState& RelatedSimplex::state() const {
     return *owner_->runtime().tables().edge(edge_).state;
 }
 
-Simplex& RelatedSimplex::simplex() const {
+const Simplex& RelatedSimplex::simplex() const {
     AgentRuntime& runtime = owner_->runtime();
     const std::uint32_t target = runtime.structure().edges[edge_].target;
     if (runtime.structure().simplexes[target].remote) {
@@ -97,22 +127,22 @@ bool RelatedSimplex::isDelayed() const {
 
 bool RelatedSimplex::has(std::string_view item) const { return type().findData(item) != nullptr; }
 
-void* RelatedSimplex::cell(std::string_view item, Kind kind, bool array, bool write,
+void* RelatedSimplex::cell(std::string_view item, const ItemAccess& access,
                            std::size_t& length) const {
     Tables& tables = owner_->runtime().tables();
     const std::uint32_t target = tables.structure().edges[edge_].target;
     const SimplexInfo& info = tables.structure().simplexes[target];
     const ItemLayout& layout = itemAt(*info.layout, info.path, item);
     const std::string where = owner_->path() + ": " + info.path + "." + layout.item->name;
-    checkShape(*layout.item, {kind, array, write}, where);
-    if (write && info.role == Role::Active) {
+    checkShape(*layout.item, access, where);
+    if (access.write && info.role == Role::Active) {
         throw Error(where +
                     " is written by its own task only: take a handle to const, or send a "
                     "command");
     }
     length = layout.item->length;
     const Slice slice = layout.constant ? tables.constants(target) : tables.edge(edge_);
-    return slice.at(kind, layout.offset);
+    return slice.at(access.kind, layout.offset);
 }
 
 CommandSender RelatedSimplex::sender(std::string_view command, std::uint32_t capacity) const {
@@ -124,19 +154,27 @@ AgentRuntime& Simplex::startedRuntime() const {
     throw Error(path() + ": data and relationships exist from populate() on");
 }
 
-void* Simplex::cell(std::string_view item, Kind kind, bool array, bool write, std::size_t& length) {
+void* Simplex::cell(std::string_view item, const ItemAccess& access, std::size_t& length) {
     const Tables& tables = startedRuntime().tables();
     const SimplexInfo& info = tables.structure().simplexes[index_];
     const ItemLayout& layout = itemAt(*info.layout, path(), item);
     const std::string where = path() + "." + layout.item->name;
-    checkShape(*layout.item, {kind, array, write}, where);
-    if (write && !info.writers.empty()) {
+    checkShape(*layout.item, access, where);
+    if (access.write && !info.writers.empty()) {
         throw Error(where + " is written by " +
                     tables.structure().simplexes[info.writers.front()].path);
     }
+    if (access.write && runtime_->writersRefused()) {
+        throw Error(where +
+                    ": the loop runs; a program sends the command `set`, a simplex gets its "
+                    "handles in populate()");
+    }
+    if (access.write && isOfFramework(tables.structure(), info, layout.item->name)) {
+        throw Error(where + " is written by the framework: take a handle to const");
+    }
     length = layout.item->length;
     const Slice slice = layout.constant ? tables.constants(index_) : tables.live(index_);
-    return slice.at(kind, layout.offset);
+    return slice.at(access.kind, layout.offset);
 }
 
 SlotState& Simplex::slot() { return *startedRuntime().tables().live(index_).state; }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/data.hpp"
 
+#include "cortex/core/error.hpp"
+
 #include <atomic>
 #include <cstring>
 #include <limits>
+#include <string>
 
 namespace cortex {
 
@@ -11,7 +14,27 @@ namespace {
 
 std::atomic<std::uint64_t> changes{0};
 
+const char* handleOf(Kind kind) {
+    switch (kind) {
+        case Kind::Int:
+            return "Data<std::int64_t>";
+        case Kind::Float:
+            return "Data<double>";
+        case Kind::Bool:
+            return "Data<bool>";
+        case Kind::String:
+            break;
+    }
+    return "Data<std::string_view>";
+}
+
 }  // namespace
+
+UnboundHandle::UnboundHandle(const char* handle)
+    : Error{std::string{"handle "} + handle + " is not bound (forgotten in populate()?)"},
+      handle_{handle} {}
+
+void throwUnbound(Kind kind) { throw UnboundHandle{handleOf(kind)}; }
 
 std::uint64_t textChanges() { return changes.load(std::memory_order_relaxed); }
 

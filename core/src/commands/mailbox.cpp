@@ -67,7 +67,7 @@ void CommandSender::State::storeFinal(const AnswerHead& head, const std::byte* r
 }
 
 Outcome CommandSender::send() {
-    State& state = *state_;
+    State& state = boundState();
     if (state.lane == nullptr) return Outcome::MailboxFull;  // before start()
     state.answer.outcome = Outcome::None;
     CommandPort& sender = state.lane->sender();
@@ -80,7 +80,12 @@ Outcome CommandSender::send() {
     return Outcome::None;
 }
 
-const AnswerHead& CommandSender::answer() const { return state_->answer; }
+CommandSender::State& CommandSender::boundState() const {
+    if (state_ == nullptr) throw UnboundHandle{"CommandSender"};
+    return *state_;
+}
+
+const AnswerHead& CommandSender::answer() const { return boundState().answer; }
 
 std::uint64_t CommandSender::State::sentCount() const {
     return lane != nullptr && lane->hasOneHandle() ? lane->sent() : sent;
@@ -90,14 +95,14 @@ std::uint64_t CommandSender::State::answeredCount() const {
     return lane != nullptr && lane->hasOneHandle() ? lane->answered() : answered;
 }
 
-std::uint64_t CommandSender::sent() const { return state_->sentCount(); }
+std::uint64_t CommandSender::sent() const { return boundState().sentCount(); }
 
-std::uint64_t CommandSender::answered() const { return state_->answeredCount(); }
+std::uint64_t CommandSender::answered() const { return boundState().answeredCount(); }
 
 std::pair<void*, std::size_t> CommandSender::argumentCells(std::string_view name, Kind kind,
                                                            bool array) {
     const ItemLayout& item = parameterAt(state_.get(), name, {kind, array}, true);
-    const CommandTable::Entry& entry = state_->table->entries[state_->command];
+    const CommandTable::Entry& entry = boundState().table->entries[state_->command];
     if (entry.command == nullptr) {  // `set`: the flag of this item
         state_->request()[&item - entry.request.items.data()] = std::byte{1};
     }

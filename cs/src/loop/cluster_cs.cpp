@@ -9,6 +9,7 @@
 
 #include "loop/cluster_loop.hpp"
 #include "loop/group_commands.hpp"
+#include "tasks/crash_report.hpp"
 #include "threads/realtime_thread.hpp"
 #include "threads/scheduler.hpp"
 
@@ -49,6 +50,13 @@ std::uint32_t threadsFor(const ClusterOptions& options, std::vector<std::string>
     const std::uint32_t threads =
         clampThreads(options.threads, options.priority, options.cpus, report);
     return options.acrossCaches ? threads : threadsWithCommonCache(threads, options.cpus, report);
+}
+
+// These wait for a loop, which waits for the hook that calls them.
+void refuseInHooks(std::string_view function, std::string_view remedy) {
+    if (!isLoopThread()) return;
+    throw Error(std::string{function} +
+                " was called in a hook or on another thread of the loop: " + std::string{remedy});
 }
 
 [[noreturn]] void refuse(Report report) { throw ModelError(std::move(report)); }
@@ -172,6 +180,7 @@ void ClusterCS::Implementation::warnOfModel() const {
 }
 
 void ClusterCS::start() {
+    refuseInHooks("start()", "clusters are started by the program");
     if (implementation_->loop)
         throw Error("cluster " + implementation_->name + " was started before");
     try {
@@ -233,6 +242,9 @@ void ClusterCS::startAll() {
         return makeSchedule(self.graph(), {threads, self.test.chunkSize, costs, false});
     });
     self.agent->start();
+    if (dynamic_cast<const ManualTrigger*>(self.trigger.get()) == nullptr) {
+        self.agent->refuseWriters();  // nobody knows when such a loop is between two cycles
+    }
     self.loop->start();
     self.warnOfModel();
 }
@@ -240,6 +252,7 @@ void ClusterCS::startAll() {
 bool ClusterCS::stop() {
     Implementation& self = *implementation_;
     if (!self.loop || !self.loop->joinable()) return true;
+    refuseInHooks("stop()", "tell the program to stop, or command the simplexes: shutdown");
     if (const auto hung = self.loop->stop()) {
         // The loop's thread cannot be ended in an orderly way while a user's hook holds it.
         std::fprintf(stderr, "cluster %s does not stop: %s; ending the process\n",
@@ -295,6 +308,7 @@ std::uint64_t ClusterCS::send(std::string_view path, std::string_view command,
 CallResult ClusterCS::call(std::string_view path, std::string_view command,
                            const ProgramInterface::Arguments& arguments,
                            std::chrono::milliseconds timeout) {
+    refuseInHooks("call()", "in a hook, command a related simplex by a CommandSender");
     return program().call(path, command, arguments, timeout);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loop/metrics.hpp"
 
+#include "cortex/core/framework_item.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <string>
@@ -27,16 +29,21 @@ void findPercentiles(const Bins& bins, std::uint64_t count, std::span<Data<doubl
     }
 }
 
+template <class T>
+Data<T> clusterItem(AgentRuntime& agent, std::string_view item) {
+    return frameworkItem<T>(agent, agent.agentSimplex(), item);
+}
+
 }  // namespace
 
-MetricSeries::MetricSeries(Simplex& cluster, std::string_view name, double scale)
+MetricSeries::MetricSeries(AgentRuntime& agent, std::string_view name, double scale)
     : scale_{scale}, bins_(binsPerOctave * 44) {
     const std::string prefix{name};
-    lastItem_ = cluster.data<double>(prefix + "Last");
-    meanItem_ = cluster.data<double>(prefix + "Mean");
-    maxItem_ = cluster.data<double>(prefix + "Max");
+    lastItem_ = clusterItem<double>(agent, prefix + "Last");
+    meanItem_ = clusterItem<double>(agent, prefix + "Mean");
+    maxItem_ = clusterItem<double>(agent, prefix + "Max");
     for (std::size_t i = 0; i < percentiles.size(); ++i) {
-        percentileItems_[i] = cluster.data<double>(prefix + percentileNames[i]);
+        percentileItems_[i] = clusterItem<double>(agent, prefix + percentileNames[i]);
     }
 }
 
@@ -75,24 +82,22 @@ void MetricSeries::writePercentiles() {
 ClusterMetrics::ClusterMetrics(AgentRuntime& agent, std::int64_t period, std::uint32_t threads)
     : agent_{agent},
       period_{static_cast<double>(period)},
-      series_{MetricSeries{agent.simplex(agent.agentSimplex()), "cycleDuration", 1000},
-              MetricSeries{agent.simplex(agent.agentSimplex()), "jitter", 1000},
-              MetricSeries{agent.simplex(agent.agentSimplex()), "dutyCycle", 10000}},
+      series_{MetricSeries{agent, "cycleDuration", 1000}, MetricSeries{agent, "jitter", 1000},
+              MetricSeries{agent, "dutyCycle", 10000}},
       latencySum_(latencyBuckets),
       threads_{threads} {
-    Simplex& cluster = agent.simplex(agent.agentSimplex());
     constexpr std::array latencyNames{"Last", "Mean", "P50", "P99", "P999", "Max"};
     for (std::size_t i = 0; i < latency_.size(); ++i) {
-        latency_[i] = cluster.data<double>(std::string{"commandLatency"} + latencyNames[i]);
+        latency_[i] = clusterItem<double>(agent, std::string{"commandLatency"} + latencyNames[i]);
     }
-    overflowItem_ = cluster.data<std::int64_t>("overflowCount");
-    commandItem_ = cluster.data<std::int64_t>("commandCount");
-    rejectedItem_ = cluster.data<std::int64_t>("rejectedCount");
-    conflictItem_ = cluster.data<std::int64_t>("conflictCount");
-    limitItem_ = cluster.data<std::int64_t>("limitCount");
-    droppedItem_ = cluster.data<std::int64_t>("eventsDropped");
-    threadsItem_ = cluster.data<std::int64_t>("threads");
-    aliveItem_ = cluster.data<bool>("alive");
+    overflowItem_ = clusterItem<std::int64_t>(agent, "overflowCount");
+    commandItem_ = clusterItem<std::int64_t>(agent, "commandCount");
+    rejectedItem_ = clusterItem<std::int64_t>(agent, "rejectedCount");
+    conflictItem_ = clusterItem<std::int64_t>(agent, "conflictCount");
+    limitItem_ = clusterItem<std::int64_t>(agent, "limitCount");
+    droppedItem_ = clusterItem<std::int64_t>(agent, "eventsDropped");
+    threadsItem_ = clusterItem<std::int64_t>(agent, "threads");
+    aliveItem_ = clusterItem<bool>(agent, "alive");
 }
 
 // All arguments in ns. Durations and jitter are shown in µs, the duty cycle in % of the period.

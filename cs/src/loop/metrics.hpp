@@ -17,7 +17,7 @@ namespace cortex::cs {
 class MetricSeries {
 public:
     // Items `<name>Last`, `<name>Mean`, … ; `scale` turns a figure into its bins' integer.
-    MetricSeries(Simplex& cluster, std::string_view name, double scale);
+    MetricSeries(AgentRuntime& agent, std::string_view name, double scale);
 
     void add(double figure) CORTEX_REALTIME;
     void write() CORTEX_REALTIME;             // last, mean, max

@@ -6,10 +6,20 @@
 
 #include "tasks/task_thread.hpp"
 
+#include <string>
+
 namespace cortex::cs {
 
 void SimplexCS::fault(std::int64_t code, std::string_view text) {
     if (thread_ == nullptr) throw Error(path() + ": fault() is for hooks; to refuse, throw");
+    if (code <= 0) {
+        throw Error("fault code " + std::to_string(code) +
+                    " is not above 0, as a simplex's own are: " + std::string{text});
+    }
+    enterFault(code, text);
+}
+
+void SimplexCS::enterFault(std::int64_t code, std::string_view text) {
     if (pending_.fault) return;
     pending_.fault = true;
     thread_->faultCode = code;
@@ -29,7 +39,7 @@ void SimplexCS::event(Severity severity, const EventText& text) {
 }
 
 SimplexCS::LifeCycleSender SimplexCS::lifeCycle(const RelatedSimplex& target, bool manage) {
-    auto* active = dynamic_cast<SimplexCS*>(&target.simplex());
+    const auto* active = dynamic_cast<const SimplexCS*>(&target.simplex());
     if (active == nullptr) {
         throw Error(path() + ": " + target.path() + " has no life cycle; it is a " +
                     target.type().name + ", not an active simplex of this agent");
@@ -39,8 +49,13 @@ SimplexCS::LifeCycleSender SimplexCS::lifeCycle(const RelatedSimplex& target, bo
     sender.target_ = active->index();
     sender.isDelayed_ = target.isDelayed();
     sender.state_ = InputSimplex{target}.data<std::int64_t>("state");
-    if (manage) active->manager_ = index();
+    if (manage) static_cast<SimplexCS&>(runtime().simplex(active->index())).manager_ = index();
     return sender;
+}
+
+AgentRuntime& SimplexCS::LifeCycleSender::bound() const {
+    if (runtime_ == nullptr) throw UnboundHandle{"LifeCycleSender"};
+    return *runtime_;
 }
 
 State SimplexCS::LifeCycleSender::state() const {
@@ -48,7 +63,7 @@ State SimplexCS::LifeCycleSender::state() const {
 }
 
 void SimplexCS::LifeCycleSender::post(LifeCycle command) {
-    runtime_->postLifeCycle(target_, command, isDelayed_);
+    bound().postLifeCycle(target_, command, isDelayed_);
 }
 
 }  // namespace cortex::cs

@@ -20,8 +20,8 @@ bool TaskDemands::limit(Task& task, const Tick& tick) {
         if (!demands) continue;
         reportLimits(*output.limits, task.index, *simplex.thread_->loop);
         if (result.faulting == nullptr) continue;
-        simplex.fault(result.notFinite ? DemandNotFinite : DemandOutOfRange,
-                      refusal(result, output.target).view());
+        simplex.enterFault(result.notFinite ? DemandNotFinite : DemandOutOfRange,
+                           refusal(result, output.target).view());
     }
     return again;
 }
@@ -38,8 +38,8 @@ void TaskDemands::accept(Task& task, const Tick& tick, bool again) {
 void TaskDemands::faultForRefused(Task& task) {
     for (TaskOutput& output : set_.outputsOf(task)) {
         if (output.refused.faulting == nullptr) continue;
-        task.simplex->fault(output.refused.notFinite ? DemandNotFinite : DemandOutOfRange,
-                            refusal(output.refused, output.target).view());
+        task.simplex->enterFault(output.refused.notFinite ? DemandNotFinite : DemandOutOfRange,
+                                 refusal(output.refused, output.target).view());
         output.refused = {};
     }
 }

@@ -106,7 +106,7 @@ void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick) {
              << static_cast<double>(input.maxAge) * 1e-6 << " ms";
     }
     if (input.rule->onLoss == OnLoss::Fault && simplex.state_ == State::Active) {
-        simplex.fault(InputLost, text.view());
+        simplex.enterFault(InputLost, text.view());
     } else {
         text << "; reaction: " << name(input.rule->onLoss);
         set_.agent.post(*simplex.thread_->loop, Severity::Warning, EventKind::Message, task.index,

@@ -2,6 +2,7 @@
 #include "tasks/task_runner.hpp"
 
 #include "cortex/core/clock.hpp"
+#include "cortex/core/error.hpp"
 
 #include <chrono>
 #include <exception>
@@ -14,6 +15,14 @@ namespace {
 
 bool isTransitional(State state) {
     return state == State::StartingUp || state == State::ShuttingDown;
+}
+
+EventText textOf(const UnboundHandle& unbound, const SimplexCS& simplex, const Position& position) {
+    EventText text{"handle "};
+    text << unbound.handle() << " of " << simplex.path()
+         << " is not bound (forgotten in populate()?); used in "
+         << name(position.hook.load(std::memory_order_relaxed)) << " of " << simplex.type().name;
+    return text;
 }
 
 }  // namespace
@@ -92,11 +101,14 @@ inline void TaskRunner::runSimplex(Task& task, const Tick& tick, TaskThread& thr
         }
         if (task.inputCount != 0) set_.states[task.index] = inputs_.read(task, tick);
         if (!simplex.pending_.fault) runHooks(task, simplex, tick, position);
+    } catch (const UnboundHandle& unbound) {
+        simplex.enterFault(HookThrew, textOf(unbound, simplex, position).view());
+        simplex.dead_ = true;
     } catch (const std::exception& error) {
-        simplex.fault(HookThrew, error.what());
+        simplex.enterFault(HookThrew, error.what());
         simplex.dead_ = true;
     } catch (...) {
-        simplex.fault(HookThrew, "a hook threw something that is no std::exception");
+        simplex.enterFault(HookThrew, "a hook threw something that is no std::exception");
         simplex.dead_ = true;
     }
     if (simplex.pending_.fault) states_.enterFault(task, tick);

@@ -2,6 +2,7 @@
 #include "tasks/task_set.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/framework_item.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -88,10 +89,10 @@ struct TaskBuilder {
                                         : agent.rank(index) % info.every;
         details.lastRun = -static_cast<std::int64_t>(info.every) * set.period +
                           static_cast<std::int64_t>(details.phase) * set.period;
-        details.state = simplex.data<std::int64_t>("state");
-        details.faultCode = simplex.data<std::int64_t>("faultCode");
-        details.faultText = simplex.data<std::string_view>("faultText");
-        details.taskTime = simplex.data<double>("taskTime");
+        details.state = frameworkItem<std::int64_t>(agent, index, "state");
+        details.faultCode = frameworkItem<std::int64_t>(agent, index, "faultCode");
+        details.faultText = frameworkItem<std::string_view>(agent, index, "faultText");
+        details.taskTime = frameworkItem<double>(agent, index, "taskTime");
         set.states[index] = {0, 0, index, Quality::Stale};
         task.firstInput = static_cast<std::uint32_t>(set.inputs.size());
         task.firstOutput = static_cast<std::uint32_t>(set.outputs.size());

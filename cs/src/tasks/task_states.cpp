@@ -21,7 +21,7 @@ void TaskStates::checkTimeout(Task& task, const Tick& tick) {
     if (simplex.pending_.done || passed < std::llround(timeout * 1e9)) return;
     EventText text{name(hookOf(simplex.state_))};
     text << " was not done within " << timeout << " s";
-    simplex.fault(TransitionTimeout, text.view());
+    simplex.enterFault(TransitionTimeout, text.view());
 }
 
 void TaskStates::transition(Task& task, const Tick& tick) {
@@ -31,7 +31,7 @@ void TaskStates::transition(Task& task, const Tick& tick) {
     if (simplex.pending_.demandRefused) demands_.faultForRefused(task);
     simplex.pending_.demandRefused = false;
     if (halted_ && simplex.state_ == State::Active) {
-        simplex.fault(ClusterHalted, "the loop overran its period and overflow is \"halt\"");
+        simplex.enterFault(ClusterHalted, "the loop overran its period and overflow is \"halt\"");
     }
     if (simplex.pending_.fault) return enterFault(task, tick);
     const bool resting = simplex.state_ == State::Standby || simplex.state_ == State::Fault;
@@ -96,8 +96,8 @@ void TaskStates::enter(Task& task, State to, const Tick& tick) {
     if ((from == State::Active || to == State::Fault) &&
         !set_.agent.cancelActivity(task.index, *simplex.thread_->loop, !simplex.dead_, left)) {
         if (to != State::Fault) {
-            simplex.fault(HookThrew,
-                          "the handler of its long command threw while it was cancelled");
+            simplex.enterFault(HookThrew,
+                               "the handler of its long command threw while it was cancelled");
         }
         simplex.dead_ = true;
     }

@@ -52,26 +52,29 @@ struct Sender {
     bool operator==(const Sender&) const = default;
 };
 
+// Offset of a parameter that populate() has not got; using it throws UnboundHandle.
+inline constexpr std::uint32_t unboundParameter = 0xffffffffU;
+
 // Offset of a command parameter, got in populate(): Argument for the request, Result for the
 // response. Used on the Call inside a handler.
 template <class T>
 struct Argument {
-    std::uint32_t offset = 0;
+    std::uint32_t offset = unboundParameter;
 };
 // Handle to one scalar parameter of a response; for handlers.
 template <class T>
 struct Result {
-    std::uint32_t offset = 0;
+    std::uint32_t offset = unboundParameter;
 };
 // The same of array parameters, which the Call shows as spans.
 template <ArrayElement T>
 struct ArrayArgument {
-    std::uint32_t offset = 0, length = 0;
+    std::uint32_t offset = unboundParameter, length = 0;
 };
 // The same for an array.
 template <ArrayElement T>
 struct ArrayResult {
-    std::uint32_t offset = 0, length = 0;
+    std::uint32_t offset = unboundParameter, length = 0;
 };
 
 // One execution of a command, seen by its handler. Arguments were checked before.
@@ -82,20 +85,20 @@ public:
     template <class T>
     Data<const T> operator[](Argument<T> argument) const CORTEX_REALTIME {
         using Cell = typename StorageOf<const T>::type;
-        return Data<const T>{reinterpret_cast<Cell*>(request_ + argument.offset)};
+        return Data<const T>{reinterpret_cast<Cell*>(request_ + bound<T>(argument.offset))};
     }
     template <class T>
     Data<T> operator[](Result<T> result) CORTEX_REALTIME {
         using Cell = typename StorageOf<T>::type;
-        return Data<T>{reinterpret_cast<Cell*>(response_ + result.offset)};
+        return Data<T>{reinterpret_cast<Cell*>(response_ + bound<T>(result.offset))};
     }
     template <class T>
     std::span<const T> operator[](ArrayArgument<T> argument) const CORTEX_REALTIME {
-        return {reinterpret_cast<const T*>(request_ + argument.offset), argument.length};
+        return {reinterpret_cast<const T*>(request_ + bound<T>(argument.offset)), argument.length};
     }
     template <class T>
     std::span<T> operator[](ArrayResult<T> result) CORTEX_REALTIME {
-        return {reinterpret_cast<T*>(response_ + result.offset), result.length};
+        return {reinterpret_cast<T*>(response_ + bound<T>(result.offset)), result.length};
     }
     bool first() const { return first_; }            // false when a long command is called again
     bool cancelling() const { return cancelling_; }  // its last call
@@ -120,6 +123,13 @@ public:
     }
 
 private:
+    template <class T>
+    static std::uint32_t bound(std::uint32_t offset) CORTEX_REALTIME {
+        if (offset == unboundParameter) [[unlikely]]
+            throwUnbound(kindFor<T>());
+        return offset;
+    }
+
     const std::byte* request_;
     std::byte* response_;
     const Sender* sender_ = nullptr;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <type_traits>
 
@@ -66,7 +67,7 @@ constexpr Kind kindFor() {
     }
 }
 
-// What arrays consist of as spans; strings are read one by one, from images.
+// What arrays consist of as spans; those of strings are a TextArray.
 template <class T>
 concept ArrayElement = !std::is_same_v<std::remove_const_t<T>, std::string_view>;
 
@@ -74,8 +75,15 @@ concept ArrayElement = !std::is_same_v<std::remove_const_t<T>, std::string_view>
 template <class T>
 concept NumberCell = std::is_same_v<T, std::int64_t> || std::is_same_v<T, double>;
 
+// Throws UnboundHandle. Apart from the handles, so that their use stays small.
+[[noreturn]] void throwUnbound(Kind kind);
+
 // Handle to one scalar item: a plain pointer into the tables, used like the value itself.
-// Data<const T> only reads. Got in populate(), used in ticks; unbound until then.
+// Data<const T> only reads. Got in populate(), used in ticks; unbound until then. Using an unbound
+// one throws UnboundHandle, which puts the simplex of the hook into Fault.
+//
+// Only what data() and its like return binds a handle: `level_ = data<double>("level")`. Assigning
+// a handle that has a name copies the value: `level_ = other_` is `level_ = other_.get()`.
 template <class T>
 class Data {
 public:
@@ -84,45 +92,67 @@ public:
 
     Data() = default;
     explicit Data(Storage* cell) : cell_{cell} {}
+    ~Data() = default;
+    Data(const Data&) = default;
+    Data(Data&&) noexcept = default;
+
+    Data& operator=(Data&& bound) & noexcept = default;  // binds
+    Data& operator=(Data&& other) && CORTEX_REALTIME     // what names no handle: `names_[1] = …`
+        requires(!std::is_const_v<T>)
+    {
+        return *this = other.get();
+    }
+    Data& operator=(const Data& other) CORTEX_REALTIME
+        requires(!std::is_const_v<T>)
+    {
+        return this == &other ? *this : *this = other.get();
+    }
+    Data& operator=(const Data&)
+        requires(std::is_const_v<T>)
+    = delete;
+    // A handle of another kind, or one that only reads, cannot be bound here.
+    template <class Other>
+        requires(!std::is_same_v<Other, T>)
+    Data& operator=(Data<Other>&&) & = delete;
 
     operator Plain() const CORTEX_REALTIME { return get(); }
     Plain get() const CORTEX_REALTIME {
         if constexpr (std::is_same_v<Plain, std::string_view>)
-            return cell_->view();
+            return cell().view();
         else
-            return *cell_;
+            return cell();
     }
     Data& operator=(Plain value) CORTEX_REALTIME
         requires(!std::is_const_v<T>)
     {
         if constexpr (std::is_same_v<Plain, std::string_view>)
-            cell_->assign(value);
+            cell().assign(value);
         else
-            *cell_ = value;
+            cell() = value;
         return *this;
     }
     Data& operator+=(Plain value) CORTEX_REALTIME
         requires NumberCell<T>
     {
-        *cell_ += value;
+        cell() += value;
         return *this;
     }
     Data& operator-=(Plain value) CORTEX_REALTIME
         requires NumberCell<T>
     {
-        *cell_ -= value;
+        cell() -= value;
         return *this;
     }
     Data& operator*=(Plain value) CORTEX_REALTIME
         requires NumberCell<T>
     {
-        *cell_ *= value;
+        cell() *= value;
         return *this;
     }
     Data& operator/=(Plain value) CORTEX_REALTIME
         requires NumberCell<T>
     {
-        *cell_ /= value;
+        cell() /= value;
         return *this;
     }
     explicit operator bool() const
@@ -132,7 +162,51 @@ public:
     bool bound() const { return cell_ != nullptr; }
 
 private:
+    Storage& cell() const CORTEX_REALTIME {
+        if (cell_ == nullptr) [[unlikely]]
+            throwUnbound(kindFor<T>());
+        return *cell_;
+    }
+
     Storage* cell_ = nullptr;
+};
+
+// Handle to an array of strings; its elements are used like Data. Empty until it is bound.
+// TextArray<const std::string_view> only reads.
+template <class T>
+class TextArray {
+public:
+    TextArray() = default;
+    TextArray(typename StorageOf<T>::type* first, std::size_t length)
+        : first_{reinterpret_cast<Byte*>(first)}, length_{length} {
+        if (length_ != 0) stride_ = StringCell::size(first->capacity);
+    }
+
+    std::size_t size() const { return length_; }
+    // `index` is less than size().
+    Data<T> operator[](std::size_t index) const CORTEX_REALTIME {
+        if (first_ == nullptr) [[unlikely]]
+            throwUnbound(Kind::String);
+        return Data<T>{reinterpret_cast<typename StorageOf<T>::type*>(first_ + index * stride_)};
+    }
+    bool bound() const { return first_ != nullptr; }
+
+private:
+    using Byte = std::conditional_t<std::is_const_v<T>, const std::byte, std::byte>;
+
+    Byte* first_ = nullptr;
+    std::size_t length_ = 0, stride_ = 0;
+};
+
+// What array<T>() returns: a span, or a TextArray of strings.
+template <class T>
+struct ArrayOf {
+    using type = std::span<T>;
+};
+template <class T>
+    requires(!ArrayElement<T>)
+struct ArrayOf<T> {
+    using type = TextArray<T>;
 };
 
 }  // namespace cortex

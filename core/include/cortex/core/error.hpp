@@ -14,6 +14,17 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+// A handle was used that populate() has not bound; `handle`: its type.
+class UnboundHandle : public Error {
+public:
+    explicit UnboundHandle(const char* handle);
+
+    const char* handle() const { return handle_; }
+
+private:
+    const char* handle_;
+};
+
 // The model (ontology, morphology or system) is refused; the report lists every finding.
 class ModelError : public Error {
 public:

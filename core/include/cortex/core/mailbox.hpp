@@ -70,6 +70,7 @@ public:
     explicit CommandSender(std::shared_ptr<State> state) : state_{std::move(state)} {}
 
 private:
+    State& boundState() const CORTEX_REALTIME;  // throws UnboundHandle
     std::pair<void*, std::size_t> argumentCells(std::string_view name, Kind kind, bool array);
     std::pair<const void*, std::size_t> responseCells(std::string_view name, Kind kind, bool array);
 

@@ -19,6 +19,13 @@ namespace cortex {
 class Simplex;
 class AgentRuntime;
 
+// What a handle is asked for: refused where the item of the type is another.
+struct ItemAccess {
+    Kind kind;
+    bool array, write;
+    std::string_view unit{};  // UCUM, as the code assumes it; empty: any
+};
+
 // What a simplex may touch of one that it is related to; got in populate(). Through an input data
 // is read; through an output to a descriptive simplex it is written. Data of an active simplex is
 // written by its own task only: read it as data<const T>, act on it with a command.
@@ -31,12 +38,12 @@ public:
     const SlotState& state() const;  // as the owner sees it
 
     bool has(std::string_view item) const;
-    // The object itself; throws Error if it belongs to another agent.
-    Simplex& simplex() const;
+    // The object itself, to read; throws Error if it belongs to another agent.
+    const Simplex& simplex() const;
     bool isDelayed() const;  // what is sent arrives in the next cycle
 
 protected:
-    void* cell(std::string_view item, Kind kind, bool array, bool write, std::size_t& length) const;
+    void* cell(std::string_view item, const ItemAccess& access, std::size_t& length) const;
     CommandSender sender(std::string_view command, std::uint32_t capacity) const;
 
     Simplex* owner_;
@@ -48,17 +55,18 @@ public:
     using RelatedSimplex::RelatedSimplex;
     explicit InputSimplex(const RelatedSimplex& related) : RelatedSimplex{related} {}
 
+    // `unit`: what the code assumes; it is refused where the type states another one.
     template <class T>
-    Data<const T> data(std::string_view item) const {
+    Data<const T> data(std::string_view item, std::string_view unit = {}) const {
         std::size_t length = 1;
         return Data<const T>{static_cast<typename StorageOf<const T>::type*>(
-            cell(item, kindFor<T>(), false, false, length))};
+            cell(item, {kindFor<T>(), false, false, unit}, length))};
     }
-    template <ArrayElement T>
-    std::span<const T> array(std::string_view item) const {
+    template <class T>
+    typename ArrayOf<const T>::type array(std::string_view item, std::string_view unit = {}) const {
         std::size_t length = 0;
-        auto* first = static_cast<const T*>(cell(item, kindFor<T>(), true, false, length));
-        return {first, length};
+        void* first = cell(item, {kindFor<T>(), true, false, unit}, length);
+        return {static_cast<typename StorageOf<const T>::type*>(first), length};
     }
     // A command along this relationship; `capacity`: how many may be on their way at once.
     CommandSender command(std::string_view name, std::uint32_t capacity = 16) const {
@@ -71,16 +79,16 @@ public:
     using RelatedSimplex::RelatedSimplex;
 
     template <class T>
-    Data<T> data(std::string_view item) const {
+    Data<T> data(std::string_view item, std::string_view unit = {}) const {
         std::size_t length = 1;
         return Data<T>{static_cast<typename StorageOf<T>::type*>(
-            cell(item, kindFor<T>(), false, !std::is_const_v<T>, length))};
+            cell(item, {kindFor<T>(), false, !std::is_const_v<T>, unit}, length))};
     }
-    template <ArrayElement T>
-    std::span<T> array(std::string_view item) const {
+    template <class T>
+    typename ArrayOf<T>::type array(std::string_view item, std::string_view unit = {}) const {
         std::size_t length = 0;
-        auto* first = static_cast<T*>(cell(item, kindFor<T>(), true, !std::is_const_v<T>, length));
-        return {first, length};
+        void* first = cell(item, {kindFor<T>(), true, !std::is_const_v<T>, unit}, length);
+        return {static_cast<typename StorageOf<T>::type*>(first), length};
     }
     CommandSender command(std::string_view name, std::uint32_t capacity = 16) const {
         return sender(name, capacity);
@@ -128,18 +136,19 @@ public:
     void runEvery(int cycles, int phase = -1);
 
     // Own data, from populate() on; of a descriptive simplex without writer also for the program,
-    // between cycles. Throws Error naming the nearest items if there is no such item.
+    // between cycles. Throws Error naming the nearest items if there is no such item, and where the
+    // type states another unit than `unit`. What the framework writes is read only: data<const T>.
     template <class T>
-    Data<T> data(std::string_view item) {
+    Data<T> data(std::string_view item, std::string_view unit = {}) {
         std::size_t length = 1;
         return Data<T>{static_cast<typename StorageOf<T>::type*>(
-            cell(item, kindFor<T>(), false, !std::is_const_v<T>, length))};
+            cell(item, {kindFor<T>(), false, !std::is_const_v<T>, unit}, length))};
     }
-    template <ArrayElement T>
-    std::span<T> array(std::string_view item) {
+    template <class T>
+    typename ArrayOf<T>::type array(std::string_view item, std::string_view unit = {}) {
         std::size_t length = 0;
-        auto* first = static_cast<T*>(cell(item, kindFor<T>(), true, !std::is_const_v<T>, length));
-        return {first, length};
+        void* first = cell(item, {kindFor<T>(), true, !std::is_const_v<T>, unit}, length);
+        return {static_cast<typename StorageOf<T>::type*>(first), length};
     }
     // Own quality and stamp, of a simplex without a task; of others the framework writes them, and
     // a hook says setQuality().
@@ -179,7 +188,7 @@ private:
     friend class SimplexTree;
 
     AgentRuntime& startedRuntime() const;  // throws before start()
-    void* cell(std::string_view item, Kind kind, bool array, bool write, std::size_t& length);
+    void* cell(std::string_view item, const ItemAccess& access, std::size_t& length);
     struct Shape {
         Kind kind;
         bool array;

@@ -120,6 +120,10 @@ public:
         present_.post(thread, severity, kind, simplex, text);
     }
 
+    // From now on data() gives nobody a handle to write: the loop runs by a clock of its own.
+    void refuseWriters() { writersRefused_ = true; }
+    bool writersRefused() const { return writersRefused_; }
+
     // Setup, for Simplex and its handles.
     void registerHandler(std::uint32_t simplex, std::string_view command, Handler handler);
     CommandSender makeSender(std::uint32_t edge, std::string_view command, std::uint32_t capacity);
@@ -167,6 +171,7 @@ private:
     std::uint32_t agentSimplex_ = noSimplex;
     std::int64_t lateness_ = 0;
     bool started_ = false, stopped_ = false;
+    bool writersRefused_ = false;
 };
 
 }  // namespace cortex

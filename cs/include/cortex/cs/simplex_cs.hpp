@@ -50,8 +50,8 @@ protected:
     virtual bool stateFault(const Tick&) CORTEX_REALTIME { return true; }
     virtual void loopEnd(const Tick&) CORTEX_REALTIME {}
 
-    // In a hook: enter Fault when this task ends. The first fault of a cycle is kept. Throws Error
-    // before the first tick.
+    // In a hook: enter Fault when this task ends. The first fault of a cycle is kept. `code` is
+    // above 0. Throws Error before the first tick, and for other codes, which are the framework's.
     void fault(std::int64_t code, std::string_view text) CORTEX_REALTIME;
     // In a hook: own quality and that of the outputs in this cycle, instead of what follows from
     // the inputs; `measuredAt`: nominal time of the measurement, default this cycle.
@@ -71,6 +71,7 @@ protected:
     private:
         friend class SimplexCS;
         void post(LifeCycle command) CORTEX_REALTIME;
+        AgentRuntime& bound() const CORTEX_REALTIME;  // throws UnboundHandle
         AgentRuntime* runtime_ = nullptr;
         std::uint32_t target_ = noSimplex;
         bool isDelayed_ = false;
@@ -100,6 +101,8 @@ private:
     static Outcome invoke(Outcome (Self::*method)(Call&), void* self, Call& call) {
         return (static_cast<Self*>(static_cast<SimplexCS*>(self))->*method)(call);
     }
+
+    void enterFault(std::int64_t code, std::string_view text) CORTEX_REALTIME;
 
     // With the head of the object this is most of a cache line; what derives from it goes on there.
     std::uint32_t manager_ = noSimplex;  // starts and stops it instead of group commands

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/error.hpp"
+
+#include "support/probe.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+template <class Action>
+std::string refusalOf(Action action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "not refused";
+}
+
+bool contains(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST(UnboundHandles, PutTheSimplexIntoFaultWithHandleHookAndType) {
+    ProbeCluster cluster;
+    Data<double> forgotten;
+    cluster.probe("/ctl").onActive = [&](Probe&, const Tick&) { forgotten = 1; };
+    int others = 0;
+    cluster.probe("/other").onLoopStart = [&](Probe&, const Tick&) { ++others; };
+    cluster.start();
+    cluster.call("/ctl", "startup");
+
+    cluster.step(3);
+
+    EXPECT_EQ(cluster.state("/ctl"), State::Fault);
+    EXPECT_EQ(cluster.integer("/ctl", "faultCode"), -1);
+    EXPECT_TRUE(
+        cluster.hasEvent("handle Data<double> of /ctl is not bound (forgotten in "
+                         "populate()?); used in stateActive of Probe"));
+    EXPECT_GE(others, 4);
+}
+
+TEST(UnboundHandles, AreFoundForSendersToo) {
+    ProbeCluster cluster;
+    CommandSender command;
+    Probe::LifeCycleSender lifeCycle;
+    cluster.probe("/a").onLoopStart = [&](Probe&, const Tick&) { command.send(); };
+    cluster.probe("/b").onLoopStart = [&](Probe&, const Tick&) { lifeCycle.startup(); };
+    cluster.start();
+    cluster.step();
+
+    EXPECT_TRUE(cluster.hasEvent("handle CommandSender of /a is not bound"));
+    EXPECT_TRUE(cluster.hasEvent("handle LifeCycleSender of /b is not bound"));
+}
+
+TEST(UnboundHandles, ThatPopulateUsesAreFindingsOfTheStart) {
+    ProbeCluster cluster;
+    Data<double> forgotten;
+    cluster.probe("/ctl").onPopulate = [&](Probe& self) {
+        Data<double> gain = self.data<double>("gain");
+        forgotten = gain;  // copies a value into what is not bound
+    };
+
+    const std::string refusal = refusalOf([&] { cluster.start(); });
+
+    EXPECT_TRUE(contains(refusal, "/ctl")) << refusal;
+    EXPECT_TRUE(contains(refusal, "handle Data<double> is not bound")) << refusal;
+}
+
+TEST(WhatMayBeWritten, LeavesTheItemsOfTheFrameworkOutAlreadyAtTheStart) {
+    ProbeCluster cluster;
+    for (const char* path : {"/a", "/b"}) {
+        cluster.probe(path).onPopulate = [](Probe& self) { self.data<std::int64_t>("state") = 2; };
+    }
+    cluster.probe("/long", "LongProbe").onPopulate = [](Probe& self) {
+        self.data<double>("progress") = 0.5;  // its own
+        self.data<std::string_view>("requester") = "me";
+    };
+
+    const std::string refusal = refusalOf([&] { cluster.start(); });
+
+    EXPECT_TRUE(contains(refusal, "/a: /a.state is written by the framework") ||
+                contains(refusal, "/a.state is written by the framework"))
+        << refusal;
+    EXPECT_TRUE(contains(refusal, "/b.state is written by the framework")) << refusal;
+    EXPECT_TRUE(contains(refusal, "/long.requester is written by the framework")) << refusal;
+}
+
+TEST(WhatMayBeWritten, IsNothingForTheProgramWhileAClockRunsTheLoop) {
+    ProbeCluster cluster;
+    Simplex& signal = cluster.tree.add("/signal", "Signal");
+    cluster.cluster->setTriggerSource<cs::InternalClock>(1ms);
+    cluster.start();
+
+    EXPECT_EQ(signal.data<const double>("value").get(), 0);
+    EXPECT_TRUE(contains(refusalOf([&] { signal.data<double>("value"); }),
+                         "/signal.value: the loop runs; a program sends the command `set`"));
+}
+
+TEST(FaultCodes, ThatAreNotAboveZeroAreRefusedAndFaultAllTheSame) {
+    for (const std::int64_t code : {0, -5}) {
+        ProbeCluster cluster;
+        cluster.probe("/a").onActive = [&](Probe& self, const Tick&) {
+            self.fault(code, "no pressure");
+        };
+        cluster.start();
+        cluster.call("/a", "startup");
+        cluster.step(3);
+
+        EXPECT_EQ(cluster.state("/a"), State::Fault);
+        EXPECT_EQ(cluster.integer("/a", "faultCode"), -1);
+        EXPECT_TRUE(cluster.hasEvent("fault code " + std::to_string(code) +
+                                     " is not above 0, as a simplex's own are: no pressure"));
+    }
+}
+
+TEST(CallsOfTheClusterInAHook, AreRefusedAtOnce) {
+    ProbeCluster cluster;
+    std::string call, stop, start;
+    cluster.probe("/a").onLoopStart = [&](Probe&, const Tick&) {
+        call = refusalOf([&] { cluster.cluster->call("/a", "poke"); });
+        stop = refusalOf([&] { cluster.cluster->stop(); });
+        start = refusalOf([&] { cluster.cluster->start(); });
+    };
+    cluster.start();
+    cluster.step();
+
+    EXPECT_TRUE(contains(call, "call() was called in a hook")) << call;
+    EXPECT_TRUE(contains(call, "CommandSender")) << call;
+    EXPECT_TRUE(contains(stop, "stop() was called in a hook")) << stop;
+    EXPECT_TRUE(contains(start, "start() was called in a hook")) << start;
+    EXPECT_TRUE(cluster.cluster->running());
+}
+
+}  // namespace
+
+}  // namespace cortex::test
