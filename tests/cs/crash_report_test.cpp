@@ -2,8 +2,10 @@
 #include "support/probe.hpp"
 
 #include <csignal>
+#include <cstddef>
 #include <exception>
 
+#include <sys/mman.h>
 #include <sys/wait.h>
 
 #include <gtest/gtest.h>
@@ -38,8 +40,10 @@ TEST(CrashReportDeathTest, NamesTheHookThatReadsWhatIsNotThere) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     EXPECT_EXIT(crashIn(&Probe::onLoopStart,
                         [](Probe&, const Tick&) {
-                            int* volatile nowhere = nullptr;
-                            *nowhere = 1;  // NOLINT: this is the crash
+                            constexpr std::size_t page = 4096;
+                            void* const nothing =
+                                mmap(nullptr, page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+                            *static_cast<volatile char*>(nothing) = 1;
                         }),
                 endedBy(SIGSEGV),
                 "cortex: SIGSEGV in loopStart of /arm/crashing; the process ends");
