@@ -242,7 +242,7 @@ void ClusterCS::startAll() {
         return makeSchedule(self.graph(), {threads, self.test.chunkSize, costs, false});
     });
     self.agent->start();
-    if (dynamic_cast<const ManualTrigger*>(self.trigger.get()) == nullptr) {
+    if (self.trigger->realTime()) {
         self.agent->refuseWriters();  // nobody knows when such a loop is between two cycles
     }
     self.loop->start();

@@ -96,12 +96,7 @@ public:
     Data(const Data&) = default;
     Data(Data&&) noexcept = default;
 
-    Data& operator=(Data&& bound) & noexcept = default;  // binds
-    Data& operator=(Data&& other) && CORTEX_REALTIME     // what names no handle: `names_[1] = …`
-        requires(!std::is_const_v<T>)
-    {
-        return *this = other.get();
-    }
+    Data& operator=(Data&& bound) & noexcept = default;  // binds what has a name
     Data& operator=(const Data& other) CORTEX_REALTIME
         requires(!std::is_const_v<T>)
     {
