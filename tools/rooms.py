@@ -34,7 +34,7 @@ PUBLIC = {
     "core": {
         "base": "clock data error event_count findings machine nearest_names path quality realtime "
                 "report service_threads spsc_ring state system_findings tick value xml_text",
-        "types": "agreement type_model",
+        "types": "agreement labelled_value type_model",
         "files": "model_files type_description",
         "tables": "event event_sinks image image_pool structure tables",
         "commands": "argument_checks command loop_thread mailbox record",

@@ -3,6 +3,7 @@
 #include "cortex/comms/dds_interface.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/event_sinks.hpp"
+#include "cortex/core/labelled_value.hpp"
 #include "cortex/core/nearest_names.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 #include "cortex/toolkit/classes.hpp"
@@ -54,7 +55,7 @@ void applySetting(SimplexTree& tree, const std::string& text, std::set<std::stri
                          ") has no item '" + itemName + "'; " + nearestNames(itemName, names));
     }
     std::string why;
-    const auto value = parseValue(item->kind, item->length, text.substr(equals + 1), why);
+    const auto value = parseItemValue(*item, text.substr(equals + 1), why);
     if (!value) {
         throw UsageError("--set " + text + ": " + why + "; " + itemName + " has " + shape(*item));
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/error.hpp"
+#include "cortex/core/labelled_value.hpp"
 #include "cortex/core/simplex_tree.hpp"
 #include "cortex/core/system_findings.hpp"
 
@@ -84,7 +85,7 @@ void addSetting(const TypeModel& types, Simplex& simplex, const SystemDescriptio
         return;
     }
     std::string why;
-    if (auto value = parseValue(item->kind, item->length, setting.value, why)) {
+    if (auto value = parseItemValue(*item, setting.value, why)) {
         simplex.set(setting.data, *value, setting.place);
         return;
     }
