@@ -70,6 +70,12 @@ void AgentLinks::update(Peers& peers) {
         std::erase_if(link->claims, [&](const auto& each) { return !peers.contains(each.first); });
         for (auto& [name, peer] : peers) claim(*link, peer);
     }
+    for (const auto& link : links_) {
+        if (!link->claims.empty()) continue;
+        const std::string& path = self_.structure().simplexes[link->simplex].path;
+        const std::string hint = misspelt_.hint(path, peers);
+        if (!hint.empty()) self_.event(Severity::Info, link->simplex, "is not linked: " + hint);
+    }
     const std::lock_guard lock{mutex_};
     for (const auto& link : links_) choose(*link);
     findOwners();

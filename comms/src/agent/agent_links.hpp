@@ -3,6 +3,7 @@
 
 #include "agent/agent_link_buffer.hpp"
 #include "agent/agent_peers.hpp"
+#include "agent/misspelt_path.hpp"
 #include "agent/transit_delay.hpp"
 
 #include <atomic>
@@ -113,6 +114,7 @@ private:
     void readLink(Link& link, Inbox& inbox, std::int64_t now) CORTEX_REALTIME;
 
     AgentSelf& self_;
+    MisspeltPath misspelt_;
     std::vector<std::unique_ptr<Link>> links_;
     std::mutex mutex_;
     std::map<Id, Owner> owners_;

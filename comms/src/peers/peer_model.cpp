@@ -87,6 +87,12 @@ bool PeerModel::add(const SimplexMessage& simplex) {
     return true;
 }
 
+std::vector<std::string> PeerModel::paths() const {
+    std::vector<std::string> paths;
+    for (const auto& [path, simplex] : simplexes_) paths.push_back(path);
+    return paths;
+}
+
 std::uint32_t PeerModel::missing() const {
     if (!presence_) return 0;
     return lacking(presence_->types, types_.size()) +

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cortex::comms {
 
@@ -30,6 +31,7 @@ public:
 
     const std::optional<Presence>& presence() const { return presence_; }
     bool has(const std::string& path) const { return simplexes_.contains(path); }
+    std::vector<std::string> paths() const;
     std::uint32_t missing() const;  // types and simplexes that were announced and have not come
     bool complete() const;          // everything that the presence counts has come; hashes agree
     std::uint64_t refused() const { return refused_; }
