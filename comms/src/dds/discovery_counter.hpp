@@ -20,6 +20,7 @@ public:
     std::function<void(const Guid&, std::string_view topic)> onWriter;
 
     std::uint32_t known() const { return known_; }
+    std::uint32_t secured() const { return secured_; }  // those of them that ask for security
 
     void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* /*us*/,
                                 eprosima::fastrtps::rtps::WriterDiscoveryInfo&& info) override {
@@ -36,15 +37,18 @@ public:
 
 protected:
     void count(const eprosima::fastrtps::rtps::ParticipantDiscoveryInfo& info) {
+        const std::uint32_t secured = info.info.identity_token_.class_id().empty() ? 0 : 1;
         if (info.status == info.DISCOVERED_PARTICIPANT) {
             ++known_;
+            secured_ += secured;
         } else if (info.status != info.CHANGED_QOS_PARTICIPANT) {
             --known_;
+            secured_ -= secured;
         }
     }
 
 private:
-    std::atomic<std::uint32_t> known_{0};
+    std::atomic<std::uint32_t> known_{0}, secured_{0};
 };
 
 }  // namespace cortex::comms

@@ -301,6 +301,8 @@ std::uint64_t Participant::refused() const {
 
 std::uint32_t Participant::pending() const { return impl_->guard ? impl_->guard->pending() : 0; }
 
+std::uint32_t Participant::secured() const { return impl_->listener->secured(); }
+
 // --- the messages -------------------------------------------------------------------------------
 
 template class Writer<Presence>;

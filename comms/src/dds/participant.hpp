@@ -90,6 +90,7 @@ public:
     std::vector<std::string> takeRefusals();
     std::uint64_t refused() const;
     std::uint32_t pending() const;  // others that are not authenticated yet
+    std::uint32_t secured() const;  // others that ask for security
 
 private:
     struct Impl;

@@ -63,6 +63,17 @@ bool Mirror::waitUntilComplete(Milliseconds limit) const {
         limit, [](MirrorState& state) { return state.everybodyIsHere(); });
 }
 
+std::uint32_t Mirror::nameless() const {
+    return implementation_->thread.read([](MirrorState& state) {
+        const std::uint32_t present = state.agents.present();
+        return state.speakers > present ? state.speakers - present : 0;
+    });
+}
+
+std::uint32_t Mirror::closed() const {
+    return implementation_->thread.read([](MirrorState& state) { return state.closed; });
+}
+
 std::shared_ptr<const Structure> Mirror::structure(const std::string& agent) const {
     return implementation_->thread.read([&](MirrorState& state) {
         const MirrorAgent* found = state.agents.find(agent);
@@ -101,13 +112,16 @@ bool Mirror::waitForValues(Milliseconds limit) const {
 }
 
 AgentImage Mirror::image(const std::string& agent) const {
+    std::vector<bool> came;  // before the image is taken, which then has what came
     const auto tables =
         implementation_->thread.read([&](MirrorState& state) -> std::shared_ptr<MirrorTables> {
             const MirrorAgent* found = state.agents.find(agent);
-            return found != nullptr ? found->tables : nullptr;
+            if (found == nullptr || !found->tables) return nullptr;
+            if (!found->lost) came = found->tables->received();
+            return found->tables;
         });
     if (!tables) return {};
-    return {tables, tables->newest()};
+    return {tables, tables->newest(), std::move(came)};
 }
 
 std::optional<double> Mirror::age(const std::string& agent, std::uint32_t simplex) const {

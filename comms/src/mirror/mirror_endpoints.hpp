@@ -25,6 +25,10 @@ public:
 
     // The number of agents and tools, and with security of those that have yet to prove themselves.
     std::uint32_t speakers() const { return presences_->writers() + participant_.pending(); }
+    // The number of participants with security, of which this tool without it learns nothing more.
+    std::uint32_t closed() const {
+        return participant_.identity() == nullptr ? participant_.secured() : 0;
+    }
     std::uint64_t malformed() const { return participant_.malformed() + participant_.refused(); }
 
 private:

@@ -93,6 +93,13 @@ void MirrorTables::restart(const MirrorView& view) {
     publish();
 }
 
+std::vector<bool> MirrorTables::received() const {
+    std::vector<bool> received;
+    received.reserve(simplexes_.size());
+    for (const Arrival& each : simplexes_) received.push_back(each.received);
+    return received;
+}
+
 std::optional<double> MirrorTables::age(std::uint32_t simplex, Moment now) const {
     if (simplex >= simplexes_.size() || !simplexes_[simplex].received) return {};
     const Arrival& arrival = simplexes_[simplex];

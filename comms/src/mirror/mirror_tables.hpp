@@ -34,6 +34,7 @@ public:
 
     Image newest() { return images_.newest(); }
     bool received(std::uint32_t simplex) const { return simplexes_[simplex].received; }
+    std::vector<bool> received() const;                                  // by simplex
     std::optional<double> age(std::uint32_t simplex, Moment now) const;  // s
     std::uint64_t published() const { return published_; }
     std::uint64_t loss() const { return loss_; }        // blocks that did not come

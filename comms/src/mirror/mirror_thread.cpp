@@ -102,6 +102,7 @@ void MirrorThread::serve(Moment now) {
     state_.commands.tick(now, [&](const Command& command) { return endpoints_.write(command); });
     if (endpoints_.speakers() != state_.speakers) state_.news = now;
     state_.speakers = endpoints_.speakers();
+    state_.closed = endpoints_.closed();
 }
 
 // The mutex is not held here, because a listener may call the mirror.

@@ -38,6 +38,7 @@ struct MirrorState {
     std::vector<std::function<void(const AgentEvent&)>> listeners;
     // How many participants send presences, whether theirs has come already or not.
     std::uint32_t speakers = 0;
+    std::uint32_t closed = 0;  // those with security, while this mirror has none
     Moment news = std::chrono::steady_clock::now();  // when the last of them was discovered
     bool stopping = false;
     std::string failure;  // why the thread has ended

@@ -54,22 +54,27 @@ struct CommandAnswer : CallResult {
 class AgentImage {
 public:
     AgentImage() = default;
-    AgentImage(std::shared_ptr<const void> keeps, Image image)
-        : keeps_{std::move(keeps)}, image_{std::move(image)} {}
+    AgentImage(std::shared_ptr<const void> keeps, Image image, std::vector<bool> came)
+        : keeps_{std::move(keeps)}, image_{std::move(image)}, came_{std::move(came)} {}
     AgentImage(AgentImage&&) noexcept = default;
     AgentImage& operator=(AgentImage&& other) noexcept {
         image_ = std::move(other.image_);  // releases the image before the memory that it lies in
         keeps_ = std::move(other.keeps_);
+        came_ = std::move(other.came_);
         return *this;
     }
 
     explicit operator bool() const { return static_cast<bool>(image_); }
     const Image& operator*() const { return image_; }
     const Image* operator->() const { return &image_; }
+    // Whether the agent sent this simplex and is still heard. Such a simplex may be `lost` because
+    // an input of it is; without it, `lost` means that nothing is known.
+    bool came(std::uint32_t simplex) const { return simplex < came_.size() && came_[simplex]; }
 
 private:
     std::shared_ptr<const void> keeps_;
     Image image_;  // ends first
+    std::vector<bool> came_;
 };
 
 // All agents of a domain for tools: their models, values, events and commands, without any prior
@@ -88,7 +93,10 @@ public:
     const std::string& name() const;  // as agents see it: the holder of its control leases
 
     std::vector<AgentStatus> agents() const;  // by name; without those lost for more than a minute
-    std::uint32_t unheard() const;  // agents that another agent hears and this mirror does not
+    std::uint32_t unheard() const;   // agents that another agent hears and this mirror does not
+    std::uint32_t nameless() const;  // found on the network, and have not said yet who they are
+    // Participants with security that were found, while this mirror has none: it cannot see more.
+    std::uint32_t closed() const;
     // Waits until at least one agent is present, everything of all has come, all whom they hear are
     // known here, and no new one appears. False: not within `limit`.
     bool waitUntilComplete(Milliseconds limit) const;
