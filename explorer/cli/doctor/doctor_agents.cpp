@@ -125,6 +125,10 @@ void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
         examineState(each, found);
         if (each.host != hostName()) examineClock(live, each, found);
     }
+    for (const std::string& each : live.contradictions()) {
+        found.push_back({Level::Error, "path", each,
+                         "give one of the two simplexes another path in its system file"});
+    }
     examineSecurity(agents, found);
     examineNames(starts, arrivals.take(std::chrono::milliseconds{0}), found);
 }

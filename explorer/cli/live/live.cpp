@@ -7,6 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
 #include <tuple>
 
 namespace cortex::explorer {
@@ -15,10 +21,18 @@ namespace {
 using Milliseconds = std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
+// CORTEX_INTERFACE: addresses or names with blanks between; none: all.
+std::vector<std::string> interfacesInEnvironment() {
+    const char* text = std::getenv("CORTEX_INTERFACE");
+    std::istringstream words{text != nullptr ? text : ""};
+    return {std::istream_iterator<std::string>{words}, {}};
+}
+
 comms::NetworkOptions optionsOf(const NetworkArguments& arguments) {
     comms::NetworkOptions options;
     if (arguments.domain) options.domain = *arguments.domain;
-    options.interfaces = arguments.interfaces;
+    options.interfaces =
+        arguments.interfaces.empty() ? interfacesInEnvironment() : arguments.interfaces;
     options.peers = arguments.peers;
     if (arguments.discoveryServer) options.discoveryServer = *arguments.discoveryServer;
     if (arguments.security) options.security = *arguments.security;
@@ -57,12 +71,43 @@ void Live::waitForAll() {
 
 void Live::failWithNobody() const {
     const std::string domain = std::to_string(domain_);
+    if (mirror_->closed() > 0) {
+        throw Failure{NotFound, "no agent on domain " + domain +
+                                    " can be seen without security: " + closed() +
+                                    "; name a folder that 'cortex security "
+                                    "create-agent' made (--security FOLDER or "
+                                    "CORTEX_SECURITY)"};
+    }
+    if (mirror_->nameless() > 0) {
+        throw Failure{NotFound, "no agent on domain " + domain + " is known yet: " + nameless() +
+                                    " within " + limitText() + "; wait longer (--timeout)"};
+    }
     throw Failure{
         NotFound,
         "no agent on domain " + domain + "; start one (cortex-agent FILE --domain " + domain +
             "), look at another domain (--domain N or CORTEX_DOMAIN), name the interface that the "
-            "agents are kept to (--interface lo), or a host that multicast does not reach "
+            "agents are kept to (--interface lo or CORTEX_INTERFACE), or a host that multicast "
+            "does not reach "
             "(--peer HOST)"};
+}
+
+std::string Live::limitText() const {
+    return toText(static_cast<double>(timeout_.count()) / 1000) + " s";
+}
+
+std::string Live::closed() const {
+    const std::uint32_t count = mirror_->closed();
+    return count == 0 ? ""
+                      : plural(count, "participant") + " with security " +
+                            (count == 1 ? "was" : "were") + " heard";
+}
+
+std::string Live::nameless() const {
+    const std::uint32_t count = mirror_->nameless();
+    return count == 0
+               ? ""
+               : plural(count, "participant") + " of CorteX " + (count == 1 ? "was" : "were") +
+                     " found and did not say who " + (count == 1 ? "it is" : "they are");
 }
 
 std::string Live::incomplete() const {
@@ -98,11 +143,55 @@ FoundSimplex Live::find(const std::string& path) {
         }
     }
     if (mirror_->agents().empty()) failWithNobody();
-    const std::string lacking = incomplete();
     const std::string nearest = nearestNames(path, paths());
-    throw Failure{NotFound, "no agent has a simplex " + path +
-                                (nearest.empty() ? "" : "; " + nearest) +
-                                (lacking.empty() ? "" : "; " + lacking)};
+    const bool all = mirror_->waitUntilComplete(Milliseconds{0});
+    throw Failure{NotFound, (all ? "no agent has a simplex " + path
+                                 : path + " was not found within " + limitText() +
+                                       ", which does not mean that it is not there: " + heard()) +
+                                (nearest.empty() ? "" : "; " + nearest)};
+}
+
+// What was heard until the time was over, where that is not everything.
+std::string Live::heard() const {
+    std::vector<std::string> parts;
+    for (const comms::AgentStatus& each : mirror_->agents()) {
+        if (each.state != "incomplete") parts.push_back(each.name + " was heard");
+        if (each.state != "incomplete") continue;
+        parts.push_back(each.name + " was heard, but its model did not come");
+    }
+    const std::string others = nameless();
+    if (!others.empty()) parts.push_back(others);
+    const std::string lacking = incomplete();
+    return joined(parts) + (lacking.empty() ? "" : "; " + lacking) + "; wait longer (--timeout)";
+}
+
+// Who claims a path that another agent has, and who gets its commands.
+std::vector<std::string> Live::contradictions() const {
+    std::map<std::string, std::vector<std::string>> claims;
+    std::set<std::string> lost;
+    for (const comms::AgentStatus& each : mirror_->agents()) {
+        if (each.state == "lost") lost.insert(each.name);
+    }
+    for (const FoundSimplex& each : below("/")) {
+        if (!lost.contains(each.agent)) claims[each.info().path].push_back(each.agent);
+    }
+    std::vector<std::string> found;
+    for (const auto& [path, agents] : claims) {
+        if (agents.size() < 2) continue;
+        found.push_back("agents " + joined(agents) + " both have " + path + "; commands go to " +
+                        ownerOf(path).value_or("none"));
+    }
+    return found;
+}
+
+void Live::printWarnings() const {
+    for (const std::string& each : contradictions()) {
+        std::cerr << "cortex: " << printable(each) << '\n';
+    }
+    const std::string others = closed();
+    if (others.empty()) return;
+    std::cerr << "cortex: " << others
+              << "; --security FOLDER shows what this tool may see of them\n";
 }
 
 // One path may have several agents.

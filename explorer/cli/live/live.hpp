@@ -44,6 +44,10 @@ public:
     comms::Mirror& mirror() { return *mirror_; }
     // Until everything of everybody is here; throws Failure if nobody is there.
     void waitForAll();
+    // Two agents with one path, each as a sentence.
+    std::vector<std::string> contradictions() const;
+    // These, and participants that cannot be seen without security, on standard error.
+    void printWarnings() const;
     // "incomplete: 37 of 44 from robot", or "" when all is here.
     std::string incomplete() const;
     FoundSimplex find(const std::string& path);  // throws Failure naming the nearest
@@ -54,13 +58,18 @@ public:
     // Its newest values; waits for them. Throws Failure if they do not come.
     comms::AgentImage values(const FoundSimplex& simplex);
 
-    std::chrono::milliseconds left() const;  // of the time to wait
+    std::chrono::milliseconds left() const;  // of the time to wait; 1 ms when it is over
+    bool over() const { return std::chrono::steady_clock::now() >= end_; }
     std::chrono::milliseconds timeout() const { return timeout_; }
     int domain() const { return domain_; }
     [[noreturn]] void failWithNobody() const;  // throws Failure that says what to try
 
 private:
     std::vector<std::string> paths() const;
+    std::string limitText() const;  // "3 s"
+    std::string heard() const;
+    std::string closed() const;    // "2 participants with security were heard"; "" without any
+    std::string nameless() const;  // the same of those that did not say who they are
 
     std::chrono::milliseconds timeout_;
     std::chrono::steady_clock::time_point end_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/live_values.hpp"
 
+#include "cortex/core/labelled_value.hpp"
 #include "cortex/core/nearest_names.hpp"
 
 #include <algorithm>
@@ -35,25 +36,17 @@ std::string labelText(const DataItem& item, std::int64_t number) {
     return label != item.labels.end() ? label->second : toText(number);
 }
 
-// Labels may be written instead of their numbers.
-std::string withNumbers(const DataItem& item, const std::string& text) {
-    for (const auto& [number, label] : item.labels) {
-        if (label == text) return toText(number);
-    }
-    return text;
-}
-
-std::string labelsHint(const DataItem& item) {
-    std::vector<std::string> labels;
-    for (const auto& [number, label] : item.labels) labels.push_back(toText(number) + ":" + label);
-    return labels.empty() ? "" : "; labels: " + joined(labels, " ");
-}
-
 }  // namespace
 
 Json valueJson(const DataItem& item, const Value& value) {
     Json list = std::visit([](const auto& elements) { return Json(elements); }, value);
     return item.length == 1 && list.size() == 1 ? Json(list.front()) : list;
+}
+
+Json labelJson(const DataItem& item, const Value& value) {
+    const std::vector<std::string> labels = labelsOf(item, value);
+    if (labels.empty()) return {};
+    return item.length == 1 ? Json(labels.front()) : Json(labels);
 }
 
 Json numberJson(const std::optional<Number>& number) {
@@ -73,12 +66,12 @@ std::string valueText(const DataItem& item, const Value& value) {
     return joined(words, " ");
 }
 
-std::optional<State> stateOf(const Image& image, std::uint32_t simplex) {
-    const SimplexInfo& info = image.structure().simplexes[simplex];
+std::optional<State> stateOf(const comms::AgentImage& image, std::uint32_t simplex) {
+    if (!image.came(simplex)) return {};
+    const SimplexInfo& info = image->structure().simplexes[simplex];
     const ItemLayout* item = info.layout->find("state");
     if (info.role != Role::Active || item == nullptr || item->item->kind != Kind::Int) return {};
-    if (image.state(simplex).quality == Quality::Lost) return {};
-    const auto value = std::get<std::vector<std::int64_t>>(image.value(simplex, *item)).front();
+    const auto value = std::get<std::vector<std::int64_t>>(image->value(simplex, *item)).front();
     if (value < 0 || value >= stateCount) return {};
     return static_cast<State>(value);
 }
@@ -102,9 +95,8 @@ ProgramInterface::Arguments parseArguments(const std::string& what, const Record
                           what + " has no '" + name + "'; " + (nearest.empty() ? all : nearest)};
         }
         std::string why;
-        auto value = parseValue(item->item->kind, item->item->length,
-                                withNumbers(*item->item, text.substr(equals + 1)), why);
-        if (!value) throw Failure{Usage, name + ": " + why + labelsHint(*item->item)};
+        auto value = parseItemValue(*item->item, text.substr(equals + 1), why);
+        if (!value) throw Failure{Usage, name + ": " + why};
         if (!arguments.emplace(name, std::move(*value)).second) {
             throw Failure{Usage, "'" + name + "' is given twice"};
         }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/comms/mirror.hpp"
 #include "cortex/core/command.hpp"
-#include "cortex/core/image.hpp"
 #include "cortex/core/program_interface.hpp"
 
 #include "text/output.hpp"
@@ -14,12 +14,13 @@
 // Values of agents as people and programs read them, and as people write them.
 namespace cortex::explorer {
 
-Json valueJson(const DataItem& item, const Value& value);         // a scalar, or a list
-Json numberJson(const std::optional<Number>& number);             // null without one
+Json valueJson(const DataItem& item, const Value& value);  // a scalar, or a list
+Json labelJson(const DataItem& item, const Value& value);  // label or list; null without labels
+Json numberJson(const std::optional<Number>& number);      // null without one
 std::string valueText(const DataItem& item, const Value& value);  // labels, format of the item
 
 // The state of an active simplex in an image; none for others, and while it has not come.
-std::optional<State> stateOf(const Image& image, std::uint32_t simplex);
+std::optional<State> stateOf(const comms::AgentImage& image, std::uint32_t simplex);
 
 // "name=value" for parameters of a command or items of `set`; throws Failure with what is valid.
 ProgramInterface::Arguments parseArguments(const std::string& what, const RecordLayout& request,

@@ -111,13 +111,13 @@ void TopView::add(TopFrame& frame, const comms::AgentStatus& status) const {
         const SimplexInfo& info = structure.simplexes[i];
         if (info.remote || !shows(info.path)) continue;
         ++agent.qualities[static_cast<std::size_t>(image->state(i).quality)];
-        const auto state = stateOf(*image, i);
+        const auto state = stateOf(image, i);
         if (!state) continue;
         ++agent.states[static_cast<std::size_t>(*state)];
         if (*state == State::Fault) frame.faults.push_back(faultOf(*image, i, status.name));
     }
     const std::uint32_t own = ownSimplex(structure);
-    if (own != noSimplex && image->state(own).quality != Quality::Lost) {
+    if (own != noSimplex && image.came(own)) {
         agent.loop = itemsOf(*image, own);
     }
 }

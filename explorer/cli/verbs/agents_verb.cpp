@@ -9,6 +9,7 @@ namespace cortex::explorer {
 Exit listAgents(const LiveOptions& options) {
     Live live{options.network};
     live.waitForAll();
+    live.printWarnings();
     const auto agents = live.mirror().agents();
     if (options.json) {
         Json list = Json::array();

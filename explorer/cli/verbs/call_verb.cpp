@@ -60,7 +60,7 @@ void printAnswer(const comms::CommandAnswer& answer, const RecordLayout& layout)
 
 }  // namespace
 
-// The time to wait is that of finding the agent, and then once more that of its answer.
+// Finding the agent and its answer share one time to wait.
 Exit callCommand(const CallOptions& options) {
     Live live{options.network};
     const FoundSimplex simplex = live.find(options.path);
@@ -68,8 +68,13 @@ Exit callCommand(const CallOptions& options) {
     const CommandTable::Entry& entry = entryOf(table, simplex, options.command);
     const auto arguments =
         parseArguments("command '" + options.command + "'", entry.request, options.arguments);
-    const comms::CommandAnswer answer =
-        live.mirror().call(options.path, options.command, arguments, live.timeout());
+    const std::chrono::milliseconds left = live.left();
+    comms::CommandAnswer answer =
+        live.mirror().call(options.path, options.command, arguments, left);
+    if (answer.outcome == Outcome::Unknown) {
+        answer.why += " (finding the agent left " + std::to_string(left.count()) + " of the " +
+                      std::to_string(live.timeout().count()) + " ms of --timeout)";
+    }
     if (options.json) {
         print(answerJson(answer, entry.response));
     } else {

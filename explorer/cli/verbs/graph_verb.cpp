@@ -42,6 +42,7 @@ Exit showGraph(const GraphOptions& options) {
     std::string lacking;
     if (options.files.empty()) {
         live.emplace(options.network).waitForAll();
+        live->printWarnings();
         lacking = live->incomplete();
         if (options.json && !lacking.empty()) throw Failure{NotFound, lacking};
     }

@@ -27,7 +27,7 @@ std::vector<Line> linesOf(Live& live, const std::vector<FoundSimplex>& simplexes
         Line line{each, {}, Quality::Lost};
         const comms::AgentImage& image = found->second;
         if (image && &image->structure() == each.structure.get()) {
-            line.state = stateOf(*image, each.index);
+            line.state = stateOf(image, each.index);
             line.quality = image->state(each.index).quality;
         }
         lines.push_back(std::move(line));
@@ -65,6 +65,7 @@ Exit listSimplexes(const ListOptions& options) {
     live.mirror().waitForValues(live.left());
     const std::string lacking = live.incomplete();
     if (options.json && !lacking.empty()) throw Failure{NotFound, lacking};
+    live.printWarnings();
     const auto lines = linesOf(live, live.below(options.prefix));
     if (lines.empty() && lacking.empty()) {
         std::vector<std::string> paths;

@@ -72,7 +72,7 @@ Examples:
         ->required()
         ->type_name("");
     verb->add_option("--rate", watch->rate,
-                     "Moments per second, 5 if not given: the next of 5, 30, 100; 0: every cycle")
+                     "Moments per second at multiples of 1/HZ s, 5 if not given; 0: every cycle")
         ->type_name("HZ")
         ->check(CLI::Range(0, 1'000'000));
     verb->add_option("--count", watch->count, "End after so many moments")
@@ -184,7 +184,8 @@ void addNetwork(CLI::App& verb, NetworkArguments& network) {
         ->type_name("N")
         ->check(CLI::Range(0, comms::lastDomain));
     verb.add_option("--interface", network.interfaces,
-                    "Address or name of a network interface to use; all if not given")
+                    "Address or name of a network interface to use; CORTEX_INTERFACE or all if "
+                    "not given")
         ->type_name("ADDR")
         ->allow_extra_args(false);
     verb.add_option("--peer", network.peers, "Host that multicast does not reach")

@@ -2,6 +2,7 @@
 #include "cortex/core/argument_checks.hpp"
 #include "cortex/core/command_exchange.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/labelled_value.hpp"
 #include "cortex/core/nearest_names.hpp"
 #include "cortex/core/record.hpp"
 #include "cortex/core/simplex_tree.hpp"
@@ -70,7 +71,7 @@ public:
         if (!found) return;
         const comms::AgentImage image = live_.mirror().image(found->agent);
         const bool same = image && &image->structure() == found->structure.get();
-        if (!same || image->state(found->index).quality == Quality::Lost) {
+        if (!same || !image.came(found->index)) {
             plan_.report.error(saved.path, "no-value", saved.place,
                                "its values did not come from agent " + found->agent,
                                "look whether it runs: cortex agents");
@@ -114,7 +115,7 @@ private:
         }
         const DataItem& item = *layout->item;
         std::string why;
-        const auto value = parseValue(item.kind, item.length, saved.value, why);
+        const auto value = parseItemValue(item, saved.value, why);
         if (!value) return wrong("malformed-value", "'" + saved.name + "': " + why);
         why = refusal(table, item, *value);
         if (!why.empty()) return wrong("out-of-range", why);
@@ -169,11 +170,16 @@ Json planJson(const Plan& plan, bool applied) {
             {"results", results}};
 }
 
-// Every simplex has the whole time to answer.
+// All simplexes share what is left of the time to wait. What has none left is not sent.
 Exit apply(Live& live, Plan& plan) {
     Exit exit = Yes;
     for (Change& each : plan.changes) {
-        each.answer = live.mirror().call(each.path, "set", each.arguments, live.timeout());
+        if (live.over()) {
+            each.answer.outcome = Outcome::Expired;
+            each.answer.why = "not sent, because the time to wait was over (--timeout)";
+        } else {
+            each.answer = live.mirror().call(each.path, "set", each.arguments, live.left());
+        }
         if (each.answer.done()) continue;
         const bool refused = each.answer.outcome != Outcome::Unknown;
         if (refused || exit == Yes) exit = refused ? No : NotFound;

@@ -15,7 +15,7 @@ struct Shown {
     double age = 0;  // s
 
     Value value(const ItemLayout& item) const { return image->value(simplex.index, item); }
-    std::optional<State> state() const { return stateOf(*image, simplex.index); }
+    std::optional<State> state() const { return stateOf(image, simplex.index); }
     Quality quality() const { return image->state(simplex.index).quality; }
 };
 
@@ -50,6 +50,8 @@ Json dataJson(const Shown& shown) {
             {"kind", name(item.kind)},     {"value", valueJson(item, shown.value(each))},
             {"unit", item.unit},           {"min", numberJson(item.min)},
             {"max", numberJson(item.max)}, {"description", item.description}};
+        const Json label = labelJson(item, shown.value(each));
+        if (!label.is_null()) data[item.name]["label"] = label;
     }
     return data;
 }

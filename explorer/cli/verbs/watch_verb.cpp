@@ -8,6 +8,8 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <set>
+#include <thread>
 
 namespace cortex::explorer {
 namespace {
@@ -16,14 +18,15 @@ namespace {
 struct Watched {
     FoundSimplex simplex;
     const ItemLayout* item = nullptr;
-    std::string name;   // "/arm/axis.position"
+    std::string name;  // "/arm/axis.position"
+    std::string itemName;
     std::string shown;  // last, with its quality
 };
 
 // What is known of a value in one image of its agent.
 struct Reading {
     std::string text;
-    Json value;
+    Json value, label;  // null: it has none
     Quality quality = Quality::Lost;
 };
 
@@ -37,7 +40,7 @@ void addItems(Live& live, const std::string& what, std::vector<Watched>& watched
     for (const ItemLayout& each : simplex.info().layout->items) {
         names.push_back(each.item->name);
         if (dot != std::string::npos && each.item->name != wanted) continue;
-        watched.push_back({simplex, &each, path + "." + each.item->name, ""});
+        watched.push_back({simplex, &each, path + "." + each.item->name, each.item->name, ""});
     }
     if (watched.size() > before) return;
     const std::string nearest = nearestNames(wanted, names);
@@ -46,14 +49,33 @@ void addItems(Live& live, const std::string& what, std::vector<Watched>& watched
                                 (nearest.empty() ? all : nearest)};
 }
 
+// A later start of the agent has a structure of its own. Where that has no such item, or has not
+// come yet, nothing is read. True: from now on the values are those of another start.
+bool follow(Live& live, Watched& watched) {
+    const std::string path = watched.name.substr(0, watched.name.find('.'));
+    const auto owner = live.ownerOf(path);
+    const auto structure = owner ? live.mirror().structure(*owner) : nullptr;
+    if (!structure || structure == watched.simplex.structure) return false;
+    const std::uint32_t index = structure->find(path);
+    const ItemLayout* item =
+        index == noSimplex ? nullptr : structure->simplexes[index].layout->find(watched.itemName);
+    if (item == nullptr) return false;
+    const bool restarted = structure->epoch != watched.simplex.structure->epoch;
+    watched.simplex = {*owner, structure, index};
+    watched.item = item;
+    watched.shown.clear();
+    return restarted;
+}
+
 Reading read(const Watched& watched, const comms::AgentImage& image) {
     Reading reading;
-    // A later start of the agent may have another structure: what was watched is gone with it.
-    if (!image || &image->structure() != watched.simplex.structure.get()) return reading;
+    const bool same = image && &image->structure() == watched.simplex.structure.get();
+    if (!same || !image.came(watched.simplex.index)) return reading;
     reading.quality = image->state(watched.simplex.index).quality;
     const Value value = image->value(watched.simplex.index, *watched.item);
     reading.text = valueText(*watched.item->item, value);
     reading.value = valueJson(*watched.item->item, value);
+    reading.label = labelJson(*watched.item->item, value);
     return reading;
 }
 
@@ -68,29 +90,39 @@ public:
         std::cout << "time";
         for (const Watched& each : watched_) std::cout << ',' << each.name;
         for (const Watched& each : watched_) std::cout << ',' << each.name << ":quality";
-        std::cout << std::endl;
+        std::cout << ",restarted" << std::endl;
     }
-    void line(const std::string& time, const std::vector<Reading>& readings) {
-        if (options_.csv) return csv(time, readings);
-        if (options_.json) return json(time, readings);
+    // `restarted`: agents whose values are from now on those of another start.
+    void line(const std::string& time, const std::vector<Reading>& readings,
+              const std::set<std::string>& restarted) {
+        if (options_.csv) return csv(time, readings, restarted);
+        if (options_.json) return json(time, readings, restarted);
+        for (const std::string& each : restarted) {
+            std::cout << time << "  values now come from a new start of agent " << printable(each)
+                      << '\n';
+        }
         for (std::size_t i = 0; i < readings.size(); ++i) text(time, watched_[i], readings[i]);
         std::cout << std::flush;
     }
 
 private:
-    static void csv(const std::string& time, const std::vector<Reading>& readings) {
+    static void csv(const std::string& time, const std::vector<Reading>& readings,
+                    const std::set<std::string>& restarted) {
         std::cout << time;
         for (const Reading& each : readings) std::cout << ',' << csvText(each.text);
         for (const Reading& each : readings) std::cout << ',' << name(each.quality);
-        std::cout << std::endl;
+        std::cout << ',' << csvText(joined({restarted.begin(), restarted.end()}, " ")) << std::endl;
     }
-    void json(const std::string& time, const std::vector<Reading>& readings) const {
+    void json(const std::string& time, const std::vector<Reading>& readings,
+              const std::set<std::string>& restarted) const {
         Json values = Json::object();
         for (std::size_t i = 0; i < readings.size(); ++i) {
-            values[watched_[i].name] = {{"value", readings[i].value},
-                                        {"quality", name(readings[i].quality)}};
+            Json& value = values[watched_[i].name] = {{"value", readings[i].value},
+                                                      {"quality", name(readings[i].quality)}};
+            if (!readings[i].label.is_null()) value["label"] = readings[i].label;
         }
-        const Json line{{"time", time}, {"values", values}};
+        Json line{{"time", time}, {"values", values}};
+        if (!restarted.empty()) line["restarted"] = restarted;
         std::cout << line.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
     }
     // Only what has changed.
@@ -112,25 +144,41 @@ std::int64_t now() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
 }
 
-// A moment of all agents that are watched: that of the newest image, or of its being lost.
+// Waits for the next moment and returns its time: a multiple of 1/rate s of the wall clock, or
+// without a rate that of the next image.
+std::int64_t nextMoment(const WatchOptions& options, Live& live, std::uint64_t& images) {
+    if (options.rate > 0) {
+        const std::int64_t step = 1'000'000'000 / options.rate;
+        const std::int64_t moment = (now() / step + 1) * step;
+        const std::chrono::nanoseconds since{moment};
+        std::this_thread::sleep_until(std::chrono::system_clock::time_point{since});
+        return moment;
+    }
+    const std::uint64_t before = images;
+    while (images == before && std::cout) {
+        images = live.mirror().waitForImage(before, std::chrono::seconds{1});
+    }
+    return now();
+}
+
+// What all agents that are watched have at each moment.
 void run(const WatchOptions& options, Live& live, std::vector<Watched>& watched) {
     ImagePrinter printer{options, watched};
     printer.head();
     std::uint64_t images = 0;
     for (std::uint64_t lines = 0; options.count == 0 || lines < options.count; ++lines) {
-        const std::uint64_t before = images;
-        while (images == before && std::cout) {
-            images = live.mirror().waitForImage(before, std::chrono::seconds{1});
-        }
+        const std::int64_t moment = nextMoment(options, live, images);
         if (!std::cout) return;  // nobody reads on
         std::map<std::string, comms::AgentImage> pinned;
         std::vector<Reading> readings;
-        for (const Watched& each : watched) {
+        std::set<std::string> restarted;
+        for (Watched& each : watched) {
+            if (follow(live, each)) restarted.insert(each.simplex.agent);
             const auto [place, added] = pinned.try_emplace(each.simplex.agent);
             if (added) place->second = live.mirror().image(each.simplex.agent);
             readings.push_back(read(each, place->second));
         }
-        printer.line(timeText(now()), readings);
+        printer.line(timeText(moment), readings, restarted);
     }
 }
 
