@@ -122,7 +122,7 @@ TEST_F(CortexLive, WatchesValues) {
     ASSERT_EQ(lines.size(), 4U) << csv.output;
     EXPECT_EQ(lines[0],
               "time,/mixer.commandCount,/drive.state,/mixer.commandCount:quality,"
-              "/drive.state:quality");
+              "/drive.state:quality,restarted");
     EXPECT_TRUE(contains(lines[3], ",Standby,good,good")) << lines[3];
 
     const Outcome objects = live({"watch", "/drive", "--json", "--count", "2"});

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the verbs say of agents that are slow, half known, dead, started again or hidden.
+#include "cli/json_schema.hpp"
+#include "cli/live_agent.hpp"
+#include "comms/network_agent.hpp"
+#include "core/model_folder.hpp"
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using nlohmann::json;
+using Words = std::vector<std::string>;
+
+Outcome liveWithin(const std::string& seconds, const Words& arguments) {
+    return cortex(arguments + network + Words{"--timeout", seconds});
+}
+
+// A system file of one agent.
+std::string systemFile(const ModelFolder& folder, const std::string& agent,
+                       const std::string& inside) {
+    return folder
+        .write(agent + ".xml", "<system name=\"" + agent +
+                                   "\"><morphology file=\"robotics-morphology.xml\"/>"
+                                   "<cluster name=\"" +
+                                   agent + "\" frequency=\"200\"/>" + inside + "</system>")
+        .string();
+}
+
+// Looks again until it is so; 20 s at most.
+template <class Look, class Condition>
+auto lookUntil(Look look, Condition condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+    auto seen = look();
+    while (!condition(seen) && std::chrono::steady_clock::now() < end) seen = look();
+    return seen;
+}
+
+// A participant that says it is an agent, and sends nothing of its model.
+struct Ghost : comms::RawTool {
+    Ghost() : RawTool{"ghost"} {}
+    void say() {
+        comms::Presence said = presence();
+        said.role = "agent";
+        said.interval = 1'000'000'000;
+        said.types = 3;
+        said.simplexes = 2;
+        presences->write(said);
+    }
+};
+
+TEST(CortexTimeout, NamesWhatWasHeardOfAnAgentWhoseModelDoesNotCome) {
+    Ghost ghost;
+    ghost.say();
+
+    const Outcome outcome = liveWithin("1", {"call", "/arm", "startup"});
+
+    EXPECT_EQ(outcome.exit, 3);
+    EXPECT_TRUE(contains(outcome.errors, "/arm was not found within 1 s")) << outcome.errors;
+    EXPECT_TRUE(contains(outcome.errors, "ghost was heard, but its model did not come"))
+        << outcome.errors;
+    EXPECT_FALSE(contains(outcome.errors, "no agent has")) << outcome.errors;
+}
+
+TEST(CortexTimeout, SaysThatSomebodyWasFoundWhoDidNotSayWhoItIs) {
+    const Ghost ghost;
+
+    const Outcome outcome = liveWithin("1", {"show", "/arm"});
+
+    EXPECT_EQ(outcome.exit, 3);
+    EXPECT_TRUE(contains(outcome.errors, "1 participant of CorteX was found and did not say who"))
+        << outcome.errors;
+    EXPECT_TRUE(contains(outcome.errors, "--timeout")) << outcome.errors;
+}
+
+TEST(CortexTimeout, IsSharedByFindingTheAgentAndItsAnswer) {
+    comms::NetworkAgent deaf{"deaf"};
+    deaf.rig.hand("/worker");
+    deaf.rig.start();
+    deaf.rig.step(3);  // and no more, so no command is read
+
+    const Outcome outcome = liveWithin("2", {"call", "/worker", "poke", "--json"});
+    const json answer = json::parse(outcome.output, nullptr, false);
+
+    ASSERT_TRUE(answer.contains("outcome")) << outcome.output << outcome.errors;
+    ASSERT_EQ(answer["outcome"], "Unknown") << answer;
+    const std::string reason = answer["reason"];
+    EXPECT_FALSE(contains(reason, "no answer within 2000 ms")) << reason;
+    EXPECT_TRUE(contains(reason, "of the 2000 ms of --timeout")) << reason;
+}
+
+// Two agents: a device, and a controller that looks at what it measures.
+struct CortexLoss : testing::Test {
+    void SetUp() override {
+        cell.emplace(agentCommand(
+            systemFile(folder, "cell",
+                       "<simplex path=\"/cell/observed\" type=\"RotaryAxisConcept\"/>"
+                       "<simplex path=\"/cell/demanded\" type=\"RotaryAxisConcept\"/>"
+                       "<simplex path=\"/cell/drive\" type=\"SimulatedAxis\">"
+                       "<relate rule=\"demand\" to=\"/cell/demanded\"/>"
+                       "<relate rule=\"observation\" to=\"/cell/observed\"/></simplex>")));
+        desk.emplace(agentCommand(
+            systemFile(folder, "desk",
+                       "<simplex path=\"/desk/demanded\" type=\"RotaryAxisConcept\"/>"
+                       "<simplex path=\"/desk/controller\" type=\"HoldAxisController\">"
+                       "<relate rule=\"axes\" to=\"/cell/observed\" remote=\"true\" "
+                       "type=\"RotaryAxisConcept\"/>"
+                       "<relate rule=\"demands\" to=\"/desk/demanded\"/></simplex>")));
+    }
+
+    // Kills the device and waits until the controller has lost its input.
+    void loseTheDevice() {
+        const auto shown = [] { return live({"list", "/desk/controller", "--json"}); };
+        lookUntil(shown, [](const Outcome& seen) {
+            return seen.exit == 0 && !contains(seen.output, "\"lost\"");
+        });
+        ASSERT_EQ(live({"call", "/desk/controller", "startup"}).exit, 0);
+        cell->end(SIGKILL);
+        lookUntil(shown, [](const Outcome& seen) { return contains(seen.output, "\"lost\""); });
+    }
+
+    const ModelFolder folder;
+    std::optional<Background> cell, desk;
+};
+
+TEST_F(CortexLoss, AControllerWhoseInputIsLostShowsItsStateAndCommands) {
+    loseTheDevice();
+
+    const json shown = liveJson({"show", "/desk/controller"}, "show");
+    EXPECT_EQ(shown["quality"], "lost");
+    EXPECT_TRUE(shown["state"].is_string()) << shown["state"];
+    for (const json& each : shown["commands"]) {
+        EXPECT_NE(each["reason"], "its state is not known") << each;
+    }
+    const json list = liveJson({"list", "/desk/controller"}, "list");
+    EXPECT_EQ(list[0]["state"], shown["state"]);
+    const json top = liveJson({"top", "--once", "/desk"}, "top");
+    for (const json& each : top["agents"]) {
+        if (each["name"] == "desk") {
+            EXPECT_EQ(each["states"][shown["state"].get<std::string>()], 1) << each;
+        }
+    }
+}
+
+TEST_F(CortexLoss, AMisspeltRemotePathNamesTheNearestOnceTheOtherAgentIsKnown) {
+    const Background other{agentCommand(systemFile(
+        folder, "other",
+        "<simplex path=\"/other/demanded\" type=\"RotaryAxisConcept\"/>"
+        "<simplex path=\"/other/controller\" type=\"HoldAxisController\">"
+        "<relate rule=\"axes\" to=\"/cell/obsrved\" remote=\"true\" type=\"RotaryAxisConcept\"/>"
+        "<relate rule=\"demands\" to=\"/other/demanded\"/></simplex>"))};
+    const std::string words = "cell has no such simplex, nearest of: /cell/observed";
+
+    const Outcome events =
+        lookUntil([] { return live({"events", "/cell"}); },
+                  [&](const Outcome& seen) { return contains(seen.output, words); });
+
+    EXPECT_TRUE(contains(events.output, words)) << events.output << events.errors;
+}
+
+TEST_F(CortexLive, WatchGoesOnWithTheNextStartOfAnAgentAndSaysSo) {
+    struct Format {
+        std::string option, good, restarted;
+    };
+    for (const Format& format : {Format{"", "12 Hz", "new start of agent mixer"},
+                                 Format{"--json", "\"value\":12", "\"restarted\":[\"mixer\"]"},
+                                 Format{"--csv", ",good,good,", ",mixer\n"}}) {
+        std::string command = "exec timeout 20 " CORTEX_BINARY_DIR
+                              "/bin/cortex watch "
+                              "/drive.naturalFrequency /mixer.cycleDurationMean " +
+                              format.option;
+        for (const std::string& each : network) command += " " + each;
+        FILE* output = popen(command.c_str(), "re");
+        ASSERT_NE(output, nullptr);
+        std::array<char, 4096> line{};
+        const auto reads = [&](const std::string& wanted) {
+            while (std::fgets(line.data(), line.size(), output) != nullptr) {
+                if (contains(line.data(), wanted)) return true;
+            }
+            return false;
+        };
+
+        EXPECT_TRUE(reads(format.good)) << format.option;
+        agent->end(SIGKILL);
+        start();
+        EXPECT_TRUE(reads(format.restarted)) << format.option;
+        EXPECT_TRUE(contains(line.data(), format.good) || reads(format.good)) << format.option;
+        pclose(output);
+    }
+}
+
+TEST_F(CortexLive, WatchPrintsMomentsOnAGridOfTheRateAskedFor) {
+    const Outcome csv = live({"watch", "/drive.state", "--csv", "--rate", "20", "--count", "5"});
+
+    const auto lines = linesOf(csv.output);
+    ASSERT_EQ(lines.size(), 6U) << csv.output << csv.errors;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        const std::string fraction = lines[i].substr(lines[i].find('.') + 1, 3);
+        EXPECT_EQ(std::stoi(fraction) % 50, 0) << lines[i];
+    }
+}
+
+TEST_F(CortexLive, LabelsAreShownBesideTheirNumbers) {
+    const json shown = liveJson({"show", "/drive"}, "show")["data"]["state"];
+    EXPECT_EQ(shown["value"], 0);
+    EXPECT_EQ(shown.value("label", ""), "Standby");
+    const Outcome watched = live({"watch", "/drive.state", "--json", "--count", "1"});
+    EXPECT_TRUE(contains(watched.output, "\"label\":\"Standby\"")) << watched.output;
+}
+
+TEST_F(CortexLive, AnAgentThatKeepsToLoopbackIsListedWithTheVariableThatTheDemoPrints) {
+    const Outcome outcome =
+        cortex({"list", "--domain", domain, "--timeout", "3"}, {{"CORTEX_INTERFACE", "lo"}});
+
+    EXPECT_EQ(outcome.exit, 0) << outcome.errors;
+    EXPECT_TRUE(contains(outcome.output, "/drive")) << outcome.output;
+}
+
+TEST(CortexHidden, ListWithoutSecuritySaysThatSecuredAgentsWereHeard) {
+    const ModelFolder folder;
+    const std::string keys = (folder.path() / "mixer").string();
+    const std::string file = (folder.path() / "mixer.xml").string();
+    ASSERT_EQ(cortex({"security", "create-authority"}, {}, folder.path().string()).exit, 0);
+    ASSERT_EQ(cortex({"security", "create-agent", "mixer"}, {}, folder.path().string()).exit, 0);
+    ASSERT_EQ(cortex({"new-system", "mixer", "-o", file}).exit, 0);
+    const Background agent{agentCommand(file) + Words{"--security", keys}};
+
+    const Outcome outcome =
+        lookUntil([] { return liveWithin("1", {"list"}); },
+                  [](const Outcome& seen) { return contains(seen.errors, "with security"); });
+
+    EXPECT_EQ(outcome.exit, 3);
+    EXPECT_TRUE(contains(outcome.errors, "1 participant with security was heard"))
+        << outcome.errors;
+    EXPECT_TRUE(contains(outcome.errors, "--security FOLDER")) << outcome.errors;
+}
+
+TEST(CortexContradiction, TwoAgentsWithOnePathAreNamedByEveryVerbThatShowsThem) {
+    const ModelFolder folder;
+    const std::string drive = "<simplex path=\"/arm\" type=\"RotaryAxisConcept\"/>";
+    const Background one{agentCommand(systemFile(folder, "one", drive))};
+    const Background two{agentCommand(systemFile(folder, "two", drive))};
+    const std::string words = "agents one, two both have /arm; commands go to ";
+
+    for (const char* verb : {"list", "agents", "graph"}) {
+        const Outcome outcome =
+            lookUntil([&] { return live({verb}); },
+                      [&](const Outcome& seen) { return contains(seen.errors, words); });
+        EXPECT_TRUE(contains(outcome.errors, words)) << verb << outcome.errors << outcome.output;
+    }
+    const Outcome doctor = live({"doctor"});
+    EXPECT_TRUE(contains(doctor.output, words)) << doctor.output;
+    EXPECT_EQ(doctor.exit, 1);
+}
+
+}  // namespace
+}  // namespace cortex::test
