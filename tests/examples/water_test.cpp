@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The example of three tanks in a ring, stepped by hand: both agents' parts in one.
+#include "cortex/core/registry.hpp"
+#include "cortex/core/simplex_tree.hpp"
+#include "cortex/cs/cluster_cs.hpp"
+
+#include <chrono>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class WaterPlant : public testing::Test {
+protected:
+    static std::string file(const std::string& name) {
+        return CORTEX_SOURCE_DIR "/examples/water/" + name;
+    }
+
+    void SetUp() override {
+        registry.loadPlugin(CORTEX_WATER_PLUGIN, TypeModel::load(file("water-rules.xml")));
+        tree = SimplexTree::load(file("water.xml"), &registry);
+        water.addSimplexTree(tree);
+        trigger = &water.setTriggerSource<cs::ManualTrigger>(10ms);
+        water.start();
+        water.send("/water", "startup", {{"prefix", "/"}});
+    }
+
+    void runSeconds(std::uint64_t seconds) { trigger->step(seconds * 100); }
+    double level(const std::string& tank) { return value("/tanks/" + tank, "level"); }
+    double value(const std::string& path, const std::string& item) {
+        return water.image().get<double>(path, item);
+    }
+
+    ClassRegistry registry;
+    SimplexTree tree;
+    cs::ClusterCS water{"water"};
+    cs::ManualTrigger* trigger = nullptr;
+};
+
+TEST_F(WaterPlant, LevelsSettleWhereTheyAreWanted) {
+    runSeconds(200);
+
+    EXPECT_NEAR(level("1"), 0.6, 0.001);
+    EXPECT_NEAR(level("2"), 0.5, 0.001);
+    EXPECT_NEAR(level("3"), 0.4, 0.001);
+}
+
+TEST_F(WaterPlant, WaterIsNeitherMadeNorLost) {
+    for (int second = 0; second < 200; ++second) {
+        runSeconds(1);
+        ASSERT_NEAR(value("/ring", "volume"), 0.15, 1e-9) << "after " << second + 1 << " s";
+        ASSERT_NEAR(level("1") + level("2") + level("3"), 1.5, 1e-8);
+    }
+}
+
+TEST_F(WaterPlant, WithoutTheSupervisorPumpsAreSafeAndTheValvesLevelTheTanks) {
+    runSeconds(200);
+    ASSERT_GT(std::abs(value("/pumps/1", "flow")), 0.0001);
+
+    water.send("/supervisor", "shutdown", {});
+    runSeconds(2);
+    for (const char* pump : {"/pumps/1", "/pumps/2", "/pumps/3"})
+        EXPECT_EQ(value(pump, "flow"), 0) << pump;
+    runSeconds(600);
+
+    EXPECT_NEAR(level("1"), 0.5, 0.01);
+    EXPECT_NEAR(level("3"), 0.5, 0.01);
+}
+
+}  // namespace
+}  // namespace cortex::test
