@@ -5,6 +5,7 @@
 #include "cortex/cs/cluster_cs.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -20,9 +21,12 @@ protected:
         return CORTEX_SOURCE_DIR "/examples/water/" + name;
     }
 
-    void SetUp() override {
+    SimplexTree load() {
         registry.loadPlugin(CORTEX_WATER_PLUGIN, TypeModel::load(file("water-rules.xml")));
-        tree = SimplexTree::load(file("water.xml"), &registry);
+        return SimplexTree::load(file("water.xml"), &registry);
+    }
+
+    void SetUp() override {
         water.addSimplexTree(tree);
         trigger = &water.setTriggerSource<cs::ManualTrigger>(10ms);
         water.start();
@@ -36,7 +40,7 @@ protected:
     }
 
     ClassRegistry registry;
-    SimplexTree tree;
+    SimplexTree tree = load();
     cs::ClusterCS water{"water"};
     cs::ManualTrigger* trigger = nullptr;
 };
