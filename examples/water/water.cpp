@@ -20,11 +20,11 @@ public:
 
 private:
     void populate() override {
-        level_ = input("tank").data<double>("level");
-        flow_ = output("pump").data<double>("flow");
-        wanted_ = data<double>("wanted");
-        gain_ = data<double>("gain");
-        resetTime_ = data<double>("resetTime");
+        level_ = input("tank").data<double>("level", "m");
+        flow_ = output("pump").data<double>("flow", "m3/s");
+        wanted_ = data<double>("wanted", "m");
+        gain_ = data<double>("gain", "m2/s");
+        resetTime_ = data<double>("resetTime", "s");
     }
 
     bool stateStartingUp(const Tick&) CORTEX_REALTIME override {
@@ -71,7 +71,7 @@ private:
 
     bool stateShuttingDown(const Tick&) CORTEX_REALTIME override {
         stopAll();
-        return std::ranges::none_of(controllers_, isActive);
+        return std::ranges::all_of(controllers_, rests);
     }
 
     bool stateFault(const Tick&) CORTEX_REALTIME override {
@@ -80,13 +80,14 @@ private:
                                     [this](const auto& level) { return level > highest_; });
     }
 
-    static bool isActive(const LifeCycleSender& controller) {
-        return controller.state() == cortex::State::Active;
+    static bool rests(const LifeCycleSender& controller) {
+        const cortex::State state = controller.state();
+        return state == cortex::State::Standby || state == cortex::State::Fault;
     }
 
     void stopAll() CORTEX_REALTIME {
         for (auto& controller : controllers_)
-            if (isActive(controller)) controller.shutdown();
+            if (!rests(controller)) controller.shutdown();
     }
 
     Data<double> highest_;
@@ -104,7 +105,7 @@ private:
         flow_ = output("pump").data<double>("flow");
     }
 
-    void stateActive(const Tick&) CORTEX_REALTIME override { flow_ = wish_.get(); }
+    void stateActive(const Tick&) CORTEX_REALTIME override { flow_ = wish_; }
 
     Data<const double> wish_;
     Data<double> flow_;

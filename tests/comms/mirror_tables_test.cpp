@@ -213,7 +213,7 @@ TEST_F(MirrorTablesTest, KeepsAnImageWhenTheTablesAreReplaced) {
     agent.worker->data<double>("gain") = 3.0;
     agent.rig.step();
     tables->apply(agent.block(1), begin);
-    AgentImage image{tables, tables->newest()};
+    AgentImage image{tables, tables->newest(), {}};
     const std::weak_ptr<MirrorTables> watched = tables;
 
     tables.reset();

@@ -215,9 +215,9 @@ TEST_F(Control, IsHandedOverWithAllBelowAndNotFromBelowAWiderOne) {
 
 TEST_F(Control, IsHandedOverToANameOnly) {
     take("desk", "/arm");
-    EXPECT_EQ(ask("desk", "/rig", "handOverControl", {{"prefix", text("/arm")}, {"to", text("")}})
-                  .reason,
-              Reason::Range);
+    EXPECT_EQ(
+        ask("desk", "/rig", "handOverControl", {{"prefix", text("/arm")}, {"to", text("")}}).reason,
+        Reason::Range);
 }
 
 TEST_F(Control, IsReleased) {

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ protected:
         water.send("/water", "startup", {{"prefix", "/"}});
     }
 
-    void runSeconds(std::uint64_t seconds) { trigger->step(seconds * 100); }
+    void runSeconds(std::int64_t seconds) { trigger->step(seconds * 100); }
     double level(const std::string& tank) { return value("/tanks/" + tank, "level"); }
     double value(const std::string& path, const std::string& item) {
         return water.image().get<double>(path, item);
