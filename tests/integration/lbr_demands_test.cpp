@@ -58,7 +58,7 @@ private:
     void populate() override {
         demand_ = input("demand").data<double>("position");
         position_ = output("observation").data<double>("position");
-        position_ = data<const double>("startPosition");
+        position_ = data<const double>("startPosition").get();
     }
     void loopEnd(const Tick& tick) override {
         const double reach = 1.3 * tick.elapsedSeconds();
