@@ -225,6 +225,20 @@ TEST_F(FirstOfNameTest, AGoodbyeOfTheFirstEndsTheSilenceOfTheSecond) {
     EXPECT_FALSE(peers.isSecond());
 }
 
+TEST_F(FirstOfNameTest, ASilentStartIsToldAndEndsNobodysSilence) {
+    peers.expire(second);
+    hearOurs(self.epoch + 5, millisecond, 4 * second, "silent");
+    EXPECT_FALSE(peers.isSecond());
+    EXPECT_TRUE(says(rival + "it is silent while this one runs"));
+}
+
+TEST_F(FirstOfNameTest, ASecondStartStaysSilentThoughAThirdSaysThatItIsSilent) {
+    hearOurs(self.epoch - 1, 60 * second, second);
+    hearOurs(self.epoch + 5, millisecond, second + millisecond, "silent");
+    peers.expire(second + 2 * millisecond);
+    EXPECT_TRUE(peers.isSecond());
+}
+
 TEST_F(FirstOfNameTest, OfTwoThatBeganAtOnceTheEpochsDecide) {
     peers.expire(second);
     hearOurs(self.epoch + 1, 400 * millisecond, second + 100 * millisecond);

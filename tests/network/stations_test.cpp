@@ -151,7 +151,10 @@ TEST(Stations, AreNeverTwoWritersWhoeverIsKilled) {
     for (int round = 0; round < rounds; ++round) {
         const auto stopped = passerBy.call(counter, "shutdown");
         EXPECT_NE(stopped.reason, Reason::Authority) << stopped.why;
-        EXPECT_EQ(passerBy.call(counter, "increment").outcome, Outcome::Rejected);
+        EXPECT_EQ(
+            passerBy.call(counter, "increment", {{"number", Value{std::vector<std::int64_t>{1}}}})
+                .outcome,
+            Outcome::Rejected);
         const auto holder = std::ranges::find_if(
             stations, [&](const auto& each) { return each.second.isNamed(writer); });
         ASSERT_NE(holder, stations.end()) << writer;

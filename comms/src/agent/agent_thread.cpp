@@ -29,6 +29,7 @@ constexpr std::size_t mostLostOwners = 16;
 constexpr std::int64_t muchTooEarly = 100'000;      // ns
 constexpr std::int64_t shortestExpected = 500'000;  // ns; of less, too much would be waited awake
 constexpr std::int64_t lead = 20'000;               // ns, before and after an expected write
+constexpr std::int64_t silentInterval = 1'000'000'000;  // ns
 constexpr int timesStopping = 3;
 constexpr std::chrono::milliseconds pauseStopping{10};
 
@@ -162,7 +163,7 @@ void AgentThread::step() {
     answers_.keep([this](const std::string& sender) { return commands_.knows(sender); }, now);
     sendEvents();
     if (peers_.isSecond() != silent_) beSilent(!silent_);
-    if (!silent_) sendPresence(now);
+    sendPresence(now);
     if (links_.anyUnbound() || peers_.missesAny(now)) participant_.announce();
 }
 
@@ -250,21 +251,20 @@ Presence AgentThread::presence(const char* state) const {
 
 void AgentThread::sendPresence(std::int64_t now) {
     if (now < presenceDue_) return;
-    const Presence said = presence("running");
+    const Presence said = presence(silent_ ? "silent" : "running");
     presenceOut_->write(said);
-    presenceDue_ = std::max(presenceDue_ + said.interval, now + said.interval / 2);
+    if (silent_)
+        presenceDue_ = now + silentInterval;
+    else
+        presenceDue_ = std::max(presenceDue_ + said.interval, now + said.interval / 2);
 }
 
-// While another start of the name was there first, nothing is said but this. What others know of
+// While another start of the name was there first, nothing is said but that. What others know of
 // this start they keep.
 void AgentThread::beSilent(bool silent) {
     silent_ = silent;
-    if (silent) {
-        presenceOut_->write(presence("silent"));
-    } else {
-        presenceDue_ = 0;
-        sendInterest();
-    }
+    presenceDue_ = 0;
+    if (!silent) sendInterest();
 }
 
 // Leaves the network after the last cycle. A silent agent disposes of nothing, because the keys

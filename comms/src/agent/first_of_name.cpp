@@ -42,10 +42,14 @@ void FirstOfName::hear(const Presence& ours, std::int64_t now) {
         }
         return;
     }
+    const std::string rival = "another start of " + self_.name + " is heard, on host " + ours.host;
+    if (ours.state == "silent") {  // it says so again and again, and ends nobody's silence
+        if (!isSecond_) tell(Severity::Warning, rival + "; it is silent while this one runs", now);
+        return;
+    }
     rivalHeard_ = runs ? now : 0;
     rivalPatience_ = patienceWith(ours);
     if (!runs || isSecond_) return;
-    const std::string rival = "another start of " + self_.name + " is heard, on host " + ours.host;
     if (isNew(now) && comesBefore(ours, now)) {
         isSecond_ = true;
         told_ = 0;
