@@ -166,10 +166,7 @@ CommandSender AgentRuntime::makeSender(std::uint32_t edge, std::string_view comm
     const std::string what = target.path + ": command '" + std::string{command} + "'";
     if (started_) throw Error(what + ": get its sender in populate()");
     if (index == CommandTable::none) throwUnknown(what + " is unknown", command, namesOf(table));
-    if (target.remote) {
-        throw Error(what + ": it belongs to another agent, which takes commands from outside only");
-    }
-    if (target.layout->type->active() && target.path != "/" + name_ &&
+    if (!target.remote && target.layout->type->active() && target.path != "/" + name_ &&
         lifeCycleCommand(command) != LifeCycle::None) {
         throw Error(what + " bypasses mailboxes: use lifeCycle()");
     }
@@ -192,8 +189,14 @@ void AgentRuntime::makeLanes() {
     std::vector<LaneBlock::Plan> plans;
     for (auto& [key, handles] : lanes) {
         const Edge& edge = structure_->edges[key.second];
-        Lane::Shape shape{
-            edge.owner, edge.target, 0, 0, 0, edge.delayed, commands(edge.target).hasLong};
+        const bool remote = structure_->simplexes[edge.target].remote;
+        Lane::Shape shape{edge.owner,
+                          edge.target,
+                          0,
+                          0,
+                          0,
+                          edge.delayed && !remote,
+                          commands(edge.target).hasLong};
         for (std::uint16_t i = 0; CommandSender::State * handle : handles) {
             handle->handle = i++;
             shape.capacity += handle->capacity;
@@ -207,8 +210,17 @@ void AgentRuntime::makeLanes() {
         CommandPort& sender = portOf(lane->shape().sender);
         lane->setSender(sender);
         sender.addSending(*lane);
-        portOf(lane->shape().receiver).addReceiving(*lane);
+        if (structure_->simplexes[lane->shape().receiver].remote)
+            toAgents_.push_back(lane);
+        else
+            portOf(lane->shape().receiver).addReceiving(*lane);
     }
+}
+
+std::uint32_t AgentRuntime::callsToAgents() const {
+    std::uint32_t calls = 0;
+    for (const Lane* lane : toAgents_) calls += lane->shape().capacity + 1U;
+    return calls;
 }
 
 // The commands of a simplex without a task are executed at the start of the cycle.
@@ -228,8 +240,9 @@ void AgentRuntime::start() {
         makeLanes();
         findTaskless();
     }
-    router_ = std::make_unique<Router>(*this);
-    const AgentAccess access{structure_, images_.get(), events_.get(), options_.period};
+    router_ = std::make_unique<Router>(*this, toAgents_);
+    const AgentAccess access{structure_, images_.get(), events_.get(), options_.period,
+                             callsToAgents()};
     std::size_t announced = 0;
     try {
         for (; announced < interfaces_.size(); ++announced)

@@ -3,6 +3,8 @@
 
 #include "cortex/core/transport.hpp"
 
+#include "agent/agent_calls.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -10,13 +12,17 @@
 
 namespace cortex {
 
-// Answers on their way to one interface, in the order in which they were given. Loop thread only.
+// What one interface gets: answers in the order in which they were given, and the commands of our
+// tasks to what it links. Loop thread only.
 class AnswerQueue final : public Outbox {
 public:
-    AnswerQueue(std::uint32_t capacity, std::uint32_t maxResponse)
+    AnswerQueue(std::uint32_t capacity, std::uint32_t maxResponse, AgentCalls& calls,
+                std::uint32_t interface)
         : answers_(capacity),
           stride_{maxResponse},
-          responses_(std::size_t{capacity} * maxResponse) {}
+          responses_(std::size_t{capacity} * maxResponse),
+          calls_{&calls},
+          interface_{interface} {}
 
     // Copies the response; false: full.
     bool push(const OutsideAnswer& answer) CORTEX_REALTIME {
@@ -35,12 +41,17 @@ public:
         answer = answers_[head_++ % answers_.size()];
         return true;
     }
+    bool nextCall(AgentCall& call) CORTEX_REALTIME override {
+        return calls_->next(interface_, call);
+    }
 
 private:
     std::vector<OutsideAnswer> answers_;
     std::size_t stride_;
     std::vector<std::byte> responses_;
     std::uint64_t head_ = 0, tail_ = 0;
+    AgentCalls* calls_;
+    std::uint32_t interface_;
 };
 
 }  // namespace cortex

@@ -93,6 +93,11 @@ bool CommandClient::poll(std::uint64_t sequence, CallResult& result) {
     return true;
 }
 
+bool CommandClient::running(std::uint64_t sequence) const {
+    const auto found = unanswered_.find(sequence);
+    return found != unanswered_.end() && found->second.running;
+}
+
 void CommandClient::abandon(std::uint64_t sequence) {
     const auto found = unanswered_.find(sequence);
     if (found != unanswered_.end()) found->second.abandoned = true;

@@ -37,7 +37,7 @@ LinkTable::Link* LinkTable::find(std::uint32_t simplex) {
 }
 
 void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
-                     std::int64_t age) {
+                     std::int64_t age, std::uint32_t interface) {
     Link* link = find(simplex);
     if (link == nullptr || !binding.usable) return;
     apply(binding.copies, from, link->slice);
@@ -50,6 +50,7 @@ void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Sl
     runtime_.ownerPeriods_[simplex - runtime_.firstRemote_] = link->period;
     if (!link->bound) post(Severity::Info, simplex, "linked");
     link->bound = true;
+    link->interface = interface;
     link->reported = false;
 }
 

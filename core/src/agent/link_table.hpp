@@ -15,18 +15,26 @@ class LinkTable {
 public:
     explicit LinkTable(AgentRuntime& runtime);
 
+    static constexpr std::uint32_t none = 0xffffffffU;
+
     void link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
-              std::int64_t age) CORTEX_REALTIME;
+              std::int64_t age, std::uint32_t interface) CORTEX_REALTIME;
     void constants(std::uint32_t simplex, const LinkBinding& binding, const Slice& from)
         CORTEX_REALTIME;
     void lost(std::uint32_t simplex) CORTEX_REALTIME;
     void age() CORTEX_REALTIME;  // after all interfaces were read
+    // Through which it is linked; `none`: its agent is not heard.
+    std::uint32_t interfaceOf(std::uint32_t simplex) const CORTEX_REALTIME {
+        const Link& link = links_[simplex - first_];
+        return link.bound ? link.interface : none;
+    }
 
 private:
     struct Link {
         std::uint32_t simplex;
         Slice slice;
         std::int64_t freshTime = 0, period = 0;  // ns, nominal time
+        std::uint32_t interface = none;
         bool bound = false, reported = false;
     };
     Link* find(std::uint32_t simplex) CORTEX_REALTIME;

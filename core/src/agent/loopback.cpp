@@ -19,9 +19,15 @@ struct LoopbackHub::Implementation {
         std::string agent;
         std::uint64_t sequence = 0;
     };
+    struct Carried {
+        AgentCall call;
+        std::uint64_t number = 0;  // that post() gave
+        bool running = false;
+    };
     struct Tool {
         std::map<std::string, CommandClient> clients;  // by agent
         std::map<std::uint64_t, Posted> posted;        // by number handed out
+        std::vector<Carried> carried;                  // of an agent, which sends as tools do
         std::uint64_t next = 1;
         bool lost = false;
     };
@@ -31,6 +37,11 @@ struct LoopbackHub::Implementation {
     void takeAnswers(LoopbackAgent& agent);
     LoopbackAgent* find(const std::string& agent) const;
     LoopbackAgent& ownerOf(std::string_view path) const;
+    std::uint64_t post(const std::string& sender, std::string_view path, std::string_view command,
+                       const ProgramInterface::Arguments& arguments, std::int64_t budgetCycles);
+    bool poll(Tool& tool, std::uint64_t number, CallResult& result);
+    void postCalls(LoopbackAgent& agent);
+    void answerCalls(LoopbackAgent& agent);
 
     std::mutex mutex;                                    // guards all but what loops use
     std::vector<std::shared_ptr<LoopbackAgent>> agents;  // the older claim stands first
@@ -38,6 +49,8 @@ struct LoopbackHub::Implementation {
 };
 
 namespace {
+
+constexpr std::int64_t callBudget = 1000;  // cycles
 
 // One agent's end: joins the hub when the agent starts, leaves it when it stops.
 class LoopbackInterface final : public CommunicationInterface {
@@ -141,14 +154,13 @@ void LoopbackHub::setConnected(const std::string& agent, bool connected) {
     }
 }
 
-std::uint64_t LoopbackHub::post(const std::string& sender, std::string_view path,
-                                std::string_view command,
-                                const ProgramInterface::Arguments& arguments,
-                                std::int64_t budgetCycles) {
-    const std::lock_guard lock{implementation_->mutex};
-    LoopbackAgent& agent = implementation_->ownerOf(path);
-    implementation_->takeAnswers(agent);
-    Implementation::Tool& tool = implementation_->tools[sender];
+std::uint64_t LoopbackHub::Implementation::post(const std::string& sender, std::string_view path,
+                                                std::string_view command,
+                                                const ProgramInterface::Arguments& arguments,
+                                                std::int64_t budgetCycles) {
+    LoopbackAgent& agent = ownerOf(path);
+    takeAnswers(agent);
+    Tool& tool = tools[sender];
     if (tool.lost) throw Error(sender + " is cut from the network: join it first");
     if (!agent.connected()) throw Error("agent " + agent.name() + " is not heard");
     auto [client, added] = tool.clients.try_emplace(agent.name(), makeSender(sender));
@@ -158,19 +170,74 @@ std::uint64_t LoopbackHub::post(const std::string& sender, std::string_view path
     return tool.next++;
 }
 
+bool LoopbackHub::Implementation::poll(Tool& tool, std::uint64_t number, CallResult& result) {
+    const auto posted = tool.posted.find(number);
+    if (posted == tool.posted.end()) return false;
+    if (LoopbackAgent* agent = find(posted->second.agent)) takeAnswers(*agent);
+    CommandClient& client = tool.clients.at(posted->second.agent);
+    if (!client.poll(posted->second.sequence, result)) return false;
+    tool.posted.erase(posted);
+    return true;
+}
+
+// What cannot be sent surely does not run.
+void LoopbackHub::Implementation::postCalls(LoopbackAgent& agent) {
+    AgentCallPipe& calls = agent.calls();
+    for (; const AgentCall* call = calls.front(); calls.pop()) {
+        try {
+            if (!agent.connected()) throw Error("agent " + agent.name() + " is cut off");
+            const std::uint64_t number =
+                post(agent.name(), calls.pathOf(*call), calls.commandOf(*call),
+                     calls.argumentsOf(*call), callBudget);
+            tools[agent.name()].carried.push_back({*call, number});
+        } catch (const Error& error) {
+            CallResult result;
+            result.outcome = Outcome::Expired;
+            result.why = error.what();
+            calls.answer(*call, result);
+        }
+    }
+}
+
+void LoopbackHub::Implementation::answerCalls(LoopbackAgent& agent) {
+    Tool& tool = tools[agent.name()];
+    std::erase_if(tool.carried, [&](Carried& each) {
+        CallResult result;
+        if (poll(tool, each.number, result)) {
+            agent.calls().answer(each.call, result);
+            return true;
+        }
+        const Posted& posted = tool.posted.at(each.number);
+        const bool running = tool.clients.at(posted.agent).running(posted.sequence);
+        if (running && !std::exchange(each.running, true)) {
+            result.outcome = Outcome::Running;
+            agent.calls().answer(each.call, result);
+        }
+        return false;
+    });
+}
+
+void LoopbackHub::carry() {
+    const std::lock_guard lock{implementation_->mutex};
+    for (const auto& agent : implementation_->agents) {
+        implementation_->postCalls(*agent);
+        implementation_->answerCalls(*agent);
+    }
+}
+
+std::uint64_t LoopbackHub::post(const std::string& sender, std::string_view path,
+                                std::string_view command,
+                                const ProgramInterface::Arguments& arguments,
+                                std::int64_t budgetCycles) {
+    const std::lock_guard lock{implementation_->mutex};
+    return implementation_->post(sender, path, command, arguments, budgetCycles);
+}
+
 bool LoopbackHub::poll(const std::string& sender, std::uint64_t sequence, CallResult& result) {
     const std::lock_guard lock{implementation_->mutex};
     const auto tool = implementation_->tools.find(sender);
-    if (tool == implementation_->tools.end()) return false;
-    const auto posted = tool->second.posted.find(sequence);
-    if (posted == tool->second.posted.end()) return false;
-    if (LoopbackAgent* agent = implementation_->find(posted->second.agent)) {
-        implementation_->takeAnswers(*agent);
-    }
-    CommandClient& client = tool->second.clients.at(posted->second.agent);
-    if (!client.poll(posted->second.sequence, result)) return false;
-    tool->second.posted.erase(posted);
-    return true;
+    return tool != implementation_->tools.end() &&
+           implementation_->poll(tool->second, sequence, result);
 }
 
 }  // namespace cortex

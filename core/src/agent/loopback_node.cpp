@@ -9,7 +9,7 @@
 namespace cortex {
 
 LoopbackAgent::LoopbackAgent(const AgentAccess& access)
-    : access_{access}, pipe_{access, 256}, notes_{256}, lostSenders_{64} {
+    : access_{access}, pipe_{access, 256}, calls_{access}, notes_{256}, lostSenders_{64} {
     const auto& simplexes = access.structure->simplexes;
     for (std::uint32_t i = 0; i < simplexes.size(); ++i) {
         if (!simplexes[i].remote) continue;
@@ -85,6 +85,7 @@ void LoopbackAgent::read(Inbox& inbox) {
         lostSenders_.pop();
     }
     pipe_.read(inbox);
+    calls_.read(inbox);
 }
 
 void LoopbackAgent::readLink(Link& link, Inbox& inbox) {
@@ -115,6 +116,7 @@ void LoopbackAgent::readFrom(const Bound& bound, Link& link, Inbox& inbox) {
 
 // What a cut agent answers is lost.
 void LoopbackAgent::write(Outbox& outbox) {
+    calls_.write(outbox);
     if (connected_.load()) return pipe_.write(outbox);
     OutsideAnswer answer;
     while (outbox.nextAnswer(answer)) {

@@ -23,6 +23,7 @@ public:
     const std::string& name() const { return access_.structure->agent; }
     bool owns(std::string_view path) const;
     CommandPipe& pipe() { return pipe_; }
+    AgentCallPipe& calls() { return calls_; }
     bool connected() const { return connected_.load(); }
     void setConnected(bool connected) { connected_.store(connected); }
     void loseSender(const Sender& sender);
@@ -58,6 +59,7 @@ private:
 
     AgentAccess access_;
     CommandPipe pipe_;
+    AgentCallPipe calls_;
     std::vector<std::unique_ptr<Link>> links_;
     std::vector<std::unique_ptr<Bound>> bounds_;
     SpscRing<Note> notes_;

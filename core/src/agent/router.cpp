@@ -23,14 +23,15 @@ std::uint32_t largest(const AgentRuntime& runtime, std::uint32_t CommandTable::*
 
 }  // namespace
 
-Router::Router(AgentRuntime& runtime)
+Router::Router(AgentRuntime& runtime, std::span<Lane* const> toAgents)
     : runtime_{runtime},
       structure_{runtime.structure()},
       longestBudget_{longestBudget / std::max(runtime.options().period, std::int64_t{1})},
       pool_(std::max(runtime.options().outsideCommands, 1U)),
       senders_{knownSenders, largest(runtime, &CommandTable::maxResponse)},
       leases_{runtime},
-      links_{runtime} {
+      links_{runtime},
+      calls_{runtime, links_, toAgents} {
     const std::uint32_t request = largest(runtime, &CommandTable::maxRequest);
     const std::uint32_t response = largest(runtime, &CommandTable::maxResponse);
     records_.resize(pool_.size() * (request + response));
@@ -42,9 +43,9 @@ Router::Router(AgentRuntime& runtime)
     arrivals_.reserve(pool_.size());
     active_.reserve(pool_.size());
     taskless_.reserve(pool_.size());
-    for (std::size_t i = 0; i < runtime.interfaces_.size(); ++i) {
-        answers_.emplace_back(static_cast<std::uint32_t>(2 * pool_.size() + senderWindow),
-                              response);
+    const auto answers = static_cast<std::uint32_t>(2 * pool_.size() + senderWindow);
+    for (std::uint32_t i = 0; i < runtime.interfaces_.size(); ++i) {
+        answers_.emplace_back(answers, response, calls_, i);
     }
     findStates();
     setControlHandlers();
@@ -59,6 +60,7 @@ void Router::read(std::span<CommunicationInterface* const> interfaces) {
         interfaces[interface_]->read(*this);
     }
     links_.age();
+    calls_.release();
     deliver();
 }
 
@@ -262,6 +264,7 @@ void Router::report(const OutsideCommand& command, const AnswerHead& answer) {
 }
 
 void Router::write(std::span<CommunicationInterface* const> interfaces) {
+    calls_.expire();
     for (std::uint32_t i = 0; i < interfaces.size(); ++i)
         interfaces[i]->write(cycle(), answers_[i]);
 }

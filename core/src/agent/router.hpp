@@ -4,6 +4,7 @@
 #include "cortex/core/agent.hpp"
 #include "cortex/core/transport.hpp"
 
+#include "agent/agent_calls.hpp"
 #include "agent/answer_queue.hpp"
 #include "agent/lease.hpp"
 #include "agent/link_table.hpp"
@@ -23,7 +24,8 @@ namespace cortex {
 // only refuseLifeCycle() is called by tasks.
 class Router final : public Inbox {
 public:
-    explicit Router(AgentRuntime& runtime);
+    // The lanes that lead to other agents.
+    Router(AgentRuntime& runtime, std::span<Lane* const> toAgents);
 
     void read(std::span<CommunicationInterface* const> interfaces) CORTEX_REALTIME;
     // Simplexes without a task that got a command in this cycle.
@@ -37,7 +39,7 @@ public:
     std::int64_t cycle() const override { return runtime_.cycle(); }
     void link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
               std::int64_t age) override {
-        links_.link(simplex, binding, from, age);
+        links_.link(simplex, binding, from, age, interface_);
     }
     void linkConstants(std::uint32_t simplex, const LinkBinding& binding,
                        const Slice& from) override {
@@ -45,6 +47,7 @@ public:
     }
     void linkLost(std::uint32_t simplex) override { links_.lost(simplex); }
     void command(const OutsideCommand& command) override;
+    void answer(const AgentCallAnswer& answer) override { calls_.answer(answer); }
     void senderLost(const Sender& sender) override;
     void event(Severity severity, EventKind kind, std::uint32_t simplex,
                const EventText& text) override {
@@ -96,6 +99,7 @@ private:
     SenderTable senders_;
     LeaseTable leases_;
     LinkTable links_;
+    AgentCalls calls_;
 };
 
 }  // namespace cortex

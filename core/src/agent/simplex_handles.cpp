@@ -125,6 +125,11 @@ bool RelatedSimplex::isDelayed() const {
     return owner_->runtime().structure().edges[edge_].delayed;
 }
 
+bool RelatedSimplex::isRemote() const {
+    const Structure& structure = owner_->runtime().structure();
+    return structure.simplexes[structure.edges[edge_].target].remote;
+}
+
 bool RelatedSimplex::has(std::string_view item) const { return type().findData(item) != nullptr; }
 
 void* RelatedSimplex::cell(std::string_view item, const ItemAccess& access,

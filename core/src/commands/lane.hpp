@@ -61,6 +61,7 @@ public:
     const Shape& shape() const { return rest_->shape; }
     void setSender(CommandPort& sender) { sender_ = &sender; }
     CommandPort& sender() const CORTEX_REALTIME { return *sender_; }
+    bool hasLong() const CORTEX_REALTIME { return hasLong_; }
     bool hasOneHandle() const CORTEX_REALTIME { return onlyHandle_ != nullptr; }
     // Of all handles.
     std::uint64_t sent() const { return taken_ + lowHalf(now(tail_) - taken_); }
@@ -85,6 +86,7 @@ public:
     }
     std::uint32_t number() const CORTEX_REALTIME { return now(head_) + 1U; }  // modulo 2^32
     LaneSlot& front() CORTEX_REALTIME { return slot(now(head_)); }
+    LaneSlot& waiting(std::uint32_t behind) CORTEX_REALTIME { return slot(now(head_) + behind); }
     std::byte* requestOf(LaneSlot& head) const CORTEX_REALTIME {
         return reinterpret_cast<std::byte*>(&head + 1);
     }

@@ -117,6 +117,18 @@ std::map<std::string, Value> decodeRecord(const RecordLayout& layout, const std:
     return values;
 }
 
+void encodeResponse(const RecordLayout& layout, const std::map<std::string, Value>& values,
+                    std::byte* record) {
+    for (const auto& [name, value] : values) {
+        const ItemLayout* item = layout.find(name);
+        if (item == nullptr || item->item->kind != kindOf(value) ||
+            item->item->length != lengthOf(value)) {
+            continue;
+        }
+        storeValue(*item->item, value, record + item->offset);
+    }
+}
+
 std::map<std::string, Value> argumentsOf(const CommandTable& table, std::uint32_t command,
                                          const std::byte* request) {
     const CommandTable::Entry& entry = table.entries[command];

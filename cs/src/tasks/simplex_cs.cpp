@@ -6,6 +6,9 @@
 
 #include "tasks/task_thread.hpp"
 
+#include <array>
+#include <cstddef>
+#include <memory>
 #include <string>
 
 namespace cortex::cs {
@@ -38,14 +41,37 @@ void SimplexCS::event(Severity severity, const EventText& text) {
     runtime().post(*thread_->loop, severity, EventKind::Message, index(), text);
 }
 
-SimplexCS::LifeCycleSender SimplexCS::lifeCycle(const RelatedSimplex& target, bool manage) {
-    const auto* active = dynamic_cast<const SimplexCS*>(&target.simplex());
-    if (active == nullptr) {
-        throw Error(path() + ": " + target.path() + " has no life cycle; it is a " +
-                    target.type().name + ", not an active simplex of this agent");
+// Handles on the three commands of a simplex of another agent.
+struct SimplexCS::LifeCycleSender::Remote {
+    CommandSender& of(LifeCycle command) {
+        return senders[static_cast<std::size_t>(command) - std::size_t{1}];
     }
+    std::array<CommandSender, 3> senders;  // in the order of LifeCycle, without None
+    const CommandSender* last = nullptr;
+};
+
+SimplexCS::LifeCycleSender SimplexCS::lifeCycle(const RelatedSimplex& target, bool manage) {
     LifeCycleSender sender;
     sender.runtime_ = &runtime();
+    if (target.isRemote() && target.type().isA("Active")) {
+        if (manage) {
+            throw Error(path() + ": " + target.path() +
+                        " belongs to another agent, whose group commands do not ask this one: "
+                        "leave out `manage`");
+        }
+        const InputSimplex input{target};
+        sender.remote_ = std::make_shared<LifeCycleSender::Remote>();
+        sender.remote_->senders = {input.command("startup", 1), input.command("shutdown", 1),
+                                   input.command("clearFaults", 1)};
+        sender.state_ = input.data<std::int64_t>("state");
+        return sender;
+    }
+    const auto* active =
+        target.isRemote() ? nullptr : dynamic_cast<const SimplexCS*>(&target.simplex());
+    if (active == nullptr) {
+        throw Error(path() + ": " + target.path() + " has no life cycle; it is a " +
+                    target.type().name + ", not an active simplex");
+    }
     sender.target_ = active->index();
     sender.isDelayed_ = target.isDelayed();
     sender.state_ = InputSimplex{target}.data<std::int64_t>("state");
@@ -62,8 +88,19 @@ State SimplexCS::LifeCycleSender::state() const {
     return static_cast<State>(static_cast<std::int64_t>(state_));
 }
 
+const AnswerHead& SimplexCS::LifeCycleSender::answer() const {
+    static const AnswerHead none;
+    bound();
+    return remote_ != nullptr && remote_->last != nullptr ? remote_->last->answer() : none;
+}
+
 void SimplexCS::LifeCycleSender::post(LifeCycle command) {
-    bound().postLifeCycle(target_, command, isDelayed_);
+    AgentRuntime& agent = bound();
+    if (remote_ == nullptr) return agent.postLifeCycle(target_, command, isDelayed_);
+    CommandSender& sender = remote_->of(command);
+    if (sender.sent() != sender.answered()) return;
+    sender.send();
+    remote_->last = &sender;
 }
 
 }  // namespace cortex::cs

@@ -41,6 +41,7 @@ public:
     // The object itself, to read; throws Error if it belongs to another agent.
     const Simplex& simplex() const;
     bool isDelayed() const;  // what is sent arrives in the next cycle
+    bool isRemote() const;   // it belongs to another agent
 
 protected:
     void* cell(std::string_view item, const ItemAccess& access, std::size_t& length) const;
@@ -68,7 +69,8 @@ public:
         void* first = cell(item, {kindFor<T>(), true, false, unit}, length);
         return {static_cast<typename StorageOf<const T>::type*>(first), length};
     }
-    // A command along this relationship; `capacity`: how many may be on their way at once.
+    // A command along this relationship; `capacity`: how many may be on their way at once. To a
+    // simplex of another agent it has a second to arrive; then, or not heard, it is Expired.
     CommandSender command(std::string_view name, std::uint32_t capacity = 16) const {
         return sender(name, capacity);
     }

@@ -50,6 +50,25 @@ struct OutsideAnswer {
     const std::byte* response = nullptr;  // valid during the call only
 };
 
+// A command of one of our own tasks to a simplex of another agent. Numbers and record are those of
+// our type of it: a transport passes names on.
+struct AgentCall {
+    std::uint64_t ticket = 0;           // its answer says it again
+    std::uint32_t simplex = noSimplex;  // a remote simplex of our structure
+    std::uint32_t command = CommandTable::none;
+    std::uint32_t size = 0;
+    const std::byte* request = nullptr;  // valid during the call only
+};
+
+struct AgentCallAnswer {
+    std::uint64_t ticket = 0;
+    Outcome outcome = Outcome::None;
+    Reason reason = Reason::None;
+    EventText why;
+    std::uint32_t size = 0;               // 0: no response
+    const std::byte* response = nullptr;  // laid out as our type says; valid during the call only
+};
+
 // Copies of a linked simplex's items from another agent's layout into ours: compiled once, off the
 // loop, by item name.
 struct LinkBinding {
@@ -79,17 +98,21 @@ public:
         CORTEX_REALTIME = 0;
     virtual void linkLost(std::uint32_t simplex) CORTEX_REALTIME = 0;
     virtual void command(const OutsideCommand& command) CORTEX_REALTIME = 0;
+    // To a command that this interface took from the Outbox: Running at most once, then the end.
+    virtual void answer(const AgentCallAnswer& answer) CORTEX_REALTIME = 0;
     // Nothing comes any more from an agent or a tool that sent commands.
     virtual void senderLost(const Sender& sender) CORTEX_REALTIME = 0;
     virtual void event(Severity severity, EventKind kind, std::uint32_t simplex,
                        const EventText& text) CORTEX_REALTIME = 0;
 };
 
-// What write() hands to the transport: answers to commands that came through this interface.
+// What write() hands to the transport: answers to commands that came through this interface, and
+// commands to simplexes that it links. It answers each that it takes, at the latest with Unknown.
 class Outbox {
 public:
     virtual ~Outbox() = default;
     virtual bool nextAnswer(OutsideAnswer& answer) CORTEX_REALTIME = 0;  // false: no more
+    virtual bool nextCall(AgentCall& call) CORTEX_REALTIME = 0;
 };
 
 // What an interface may use of the agent that it serves, on any thread but the loop's.
@@ -98,6 +121,7 @@ struct AgentAccess {
     ImagePool* images = nullptr;
     EventLog* events = nullptr;
     std::int64_t period = 0;  // ns
+    std::uint32_t calls = 0;  // commands to other agents that may be on their way at once
 
     Image newestImage() const;  // empty if too many are held
     std::int64_t newestCycle() const;

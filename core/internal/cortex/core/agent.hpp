@@ -140,6 +140,7 @@ private:
     void bindSimplexes();
     CommandPort& portOf(std::uint32_t simplex);
     void makeLanes();
+    std::uint32_t callsToAgents() const;
     void findTaskless();
     void releaseLifeCycles() CORTEX_REALTIME;
     void processTaskless() CORTEX_REALTIME;
@@ -158,6 +159,7 @@ private:
     std::vector<const CommandTable*> tableOf_;                  // per simplex
     std::vector<std::unique_ptr<CommandPort>> ports_;           // per simplex that has commands
     std::unique_ptr<LaneBlock> lanes_;
+    std::vector<Lane*> toAgents_;  // that lead to simplexes of other agents
     std::vector<std::shared_ptr<CommandSender::State>> senders_;
     std::vector<std::uint32_t> taskless_;  // that lanes lead to, and the agent's own simplex
     std::vector<CommunicationInterface*> interfaces_;

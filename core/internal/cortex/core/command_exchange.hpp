@@ -62,6 +62,36 @@ private:
     std::vector<std::byte> requests_, responses_;
 };
 
+// Commands of an agent's own tasks to simplexes of other agents: from its loop to the thread of a
+// transport, and their answers back. There is always room for the answers. read() and write() in
+// the loop; the rest on one thread of the transport.
+class AgentCallPipe {
+public:
+    using Values = std::map<std::string, Value>;
+
+    explicit AgentCallPipe(const AgentAccess& agent);
+
+    // The next one, valid until pop(); null: none. By names, as another agent understands it.
+    const AgentCall* front() { return calls_.front(); }
+    void pop() { calls_.pop(); }
+    const std::string& pathOf(const AgentCall& call) const;
+    std::string commandOf(const AgentCall& call) const;
+    Values argumentsOf(const AgentCall& call) const;
+    // What the response has and our type does not is left out.
+    void answer(const AgentCall& call, const CallResult& result);
+
+    void read(Inbox& inbox) CORTEX_REALTIME;
+    bool write(Outbox& outbox) CORTEX_REALTIME;  // whether any was sent
+
+private:
+    const CommandTable& table(const AgentCall& call) const { return tables_.of(call.simplex); }
+
+    CommandTables tables_;
+    SpscRing<AgentCall> calls_;
+    SpscRing<AgentCallAnswer> answers_;
+    std::vector<std::byte> requests_, responses_;
+};
+
 // A command that is numbered and encoded. Not open: its sender has too many on their way; it is
 // answered MailboxFull already and not to be sent.
 struct PreparedCommand {
@@ -94,8 +124,9 @@ public:
     void take(std::uint64_t sequence, Outcome outcome, Reason reason, std::string why,
               std::int64_t latencyCycles, std::map<std::string, Value> response);
     bool poll(std::uint64_t sequence, CallResult& result);
-    void abandon(std::uint64_t sequence);  // its answer will not be fetched
-    void loseAll(const std::string& why);  // no answer will come: Unknown
+    bool running(std::uint64_t sequence) const;  // it was answered, but not for the last time
+    void abandon(std::uint64_t sequence);        // its answer will not be fetched
+    void loseAll(const std::string& why);        // no answer will come: Unknown
 
 private:
     struct Asked {

@@ -21,6 +21,8 @@ public:
     std::unique_ptr<CommunicationInterface> makeInterface();
     // Cuts or joins one agent's connection: what others linked from it is lost, and back.
     void setConnected(const std::string& agent, bool connected);
+    // Between cycles: carries the commands of agents to each other, and the answers back.
+    void carry();
     // A command to another agent's simplex, as a tool sends it. Throws Error if no agent has it.
     std::uint64_t post(const std::string& sender, std::string_view path, std::string_view command,
                        const ProgramInterface::Arguments& arguments, std::int64_t budgetCycles);

@@ -13,12 +13,15 @@ namespace cortex {
 
 // A record is the request or the response of one command as bytes: its parameters at the offsets of
 // the type's RecordLayout. The request of `set` begins with one byte for each settable item, which
-// is 1 if the item is given. Both functions below run off the loop. The record is aligned to 8
+// is 1 if the item is given. The functions with values run off the loop. The record is aligned to 8
 // bytes and as large as its layout. Throws Error for unknown parameters and values of the wrong
 // kind or length; parameters that are not given have their defaults.
 void encodeRecord(const CommandTable& table, std::uint32_t command,
                   const std::map<std::string, Value>& arguments, std::byte* record);
 std::map<std::string, Value> decodeRecord(const RecordLayout& layout, const std::byte* record);
+// The other way round for a response, of what fits; the rest of the record stays as it is.
+void encodeResponse(const RecordLayout& layout, const std::map<std::string, Value>& values,
+                    std::byte* record);
 // Of `set` only the items that are given.
 std::map<std::string, Value> argumentsOf(const CommandTable& table, std::uint32_t command,
                                          const std::byte* request);

@@ -9,6 +9,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <string_view>
 
 namespace cortex::cs {
@@ -59,7 +60,8 @@ protected:
     // In a hook: an event of this simplex.
     void event(Severity severity, const EventText& text) CORTEX_REALTIME;
     // In a hook: the life-cycle commands of a related simplex. Along an output relationship they
-    // are taken in the same cycle, along an input or a delayed one in the next.
+    // are taken in the same cycle, along an input or a delayed one in the next. To a simplex of
+    // another agent each goes as a command does, once: again only when the last was answered.
     class LifeCycleSender {
     public:
         LifeCycleSender() = default;
@@ -67,6 +69,8 @@ protected:
         void shutdown() CORTEX_REALTIME { post(LifeCycle::Shutdown); }
         void clearFaults() CORTEX_REALTIME { post(LifeCycle::ClearFaults); }
         State state() const CORTEX_REALTIME;  // as last seen: its data item `state`
+        // Of a simplex of another agent: how the last one ended. None: none was, or of this agent.
+        const AnswerHead& answer() const;
 
     private:
         friend class SimplexCS;
@@ -76,9 +80,11 @@ protected:
         std::uint32_t target_ = noSimplex;
         bool isDelayed_ = false;
         Data<const std::int64_t> state_;
+        struct Remote;
+        std::shared_ptr<Remote> remote_;  // null: of this agent
     };
     // In populate(). `manage`: this simplex starts and stops the target from now on; group commands
-    // leave it to it.
+    // leave it to it. The target must then be one of this agent.
     LifeCycleSender lifeCycle(const RelatedSimplex& target, bool manage = false);
 
     // In populate(): on<&Jog::zero>("zero"), with `Outcome zero(Call& call)`.
