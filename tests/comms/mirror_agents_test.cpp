@@ -5,7 +5,7 @@
 #include "cortex/core/error.hpp"
 
 #include "comms/told_agent.hpp"
-#include "mirror/mirror_commands.hpp"
+#include "peers/sent_commands.hpp"
 #include "wire/ids.hpp"
 #include "wire/named_values.hpp"
 #include "wire/presence_extras.hpp"
@@ -243,7 +243,8 @@ protected:
     MirrorCommandsTest() { tellAll(); }
 
     std::uint64_t send(const std::string& command, const Mirror::Arguments& arguments = {}) {
-        return commands.send(*agents.find("rig"), "/work/one", command, arguments, 100ms, begin);
+        return commands.send(agents.find("rig")->target(), "/work/one", command, arguments, 100ms,
+                             begin);
     }
     void tick(Moment now) {
         commands.tick(now, [this](const Command& command) {
@@ -265,7 +266,7 @@ protected:
     }
 
     Sender sender = makeSender("tool");
-    MirrorCommands commands{sender};
+    SentCommands commands{sender};
     std::vector<Command> sent;
     CommandAnswer result;
 };

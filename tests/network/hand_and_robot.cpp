@@ -67,6 +67,35 @@ private:
     Data<std::int64_t> press_, written_;
 };
 
+// Sends in every state, each time when the answer to the one before is here.
+class Chief final : public cs::SimplexCS {
+public:
+    Chief(Identity identity, HandAgent::Recorded& record)
+        : SimplexCS{std::move(identity)}, record_{record} {}
+
+private:
+    void populate() override {
+        increment_ = input("counter").command("increment");
+        number_ = increment_.argument<std::int64_t>("number");
+        number_ = HandAgent::firstOrder;
+    }
+    void loopEnd(const Tick& tick) override {
+        if (increment_.sent() != increment_.answered()) return;
+        if (record_.waiting) {
+            record_.ordered.add({number_, increment_.answer().outcome});
+            record_.waiting = false;
+        }
+        if (!record_.orders || tick.cycle % 10 != 0) return;
+        number_ = number_ + 1;
+        increment_.send();
+        record_.waiting = true;
+    }
+
+    HandAgent::Recorded& record_;
+    CommandSender increment_;
+    Data<std::int64_t> number_;
+};
+
 class Watcher final : public cs::SimplexCS {
 public:
     Watcher(Identity identity, RobotProcess::Memory& memory)
@@ -150,11 +179,20 @@ comms::NetworkOptions network(const std::string& peer, const std::string& securi
 HandAgent::HandAgent(const comms::NetworkOptions& network) : tree_{types()}, cluster_{"hand"} {
     Simplex& button = tree_.add("/hand/button", "Button");
     tree_.relate(tree_.add<Finger>("/hand/finger", "Finger", *record_), "button", button);
+    tree_.relateRemote(tree_.add<Chief>("/hand/chief", "Chief", *record_), "counter",
+                       "/robot/counter");
     start(cluster_, tree_, network);
     startUp(cluster_, "hand");
 }
 
 HandAgent::~HandAgent() = default;
+
+void HandAgent::endOrders() {
+    record_->orders = false;
+    for (const auto end = Clock::now() + 20s; record_->waiting && Clock::now() < end;) {
+        std::this_thread::sleep_for(1ms);
+    }
+}
 
 void HandAgent::end() { cluster_.stop(); }
 

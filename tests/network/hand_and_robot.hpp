@@ -60,20 +60,33 @@ struct Executed {
     std::int64_t number, cycle;
 };
 
+// What the chief sent, and its answer.
+struct Ordered {
+    std::int64_t number;
+    Outcome outcome;
+};
+
 // The agent "hand": its finger presses /hand/button for 20 to 150 cycles and lets it go as long.
+// From beginOrders() on its chief commands the counter of the robot, one command after the other.
 class HandAgent {
 public:
     explicit HandAgent(const comms::NetworkOptions& network);
     ~HandAgent();
 
-    void end();                                                              // and then:
+    void beginOrders() { record_->orders = true; }
+    void endOrders();  // when the last one is answered
+    void end();        // and then:
+    std::vector<Ordered> ordered() const { return record_->ordered.taken(); }
     std::vector<Press> presses() const { return record_->presses.taken(); }  // by number, from 1
     std::vector<Written> written() const { return record_->written.taken(); }
 
     struct Recorded {
         Record<Press> presses;
         Record<Written> written;  // the button, in every cycle
+        Record<Ordered> ordered;
+        std::atomic<bool> orders{false}, waiting{false};
     };
+    static constexpr std::int64_t firstOrder = 1'000'000'000;
 
 private:
     SimplexTree tree_;

@@ -73,23 +73,30 @@ struct Plant {
         const double time = becomesWhole(what);
         ASSERT_GE(time, 0);
         station->begin();
+        hand->beginOrders();
         std::cout << what << ": whole " << static_cast<int>(time) << " ms after the start\n";
     }
 
     // Nothing is sent any more: what is to be said of all that happened.
     void check(const char* what, double networkDelay = 2) {
+        hand->endOrders();
         checkCommands(what, station->end());
         const auto end = Clock::now() + 60s;
         while (robot->presses() < 5 && Clock::now() < end) std::this_thread::sleep_for(10ms);
         hand->end();
         robot->end();
+        checkOrders(what);
         checkButton(what, networkDelay);
     }
     void checkCommands(const char* what, const std::map<std::int64_t, Station::Sent>& sent) {
         std::map<Outcome, int> counts;
         for (const auto& [number, each] : sent) ++counts[each.outcome];
         std::set<std::int64_t> done;
+        const auto isOrder = [](const Executed& each) {
+            return each.number > HandAgent::firstOrder;
+        };
         for (const Executed& each : robot->executed()) {
+            if (isOrder(each)) continue;
             EXPECT_TRUE(done.insert(each.number).second) << each.number << " was executed twice";
             const auto found = sent.find(each.number);
             ASSERT_NE(found, sent.end());
@@ -107,13 +114,42 @@ struct Plant {
             }
         }
         EXPECT_GT(counts[Outcome::Done], 0);
-        const auto executed = static_cast<std::int64_t>(done.size());
+        const auto executed = std::ssize(done) + std::ranges::count_if(robot->executed(), isOrder);
         const auto end = Clock::now() + 10s;
         while (station->count() != executed && Clock::now() < end) std::this_thread::sleep_for(1ms);
         EXPECT_EQ(station->count(), executed);
         std::cout << what << ": " << sent.size() << " commands, " << counts[Outcome::Done]
                   << " Done, " << counts[Outcome::Expired] << " Expired, "
                   << counts[Outcome::Unknown] << " Unknown; executed " << done.size() << "\n";
+    }
+    // Along a relationship: each at most once, in order, and what is said of it is true.
+    void checkOrders(const char* what) {
+        std::map<std::int64_t, Outcome> ordered;
+        std::map<Outcome, int> counts;
+        for (const Ordered& each : hand->ordered()) {
+            ordered[each.number] = each.outcome;
+            ++counts[each.outcome];
+        }
+        std::int64_t last = 0;
+        std::set<std::int64_t> executed;
+        for (const Executed& each : robot->executed()) {
+            if (each.number <= HandAgent::firstOrder) continue;
+            EXPECT_GT(each.number, last) << "twice, or overtaken";
+            last = each.number;
+            executed.insert(last);
+            ASSERT_TRUE(ordered.contains(last)) << last;
+            EXPECT_TRUE(ordered[last] == Outcome::Done || ordered[last] == Outcome::Unknown)
+                << last << " was executed, and is " << name(ordered[last]);
+        }
+        for (const auto& [number, outcome] : ordered) {
+            EXPECT_TRUE(outcome != Outcome::Done || executed.contains(number)) << number;
+        }
+        EXPECT_GT(counts[Outcome::Done], 0);
+        std::cout << what << ": " << ordered.size() << " commands of the hand, "
+                  << counts[Outcome::Done] << " Done, " << counts[Outcome::Expired] << " Expired, "
+                  << counts[Outcome::Unknown] << " Unknown; executed " << executed.size()
+                  << "
+                     ";
     }
     // How old what is seen as pressed was, from the hand's cycle that wrote it to the wake-up of
     // the robot's cycle that read it: no load of this machine excuses more than maxAge.

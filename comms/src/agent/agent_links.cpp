@@ -215,6 +215,14 @@ std::set<std::string> AgentLinks::owners() const {
     return owners;
 }
 
+AgentLinks::OwnerOf AgentLinks::ownerOf(std::uint32_t simplex) const {
+    const auto found =
+        std::ranges::find(links_, simplex, [](const auto& each) { return each->simplex; });
+    if (found == links_.end() || (*found)->current == nullptr) return {};
+    const Bound& bound = *(*found)->current;
+    return {bound.agent, bound.claim.epoch, bound.claim.structure};
+}
+
 Interest AgentLinks::interest() const {
     Interest interest;
     interest.agent = self_.id;

@@ -51,7 +51,14 @@ public:
     void take(const Block& block, std::int64_t came);
     std::uint64_t lost() const { return lost_; }  // blocks that did not come; any thread
     std::set<std::string> owners() const;         // agents to which links exist
-    Interest interest() const;                    // what this agent wants of others
+    // Who a remote simplex of ours is linked to; without structure: nobody.
+    struct OwnerOf {
+        std::string agent;
+        std::int64_t epoch = 0;
+        std::shared_ptr<const Structure> structure;
+    };
+    OwnerOf ownerOf(std::uint32_t simplex) const;
+    Interest interest() const;  // what this agent wants of others
     // Whether to send the interest again, because an owner has sent nothing for a second.
     bool askAgain(std::int64_t now);
 

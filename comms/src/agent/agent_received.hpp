@@ -21,6 +21,7 @@ struct ReceivedMessages {
     std::vector<Arrived<Model>> models;
     std::vector<Arrived<Interest>> interests;
     std::vector<Arrived<Command>> commands;
+    std::vector<Arrived<Answer>> answers;
 };
 
 // Carries messages from the threads of DDS to the communication thread. It is bounded. Any thread.
@@ -38,6 +39,9 @@ public:
     }
     bool push(Command&& message, std::int64_t now) {
         return add(&ReceivedMessages::commands, message, now, 4'096);
+    }
+    bool push(Answer&& message, std::int64_t now) {
+        return add(&ReceivedMessages::answers, message, now, 4'096);
     }
     // Takes all messages, in exchange for `emptied`, whose memory is used again.
     void take(ReceivedMessages& emptied) {

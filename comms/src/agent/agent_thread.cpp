@@ -33,9 +33,9 @@ constexpr std::int64_t silentInterval = 1'000'000'000;  // ns
 constexpr int timesStopping = 3;
 constexpr std::chrono::milliseconds pauseStopping{10};
 
-// Commands are urgent. Everything else waits for the next step.
+// Commands and answers are urgent. Everything else waits for the next step.
 template <class Message>
-constexpr bool isUrgent = std::same_as<Message, Command>;
+constexpr bool isUrgent = std::same_as<Message, Command> || std::same_as<Message, Answer>;
 
 }  // namespace
 
@@ -53,12 +53,14 @@ AgentThread::AgentThread(const AgentAccess& agent, const NetworkOptions& options
       links_{self_},
       interestOut_{links_.any() ? participant_.writer<Interest>(topics::interest) : nullptr},
       streams_{self_, model_.structureHash(), participant_},
+      calls_{self_, links_, participant_},
       peers_{self_,
              [this](const std::string& name, std::int64_t epoch) { commands_.lost(name, epoch); }},
       presenceIn_{receive<Presence>({topics::presence.name, Qos::Cycle})},  // the next comes soon
       modelIn_{links_.any() ? receive<Model>(topics::model) : nullptr},
       interestIn_{receive<Interest>(topics::interest)},
-      commandIn_{receive<Command>(topics::command)} {
+      commandIn_{receive<Command>(topics::command)},
+      answerIn_{calls_.any() ? receive<Answer>(topics::answerTo(self_.name)) : nullptr} {
     for (const Model& sample : model_.samples()) modelOut_->write(sample);
     sendInterest();
     participant_.speak();
@@ -87,13 +89,15 @@ std::unique_ptr<Reader<Message>> AgentThread::receive(const Topic& topic) {
 void AgentThread::read(Inbox& inbox) {
     links_.read(inbox);
     commands_.read(inbox);
+    calls_.read(inbox);
 }
 
 // A communication thread that waits for this write comes by itself, unless it is much too early.
 void AgentThread::write(Outbox& outbox) {
     const bool answers = commands_.write(outbox);
+    const bool calls = calls_.write(outbox);
     const bool everyCycle = everyCycle_.load(std::memory_order_relaxed);
-    if (!answers && !everyCycle) return;
+    if (!answers && !calls && !everyCycle) return;
     bool isTooEarly = false;
     if (everyCycle) {
         const std::int64_t now = monotonicNow();
@@ -160,6 +164,7 @@ void AgentThread::step() {
     if (peers_.takeChanged()) changed();
     if (links_.askAgain(now)) sendInterest();
     commands_.step(now);
+    calls_.step(peers_.all(), silent_);
     answers_.keep([this](const std::string& sender) { return commands_.knows(sender); }, now);
     sendEvents();
     if (peers_.isSecond() != silent_) beSilent(!silent_);
@@ -186,10 +191,12 @@ void AgentThread::takeMessages(std::int64_t now) {
             commands_.take(command, now);
         }
     }
+    for (auto& [answer, came] : messages_.answers) calls_.take(answer);
     messages_.presences.clear();
     messages_.models.clear();
     messages_.interests.clear();
     messages_.commands.clear();
+    messages_.answers.clear();
 }
 
 // An answer that cannot be sent is dropped: the sender asks again.

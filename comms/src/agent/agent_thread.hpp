@@ -5,6 +5,7 @@
 #include "cortex/core/event_count.hpp"
 
 #include "agent/agent_answers.hpp"
+#include "agent/agent_call_sender.hpp"
 #include "agent/agent_commands.hpp"
 #include "agent/agent_events.hpp"
 #include "agent/agent_links.hpp"
@@ -77,12 +78,14 @@ private:
     AgentLinks links_;
     std::unique_ptr<Writer<Interest>> interestOut_;  // null: this agent links nothing
     AgentStreams streams_;
+    AgentCallSender calls_;
     AgentPeers peers_;
     std::unique_ptr<Reader<Presence>> presenceIn_;
     std::unique_ptr<Reader<Model>> modelIn_;  // null: this agent links nothing
     std::unique_ptr<Reader<Interest>> interestIn_;
     std::map<std::string, std::unique_ptr<Reader<Block>>> linksIn_;  // by owner
     std::unique_ptr<Reader<Command>> commandIn_;
+    std::unique_ptr<Reader<Answer>> answerIn_;  // null: this agent commands no other
 
     // These belong to the communication thread.
     ReceivedMessages messages_;

@@ -148,15 +148,16 @@ std::uint64_t Mirror::send(std::string_view path, std::string_view command,
 
 bool Mirror::poll(std::uint64_t number, CommandAnswer& answer) {
     return implementation_->thread.read(
-        [&](MirrorState& state) { return state.commands.poll(number, answer); });
+        [&](MirrorState& state) { return state.commands.poll(number, answer, &answer.latency); });
 }
 
 CommandAnswer Mirror::call(std::string_view path, std::string_view command,
                            const Arguments& arguments, Milliseconds timeout) {
     const std::uint64_t number = send(path, command, arguments, timeout);
     CommandAnswer answer;
-    const bool answered = implementation_->thread.waitFor(
-        timeout, [&](MirrorState& state) { return state.commands.poll(number, answer); });
+    const bool answered = implementation_->thread.waitFor(timeout, [&](MirrorState& state) {
+        return state.commands.poll(number, answer, &answer.latency);
+    });
     if (answered) return answer;
     implementation_->thread.read([&](MirrorState& state) { state.commands.abandon(number); });
     answer.outcome = Outcome::Unknown;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mirror/mirror_agents.hpp"
 
+#include "cortex/core/error.hpp"
+
 #include "wire/ids.hpp"
 #include "wire/presence_extras.hpp"
 #include "wire/presence_interval.hpp"
@@ -44,6 +46,12 @@ bool MirrorAgent::holdsName(Moment now) const {
 
 std::chrono::nanoseconds MirrorAgent::patience() const {
     return std::chrono::nanoseconds{present() ? patienceWith(*model.presence()) : shortestPatience};
+}
+
+CommandTarget MirrorAgent::target() {
+    if (!structure) throw Error("agent " + model.agent() + " has not sent its structure yet");
+    if (!commands) commands = std::make_shared<CommandTables>(structure);
+    return {model, *commands, cycle, heard, lost};
 }
 
 AgentStatus MirrorAgent::status(Moment now) const {

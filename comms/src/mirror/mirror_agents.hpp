@@ -6,6 +6,7 @@
 
 #include "mirror/mirror_tables.hpp"
 #include "peers/peer_model.hpp"
+#include "peers/sent_commands.hpp"
 
 #include <functional>
 #include <map>
@@ -39,6 +40,7 @@ struct MirrorAgent {
     bool settled() const { return lost || foreign() || (present() && model.complete()); }
     std::chrono::nanoseconds patience() const;  // how long it may be silent
     AgentStatus status(Moment now) const;
+    CommandTarget target();  // throws Error where its structure has not come
 };
 
 // The agents of the domain. Of several starts of one name the one that was heard first counts. An

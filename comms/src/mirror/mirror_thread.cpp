@@ -119,7 +119,7 @@ std::uint64_t MirrorThread::send(std::string_view path, std::string_view command
     const std::uint64_t number = read([&](MirrorState& state) {
         MirrorAgent* owner = state.agents.ownerOf(path);
         if (owner == nullptr) throwNoSuchPath(state, path);
-        return state.commands.send(*owner, path, command, arguments, budget,
+        return state.commands.send(owner->target(), path, command, arguments, budget,
                                    std::chrono::steady_clock::now());
     });
     inbox_.wake();

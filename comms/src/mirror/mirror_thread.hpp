@@ -5,9 +5,9 @@
 #include "cortex/core/error.hpp"
 
 #include "mirror/mirror_agents.hpp"
-#include "mirror/mirror_commands.hpp"
 #include "mirror/mirror_endpoints.hpp"
 #include "mirror/mirror_inbox.hpp"
+#include "peers/sent_commands.hpp"
 
 #include <condition_variable>
 #include <cstdint>
@@ -33,7 +33,7 @@ struct MirrorState {
     bool everybodyIsHere() const;
 
     MirrorAgents agents;
-    MirrorCommands commands;
+    SentCommands commands;
     MirrorView view;
     std::vector<std::function<void(const AgentEvent&)>> listeners;
     // How many participants send presences, whether theirs has come already or not.

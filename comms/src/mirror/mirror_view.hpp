@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "peers/moment.hpp"
+
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -8,8 +10,6 @@
 #include <vector>
 
 namespace cortex::comms {
-
-using Moment = std::chrono::steady_clock::time_point;
 
 // What a tool looks at: the simplexes at and below some paths, in one class of rates.
 struct MirrorView {

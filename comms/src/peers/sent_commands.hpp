@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/comms/mirror.hpp"
 #include "cortex/core/command_exchange.hpp"
 
-#include "mirror/mirror_agents.hpp"
+#include "peers/moment.hpp"
+#include "peers/peer_model.hpp"
+#include "wire/messages.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -14,24 +16,37 @@
 
 namespace cortex::comms {
 
-// The commands of a tool and their answers. A command is sent again, unchanged, until it is
-// answered: agents recognise its number and execute it once. Used under the mutex of the mirror.
-class MirrorCommands {
+// An agent as a command to it needs to know it, at this moment.
+struct CommandTarget {
+    const PeerModel& model;
+    const CommandTables& tables;
+    std::int64_t cycle;  // the newest that is known
+    Moment heard;        // last
+    bool lost;
+};
+
+// The commands of one sender, a tool or an agent, and their answers. A command is sent again,
+// unchanged, until it is answered: agents recognise its number and execute it once. One thread at
+// a time.
+class SentCommands {
 public:
     using Write = std::function<bool(const Command&)>;
 
-    explicit MirrorCommands(const Sender& sender) : sender_{sender} {}
+    explicit SentCommands(const Sender& sender) : sender_{sender} {}
 
-    // Throws Error as Mirror::send().
-    std::uint64_t send(MirrorAgent& agent, std::string_view path, std::string_view command,
+    // `budget`: how long it may take to arrive. Throws Error as CommandClient::prepare().
+    std::uint64_t send(const CommandTarget& agent, std::string_view path, std::string_view command,
                        const CommandClient::Arguments& arguments, std::chrono::nanoseconds budget,
                        Moment now);
-    bool poll(std::uint64_t number, CommandAnswer& answer);
+    // `latency`: in the agent that executed it.
+    bool poll(std::uint64_t number, CallResult& answer,
+              std::chrono::nanoseconds* latency = nullptr);
+    bool running(std::uint64_t number) const;  // it was answered, but not for the last time
     void abandon(std::uint64_t number);
 
     void take(const Answer& answer);
     void tick(Moment now, const Write& write);  // sends what is due, ends what is overdue
-    void lose(const std::string& agent, const char* why);
+    void lose(const std::string& agent, const std::string& why);
 
     bool waiting() const;  // for an answer
     std::uint64_t refused() const { return refused_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror/mirror_commands.hpp"
+#include "peers/sent_commands.hpp"
 
 #include "cortex/core/error.hpp"
 #include "cortex/core/record.hpp"
@@ -23,7 +23,7 @@ constexpr std::chrono::seconds grace{1};
 
 // An agent that sends fewer than ten presences a second has continued since its newest known cycle.
 // This is that time, without the tenth of a second that every command allows for.
-std::int64_t unheardOf(const MirrorAgent& agent, Moment now) {
+std::int64_t unheardOf(const CommandTarget& agent, Moment now) {
     const std::int64_t silence =
         std::min((now - agent.heard).count(), agent.model.presence()->interval);
     return std::clamp(silence - shortestInterval, std::int64_t{0}, longestInterval);
@@ -31,12 +31,11 @@ std::int64_t unheardOf(const MirrorAgent& agent, Moment now) {
 
 }  // namespace
 
-std::uint64_t MirrorCommands::send(MirrorAgent& agent, std::string_view path,
-                                   std::string_view command,
-                                   const CommandClient::Arguments& arguments,
-                                   std::chrono::nanoseconds budget, Moment now) {
-    if (!agent.commands) agent.commands = std::make_shared<CommandTables>(agent.structure);
-    const CommandTables& tables = *agent.commands;
+std::uint64_t SentCommands::send(const CommandTarget& agent, std::string_view path,
+                                 std::string_view command,
+                                 const CommandClient::Arguments& arguments,
+                                 std::chrono::nanoseconds budget, Moment now) {
+    const CommandTables& tables = agent.tables;
     const std::string& name = agent.model.agent();
     Target& target = targets_.try_emplace(name, sender_).first->second;
     const std::int64_t period = std::max<std::int64_t>(agent.model.presence()->period, 1);
@@ -73,27 +72,35 @@ std::uint64_t MirrorCommands::send(MirrorAgent& agent, std::string_view path,
     return next_++;
 }
 
-bool MirrorCommands::poll(std::uint64_t number, CommandAnswer& answer) {
+bool SentCommands::poll(std::uint64_t number, CallResult& answer,
+                        std::chrono::nanoseconds* latency) {
     const auto found = numbers_.find(number);
     if (found == numbers_.end()) return false;
     Target& target = targets_.at(found->second.agent);
     if (!target.client.poll(found->second.sequence, answer)) return false;
-    const auto latency = target.latencies.find(found->second.sequence);
-    answer.latency =
-        latency != target.latencies.end() ? latency->second : std::chrono::nanoseconds{0};
-    if (latency != target.latencies.end()) target.latencies.erase(latency);
+    const auto took = target.latencies.find(found->second.sequence);
+    if (latency != nullptr) {
+        *latency = took != target.latencies.end() ? took->second : std::chrono::nanoseconds{0};
+    }
+    if (took != target.latencies.end()) target.latencies.erase(took);
     numbers_.erase(found);
     return true;
 }
 
-void MirrorCommands::abandon(std::uint64_t number) {
+bool SentCommands::running(std::uint64_t number) const {
+    const auto found = numbers_.find(number);
+    return found != numbers_.end() &&
+           targets_.at(found->second.agent).client.running(found->second.sequence);
+}
+
+void SentCommands::abandon(std::uint64_t number) {
     const auto found = numbers_.find(number);
     if (found == numbers_.end()) return;
     targets_.at(found->second.agent).client.abandon(found->second.sequence);
     numbers_.erase(found);
 }
 
-void MirrorCommands::take(const Answer& answer) {
+void SentCommands::take(const Answer& answer) {
     if (answer.sender != sender_.nameText() || answer.senderEpoch != sender_.epoch) return;
     const auto found = targets_.find(answer.agent);
     if (found == targets_.end()) return;
@@ -117,7 +124,7 @@ void MirrorCommands::take(const Answer& answer) {
     if (target.latencies.size() > keptNumbers) target.latencies.erase(target.latencies.begin());
 }
 
-void MirrorCommands::tick(Moment now, const Write& write) {
+void SentCommands::tick(Moment now, const Write& write) {
     for (auto& [name, target] : targets_) {
         for (auto each = target.pending.begin(); each != target.pending.end();) {
             Pending& pending = each->second;
@@ -139,14 +146,14 @@ void MirrorCommands::tick(Moment now, const Write& write) {
     }
 }
 
-void MirrorCommands::lose(const std::string& agent, const char* why) {
+void SentCommands::lose(const std::string& agent, const std::string& why) {
     const auto found = targets_.find(agent);
     if (found == targets_.end()) return;
     found->second.pending.clear();
     found->second.client.loseAll(why);
 }
 
-bool MirrorCommands::waiting() const {
+bool SentCommands::waiting() const {
     return std::ranges::any_of(targets_,
                                [](const auto& each) { return !each.second.pending.empty(); });
 }
