@@ -29,6 +29,30 @@ wait
 tail -3 "$outside/follower"
 awk '$1 != 0 {moved = 1} END {exit !moved}' "$outside/follower"
 
+echo 'the example of three agents: both start, and when one ends the other is stopped'
+built e03_supervisor
+agent=$outside/e03_supervisor/build/e03_supervisor
+PATH=$prefix/bin:$PATH
+stateOf() { cortex show "$1" --timeout 2 2>/dev/null | grep -m1 -w state || true; }
+# STATE PATH: waits until the simplex is in that state.
+becomes() {
+    local tries
+    for ((tries = 0; tries < 20; ++tries)); do
+        [[ $(stateOf "$2") == *"$1"* ]] && return
+    done
+    echo "error: $2 does not become $1: $(stateOf "$2")" >&2
+    return 1
+}
+"$agent" left & left=$!
+"$agent" right & right=$!
+"$agent" supervisor & supervisor=$!
+becomes Active /left/sine
+becomes Active /right/sine
+kill "$left"
+becomes Standby /right/sine
+kill "$right" "$supervisor"
+wait "$left" "$right" "$supervisor"
+
 echo 'the same with pkg-config'
 export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
 g++ -std=c++20 "$outside"/e01_two_simplexes/*.cpp -o "$outside/e01" \

@@ -28,8 +28,8 @@ struct NetworkAgent {
         : rig{std::move(types), name, options} {
         rig.add(dds);
     }
-    NetworkAgent(const std::string& name, NetworkOptions network)
-        : dds{std::move(network)}, rig{test::commandTypes(), name} {
+    NetworkAgent(const std::string& name, NetworkOptions network, AgentOptions options = {})
+        : dds{std::move(network)}, rig{test::commandTypes(), name, options} {
         rig.add(dds);
     }
 

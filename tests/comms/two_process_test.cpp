@@ -98,5 +98,47 @@ TEST_F(TwoProcesses, LinkAgainAfterOneWasKilled) {
     }
 }
 
+// The chief of "near" starts and stops /probe of the other process.
+TEST(TwoProcessesOfAChief, StartAndStopASimplexOfTheOtherAlsoAfterAKill) {
+    test::ProbeCluster near{{}, "near"};
+    test::Probe& chief = near.probe("/chief");
+    near.tree.relateRemote(chief, "before", "/probe", "Probe");
+    test::Probe::LifeCycleSender other;
+    State wanted = State::Standby;
+    chief.onPopulate = [&](test::Probe& probe) { other = probe.lifeCycle(probe.input("before")); };
+    chief.onLoopEnd = [&](test::Probe&, const Tick&) {
+        if (other.state() == wanted) return;
+        if (wanted == State::Active)
+            other.startup();
+        else
+            other.shutdown();
+    };
+    near.cluster->addInterface<DdsInterface>(loopback());
+    near.start();
+    const auto becomes = [&](State state) {
+        wanted = state;
+        return comesTrue([&] {
+            near.step();
+            return near.quality("/probe") != Quality::Lost && near.state("/probe") == state;
+        });
+    };
+    for (int round = 0; round < 3; ++round) {
+        FarAgent far;
+        EXPECT_TRUE(becomes(State::Active)) << round;
+        EXPECT_TRUE(comesTrue([&] {
+            near.step();
+            return other.answer().outcome == Outcome::Done;
+        })) << round
+            << ": " << other.answer().why.view();
+        EXPECT_TRUE(becomes(State::Standby))
+            << round << ": " << name(other.answer().outcome) << " " << other.answer().why.view();
+        far.kill();
+        EXPECT_TRUE(comesTrue([&] {
+            near.step();
+            return near.quality("/probe") == Quality::Lost;
+        })) << round;
+    }
+}
+
 }  // namespace
 }  // namespace cortex::comms

@@ -147,9 +147,7 @@ struct Plant {
         EXPECT_GT(counts[Outcome::Done], 0);
         std::cout << what << ": " << ordered.size() << " commands of the hand, "
                   << counts[Outcome::Done] << " Done, " << counts[Outcome::Expired] << " Expired, "
-                  << counts[Outcome::Unknown] << " Unknown; executed " << executed.size()
-                  << "
-                     ";
+                  << counts[Outcome::Unknown] << " Unknown; executed " << executed.size() << "\n";
     }
     // How old what is seen as pressed was, from the hand's cycle that wrote it to the wake-up of
     // the robot's cycle that read it: no load of this machine excuses more than maxAge.

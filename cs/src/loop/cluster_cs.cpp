@@ -124,7 +124,7 @@ TaskGraph ClusterCS::Implementation::graph() const {
 void ClusterCS::Implementation::requireClasses() const {
     Report report;
     for (const SimplexInfo& info : agent->structure().simplexes) {
-        if (info.role != Role::Active || info.path == "/" + name) continue;
+        if (info.role != Role::Active || info.remote || info.path == "/" + name) continue;
         const Simplex& simplex = agent->tree().at(info.path);
         if (hasTask(info) && dynamic_cast<const SimplexCS*>(&simplex) != nullptr) continue;
         report.error(info.path, finding::noClass, simplex.place(),
