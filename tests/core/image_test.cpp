@@ -124,6 +124,45 @@ TEST_F(ImageTest, IsEmptyWhenAllReadersHoldOneAndComesBack) {
     EXPECT_EQ(first.cycle(), 0);
 }
 
+TEST_F(ImageTest, AFollowerGetsEveryCycle) {
+    pool.follow(3);
+    for (int cycle = 1; cycle < 20; ++cycle) {
+        position() = cycle;
+        pool.publish(cycle, 0, 0);
+        if (cycle % 3 != 0) continue;
+        for (int each = cycle - 2; each <= cycle; ++each) {
+            const Image image = pool.next();
+            ASSERT_TRUE(image) << each;
+            EXPECT_EQ(image.cycle(), each);
+            EXPECT_EQ(image.get<double>("/axis", "position"), each);
+        }
+        EXPECT_FALSE(pool.next());
+    }
+    EXPECT_EQ(pool.lost(), 0U);
+}
+
+TEST_F(ImageTest, AFollowerThatIsSlowLosesCyclesAndHoldsUpNobody) {
+    pool.follow(4);  // a ring of four
+    const Image first = pool.newest();
+    for (int cycle = 1; cycle <= 100; ++cycle) pool.publish(cycle, 0, 0);
+    EXPECT_EQ(pool.lost(), 96U);
+    EXPECT_EQ(pool.newest().cycle(), 100);
+    for (int cycle = 1; cycle <= 4; ++cycle) EXPECT_EQ(pool.next().cycle(), cycle);
+    pool.publish(101, 0, 0);
+    EXPECT_EQ(pool.next().cycle(), 101) << "it goes on";
+    EXPECT_EQ(first.cycle(), 0);
+}
+
+TEST_F(ImageTest, HasOneFollowerThatComesBeforeTheReaders) {
+    {
+        const Image held = pool.newest();
+        EXPECT_EQ(errorOf([&] { pool.follow(); }),
+                  "an image is held: follow before the first is read");
+    }
+    pool.follow();
+    EXPECT_EQ(errorOf([&] { pool.follow(); }), "these images have a follower already");
+}
+
 TEST_F(ImageTest, ReleasesItsPinWhenItIsReplaced) {
     Image image = pool.newest();
     Image other = pool.newest();
@@ -167,7 +206,8 @@ TEST_F(ImageTest, SaysThatItIsEmptyInsteadOfBeingRead) {
     EXPECT_EQ(errorOf([] { (void)Image{}.cycle(); }), "this image is empty: check it before use");
 }
 
-// Every image is of one cycle, and no reader sees time run backwards.
+// Every image is of one cycle, and no reader sees time run backwards. A follower sees each cycle or
+// counts it as lost.
 class ImageReaders : public ::testing::TestWithParam<int> {};
 
 TEST_P(ImageReaders, SeeWholeCyclesInOrder) {
@@ -176,6 +216,7 @@ TEST_P(ImageReaders, SeeWholeCyclesInOrder) {
     const test::Plant plant = test::makePlant();
     Tables tables{plant.structure};
     ImagePool pool{tables, readers};
+    pool.follow(4);
     const auto fill = [&](std::int64_t cycle) {
         for (std::uint32_t i = 0; i < plant.structure->cyclic.floats; ++i) {
             tables.live(0).floats[i] = static_cast<double>(cycle);
@@ -201,8 +242,21 @@ TEST_P(ImageReaders, SeeWholeCyclesInOrder) {
         }
     };
 
+    std::int64_t followed = 0;
+    const auto follow = [&] {
+        for (std::int64_t last = -1;
+             last < cycles && followed + static_cast<std::int64_t>(pool.lost()) <= cycles;) {
+            const Image image = pool.next();
+            if (!image) continue;
+            if (image.cycle() <= last || image.state(0).cycle != image.cycle()) ++torn;
+            last = image.cycle();
+            ++followed;
+        }
+    };
+
     fill(0);
     std::vector<std::thread> threads;
+    threads.emplace_back(follow);
     for (std::uint32_t i = 0; i < readers; ++i) threads.emplace_back(read);
     for (std::int64_t cycle = 1; cycle <= cycles; ++cycle) fill(cycle);
     for (std::thread& thread : threads) thread.join();
@@ -210,6 +264,8 @@ TEST_P(ImageReaders, SeeWholeCyclesInOrder) {
     EXPECT_EQ(torn, 0);
     EXPECT_EQ(empty, 0);
     EXPECT_GE(looks, readers);
+    while (pool.next()) ++followed;
+    EXPECT_EQ(followed + static_cast<std::int64_t>(pool.lost()), cycles + 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Image, ImageReaders, ::testing::Values(1, 2, 4));

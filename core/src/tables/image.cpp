@@ -88,19 +88,55 @@ Value Image::value(std::string_view path, std::string_view item) const {
     return value(simplex, itemAt(*structure().simplexes[simplex].layout, path, item));
 }
 
-ImagePool::ImagePool(Tables& tables, std::uint32_t readers)
-    : tables_{tables}, readers_{readers}, slotCount_{readers + 2} {
-    const std::size_t stride = strideFor(tables.arena().size());
-    const std::size_t octets = stride * slotCount_ + alignment;
+ImagePool::ImagePool(Tables& tables, std::uint32_t readers) : tables_{tables}, readers_{readers} {
+    makeSlots();
+}
+
+void ImagePool::makeSlots() {
+    const std::uint32_t count = readers_ + 2;
+    const std::size_t stride = strideFor(tables_.arena().size());
+    const std::size_t octets = stride * count + alignment;
     memory_ = std::make_unique<std::byte[]>(octets);  // zeroed: every page is touched
-    slots_ = std::make_unique<Slot[]>(slotCount_);
+    slots_ = std::make_unique<Slot[]>(count);
     void* first = memory_.get();
     std::size_t room = octets;
-    std::align(alignment, stride * slotCount_, first, room);
-    for (std::uint32_t i = 0; i < slotCount_; ++i) {
+    std::align(alignment, stride * count, first, room);
+    for (std::uint32_t i = 0; i < count; ++i) {
         slots_[i].memory = static_cast<std::byte*>(first) + i * stride;
     }
+    next_ = 0;
     publish(0, 0, 0);
+}
+
+// The images in the queue, and the one that the follower looks at.
+void ImagePool::follow(std::uint32_t depth) {
+    if (followed_ != nullptr) throw Error("these images have a follower already");
+    if (pinned_.load() != 0) throw Error("an image is held: follow before the first is read");
+    if (depth == 0) throw Error("a follower needs room for at least one image");
+    readers_ += depth + 1;
+    makeSlots();
+    followed_ = std::make_unique<SpscRing<std::uint32_t>>(depth);
+}
+
+void ImagePool::queue(std::uint32_t slot) {
+    std::uint32_t* place = followed_->free();
+    const bool hasPlace = place != nullptr && pinned_.fetch_add(1) < readers_;
+    if (!hasPlace) {
+        if (place != nullptr) pinned_.fetch_sub(1);
+        lost_.fetch_add(1, std::memory_order_relaxed);
+        return;
+    }
+    slots_[slot].pins.fetch_add(1);
+    *place = slot;
+    followed_->push();
+}
+
+Image ImagePool::next() {
+    const std::uint32_t* slot = followed_ != nullptr ? followed_->front() : nullptr;
+    if (slot == nullptr) return {};
+    Image image{this, *slot};
+    followed_->pop();
+    return image;
 }
 
 // Texts hardly ever change: a slot that holds them as they are keeps them.
@@ -124,6 +160,7 @@ void ImagePool::publish(std::int64_t cycle, std::int64_t nominalTime, std::int64
     const std::uint32_t newest = next_;
     newest_.store(newest);
     cycle_.store(cycle, std::memory_order_release);
+    if (followed_ != nullptr) queue(newest);
     // Of readers + 1 slots that are not the newest each reader keeps at most one: one is free, and
     // stays so, as readers pin the newest.
     next_ = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/core/image.hpp"
+#include "cortex/core/spsc_ring.hpp"
 #include "cortex/core/tables.hpp"
 
 #include <atomic>
@@ -25,7 +26,9 @@ namespace cortex {
 // 6. A reader takes a place among `readers` before it pins, and pins one slot at a time. So the
 //    loop always finds a free one among the `readers` + 1 that are not the newest.
 // 7. A slot is complete before it becomes the newest, and does not change while it is pinned.
-// 8. Texts are copied into a slot only if some text has changed since they were copied into it.
+// 8. The follower's images have places among `readers`, too: the loop takes one for each image that
+//    it queues. Without one, or with a full queue, that image is lost to the follower, and counted.
+// 9. Texts are copied into a slot only if some text has changed since they were copied into it.
 class ImagePool {
 public:
     ImagePool(Tables& tables, std::uint32_t readers);
@@ -38,6 +41,15 @@ public:
     Image newest() CORTEX_REALTIME;
     std::int64_t newestCycle() const { return cycle_.load(std::memory_order_acquire); }
 
+    // Setup, once, before the loop runs and while no image is held: from now on every image is
+    // queued for one reader, up to `depth` of them. Throws Error.
+    void follow(std::uint32_t depth = 8);
+    // The follower's thread: the next image in the order of cycles; empty: none yet.
+    Image next() CORTEX_REALTIME;
+    std::uint64_t lost() const {
+        return lost_.load(std::memory_order_relaxed);
+    }  // to it; any thread
+
 private:
     friend class Image;
     struct alignas(64) Slot {
@@ -46,17 +58,20 @@ private:
         std::byte* memory = nullptr;
         std::uint64_t textChanges = ~std::uint64_t{0};  // when its texts were copied; none yet
     };
+    void makeSlots();
     void copyTables(Slot& slot) CORTEX_REALTIME;
+    void queue(std::uint32_t slot) CORTEX_REALTIME;
 
     Tables& tables_;
     std::uint32_t readers_;
     std::unique_ptr<std::byte[]> memory_;
     std::unique_ptr<Slot[]> slots_;
-    std::uint32_t slotCount_;
     std::uint32_t next_ = 0;  // the slot that is filled next
     std::atomic<std::uint32_t> newest_{0};
     std::atomic<std::uint32_t> pinned_{0};
     std::atomic<std::int64_t> cycle_{0};
+    std::unique_ptr<SpscRing<std::uint32_t>> followed_;  // slots; null: nobody follows
+    std::atomic<std::uint64_t> lost_{0};
 };
 
 }  // namespace cortex
