@@ -326,6 +326,26 @@ TEST_F(CortexLive, DoctorLooksAtMachineNetworkAndAgents) {
     EXPECT_TRUE(contains(text.output, "agent          mixer on ")) << text.output;
 }
 
+// On a CPU with FMA the C library has two versions of many functions, with other last bits.
+TEST(CortexDoctor, TellsVariantsOfTheMathematicalFunctionsApart) {
+    const auto variant = [](const std::vector<std::string>& words) {
+        const std::string output = cortex(words).output;
+        const std::size_t begin = output.find("variant ");
+        return begin == std::string::npos ? output : output.substr(begin, 16);
+    };
+    const std::vector<std::string> words =
+        std::vector<std::string>{"doctor", "--timeout", "0.05"} + network;
+    const std::string here = variant(words);
+    EXPECT_EQ(here.size(), 16U) << here;
+    EXPECT_EQ(variant(words), here);
+    if (!__builtin_cpu_supports("fma")) GTEST_SKIP() << "this CPU has no FMA instructions";
+    setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA", 1);
+    const std::string older = variant(words);
+    unsetenv("GLIBC_TUNABLES");
+    EXPECT_EQ(older.size(), 16U) << older;
+    EXPECT_NE(older, here);
+}
+
 TEST(CortexDoctor, SaysThatNobodyIsThereAndGoesOn) {
     const Outcome outcome =
         cortex(std::vector<std::string>{"doctor", "--timeout", "0.05"} + network);

@@ -5,6 +5,7 @@
 #include "cortex/core/mailbox.hpp"
 
 #include "support/agent_rig.hpp"
+#include "toolkit/allocation_counter.hpp"
 
 #include <memory>
 #include <string>
@@ -247,6 +248,26 @@ TEST_F(AgentCalls, AreCountedEachUnderCutsAndReturns) {
     EXPECT_GT(unsure + not_run, 0);
     EXPECT_GE(total, done) << "what is Done ran";
     EXPECT_LE(total, done + unsure) << "nothing ran twice, and what expired did not run";
+}
+
+TEST_F(AgentCalls, TakeNoMemoryInTheTick) {
+    start();
+    std::uint64_t taken = 0;
+    for (int i = 0; i < 20; ++i) {
+        const std::uint64_t before = toolkit::test::allocationCount();
+        near.begin();
+        near.agent->processCommands(boss.index(), State::Active, near.agent->thread(0));
+        amount = 2.0;
+        add.send();
+        poke.send();
+        near.end();
+        taken += toolkit::test::allocationCount() - before;
+        hub.carry();
+        away.step();
+        hub.carry();
+    }
+    EXPECT_EQ(taken, 0U);
+    EXPECT_GT(add.answered(), 10U);
 }
 
 TEST_F(AgentCalls, StartSimplexesOfTheOtherAgent) {

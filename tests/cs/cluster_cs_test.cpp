@@ -85,6 +85,12 @@ TEST(ClusterCS, RefusesALoopWithoutDelayAndPrintsItWhole) {
     }
 }
 
+TEST(ClusterCS, IsTheStartThatItIsTold) {
+    test::ProbeCluster told{{.epoch = 1'700'000'000'000'000}};
+    told.start();
+    EXPECT_EQ(told.cluster->image().structure().epoch, 1'700'000'000'000'000);
+}
+
 TEST(ClusterCS, NeedsATreeATriggerAndIsStartedOnce) {
     cs::ClusterCS bare{"bare"};
     EXPECT_THROW(bare.start(), Error);

@@ -52,7 +52,7 @@ AgentRuntime::AgentRuntime(std::string name, SimplexTree& tree, AgentOptions opt
     tree_.createRelated();
     checkModel();
     structure_ = makeStructure(name_, tree_);
-    structure_->epoch = utcMicroseconds();
+    structure_->epoch = options_.epoch > 0 ? options_.epoch : utcMicroseconds();
     tables_ = std::make_unique<Tables>(structure_);
     images_ = std::make_unique<ImagePool>(*tables_, options_.imageReaders);
     threads_.resize(std::max(options_.loopThreads, 1U));

@@ -222,6 +222,7 @@ void ClusterCS::startAll() {
     options.loopThreads = threads;
     options.controlRequired = self.options.controlRequired;
     options.period = self.trigger->period();
+    options.epoch = self.options.epoch;
     self.agent = std::make_unique<AgentRuntime>(self.name, *self.tree, options);
     self.requireClasses();
     const TaskGraph graph = self.graph();

@@ -196,6 +196,7 @@ void examineMachine(Diagnoses& found) {
     examineMemory(found);
     examineClocks(found);
     examineSharedMemory(found);
+    examineLibm(found);
 }
 
 }  // namespace cortex::explorer

@@ -33,6 +33,7 @@ struct AgentOptions {
     std::uint32_t outsideCommands = 256;  // on their way at once, of all senders
     bool controlRequired = false;         // commands from outside need a lease
     std::int64_t period = 1'000'000;      // ns, nominal
+    std::int64_t epoch = 0;               // of this start, UTC microseconds; 0: now
 };
 
 // One agent at run time: structure, tables, mailboxes, images, events and the two ends of a cycle.

@@ -42,6 +42,9 @@ struct ClusterOptions {
     double watchdogPeriods = 10;   // at least 100 ms
     bool controlRequired = false;  // commands from outside need a control lease
     std::uint32_t imageReaders = 8;
+    // Tells this start from others of its name, UTC microseconds; 0: now. A replay gives that of
+    // the start that it repeats.
+    std::int64_t epoch = 0;
 };
 
 // What heartbeat functions get, after each cycle on the loop thread, and from the watchdog.
