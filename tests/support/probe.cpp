@@ -24,6 +24,9 @@ void Probe::forgetHooks() {
     onLoopStart = onStandby = onActive = onLoopEnd = nullptr;
     onStartingUp = onShuttingDown = onFault = nullptr;
     onAdd = onPoke = onWork = nullptr;
+    onProposed = nullptr;
+    onChanged = nullptr;
+    onKeep = nullptr;
 }
 
 ProbeCluster::ProbeCluster(cs::ClusterOptions options, const std::string& name)

@@ -22,6 +22,9 @@ public:
     Hook onLoopStart, onStandby, onActive, onLoopEnd;
     Condition onStartingUp, onShuttingDown, onFault;
     std::function<Outcome(Probe&, Call&)> onAdd, onPoke, onWork;
+    std::function<void(Probe&, ProposedSettings&)> onProposed;
+    std::function<void(Probe&)> onChanged;
+    std::function<void(Archive&)> onKeep;
 
     using SimplexCS::event;
     using SimplexCS::fault;
@@ -49,6 +52,15 @@ protected:
     bool stateShuttingDown(const Tick& tick) override { return ask(onShuttingDown, tick); }
     bool stateFault(const Tick& tick) override { return ask(onFault, tick); }
     void loopEnd(const Tick& tick) override { run(onLoopEnd, tick); }
+    void settingsProposed(ProposedSettings& proposed) override {
+        if (onProposed) onProposed(*this, proposed);
+    }
+    void settingsChanged() override {
+        if (onChanged) onChanged(*this);
+    }
+    void keep(Archive& archive) override {
+        if (onKeep) onKeep(archive);
+    }
 
 private:
     void run(const Hook& hook, const Tick& tick) {

@@ -158,6 +158,15 @@ void AgentRuntime::registerHandler(std::uint32_t simplex, std::string_view comma
     portOf(simplex).setHandler(index, handler);
 }
 
+void AgentRuntime::registerSettingsHooks(std::uint32_t simplex, const SettingsHooks& hooks) {
+    portOf(simplex).setHooks(hooks);
+}
+
+std::span<const SettableItem> AgentRuntime::settables(std::uint32_t simplex) const {
+    if (ports_[simplex] == nullptr) return {};
+    return ports_[simplex]->settables();
+}
+
 CommandSender AgentRuntime::makeSender(std::uint32_t edge, std::string_view command,
                                        std::uint32_t capacity) {
     const SimplexInfo& target = structure_->simplexes[structure_->edges[edge].target];

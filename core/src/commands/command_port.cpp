@@ -28,6 +28,8 @@ void refuse(Verdict& verdict, Reason reason, const EventText& why) {
     verdict = {Outcome::Rejected, reason, why};
 }
 
+constexpr const char* hookThrew = "one of its hooks threw: clearFaults comes first";
+
 }  // namespace
 
 EventText stateRefusal(std::string_view what, StateSet needs, State state) {
@@ -54,7 +56,7 @@ CommandPort::CommandPort(const PortAccess& agent, std::uint32_t simplex, const C
     for (std::size_t i = 0; i < table.settable.size(); ++i) {
         const DataItem& item = *table.settable[i];
         void* cell = agent.tables.live(simplex).at(item.kind, layout.find(item.name)->offset);
-        targets_.push_back({&table.entries.back().checks[i], cell});
+        settables_.push_back({&table.entries.back().checks[i], cell});
     }
 }
 
@@ -242,7 +244,7 @@ bool CommandPort::accepted(const CommandTable::Entry& entry, const std::byte* re
         return false;
     }
     if (dead_) {
-        refuse(verdict, Reason::State, "one of its hooks threw: clearFaults comes first");
+        refuse(verdict, Reason::State, hookThrew);
         return false;
     }
     for (const ArgumentCheck& check : entry.checks) {
@@ -282,21 +284,37 @@ void CommandPort::cancel(Verdict& verdict) {
 // All or nothing: everything is checked before anything is written.
 void CommandPort::set(const std::byte* request, Verdict& verdict) {
     bool any = false;
-    for (std::size_t i = 0; i < targets_.size(); ++i) {
+    for (std::size_t i = 0; i < settables_.size(); ++i) {
         if (request[i] == std::byte{0}) continue;
-        if (!settable(targets_[i], request, verdict)) return;
+        if (!settable(settables_[i], request, verdict)) return;
         any = true;
     }
     if (!any) {
         refuse(verdict, Reason::Range, "set names no item");
         return;
     }
-    for (std::size_t i = 0; i < targets_.size(); ++i) {
-        if (request[i] != std::byte{0}) targets_[i].store(request);
+    if (settingsHooks_.object != nullptr && !agreed(request, verdict)) return;
+    for (std::size_t i = 0; i < settables_.size(); ++i) {
+        if (request[i] != std::byte{0}) settables_[i].store(request);
     }
+    if (settingsHooks_.object != nullptr) settingsHooks_.changed(settingsHooks_.object);
 }
 
-bool CommandPort::settable(const Target& target, const std::byte* request, Verdict& verdict) const {
+// What the simplex itself says of values that are right one by one.
+bool CommandPort::agreed(const std::byte* request, Verdict& verdict) const {
+    if (dead_) {
+        refuse(verdict, Reason::State, hookThrew);
+        return false;
+    }
+    ProposedSettings proposed{settables_, request};
+    settingsHooks_.proposed(settingsHooks_.object, proposed);
+    if (!proposed.refusal()) return true;
+    refuse(verdict, Reason::Range, *proposed.refusal());
+    return false;
+}
+
+bool CommandPort::settable(const SettableItem& target, const std::byte* request,
+                           Verdict& verdict) const {
     const DataItem& item = *target.check->item;
     if (!stateless_ && !item.settable.has(state_)) {
         refuse(verdict, Reason::State, stateRefusal(item.name, item.settable, state_));
@@ -306,21 +324,6 @@ bool CommandPort::settable(const Target& target, const std::byte* request, Verdi
     verdict.outcome = Outcome::Rejected;
     verdict.reason = Reason::Range;
     return false;
-}
-
-void CommandPort::Target::store(const std::byte* record) const {
-    const std::byte* from = record + check->offset;
-    const std::uint32_t element = check->kind == Kind::Bool ? 1U : 8U;
-    if (check->kind != Kind::String) {
-        std::memcpy(cell, from, std::size_t{check->length} * element);
-        return;
-    }
-    const std::uint32_t stride = StringCell::size(check->item->capacity);
-    for (std::uint32_t i = 0; i < check->length; ++i) {
-        const auto& text = *reinterpret_cast<const StringCell*>(from + i * stride);
-        auto* to = reinterpret_cast<StringCell*>(static_cast<std::byte*>(cell) + i * stride);
-        to->assign(text.view());
-    }
 }
 
 void CommandPort::stepActivity() {

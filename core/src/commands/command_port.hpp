@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/core/loop_thread.hpp"
+#include "cortex/core/proposed_settings.hpp"
 
 #include "commands/activity.hpp"
 #include "commands/lane.hpp"
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +34,9 @@ public:
         recentCommand_ = CommandTable::none;
     }
     bool handles(std::uint32_t command) const { return handlers_[command].function != nullptr; }
+    // Setup: who judges values that are right one by one.
+    void setHooks(const SettingsHooks& hooks) { settingsHooks_ = hooks; }
+    std::span<const SettableItem> settables() const { return settables_; }
     // Setup: the lanes on which this simplex receives and sends, in canonical order.
     void addReceiving(Lane& lane);
     void addSending(Lane& lane);
@@ -55,12 +60,6 @@ public:
     Outcome mailboxFull(CommandSender::State& state) CORTEX_REALTIME;
 
 private:
-    struct Target {  // of `set`
-        const ArgumentCheck* check;
-        void* cell;
-
-        void store(const std::byte* record) const CORTEX_REALTIME;
-    };
     void callFor(bool work) CORTEX_REALTIME;  // sets or clears the simplex's bit
     bool hasPassingWork() const CORTEX_REALTIME;
     void processAll();
@@ -85,6 +84,7 @@ private:
                        const Origin& origin, Verdict& verdict);
     void cancel(Verdict& verdict);
     void set(const std::byte* request, Verdict& verdict);
+    bool agreed(const std::byte* request, Verdict& verdict) const;
     void answer(Lane& lane, LaneSlot& head, const Verdict& verdict);
     void count(const Verdict& verdict, std::int64_t latency) CORTEX_REALTIME;
     void countExecuted(std::int64_t latency) CORTEX_REALTIME {
@@ -92,7 +92,7 @@ private:
         thread_->lastLatency = latency;
         ++thread_->latencyCounts[latencyBucket(latency)];
     }
-    bool settable(const Target& target, const std::byte* request, Verdict& verdict) const;
+    bool settable(const SettableItem& target, const std::byte* request, Verdict& verdict) const;
 
     // What every command touches: one cache line. Where there is no more than the first lanes,
     // nothing is written to it that has not changed.
@@ -113,7 +113,8 @@ private:
     std::unique_ptr<Handler[]> handlers_;  // by command
     std::vector<Lane*> moreReceiving_, moreSending_;
     const char* cancelWhy_ = nullptr;
-    std::vector<Target> targets_;
+    std::vector<SettableItem> settables_;
+    SettingsHooks settingsHooks_;
     PortAccess agent_;
     std::uint32_t simplex_;
 };

@@ -38,6 +38,7 @@ struct ClusterCS::Implementation {
     TaskGraph graph() const;
     void requireClasses() const;
     void populate(std::span<SimplexCS* const> simplexes) const;
+    void joinSettings(SimplexCS& simplex, Report& report) const;
     void warn(std::uint32_t simplex, const EventText& text) const;
     void warnOfModel() const;
 };
@@ -145,11 +146,31 @@ std::vector<SimplexCS*> ClusterCS::Implementation::activeInOrder(
     return simplexes;
 }
 
+// The simplex judges each `set`, and now the values that it begins with.
+void ClusterCS::Implementation::joinSettings(SimplexCS& simplex, Report& report) const {
+    const std::span<const SettableItem> items = agent->settables(simplex.index());
+    if (items.empty()) return;
+    agent->registerSettingsHooks(
+        simplex.index(), {&simplex,
+                          [](void* self, ProposedSettings& proposed) {
+                              static_cast<SimplexCS*>(self)->settingsProposed(proposed);
+                          },
+                          [](void* self) { static_cast<SimplexCS*>(self)->settingsChanged(); }});
+    ProposedSettings given{items, nullptr};
+    simplex.settingsProposed(given);
+    if (!given.refusal()) return;
+    report.error(
+        simplex.path(), finding::settingsRefused, simplex.place(),
+        "it refuses the values that it begins with: " + std::string{given.refusal()->view()},
+        "give it other values by <set> in the system file, or other defaults");
+}
+
 void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) const {
     Report report;
     for (SimplexCS* simplex : simplexes) {
         try {
             simplex->populate();
+            joinSettings(*simplex, report);
         } catch (const std::exception& error) {
             const std::string path = simplex->path() + ": ";
             std::string_view what = error.what();

@@ -41,6 +41,42 @@ void SimplexCS::event(Severity severity, const EventText& text) {
     runtime().post(*thread_->loop, severity, EventKind::Message, index(), text);
 }
 
+namespace {
+
+void refuseUnderClock(const Simplex& simplex, bool underClock) {
+    if (!underClock) return;
+    throw Error(simplex.path() + ": a clock runs its loop, so nobody knows when it is between " +
+                "two cycles; state is saved and restored under a manual trigger");
+}
+
+void requireFit(const Simplex& simplex, const Archive& archive, const char* otherwise) {
+    if (!archive.problem()) return;
+    throw Error(simplex.path() + ": " + std::string{archive.problem()->view()} + "; " + otherwise);
+}
+
+}  // namespace
+
+std::vector<std::byte> SimplexCS::savedState() {
+    refuseUnderClock(*this, runtime().writersRefused());
+    Archive measured;
+    keep(measured);
+    std::vector<std::byte> bytes(measured.size());
+    Archive archive{bytes};
+    keep(archive);
+    requireFit(*this, archive, "keep() hands over more than before");
+    return bytes;
+}
+
+void SimplexCS::restoreState(std::span<const std::byte> saved) {
+    refuseUnderClock(*this, runtime().writersRefused());
+    Archive check{saved, Archive::Purpose::Check};
+    keep(check);
+    check.finish();
+    requireFit(*this, check, "nothing was restored");
+    Archive archive{saved, Archive::Purpose::Restore};
+    keep(archive);
+}
+
 // Handles on the three commands of a simplex of another agent.
 struct SimplexCS::LifeCycleSender::Remote {
     CommandSender& of(LifeCycle command) {

@@ -12,6 +12,8 @@
 
 namespace cortex {
 
+class ProposedSettings;
+
 // Octets of `text` that fit into `capacity` without splitting a UTF-8 character.
 std::size_t fittingLength(std::string_view text, std::size_t capacity) CORTEX_REALTIME;
 
@@ -157,6 +159,8 @@ public:
     bool bound() const { return cell_ != nullptr; }
 
 private:
+    friend class ProposedSettings;  // finds the item of a handle
+
     Storage& cell() const CORTEX_REALTIME {
         if (cell_ == nullptr) [[unlikely]]
             throwUnbound(kindFor<T>());

@@ -5,6 +5,7 @@
 #include "cortex/core/image_pool.hpp"
 #include "cortex/core/loop_thread.hpp"
 #include "cortex/core/mailbox.hpp"
+#include "cortex/core/proposed_settings.hpp"
 #include "cortex/core/simplex_tree.hpp"
 #include "cortex/core/tables.hpp"
 #include "cortex/core/tick.hpp"
@@ -127,6 +128,9 @@ public:
 
     // Setup, for Simplex and its handles.
     void registerHandler(std::uint32_t simplex, std::string_view command, Handler handler);
+    void registerSettingsHooks(std::uint32_t simplex, const SettingsHooks& hooks);
+    // What `set` may change; none where the type has no such item.
+    std::span<const SettableItem> settables(std::uint32_t simplex) const;
     CommandSender makeSender(std::uint32_t edge, std::string_view command, std::uint32_t capacity);
     const CommandTable& commands(std::uint32_t simplex) const { return *tableOf_[simplex]; }
     // After populate(): a handler for each command of its type, and what it sends is complete.

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/archive.hpp"
 #include "cortex/core/command.hpp"
 #include "cortex/core/event.hpp"
+#include "cortex/core/proposed_settings.hpp"
 #include "cortex/core/simplex.hpp"
 #include "cortex/core/state.hpp"
 #include "cortex/core/tick.hpp"
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
+#include <vector>
 
 namespace cortex::cs {
 
@@ -34,6 +39,11 @@ public:
     // In hooks of this simplex; all other code reads its item `state`.
     State state() const { return state_; }
 
+    // What keep() keeps, between the cycles of a loop that a manual trigger runs. restoreState()
+    // throws Error and changes nothing where keep() keeps something else by now.
+    std::vector<std::byte> savedState();
+    void restoreState(std::span<const std::byte> saved);
+
 protected:
     // In hooks: an input is bad, lost or older than its rule allows, in this cycle.
     bool inputLost() const { return inputLost_; }
@@ -50,6 +60,16 @@ protected:
     // Done (true): clearFaults may be accepted from now on.
     virtual bool stateFault(const Tick&) CORTEX_REALTIME { return true; }
     virtual void loopEnd(const Tick&) CORTEX_REALTIME {}
+
+    // A `set` whose values are right one by one: may they stand together? Asked before anything is
+    // written, and by start() for the values to begin with; `proposed.refuse("why")` says no.
+    virtual void settingsProposed(ProposedSettings&) CORTEX_REALTIME {}
+    // The items have the new values, before the other hooks of this cycle.
+    virtual void settingsChanged() CORTEX_REALTIME {}
+
+    // Hands over each member that one cycle leaves to the next and that is no item, in a fixed
+    // order; one function to save and to restore: `archive & integral_ & last_`.
+    virtual void keep(Archive&) CORTEX_REALTIME {}
 
     // In a hook: enter Fault when this task ends. The first fault of a cycle is kept. `code` is
     // above 0. Throws Error before the first tick, and for other codes, which are the framework's.
