@@ -22,6 +22,11 @@ void HoldAxisController::stateActive(const Tick&) {
     for (std::size_t i = 0; i < demands_.size(); ++i) demands_[i].write(held_[i], 0);
 }
 
+void HoldAxisController::keep(Archive& archive) {
+    archive.version("HoldAxisController", 1);
+    archive & held_;
+}
+
 void FollowAxisController::populate() {
     targets_ = axisInputs(inputs("targets"));
     demands_ = axisOutputs(outputs("demands"));
@@ -50,6 +55,11 @@ void SineController::stateActive(const Tick& tick) {
     const double turning = 2 * std::numbers::pi * frequency_;
     const double angle = turning * static_cast<double>(tick.nominalTime - startedAt_) * 1e-9;
     axis_->write(amplitude_ * std::sin(angle), amplitude_ * turning * std::cos(angle));
+}
+
+void SineController::keep(Archive& archive) {
+    archive.version("SineController", 1);
+    archive & startedAt_;
 }
 
 }  // namespace cortex::toolkit

@@ -20,6 +20,7 @@ private:
     void populate() override;
     bool stateStartingUp(const Tick& tick) override;
     void stateActive(const Tick& tick) override;
+    void keep(Archive& archive) override;
 
     std::vector<AxisInput> axes_;
     std::vector<AxisOutput> demands_;
@@ -48,6 +49,7 @@ private:
     void populate() override;
     bool stateStartingUp(const Tick& tick) override;
     void stateActive(const Tick& tick) override;
+    void keep(Archive& archive) override;
 
     std::optional<AxisOutput> axis_;
     Data<const double> amplitude_, frequency_;

@@ -96,4 +96,9 @@ void AxisPoseController::stateActive(const Tick& tick) {
     }
 }
 
+void AxisPoseController::keep(Archive& archive) {
+    archive.version("AxisPoseController", 1);
+    archive & axes_ & duration_ & time_;
+}
+
 }  // namespace cortex::toolkit

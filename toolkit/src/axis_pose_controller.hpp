@@ -22,11 +22,14 @@ private:
         AxisOutput demand;
         AxisLimits limits;
         double from = 0, way = 0, position = 0;
+
+        void keep(Archive& archive) { archive & from & way & position; }
     };
 
     void populate() override;
     bool stateStartingUp(const Tick& tick) override;
     void stateActive(const Tick& tick) override;
+    void keep(Archive& archive) override;
     Outcome moveTo(Call& call);
     bool poseIsInRange() const;
     void begin(double speedShare);

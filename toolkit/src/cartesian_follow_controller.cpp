@@ -46,4 +46,10 @@ bool CartesianFollowController::stateShuttingDown(const Tick&) {
     return true;
 }
 
+void CartesianFollowController::keep(Archive& archive) {
+    archive.version("CartesianFollowController", 1);
+    archive & enable_;
+    for (Pose* pose : {&handThen_, &tipThen_, &pose_}) toolkit::keep(archive, *pose);
+}
+
 }  // namespace cortex::toolkit

@@ -17,6 +17,7 @@ private:
     bool stateStartingUp(const Tick& tick) override;
     void stateActive(const Tick& tick) override;
     bool stateShuttingDown(const Tick& tick) override;
+    void keep(Archive& archive) override;
     void engage(bool engage);
 
     PoseInput hand_, tip_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/archive.hpp"
 #include "cortex/core/simplex.hpp"
 #include "cortex/toolkit/serial_chain.hpp"
 
@@ -9,6 +10,16 @@
 #include <vector>
 
 namespace cortex::toolkit {
+
+// What keep() hands over of Eigen's types.
+template <class Matrix>
+void keep(Archive& archive, Eigen::PlainObjectBase<Matrix>& matrix) CORTEX_REALTIME {
+    archive& std::span{matrix.data(), static_cast<std::size_t>(matrix.size())};
+}
+inline void keep(Archive& archive, Pose& pose) CORTEX_REALTIME {
+    keep(archive, pose.position);
+    archive& std::span{pose.rotation.coeffs().data(), 4};
+}
 
 // Handles to the items of a CartesianConcept or an AxisConcept that is related to.
 struct PoseInput {
@@ -33,6 +44,7 @@ public:
     // Once a cycle. `lost`: an input is lost, so nothing is acted on.
     bool update(bool lost) CORTEX_REALTIME;
     bool usable() const { return usable_; }  // as of the last update
+    void keep(Archive& archive) CORTEX_REALTIME { archive & needed_ & usable_ & released_; }
 
 private:
     // A value that has only grown old, within its maxAge, is still acted on; one that its writer
@@ -41,6 +53,8 @@ private:
         const SlotState* state = nullptr;
         std::int64_t time = 0;
         bool good = false;
+
+        void keep(Archive& archive) CORTEX_REALTIME { archive & time & good; }
     };
     Data<const bool> pressed_;
     std::vector<Needed> needed_;
@@ -76,7 +90,8 @@ struct AxisLimits {
     double min, max, speed;
 };
 
-// Throws Error unless there are as many of the one as of the other.
+// Throws Error unless there are as many of the one as of the other, where a morphology of the
+// user's own lacks the rule's sameCount="axes", by which files are checked.
 void requireSameCount(const Simplex& owner, std::size_t axes, std::size_t others,
                       const char* otherRule);
 

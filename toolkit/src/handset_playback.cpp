@@ -94,4 +94,11 @@ void HandsetPlayback::loopEnd(const Tick&) {
     poseOutput_.write(pose_, velocity_);
 }
 
+void HandsetPlayback::keep(Archive& archive) {
+    archive.version("HandsetPlayback", 1);
+    archive & startedAt_;
+    toolkit::keep(archive, pose_);
+    toolkit::keep(archive, velocity_);
+}
+
 }  // namespace cortex::toolkit

@@ -26,6 +26,7 @@ private:
     bool stateStartingUp(const Tick& tick) override;
     void stateActive(const Tick& tick) override;
     void loopEnd(const Tick& tick) override;
+    void keep(Archive& archive) override;
 
     std::string pathOfFile();
     void play();

@@ -51,4 +51,9 @@ void JogController::stateActive(const Tick& tick) {
     }
 }
 
+void JogController::keep(Archive& archive) {
+    archive.version("JogController", 1);
+    archive & axes_ & now_;
+}
+
 }  // namespace cortex::toolkit

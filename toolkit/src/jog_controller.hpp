@@ -22,11 +22,14 @@ private:
         AxisLimits limits;
         double position = 0, velocity = 0;
         std::int64_t until = 0;  // ns
+
+        void keep(Archive& archive) { archive & position & velocity & until; }
     };
 
     void populate() override;
     bool stateStartingUp(const Tick& tick) override;
     void stateActive(const Tick& tick) override;
+    void keep(Archive& archive) override;
     Outcome jog(Call& call);
 
     std::vector<Axis> axes_;

@@ -85,4 +85,10 @@ void InverseKinematics::stateActive(const Tick& tick) {
     }
 }
 
+void InverseKinematics::keep(Archive& archive) {
+    archive.version("InverseKinematics", 1);
+    toolkit::keep(archive, solution_);
+    toolkit::keep(archive, posture_);
+}
+
 }  // namespace cortex::toolkit

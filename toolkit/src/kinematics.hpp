@@ -36,6 +36,7 @@ private:
     void populate() override;
     bool stateStartingUp(const Tick& tick) override;
     void stateActive(const Tick& tick) override;
+    void keep(Archive& archive) override;
     void readObserved();
     void seed();
 

@@ -90,4 +90,9 @@ bool ProcessorSelector::stateShuttingDown(const Tick&) { return stopAll(); }
 
 bool ProcessorSelector::stateFault(const Tick&) { return stopAll(); }
 
+void ProcessorSelector::keep(Archive& archive) {
+    archive.version("ProcessorSelector", 1);
+    archive & enable_ & choices_ & stillFor_;
+}
+
 }  // namespace cortex::toolkit

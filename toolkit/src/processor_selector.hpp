@@ -21,6 +21,8 @@ private:
     struct Managed {
         LifeCycleSender sender;
         std::int64_t askedAt = 0;  // ns; a startup that was refused is tried again later
+
+        void keep(Archive& archive) { archive & askedAt; }
     };
 
     void populate() override;
@@ -28,6 +30,7 @@ private:
     void stateActive(const Tick& tick) override;
     bool stateShuttingDown(const Tick& tick) override;
     bool stateFault(const Tick& tick) override;
+    void keep(Archive& archive) override;
 
     bool handMoves(const Tick& tick);
     Reason reason(const Tick& tick);

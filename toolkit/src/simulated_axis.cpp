@@ -92,4 +92,9 @@ void SimulatedAxis::loopEnd(const Tick& tick) {
     followingError_ = demand_->position - position_;
 }
 
+void SimulatedAxis::keep(Archive& archive) {
+    archive.version("SimulatedAxis", 1);
+    archive & position_ & velocity_ & atLimit_;
+}
+
 }  // namespace cortex::toolkit

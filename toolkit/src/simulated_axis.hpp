@@ -20,6 +20,7 @@ private:
     void populate() override;
     bool stateStartingUp(const Tick& tick) override;
     void loopEnd(const Tick& tick) override;
+    void keep(Archive& archive) override;
 
     void servo(double seconds);
     void brake(double seconds);

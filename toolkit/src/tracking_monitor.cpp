@@ -65,4 +65,11 @@ void TrackingMonitor::publish() {
     time_ = measured_;
 }
 
+void TrackingMonitor::keep(Archive& archive) {
+    archive.version("TrackingMonitor", 1);
+    archive & enable_ & pressed_;
+    for (Pose* pose : {&handThen_, &tipThen_}) toolkit::keep(archive, *pose);
+    archive & squaredDistance_ & squaredAngle_ & squaredSpeed_ & behind_ & measured_;
+}
+
 }  // namespace cortex::toolkit

@@ -15,6 +15,7 @@ public:
 private:
     void populate() override;
     void stateActive(const Tick& tick) override;
+    void keep(Archive& archive) override;
     void measure(double seconds);
     void publish();
 
