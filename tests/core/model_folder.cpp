@@ -140,6 +140,15 @@ const char* const smallModel = R"(<ontology name="small" version="1.0">
   <type name="Painter" extends="Maker"/>
   <type name="Pair" extends="Active"/>
   <type name="Watcher" extends="Active"/>
+  <type name="Slide" extends="Concept">
+    <data name="position" kind="float" unit="mm" safe="hold"/>
+    <data name="turn" kind="float" unit="rad" safe="hold"/>
+  </type>
+  <type name="Lift" extends="Concept">
+    <data name="position" kind="float" unit="m" safe="hold"/>
+    <data name="turn" kind="float" unit="1" safe="hold"/>
+  </type>
+  <type name="Mover" extends="Active"/>
 </ontology>
 )";
 
@@ -188,6 +197,11 @@ const char* const smallRules = R"(<morphology name="small">
   </rules>
   <rules type="Watcher">
     <relationship name="seen" direction="input" target="Concept" maxAge="0.004"/>
+  </rules>
+  <rules type="Mover">
+    <relationship name="seen" direction="input" target="Concept"/>
+    <relationship name="moved" direction="output" target="Concept" sameCount="seen"/>
+    <relationship name="other" direction="input" target="Concept"/>
   </rules>
 </morphology>
 )";

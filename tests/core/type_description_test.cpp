@@ -265,7 +265,7 @@ TEST_F(Told, AttributesOfALaterVersionAreKeptAndHandedOn) {
     later.data[0].unknown = {{"audience", "maintenance"}};
     later.commands[0].unknown = {{"needs", "2"}};
     later.commands[0].request[0].unknown = {{"safe2", "1"}};
-    later.rules[0].unknown = {{"sameCount", "axes"}};
+    later.rules[0].unknown = {{"onSlow", "axes"}};
     base() = describe(later);
 
     const TypeModel model = modelOf(described, report);

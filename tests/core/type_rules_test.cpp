@@ -118,6 +118,27 @@ TEST(Rule, HasLossAndAgeOnlyAsInput) {
         finds(rules(rule("direction='input' target='Axis' maxAge='0'")), "max-age", "P", 2));
 }
 
+TEST(Rule, HasASecondRuleThatCanHaveAsMany) {
+    const std::string in = rule("direction='input' target='Axis' min='2' max='3'", "seen");
+    const auto out = [&](const std::string& attributes) {
+        return rules(in + rule("direction='output' target='Axis' " + attributes));
+    };
+    EXPECT_EQ(out("sameCount='seen'").rule("A", "r").sameCount, "seen");
+    EXPECT_TRUE(isValid(out("sameCount='seen' min='3'")));
+    EXPECT_TRUE(finds(out("sameCount='sen'"), "same-count", "P", 2, "nearest of: seen"));
+    EXPECT_TRUE(finds(out("sameCount='r'"), "same-count", "P", 2, "which is itself"));
+    EXPECT_TRUE(finds(out("sameCount='seen' min='4'"), "same-count", "P", 2, "4 to * "));
+    EXPECT_TRUE(finds(out("sameCount='seen' max='1'"), "same-count", "P", 2, "2 to 3"));
+}
+
+TEST(Rule, KeepsTheSameCountThatItInherits) {
+    const std::string in = "direction='input' target='Axis'";
+    const std::string both = rule(in, "seen") + rule(in, "other") + rule(in + " sameCount='seen'");
+    EXPECT_EQ(rules(both, rule("max='3'")).rule("A", "r").sameCount, "seen");
+    EXPECT_TRUE(finds(rules(both, rule("sameCount='other'")), "same-count", "A", 3,
+                      "changes the inherited sameCount"));
+}
+
 TEST(Rule, HasAnInputRuleAsCounterpart) {
     const std::string in = rule("direction='input' target='Axis'", "seen");
     EXPECT_TRUE(isValid(rules(in + rule("direction='output' target='Axis' counterpart='seen'"))));

@@ -91,5 +91,26 @@ TEST(Validation, SaysWhyNothingMoreIsCreated) {
     EXPECT_TRUE(contains(finding.message, "at most 8 levels")) << finding.message;
 }
 
+TEST(Validation, WantsAsManyUnderARuleAsUnderTheOneThatItGoesBy) {
+    const std::string lifts = simplex("/a", "Lift") + simplex("/b", "Lift") +
+                              simplex("/c", "Lift") + simplex("/d", "Lift");
+    const std::string seen = relate("seen", "/a") + relate("seen", "/b");
+
+    const auto fewer =
+        only(checkSmall(simplex("/m", "Mover", seen + relate("moved", "/c")) + lifts));
+    const auto equal = checkSmall(
+        simplex("/m", "Mover", seen + relate("moved", "/c") + relate("moved", "/d")) + lifts);
+    const auto none = checkSmall(simplex("/m", "Mover", seen) + lifts);
+
+    EXPECT_EQ(fewer.rule, "count-unequal");
+    EXPECT_EQ(fewer.path, "/m");
+    EXPECT_EQ(fewer.message,
+              "rule 'moved' (small-morphology.xml:49) has 1, rule 'seen' has 2: there must be one "
+              "for each, in the same order");
+    EXPECT_TRUE(fewer.remedy.starts_with("relate one with <relate rule=\"moved\" to=\"/"));
+    EXPECT_TRUE(equal.report.ok()) << equal.report.text();
+    EXPECT_TRUE(none.report.ok()) << none.report.text();
+}
+
 }  // namespace
 }  // namespace cortex

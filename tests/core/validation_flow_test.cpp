@@ -198,5 +198,40 @@ TEST(Validation, WarnsOfNoMaxAgeThatHoldsOrIsNotStated) {
     }
 }
 
+TEST(Validation, WantsOneUnitForItemsOfOneNameInAPair) {
+    const std::string parts = simplex("/lift", "Lift") + simplex("/slide", "Slide") +
+                              simplex("/lift2", "Lift") + simplex("/slide2", "Slide");
+    const std::string seen = relate("seen", "/lift") + relate("seen", "/slide");
+
+    const auto crossed = checkSmall(
+        simplex("/m", "Mover", seen + relate("moved", "/slide2") + relate("moved", "/lift2")) +
+        parts);
+
+    EXPECT_EQ(crossed.count("pair-unit"), 4U) << crossed.report.text();
+    const Finding* first = crossed.find("pair-unit");
+    EXPECT_EQ(first->path, "/m");
+    EXPECT_EQ(first->message,
+              "/slide2 (rule 'moved') has 'position' in mm, its pair /lift (rule 'seen') has "
+              "'position' in m");
+    EXPECT_EQ(first->place.line, 6);
+}
+
+TEST(Validation, WarnsWhereAValueIsReadAndWrittenInTwoUnitsOfOneDimension) {
+    const std::string parts = simplex("/lift", "Lift") + simplex("/slide", "Slide");
+    const std::string lifts = simplex("/lift", "Lift") + simplex("/lift2", "Lift");
+
+    const auto mixed = checkSmall(
+        simplex("/s", "Mover",
+                relate("other", "/lift") + relate("seen", "/slide") + relate("moved", "/slide2")) +
+        simplex("/slide2", "Slide") + parts);
+    const auto same = checkSmall(
+        simplex("/s", "Mover", relate("seen", "/lift") + relate("moved", "/lift2")) + lifts);
+
+    EXPECT_TRUE(mixed.report.ok()) << mixed.report.text();
+    ASSERT_EQ(mixed.count("flow-unit"), 1U) << mixed.report.text();  // rad and 1 may differ
+    EXPECT_TRUE(contains(mixed.find("flow-unit")->message, "reads and writes 'position'"));
+    EXPECT_EQ(same.count("flow-unit"), 0U) << same.report.text();
+}
+
 }  // namespace
 }  // namespace cortex

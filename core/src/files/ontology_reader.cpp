@@ -150,6 +150,7 @@ constexpr std::array ruleAttributes{
     AttributeReader<R>{"delayed", boolInto<&R::delayed>},
     AttributeReader<R>{"refines", textInto<&R::refines>},
     AttributeReader<R>{"counterpart", textInto<&R::counterpart>},
+    AttributeReader<R>{"sameCount", textInto<&R::sameCount>},
     AttributeReader<R>{"onLoss", enumInto<&R::onLoss>},
     AttributeReader<R>{"maxAge", floatInto<&R::maxAge>},
     AttributeReader<R>{"description", textInto<&R::description>},

@@ -90,6 +90,7 @@ Report validate(const SimplexTree& tree) {
         checkSimplex(checked, *simplex);
         checkRelations(checked, *simplex);
         checkCounts(checked, *simplex);
+        checkUnits(checked, *simplex);
         checkSettings(checked, *simplex);
     }
     checkFlow(checked);

@@ -32,6 +32,8 @@ void checkRelations(const Checked& checked, const Simplex& simplex);
 std::string meantRule(const Checked& checked, const Simplex& owner,
                       const Simplex::Relation& relation);
 void checkCounts(const Checked& checked, const Simplex& simplex);
+// Items that belong together but have different units.
+void checkUnits(const Checked& checked, const Simplex& owner);
 void checkSettings(const Checked& checked, const Simplex& simplex);
 void reportUnknownItem(const TypeModel& types, const Simplex& simplex,
                        const Simplex::Setting& setting, Report& report);

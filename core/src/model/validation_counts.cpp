@@ -112,6 +112,22 @@ void checkMaximum(const Checked& checked, const Simplex& owner, const Rule& rule
     }
 }
 
+// Which of the two are to be added or removed, only their owner knows: the remedy fills up.
+void checkSame(const Checked& checked, const Simplex& owner, const Rule& rule, std::size_t count) {
+    const Rule* other = owner.type().findRule(rule.sameCount);
+    if (other == nullptr || (count == 0 && rule.min == 0)) return;
+    const std::size_t wanted = relationsFor(owner, *other).size();
+    // Too few or too many of one of them by itself is a finding already.
+    if (count == wanted || count < rule.min || wanted < other->min) return;
+    const bool fewer = count < wanted;
+    checked.report.error(owner.path(), finding::countUnequal, placeFor(owner, rule),
+                         ruleText(owner, rule) + " has " + std::to_string(count) + ", rule '" +
+                             other->name + "' has " + std::to_string(wanted) +
+                             ": there must be one for each, in the same order",
+                         fewer ? relateMissing(checked, owner, rule, wanted - count)
+                               : relateMissing(checked, owner, *other, count - wanted));
+}
+
 }  // namespace
 
 void checkCounts(const Checked& checked, const Simplex& owner) {
@@ -127,6 +143,7 @@ void checkCounts(const Checked& checked, const Simplex& owner) {
             meant, [&](const std::string& each) { return countsFor(type, each, rule.name); });
         checkMinimum(checked, owner, rule, counted.size(), static_cast<std::size_t>(misspelt));
         checkMaximum(checked, owner, rule, counted);
+        if (misspelt == 0) checkSame(checked, owner, rule, counted.size());
     }
 }
 

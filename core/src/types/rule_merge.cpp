@@ -67,6 +67,7 @@ void intersect(Rule& rule, const FromParent<Rule>& second, const std::string& fi
     }
     agree(rule, second, first, &Rule::refines, "refines", stated, context);
     agree(rule, second, first, &Rule::counterpart, "counterpart", stated, context);
+    agree(rule, second, first, &Rule::sameCount, "sameCount", stated, context);
     if (rule.description.empty()) rule.description = other.description;
 }
 
@@ -86,6 +87,23 @@ void narrowCounts(Rule& rule, const Rule& own, const Stated& stated, const ItemC
         if (own.max > rule.max) widened("max", rule.max, own.max);
         rule.max = std::min(rule.max, own.max);
     }
+}
+
+// A child may add it. Where parents differ, it takes one of theirs.
+void narrowSameCount(Rule& rule, const Rule& own, const std::vector<FromParent<Rule>>& parents,
+                     const ItemContext& context) {
+    if (own.sameCount.empty()) return;
+    const auto isTheirs = [&](const FromParent<Rule>& parent) {
+        return parent.item->sameCount == own.sameCount;
+    };
+    if (!rule.sameCount.empty() && std::ranges::none_of(parents, isTheirs)) {
+        context.error(finding::sameCount,
+                      "changes the inherited sameCount from " + inQuotes(rule.sameCount) + " to " +
+                          inQuotes(own.sameCount),
+                      "leave sameCount out");
+        return;
+    }
+    rule.sameCount = own.sameCount;
 }
 
 void narrow(Rule& rule, const Rule& own, const Stated& stated, const ItemContext& context) {
@@ -168,6 +186,7 @@ Rule mergeRule(const std::vector<FromParent<Rule>>& parents, const Rule* own, co
             checkNew(*own, stated, context);
         } else {
             narrow(rule, *own, stated, context);
+            narrowSameCount(rule, *own, parents, context);
         }
     }
     if (own || parents.size() > 1) check(rule, own, stated, context);

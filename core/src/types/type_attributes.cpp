@@ -146,6 +146,7 @@ std::vector<TypeAttribute> attributesOf(const Rule& rule) {
                                {"min", countText(rule.min), "0"},
                                {"onLoss", name(rule.onLoss), name(plain.onLoss)},
                                {"refines", rule.refines, ""},
+                               {"sameCount", rule.sameCount, ""},
                                {"target", rule.target, ""}});
 }
 

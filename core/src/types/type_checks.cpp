@@ -3,6 +3,7 @@
 #include "cortex/core/nearest_names.hpp"
 
 #include "base/text.hpp"
+#include "types/type_attributes.hpp"
 #include "types/type_resolver.hpp"
 
 #include <algorithm>
@@ -58,7 +59,8 @@ void TypeResolver::checkRules(const Type& type) {
         return std::ranges::any_of(type.parents, [&](const std::string& parent) {
             const Rule* same = types_.find(parent)->second.findRule(rule.name);
             return same && same->target == rule.target && same->create == rule.create &&
-                   same->refines == rule.refines && same->counterpart == rule.counterpart;
+                   same->refines == rule.refines && same->counterpart == rule.counterpart &&
+                   same->sameCount == rule.sameCount;
         });
     };
     for (const Rule& rule : type.rules) {
@@ -73,6 +75,7 @@ void TypeResolver::checkRules(const Type& type) {
         checkCreate(type, rule);
         checkRefines(type, rule);
         checkCounterpart(type, rule);
+        checkSameCount(type, rule);
     }
 }
 
@@ -157,6 +160,25 @@ void TypeResolver::checkCounterpart(const Type& type, const Rule& rule) {
                   input       ? "remove counterpart: it belongs to the output that demands"
                   : !observed ? nearestRule(rule.counterpart, type)
                               : "name the input rule that observes what this output demands");
+}
+
+void TypeResolver::checkSameCount(const Type& type, const Rule& rule) {
+    if (rule.sameCount.empty() || graph_.incomplete(type.name)) return;
+    const std::string what =
+        "rule " + inQuotes(rule.name) + " has sameCount=" + inQuotes(rule.sameCount);
+    const Rule* other = type.findRule(rule.sameCount);
+    if (other == nullptr || other == &rule) {
+        report_.error(type.name, finding::sameCount, rule.place,
+                      what + (other ? ", which is itself" : ", which is no rule of this type"),
+                      other ? "name the rule that it goes by" : nearestRule(rule.sameCount, type));
+        return;
+    }
+    if (rule.min <= other->max && other->min <= rule.max) return;
+    report_.error(type.name, finding::sameCount, rule.place,
+                  what + ", but takes " + countText(rule.min) + " to " + countText(rule.max) +
+                      " relationships and that one " + countText(other->min) + " to " +
+                      countText(other->max),
+                  "give both rules a number that both allow");
 }
 
 void TypeResolver::checkBehaviour(const Type& type) {

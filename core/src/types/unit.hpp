@@ -9,6 +9,9 @@
 
 namespace cortex {
 
+// What a type writes that leaves the unit of an item to its children; it is no unit.
+inline constexpr std::string_view openUnit = "*";
+
 // Exponents of metre, kilogram, second, radian, kelvin, ampere, candela, mole and bit.
 using Dimension = std::array<std::int16_t, 9>;
 

@@ -116,6 +116,7 @@ Json ruleJson(const Rule& rule) {
               {"delayed", rule.delayed},
               {"refines", rule.refines},
               {"counterpart", rule.counterpart},
+              {"same_count", rule.sameCount},
               {"on_loss", input ? Json(name(rule.onLoss)) : Json()},
               {"max_age_s", input ? Json(rule.maxAge) : Json()},
               {"description", rule.description}};

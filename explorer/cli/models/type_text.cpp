@@ -140,6 +140,7 @@ void printRules(std::ostream& stream, const Type& type) {
         if (rule.delayed) more.emplace_back("delayed");
         if (!rule.refines.empty()) more.push_back("refines " + rule.refines);
         if (!rule.counterpart.empty()) more.push_back("counterpart " + rule.counterpart);
+        if (!rule.sameCount.empty()) more.push_back("as many as " + rule.sameCount);
         if (input && rule.onLoss != OnLoss::Propagate) {
             more.push_back("on loss " + std::string{name(rule.onLoss)});
         }

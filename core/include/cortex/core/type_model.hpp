@@ -105,6 +105,7 @@ struct Rule {
     bool delayed = false;
     std::string refines;      // inherited rule for which these relationships count too
     std::string counterpart;  // on an output: the input rule that observes what it demands
+    std::string sameCount;    // rule of the owner that has as many relationships as this one
     OnLoss onLoss = OnLoss::Propagate;
     double maxAge = 0.05;  // s
     std::string description;

@@ -100,6 +100,7 @@ inline constexpr char createAbstract[] = "create-abstract";
 inline constexpr char delayedLoosened[] = "delayed-loosened";
 inline constexpr char refines[] = "refines";
 inline constexpr char counterpart[] = "counterpart";
+inline constexpr char sameCount[] = "same-count";
 inline constexpr char onLossDirection[] = "on-loss-direction";
 inline constexpr char maxAge[] = "max-age";
 

@@ -32,6 +32,7 @@ inline constexpr char targetType[] = "target-type";
 inline constexpr char targetTwice[] = "target-twice";
 inline constexpr char belowMin[] = "below-min";
 inline constexpr char aboveMax[] = "above-max";
+inline constexpr char countUnequal[] = "count-unequal";
 inline constexpr char remoteOutput[] = "remote-output";
 inline constexpr char remoteTypes[] = "remote-types";
 
@@ -50,6 +51,8 @@ inline constexpr char delayedMixed[] = "delayed-mixed";
 inline constexpr char delayedDemand[] = "delayed-demand";
 inline constexpr char safeNeeded[] = "safe-needed";
 inline constexpr char observedCounterpart[] = "observed-counterpart";
+inline constexpr char pairUnit[] = "pair-unit";
+inline constexpr char flowUnit[] = "flow-unit";
 inline constexpr char loop[] = "loop";
 
 }  // namespace cortex::finding
