@@ -6,6 +6,7 @@
 
 #include "support/agent_rig.hpp"
 #include "wire/ids.hpp"
+#include "wire/presence_extras.hpp"
 
 #include <algorithm>
 #include <map>
@@ -45,7 +46,7 @@ struct AgentCommandsTest : testing::Test {
         rig.start();
     }
     // Number n of one of a few senders that poke in turn.
-    void send(int number) {
+    void send(int number, std::int64_t until = 0) {
         Command command;
         command.sender = "tool" + std::to_string(number % 4);
         command.host = "desk";
@@ -56,6 +57,7 @@ struct AgentCommandsTest : testing::Test {
         command.sequenceNumber = static_cast<std::uint64_t>(number / 4 + 1);
         command.answeredBelow = 1;
         command.notAfter = 1000;
+        if (until != 0) command.extras = {{validUntil, std::to_string(until)}};
         command.path = "/worker";
         command.command = "poke";
         network.commands->take(command, monotonicNow());
@@ -127,6 +129,15 @@ TEST_F(AgentCommandsTest, ComeFromAHundredSendersAtOnce) {
     step();
 
     EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Done", 100}}));
+}
+
+TEST_F(AgentCommandsTest, CommandWhoseTimeIsOverByTheClockOfItsTargetIsExpired) {
+    send(0, monotonicNow() - 1);
+    send(4, monotonicNow() + 3'600'000'000'000);
+    step();
+
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Done", 1}, {"Expired", 1}}));
+    EXPECT_EQ(pokes, 1);
 }
 
 }  // namespace

@@ -271,6 +271,29 @@ protected:
     CommandAnswer result;
 };
 
+TEST_F(MirrorCommandsTest, SayUntilWhenTheyAreValidByTheClockThatTheAgentTells) {
+    send("add", {{"amount", Value{std::vector{2.0}}}});
+    tick(begin);
+    agent.presence.extras = {{clockOfAgent, "5000000000"}};
+    agents.take(agent.presence, begin - 20ms);
+    send("add", {{"amount", Value{std::vector{2.0}}}});
+    tick(begin);
+
+    ASSERT_EQ(sent.size(), 2U);
+    EXPECT_TRUE(sent[0].extras.empty()) << "a loop that is stepped tells none";
+    EXPECT_EQ(numberIn(sent[1], validUntil), 5'121'000'000U) << "20 ms, 100 ms and a cycle later";
+}
+
+TEST_F(MirrorCommandsTest, AreSentToAnAgentWhoseClockCannotBe) {
+    agent.presence.extras = {{clockOfAgent, "18446744073709551615"}};
+    tellAll();
+    send("add", {{"amount", Value{std::vector{2.0}}}});
+    tick(begin);
+
+    ASSERT_EQ(sent.size(), 1U);
+    EXPECT_GT(numberIn(sent[0], validUntil), 0U);
+}
+
 TEST_F(MirrorCommandsTest, AreRepeatedAsTheyAreUntilTheyAreAnswered) {
     const std::uint64_t number = send("add", {{"amount", Value{std::vector{2.0}}}});
     tick(begin);

@@ -248,7 +248,7 @@ struct PreparedCommands : testing::Test {
 
     PreparedCommand prepare() {
         return client.prepare(tables, "/worker", "add",
-                              {{"amount", Value{std::vector<std::int64_t>{3}}}}, 50);
+                              {{"amount", Value{std::vector<std::int64_t>{3}}}}, {50, 70});
     }
 };
 
@@ -261,13 +261,14 @@ TEST_F(PreparedCommands, AreNumberedAndEncodedForAnyTransport) {
     EXPECT_EQ(message.sequence, 1U);
     EXPECT_EQ(message.targetEpoch, 7);
     EXPECT_EQ(message.notAfter, 50);
+    EXPECT_EQ(message.until, 70);
     EXPECT_EQ(message.simplex, tables.structure().find("/worker"));
     EXPECT_EQ(argumentsOf(tables.of(message.simplex), message.command, prepared.request()),
               (std::map<std::string, Value>{{"amount", Value{std::vector{3.0}}}}));
     EXPECT_EQ(prepare().message.sequence, 2U);
-    EXPECT_THROW(client.prepare(tables, "/walker", "add", {}, 50), Error);
-    EXPECT_THROW(client.prepare(tables, "/worker", "ad", {}, 50), Error);
-    EXPECT_THROW(client.prepare(tables, "/worker", "add", {{"a", Value{}}}, 50), Error);
+    EXPECT_THROW(client.prepare(tables, "/walker", "add", {}, {50}), Error);
+    EXPECT_THROW(client.prepare(tables, "/worker", "ad", {}, {50}), Error);
+    EXPECT_THROW(client.prepare(tables, "/worker", "add", {{"a", Value{}}}, {50}), Error);
 }
 
 TEST_F(PreparedCommands, AreAnsweredByNames) {

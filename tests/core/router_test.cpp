@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/clock.hpp"
+
 #include "core/router_fixture.hpp"
 
 #include <limits>
@@ -212,6 +214,36 @@ TEST_F(Router, CommandThatWaitedTooLongForASlowSimplexIsExpired) {
     rig.outside.send({.path = "/worker", .command = "poke", .notAfter = 3});
     rig.step(4);
     EXPECT_TRUE(rig.outside.answers.empty());
+    rig.order = {"/worker"};
+    rig.step();
+
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Expired);
+    EXPECT_EQ(calls, 0);
+}
+
+TEST_F(Router, CommandWhoseTimeHasPassedWhileTheLoopStoodStillIsExpired) {
+    start();
+    const Message late{.path = "/worker", .command = "poke", .until = monotonicNow() - 1};
+    const auto answer = answerTo(late);
+
+    EXPECT_EQ(answer.outcome, Outcome::Expired);
+    EXPECT_EQ(calls, 0);
+    EXPECT_EQ(answerTo(late).outcome, Outcome::Expired) << "a repeat gets the same answer";
+    const std::int64_t hour = 3'600'000'000'000;
+    EXPECT_EQ(
+        answerTo({.path = "/worker", .command = "poke", .sequence = 2, .until = late.until + hour})
+            .outcome,
+        Outcome::Done);
+}
+
+TEST_F(Router, CommandWhoseTimePassesBeforeItsTurnIsExpiredAlthoughNoCycleCounted) {
+    start();
+    rig.order = {};
+    const std::int64_t until = monotonicNow() + 10'000'000;
+    rig.outside.send({.path = "/worker", .command = "poke", .until = until});
+    rig.step();
+    while (monotonicNow() <= until) {
+    }
     rig.order = {"/worker"};
     rig.step();
 

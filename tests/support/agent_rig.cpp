@@ -53,6 +53,7 @@ void PlayedInterface::send(const Message& message) {
         command.sequence = message.sequence;
         command.answeredBelow = message.answeredBelow;
         command.notAfter = message.notAfter;
+        command.until = message.until;
         command.simplex = structure.find(message.path);
         std::vector<std::uint64_t> record(1);
         if (command.simplex != noSimplex) {

@@ -65,7 +65,7 @@ public:
         ProgramInterface::Arguments arguments = {};
         std::string sender = "tool";
         std::uint64_t sequence = 1, answeredBelow = 1;
-        std::int64_t epoch = 1, targetEpoch = 0, notAfter = 100'000;
+        std::int64_t epoch = 1, targetEpoch = 0, notAfter = 100'000, until = 0;
         std::string host = {};
         std::int32_t sizeError = 0;
     };

@@ -8,6 +8,7 @@
 #include "security/security_identity.hpp"
 #include "wire/ids.hpp"
 #include "wire/named_values.hpp"
+#include "wire/presence_extras.hpp"
 
 #include <algorithm>
 #include <array>
@@ -86,6 +87,7 @@ void AgentCommands::take(const Command& command, std::int64_t now) {
     message.sequence = command.sequenceNumber;
     message.answeredBelow = command.answeredBelow;
     message.notAfter = command.notAfter;
+    message.until = static_cast<std::int64_t>(numberIn(command, validUntil));
     HeardSender& from = senders_[command.sender];
     if (from.turnedAway.contains(message.sequence)) return turnAway(command, from);
     if (pipe_.push(message, reinterpret_cast<const std::byte*>(record.data()))) {

@@ -253,6 +253,8 @@ Presence AgentThread::presence(const char* state) const {
     presence.interval = intervalAmong(presenceOut_->readers());
     presence.extras.insert(presence.extras.begin(),
                            {uptimeOfAgent, std::to_string(monotonicNow() - began_)});
+    if (self_.access.realTime)
+        presence.extras.push_back({clockOfAgent, std::to_string(monotonicNow())});
     return presence;
 }
 

@@ -17,6 +17,7 @@ namespace {
 constexpr std::uint16_t major = 1;
 constexpr std::size_t mostAgents = 10'000;
 constexpr std::chrono::seconds forgottenAfter{61};
+constexpr std::uint64_t latestClock = std::uint64_t{1} << 61U;  // ns; no sum with it overflows
 
 // Visits those of an agent's own simplexes that a view shows.
 template <class Visit>
@@ -157,6 +158,9 @@ void MirrorAgents::take(const Presence& presence, Moment now) {
     agent->heard = now;
     agent->lost = agent->missed = false;
     agent->cycle = std::max(agent->cycle, presence.cycle);
+    agent->clock =
+        static_cast<std::int64_t>(std::min(numberIn(presence, clockOfAgent), latestClock));
+    agent->clockHeard = now;
 }
 
 void MirrorAgents::take(const Model& model, Moment now) {

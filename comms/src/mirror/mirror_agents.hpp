@@ -23,10 +23,12 @@ struct MirrorAgent {
         : model{name, epoch}, heard{now} {}
 
     PeerModel model;
-    Moment heard;                                   // last
-    Moment since{};                                 // it is heard; none: it was there before
-    bool lost = false, missed = false;              // missed: lost without saying so
-    std::int64_t cycle = 0;                         // newest
+    Moment heard;                       // last
+    Moment since{};                     // it is heard; none: it was there before
+    bool lost = false, missed = false;  // missed: lost without saying so
+    std::int64_t cycle = 0;             // newest
+    std::int64_t clock = 0;             // its own, ns; 0: not said
+    Moment clockHeard{};
     std::shared_ptr<const Structure> structure;     // once it is complete
     std::shared_ptr<const CommandTables> commands;  // once one was sent
     std::shared_ptr<MirrorTables> tables;           // once it is viewed

@@ -6,6 +6,7 @@
 
 #include "wire/ids.hpp"
 #include "wire/named_values.hpp"
+#include "wire/presence_extras.hpp"
 #include "wire/presence_interval.hpp"
 
 #include <algorithm>
@@ -21,12 +22,23 @@ constexpr std::chrono::milliseconds longestPause{200};
 // was lost.
 constexpr std::chrono::seconds grace{1};
 
+constexpr std::int64_t longestPeriod = 100'000'000'000;  // ns
+
 // An agent that sends fewer than ten presences a second has continued since its newest known cycle.
 // This is that time, without the tenth of a second that every command allows for.
 std::int64_t unheardOf(const CommandTarget& agent, Moment now) {
     const std::int64_t silence =
         std::min((now - agent.heard).count(), agent.model.presence()->interval);
     return std::clamp(silence - shortestInterval, std::int64_t{0}, longestInterval);
+}
+
+// By the agent's own clock, which goes on while its loop stands still. The cycle that runs now has
+// begun already, so it does not count.
+std::int64_t untilOf(const MirrorAgent& agent, std::chrono::nanoseconds budget, Moment now) {
+    if (agent.clock == 0) return 0;
+    const std::int64_t period =
+        std::clamp(agent.model.presence()->period, std::int64_t{0}, longestPeriod);
+    return agent.clock + (now - agent.clockHeard).count() + budget.count() + period;
 }
 
 }  // namespace
@@ -41,7 +53,8 @@ std::uint64_t SentCommands::send(const CommandTarget& agent, std::string_view pa
     const std::int64_t period = std::max<std::int64_t>(agent.model.presence()->period, 1);
     const std::int64_t cycles = std::max<std::int64_t>(budget.count() / period, 1);
     const PreparedCommand prepared = target.client.prepare(
-        tables, path, command, arguments, agent.cycle + unheardOf(agent, now) / period + cycles);
+        tables, path, command, arguments,
+        {agent.cycle + unheardOf(agent, now) / period + cycles, untilOf(agent, budget, now)});
     const OutsideCommand& head = prepared.message;
     numbers_[next_] = {name, head.sequence};
     if (numbers_.size() > keptNumbers) numbers_.erase(numbers_.begin());
@@ -62,6 +75,7 @@ std::uint64_t SentCommands::send(const CommandTarget& agent, std::string_view pa
     message.sequenceNumber = head.sequence;
     message.answeredBelow = head.answeredBelow;
     message.notAfter = head.notAfter;
+    if (head.until != 0) message.extras.push_back({validUntil, std::to_string(head.until)});
     message.path = path;
     message.command = command;
     message.arguments =

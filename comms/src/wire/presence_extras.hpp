@@ -7,17 +7,20 @@
 #include <cstdint>
 #include <string_view>
 
-// What an agent adds to its presence, as decimal numbers.
+// What an agent adds to its presence, and a sender to its commands, as decimal numbers.
 namespace cortex::comms {
 
 inline constexpr const char* agentsHeard = "agents";    // itself included
 inline constexpr const char* eventsWritten = "events";  // the number of the last one
 inline constexpr const char* uptimeOfAgent = "uptime";  // on the network, in ns
+inline constexpr const char* clockOfAgent = "clock";    // ns; not said where the loop is stepped
+inline constexpr const char* validUntil = "until";      // of a command, by the clock of its target
 
-// 0: the presence does not say so.
-inline std::uint64_t numberIn(const Presence& presence, std::string_view name) {
+// 0: the message does not say so.
+template <class Message>
+std::uint64_t numberIn(const Message& message, std::string_view name) {
     std::uint64_t number = 0;
-    for (const Extra& extra : presence.extras) {
+    for (const Extra& extra : message.extras) {
         if (extra.name != name) continue;
         std::from_chars(extra.value.data(), extra.value.data() + extra.value.size(), number);
     }

@@ -251,7 +251,7 @@ void AgentRuntime::start() {
     }
     router_ = std::make_unique<Router>(*this, toAgents_);
     const AgentAccess access{structure_, images_.get(), events_.get(), options_.period,
-                             callsToAgents()};
+                             callsToAgents(), options_.realTime};
     std::size_t announced = 0;
     try {
         for (; announced < interfaces_.size(); ++announced)

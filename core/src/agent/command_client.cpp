@@ -18,8 +18,8 @@ constexpr std::size_t keptResults = 1000;
 
 std::uint64_t CommandClient::post(CommandPipe& pipe, std::string_view path,
                                   std::string_view command, const Arguments& arguments,
-                                  std::int64_t notAfter) {
-    const PreparedCommand prepared = prepare(pipe.tables(), path, command, arguments, notAfter);
+                                  Validity validity) {
+    const PreparedCommand prepared = prepare(pipe.tables(), path, command, arguments, validity);
     const std::uint64_t sequence = prepared.message.sequence;
     if (prepared.open && !pipe.push(prepared.message, prepared.request())) refuse(sequence);
     return sequence;
@@ -27,7 +27,7 @@ std::uint64_t CommandClient::post(CommandPipe& pipe, std::string_view path,
 
 PreparedCommand CommandClient::prepare(const CommandTables& tables, std::string_view path,
                                        std::string_view command, const Arguments& arguments,
-                                       std::int64_t notAfter) {
+                                       Validity validity) {
     PreparedCommand prepared;
     OutsideCommand& message = prepared.message;
     message = tables.find(path, command);
@@ -39,7 +39,8 @@ PreparedCommand CommandClient::prepare(const CommandTables& tables, std::string_
     message.targetEpoch = tables.structure().epoch;
     message.answeredBelow = answeredBelow();
     message.sequence = next_++;
-    message.notAfter = notAfter;
+    message.notAfter = validity.notAfter;
+    message.until = validity.until;
     unanswered_[message.sequence] = {};
     prepared.open = message.sequence - message.answeredBelow < senderWindow;
     if (!prepared.open) refuse(message.sequence);

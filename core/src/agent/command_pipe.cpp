@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/clock.hpp"
 #include "cortex/core/command_exchange.hpp"
 
 #include "tables/lookup.hpp"
@@ -46,6 +47,12 @@ CommandPipe::CommandPipe(const AgentAccess& agent, std::uint32_t capacity)
     for (std::size_t i = 0; i < answers_.size(); ++i) {
         answers_.place(i).response = &responses_[i * response];
     }
+}
+
+// The cycle that runs now has begun already, so it does not count.
+Validity CommandPipe::validFor(std::int64_t cycles) const {
+    return {agent_.newestCycle() + cycles,
+            agent_.realTime ? monotonicNow() + (cycles + 1) * agent_.period : 0};
 }
 
 bool CommandPipe::push(const OutsideCommand& command, const std::byte* record) {

@@ -165,7 +165,7 @@ std::uint64_t LoopbackHub::Implementation::post(const std::string& sender, std::
     if (!agent.connected()) throw Error("agent " + agent.name() + " is not heard");
     auto [client, added] = tool.clients.try_emplace(agent.name(), makeSender(sender));
     const std::uint64_t sequence = client->second.post(agent.pipe(), path, command, arguments,
-                                                       agent.pipe().newestCycle() + budgetCycles);
+                                                       agent.pipe().validFor(budgetCycles));
     tool.posted[tool.next] = {agent.name(), sequence};
     return tool.next++;
 }

@@ -56,7 +56,7 @@ std::uint64_t ProgramInterface::post(std::string_view path, std::string_view com
     if (self.closed) throw Error("no command to an agent that was stopped");
     self.takeAnswers();
     return self.client.post(*self.pipe, path, command, arguments,
-                            self.pipe->newestCycle() + self.budgetCycles);
+                            self.pipe->validFor(self.budgetCycles));
 }
 
 bool ProgramInterface::poll(std::uint64_t sequence, CallResult& result) {

@@ -116,10 +116,11 @@ void Router::command(const OutsideCommand& command) {
 // Leaves Done where the command may go on its way.
 void Router::judge(const OutsideCommand& command, const SenderRecord& sender,
                    Verdict& verdict) const {
-    if (cycle() > command.notAfter && sender.unsure) {
+    const bool over = isOver(command.notAfter, command.until, began_);
+    if (over && sender.unsure) {
         verdict = {Outcome::Unknown, Reason::None,
                    "its time was over when it came, and whether it had run before is forgotten"};
-    } else if (cycle() > command.notAfter) {
+    } else if (over) {
         verdict = {Outcome::Expired, Reason::None, "its time was over when it came"};
     } else if (command.notAfter - cycle() > longestBudget_) {
         verdict = {Outcome::Rejected, Reason::Range, "its time ends later than an hour from now"};
@@ -143,6 +144,7 @@ void Router::admit(const OutsideCommand& command, std::uint32_t record) {
     entry.sender = command.sender;
     entry.sequence = command.sequence;
     entry.notAfter = command.notAfter;
+    entry.until = command.until;
     entry.interface = interface_;
     entry.senderRecord = record;
     entry.simplex = command.simplex;
@@ -222,8 +224,8 @@ void Router::publish(OutsideEntry& entry) {
     if (!entry.final()) return;
     const std::uint32_t request =
         runtime_.commands(entry.simplex).entries[entry.command].request.size;
-    report({entry.sender, 0, entry.sequence, 0, entry.notAfter, entry.simplex, entry.command,
-            request, entry.request},
+    report({entry.sender, 0, entry.sequence, 0, entry.notAfter, entry.until, entry.simplex,
+            entry.command, request, entry.request},
            head);
     if (known) --record.onTheirWay;
     entry.simplex = noSimplex;

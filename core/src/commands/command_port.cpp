@@ -193,7 +193,7 @@ void CommandPort::drainOutside() {
         OutsideEntry& entry = *outside_;
         outside_ = entry.next;
         Verdict verdict;
-        if (thread_->clock.cycle > entry.notAfter) {
+        if (isOver(entry.notAfter, entry.until, thread_->clock)) {
             verdict = {Outcome::Expired, Reason::None, "its time was over before its turn"};
         } else {
             try {

@@ -10,12 +10,19 @@
 
 namespace cortex {
 
+// Whether the time of a command is over. The counter alone would not do: it stands still with the
+// loop, while the sender's time goes on.
+inline bool isOver(std::int64_t notAfter, std::int64_t until, const ChunkClock& now)
+    CORTEX_REALTIME {
+    return now.cycle > notAfter || (until != 0 && now.nanoseconds > until);
+}
+
 // A command from outside on its way through the agent: from the router's pool into the queue of one
 // simplex, whose task answers it in place; the router collects the answer at the end of the cycle.
 struct OutsideEntry {
     Sender sender;
     std::uint64_t sequence = 0;
-    std::int64_t notAfter = 0;
+    std::int64_t notAfter = 0, until = 0;
     std::uint32_t interface = 0, senderRecord = 0;  // indexes in the router
     std::uint32_t simplex = noSimplex, command = CommandTable::none;
     std::int64_t readCycle = 0, readTime = 0;

@@ -244,6 +244,7 @@ void ClusterCS::startAll() {
     options.controlRequired = self.options.controlRequired;
     options.period = self.trigger->period();
     options.epoch = self.options.epoch;
+    options.realTime = self.trigger->realTime();
     self.agent = std::make_unique<AgentRuntime>(self.name, *self.tree, options);
     self.requireClasses();
     const TaskGraph graph = self.graph();

@@ -31,6 +31,7 @@ struct OutsideCommand {
     std::uint64_t sequence = 0;       // per sender, from 1
     std::uint64_t answeredBelow = 0;  // the sender has every answer below this sequence
     std::int64_t notAfter = 0;        // cycle of the target's own counter
+    std::int64_t until = 0;           // ns of the target's own clock; 0: not said
     std::uint32_t simplex = noSimplex;
     std::uint32_t command = CommandTable::none;
     std::uint32_t size = 0;
@@ -122,6 +123,7 @@ struct AgentAccess {
     EventLog* events = nullptr;
     std::int64_t period = 0;  // ns
     std::uint32_t calls = 0;  // commands to other agents that may be on their way at once
+    bool realTime = false;    // the loop's clock is that of the machine, so commands end by it too
 
     Image newestImage() const;  // empty if too many are held
     std::int64_t newestCycle() const;

@@ -35,6 +35,7 @@ struct AgentOptions {
     bool controlRequired = false;         // commands from outside need a lease
     std::int64_t period = 1'000'000;      // ns, nominal
     std::int64_t epoch = 0;               // of this start, UTC microseconds; 0: now
+    bool realTime = false;                // false: stepped, so that only nominal time counts
 };
 
 // One agent at run time: structure, tables, mailboxes, images, events and the two ends of a cycle.

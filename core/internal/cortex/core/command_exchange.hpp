@@ -34,6 +34,11 @@ private:
     std::vector<const CommandTable*> tables_;
 };
 
+// Until when a command may begin: `notAfter` and `until` of OutsideCommand.
+struct Validity {
+    std::int64_t notAfter = 0, until = 0;
+};
+
 // Commands from threads of this process into one agent's loop, and their answers back. Off the loop
 // one thread at a time (the owner's mutex); read() and write() in the loop.
 class CommandPipe {
@@ -42,7 +47,7 @@ public:
 
     const Structure& structure() const { return *agent_.structure; }
     const CommandTables& tables() const { return tables_; }
-    std::int64_t newestCycle() const { return agent_.newestCycle(); }
+    Validity validFor(std::int64_t cycles) const;  // from now on
     const CommandTable& table(std::uint32_t simplex) const { return tables_.of(simplex); }
 
     // False: full. `record` is copied.
@@ -113,11 +118,11 @@ public:
     const Sender& sender() const { return sender_; }
     // Throws Error as ProgramInterface::post(). Full pipes and windows answer MailboxFull.
     std::uint64_t post(CommandPipe& pipe, std::string_view path, std::string_view command,
-                       const Arguments& arguments, std::int64_t notAfter);
+                       const Arguments& arguments, Validity validity);
     // The first half of post(), for another transport; refuse() where that could not send it.
     PreparedCommand prepare(const CommandTables& tables, std::string_view path,
                             std::string_view command, const Arguments& arguments,
-                            std::int64_t notAfter);
+                            Validity validity);
     void refuse(std::uint64_t sequence);  // MailboxFull
 
     void take(const OutsideAnswer& answer, const CommandPipe& pipe);
