@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Order, quality, stamps, loss and arbitration between simplexes of one cluster.
 #include "cortex/core/loopback.hpp"
+#include "cortex/cs/testing.hpp"
 
 #include "support/probe.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -202,6 +204,119 @@ TEST(DataFlow, AMeasurementOlderThanMaxAgeIsALoss) {
 
     chain.cluster.step(20);
     EXPECT_TRUE(chain.cluster.hasEvent("/a-reader: input in from /s is 51 ms old, allowed 50 ms"));
+}
+
+// What another agent or a device measures, read by one that runs in every second cycle.
+struct Followed {
+    LoopbackHub hub;
+    ProbeCluster hand{{}, "hand"}, arm;
+    Probe& follower = arm.probe("/follower");
+    std::vector<std::string> seen;  // of the runs of the follower, the latest last
+
+    Followed() {
+        Probe& writer = hand.probe("/writer");
+        hand.tree.relate(writer, "out", hand.tree.add("/s", "Signal"));
+        writer.onLoopStart = [](Probe& self, const Tick& tick) {
+            self.setQuality(Quality::Good, tick.nominalTime);
+        };
+        hand.cluster->adoptInterface(hub.makeInterface());
+        arm.tree.relateRemote(follower, "in", "/s", "Signal");
+        follower.onLoopStart = [this](Probe& self, const Tick&) {
+            seen.emplace_back(self.inputLost() ? "lost" : "there");
+        };
+        arm.cluster->adoptInterface(hub.makeInterface());
+    }
+    void start() {
+        hand.start();
+        arm.start();
+    }
+    void step() {
+        hand.step();
+        arm.step();
+    }
+    std::vector<std::string> stepsAfterStandstill(std::int64_t periods, int steps) {
+        for (int i = 0; i < 10; ++i) step();
+        seen.clear();
+        cs::ClusterTesting::playLate(*arm.trigger, periods);
+        for (int i = 0; i <= steps; ++i) step();
+        return seen;
+    }
+};
+
+TEST(DataFlow, WhatMovedOnWhileTheLoopStoodStillIsLostOnceHoweverFreshItIs) {
+    Followed plant;
+    plant.start();
+    const auto seen = plant.stepsAfterStandstill(60, 3);
+
+    EXPECT_EQ(seen, (std::vector<std::string>{"there", "lost", "there", "there"}));
+    EXPECT_TRUE(
+        plant.arm.hasEvent("input in from /s was not followed for 61 ms, as the loop "
+                           "stood still, allowed 50 ms; reaction: propagate"));
+    EXPECT_TRUE(plant.arm.hasEvent("input in from /s is back"));
+}
+
+TEST(DataFlow, AStandstillWithinMaxAgeIsNoLoss) {
+    Followed plant;
+    plant.start();
+
+    EXPECT_EQ(plant.stepsAfterStandstill(40, 3), (std::vector<std::string>(4, "there")));
+}
+
+TEST(DataFlow, ATaskThatSkippedTheFirstCycleAfterAStandstillSeesTheLossAtItsNextRun) {
+    Followed plant;
+    plant.follower.runEvery(4, 3);
+    plant.start();
+    const auto seen = plant.stepsAfterStandstill(60, 11);
+
+    EXPECT_EQ(seen.size(), 3U);
+    EXPECT_EQ(std::ranges::count(seen, "lost"), 1);
+    EXPECT_NE(seen.back(), "lost");
+}
+
+// A writer's value of this very cycle is as good as ever: nothing has moved on without us.
+TEST(DataFlow, WhatTheClusterComputesItselfIsNotLostByAStandstill) {
+    Chain chain;
+    bool everLost = false;
+    chain.reader.onLoopStart = [&](Probe& self, const Tick&) { everLost |= self.inputLost(); };
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+    chain.cluster.step();
+    everLost = false;
+    cs::ClusterTesting::playLate(*chain.cluster.trigger, 60);
+    chain.cluster.step(3);
+
+    EXPECT_FALSE(everLost);
+}
+
+// Every tick comes 200 ms late.
+struct LateTrigger final : cs::TriggerSource {
+    cs::ManualTrigger trigger{std::chrono::milliseconds{1}};
+
+    void start() override { trigger.start(); }
+    cs::Trigger waitForTick() override {
+        cs::Trigger tick = trigger.waitForTick();
+        tick.lateness = 200'000'000;
+        return tick;
+    }
+    void interrupt() override { trigger.interrupt(); }
+    std::int64_t period() const override { return trigger.period(); }
+    bool realTime() const override { return false; }
+};
+
+TEST(DataFlow, ALateCycleDoesNotAgeWhatItsClusterMade) {
+    Chain chain("in", true);
+    std::vector<std::string> seen;
+    chain.reader.onLoopStart = [&](Probe& self, const Tick&) {
+        seen.emplace_back(self.inputLost() ? "lost" : "there");
+    };
+    chain.cluster.trigger = &chain.cluster.cluster->setTriggerSource<LateTrigger>().trigger;
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+    chain.cluster.step();
+    seen.clear();
+    chain.cluster.step(3);
+
+    EXPECT_EQ(seen, (std::vector<std::string>(3, "there")));
 }
 
 TEST(DataFlow, AStampIsTheOldestOfTheInputs) {

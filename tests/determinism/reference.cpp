@@ -241,6 +241,10 @@ void Reference::cycle() {
     now_ = nextTick_++ * period;
     ++cycle_;
     elapsed_ = now_ - lastNow_;
+    if (elapsed_ > 3 * period) {
+        stoodUntil_ = now_;
+        stood_ = elapsed_;
+    }
     lastNow_ = now_;
     halted_ = std::exchange(haltNext_, false);
     phase_ = 0;

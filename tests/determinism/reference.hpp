@@ -65,7 +65,7 @@ private:
     void enter(int simplex, State to);
     void enterFault(int simplex);
     void fault(int simplex, std::int64_t code, std::string_view text);
-    SlotState readInputs(int simplex);
+    SlotState readInputs(int simplex, std::int64_t elapsed);
     void inputLost(int simplex, Link& link);
     void finish(int simplex, SlotState state, std::int64_t elapsed);
     void arbitrate(int simplex);
@@ -128,6 +128,7 @@ private:
     int agent_ = 0;
 
     std::int64_t cycle_ = 0, now_ = 0, elapsed_ = 0, lastNow_ = -period, nextTick_ = 0;
+    std::int64_t stoodUntil_ = -1, stood_ = 0;  // the last standstill of the loop
     std::int64_t reported_ = 0;
     std::vector<std::int64_t> missed_;
     bool haltNext_ = false, halted_ = false;

@@ -27,7 +27,7 @@ void Reference::runTask(int simplex) {
     try {
         transition(simplex);
         process(simplex, task.state);
-        state = readInputs(simplex);
+        state = readInputs(simplex, tick.elapsed);
         if (!task.faultPending) runHooks(simplex, tick);
     } catch (const std::exception& error) {
         fault(simplex, -1, error.what());
@@ -182,7 +182,7 @@ void Reference::enterFault(int simplex) {
 }
 
 // The worst quality with its first cause, the oldest stamp; what a lost input leads to.
-SlotState Reference::readInputs(int simplex) {
+SlotState Reference::readInputs(int simplex, std::int64_t elapsed) {
     RefTask& task = *at(simplex).task;
     SlotState sum{cycle_, now_, noSimplex, Quality::Good};
     bool safe = false;
@@ -196,7 +196,11 @@ SlotState Reference::readInputs(int simplex) {
         link->maxAge = std::max<std::int64_t>(std::llround(link->rule->maxAge * 1e9),
                                               3 * period * writtenEvery);
         const SlotState& source = link->source->state;
-        const bool tooOld = ages && now_ - source.time > link->maxAge;
+        const auto measures = [this](int each) { return at(each).type->measures; };
+        const bool outside =
+            measures(link->target) || std::ranges::any_of(target.writers, measures);
+        const bool unseen = outside && stoodUntil_ > now_ - elapsed && stood_ > link->maxAge;
+        const bool tooOld = (ages && now_ - source.time > link->maxAge) || unseen;
         const bool lost = tooOld || source.quality >= Quality::Bad;
         const bool faults =
             lost && link->rule->onLoss == OnLoss::Fault && task.state == State::Active;
@@ -239,9 +243,12 @@ void Reference::inputLost(int simplex, Link& link) {
         text += std::string{" is "} + name(source.quality);
         if (source.cause != noSimplex) text += ", first cause " + all_[source.cause].path;
     } else {
-        const auto tenths = std::ceil(static_cast<double>(now_ - source.time) / 1e5);
-        text += " is " + inText(tenths / 10) + " ms old, allowed " +
-                inText(static_cast<double>(link.maxAge) * 1e-6) + " ms";
+        const bool old = now_ - source.time > link.maxAge;
+        const auto time = static_cast<double>(old ? now_ - source.time : stood_);
+        const std::string number = inText(std::ceil(time / 1e5) / 10) + " ms";
+        text += old ? " is " + number + " old"
+                    : " was not followed for " + number + ", as the loop stood still";
+        text += ", allowed " + inText(static_cast<double>(link.maxAge) * 1e-6) + " ms";
     }
     if (link.rule->onLoss == OnLoss::Fault && at(simplex).task->state == State::Active) {
         return fault(simplex, -2, text);

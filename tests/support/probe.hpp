@@ -29,6 +29,7 @@ public:
     using SimplexCS::event;
     using SimplexCS::fault;
     using SimplexCS::input;
+    using SimplexCS::inputLost;
     using SimplexCS::inputs;
     using SimplexCS::lifeCycle;
     using SimplexCS::LifeCycleSender;

@@ -25,17 +25,31 @@ std::int64_t ageOf(const TaskInput& input, const Tick& tick) {
     return tick.nominalTime + late - input.state->time;
 }
 
+// In tenths, rounded up.
+double milliseconds(std::int64_t time) {
+    constexpr std::int64_t tenth = 100'000;
+    return static_cast<double>((time + tenth - 1) / tenth) / 10;
+}
+
+// What was not followed for so long may have moved anywhere: it is lost for one run of the task,
+// however fresh it looks.
+bool movedOnUnseen(const TaskInput& input, std::int64_t stoodStill) {
+    return stoodStill > input.maxAge && input.fromOutside;
+}
+
 }  // namespace
 
 // The rare case of an input: lost, back, aged, held, or not good.
-SlotState TaskInputs::readUnusual(Task& task, TaskInput& input, const Tick& tick) {
-    const bool tooOld = input.ages && ageOf(input, tick) > input.maxAge;
+SlotState TaskInputs::readUnusual(Task& task, TaskInput& input, const Tick& tick,
+                                  std::int64_t stoodStill) {
+    const bool tooOld =
+        (input.ages && ageOf(input, tick) > input.maxAge) || movedOnUnseen(input, stoodStill);
     const bool lost = input.state->quality >= Quality::Bad || tooOld;
     const bool faults =
         lost && input.rule->onLoss == OnLoss::Fault && task.simplex->state_ == State::Active;
     if (lost != input.lost || faults) {
         input.lost = lost;
-        lossChanged(task, input, tick);
+        lossChanged(task, input, tick, stoodStill);
     }
     SlotState seen = *input.state;
     if (lost && seen.quality < Quality::Stale) {  // it is too old, which is its own doing
@@ -58,17 +72,19 @@ SlotState TaskInputs::readUnusual(Task& task, TaskInput& input, const Tick& tick
 SlotState TaskInputs::read(Task& task, const Tick& tick) {
     SlotState sum{tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     bool anyLost = false, safe = false;
+    const bool stood = set_.standstill.nominalTime > tick.nominalTime - tick.elapsed;
+    const std::int64_t stoodStill = stood ? set_.standstill.length : 0;
     for (TaskInput& input : set_.inputsOf(task)) {
         if (input.ownerPeriod != nullptr) {
             input.maxAge = std::max(input.maxAge, 3 * *input.ownerPeriod);
         }
         const bool fresh = !input.ages || ageOf(input, tick) <= input.maxAge;
         if (fresh && !input.lost && input.held == nullptr &&
-            input.state->quality == Quality::Good) {
+            input.state->quality == Quality::Good && !movedOnUnseen(input, stoodStill)) {
             merge(sum, *input.state, input.ages);
             continue;
         }
-        merge(sum, readUnusual(task, input, tick), input.ages);
+        merge(sum, readUnusual(task, input, tick, stoodStill), input.ages);
         anyLost = anyLost || input.lost;
         safe = safe || (input.lost && input.rule->onLoss == OnLoss::Safe);
     }
@@ -83,7 +99,8 @@ SlotState TaskInputs::read(Task& task, const Tick& tick) {
 }
 
 // An input was lost, or is back.
-void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick) {
+void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick,
+                             std::int64_t stoodStill) {
     SimplexCS& simplex = *task.simplex;
     EventText text{"input "};
     text << input.rule->name << " from " << set_.structure.simplexes[input.target].path;
@@ -100,10 +117,13 @@ void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick) {
             text << ", first cause " << set_.structure.simplexes[cause].path;
         }
     } else {
-        constexpr std::int64_t tenth = 100'000;  // of a millisecond
-        const std::int64_t tenths = (ageOf(input, tick) + tenth - 1) / tenth;
-        text << " is " << static_cast<double>(tenths) / 10 << " ms old, allowed "
-             << static_cast<double>(input.maxAge) * 1e-6 << " ms";
+        const std::int64_t age = ageOf(input, tick);
+        if (age > input.maxAge)
+            text << " is " << milliseconds(age) << " ms old";
+        else
+            text << " was not followed for " << milliseconds(stoodStill)
+                 << " ms, as the loop stood still";
+        text << ", allowed " << milliseconds(input.maxAge) << " ms";
     }
     if (input.rule->onLoss == OnLoss::Fault && simplex.state_ == State::Active) {
         simplex.enterFault(InputLost, text.view());

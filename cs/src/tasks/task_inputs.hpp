@@ -32,8 +32,11 @@ public:
     }
 
 private:
-    SlotState readUnusual(Task& task, TaskInput& input, const Tick& tick) CORTEX_REALTIME;
-    void lossChanged(Task& task, TaskInput& input, const Tick& tick) CORTEX_REALTIME;
+    // `stoodStill`: how long the loop did before this run of the task, ns.
+    SlotState readUnusual(Task& task, TaskInput& input, const Tick& tick, std::int64_t stoodStill)
+        CORTEX_REALTIME;
+    void lossChanged(Task& task, TaskInput& input, const Tick& tick, std::int64_t stoodStill)
+        CORTEX_REALTIME;
 
     TaskSet& set_;
     TaskDemands& demands_;

@@ -38,8 +38,22 @@ TaskRunner::TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64
 void TaskRunner::beginCycle(const Tick& tick) {
     states_.beginCycle();
     tick_ = tick;
+    noteStandstill(tick);
     if (!chunks_.empty())
         timedChunk_ = (timedChunk_ + 1) % static_cast<std::uint32_t>(chunks_.size());
+}
+
+// By the clock of the machine, because nominal time may stand still as well. A loop that is stepped
+// by hand has nominal time alone.
+void TaskRunner::noteStandstill(const Tick& tick) {
+    constexpr std::int64_t usualPeriods = 3;
+    const bool realTime = set_.agent.options().realTime;
+    const std::int64_t now =
+        realTime ? set_.agent.thread(0).clock.nanoseconds : tick.nominalTime + set_.period;
+    const std::int64_t length = now - std::exchange(lastBegin_, now);
+    if (length > usualPeriods * set_.period && length != now) {
+        set_.standstill = {tick.nominalTime, length};
+    }
 }
 
 void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {

@@ -42,6 +42,7 @@ public:
     RunnerCounts counts() const;
 
 private:
+    void noteStandstill(const Tick& tick) CORTEX_REALTIME;
     // False: it is not its turn, or nobody's task.
     bool runTask(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
     bool runAtTimes(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
@@ -62,6 +63,7 @@ private:
     std::unique_ptr<Position[]> positions_;
     Tick tick_;
     std::uint32_t timedChunk_ = 0;
+    std::int64_t lastBegin_ = 0;  // of a cycle, ns; 0: there was none
 };
 
 }  // namespace cortex::cs

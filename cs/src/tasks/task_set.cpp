@@ -42,6 +42,8 @@ struct TaskBuilder {
         return structure.simplexes[simplex].role == Role::Active;
     }
 
+    bool measures(std::uint32_t simplex) const { return layout(simplex).type->measures; }
+
     void build(const Schedule& schedule) {
         limitsOf.assign(structure.simplexes.size(), nullptr);
         candidates.resize(structure.simplexes.size());
@@ -115,6 +117,10 @@ struct TaskBuilder {
         input.ages = target.remote || target.role == Role::Active || !target.writers.empty();
         input.maxAge = std::max(toNanoseconds(edge.rule->maxAge),
                                 3 * set.period * structure.writtenEvery(edge.target));
+        input.fromOutside = target.remote || measures(edge.target) ||
+                            std::ranges::any_of(target.writers, [this](std::uint32_t writer) {
+                                return measures(writer);
+                            });
         if (target.remote) input.ownerPeriod = &agent.ownerPeriod(edge.target);
         input.state = agent.tables().edgeSource(number).state;
         if (edge.rule->onLoss == OnLoss::Hold) {

@@ -37,7 +37,8 @@ struct TaskInput {
     const std::int64_t* ownerPeriod = nullptr;  // another agent's: 3 of them are allowed
     const HeldInput* held = nullptr;
     std::uint32_t target = noSimplex;
-    bool ages = false;  // something writes it
+    bool ages = false;         // something writes it
+    bool fromOutside = false;  // it moves on while this loop stands still
     bool lost = false;
     const Rule* rule = nullptr;
 };
@@ -89,6 +90,12 @@ struct TaskDetails {
     Data<double> taskTime;
 };
 
+// The last time that the loop stood still for longer than a few periods.
+struct Standstill {
+    std::int64_t nominalTime = -1;  // of the cycle after it
+    std::int64_t length = 0;        // ns
+};
+
 // The tasks of a cluster, and what they read and write. Built once by start().
 struct TaskSet {
     TaskSet(AgentRuntime& runtime, const Schedule& schedule, std::int64_t nominalPeriod);
@@ -109,6 +116,7 @@ struct TaskSet {
     const Structure& structure;
     SlotState* states;  // by simplex
     std::int64_t period;
+    Standstill standstill;
     std::vector<Task> tasks;           // in execution order
     std::vector<TaskDetails> details;  // of the same tasks
     std::vector<TaskInput> inputs;
