@@ -33,10 +33,10 @@ LAYERS = {
 PUBLIC = {
     "core": {
         "base": "clock data error event_count findings machine nearest_names path quality realtime "
-                "report service_threads spsc_ring state system_findings tick value xml_text",
+                "report service_threads spsc_ring standstill state system_findings tick value xml_text",
         "types": "agreement labelled_value type_model",
         "files": "model_files type_description",
-        "tables": "archive event event_sinks image image_pool structure tables",
+        "tables": "archive event event_fold event_sinks image image_pool structure tables",
         "commands": "argument_checks command loop_thread mailbox proposed_settings record",
         "model": "make_structure registry simplex simplex_tree validation",
         "agent": "agent command_exchange framework_item loopback program_interface transport",

@@ -2,6 +2,7 @@
 #include "cortex/core/event.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/event_fold.hpp"
 #include "cortex/core/event_sinks.hpp"
 
 #include "support/small_structure.hpp"
@@ -105,16 +106,108 @@ TEST_F(EventLogTest, CountsWhatAFullRingDroppedAndSaysSo) {
     log.complete(1);
     log.flush();
 
-    EXPECT_EQ(log.dropped(), 2U);
+    EXPECT_EQ(log.dropped(), 3U);
     EXPECT_EQ(texts,
-              "1.0.0 1.0.1 1.0.2 1.0.3 1.1.0 "
-              "2 events dropped: more were posted than their ring holds");
+              "1.0.0 1.0.1 1.0.2 1.1.0 "
+              "3 events dropped: more were posted than their ring holds");
 
     texts.clear();
     log.ring(0).post(eventAt(2, 0, 0));
     log.complete(2);
     log.flush();
     EXPECT_EQ(texts, "2.0.0");
+}
+
+TEST_F(EventLogTest, KeepsRoomForErrorsThatOthersCannotTake) {
+    for (std::uint32_t i = 0; i < 100; ++i) log.ring(0).post(eventAt(1, 0, i));
+    Event fault = eventAt(1, 0, 100);
+    fault.severity = Severity::Error;
+    log.ring(0).post(fault);
+    log.complete(1);
+    log.flush();
+
+    EXPECT_TRUE(texts.starts_with("1.0.0 1.0.1 1.0.2 1.0.100 97 events dropped")) << texts;
+}
+
+TEST_F(EventLogTest, HandsRepeatsToThoseThatAskForThemOnly) {
+    std::vector<std::uint64_t> folded;
+    log.addSink([&](const Event& event, const Structure&) { folded.push_back(event.number); },
+                EventLog::Repeats::Folded);
+    for (std::uint32_t i = 0; i < 3; ++i) log.ring(0).post(eventAt(1, 0, i));
+    log.complete(1);
+    log.flush();
+    EXPECT_EQ(numbers, (std::vector<std::uint64_t>{1, 2, 3}));
+    EXPECT_EQ(folded, std::vector<std::uint64_t>{1}) << "the texts differ in numbers alone";
+
+    log.stop();
+    EXPECT_EQ(folded, (std::vector<std::uint64_t>{1, 2})) << "numbered without a gap";
+}
+
+struct EventFoldTest : testing::Test {
+    static constexpr std::int64_t second = 1'000'000'000;
+
+    static Event event(const char* text, EventKind kind = EventKind::Limit,
+                       Severity severity = Severity::Warning) {
+        Event event;
+        event.kind = kind;
+        event.severity = severity;
+        event.text = text;
+        return event;
+    }
+
+    std::vector<std::string> told;
+    EventFold fold{[this](const Event& each) { told.emplace_back(each.text.view()); }};
+};
+
+TEST_F(EventFoldTest, TellsTheFirstAtOnceAndThenACountEachSecond) {
+    for (int i = 0; i < 500; ++i) fold.take(event("clamped to 2.5 rad"), i);
+    EXPECT_EQ(told, std::vector<std::string>{"clamped to 2.5 rad"});
+
+    fold.take(event("clamped to 2.6 rad"), second);
+    fold.take(event("clamped to 2.7 rad"), second + 1);
+    EXPECT_EQ(told.size(), 2U);
+    EXPECT_EQ(told.back(), "499 times within a second: clamped to 2.5 rad");
+    fold.pass(2 * second);
+    EXPECT_EQ(told.back(), "2 times within a second: clamped to 2.7 rad");
+}
+
+TEST_F(EventFoldTest, TellsTheFirstAtOnceAgainAfterASecondOfSilence) {
+    fold.take(event("missed 1 tick"), 0);
+    fold.pass(second);
+    fold.take(event("missed 2 tick"), second + 1);
+
+    EXPECT_EQ(told, (std::vector<std::string>{"missed 1 tick", "missed 2 tick"}));
+}
+
+TEST_F(EventFoldTest, TellsASingleRepeatAsItWas) {
+    fold.take(event("missed 1 tick"), 0);
+    fold.take(event("missed 2 tick"), 1);
+    fold.pass(second);
+
+    EXPECT_EQ(told, (std::vector<std::string>{"missed 1 tick", "missed 2 tick"}));
+}
+
+TEST_F(EventFoldTest, NeverFoldsFaultsErrorsStatesAndCommands) {
+    for (int i = 0; i < 2; ++i) {
+        fold.take(event("a", EventKind::Fault), i);
+        fold.take(event("b", EventKind::Message, Severity::Error), i);
+        fold.take(event("c", EventKind::StateChange, Severity::Info), i);
+        fold.take(event("d", EventKind::Command, Severity::Info), i);
+        fold.take(event("e", EventKind::Watchdog), i);
+    }
+
+    EXPECT_EQ(told.size(), 10U);
+}
+
+TEST_F(EventFoldTest, KeepsApartWhatDiffersInPathSeverityOrWords) {
+    fold.take(event("over"), 0);
+    fold.take(event("under"), 0);
+    fold.take(event("over", EventKind::Limit, Severity::Info), 0);
+    Event other = event("over");
+    other.simplex = 3;
+    fold.take(other, 0);
+
+    EXPECT_EQ(told.size(), 4U);
 }
 
 TEST_F(EventLogTest, NumbersEventsFromOutsideTheCyclesToo) {

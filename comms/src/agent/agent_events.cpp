@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/agent_events.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <string>
 #include <utility>
 
 namespace cortex::comms {
@@ -23,6 +25,14 @@ EventMessage messageOf(const Event& event, const Structure& structure, const Eve
     return message;
 }
 
+// The oldest that is no error, or the oldest of all.
+auto leastWanted(std::deque<EventMessage>& messages) {
+    const std::string error = name(Severity::Error);
+    const auto found = std::ranges::find_if(
+        messages, [&](const EventMessage& each) { return each.severity != error; });
+    return found != messages.end() ? found : messages.begin();
+}
+
 }  // namespace
 
 AgentEvents::AgentEvents(const AgentSelf& self) {
@@ -35,9 +45,10 @@ AgentEvents::AgentEvents(const AgentSelf& self) {
             const std::lock_guard lock{queue->mutex};
             if (!queue->open) return;
             auto& messages = queue->messages;
-            if (messages.size() >= mostWaiting) messages.pop_front();
+            if (messages.size() >= mostWaiting) messages.erase(leastWanted(messages));
             messages.push_back(messageOf(event, structure, head));
-        });
+        },
+        EventLog::Repeats::Folded);
 }
 
 AgentEvents::~AgentEvents() {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/event.hpp"
 
+#include "cortex/core/clock.hpp"
 #include "cortex/core/data.hpp"
+#include "cortex/core/event_fold.hpp"
 #include "cortex/core/service_threads.hpp"
 
 #include "types/enum_names.hpp"
@@ -88,7 +90,8 @@ EventRing::EventRing(std::uint32_t capacity)
 
 void EventRing::post(const Event& event) {
     const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
-    if (tail - head_.load(std::memory_order_acquire) == events_.size()) {
+    const std::size_t reserved = event.severity == Severity::Error ? 0 : events_.size() / 4;
+    if (tail - head_.load(std::memory_order_acquire) >= events_.size() - reserved) {
         dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
         return;
     }
@@ -109,7 +112,10 @@ void EventRing::pop() {
 
 EventLog::EventLog(std::shared_ptr<const Structure> structure, std::uint32_t rings,
                    std::uint32_t capacity)
-    : structure_{std::move(structure)} {
+    : structure_{std::move(structure)},
+      fold_{std::make_unique<EventFold>([this](const Event& event) {
+          for (const Sink& sink : foldedSinks_) sink(event, *structure_);
+      })} {
     for (std::uint32_t i = 0; i < rings; ++i) {
         rings_.push_back(std::make_unique<EventRing>(capacity));
     }
@@ -117,7 +123,9 @@ EventLog::EventLog(std::shared_ptr<const Structure> structure, std::uint32_t rin
 
 EventLog::~EventLog() { stop(); }
 
-void EventLog::addSink(Sink sink) { sinks_.push_back(std::move(sink)); }
+void EventLog::addSink(Sink sink, Repeats repeats) {
+    (repeats == Repeats::Folded ? foldedSinks_ : sinks_).push_back(std::move(sink));
+}
 
 void EventLog::start() {
     stopping_ = false;
@@ -136,6 +144,8 @@ void EventLog::stop() {
         thread_.join();
     }
     handOut(std::numeric_limits<std::int64_t>::max());
+    const std::lock_guard lock{merging_};
+    fold_->pass(std::numeric_limits<std::int64_t>::max());
 }
 
 void EventLog::run() {
@@ -180,13 +190,17 @@ bool EventLog::handOut(std::int64_t upTo) {
         std::ranges::move(outside_, std::back_inserter(batch_));
         outside_.clear();
     }
-    for (Event& each : batch_) {
-        each.number = ++number_;
-        for (const Sink& sink : sinks_) sink(each, *structure_);
-    }
+    for (Event& each : batch_) handOn(each);
+    if (batch_.empty()) fold_->pass(monotonicNow());
     const bool any = !batch_.empty();
     batch_.clear();
     return any;
+}
+
+void EventLog::handOn(Event& event) {
+    event.number = ++number_;
+    for (const Sink& sink : sinks_) sink(event, *structure_);
+    if (!foldedSinks_.empty()) fold_->take(event, monotonicNow());
 }
 
 void EventLog::addDrops() {

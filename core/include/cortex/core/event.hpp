@@ -74,7 +74,7 @@ struct Event {
 };
 
 // Single producer (a loop thread), single consumer (the event thread); full: counts the dropped.
-// Holds `capacity` events, rounded up to a power of two.
+// Holds `capacity` events, rounded up to a power of two; the last quarter is for errors alone.
 class EventRing {
 public:
     explicit EventRing(std::uint32_t capacity);
@@ -91,17 +91,20 @@ private:
     std::atomic<std::uint64_t> dropped_{0};
 };
 
+class EventFold;
+
 // Merges the rings of all loop threads by cycle, canonical order and sequence, numbers the events
 // and hands them to the sinks, on a thread of its own. Ring 0 is the loop thread's.
 class EventLog {
 public:
     using Sink = std::function<void(const Event&, const Structure&)>;
+    enum class Repeats : std::uint8_t { Each, Folded };  // folded: the first, then counts
 
     EventLog(std::shared_ptr<const Structure> structure, std::uint32_t rings,
              std::uint32_t capacity);
     ~EventLog();
 
-    void addSink(Sink sink);  // setup only
+    void addSink(Sink sink, Repeats repeats = Repeats::Each);  // setup only
     void start();
     void stop();  // ends the thread and hands out what is left; idempotent
     EventRing& ring(std::uint32_t index) { return *rings_[index]; }
@@ -117,11 +120,12 @@ public:
 private:
     void run();
     bool handOut(std::int64_t upTo);  // whether there were any
+    void handOn(Event& event);
     void addDrops();
 
     std::shared_ptr<const Structure> structure_;
     std::vector<std::unique_ptr<EventRing>> rings_;
-    std::vector<Sink> sinks_;
+    std::vector<Sink> sinks_, foldedSinks_;
     std::atomic<std::int64_t> complete_{-1};
     std::thread thread_;
 
@@ -132,6 +136,7 @@ private:
 
     std::mutex merging_;  // guards the rest, and the rings' consumer end
     std::vector<Event> batch_;
+    std::unique_ptr<EventFold> fold_;
     std::uint64_t number_ = 0;
     std::uint64_t reportedDrops_ = 0;
     std::int64_t lastCycle_ = 0, lastTime_ = 0;
