@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an agent tells of itself and what it asks for, over real DDS on the loopback interface.
+#include "cortex/core/clock.hpp"
+
 #include "comms/network_agent.hpp"
 #include "peers/peer_model.hpp"
 #include "toolkit/allocation_counter.hpp"
 #include "wire/presence_extras.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -55,6 +58,36 @@ TEST_F(DdsAgent, TellsItsPresenceTenTimesASecond) {
     EXPECT_EQ(presence.simplexes, 2U);
     EXPECT_EQ(presence.majors, std::vector<std::uint16_t>{1});
     EXPECT_TRUE(tool.heard.waitFor(tool.heard.elements().size() + 5));
+}
+
+TEST(DdsAgentInRealTime, TellsItsClockItsAgeAndWhyItsLoopStandsStill) {
+    NetworkAgent agent{test::commandTypes(), "robot", {.realTime = true}};
+    agent.rig.tree.add("/plate", "Plate");
+    RawTool tool{"operator"};
+    agent.rig.start();
+    tool.connect();
+    Presence newest;
+    const auto hears = [&](const std::function<bool()>& condition) {
+        return comesTrue([&] {
+            for (const Presence& each : tool.heard.elements()) {
+                if (each.name == "robot") newest = each;
+            }
+            return condition();
+        });
+    };
+    const std::int64_t before = monotonicNow();
+    ASSERT_TRUE(hears([&] {
+        return numberIn(newest, clockOfAgent) > static_cast<std::uint64_t>(before) &&
+               numberIn(newest, ageOfLoop) > 0;
+    }));
+    EXPECT_EQ(textIn(newest, standstill), "");
+
+    agent.rig.agent->standstill().set({"hangs in /ctl.stateActive", before});
+    ASSERT_TRUE(hears([&] { return !textIn(newest, standstill).empty(); }));
+    EXPECT_EQ(textIn(newest, standstill), "hangs in /ctl.stateActive");
+    EXPECT_GT(numberIn(newest, timeStood), 0U);
+    agent.rig.agent->standstill().clear();
+    EXPECT_TRUE(hears([&] { return textIn(newest, standstill).empty(); }));
 }
 
 TEST_F(DdsAgent, TellsAModelThatMakesTheSameStructure) {

@@ -175,6 +175,38 @@ TEST_F(MirrorAgentsTest, ThatContradictThemselvesSayHow) {
     EXPECT_FALSE(agents.find("rig")->structure);
 }
 
+TEST_F(MirrorAgentsTest, SayWhereTheirLoopHangsAndHowLong) {
+    agent.presence.extras = {{clockOfAgent, "9000000000"},
+                             {ageOfLoop, "8400000000"},
+                             {standstill, "hangs in /ctl.stateActive"},
+                             {timeStood, "8400000000"}};
+    tellAll();
+
+    EXPECT_EQ(status(begin + 100ms).state, "standstill");
+    EXPECT_EQ(status(begin + 100ms).standstill, "hangs in /ctl.stateActive for 8.5 s");
+    EXPECT_DOUBLE_EQ(status(begin + 100ms).age, 8.5) << "of the loop, not of the last message";
+
+    agent.presence.extras = {{ageOfLoop, "0"}};
+    tellAll();
+    EXPECT_EQ(status().state, "running");
+    EXPECT_EQ(status().standstill, "");
+}
+
+TEST_F(MirrorAgentsTest, ValuesOfALoopThatStandsStillAreAsOldAsItsLastCycle) {
+    agent.rig.step();
+    Block again = agent.block(1);
+    agent.presence.cycle = again.cycle;
+    agent.presence.extras = {{ageOfLoop, "3000000000"}};
+    tellAll();
+    agents.tick(everything, begin);
+    agents.take(again, everything, begin);
+    MirrorTables& tables = *agents.find("rig")->tables;
+    const std::uint32_t worker = tables.structure().find("/work/one");
+
+    EXPECT_GE(*tables.age(worker, begin), 3);
+    EXPECT_EQ(tables.newest().state(worker).quality, Quality::Stale) << "at the first look";
+}
+
 TEST_F(MirrorAgentsTest, HaveTablesWhileTheyAreViewed) {
     tellAll();
     agents.tick(nothing, begin);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/clock.hpp"
 #include "cortex/cs/testing.hpp"
 
 #include "support/probe.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <vector>
 
@@ -29,6 +31,37 @@ TEST(Overflow, SkipGoesOnAtTheNextTickOfTheGridAndCountsEachMissedOne) {
     EXPECT_EQ(elapsed, (std::vector<std::int64_t>{1, 1, 1, 4, 1}));
     EXPECT_EQ(cluster.integer("/test", "overflowCount"), 3);
     EXPECT_TRUE(cluster.hasEvent("/test: missed 3 ticks, 3 since the start"));
+}
+
+// Ticks by hand, in a loop that takes them for real.
+struct SteppedClock final : cs::TriggerSource {
+    cs::ManualTrigger trigger{std::chrono::milliseconds{1}};
+
+    void start() override { trigger.start(); }
+    cs::Trigger waitForTick() override { return trigger.waitForTick(); }
+    void interrupt() override { trigger.interrupt(); }
+    std::int64_t period() const override { return trigger.period(); }
+    std::int64_t missed() override { return trigger.missed(); }
+    void skipMissed(bool skip) override { trigger.skipMissed(skip); }
+};
+
+TEST(Overflow, NamesTheTaskThatTookLongestWhereOneTookMoreThanHalfThePeriod) {
+    ProbeCluster cluster;
+    bool slow = false;
+    cluster.probe("/a");
+    cluster.probe("/slow").onLoopStart = [&](Probe&, const Tick&) {
+        const std::int64_t end = monotonicNow() + (slow ? 2'000'000 : 0);
+        while (monotonicNow() < end) {
+        }
+    };
+    cluster.trigger = &cluster.cluster->setTriggerSource<SteppedClock>().trigger;
+    cluster.start();
+    cluster.step(2);
+    slow = true;
+    cs::ClusterTesting::playLate(*cluster.trigger, 3);
+    cluster.step(2);
+
+    EXPECT_TRUE(cluster.hasEvent("missed 3 ticks, 3 since the start; /slow took "));
 }
 
 TEST(Overflow, CatchUpRunsTheMissedTicksAtOnceAndCountsThemOnce) {

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/agent.hpp"
+#include "cortex/core/clock.hpp"
+
+#include "loop/running_time.hpp"
 #include "support/probe.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <string>
 #include <thread>
 
@@ -42,8 +47,14 @@ TEST(Watchdog, NamesTheHookThatDoesNotReturnAndTheLoopResumesWhenItDoes) {
 
     std::thread stepping{[&] { cluster.step(); }};
     while (!reported.load()) std::this_thread::yield();
+    const auto standstill = cluster.cluster->agent().standstill().get();
     blocker.released.store(true);
     stepping.join();
+    while (cluster.cluster->agent().standstill().get()) std::this_thread::yield();
+
+    ASSERT_TRUE(standstill);
+    EXPECT_EQ(standstill->why, "hangs in /a.loopStart");
+    EXPECT_LE(standstill->since, monotonicNow());
 
     EXPECT_EQ(hung, "/a loopStart");
     EXPECT_TRUE(cluster.hasEvent("/a: /a does not return from loopStart"));
@@ -52,6 +63,96 @@ TEST(Watchdog, NamesTheHookThatDoesNotReturnAndTheLoopResumesWhenItDoes) {
     EXPECT_FALSE(cluster.cluster->image().get<bool>("/test", "alive"));
     cluster.step();
     EXPECT_TRUE(cluster.cluster->image().get<bool>("/test", "alive"));
+}
+
+// A loop whose ticks come from the test.
+struct ToldLoop {
+    ProbeCluster cluster;
+    cs::ExternalTrigger* trigger = nullptr;
+    std::atomic<bool> dead{false};
+    std::string hung;
+
+    explicit ToldLoop(double triggerTimeout) : cluster{{.triggerTimeout = triggerTimeout}} {
+        cluster.trigger = nullptr;
+        trigger =
+            &cluster.cluster->setTriggerSource<cs::ExternalTrigger>(std::chrono::milliseconds{1});
+        cluster.cluster->addHeartbeat([this](const cs::Heartbeat& beat) {
+            if (beat.alive) return;
+            hung = std::string{beat.hungPath} + ": " + std::string{beat.hungHook};
+            dead.store(true);
+        });
+    }
+    std::int64_t cycle() { return cluster.cluster->image().cycle(); }
+    void tick() {
+        const std::int64_t before = cycle();
+        trigger->notify();
+        while (cycle() == before) std::this_thread::yield();
+    }
+    void startup(const std::string& path) {
+        cluster.cluster->send(path, "startup");
+        while (cluster.state(path) != State::Active) tick();
+    }
+};
+
+TEST(Watchdog, TellsThatNoTickComesUntilOneDoes) {
+    ToldLoop loop{1000};
+    loop.cluster.probe("/a");
+    loop.cluster.start();
+    loop.startup("/a");
+    while (!loop.dead.load()) std::this_thread::yield();
+    AgentRuntime& agent = loop.cluster.cluster->agent();
+
+    EXPECT_EQ(loop.hung, "/test: the trigger");
+    ASSERT_TRUE(agent.standstill().get());
+    EXPECT_EQ(agent.standstill().get()->why, "has had no tick");
+    EXPECT_TRUE(loop.cluster.hasEvent("/test: no tick has come for longer than the watchdog"));
+    EXPECT_EQ(loop.cluster.state("/a"), State::Active);
+    loop.tick();
+    EXPECT_FALSE(loop.cluster.cluster->image().get<bool>("/test", "alive"));
+    while (agent.standstill().get()) loop.tick();
+    EXPECT_TRUE(loop.cluster.cluster->image().get<bool>("/test", "alive"));
+}
+
+TEST(Watchdog, FaultsAllThatIsActiveWhenNoTickComesWithinTheTimeout) {
+    ToldLoop loop{0.1};
+    Probe& writer = loop.cluster.probe("/a");
+    Simplex& demand = loop.cluster.tree.add("/d", "Demand");
+    loop.cluster.tree.relate(writer, "demand", demand);
+    loop.cluster.tree.relate(writer, "observed", loop.cluster.tree.add("/o", "Observation"));
+    Data<double> velocity;
+    writer.onPopulate = [&](Probe& self) {
+        velocity = self.output("demand").data<double>("velocity");
+    };
+    writer.onActive = [&](Probe&, const Tick&) { velocity = 1.5; };
+    loop.cluster.start();
+    loop.cluster.cluster->send("/a", "startup");
+    bool wasActive = false;
+    while (loop.cluster.state("/a") != State::Fault) {
+        if (!wasActive) loop.tick();
+        wasActive = wasActive || loop.cluster.state("/a") == State::Active;
+        std::this_thread::yield();
+    }
+
+    EXPECT_EQ(loop.cluster.integer("/a", "faultCode"), -7);
+    EXPECT_EQ(loop.cluster.number("/d", "velocity"), 0) << "the safe demand";
+    EXPECT_TRUE(loop.cluster.hasEvent("/a: fault -7: no tick came within the trigger's timeout"));
+    const std::int64_t then = loop.cycle();
+    loop.tick();
+    EXPECT_EQ(loop.cycle(), then + 1) << "the loop goes on with the next tick";
+    EXPECT_EQ(loop.cluster.state("/a"), State::Fault) << "and starts nothing by itself";
+}
+
+TEST(RunningTime, CountsLittleOfAPauseInWhichTheProcessWasStopped) {
+    using namespace std::chrono_literals;
+    cs::RunningTime time{10ms};
+    const std::int64_t start = monotonicNow();
+    time.lookAt(start);
+    const auto before = time.lookAt(start);
+    const std::int64_t hour = 3'600'000'000'000;
+
+    EXPECT_EQ(time.lookAt(start + 3'000'000) - before, 3ms);
+    EXPECT_EQ(time.lookAt(start + hour) - before, 13ms);
+    EXPECT_EQ(time.lookAt(start + hour + 1'000'000) - before, 14ms);
 }
 
 using WatchdogDeathTest = testing::Test;

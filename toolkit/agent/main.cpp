@@ -146,7 +146,8 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     cluster.addSimplexTree(tree);
     cluster.useClasses(registry);
     cluster.setTriggerSource<cs::InternalClock>(settings.period, settings.spin);
-    cluster.addEventSink(line.log.empty() ? printEvents(std::cerr) : logEvents(line.log));
+    cluster.addEventSink(line.log.empty() ? printEvents(std::cerr) : logEvents(line.log),
+                         EventLog::Repeats::Folded);
     const comms::DdsInterface* network =
         line.offline ? nullptr : &cluster.addInterface<comms::DdsInterface>(networkOptions(line));
     cluster.start();

@@ -65,6 +65,7 @@ cs::ClusterOptions optionsOf(const Attributes& attributes, const CommandLine& li
     options.catchUpCycles = count(attributes, "catchUpCycles", options.catchUpCycles);
     options.warnDuty = number(attributes, "warnDuty", options.warnDuty);
     options.watchdogPeriods = number(attributes, "watchdogPeriods", options.watchdogPeriods);
+    options.triggerTimeout = number(attributes, "triggerTimeout", options.triggerTimeout);
     options.controlRequired = word(attributes, "control") == "required";
     options.imageReaders = count(attributes, "imageReaders", options.imageReaders);
     return options;

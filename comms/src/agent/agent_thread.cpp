@@ -4,6 +4,7 @@
 #include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/service_threads.hpp"
+#include "cortex/core/standstill.hpp"
 
 #include "security/security_identity.hpp"
 #include "wire/presence_extras.hpp"
@@ -14,6 +15,7 @@
 #include <concepts>
 #include <cstddef>
 #include <exception>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -157,6 +159,9 @@ void AgentThread::guarded(Function function) {
 
 void AgentThread::step() {
     const std::int64_t now = monotonicNow();
+    if (std::exchange(newestCycle_, self_.access.newestCycle()) != self_.access.newestCycle()) {
+        newCycleAt_ = now;
+    }
     if (!silent_) streams_.step(now);
     takeMessages(now);
     reportRefusals();
@@ -253,9 +258,20 @@ Presence AgentThread::presence(const char* state) const {
     presence.interval = intervalAmong(presenceOut_->readers());
     presence.extras.insert(presence.extras.begin(),
                            {uptimeOfAgent, std::to_string(monotonicNow() - began_)});
-    if (self_.access.realTime)
-        presence.extras.push_back({clockOfAgent, std::to_string(monotonicNow())});
+    if (self_.access.realTime) addTimes(presence);
     return presence;
+}
+
+// A loop that is stepped by hand has no time of its own.
+void AgentThread::addTimes(Presence& presence) const {
+    const std::int64_t now = monotonicNow();
+    presence.extras.push_back({clockOfAgent, std::to_string(now)});
+    presence.extras.push_back({ageOfLoop, std::to_string(now - newCycleAt_)});
+    const StandstillNote* note = self_.access.standstill;
+    const auto found = note != nullptr ? note->get() : std::nullopt;
+    if (!found) return;
+    presence.extras.push_back({standstill, found->why});
+    presence.extras.push_back({timeStood, std::to_string(now - found->since)});
 }
 
 void AgentThread::sendPresence(std::int64_t now) {

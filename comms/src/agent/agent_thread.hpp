@@ -59,6 +59,7 @@ private:
     void sendInterest();
     void sendEvents();
     Presence presence(const char* state) const;
+    void addTimes(Presence& presence) const;
     void sendPresence(std::int64_t now);
     void beSilent(bool silent);
     void sendAnswer(const Answer& answer);
@@ -92,6 +93,7 @@ private:
     std::vector<EventMessage> eventsToSend_;
     std::uint64_t lastEvent_ = 0;  // number of the last event that was written
     std::int64_t began_ = monotonicNow();
+    std::int64_t newestCycle_ = 0, newCycleAt_ = began_;  // of the loop
     std::int64_t presenceDue_ = 0;
     std::uint32_t seen_ = 0;  // value of signals_
     bool silent_ = false;

@@ -8,6 +8,7 @@
 #include "wire/presence_interval.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -17,6 +18,7 @@ namespace {
 constexpr std::uint16_t major = 1;
 constexpr std::size_t mostAgents = 10'000;
 constexpr std::chrono::seconds forgottenAfter{61};
+constexpr std::size_t longestReason = 200;
 constexpr std::uint64_t latestClock = std::uint64_t{1} << 61U;  // ns; no sum with it overflows
 
 // Visits those of an agent's own simplexes that a view shows.
@@ -55,11 +57,21 @@ CommandTarget MirrorAgent::target() {
     return {model, *commands, cycle, heard, lost};
 }
 
+// As of the last presence, and the time since then.
+std::string MirrorAgent::standstillText(Moment now) const {
+    const std::string why = present() && !lost ? textIn(*model.presence(), standstill) : "";
+    if (why.empty()) return {};
+    const std::uint64_t stood = std::min(numberIn(*model.presence(), timeStood), latestClock);
+    const double seconds =
+        static_cast<double>(stood) * 1e-9 + std::chrono::duration<double>(now - clockHeard).count();
+    return why.substr(0, longestReason) + " for " + toText(std::round(seconds * 10) / 10) + " s";
+}
+
 AgentStatus MirrorAgent::status(Moment now) const {
     AgentStatus status;
     status.name = model.agent();
     status.epoch = model.epoch();
-    status.age = std::chrono::duration<double>(now - heard).count();
+    status.age = std::chrono::duration<double>(now - moved).count();
     status.missing = model.missing();
     status.cycle = cycle;
     status.loss = eventLoss + (tables ? tables->loss() : 0);
@@ -77,7 +89,9 @@ AgentStatus MirrorAgent::status(Moment now) const {
     } else if (!model.findings().ok()) {
         status.trouble = model.findings().findings.front().text();
     }
+    status.standstill = standstillText(now);
     const bool whole = present() && !foreign() && model.complete() && status.trouble.empty();
+    if (!status.standstill.empty()) status.state = "standstill";
     if (!whole) status.state = "incomplete";
     if (lost) status.state = "lost";
     return status;
@@ -161,6 +175,9 @@ void MirrorAgents::take(const Presence& presence, Moment now) {
     agent->clock =
         static_cast<std::int64_t>(std::min(numberIn(presence, clockOfAgent), latestClock));
     agent->clockHeard = now;
+    const auto age =
+        static_cast<std::int64_t>(std::min(numberIn(presence, ageOfLoop), latestClock));
+    agent->moved = now - std::chrono::nanoseconds{age};
 }
 
 void MirrorAgents::take(const Model& model, Moment now) {
@@ -175,7 +192,12 @@ void MirrorAgents::take(const Block& block, const MirrorView& view, Moment now) 
     const auto name = names_.find(block.agent);
     MirrorAgent* agent = name != names_.end() ? find(name->second) : nullptr;
     if (agent == nullptr || !agent->tables || view.prefixes.empty()) return;
-    if (!agent->tables->apply(block, now)) return;
+    if (block.cycle > agent->cycle) agent->moved = now;
+    // What is sent again while the loop stands still is as old as its cycle.
+    if (!agent->tables->apply(block, agent->moved)) return;
+    if (agent->moved < now) {
+        agent->tables->markStale(now, view.patience(agent->model.presence()->period));
+    }
     agent->heard = now;
     agent->lost = agent->missed = false;
     agent->cycle = std::max(agent->cycle, block.cycle);

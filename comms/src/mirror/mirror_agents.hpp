@@ -29,6 +29,7 @@ struct MirrorAgent {
     std::int64_t cycle = 0;             // newest
     std::int64_t clock = 0;             // its own, ns; 0: not said
     Moment clockHeard{};
+    Moment moved{};                                 // when its newest cycle ended
     std::shared_ptr<const Structure> structure;     // once it is complete
     std::shared_ptr<const CommandTables> commands;  // once one was sent
     std::shared_ptr<MirrorTables> tables;           // once it is viewed
@@ -43,6 +44,7 @@ struct MirrorAgent {
     std::chrono::nanoseconds patience() const;  // how long it may be silent
     AgentStatus status(Moment now) const;
     CommandTarget target();  // throws Error where its structure has not come
+    std::string standstillText(Moment now) const;  // empty: its loop runs
 };
 
 // The agents of the domain. Of several starts of one name the one that was heard first counts. An

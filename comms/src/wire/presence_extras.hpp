@@ -5,16 +5,29 @@
 
 #include <charconv>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 // What an agent adds to its presence, and a sender to its commands, as decimal numbers.
 namespace cortex::comms {
 
-inline constexpr const char* agentsHeard = "agents";    // itself included
-inline constexpr const char* eventsWritten = "events";  // the number of the last one
-inline constexpr const char* uptimeOfAgent = "uptime";  // on the network, in ns
-inline constexpr const char* clockOfAgent = "clock";    // ns; not said where the loop is stepped
-inline constexpr const char* validUntil = "until";      // of a command, by the clock of its target
+inline constexpr const char* agentsHeard = "agents";     // itself included
+inline constexpr const char* eventsWritten = "events";   // the number of the last one
+inline constexpr const char* uptimeOfAgent = "uptime";   // on the network, in ns
+inline constexpr const char* clockOfAgent = "clock";     // ns; not said where the loop is stepped
+inline constexpr const char* ageOfLoop = "age";          // ns since its newest cycle ended
+inline constexpr const char* standstill = "standstill";  // why the loop stands still, in words
+inline constexpr const char* timeStood = "stood";        // ns since it stands still
+inline constexpr const char* validUntil = "until";       // of a command, by the clock of its target
+
+// Empty: the message does not say so.
+template <class Message>
+std::string textIn(const Message& message, std::string_view name) {
+    for (const Extra& extra : message.extras) {
+        if (extra.name == name) return extra.value;
+    }
+    return {};
+}
 
 // 0: the message does not say so.
 template <class Message>

@@ -250,8 +250,13 @@ void AgentRuntime::start() {
         findTaskless();
     }
     router_ = std::make_unique<Router>(*this, toAgents_);
-    const AgentAccess access{structure_, images_.get(), events_.get(), options_.period,
-                             callsToAgents(), options_.realTime};
+    const AgentAccess access{.structure = structure_,
+                             .images = images_.get(),
+                             .events = events_.get(),
+                             .period = options_.period,
+                             .calls = callsToAgents(),
+                             .realTime = options_.realTime,
+                             .standstill = &standstill_};
     std::size_t announced = 0;
     try {
         for (; announced < interfaces_.size(); ++announced)

@@ -24,6 +24,7 @@ Trigger ExternalTrigger::waitForTick() {
         notified = notified_.load(std::memory_order_acquire);
     }
     Trigger trigger;
+    trigger.timedOut = timedOut_.exchange(false, std::memory_order_acq_rel);
     trigger.stopped = interrupted_.load(std::memory_order_acquire);
     if (skip_) trigger.periods = notified - static_cast<std::uint32_t>(seen_);
     seen_ += trigger.periods;
@@ -34,6 +35,13 @@ Trigger ExternalTrigger::waitForTick() {
 void ExternalTrigger::interrupt() {
     interrupted_.store(true, std::memory_order_release);
     notify();
+}
+
+// The cycle that follows counts as a tick of its own.
+bool ExternalTrigger::timeOut() {
+    timedOut_.store(true, std::memory_order_release);
+    notify();
+    return true;
 }
 
 std::int64_t ExternalTrigger::missed() {

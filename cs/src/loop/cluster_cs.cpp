@@ -29,7 +29,7 @@ struct ClusterCS::Implementation {
     std::unique_ptr<TriggerSource> trigger;
     std::vector<std::unique_ptr<CommunicationInterface>> interfaces;
     std::vector<std::function<void(const Heartbeat&)>> heartbeats;
-    std::vector<EventLog::Sink> sinks;
+    std::vector<std::pair<EventLog::Sink, EventLog::Repeats>> sinks;
     ProgramInterface program;
     std::unique_ptr<AgentRuntime> agent;
     std::unique_ptr<ClusterLoop> loop;
@@ -96,8 +96,8 @@ void ClusterCS::addHeartbeat(std::function<void(const Heartbeat&)> function) {
     implementation_->heartbeats.push_back(std::move(function));
 }
 
-void ClusterCS::addEventSink(EventLog::Sink sink) {
-    implementation_->sinks.push_back(std::move(sink));
+void ClusterCS::addEventSink(EventLog::Sink sink, EventLog::Repeats repeats) {
+    implementation_->sinks.emplace_back(std::move(sink), repeats);
 }
 
 TaskGraph ClusterCS::Implementation::graph() const {
@@ -256,7 +256,7 @@ void ClusterCS::startAll() {
         makeSchedule(graph, {threads, self.test.chunkSize, {}, self.test.forceThreads});
     self.agent->addInterface(self.program);
     for (const auto& interface : self.interfaces) self.agent->addInterface(*interface);
-    for (EventLog::Sink& sink : self.sinks) self.agent->events().addSink(sink);
+    for (const auto& [sink, repeats] : self.sinks) self.agent->events().addSink(sink, repeats);
     self.loop =
         std::make_unique<ClusterLoop>(*self.agent, *self.trigger, self.options, std::move(schedule),
                                       simplexes, self.heartbeats, std::move(realtimeReport));

@@ -4,6 +4,7 @@
 #include "cortex/core/clock.hpp"
 #include "cortex/core/service_threads.hpp"
 
+#include "loop/running_time.hpp"
 #include "tasks/crash_report.hpp"
 #include "threads/realtime_thread.hpp"
 
@@ -53,9 +54,11 @@ void ClusterLoop::start() {
                    options_.watchdogPeriods * static_cast<double>(trigger_.period()))});
     {
         const ServiceThreads named{"cortex-watchdog"};
+        const std::chrono::nanoseconds timeout{
+            static_cast<std::int64_t>(options_.triggerTimeout * 1e9)};
         watchdog_ = std::make_unique<Watchdog>(
-            runner_, agent_, limit,
-            [this](const Tick& tick, const HungHook& hook) { hung(tick, hook); });
+            WatchdogLimits{limit, trigger_.realTime() ? std::max(timeout, limit) : 0ns},
+            [this](Watchdog::Finding finding, const Tick& tick) { tell(finding, tick); });
     }
     startRescheduler();
     ended_.store(Ended::Running, std::memory_order_release);
@@ -149,6 +152,9 @@ void ClusterLoop::loop() {
         const Trigger trigger = trigger_.waitForTick();
         if (trigger.stopped) return;
         last_ = trigger;
+        if (trigger.timedOut && timedOutAfter_.load(std::memory_order_acquire) == cycle_) {
+            runner_.states().halt(TriggerStopped, "no tick came within the trigger's timeout");
+        }
         cycle(trigger);
         checkOverflow();
     }
@@ -191,6 +197,7 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     runner_.beginCycle(tick);
     plan_->pool->cycle(trigger_.nextDeadline());
     const RunnerCounts counts = runner_.counts();
+    if (watchdog_->reported() == tick.cycle - 1) metrics_.hung(true);
     metrics_.write(counts);
     if (mayReschedule_) rescheduler_->follow(counts.startups, tick.nominalTime);
     agent_.endCycle(tick, wallClockNow() - (monotonicNow() - begin) - trigger.lateness);
@@ -258,7 +265,7 @@ void ClusterLoop::countMissed(std::int64_t missed) {
     metrics_.overflow(missed);
     unreported_ += missed;
     if (options_.overflow != Overflow::Halt) return;
-    runner_.states().halt();
+    runner_.states().halt(ClusterHalted, "the loop overran its period and overflow is \"halt\"");
     ended_.store(Ended::Halted, std::memory_order_release);
 }
 
@@ -269,6 +276,12 @@ void ClusterLoop::reportMissed() {
     text << unreported_ << (unreported_ == 1 ? " tick" : " ticks") << ", " << metrics_.overflows()
          << " since the start";
     unreported_ = 0;
+    // By the clock of the machine: a loop that is stepped by hand writes the same at each run.
+    const LongestTask longest = runner_.longest();
+    if (trigger_.realTime() && longest.time > trigger_.period() / 2) {
+        text << "; " << agent_.structure().simplexes[longest.simplex].path << " took "
+             << static_cast<double>(longest.time / 10'000) / 100 << " ms";
+    }
     agent_.post(agent_.thread(0), Severity::Warning, EventKind::Overflow, agent_.agentSimplex(),
                 text);
 }
@@ -300,6 +313,7 @@ void ClusterLoop::shutDown() {
     trigger.periods = 1;
     trigger.lateness = 0;
     const std::int64_t start = monotonicNow();
+    RunningTime passed{std::chrono::nanoseconds{period} + 20ms};
     group_.beginStop();
     runner_.states().beginStop();
     for (std::int64_t i = 1; cycle_ > 0 && i <= budget && !group_.allResting(); ++i) {
@@ -309,7 +323,7 @@ void ClusterLoop::shutDown() {
                 std::chrono::nanoseconds{start + std::min(i * period, stopBudget)}});
         }
         group_.step();
-        if (i == budget || monotonicNow() - start > stopBudget) {
+        if (i == budget || passed.look().count() > stopBudget) {
             i = budget;
             runner_.states().forceStandby();
         }
@@ -318,16 +332,41 @@ void ClusterLoop::shutDown() {
     reportMissed();
 }
 
-void ClusterLoop::hung(const Tick& tick, const HungHook& hook) {
+// On the watchdog's thread.
+void ClusterLoop::tell(Watchdog::Finding finding, const Tick& tick) {
+    if (finished_.load(std::memory_order_acquire)) return;
+    if (finding == Watchdog::Finding::Hangs) {
+        const HungHook hook = findHungHook(runner_, agent_);
+        standsStill(tick, hook, hook.standstill(), hook.text());
+    } else if (finding == Watchdog::Finding::NoTick) {
+        standsStill(tick, {"/" + agent_.name(), "the trigger", false}, "has had no tick",
+                    "no tick has come for longer than the watchdog allows");
+    } else if (finding == Watchdog::Finding::TimedOut) {
+        timedOutAfter_.store(tick.cycle, std::memory_order_release);
+        if (trigger_.timeOut()) return;
+        post(tick, agent_.agentSimplex(),
+             "no tick has come within triggerTimeout; nothing can be made safe without one");
+    } else {
+        agent_.standstill().clear();
+    }
+}
+
+void ClusterLoop::standsStill(const Tick& tick, const HungHook& where, std::string_view why,
+                              std::string_view text) {
+    agent_.standstill().set({std::string{why}, watchdog_->since()});
+    post(tick, agent_.structure().find(where.path), text);
+    beat({tick.cycle, false, where.path, where.hook});
+}
+
+void ClusterLoop::post(const Tick& tick, std::uint32_t simplex, std::string_view text) {
     Event event;
     event.cycle = tick.cycle;
     event.time = tick.nominalTime;
-    event.simplex = agent_.structure().find(hook.path);
+    event.simplex = simplex;
     event.severity = Severity::Error;
     event.kind = EventKind::Watchdog;
-    event.text = EventText{hook.text()};
+    event.text = EventText{text};
     agent_.events().postOutside(event);
-    beat({tick.cycle, false, hook.path, hook.hook});
 }
 
 std::optional<HungHook> ClusterLoop::stop() {
@@ -335,15 +374,14 @@ std::optional<HungHook> ClusterLoop::stop() {
     trigger_.interrupt();
     // The loop ends by itself within its budget, unless a cycle does not end or none begins.
     std::int64_t seen = -1;
-    auto since = std::chrono::steady_clock::now();
+    RunningTime stood{20ms};
     while (!finished_.load(std::memory_order_acquire)) {
         std::this_thread::sleep_for(1ms);
         const std::int64_t cycle = watchdog_->begun();
-        const auto now = std::chrono::steady_clock::now();
         if (cycle != seen) {
             seen = cycle;
-            since = now;
-        } else if (now - since >= 2s) {
+            stood.restart();
+        } else if (stood.look() >= 2s) {
             ended_.store(Ended::Hung, std::memory_order_release);
             return findHungHook(runner_, agent_);
         }

@@ -67,7 +67,10 @@ private:
     void reportMissed() CORTEX_REALTIME;
     void warnDuty() CORTEX_REALTIME;
     void shutDown();
-    void hung(const Tick& tick, const HungHook& hook);
+    void tell(Watchdog::Finding finding, const Tick& tick);
+    void standsStill(const Tick& tick, const HungHook& where, std::string_view why,
+                     std::string_view text);
+    void post(const Tick& tick, std::uint32_t simplex, std::string_view text);
 
     AgentRuntime& agent_;
     TriggerSource& trigger_;
@@ -87,6 +90,7 @@ private:
     std::atomic<std::uint32_t> threads_{1};
     std::atomic<std::thread::native_handle_type> loopThread_{};
     std::thread thread_;
+    std::atomic<std::int64_t> timedOutAfter_{-1};  // the cycle after which no tick came
     std::atomic<bool> ready_{false}, finished_{false};
     std::exception_ptr failure_;  // of the start, for start() to throw
     std::atomic<Ended> ended_{Ended::NotStarted};

@@ -13,6 +13,8 @@ namespace cortex::cs {
 
 namespace {
 
+constexpr std::size_t timedWhole = 64;  // tasks; to time one takes some 20 ns
+
 bool isTransitional(State state) {
     return state == State::StartingUp || state == State::ShuttingDown;
 }
@@ -33,13 +35,16 @@ TaskRunner::TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64
       inputs_{set_, demands_},
       states_{set_, demands_},
       chunks_{schedule.chunks},
-      positions_{std::make_unique<Position[]>(agent.threadCount())} {}
+      positions_{std::make_unique<Position[]>(agent.threadCount())},
+      timesAll_{agent.options().realTime && set_.tasks.size() <= timedWhole} {}
 
 void TaskRunner::beginCycle(const Tick& tick) {
     states_.beginCycle();
     tick_ = tick;
     noteStandstill(tick);
-    if (!chunks_.empty())
+    const bool slow = longest().time > set_.period / 2;  // its chunk is timed again
+    for (TaskThread& thread : set_.threads) thread.longest = {};
+    if (!chunks_.empty() && !slow)
         timedChunk_ = (timedChunk_ + 1) % static_cast<std::uint32_t>(chunks_.size());
 }
 
@@ -62,7 +67,7 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
     thread.loop->clock = {tick_.cycle, monotonicNow()};
     const std::span tasks{set_.tasks.data() + chunks_[chunk].first, chunks_[chunk].count};
     for (Task& task : tasks) {
-        if (chunk == timedChunk_)
+        if (timesAll_ || chunk == timedChunk_)
             runTimed(task, thread, position);
         else
             runTask(task, thread, position);
@@ -74,7 +79,9 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
 void TaskRunner::runTimed(Task& task, TaskThread& thread, Position& position) {
     const std::int64_t start = monotonicNow();
     if (!runTask(task, thread, position)) return;
-    set_.detailsOf(task).taskTime = static_cast<double>(monotonicNow() - start) * 1e-3;
+    const std::int64_t time = monotonicNow() - start;
+    set_.detailsOf(task).taskTime = static_cast<double>(time) * 1e-3;
+    if (time > thread.longest.time) thread.longest = {task.index, time};
 }
 
 bool TaskRunner::runTask(Task& task, TaskThread& thread, Position& position) {
@@ -174,6 +181,14 @@ void TaskRunner::limitOutputs(Task& task, const Tick& tick) {
         again = true;
     }
     demands_.accept(task, tick, again);
+}
+
+LongestTask TaskRunner::longest() const {
+    LongestTask longest;
+    for (const TaskThread& thread : set_.threads) {
+        if (thread.longest.time > longest.time) longest = thread.longest;
+    }
+    return longest;
 }
 
 RunnerCounts TaskRunner::counts() const {

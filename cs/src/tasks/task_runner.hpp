@@ -40,6 +40,8 @@ public:
     TaskStates& states() { return states_; }
     const Position& position(std::uint32_t worker) const { return positions_[worker]; }
     RunnerCounts counts() const;
+    // Of the last cycle. Small sets of tasks are timed whole, of others one chunk a cycle in turn.
+    LongestTask longest() const CORTEX_REALTIME;
 
 private:
     void noteStandstill(const Tick& tick) CORTEX_REALTIME;
@@ -62,6 +64,7 @@ private:
     std::span<const Chunk> chunks_;
     std::unique_ptr<Position[]> positions_;
     Tick tick_;
+    bool timesAll_;
     std::uint32_t timedChunk_ = 0;
     std::int64_t lastBegin_ = 0;  // of a cycle, ns; 0: there was none
 };

@@ -21,7 +21,8 @@ enum FaultCode : std::int64_t {
     DemandNotFinite = -3,
     DemandOutOfRange = -4,
     ClusterHalted = -5,
-    TransitionTimeout = -6
+    TransitionTimeout = -6,
+    TriggerStopped = -7
 };
 
 // onLoss="hold": the copy of an input that stands while it is lost.

@@ -31,7 +31,7 @@ void TaskStates::transition(Task& task, const Tick& tick) {
     if (simplex.pending_.demandRefused) demands_.faultForRefused(task);
     simplex.pending_.demandRefused = false;
     if (halted_ && simplex.state_ == State::Active) {
-        simplex.enterFault(ClusterHalted, "the loop overran its period and overflow is \"halt\"");
+        simplex.enterFault(haltCode_, haltWhy_);
     }
     if (simplex.pending_.fault) return enterFault(task, tick);
     const bool resting = simplex.state_ == State::Standby || simplex.state_ == State::Fault;

@@ -21,8 +21,12 @@ public:
     void enterFault(Task& task, const Tick& tick) CORTEX_REALTIME;
     void checkTimeout(Task& task, const Tick& tick) CORTEX_REALTIME;
 
-    // In the next cycle all that is Active faults (overflow="halt").
-    void halt() { haltNext_ = true; }
+    // In the next cycle all that is Active faults. `why` stays as it is.
+    void halt(FaultCode code, const char* why) {
+        haltNext_ = true;
+        haltCode_ = code;
+        haltWhy_ = why;
+    }
     // From now on nothing starts up.
     void beginStop() { stopping_ = true; }
     // In the next cycle: whatever is not in Standby or Fault goes to Standby, with safe demands.
@@ -51,6 +55,8 @@ private:
     std::uint32_t observed_ = noSimplex;
     bool observedRan_ = false;  // written by the task of that simplex
     EventText observedReason_;  // likewise
+    FaultCode haltCode_ = ClusterHalted;
+    const char* haltWhy_ = "";
     bool haltNext_ = false, halted_ = false, forced_ = false, stopping_ = false;
     bool anyMayMove_ = false;  // in this cycle, without a call of its own
 };

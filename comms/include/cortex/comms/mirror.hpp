@@ -23,15 +23,16 @@ namespace cortex::comms {
 struct AgentStatus {
     std::string name, host;
     std::int64_t epoch = 0;                  // UTC microseconds
-    std::string state;                       // "running", "incomplete", "lost"
-    double age = 0;                          // s since its last message
+    std::string state;                       // "running", "standstill", "incomplete", "lost"
+    double age = 0;                          // s since its newest cycle
     std::uint32_t types = 0, simplexes = 0;  // as it announces them
     std::uint32_t missing = 0;               // those that have not come yet
     std::int64_t cycle = 0;                  // newest
     std::int64_t period = 0;                 // ns
     std::uint64_t loss = 0;                  // blocks and events that did not come
     std::string security;
-    std::string trouble;  // the contradiction in its model that keeps it incomplete
+    std::string trouble;     // the contradiction in its model that keeps it incomplete
+    std::string standstill;  // of its loop: "hangs in /ctl.stateActive for 8.5 s"
 };
 
 // An event of an agent, as it was published.

@@ -7,6 +7,7 @@
 #include "cortex/core/mailbox.hpp"
 #include "cortex/core/proposed_settings.hpp"
 #include "cortex/core/simplex_tree.hpp"
+#include "cortex/core/standstill.hpp"
 #include "cortex/core/tables.hpp"
 #include "cortex/core/tick.hpp"
 #include "cortex/core/transport.hpp"
@@ -75,6 +76,7 @@ public:
     Tables& tables() { return *tables_; }
     ImagePool& images() { return *images_; }
     EventLog& events() { return *events_; }
+    StandstillNote& standstill() { return standstill_; }
     LoopThread& thread(std::uint32_t worker) { return threads_[worker]; }
     std::uint32_t threadCount() const { return static_cast<std::uint32_t>(threads_.size()); }
     Simplex& simplex(std::uint32_t index) { return *simplexes_[index]; }
@@ -159,6 +161,7 @@ private:
     std::unique_ptr<Tables> tables_;
     std::unique_ptr<ImagePool> images_;
     std::unique_ptr<EventLog> events_;
+    StandstillNote standstill_;
     std::unique_ptr<Router> router_;
     std::vector<Simplex*> simplexes_;
     std::vector<std::unique_ptr<CommandTable>> commandTables_;  // per type layout

@@ -40,6 +40,7 @@ struct ClusterOptions {
     std::uint32_t catchUpCycles = 10;
     double warnDuty = 0;           // duty cycle in % above which each cycle is an event; 0: none
     double watchdogPeriods = 10;   // at least 100 ms
+    double triggerTimeout = 1;     // s without a tick after which all that is Active faults
     bool controlRequired = false;  // commands from outside need a control lease
     std::uint32_t imageReaders = 8;
     // Tells this start from others of its name, UTC microseconds; 0: now. A replay gives that of
@@ -50,8 +51,8 @@ struct ClusterOptions {
 // What heartbeat functions get, after each cycle on the loop thread, and from the watchdog.
 struct Heartbeat {
     std::int64_t cycle = 0;
-    bool alive = true;  // false: the cycle counter stands still (watchdog thread)
-    std::string_view hungPath, hungHook;
+    bool alive = true;                    // false: the cycle counter stands still (watchdog thread)
+    std::string_view hungPath, hungHook;  // the cluster itself and "the trigger": no tick comes
 };
 
 enum class Ended : std::uint8_t { NotStarted, Running, Stopped, Halted, Hung };
@@ -84,7 +85,7 @@ public:
     }
     void adoptInterface(std::unique_ptr<CommunicationInterface> interface);
     void addHeartbeat(std::function<void(const Heartbeat&)> function);
-    void addEventSink(EventLog::Sink sink);
+    void addEventSink(EventLog::Sink sink, EventLog::Repeats repeats = EventLog::Repeats::Each);
 
     // Creates related simplexes, validates (throws ModelError with everything), fixes the layout,
     // populates, builds the schedule, announces, starts the loop.

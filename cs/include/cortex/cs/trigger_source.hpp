@@ -19,6 +19,7 @@ struct Trigger {
     std::int64_t lateness = 0;     // ns from the deadline to the wake-up
     std::int64_t periods = 1;      // periods since the last tick; above 1: ticks were missed
     bool stopped = false;          // no further tick: the loop ends
+    bool timedOut = false;         // no tick came: timeOut() ended the wait
 };
 
 // Starts each cycle. One thread waits, any thread interrupts.
@@ -27,7 +28,9 @@ public:
     virtual ~TriggerSource() = default;
     virtual void start() = 0;  // loop thread, before the first wait
     virtual Trigger waitForTick() = 0;
-    virtual void interrupt() = 0;             // makes the present or next wait return `stopped`
+    virtual void interrupt() = 0;  // makes the present or next wait return `stopped`
+    // Makes the present or next wait return `timedOut`. False: this source cannot. Any thread.
+    virtual bool timeOut() { return false; }
     virtual std::int64_t period() const = 0;  // nominal, ns
     // How many deadlines have passed that no cycle has begun for; the loop asks after each cycle.
     virtual std::int64_t missed() { return 0; }
@@ -101,6 +104,7 @@ public:
     explicit ExternalTrigger(std::chrono::nanoseconds nominalPeriod);
 
     void notify();  // any thread, signal-safe
+    bool timeOut() override;
 
     void start() override;
     Trigger waitForTick() override;
@@ -114,7 +118,7 @@ private:
     std::int64_t seen_ = 0;
     bool skip_ = true;
     std::atomic<std::uint32_t> notified_{0};
-    std::atomic<bool> interrupted_{false};
+    std::atomic<bool> interrupted_{false}, timedOut_{false};
 };
 
 }  // namespace cortex::cs
