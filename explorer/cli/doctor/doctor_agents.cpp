@@ -31,6 +31,9 @@ void examineState(const comms::AgentStatus& agent, Diagnoses& found) {
     if (agent.state == "lost") {
         add(Level::Warning, who + " is lost",
             "start it again, or look at the network to " + agent.host);
+    } else if (!agent.standstill.empty()) {
+        add(Level::Error, "the loop of " + who + " " + agent.standstill,
+            "look at that hook, or at what gives the ticks; its values are as old as that");
     } else if (!agent.trouble.empty()) {
         add(Level::Error, who + " cannot be understood: " + agent.trouble,
             "run the same version of CorteX everywhere");

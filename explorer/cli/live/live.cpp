@@ -95,6 +95,13 @@ std::string Live::limitText() const {
     return toText(static_cast<double>(timeout_.count()) / 1000) + " s";
 }
 
+std::string Live::standstillOf(const std::string& agent) const {
+    for (const comms::AgentStatus& each : mirror_->agents()) {
+        if (each.name == agent) return each.standstill;
+    }
+    return {};
+}
+
 std::string Live::closed() const {
     const std::uint32_t count = mirror_->closed();
     return count == 0 ? ""
@@ -185,6 +192,10 @@ std::vector<std::string> Live::contradictions() const {
 }
 
 void Live::printWarnings() const {
+    for (const comms::AgentStatus& each : mirror_->agents()) {
+        if (each.standstill.empty()) continue;
+        std::cerr << "cortex: " << printable(each.name + " " + each.standstill) << '\n';
+    }
     for (const std::string& each : contradictions()) {
         std::cerr << "cortex: " << printable(each) << '\n';
     }

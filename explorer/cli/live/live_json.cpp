@@ -23,7 +23,8 @@ Json agentJson(const comms::AgentStatus& agent) {
             {"simplexes", agent.simplexes},
             {"cycle", agent.cycle},
             {"loss", agent.loss},
-            {"security", agent.security}};
+            {"security", agent.security},
+            {"standstill", agent.standstill}};
 }
 
 Json eventJson(const comms::AgentEvent& event) {

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <tuple>
 
 namespace cortex::explorer {
 namespace {
+
+constexpr std::size_t mostTasks = 10;
 
 std::int64_t now() {
     const auto since = std::chrono::system_clock::now().time_since_epoch();
@@ -35,6 +38,12 @@ TopFault faultOf(const Image& image, std::uint32_t simplex, const std::string& a
         fault.text = std::get<std::vector<std::string>>(image.value(simplex, *text)).front();
     }
     return fault;
+}
+
+std::optional<double> taskTimeOf(const Image& image, std::uint32_t simplex) {
+    const ItemLayout* time = image.structure().simplexes[simplex].layout->find("taskTime");
+    if (time == nullptr || time->item->kind != Kind::Float) return {};
+    return std::get<std::vector<double>>(image.value(simplex, *time)).front();
 }
 
 Json countsJson(const auto& counts, auto enumerator) {
@@ -98,6 +107,8 @@ TopFrame TopView::frame() {
     std::ranges::sort(frame.agents, {}, [](const TopAgent& each) {  // trouble first
         return std::tuple{each.status.state == "running", each.status.name};
     });
+    std::ranges::sort(frame.tasks, std::ranges::greater{}, &TopTask::time);
+    frame.tasks.resize(std::min(frame.tasks.size(), mostTasks));
     return frame;
 }
 
@@ -114,6 +125,9 @@ void TopView::add(TopFrame& frame, const comms::AgentStatus& status) const {
         const auto state = stateOf(image, i);
         if (!state) continue;
         ++agent.states[static_cast<std::size_t>(*state)];
+        if (const auto time = taskTimeOf(*image, i)) {
+            frame.tasks.push_back({info.path, status.name, *time});
+        }
         if (*state == State::Fault) frame.faults.push_back(faultOf(*image, i, status.name));
     }
     const std::uint32_t own = ownSimplex(structure);
@@ -123,7 +137,8 @@ void TopView::add(TopFrame& frame, const comms::AgentStatus& status) const {
 }
 
 Json topJson(const TopFrame& frame) {
-    Json agents = Json::array(), faults = Json::array(), events = Json::array();
+    Json agents = Json::array(), tasks = Json::array(), faults = Json::array(),
+         events = Json::array();
     for (const TopAgent& each : frame.agents) {
         Json agent = agentJson(each.status);
         agent["period_us"] = static_cast<double>(each.status.period) * 1e-3;
@@ -132,13 +147,19 @@ Json topJson(const TopFrame& frame) {
         agent["qualities"] = countsJson(each.qualities, Quality{});
         agents.push_back(std::move(agent));
     }
+    for (const TopTask& each : frame.tasks) {
+        tasks.push_back({{"path", each.path}, {"agent", each.agent}, {"time_us", each.time}});
+    }
     for (const TopFault& each : frame.faults) {
         faults.push_back(
             {{"path", each.path}, {"agent", each.agent}, {"code", each.code}, {"text", each.text}});
     }
     for (const comms::AgentEvent& each : frame.events) events.push_back(eventJson(each));
-    return {
-        {"time", timeText(frame.time)}, {"agents", agents}, {"faults", faults}, {"events", events}};
+    return {{"time", timeText(frame.time)},
+            {"agents", agents},
+            {"tasks", tasks},
+            {"faults", faults},
+            {"events", events}};
 }
 
 }  // namespace cortex::explorer

@@ -23,6 +23,12 @@ struct TopAgent {
     std::optional<double> metric(const char* item) const;
 };
 
+// An active simplex and how long its task took when it was last timed.
+struct TopTask {
+    std::string path, agent;
+    double time = 0;  // us
+};
+
 struct TopFault {
     std::string path, agent, text;
     std::int64_t code = 0;
@@ -31,6 +37,7 @@ struct TopFault {
 struct TopFrame {
     std::int64_t time = 0;  // UTC ns
     std::vector<TopAgent> agents;
+    std::vector<TopTask> tasks;  // the longest first
     std::vector<TopFault> faults;
     std::vector<comms::AgentEvent> events;  // the newest last
 

@@ -151,17 +151,35 @@ TextTable stateTable(const TopFrame& frame, std::size_t count) {
 
 Lines faultLines(const TopFrame& frame) {
     Lines lines;
+    for (const TopAgent& each : frame.agents) {
+        if (each.status.standstill.empty()) continue;
+        lines.push_back(
+            {{each.status.name, Look::Strong}, {" " + each.status.standstill, Look::Error}});
+    }
+    std::size_t told = 0;
     for (const TopFault& each : frame.faults) {
-        if (lines.size() == mostFaults) {
-            lines.push_back({{std::to_string(frame.faults.size() - mostFaults) + " more in Fault",
-                              Look::Error}});
+        if (lines.size() >= mostFaults) {
+            lines.push_back(
+                {{std::to_string(frame.faults.size() - told) + " more in Fault", Look::Error}});
             break;
         }
+        ++told;
         lines.push_back({{"Fault " + std::to_string(each.code), Look::Error},
                          {"  " + each.path + "  ", Look::Strong},
                          {each.text}});
     }
     return lines;
+}
+
+// One line: "tasks us  /ik 412.0  /arm 15.20".
+Lines taskLines(const TopFrame& frame) {
+    if (frame.tasks.empty()) return {};
+    TextLine line{{"tasks us", Look::Strong}};
+    for (const TopTask& each : frame.tasks) {
+        line.push_back({"  " + each.path + " ", Look::Plain});
+        line.push_back({numberText(each.time), Look::Strong});
+    }
+    return {line};
 }
 
 std::string whereOf(const comms::AgentEvent& event) {
@@ -207,7 +225,8 @@ Lines topLines(const TopFrame& frame, const std::string& head, std::size_t width
     Lines lines{{{head, Look::Strong}}};
     const Lines faults = faultLines(frame);
     const bool airy = rows > 20;  // blank lines between
-    const std::size_t fixed = 1 + 5 + faults.size() + (airy ? 4 : 0) + 2 + fewestEvents;
+    const std::size_t fixed =
+        1 + 5 + faults.size() + (frame.tasks.empty() ? 0 : 1) + (airy ? 4 : 0) + 2 + fewestEvents;
     const std::size_t agents = frame.agents.size();
     std::size_t count = std::min(agents, rows > fixed + 3 ? (rows - fixed) / 3 : 1);
     const auto space = [&] {
@@ -223,6 +242,7 @@ Lines topLines(const TopFrame& frame, const std::string& head, std::size_t width
         append(lines, loopTable(frame, count).lines(width));
         space();
         append(lines, stateTable(frame, count).lines(width));
+        append(lines, taskLines(frame));
         append(lines, faults);
     }
     space();

@@ -12,7 +12,8 @@ namespace {
 struct Shown {
     FoundSimplex simplex;
     comms::AgentImage image;
-    double age = 0;  // s
+    double age = 0;            // s
+    std::string standstill{};  // of the agent's loop
 
     Value value(const ItemLayout& item) const { return image->value(simplex.index, item); }
     std::optional<State> state() const { return stateOf(image, simplex.index); }
@@ -90,6 +91,7 @@ Json shownJson(const Shown& shown) {
             {"agent", shown.simplex.agent},
             {"quality", name(shown.quality())},
             {"age_ms", shown.age * 1000},
+            {"standstill", shown.standstill},
             {"state", state ? Json(name(*state)) : Json()},
             {"data", dataJson(shown)},
             {"relationships", relationshipsJson(shown.simplex)},
@@ -109,7 +111,8 @@ void printHead(const Shown& shown) {
     columns.add(
         {"is a", joined({simplex.type().ancestors.begin(), simplex.type().ancestors.end()})});
     columns.add({"role", name(simplex.info().role)});
-    columns.add({"agent", simplex.agent});
+    const std::string& standstill = shown.standstill;
+    columns.add({"agent", simplex.agent + (standstill.empty() ? "" : ", " + standstill)});
     if (state) columns.add({"state", name(*state)});
     columns.add({"quality", name(shown.quality())});
     columns.add({"age", toText(std::round(shown.age * 1e4) / 10) + " ms"});
@@ -162,6 +165,7 @@ Exit showSimplex(const ShowOptions& options) {
     Shown shown{live.find(options.path), {}, 0};
     shown.image = live.values(shown.simplex);
     shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index).value_or(0);
+    shown.standstill = live.standstillOf(shown.simplex.agent);
     if (options.json) {
         print(shownJson(shown));
         return Yes;
