@@ -52,6 +52,15 @@ kill "$left"
 becomes Standby /right/sine
 kill "$right" "$supervisor"
 wait "$left" "$right" "$supervisor"
+echo 'the example of a device: its plug-in talks to the simulated oven'
+built e04_device
+"$outside/e04_device/build/simulated_oven" "$outside/oven" &
+oven=$!
+"$prefix/bin/cortex-agent" "$outside/e04_device/oven.xml" --offline --startup --seconds 2 \
+    --plugin "$outside/e04_device/build/oven.so" --set "/oven.port=$outside/oven" \
+    >"$outside/bakery" 2>&1
+kill "$oven"
+grep 'all active simplexes are started' "$outside/bakery"
 
 echo 'the same with pkg-config'
 export PKG_CONFIG_PATH=$prefix/lib/pkgconfig

@@ -49,7 +49,7 @@ PUBLIC = {
     },
     "cs": {
         "clocks": "trigger_source",
-        "tasks": "simplex_cs",
+        "tasks": "io_exchange simplex_cs",
         "loop": "cluster_cs testing",
     },
 }

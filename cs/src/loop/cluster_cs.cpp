@@ -10,6 +10,7 @@
 #include "loop/cluster_loop.hpp"
 #include "loop/group_commands.hpp"
 #include "tasks/crash_report.hpp"
+#include "tasks/io_threads.hpp"
 #include "threads/realtime_thread.hpp"
 #include "threads/scheduler.hpp"
 
@@ -33,6 +34,7 @@ struct ClusterCS::Implementation {
     ProgramInterface program;
     std::unique_ptr<AgentRuntime> agent;
     std::unique_ptr<ClusterLoop> loop;
+    IoThreads ioThreads;
 
     std::vector<SimplexCS*> activeInOrder(std::span<const std::uint32_t> order) const;
     TaskGraph graph() const;
@@ -41,6 +43,8 @@ struct ClusterCS::Implementation {
     void joinSettings(SimplexCS& simplex, Report& report) const;
     void warn(std::uint32_t simplex, const EventText& text) const;
     void warnOfModel() const;
+    void endIoThreads();
+    [[noreturn]] void endProcess(const std::string& why) const;
 };
 
 namespace {
@@ -200,6 +204,17 @@ void ClusterCS::Implementation::warnOfModel() const {
     }
 }
 
+// A thread cannot be ended in an orderly way while a user's code holds it.
+void ClusterCS::Implementation::endProcess(const std::string& why) const {
+    std::fprintf(stderr, "cluster %s does not stop: %s; ending the process\n", name.c_str(),
+                 why.c_str());
+    std::_Exit(3);
+}
+
+void ClusterCS::Implementation::endIoThreads() {
+    if (const std::string hung = ioThreads.end(); !hung.empty()) endProcess(hung);
+}
+
 void ClusterCS::start() {
     refuseInHooks("start()", "clusters are started by the program");
     if (implementation_->loop)
@@ -208,6 +223,7 @@ void ClusterCS::start() {
         startAll();
     } catch (...) {
         implementation_->loop.reset();
+        implementation_->endIoThreads();
         implementation_->agent.reset();
         throw;
     }
@@ -269,6 +285,7 @@ void ClusterCS::startAll() {
         self.agent->refuseWriters();  // nobody knows when such a loop is between two cycles
     }
     self.loop->start();
+    self.ioThreads.begin(simplexes);
     self.warnOfModel();
 }
 
@@ -276,12 +293,8 @@ bool ClusterCS::stop() {
     Implementation& self = *implementation_;
     if (!self.loop || !self.loop->joinable()) return true;
     refuseInHooks("stop()", "tell the program to stop, or command the simplexes: shutdown");
-    if (const auto hung = self.loop->stop()) {
-        // The loop's thread cannot be ended in an orderly way while a user's hook holds it.
-        std::fprintf(stderr, "cluster %s does not stop: %s; ending the process\n",
-                     self.name.c_str(), hung->text().c_str());
-        std::_Exit(3);
-    }
+    if (const auto hung = self.loop->stop()) self.endProcess(hung->text());
+    self.endIoThreads();
     self.agent->stop();
     return true;
 }

@@ -22,7 +22,8 @@ enum FaultCode : std::int64_t {
     DemandOutOfRange = -4,
     ClusterHalted = -5,
     TransitionTimeout = -6,
-    TriggerStopped = -7
+    TriggerStopped = -7,
+    ThreadEnded = -8
 };
 
 // onLoss="hold": the copy of an input that stands while it is lost.

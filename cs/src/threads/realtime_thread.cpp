@@ -192,6 +192,12 @@ std::vector<std::string> configureThisThread(const ThreadOptions& options) {
     return report;
 }
 
+void configureBlockingThread(const std::string& name) {
+    pthread_setname_np(pthread_self(), name.substr(0, 15).c_str());
+    const sched_param none{};
+    pthread_setschedparam(pthread_self(), SCHED_OTHER, &none);  // lower is never refused
+}
+
 void placeThread(std::thread::native_handle_type thread, const std::vector<int>& cpus) {
     place(thread, cpus.empty() ? usableCpus() : cpus);
 }

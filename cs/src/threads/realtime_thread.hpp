@@ -44,6 +44,9 @@ std::uint32_t threadsWithCommonCache(std::uint32_t wanted, const std::vector<int
 // Sets name, CPUs and priority of the calling thread.
 std::vector<std::string> configureThisThread(const ThreadOptions& options);
 
+// The calling thread gets the name, and no real-time priority, whoever made it.
+void configureBlockingThread(const std::string& name);
+
 // Moves another thread to these CPUs; empty: all that the process may use.
 void placeThread(std::thread::native_handle_type thread, const std::vector<int>& cpus);
 

@@ -24,6 +24,7 @@ class TaskStates;
 class TaskInputs;
 class TaskDemands;
 struct TaskBuilder;
+class ThreadedSimplex;
 class GroupCommands;
 struct TaskThread;
 class ClusterCS;
@@ -119,6 +120,7 @@ private:
     friend class TaskStates;
     friend class TaskInputs;
     friend class TaskDemands;
+    friend class ThreadedSimplex;
     friend struct TaskBuilder;
     friend class GroupCommands;
     friend class ClusterCS;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tasks/io_threads.hpp"
+
+#include "cortex/core/clock.hpp"
+
+#include "tasks/beside_tick.hpp"
+
+namespace cortex::cs {
+
+void IoThreads::begin(std::span<SimplexCS* const> simplexes) {
+    for (SimplexCS* simplex : simplexes) {
+        auto* threaded = dynamic_cast<ThreadedSimplex*>(simplex);
+        if (threaded == nullptr) continue;
+        threaded->beside_->begin([threaded] { threaded->runThread(); });
+        simplexes_.push_back(threaded);
+    }
+}
+
+std::string IoThreads::end() {
+    constexpr std::int64_t budget = 2 * nsPerSecond;
+    for (ThreadedSimplex* simplex : simplexes_) simplex->beside_->askToEnd();
+    const std::int64_t until = monotonicNow() + budget;
+    while (!simplexes_.empty()) {
+        const ThreadedSimplex& last = *simplexes_.back();
+        if (!last.beside_->waitForEnd(until)) {
+            return "thread " + last.beside_->name() + " of " + last.path() +
+                   " does not return from communicate()";
+        }
+        simplexes_.pop_back();
+    }
+    return {};
+}
+
+}  // namespace cortex::cs

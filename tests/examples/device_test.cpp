@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// The example of a device behind a port: its plug-in talks over a pseudo-terminal to the simulated
+// oven, which is a process of its own.
+#include "cortex/core/registry.hpp"
+#include "cortex/core/simplex_tree.hpp"
+#include "cortex/cs/cluster_cs.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class OvenProcess {
+public:
+    explicit OvenProcess(std::string port) : port_{std::move(port)} {
+        char* arguments[] = {const_cast<char*>("simulated_oven"), port_.data(), nullptr};
+        posix_spawn(&process_, CORTEX_OVEN, nullptr, nullptr, arguments, environ);
+    }
+    ~OvenProcess() {
+        kill(process_, SIGKILL);
+        waitpid(process_, nullptr, 0);
+    }
+    OvenProcess(const OvenProcess&) = delete;
+    OvenProcess& operator=(const OvenProcess&) = delete;
+
+private:
+    std::string port_;
+    pid_t process_ = -1;
+};
+
+class Bakery : public testing::Test {
+protected:
+    static std::string file(const std::string& name) {
+        return CORTEX_SOURCE_DIR "/examples/e04_device/" + name;
+    }
+    SimplexTree load() {
+        registry.loadPlugin(CORTEX_OVEN_PLUGIN, TypeModel::load(file("oven-rules.xml")));
+        return SimplexTree::load(file("oven.xml"), &registry);
+    }
+    void SetUp() override {
+        char made[] = "/tmp/cortex-oven-XXXXXX";
+        ASSERT_NE(mkdtemp(made), nullptr);
+        folder = made;
+        tree.at("/oven").set("port", port());
+        bakery.addSimplexTree(tree);
+        bakery.setTriggerSource<cs::InternalClock>(10ms);
+        bakery.addEventSink([this](const Event& event, const Structure&) {
+            const std::lock_guard lock{mutex};
+            events += std::string{event.text.view()} + "\n";
+        });
+        bakery.start();
+    }
+    void TearDown() override {
+        bakery.stop();
+        std::filesystem::remove_all(folder);
+    }
+    std::string port() const { return folder + "/oven"; }
+    static void waitUntil(const std::function<bool()>& condition) {
+        cs::waitForInterrupt(0, condition);
+    }
+    double value(const std::string& path, const std::string& item) {
+        return bakery.image().get<double>(path, item);
+    }
+    Quality quality() {
+        const Image image = bakery.image();
+        return image.state(image.structure().find("/inside")).quality;
+    }
+    bool says(const std::string& text) {
+        const std::lock_guard lock{mutex};
+        return events.find(text) != std::string::npos;
+    }
+
+    ClassRegistry registry;
+    SimplexTree tree = load();
+    std::string folder;
+    std::mutex mutex;
+    std::string events;
+    cs::ClusterCS bakery{"bakery"};
+};
+
+TEST_F(Bakery, HeatsThroughTheLineWhenItsControllerIsActive) {
+    const OvenProcess oven{port()};
+    waitUntil([&] { return quality() == Quality::Good; });
+    EXPECT_NEAR(value("/inside", "temperature"), 20, 0.01);
+
+    bakery.call("/controller", "startup");
+
+    waitUntil([&] { return value("/inside", "temperature") > 21; });
+    EXPECT_GT(value("/heater", "power"), 1500);
+}
+
+TEST_F(Bakery, SaysThatTheOvenIsGoneHeatsNoMoreAndConnectsAnew) {
+    {
+        const OvenProcess oven{port()};
+        waitUntil([&] { return quality() == Quality::Good; });
+        bakery.call("/controller", "startup");
+        waitUntil([&] { return value("/inside", "temperature") > 20.5; });
+    }
+    waitUntil([&] { return quality() == Quality::Lost; });
+    waitUntil([&] { return value("/heater", "power") == 0; });
+    waitUntil([&] { return says("the device is lost: " + port()); });
+    EXPECT_GT(value("/inside", "temperature"), 20.5) << "the last one, known to be lost";
+
+    const OvenProcess another{port()};
+    waitUntil([&] { return quality() == Quality::Good; });
+    waitUntil([&] { return says("the device is back"); });
+    waitUntil([&] { return value("/heater", "power") > 1500; });
+}
+
+TEST_F(Bakery, WithoutAnOvenSaysWhichPortIsMissingAndDoesNotFault) {
+    waitUntil([&] { return says("the device is lost: " + port() + ": No such file"); });
+
+    EXPECT_EQ(bakery.image().get<std::int64_t>("/oven", "state"), 0);
+    EXPECT_EQ(quality(), Quality::Lost);
+}
+
+}  // namespace
+}  // namespace cortex::test

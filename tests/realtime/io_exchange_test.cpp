@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// A device that blocks, is lost, throws and is back: the tick beside it stays what it was.
+#include "cortex/cs/io_exchange.hpp"
+
+#include "realtime/watched_cluster.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+class RestlessDrive final : public cs::IoSimplex<double, double> {
+public:
+    using IoSimplex::IoSimplex;
+    std::atomic<int> throws{0};
+
+private:
+    void populate() override {
+        demand_ = input("demand").data<double>("position");
+        position_ = output("observation").data<double>("position");
+        loseAfter(3ms);
+    }
+    void loopEnd(const Tick&) override {
+        if (!isLost()) position_ = received();
+        give(demand_);
+    }
+    void communicate(Line& line) override {
+        for (int round = 1; line.waitFor(200us); ++round) {
+            const double* demand = line.demand();
+            line.put(demand == nullptr ? 0 : *demand);
+            if (round % 50 == 0) line.waitFor(10ms);
+            if (round % 70 == 0) line.lose("it was asked to be");
+            if (round % 200 == 0) {
+                ++throws;
+                throw std::runtime_error("asked for by the test");
+            }
+        }
+    }
+    Data<const double> demand_;
+    Data<double> position_;
+};
+
+TEST(BlockingDevice, DisturbsNoTickWhateverItsThreadDoes) {
+    resetOffences();
+    SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};
+    auto& drive = tree.add<RestlessDrive>("/drive", "Drive");
+    tree.relate(drive, "demand", tree.add("/wish", "Demand"));
+    tree.relate(drive, "observation", tree.add("/axis", "Observation"));
+    cs::ClusterCS cluster{"watched", optionsOf(1, 0)};
+    watch(cluster, 1);
+    cluster.addSimplexTree(tree);
+    cluster.setTriggerSource<WatchedClock>();
+    cluster.start();
+    runCycles(cluster, 100);
+    const std::uint64_t faultsBefore = pageFaults();
+
+    for (int i = 0; i < 3; ++i) {
+        while (drive.throws <= i) runCycles(cluster, 10);
+        runCycles(cluster, 10);
+        EXPECT_EQ(cluster.image().get<std::int64_t>("/drive", "state"), 4);
+        EXPECT_EQ(cluster.call("/drive", "clearFaults").outcome, Outcome::Done);
+    }
+
+    EXPECT_TRUE(offences().none()) << offences().text();
+    EXPECT_EQ(pageFaults(), faultsBefore);
+    cluster.stop();
+}
+
+}  // namespace
+
+}  // namespace cortex::test
