@@ -52,6 +52,7 @@ kill "$left"
 becomes Standby /right/sine
 kill "$right" "$supervisor"
 wait "$left" "$right" "$supervisor"
+
 echo 'the example of a device: its plug-in talks to the simulated oven'
 built e04_device
 "$outside/e04_device/build/simulated_oven" "$outside/oven" &

@@ -81,16 +81,56 @@ TEST(ModelFiles, RefusesAPhaseThatNeverComes) {
 }
 
 TEST(ModelFiles, ChecksTheFormOfClusterAttributes) {
-    for (const char* attribute :
-         {"frequency='nan'", "frequency='1e6'", "threads='0'", "threads='300'", "priority='100'",
-          "cpus='a'", "cpus=''", "acrossCaches='1 2'", "lockMemory='yes'", "keepCpusAwake='no'",
-          "overflow='warn'", "catchUpCycles='-1'", "warnDuty='-1'", "watchdogPeriods='0'",
-          "control='maybe'", "imageReaders='many'"}) {
+    for (const char* attribute : {"frequency='nan'",
+                                  "frequency='1e6'",
+                                  "trigger='timer'",
+                                  "triggerFrom='tcp:1'",
+                                  "triggerFrom='udp:0'",
+                                  "triggerFrom='udp:host:5005'",
+                                  "triggerFrom='fd:-1'",
+                                  "triggerFrom='fd:1:2'",
+                                  "threads='0'",
+                                  "threads='300'",
+                                  "priority='100'",
+                                  "cpus='a'",
+                                  "cpus=''",
+                                  "acrossCaches='1 2'",
+                                  "lockMemory='yes'",
+                                  "keepCpusAwake='no'",
+                                  "overflow='warn'",
+                                  "catchUpCycles='-1'",
+                                  "warnDuty='-1'",
+                                  "watchdogPeriods='0'",
+                                  "control='maybe'",
+                                  "imageReaders='many'"}) {
         EXPECT_TRUE(finds(readOne("<system name='s'>\n<cluster name='c' " + std::string{attribute} +
                                   "/></system>"),
                           "attribute-value", "/c", 2))
             << attribute;
     }
+}
+
+TEST(ModelFiles, ReadsWhereTheTicksOfAnExternalTriggerComeFrom) {
+    for (const char* from : {"udp:5005", "udp:127.0.0.1:5005", "fd:3"}) {
+        const XmlModel model = readOne(
+            "<system name='s'><cluster name='c' frequency='100' trigger='external' triggerFrom='" +
+            std::string{from} + "'/></system>");
+        ASSERT_TRUE(isValid(model)) << from;
+        EXPECT_EQ(model.files.system.clusters[0].attributes.at("triggerFrom"), from);
+    }
+}
+
+TEST(ModelFiles, SaysAllThatAnExternalTriggerLacksAndWhatAClockDoesNotTake) {
+    const XmlModel bare =
+        readOne("<system name='s'>\n<cluster name='c' trigger='external'/></system>");
+    ASSERT_EQ(bare.report.findings.size(), 2U);
+    EXPECT_EQ(bare.report.findings[0].text() + "\n" + bare.report.findings[1].text(),
+              "/c: trigger=\"external\" needs triggerFrom [f.xml:2]; write where its ticks come "
+              "from: triggerFrom=\"udp:5005\" or \"fd:3\"\n"
+              "/c: trigger=\"external\" needs frequency [f.xml:2]; write how often its ticks come: "
+              "frequency=\"1000\"");
+    EXPECT_TRUE(finds(readOne("<system name='s'>\n<cluster name='c' triggerFrom='fd:3'/></system>"),
+                      "attribute-value", "/c", 2, "trigger=\"external\""));
 }
 
 TEST(ModelFiles, RefusesWhatASystemGivesTwice) {

@@ -145,7 +145,7 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     cs::ClusterCS cluster{settings.name, settings.options};
     cluster.addSimplexTree(tree);
     cluster.useClasses(registry);
-    cluster.setTriggerSource<cs::InternalClock>(settings.period, settings.spin);
+    setTrigger(cluster, settings);
     cluster.addEventSink(line.log.empty() ? printEvents(std::cerr) : logEvents(line.log),
                          EventLog::Repeats::Folded);
     const comms::DdsInterface* network =
@@ -162,6 +162,7 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     if (starts && (!line.startup || startUp(cluster, settings.name))) {
         watch(cluster, settings.name, left(line, began));
     }
+    const bool endedItself = !cluster.running();  // its trigger has ended, as an event says
     std::cout << metricsTable(cluster.image(), settings.name);
     if (network != nullptr) {
         std::cout << countLine("lost samples", network->lost())
@@ -170,7 +171,7 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     std::cout << monitorTables(cluster.image()) << faultLines(cluster.image()) << std::flush;
     const bool halted = cluster.ended() == cs::Ended::Halted;
     const bool stopped = cluster.stop();
-    return stopped && !halted ? Ended : Halted;
+    return stopped && !halted && !endedItself ? Ended : Halted;
 }
 
 int run(int argc, char** argv) {

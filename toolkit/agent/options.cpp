@@ -181,6 +181,27 @@ comms::NetworkOptions networkOptions(const CommandLine& line) {
     return options;
 }
 
+void setTrigger(cs::ClusterCS& cluster, const ClusterSettings& settings) {
+    const std::string& from = settings.triggerFrom;
+    if (from.empty()) {
+        cluster.setTriggerSource<cs::InternalClock>(settings.period, settings.spin);
+        return;
+    }
+    const std::size_t first = from.find(':'), last = from.rfind(':');
+    const int number = static_cast<int>(toInt(from.substr(last + 1)).value_or(0));
+    const std::string address =
+        first == last ? "127.0.0.1" : from.substr(first + 1, last - first - 1);
+    try {
+        const int descriptor =
+            from.starts_with("fd:")
+                ? number
+                : cs::DescriptorTrigger::openUdp(address, static_cast<std::uint16_t>(number));
+        cluster.setTriggerSource<cs::DescriptorTrigger>(descriptor, settings.period);
+    } catch (const Error& error) {
+        throw Error(settings.place.text() + ": triggerFrom=\"" + from + "\": " + error.what());
+    }
+}
+
 ClusterSettings clusterSettings(const SystemDescription& system, const CommandLine& line) {
     if (system.clusters.size() != 1) {
         throw Error(line.system.string() + ": has " + std::to_string(system.clusters.size()) +
@@ -191,6 +212,12 @@ ClusterSettings clusterSettings(const SystemDescription& system, const CommandLi
     const double frequency = line.frequency.value_or(number(entry.attributes, "frequency", 1000));
     ClusterSettings settings;
     settings.name = entry.name;
+    settings.place = entry.place;
+    settings.triggerFrom = word(entry.attributes, "triggerFrom");
+    if (line.spin > 0 && !settings.triggerFrom.empty()) {
+        throw Error(entry.place.text() + ": ticks come from " + settings.triggerFrom +
+                    ", and only a clock can spin: leave --spin out");
+    }
     settings.period = std::chrono::nanoseconds{std::llround(1e9 / frequency)};
     settings.spin = std::chrono::nanoseconds{std::llround(1e3 * line.spin)};
     settings.options = optionsOf(entry.attributes, line);

@@ -36,11 +36,16 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
 
 struct ClusterSettings {
     std::string name;
+    std::string triggerFrom;  // "fd:3", "udp:5005", "udp:127.0.0.1:5005"; empty: the clock
+    Place place;
     std::chrono::nanoseconds period{}, spin{};
     cs::ClusterOptions options;
 };
 
 comms::NetworkOptions networkOptions(const CommandLine& line);
+
+// The clock, or what the system file says. Throws Error with its place.
+void setTrigger(cs::ClusterCS& cluster, const ClusterSettings& settings);
 
 // The <cluster> of the system file, outranked by the command line. Throws Error.
 ClusterSettings clusterSettings(const SystemDescription& system, const CommandLine& line);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include <arpa/inet.h>
+
 namespace cortex {
 
 namespace {
@@ -93,6 +95,19 @@ bool overflow(std::string_view text) {
     return text == "skip" || text == "catchUp" || text == "halt";
 }
 bool control(std::string_view text) { return text == "open" || text == "required"; }
+bool trigger(std::string_view text) { return text == "clock" || text == "external"; }
+// "fd:3", "udp:5005", "udp:127.0.0.1:5005"
+bool triggerFrom(std::string_view text) {
+    const std::size_t last = text.rfind(':');
+    const std::size_t first = text.find(':');
+    if (last == std::string_view::npos) return false;
+    const std::string_view number = text.substr(last + 1);
+    if (text.substr(0, first) == "fd") return first == last && count(number);
+    if (text.substr(0, first) != "udp" || !between<1, 65'535>(number)) return false;
+    const std::string address{first == last ? "0.0.0.0" : text.substr(first + 1, last - first - 1)};
+    in_addr parsed{};
+    return inet_pton(AF_INET, address.c_str(), &parsed) == 1;
+}
 bool counts(std::string_view text) {
     const auto words = splitBlanks(text);
     return !words.empty() && std::ranges::all_of(words, count);
@@ -101,6 +116,9 @@ bool counts(std::string_view text) {
 constexpr std::array clusterAttributes{
     ClusterAttribute{"name", anyText, ""},
     ClusterAttribute{"frequency", frequency, "a number of Hz from 0.01 to 100000"},
+    ClusterAttribute{"trigger", trigger, "clock or external"},
+    ClusterAttribute{"triggerFrom", triggerFrom,
+                     "udp:PORT, udp:ADDRESS:PORT with an IPv4 address, or fd:N"},
     ClusterAttribute{"threads", between<1, 256>, "a whole number from 1 to 256"},
     ClusterAttribute{"priority", between<0, 99>, "a whole number from 0, for none, to 99"},
     ClusterAttribute{"cpus", counts, "CPU numbers separated by blanks"},
@@ -161,6 +179,29 @@ void readRelate(const ElementReader& reader, const XmlElement& child, Entry& ent
     if (complete) entry.relates.push_back(std::move(relate));
 }
 
+// What the attributes of <cluster> mean together.
+void checkTrigger(const ElementReader& reader, const XmlElement& element, const Cluster& cluster) {
+    const auto stated = cluster.attributes.find("trigger");
+    const bool isExternal = stated != cluster.attributes.end() && stated->second == "external";
+    if (!isExternal) {
+        if (cluster.attributes.contains("triggerFrom")) {
+            reader.error(finding::attributeValue, element.line,
+                         "triggerFrom has no effect on a loop that runs by the clock",
+                         "write trigger=\"external\", or leave triggerFrom out");
+        }
+        return;
+    }
+    constexpr std::array needed{
+        std::pair{"triggerFrom", "where its ticks come from: triggerFrom=\"udp:5005\" or \"fd:3\""},
+        std::pair{"frequency", "how often its ticks come: frequency=\"1000\""}};
+    for (const auto& [name, meaning] : needed) {
+        if (element.find(name) != nullptr) continue;
+        reader.error(finding::missingAttribute, element.line,
+                     std::string{"trigger=\"external\" needs "} + name,
+                     std::string{"write "} + meaning);
+    }
+}
+
 }  // namespace
 
 void readCluster(const XmlElement& element, const std::string& file, SystemDescription& system,
@@ -174,6 +215,7 @@ void readCluster(const XmlElement& element, const std::string& file, SystemDescr
     const bool complete =
         reader.attributes(element, std::span<const AttributeReader<Cluster>>{attributes}, cluster);
     reader.children(element, {});
+    checkTrigger(reader, element, cluster);
     if (!complete) return;
     const auto [same, added] = paths.emplace("cluster " + cluster.name, cluster.place);
     if (!added) {

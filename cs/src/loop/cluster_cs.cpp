@@ -314,7 +314,7 @@ void ClusterTesting::playLate(ManualTrigger& trigger, std::int64_t periods) {
 }
 
 bool ClusterCS::running() const {
-    return implementation_->loop && implementation_->loop->joinable();
+    return implementation_->loop && implementation_->loop->running();
 }
 
 Ended ClusterCS::ended() const {

@@ -38,6 +38,9 @@ public:
 
     void start();
     bool joinable() const { return thread_.joinable(); }
+    bool running() const {  // not stopped, nor ended by its trigger
+        return joinable() && !finished_.load(std::memory_order_acquire);
+    }
     // Shuts down and joins; the hook that prevents it if there is one.
     std::optional<HungHook> stop();
 

@@ -121,4 +121,41 @@ private:
     std::atomic<bool> interrupted_{false}, timedOut_{false};
 };
 
+// Ticks that come through a file descriptor, which it closes in the end: one for each datagram of a
+// socket, each byte of a pipe or device, or as many as an eventfd or timerfd counts. The loop's
+// thread waits for them itself. What came before the start does not count.
+class DescriptorTrigger final : public TriggerSource {
+public:
+    // Throws Error for what has no such ticks: a closed descriptor, a file, a stream.
+    DescriptorTrigger(int descriptor, std::chrono::nanoseconds nominalPeriod);
+    ~DescriptorTrigger() override;
+    DescriptorTrigger(const DescriptorTrigger&) = delete;
+    DescriptorTrigger& operator=(const DescriptorTrigger&) = delete;
+
+    // A socket for datagrams to this IPv4 address and port; throws Error. Port 0: a free one.
+    static int openUdp(const std::string& address, std::uint16_t port);
+
+    void start() override;
+    Trigger waitForTick() override;  // throws Error when there is nobody left who could send ticks
+    void interrupt() override;
+    std::int64_t period() const override { return period_; }
+    std::int64_t missed() override { return pending_; }
+    void skipMissed(bool skip) override { skip_ = skip; }
+
+private:
+    using Take = std::int64_t (*)(int descriptor);  // how many ticks have come
+
+    bool isReadable(int milliseconds) const;
+    void takePending();
+
+    int descriptor_;
+    int interrupt_ = -1;
+    Take take_;
+    std::int64_t period_;
+    std::int64_t seen_ = 0;     // ticks that were returned or passed over
+    std::int64_t pending_ = 0;  // that were taken, but not returned
+    bool skip_ = true;
+    std::atomic<bool> interrupted_{false};
+};
+
 }  // namespace cortex::cs

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// An agent whose cycles come from a UDP port: a system file says so, and this test sends the ticks.
+#include "core/model_folder.hpp"
+#include "processes/agent_process.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+
+namespace cortex::test {
+namespace {
+
+// A port that was free a moment ago.
+int freePort() {
+    const int probe = socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof place;
+    bind(probe, reinterpret_cast<const sockaddr*>(&place), size);
+    getsockname(probe, reinterpret_cast<sockaddr*>(&place), &size);
+    close(probe);
+    return ntohs(place.sin_port);
+}
+
+void sendTick(int port) {
+    const int sender = socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    place.sin_port = htons(static_cast<std::uint16_t>(port));
+    sendto(sender, nullptr, 0, 0, reinterpret_cast<const sockaddr*>(&place), sizeof place);
+    close(sender);
+}
+
+std::filesystem::path plant(const ModelFolder& folder, const std::string& trigger) {
+    return folder.write("plant.xml",
+                        "<system name='s'><ontology file='base.xml'/>\n"
+                        "<cluster name='plant' frequency='50' trigger='external' " +
+                            trigger + "/></system>");
+}
+
+TEST(ExternallyTriggeredAgent, RunsByTheDatagramsOfAPortAndEndsInOrder) {
+    const ModelFolder folder;
+    const int port = freePort();
+    AgentProcess agent{
+        folder, plant(folder, "triggerFrom='udp:" + std::to_string(port) + "'"), {"--startup"}};
+
+    // Without cycles nothing answers the startup; who sends ticks makes it answer.
+    while (!contains(agent.output(), "all active simplexes are started")) {
+        ASSERT_FALSE(contains(agent.output(), "error")) << agent.output();
+        sendTick(port);
+        usleep(1000);
+    }
+
+    EXPECT_EQ(agent.endInOrder(), 0);
+    EXPECT_TRUE(contains(agent.output(), "1 simplexes at 50 Hz as /plant")) << agent.output();
+}
+
+TEST(ExternallyTriggeredAgent, SaysWithFileAndLineWhatItCannotOpen) {
+    const ModelFolder folder;
+    AgentProcess agent{folder, plant(folder, "triggerFrom='fd:77'")};
+
+    EXPECT_EQ(agent.waitForEnd(), 1);
+
+    EXPECT_TRUE(contains(agent.output(),
+                         "plant.xml:2: triggerFrom=\"fd:77\": descriptor 77 for ticks: Bad file "
+                         "descriptor"))
+        << agent.output();
+}
+
+TEST(ExternallyTriggeredAgent, RunsByAnInheritedPipeAndEndsWithThreeWhenItsSenderIsGone) {
+    constexpr int inherited = 60;
+    std::array<int, 2> ends{};
+    ASSERT_EQ(pipe2(ends.data(), O_CLOEXEC), 0);
+    dup2(ends[0], inherited);
+    const ModelFolder folder;
+    AgentProcess agent{folder, plant(folder, "triggerFrom='fd:60'"), {"--startup"}};
+    close(inherited);
+    while (!contains(agent.output(), "all active simplexes are started")) {
+        ASSERT_EQ(write(ends[1], "x", 1), 1);
+        usleep(1000);
+    }
+
+    close(ends[1]);
+
+    EXPECT_EQ(agent.waitForEnd(), 3);
+    EXPECT_TRUE(contains(agent.output(), "whoever sent the ticks has closed its end"))
+        << agent.output();
+    close(ends[0]);
+}
+
+}  // namespace
+}  // namespace cortex::test
