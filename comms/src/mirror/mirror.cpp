@@ -151,15 +151,22 @@ bool Mirror::poll(std::uint64_t number, CommandAnswer& answer) {
         [&](MirrorState& state) { return state.commands.poll(number, answer, &answer.latency); });
 }
 
+bool Mirror::waitForAnswer(std::uint64_t number, CommandAnswer& answer, Milliseconds limit) {
+    return implementation_->thread.waitFor(limit, [&](MirrorState& state) {
+        return state.commands.poll(number, answer, &answer.latency);
+    });
+}
+
+void Mirror::abandon(std::uint64_t number) {
+    implementation_->thread.read([&](MirrorState& state) { state.commands.abandon(number); });
+}
+
 CommandAnswer Mirror::call(std::string_view path, std::string_view command,
                            const Arguments& arguments, Milliseconds timeout) {
     const std::uint64_t number = send(path, command, arguments, timeout);
     CommandAnswer answer;
-    const bool answered = implementation_->thread.waitFor(timeout, [&](MirrorState& state) {
-        return state.commands.poll(number, answer, &answer.latency);
-    });
-    if (answered) return answer;
-    implementation_->thread.read([&](MirrorState& state) { state.commands.abandon(number); });
+    if (waitForAnswer(number, answer, timeout)) return answer;
+    abandon(number);
     answer.outcome = Outcome::Unknown;
     answer.why = "no answer within " + std::to_string(timeout.count()) + " ms";
     return answer;

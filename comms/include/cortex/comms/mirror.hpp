@@ -131,6 +131,8 @@ public:
                        const Arguments& arguments = {},
                        Milliseconds budget = std::chrono::seconds{5});
     bool poll(std::uint64_t number, CommandAnswer& answer);  // once; Running is not an answer
+    bool waitForAnswer(std::uint64_t number, CommandAnswer& answer, Milliseconds limit);
+    void abandon(std::uint64_t number);  // nobody will fetch the answer
     CommandAnswer call(std::string_view path, std::string_view command,
                        const Arguments& arguments = {},
                        Milliseconds timeout = std::chrono::seconds{5});
