@@ -2,20 +2,14 @@
 // top, doctor, save, restore, types and graph, against agents that are processes of their own.
 #include "cli/json_schema.hpp"
 #include "cli/live_agent.hpp"
+#include "cli/on_terminal.hpp"
 #include "core/model_folder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-
-#include <poll.h>
-#include <pty.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -66,59 +60,6 @@ TEST_F(CortexLive, TopEndsAfterItsTimeAndWithTheLastAgent) {
     EXPECT_TRUE(contains(text.output.substr(last), "running")) << "the last moment with an agent";
 }
 
-// A program on a terminal of its own, with what it wrote.
-class OnTerminal {
-public:
-    OnTerminal(std::vector<std::string> command, unsigned short columns, unsigned short rows) {
-        winsize size{rows, columns, 0, 0};
-        child_ = forkpty(&terminal_, nullptr, nullptr, &size);
-        if (child_ != 0) return;
-        prctl(PR_SET_PDEATHSIG, SIGKILL);
-        setenv("TERM", "xterm", 1);
-        unsetenv("NO_COLOR");
-        std::vector<char*> pointers;
-        for (std::string& each : command) pointers.push_back(each.data());
-        pointers.push_back(nullptr);
-        execv(pointers.front(), pointers.data());
-        _exit(127);
-    }
-    ~OnTerminal() {
-        if (child_ > 0) kill(child_, SIGKILL);
-        exit();
-        close(terminal_);
-    }
-    OnTerminal(const OnTerminal&) = delete;
-    OnTerminal& operator=(const OnTerminal&) = delete;
-
-    // Reads until it has written this, has ended, or 20 s are over.
-    bool shows(const std::string& text) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
-        std::array<char, 4096> buffer{};
-        while (!contains(output_, text)) {
-            pollfd file{terminal_, POLLIN, 0};
-            if (std::chrono::steady_clock::now() > end || poll(&file, 1, 1000) < 0) return false;
-            if (file.revents == 0) continue;
-            const ssize_t count = read(terminal_, buffer.data(), buffer.size());
-            if (count <= 0) return false;
-            output_.append(buffer.data(), static_cast<std::size_t>(count));
-        }
-        return true;
-    }
-    void type(char key) { EXPECT_EQ(write(terminal_, &key, 1), 1); }
-    void signal(int number) { kill(child_, number); }
-    int exit() {
-        if (child_ > 0) waitpid(child_, &status_, 0);
-        child_ = 0;
-        return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
-    }
-    const std::string& output() const { return output_; }
-
-private:
-    int terminal_ = -1, status_ = 0;
-    pid_t child_ = 0;
-    std::string output_;
-};
-
 // What a person sees of the last frame, a line an element.
 std::vector<std::string> frameOf(const std::string& output) {
     std::string text;
@@ -151,7 +92,7 @@ TEST_F(CortexLive, TopFitsTheTerminalAndGivesItBack) {
         EXPECT_FALSE(contains(top.output(), ownScreen));
 
         if (how == 0)
-            top.type('q');
+            top.type("q");
         else
             top.signal(how);
         EXPECT_TRUE(top.shows(ownScreen)) << how;

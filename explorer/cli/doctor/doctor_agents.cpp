@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doctor/doctor.hpp"
 #include "live/top_data.hpp"
+#include "text/interrupts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -104,6 +105,7 @@ void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
     std::map<std::string, std::set<std::int64_t>> starts;
     bool complete = false;
     while (!complete && live.left() > std::chrono::milliseconds{1}) {
+        throwIfInterrupted();
         const auto slice = std::min(live.left(), std::chrono::milliseconds{100});
         complete = live.mirror().waitUntilComplete(slice);
         for (const auto& each : live.mirror().agents()) starts[each.name].insert(each.epoch);
@@ -115,8 +117,8 @@ void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
         const std::uint32_t simplex = structure ? ownSimplex(*structure) : noSimplex;
         if (simplex != noSimplex) own.push_back(structure->simplexes[simplex].path);
     }
-    live.mirror().view(own, 5);
-    live.mirror().waitForValues(live.left());
+    live.view(own, 5);
+    live.waitForValues();
     if (agents.empty()) {
         found.push_back(
             {Level::Warning, "agents",

@@ -5,6 +5,8 @@
 #include "cortex/core/path.hpp"
 #include "cortex/core/simplex_tree.hpp"
 
+#include "text/interrupts.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -52,11 +54,19 @@ void checkPrefix(const std::string& prefix) {
     if (prefix != "/") checkPath(prefix);
 }
 
+std::shared_ptr<Session> makeSession(const NetworkArguments& arguments) {
+    return std::make_shared<Session>(optionsOf(arguments));
+}
+
 Live::Live(const NetworkArguments& arguments)
-    : timeout_{std::llround(arguments.timeout * 1000)}, end_{Clock::now() + timeout_} {
-    const comms::NetworkOptions options = optionsOf(arguments);
-    domain_ = options.domain;
-    mirror_ = std::make_unique<comms::Mirror>("cortex", options);
+    : timeout_{std::llround(arguments.timeout * 1000)},
+      end_{Clock::now() + timeout_},
+      session_{arguments.session ? arguments.session : makeSession(arguments)} {}
+
+// A shell goes on with the same session.
+Live::~Live() {
+    session_->listen({});
+    session_->view({}, Session::slowRate);
 }
 
 Milliseconds Live::left() const {
@@ -64,21 +74,48 @@ Milliseconds Live::left() const {
     return std::max(left, Milliseconds{1});
 }
 
+template <class Wait>
+bool Live::waitInSlices(Wait wait) {
+    do {
+        throwIfInterrupted();
+        if (wait(std::min(left(), interruptSlice))) return true;
+    } while (!over());
+    return false;
+}
+
 void Live::waitForAll() {
-    mirror_->waitUntilComplete(left());
-    if (mirror_->agents().empty()) failWithNobody();
+    waitInSlices([&](Milliseconds limit) { return mirror().waitUntilComplete(limit); });
+    if (mirror().agents().empty()) failWithNobody();
+}
+
+bool Live::waitForValues() {
+    return waitInSlices([&](Milliseconds limit) { return mirror().waitForValues(limit); });
+}
+
+std::optional<std::string> Live::waitForOwner(const std::string& path) {
+    std::optional<std::string> owner;
+    waitInSlices([&](Milliseconds limit) {
+        owner = mirror().waitForOwner(path, limit);
+        const auto agents = mirror().agents();
+        return std::ranges::any_of(agents,
+                                   [&](const comms::AgentStatus& each) {
+                                       return each.name == owner && each.state != "lost";
+                                   }) ||
+               mirror().waitUntilComplete(Milliseconds{0});
+    });
+    return owner;
 }
 
 void Live::failWithNobody() const {
-    const std::string domain = std::to_string(domain_);
-    if (mirror_->closed() > 0) {
+    const std::string domain = std::to_string(session_->domain());
+    if (mirror().closed() > 0) {
         throw Failure{NotFound, "no agent on domain " + domain +
                                     " can be seen without security: " + closed() +
                                     "; name a folder that 'cortex security "
                                     "create-agent' made (--security FOLDER or "
                                     "CORTEX_SECURITY)"};
     }
-    if (mirror_->nameless() > 0) {
+    if (mirror().nameless() > 0) {
         throw Failure{NotFound, "no agent on domain " + domain + " is known yet: " + nameless() +
                                     " within " + limitText() + "; wait longer (--timeout)"};
     }
@@ -103,14 +140,14 @@ std::string Live::standstillOf(const std::string& agent) const {
 }
 
 std::string Live::closed() const {
-    const std::uint32_t count = mirror_->closed();
+    const std::uint32_t count = mirror().closed();
     return count == 0 ? ""
                       : plural(count, "participant") + " with security " +
                             (count == 1 ? "was" : "were") + " heard";
 }
 
 std::string Live::nameless() const {
-    const std::uint32_t count = mirror_->nameless();
+    const std::uint32_t count = mirror().nameless();
     return count == 0
                ? ""
                : plural(count, "participant") + " of CorteX " + (count == 1 ? "was" : "were") +
@@ -119,7 +156,7 @@ std::string Live::nameless() const {
 
 std::string Live::incomplete() const {
     std::vector<std::string> parts;
-    for (const comms::AgentStatus& each : mirror_->agents()) {
+    for (const comms::AgentStatus& each : mirror().agents()) {
         if (each.state != "incomplete") continue;
         const std::uint32_t all = each.types + each.simplexes;
         std::string part = std::to_string(all - each.missing) + " of " + std::to_string(all) +
@@ -127,8 +164,8 @@ std::string Live::incomplete() const {
         if (!each.trouble.empty()) part += " (" + each.trouble + ")";
         parts.push_back(std::move(part));
     }
-    if (const std::uint32_t unheard = mirror_->unheard(); unheard > 0) {
-        const std::size_t here = mirror_->agents().size();
+    if (const std::uint32_t unheard = mirror().unheard(); unheard > 0) {
+        const std::size_t here = mirror().agents().size();
         parts.push_back(std::to_string(here) + " of " + std::to_string(here + unheard) + " agents");
     }
     return parts.empty() ? "" : "incomplete: " + joined(parts);
@@ -142,16 +179,16 @@ std::vector<std::string> Live::paths() const {
 
 FoundSimplex Live::find(const std::string& path) {
     checkPath(path);
-    if (const auto owner = mirror_->waitForOwner(path, left())) {
-        FoundSimplex found{*owner, mirror_->structure(*owner), 0};
+    if (const auto owner = waitForOwner(path)) {
+        FoundSimplex found{*owner, mirror().structure(*owner), 0};
         if (found.structure) {
             found.index = found.structure->find(path);
             return found;
         }
     }
-    if (mirror_->agents().empty()) failWithNobody();
+    if (mirror().agents().empty()) failWithNobody();
     const std::string nearest = nearestNames(path, paths());
-    const bool all = mirror_->waitUntilComplete(Milliseconds{0});
+    const bool all = mirror().waitUntilComplete(Milliseconds{0});
     throw Failure{NotFound, (all ? "no agent has a simplex " + path
                                  : path + " was not found within " + limitText() +
                                        ", which does not mean that it is not there: " + heard()) +
@@ -161,7 +198,7 @@ FoundSimplex Live::find(const std::string& path) {
 // What was heard until the time was over, where that is not everything.
 std::string Live::heard() const {
     std::vector<std::string> parts;
-    for (const comms::AgentStatus& each : mirror_->agents()) {
+    for (const comms::AgentStatus& each : mirror().agents()) {
         if (each.state != "incomplete") parts.push_back(each.name + " was heard");
         if (each.state != "incomplete") continue;
         parts.push_back(each.name + " was heard, but its model did not come");
@@ -176,7 +213,7 @@ std::string Live::heard() const {
 std::vector<std::string> Live::contradictions() const {
     std::map<std::string, std::vector<std::string>> claims;
     std::set<std::string> lost;
-    for (const comms::AgentStatus& each : mirror_->agents()) {
+    for (const comms::AgentStatus& each : mirror().agents()) {
         if (each.state == "lost") lost.insert(each.name);
     }
     for (const FoundSimplex& each : below("/")) {
@@ -208,8 +245,8 @@ void Live::printWarnings() const {
 // One path may have several agents.
 std::vector<FoundSimplex> Live::below(const std::string& prefix) const {
     std::vector<FoundSimplex> found;
-    for (const comms::AgentStatus& agent : mirror_->agents()) {
-        const auto structure = mirror_->structure(agent.name);
+    for (const comms::AgentStatus& agent : mirror().agents()) {
+        const auto structure = mirror().structure(agent.name);
         if (!structure) continue;
         for (std::uint32_t i = 0; i < structure->simplexes.size(); ++i) {
             const SimplexInfo& info = structure->simplexes[i];
@@ -224,16 +261,16 @@ std::vector<FoundSimplex> Live::below(const std::string& prefix) const {
 }
 
 comms::AgentImage Live::values(const FoundSimplex& simplex) {
-    mirror_->view({simplex.info().path}, 100);
+    view({simplex.info().path}, 100);
     std::uint64_t images = 0;
-    while (!mirror_->age(simplex.agent, simplex.index)) {
-        const Milliseconds limit = left();
-        if (limit <= Milliseconds{1}) break;
-        images = mirror_->waitForImage(images, limit);
-    }
-    auto image = mirror_->image(simplex.agent);
+    waitInSlices([&](Milliseconds limit) {
+        if (mirror().age(simplex.agent, simplex.index)) return true;
+        images = mirror().waitForImage(images, limit);
+        return false;
+    });
+    auto image = mirror().image(simplex.agent);
     const bool newer = image && &image->structure() != simplex.structure.get();
-    if (image && !newer && mirror_->age(simplex.agent, simplex.index)) return image;
+    if (image && !newer && mirror().age(simplex.agent, simplex.index)) return image;
     throw Failure{NotFound, "the values of " + simplex.info().path + " did not come from agent " +
                                 simplex.agent};
 }

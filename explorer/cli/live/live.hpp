@@ -3,6 +3,7 @@
 
 #include "cortex/comms/mirror.hpp"
 
+#include "live/session.hpp"
 #include "text/output.hpp"
 
 #include <chrono>
@@ -22,9 +23,11 @@ struct NetworkArguments {
     std::optional<std::string> discoveryServer;  // none: CORTEX_DISCOVERY_SERVER
     std::optional<std::string> security;         // folder; none: CORTEX_SECURITY
     double timeout = 3;                          // s
+    std::shared_ptr<Session> session;            // that of a shell; none: one of its own
 };
 
 int domainOf(const NetworkArguments& arguments);
+std::shared_ptr<Session> makeSession(const NetworkArguments& arguments);
 
 // One simplex of an agent that is not lost.
 struct FoundSimplex {
@@ -40,8 +43,23 @@ struct FoundSimplex {
 class Live {
 public:
     explicit Live(const NetworkArguments& arguments);
+    ~Live();
+    Live(const Live&) = delete;
+    Live& operator=(const Live&) = delete;
 
-    comms::Mirror& mirror() { return *mirror_; }
+    comms::Mirror& mirror() { return session_->mirror(); }
+    const comms::Mirror& mirror() const { return session_->mirror(); }
+    Leases& leases() { return session_->leases(); }
+    void view(std::vector<std::string> prefixes, std::uint32_t rate) {
+        session_->view(std::move(prefixes), rate);
+    }
+    void listen(Session::Listener listener) { session_->listen(std::move(listener)); }
+    // Everything that waits ends with the time to wait, or throws Interrupted.
+    bool waitForValues();
+    comms::CommandAnswer call(const std::string& path, const std::string& command,
+                              const comms::Mirror::Arguments& arguments) {
+        return session_->call(path, command, arguments, left());
+    }
     // Until everything of everybody is here; throws Failure if nobody is there.
     void waitForAll();
     // Two agents with one path, each as a sentence.
@@ -55,7 +73,7 @@ public:
     std::string incomplete() const;
     FoundSimplex find(const std::string& path);  // throws Failure naming the nearest
     std::optional<std::string> ownerOf(const std::string& path) const {
-        return mirror_->ownerOf(path);
+        return mirror().ownerOf(path);
     }
     std::vector<FoundSimplex> below(const std::string& prefix) const;  // by path
     // Its newest values; waits for them. Throws Failure if they do not come.
@@ -64,10 +82,13 @@ public:
     std::chrono::milliseconds left() const;  // of the time to wait; 1 ms when it is over
     bool over() const { return std::chrono::steady_clock::now() >= end_; }
     std::chrono::milliseconds timeout() const { return timeout_; }
-    int domain() const { return domain_; }
+    int domain() const { return session_->domain(); }
     [[noreturn]] void failWithNobody() const;  // throws Failure that says what to try
 
 private:
+    template <class Wait>
+    bool waitInSlices(Wait wait);
+    std::optional<std::string> waitForOwner(const std::string& path);
     std::vector<std::string> paths() const;
     std::string limitText() const;  // "3 s"
     std::string heard() const;
@@ -76,8 +97,7 @@ private:
 
     std::chrono::milliseconds timeout_;
     std::chrono::steady_clock::time_point end_;
-    int domain_;
-    std::unique_ptr<comms::Mirror> mirror_;
+    std::shared_ptr<Session> session_;
 };
 
 // Throws Failure unless it can be the path of a simplex; a prefix may be "/" too.

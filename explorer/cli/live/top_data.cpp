@@ -95,7 +95,7 @@ void TopView::view() {
         wanted.push_back(structure->simplexes[own].path);
     }
     if (wanted == viewed_) return;
-    live_.mirror().view(wanted, rate_);
+    live_.view(wanted, rate_);
     viewed_ = std::move(wanted);
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/nearest_names.hpp"
 
+#include "live/control.hpp"
 #include "live/live_values.hpp"
+#include "text/interrupts.hpp"
 #include "verbs/live_verbs.hpp"
 
 #include <iostream>
@@ -60,17 +62,21 @@ void printAnswer(const comms::CommandAnswer& answer, const RecordLayout& layout)
 
 }  // namespace
 
-// Finding the agent and its answer share one time to wait.
+// Finding the agent and its answer share one time to wait. Control is released on every way out.
 Exit callCommand(const CallOptions& options) {
+    std::optional<Interrupts> interrupts;
+    if (options.take) interrupts.emplace();
     Live live{options.network};
     const FoundSimplex simplex = live.find(options.path);
     const CommandTable table = commandTable(simplex.type());
     const CommandTable::Entry& entry = entryOf(table, simplex, options.command);
     const auto arguments =
         parseArguments("command '" + options.command + "'", entry.request, options.arguments);
+    std::optional<BriefControl> control;
+    const auto prefix = controlledBy(simplex, entry, arguments);
+    if (options.take && prefix) control.emplace(live, simplex.agent, *prefix);
     const std::chrono::milliseconds left = live.left();
-    comms::CommandAnswer answer =
-        live.mirror().call(options.path, options.command, arguments, left);
+    comms::CommandAnswer answer = live.call(options.path, options.command, arguments);
     if (answer.outcome == Outcome::Unknown) {
         answer.why += " (finding the agent left " + std::to_string(left.count()) + " of the " +
                       std::to_string(live.timeout().count()) + " ms of --timeout)";
@@ -79,6 +85,10 @@ Exit callCommand(const CallOptions& options) {
         print(answerJson(answer, entry.response));
     } else {
         printAnswer(answer, entry.response);
+        if (answer.reason == Reason::Authority && !options.take) {
+            std::cerr << "cortex: --take takes control for one command; 'cortex leases' shows who "
+                         "has it\n";
+        }
     }
     return exitOf(answer.outcome);
 }

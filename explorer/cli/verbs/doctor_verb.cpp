@@ -52,7 +52,7 @@ Exit examine(const LiveOptions& options) {
     Arrivals arrivals;
     try {
         Live live{options.network};
-        live.mirror().onEvent([&](const comms::AgentEvent& event) { arrivals.push(event); });
+        live.listen([&](const comms::AgentEvent& event) { arrivals.push(event); });
         examineAgents(live, arrivals, found);
     } catch (const Error& error) {
         found.push_back({Level::Error, "network", error.what(), ""});

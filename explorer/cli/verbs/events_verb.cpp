@@ -2,6 +2,7 @@
 #include "live/live_events.hpp"
 #include "live/live_json.hpp"
 #include "live/live_values.hpp"
+#include "text/interrupts.hpp"
 #include "verbs/live_verbs.hpp"
 
 #include <algorithm>
@@ -51,6 +52,7 @@ std::vector<AgentEvent> past(Live& live, Arrivals& arrivals) {
     std::vector<AgentEvent> events;
     for (;;) {
         const auto quiet = std::min(live.left(), std::chrono::milliseconds{300});
+        throwIfInterrupted();
         const auto more = arrivals.take(quiet);
         events.insert(events.end(), more.begin(), more.end());
         if (live.left() <= std::chrono::milliseconds{1}) break;
@@ -69,7 +71,7 @@ Exit showEvents(const EventOptions& options) {
     const EventPrinter printer{options, *least};
     Arrivals arrivals;
     Live live{options.network};
-    live.mirror().onEvent([&](const AgentEvent& event) { arrivals.push(event); });
+    live.listen([&](const AgentEvent& event) { arrivals.push(event); });
     live.waitForAll();
     std::vector<AgentEvent> events = past(live, arrivals);
     std::erase_if(events, [&](const AgentEvent& event) { return !printer.shows(event); });
@@ -82,7 +84,8 @@ Exit showEvents(const EventOptions& options) {
     printer.head();
     for (const AgentEvent& each : events) printer.line(each);
     while (options.follow && std::cout) {
-        for (const AgentEvent& each : arrivals.take(std::chrono::seconds{1})) {
+        throwIfInterrupted();
+        for (const AgentEvent& each : arrivals.take(interruptSlice)) {
             if (printer.shows(each)) printer.line(each);
         }
     }

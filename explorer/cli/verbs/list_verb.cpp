@@ -60,9 +60,9 @@ void printLines(const std::vector<Line>& lines) {
 Exit listSimplexes(const ListOptions& options) {
     checkPrefix(options.prefix);
     Live live{options.network};
-    live.mirror().view({options.prefix}, 100);
+    live.view({options.prefix}, 100);
     live.waitForAll();
-    live.mirror().waitForValues(live.left());
+    live.waitForValues();
     const std::string lacking = live.incomplete();
     if (options.json && !lacking.empty()) throw Failure{NotFound, lacking};
     live.printWarnings();

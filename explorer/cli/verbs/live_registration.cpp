@@ -4,7 +4,6 @@
 #include "cortex/comms/network_options.hpp"
 
 #include "verbs/live_verbs.hpp"
-#include "verbs/verb_registration.hpp"
 
 #include <memory>
 
@@ -14,18 +13,18 @@ namespace {
 // Verbs that join the network of agents.
 class LiveVerbs {
 public:
-    LiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run) : verbs_{app, json, run} {}
+    explicit LiveVerbs(Verbs& verbs) : verbs_{verbs} {}
 
     template <class Options>
     CLI::App* add(const char* name, const char* description, const char* examples,
                   const std::shared_ptr<Options>& options, Exit (*verb)(const Options&)) {
         CLI::App* added = verbs_.add(name, description, examples, options, verb);
-        addNetwork(*added, options->network);
+        addNetwork(*added, options->network, verbs_.session());
         return added;
     }
 
 private:
-    Verbs verbs_;
+    Verbs& verbs_;
 };
 
 void addList(LiveVerbs& verbs) {
@@ -82,19 +81,26 @@ Examples:
         ->excludes(verb->get_option("--json"));
 }
 
+CLI::Option* addTake(CLI::App& verb, bool& take) {
+    return verb.add_flag(
+        "--take", take, "Take control (the lease) of what is commanded, and release it at the end");
+}
+
 void addCall(LiveVerbs& verbs) {
     const auto call = std::make_shared<CallOptions>();
     CLI::App* verb = verbs.add("call", "Send a command and wait for its answer",
                                R"(Exit code 0: done, 1: rejected or failed, 3: no answer.
 Examples:
   cortex call /arm startup
-  cortex call /robot startup prefix=/arm --timeout 60)",
+  cortex call /robot startup prefix=/arm --timeout 60
+  cortex call /arm startup --take          where others may command too: docs/leases.md)",
                                call, callCommand);
     verb->add_option("PATH", call->path, "Path of the simplex")->required()->type_name("");
     verb->add_option("COMMAND", call->command, "Name of the command")->required()->type_name("");
     verb->add_option("NAME=VALUE", call->arguments,
                      "Parameters; those not given have their defaults")
         ->type_name("");
+    addTake(*verb, call->take);
 
     const auto set = std::make_shared<CallOptions>();
     verb = verbs.add("set", "Set settable items of a simplex, all together or none",
@@ -104,6 +110,17 @@ Examples:
                      set, setItems);
     verb->add_option("PATH", set->path, "Path of the simplex")->required()->type_name("");
     verb->add_option("ITEM=VALUE", set->arguments, "New values")->required()->type_name("");
+    addTake(*verb, set->take);
+}
+
+void addLeases(LiveVerbs& verbs) {
+    verbs.add(
+        "leases", "Show who holds control of what, and since when",
+        R"(Commands to what somebody else holds are refused. Take control for one command with --take, or for
+longer with 'take PREFIX' in 'cortex shell'.
+Example:
+  cortex leases)",
+        std::make_shared<LiveOptions>(), listLeases);
 }
 
 void addEvents(LiveVerbs& verbs) {
@@ -146,7 +163,8 @@ Examples:
   cortex restore tuned.xml)",
         restore, restoreItems);
     verb->add_option("FILE", restore->file, "File that 'save' wrote")->required()->type_name("");
-    verb->add_flag("--dry-run", restore->dryRun, "Only show what would change");
+    CLI::Option* dry = verb->add_flag("--dry-run", restore->dryRun, "Only show what would change");
+    addTake(*verb, restore->take)->excludes(dry);
 }
 
 void addTop(LiveVerbs& verbs) {
@@ -178,7 +196,13 @@ Examples:
 
 }  // namespace
 
-void addNetwork(CLI::App& verb, NetworkArguments& network) {
+void addNetwork(CLI::App& verb, NetworkArguments& network,
+                const std::shared_ptr<Session>& session) {
+    verb.add_option("--timeout", network.timeout, "How long to wait for agents; 3 s if not given")
+        ->type_name("S")
+        ->check(CLI::Range(0.001, 1e6));
+    network.session = session;
+    if (session) return;
     verb.add_option("--domain", network.domain,
                     "Domain of the agents; CORTEX_DOMAIN or 0 if not given")
         ->type_name("N")
@@ -199,17 +223,15 @@ void addNetwork(CLI::App& verb, NetworkArguments& network) {
                     "Folder made by `cortex security create-agent`; CORTEX_SECURITY or no "
                     "security if not given")
         ->type_name("FOLDER");
-    verb.add_option("--timeout", network.timeout, "How long to wait for agents; 3 s if not given")
-        ->type_name("S")
-        ->check(CLI::Range(0.001, 1e6));
 }
 
-void addLiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run) {
-    LiveVerbs verbs{app, json, run};
+void addLiveVerbs(Verbs& all) {
+    LiveVerbs verbs{all};
     addList(verbs);
     addShow(verbs);
     addWatch(verbs);
     addCall(verbs);
+    addLeases(verbs);
     addEvents(verbs);
     addSave(verbs);
     addTop(verbs);

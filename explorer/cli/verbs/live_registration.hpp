@@ -2,16 +2,13 @@
 #pragma once
 
 #include "live/live.hpp"
-#include "text/output.hpp"
-
-#include <functional>
-
-#include <CLI/CLI.hpp>
+#include "verbs/verb_registration.hpp"
 
 namespace cortex::explorer {
 
-// The verbs of live_verbs.hpp. A verb that was chosen sets `run`; `json` is the flag of all verbs.
-void addNetwork(CLI::App& verb, NetworkArguments& network);
-void addLiveVerbs(CLI::App& app, bool& json, std::function<Exit()>& run);
+// The options that select a network; in a shell only how long to wait.
+void addNetwork(CLI::App& verb, NetworkArguments& network, const std::shared_ptr<Session>& session);
+// The verbs of live_verbs.hpp.
+void addLiveVerbs(Verbs& verbs);
 
 }  // namespace cortex::explorer

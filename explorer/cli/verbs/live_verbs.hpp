@@ -44,9 +44,12 @@ Exit watchValues(const WatchOptions& options);
 struct CallOptions : LiveOptions {
     std::string path, command;
     std::vector<std::string> arguments;  // name=value
+    bool take = false;                   // control, for as long as it takes
 };
 Exit callCommand(const CallOptions& options);
 Exit setItems(const CallOptions& options);  // command "set"
+
+Exit listLeases(const LiveOptions& options);
 
 struct EventOptions : LiveOptions {
     std::string prefix = "/";
@@ -63,7 +66,7 @@ Exit saveItems(const SaveOptions& options);
 
 struct RestoreOptions : LiveOptions {
     std::string file;
-    bool dryRun = false;
+    bool dryRun = false, take = false;
 };
 Exit restoreItems(const RestoreOptions& options);
 

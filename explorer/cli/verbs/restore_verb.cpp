@@ -7,12 +7,15 @@
 #include "cortex/core/record.hpp"
 #include "cortex/core/simplex_tree.hpp"
 
+#include "live/control.hpp"
 #include "live/live_values.hpp"
 #include "live/saved_file.hpp"
+#include "text/interrupts.hpp"
 #include "verbs/live_verbs.hpp"
 
 #include <algorithm>
 #include <iostream>
+#include <list>
 #include <map>
 
 namespace cortex::explorer {
@@ -170,6 +173,30 @@ Json planJson(const Plan& plan, bool applied) {
             {"results", results}};
 }
 
+std::string commonPrefix(const std::string& one, const std::string& other) {
+    std::size_t end = 0;
+    for (std::size_t i = 0; i <= std::min(one.size(), other.size()); ++i) {
+        const bool ends =
+            (i == one.size() || one[i] == '/') && (i == other.size() || other[i] == '/');
+        if (ends) end = i;
+        if (i == one.size() || i == other.size() || one[i] != other[i]) break;
+    }
+    return end == 0 ? "/" : one.substr(0, end);
+}
+
+// Of each agent, one lease on what all changes have in common: an agent has few leases.
+std::list<BriefControl> controlOf(Live& live, const Plan& plan) {
+    std::map<std::string, std::string> prefixes;
+    for (const Change& each : plan.changes) {
+        const std::string agent = live.ownerOf(each.path).value_or("");
+        const auto [found, added] = prefixes.try_emplace(agent, each.path);
+        if (!added) found->second = commonPrefix(found->second, each.path);
+    }
+    std::list<BriefControl> control;
+    for (const auto& [agent, prefix] : prefixes) control.emplace_back(live, agent, prefix);
+    return control;
+}
+
 // All simplexes share what is left of the time to wait. What has none left is not sent.
 Exit apply(Live& live, Plan& plan) {
     Exit exit = Yes;
@@ -178,7 +205,7 @@ Exit apply(Live& live, Plan& plan) {
             each.answer.outcome = Outcome::Expired;
             each.answer.why = "not sent, because the time to wait was over (--timeout)";
         } else {
-            each.answer = live.mirror().call(each.path, "set", each.arguments, live.left());
+            each.answer = live.call(each.path, "set", each.arguments);
         }
         if (each.answer.done()) continue;
         const bool refused = each.answer.outcome != Outcome::Unknown;
@@ -203,21 +230,25 @@ void printResults(const Plan& plan) {
 }  // namespace
 
 Exit restoreItems(const RestoreOptions& options) {
+    std::optional<Interrupts> interrupts;
+    if (options.take) interrupts.emplace();
     const std::vector<SavedSimplex> saved = readSaved(options.file);
     std::vector<std::string> paths;
     for (const SavedSimplex& each : saved) {
         if (SimplexTree::pathError(each.path).empty()) paths.push_back(each.path);
     }
     Live live{options.network};
-    live.mirror().view(paths, 100);
+    live.view(paths, 100);
     live.waitForAll();
-    live.mirror().waitForValues(live.left());
+    live.waitForValues();
     Plan plan;
     Planner planner{live, plan};
     for (const SavedSimplex& each : saved) planner.add(each);
     const bool good = plan.report.ok();
     const bool applies = good && !options.dryRun;
     if (!options.json) printDifferences(plan);
+    std::list<BriefControl> control;
+    if (applies && options.take) control = controlOf(live, plan);
     const Exit exit = applies ? apply(live, plan) : good ? Yes : No;
     if (options.json) {
         print(planJson(plan, applies));

@@ -52,9 +52,9 @@ Exit saveItems(const SaveOptions& options) {
     checkPrefix(options.prefix);
     if (!options.force) checkAbsent(options.file);
     Live live{options.network};
-    live.mirror().view({options.prefix}, 100);
+    live.view({options.prefix}, 100);
     live.waitForAll();
-    live.mirror().waitForValues(live.left());
+    live.waitForValues();
     std::vector<SavedSimplex> saved;
     std::vector<std::string> missing;
     std::size_t items = 0;

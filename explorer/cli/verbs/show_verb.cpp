@@ -161,7 +161,7 @@ void printCommands(const Shown& shown, const CommandTable& table) {
 Exit showSimplex(const ShowOptions& options) {
     checkPath(options.path);
     Live live{options.network};
-    live.mirror().view({options.path}, 100);
+    live.view({options.path}, 100);
     Shown shown{live.find(options.path), {}, 0};
     shown.image = live.values(shown.simplex);
     shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index).value_or(0);

@@ -114,7 +114,7 @@ public:
           signals_{signals},
           live_{options.network},
           view_{live_, options.prefix, options.rate && *options.rate > 5 ? 30U : 5U} {
-        live_.mirror().onEvent([this](const comms::AgentEvent& event) { arrivals_.push(event); });
+        live_.listen([this](const comms::AgentEvent& event) { arrivals_.push(event); });
     }
 
     Exit run() {

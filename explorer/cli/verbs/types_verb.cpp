@@ -21,6 +21,11 @@ namespace {
                                        : nearest)};
 }
 
+void refuseFileAsType(const std::string& type) {
+    if (!looksLikeFile(type)) return;
+    throw Failure{Usage, "'" + type + "' is a file, not a type; did you mean --file " + type + "?"};
+}
+
 // What follows --file is taken for files, a type's name too.
 void explainTypeAsFile(const TypesOptions& options, Report& report) {
     const std::string last = options.files.back().string();
@@ -54,6 +59,7 @@ void printTypes(const TypeModel& types, const TypesOptions& options) {
 // Without files: those of all agents on the network.
 Exit showTypes(const TypesOptions& options) {
     if (options.files.empty()) {
+        if (options.type) refuseFileAsType(*options.type);
         Live live{options.network};
         live.waitForAll();
         const std::string lacking = live.incomplete();

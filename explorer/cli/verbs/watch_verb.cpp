@@ -2,6 +2,7 @@
 #include "cortex/core/nearest_names.hpp"
 
 #include "live/live_values.hpp"
+#include "text/interrupts.hpp"
 #include "verbs/live_verbs.hpp"
 
 #include <algorithm>
@@ -150,13 +151,17 @@ std::int64_t nextMoment(const WatchOptions& options, Live& live, std::uint64_t& 
     if (options.rate > 0) {
         const std::int64_t step = 1'000'000'000 / options.rate;
         const std::int64_t moment = (now() / step + 1) * step;
-        const std::chrono::nanoseconds since{moment};
-        std::this_thread::sleep_until(std::chrono::system_clock::time_point{since});
+        for (std::int64_t left = moment - now(); left > 0; left = moment - now()) {
+            throwIfInterrupted();
+            std::this_thread::sleep_for(
+                std::min<std::chrono::nanoseconds>(std::chrono::nanoseconds{left}, interruptSlice));
+        }
         return moment;
     }
     const std::uint64_t before = images;
     while (images == before && std::cout) {
-        images = live.mirror().waitForImage(before, std::chrono::seconds{1});
+        throwIfInterrupted();
+        images = live.mirror().waitForImage(before, interruptSlice);
     }
     return now();
 }
@@ -192,8 +197,8 @@ Exit watchValues(const WatchOptions& options) {
         addItems(live, each, watched);
         paths.push_back(watched.back().simplex.info().path);
     }
-    live.mirror().view(paths, options.rate);
-    if (!live.mirror().waitForValues(live.left())) {
+    live.view(paths, options.rate);
+    if (!live.waitForValues()) {
         throw Failure{NotFound, "not all of the values came within " +
                                     toText(options.network.timeout) + " s"};
     }

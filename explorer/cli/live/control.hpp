@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/command.hpp"
+
+#include "live/live.hpp"
+
+#include <optional>
+#include <string>
+
+// Control of parts of the plant: who may command them.
+namespace cortex::explorer {
+
+// Takes the lease on a prefix from every agent with something at or below it, or from none. Throws
+// Failure that names the holder and says what to do.
+void takeControl(Live& live, const std::string& prefix);
+void releaseControl(Live& live, const std::string& prefix);
+void handOverControl(Live& live, const std::string& prefix, const std::string& to);
+
+// What must be controlled for a command: its simplex, or what its prefix names. None: it is free.
+std::optional<std::string> controlledBy(const FoundSimplex& simplex,
+                                        const CommandTable::Entry& command,
+                                        const comms::Mirror::Arguments& arguments);
+
+// Control for the time of one verb, unless the session has it anyway.
+class BriefControl {
+public:
+    BriefControl(Live& live, const std::string& agent, const std::string& prefix);
+    ~BriefControl();
+    BriefControl(const BriefControl&) = delete;
+    BriefControl& operator=(const BriefControl&) = delete;
+
+private:
+    Leases& leases_;
+    std::optional<Leases::Key> taken_;
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/comms/mirror.hpp"
+
+#include "live/leases.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace cortex::explorer {
+
+// A participant with its mirror and its leases. A verb has one for itself; those of a shell share
+// one, one after the other. Main thread.
+class Session {
+public:
+    static constexpr std::uint32_t slowRate = 5;  // of a view that nobody waits for
+    using Milliseconds = std::chrono::milliseconds;
+    using Listener = std::function<void(const comms::AgentEvent&)>;
+
+    explicit Session(const comms::NetworkOptions& options);
+
+    comms::Mirror& mirror() { return mirror_; }
+    Leases& leases() { return leases_; }
+    int domain() const { return domain_; }
+    // As the mirror does, but an interrupt ends it.
+    comms::CommandAnswer call(const std::string& path, const std::string& command,
+                              const comms::Mirror::Arguments& arguments, Milliseconds limit);
+    // As the mirror does; it replaces the last view.
+    void view(std::vector<std::string> prefixes, std::uint32_t rate);
+    // From now on agents may hand leases over to us: their own simplexes are always viewed.
+    void acceptOffers();
+    // The last 1,000 events of each agent that came since the first call, and then all others.
+    // It replaces the last listener; an empty one ends it.
+    void listen(Listener listener);
+
+private:
+    void take(const comms::AgentEvent& event);
+    void applyView();  // with the agents that are there now
+
+    int domain_;
+    std::mutex viewMutex_;
+    std::vector<std::string> wanted_, viewed_;
+    std::uint32_t rate_ = slowRate, viewedRate_ = slowRate;
+    bool viewsAgents_ = false;
+    std::mutex mutex_;  // of what follows, until the mirror
+    bool listens_ = false;
+    std::map<std::string, std::vector<comms::AgentEvent>> events_;
+    Listener listener_;
+    comms::Mirror mirror_;  // its thread calls take()
+    Leases leases_;         // ends first, and releases what it holds
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Control of the plant from the command line: `--take` and `leases`.
+#include "cli/controlled_agent.hpp"
+#include "cli/on_terminal.hpp"
+
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using nlohmann::json;
+const std::string longWay = "pose=1e5 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0";
+
+using Words = std::vector<std::string>;
+
+TEST_F(CortexControl, TakeCommandsWhereControlIsRequiredAndReleasesItAtTheEnd) {
+    const Outcome without = live({"call", "/drive", "startup"});
+    EXPECT_EQ(without.exit, 1);
+    EXPECT_TRUE(contains(without.output, "control is required")) << without.output;
+
+    EXPECT_TRUE(contains(without.errors, "--take")) << without.errors;
+
+    EXPECT_EQ(live({"set", "/drive", "naturalFrequency=8", "--take"}).exit, 0);
+    EXPECT_EQ(live({"call", "/drive", "startup", "--take"}).exit, 0);
+    EXPECT_EQ(live({"call", "/mixer", "startup", "--take"}).exit, 0) << "of everything";
+    EXPECT_EQ(live({"call", "/drive", "startup", "--take"}).exit, 1) << "it is Active already";
+
+    EXPECT_TRUE(leases().empty()) << leases();
+    EXPECT_FALSE(hasEvent("no longer has control")) << "released, not lost";
+}
+
+TEST_F(CortexControl, RestoreTakesWhatItChanges) {
+    const std::string saved = (folder.path() / "saved.xml").string();
+    ASSERT_EQ(live({"save", saved}).exit, 0);
+    ASSERT_EQ(live({"set", "/drive", "naturalFrequency=8", "--take"}).exit, 0);
+
+    EXPECT_EQ(live({"restore", saved}).exit, 1);
+    const json restored = liveJson({"restore", saved, "--take"}, "restore");
+
+    EXPECT_EQ(restored["results"][0]["outcome"], "Done") << restored;
+    EXPECT_TRUE(leases().empty()) << leases();
+}
+
+TEST_F(CortexControl, ARefusalNamesTheHolderItsHostAndSinceWhen) {
+    Holder holder{"/drive"};
+
+    const json shown = leases();
+    ASSERT_EQ(shown.size(), 1U) << shown;
+    EXPECT_EQ(shown[0]["holder"], holder.name());
+    EXPECT_EQ(shown[0]["prefix"], "/drive");
+    EXPECT_EQ(shown[0]["mine"], false);
+    const std::string since = shown[0]["since"], host = shown[0]["host"];
+    for (const Words& words : {Words{"set", "/drive", "naturalFrequency=8", "--take"},
+                               Words{"call", "/mixer", "startup", "prefix=/", "--take"}}) {
+        const Outcome refused = live(words);
+        EXPECT_EQ(refused.exit, 1) << refused.output;
+        EXPECT_TRUE(contains(refused.errors, holder.name() + " on host " + host +
+                                                 " holds /drive of agent mixer since " +
+                                                 since.substr(0, 16)))
+            << refused.errors;
+        EXPECT_TRUE(contains(refused.errors, "must release it or hand it over")) << refused.errors;
+    }
+    EXPECT_EQ(live({"call", "/controller", "startup", "--take"}).exit, 0) << "free beside it";
+    EXPECT_TRUE(contains(live({"leases"}).output, holder.name()));
+}
+
+TEST_F(CortexControl, ShutdownNeedsNoLease) {
+    ASSERT_EQ(live({"call", "/drive", "startup", "--take"}).exit, 0);
+    Holder holder{"/"};
+
+    const Outcome outcome = live({"call", "/drive", "shutdown", "--take"});
+
+    EXPECT_EQ(outcome.exit, 0) << outcome.errors;
+}
+
+// A move that lasts minutes.
+TEST_F(CortexControl, AnInterruptReleasesControl) {
+    ASSERT_EQ(live({"call", "/mixer", "startup", "--take"}).exit, 0);
+    ASSERT_EQ(live({"set", "/controller", longWay, "--take"}).exit, 0);
+    for (const int signal : {SIGINT, SIGTERM}) {
+        OnTerminal call{cortexCommand(
+            {"call", "/controller", "moveTo", "speedShare=0.01", "--take", "--timeout", "100"})};
+        ASSERT_TRUE(leasesShow("/controller")) << call.output();
+
+        call.signal(signal);
+
+        EXPECT_FALSE(call.shows("Done"));
+        EXPECT_EQ(call.exit(), -signal) << "as without --take";
+        EXPECT_TRUE(contains(call.output(), "may go on without us")) << call.output();
+        EXPECT_TRUE(leases().empty()) << leases();
+    }
+    EXPECT_FALSE(hasEvent("no longer has control")) << "released, not lost";
+}
+
+TEST_F(CortexControl, ALeaseEndsWithAHolderThatWasKilled) {
+    ASSERT_EQ(live({"call", "/mixer", "startup", "--take"}).exit, 0);
+    ASSERT_EQ(live({"set", "/controller", longWay, "--take"}).exit, 0);
+    OnTerminal call{cortexCommand(
+        {"call", "/controller", "moveTo", "speedShare=0.01", "--take", "--timeout", "100"})};
+    ASSERT_TRUE(leasesShow("/controller")) << call.output();
+
+    call.signal(SIGKILL);
+
+    EXPECT_TRUE(becomesTrue([&] { return hasEvent("no longer has control of /controller"); }));
+    EXPECT_TRUE(leases().empty());
+}
+
+}  // namespace
+}  // namespace cortex::test

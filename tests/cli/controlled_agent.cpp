@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/controlled_agent.hpp"
+
+#include <chrono>
+
+namespace cortex::test {
+namespace {
+
+comms::NetworkOptions ownNetwork() {
+    comms::NetworkOptions options;
+    options.domain = std::stoi(domain);
+    options.interfaces = {"127.0.0.1"};
+    return options;
+}
+
+void replace(std::string& text, const std::string& old, const std::string& with) {
+    const std::size_t place = text.find(old);
+    if (place == std::string::npos) throw std::runtime_error{"no '" + old + "' in the system"};
+    text.replace(place, old.size(), with);
+}
+
+}  // namespace
+
+bool becomesTrue(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > end) return false;
+    }
+    return true;
+}
+
+std::vector<std::string> cortexCommand(const std::vector<std::string>& arguments) {
+    return std::vector<std::string>{CORTEX_BINARY_DIR "/bin/cortex"} + arguments + network;
+}
+
+nlohmann::json leases() { return liveJson({"leases"}, "leases"); }
+
+bool leasesShow(const std::string& prefix) {
+    return becomesTrue([&] {
+        const nlohmann::json shown = leases();
+        return shown.size() == 1 && shown[0]["prefix"] == prefix;
+    });
+}
+
+bool hasEvent(const std::string& text) { return contains(live({"events"}).output, text); }
+
+std::int64_t cycleOfAgent() { return liveJson({"agents"}, "agents")[0]["cycle"]; }
+
+Holder::Holder(const std::string& prefix) : prefix_{prefix}, mirror_{"desk", ownNetwork()} {
+    mirror_.waitForOwner("/mixer", std::chrono::seconds{20});
+    const comms::CommandAnswer answer = ask("takeControl");
+    EXPECT_TRUE(answer.done()) << answer.text();
+    thread_ = std::thread{[this] {
+        std::unique_lock lock{mutex_};
+        while (!changed_.wait_for(lock, std::chrono::milliseconds{300},
+                                  [this] { return stopping_; })) {
+            ask("renewControl");
+        }
+    }};
+}
+
+Holder::~Holder() {
+    {
+        const std::lock_guard lock{mutex_};
+        stopping_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+}
+
+comms::CommandAnswer Holder::ask(const std::string& command, const std::string& to) {
+    comms::Mirror::Arguments arguments{{"prefix", prefix_}};
+    if (!to.empty()) arguments["to"] = std::vector<std::string>{to};
+    return mirror_.call("/mixer", command, arguments);
+}
+
+CortexControl::CortexControl() {
+    const Outcome made = cortex({"new-system", "mixer"});
+    std::string system = made.output;
+    replace(system, "<cluster name=\"mixer\"", "<cluster name=\"mixer\" control=\"required\"");
+    replace(system, "\"HoldAxisController\"", "\"AxisPoseController\"");
+    file = folder.write("mixer.xml", system).string();
+    start();
+}
+
+void CortexControl::start() { agent.emplace(agentCommand(file)); }
+
+}  // namespace cortex::test
