@@ -4,18 +4,20 @@ _cortex() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
     local verb=${COMP_WORDS[1]} options i
     local network="--domain --interface --peer --discovery-server --security --timeout --json --help"
-    local verbs="agents list show watch call set events top save restore doctor validate diff types graph new-type new-system"
-    verbs+=" security"
+    local verbs="agents list show watch call set leases shell events top save restore doctor validate diff"
+    verbs+=" types graph new-type new-system security"
     COMPREPLY=()
     if ((COMP_CWORD == 1)); then
         mapfile -t COMPREPLY < <(compgen -W "$verbs --help --version" -- "$word")
         return
     fi
     case $verb in
-        agents | list | show | call | set | doctor) options=$network ;;
+        agents | list | show | leases | doctor) options=$network ;;
+        call | set) options="--take $network" ;;
+        shell) options="--keep-going ${network/--json /}" ;;
         top) options="--rate --seconds --once --until-gone $network" ;;
         save) options="--force $network" ;;
-        restore) options="--dry-run $network" ;;
+        restore) options="--dry-run --take $network" ;;
         watch) options="--rate --count --csv $network" ;;
         events) options="--follow --severity --csv $network" ;;
         validate | diff) options="--json --help" ;;
@@ -43,6 +45,11 @@ _cortex() {
     fi
     if [[ $verb == save && $COMP_CWORD -gt 2 ]]; then
         _cortex_live "$@"
+        return
+    fi
+    if [[ $verb == shell ]]; then
+        compopt -o filenames 2>/dev/null
+        mapfile -t COMPREPLY < <(compgen -f -- "$word")
         return
     fi
     # Names of types, from the agents that are heard, the files on the line or the installation's.

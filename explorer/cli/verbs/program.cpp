@@ -7,6 +7,7 @@
 #include "verbs/file_registration.hpp"
 #include "verbs/live_registration.hpp"
 #include "verbs/security_registration.hpp"
+#include "verbs/shell_verb.hpp"
 
 #include <algorithm>
 #include <iostream>
@@ -87,6 +88,7 @@ Files are looked for as given, then in $CORTEX_PATH, then in the installed share
     addFileVerbs(verbs);
     addLiveVerbs(verbs);
     addSecurityVerbs(app_, json_, run_);
+    if (!verbs.session()) addShell(verbs);
     if (addMore) addMore(verbs);
 }
 

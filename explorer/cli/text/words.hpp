@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cortex::explorer {
+
+// The words of a line: with blanks between them, '…' and "…" around blanks, \ before one character,
+// and # in front of a remark. None: a quote does not end.
+std::optional<std::vector<std::string>> splitWords(const std::string& line);
+
+}  // namespace cortex::explorer

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "verbs/verb_registration.hpp"
+
+namespace cortex::explorer {
+
+// What a shell has beyond the verbs: take, release, handover, help, quit.
+void addShellCommands(Verbs& verbs, bool& leaves);
+
+}  // namespace cortex::explorer

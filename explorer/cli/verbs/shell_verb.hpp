@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "live/live.hpp"
+#include "text/output.hpp"
+#include "verbs/verb_registration.hpp"
+
+#include <string>
+
+namespace cortex::explorer {
+
+struct ShellOptions {
+    NetworkArguments network;
+    std::string file;  // "": what is typed, or standard input
+    bool keepGoing = false;
+};
+// The verbs in one process, with one participant, until the end of its lines.
+Exit runShell(const ShellOptions& options);
+
+void addShell(Verbs& verbs);
+
+}  // namespace cortex::explorer

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// `cortex shell`: of files and pipes, and as a person uses it on a terminal.
+#include "cli/controlled_agent.hpp"
+#include "cli/on_terminal.hpp"
+
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using nlohmann::json;
+using Words = std::vector<std::string>;
+
+struct CortexShell : CortexControl {
+    Outcome runsFile(const std::string& lines, const Words& options = {}) {
+        return cortex(Words{"shell", folder.write("lines.txt", lines).string()} + options +
+                      network);
+    }
+};
+
+// A shell on a terminal of its own.
+struct TypedShell : OnTerminal {
+    explicit TypedShell(const ModelFolder& folder)
+        : OnTerminal{Words{"/usr/bin/env", "HOME=" + folder.path().string()} +
+                     cortexCommand({"shell"})} {
+        EXPECT_TRUE(shows("cortex> ")) << output();
+        const std::size_t begin = output().find("you are ") + 8;
+        name = output().substr(begin, output().find(' ', begin) - begin);
+    }
+    // Types a line and waits for what it prints, or for the prompt that follows.
+    void run(const std::string& line, const std::string& expected) {
+        mark();
+        type(line + "\r");
+        EXPECT_TRUE(shows(expected)) << output();
+        const bool prompt = expected.starts_with("cortex");
+        EXPECT_TRUE(prompt || shows("> ")) << output();
+    }
+
+    std::string name;
+};
+
+TEST_F(CortexShell, RunsTheLinesOfAFileWithOneParticipant) {
+    const Outcome outcome = runsFile(
+        "# in the morning\n\n"
+        "take /drive --timeout 20\n"
+        "set /drive naturalFrequency=8  # slowly\n"
+        "cortex call /drive startup\n"
+        "list '/drive'\n"
+        "show /drive\n"
+        "watch /drive.state --count 1\n"
+        "events /drive\n"
+        "events /drive\n"
+        "agents\n"
+        "graph\n"
+        "types SimulatedAxis\n"
+        "leases\n"
+        "doctor\n");
+
+    EXPECT_TRUE(contains(outcome.output, "you control /drive")) << outcome.output;
+    EXPECT_TRUE(contains(outcome.output, "SimulatedAxis  active  mixer  Active  good"))
+        << outcome.output << outcome.errors;
+    const auto first = outcome.output.find("Standby -> StartingUp");
+    EXPECT_NE(outcome.output.find("Standby -> StartingUp", first + 1), std::string::npos)
+        << "events of the past, twice";
+    EXPECT_TRUE(contains(outcome.output, "  you\n")) << outcome.output;
+    EXPECT_TRUE(contains(outcome.output, "/drive.state  Active")) << outcome.output;
+    EXPECT_TRUE(contains(outcome.output, "warnings")) << "doctor" << outcome.output;
+    EXPECT_TRUE(leases().empty()) << "released at the end";
+    EXPECT_FALSE(hasEvent("no longer has control"));
+}
+
+TEST_F(CortexShell, StopsAtTheFirstLineThatFailsUnlessToldToGoOn) {
+    const std::string lines = "list --timeout 20\nshow /drvie\ncall /drive startup\nlist\n";
+
+    const Outcome stopped = runsFile(lines);
+    EXPECT_EQ(stopped.exit, 3);
+    EXPECT_TRUE(contains(stopped.errors, "lines.txt:2: 'show /drvie' ended with exit code 3"))
+        << stopped.errors;
+    EXPECT_FALSE(contains(stopped.errors, "lines.txt:3")) << stopped.errors;
+
+    const Outcome all = runsFile(lines, {"--keep-going"});
+    EXPECT_EQ(all.exit, 3) << "of the first that failed";
+    EXPECT_TRUE(contains(all.errors, "lines.txt:3: 'call /drive startup' ended with exit code 1"))
+        << all.errors;
+    EXPECT_EQ(runsFile("list --timeout 20\nquit\nnonsense\n").exit, 0);
+    EXPECT_EQ(runsFile("set /drive 'a\n").exit, 2);
+    EXPECT_EQ(cortex({"shell", "no-such-file"}).exit, 3);
+}
+
+TEST_F(CortexShell, RunsLinesOfAPipe) {
+    std::string command = "printf 'list /drive --timeout 20\\nnonsense\\n' | exec \"$0\" shell";
+    for (const std::string& each : network) command += " " + each;
+
+    const Outcome outcome = runProgram("sh", {"-c", command, CORTEX_BINARY_DIR "/bin/cortex"});
+
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(contains(outcome.output, "SimulatedAxis")) << outcome.output;
+    EXPECT_TRUE(contains(outcome.errors, "<stdin>:2: 'nonsense'")) << outcome.errors;
+}
+
+TEST_F(CortexShell, ControlIsKeptWhileAPersonThinksAndReleasedAtTheEnd) {
+    TypedShell shell{folder};
+    shell.run("take /drive", "cortex [/drive]");
+    ASSERT_TRUE(leasesShow("/drive"));
+    const std::int64_t taken = cycleOfAgent();
+    ASSERT_TRUE(becomesTrue([&] { return cycleOfAgent() > taken + 3000; })) << "3 s";
+
+    shell.run("call /drive startup", "Done");
+    shell.run("leases", "  you");
+    shell.run("release /drive", "cortex> ");
+    EXPECT_TRUE(leases().empty());
+    shell.run("release /drive", "you do not hold /drive; you hold nothing");
+    shell.run("take /axis", "cortex [/axis]");
+    shell.type("\x04");
+
+    EXPECT_EQ(shell.exit(), 0) << shell.output();
+    EXPECT_TRUE(leases().empty());
+    EXPECT_FALSE(hasEvent("no longer has control"));
+}
+
+TEST_F(CortexShell, AnInterruptEndsAVerbAndClearsALineAndLeavesTheShell) {
+    TypedShell shell{folder};
+    shell.mark();
+    shell.type("watch /mixer.commandCount\r");
+    ASSERT_TRUE(shell.shows("Z  /mixer.commandCount")) << shell.output();
+
+    shell.type("\x03");
+    EXPECT_TRUE(shell.shows("interrupted")) << shell.output();
+    EXPECT_TRUE(shell.shows("cortex> ")) << shell.output();
+    shell.mark();
+    shell.type("nonsense\x03");
+    EXPECT_TRUE(shell.shows("\n")) << shell.output();
+    shell.run("list /drive", "SimulatedAxis");
+    EXPECT_FALSE(contains(shell.output(), "there is no verb")) << shell.output();
+    shell.mark();
+    shell.type("top\r");
+    EXPECT_TRUE(shell.shows("\033[?1049h")) << shell.output();
+    shell.type("q");
+    EXPECT_TRUE(shell.shows("\033[?1049l")) << shell.output();
+    shell.run("list /drive", "SimulatedAxis");
+    shell.type("quit\r");
+
+    EXPECT_EQ(shell.exit(), 0);
+}
+
+TEST_F(CortexShell, ARequestToEndReleasesControl) {
+    TypedShell shell{folder};
+    shell.run("take /drive", "cortex [/drive]");
+
+    shell.signal(SIGTERM);
+
+    EXPECT_FALSE(shell.shows("never"));
+    EXPECT_EQ(shell.exit(), -SIGTERM);
+    EXPECT_TRUE(leases().empty());
+    EXPECT_FALSE(hasEvent("no longer has control"));
+}
+
+TEST_F(CortexShell, CompletesVerbsPathsCommandsAndParameters) {
+    TypedShell shell{folder};
+    shell.run("list", "/mixer");
+    // The terminal gets what is added to the line.
+    const auto completes = [&](const std::string& typed, const std::string& shown) {
+        shell.mark();
+        shell.type(typed + "\t");
+        EXPECT_TRUE(shell.shows(shown)) << typed << shell.output();
+        shell.type("\x03");
+        EXPECT_TRUE(shell.shows("> ")) << shell.output();
+    };
+
+    completes("handov", "er ");
+    completes("show /dri", "ve ");
+    completes("watch /drive.naturalF", "requency ");
+    completes("call /controller mov", "eTo ");
+    completes("call /controller moveTo sp", "eedShare=");
+    completes("set /drive da", "mpingRatio=");
+    completes("call /drive --ti", "meout ");
+    shell.mark();
+    shell.type("show /axis/\t");
+    EXPECT_TRUE(shell.shows("/axis/demanded")) << "several" << shell.output();
+    EXPECT_TRUE(shell.shows("/axis/observed")) << shell.output();
+}
+
+TEST_F(CortexShell, RemembersLinesAlsoOfTheLastShell) {
+    {
+        TypedShell shell{folder};
+        shell.run("list /drive", "SimulatedAxis");
+        shell.mark();
+        shell.type("\033[A\r");
+        EXPECT_TRUE(shell.shows("SimulatedAxis")) << shell.output();
+        shell.type("quit\r");
+        EXPECT_EQ(shell.exit(), 0);
+    }
+    TypedShell next{folder};
+    next.mark();
+    next.type("\033[A\033[A\r");
+    EXPECT_TRUE(next.shows("SimulatedAxis")) << next.output();
+}
+
+TEST_F(CortexShell, TellsAtThePromptThatALeaseWasLost) {
+    TypedShell shell{folder};
+    shell.run("take /drive", "cortex [/drive]");
+    shell.mark();
+
+    agent->end(SIGKILL);
+    EXPECT_TRUE(shell.shows("control of /drive of agent mixer was lost")) << shell.output();
+
+    start();
+    shell.run("take /drive --timeout 20", "cortex [/drive]");
+}
+
+TEST_F(CortexShell, HandsControlOverToAnotherShellThatKeepsIt) {
+    TypedShell one{folder}, other{folder};
+    one.run("take /drive", "cortex [/drive]");
+    other.run("take /", "on host");
+    other.mark();
+
+    one.run("handover /drive " + other.name, "cortex> ");
+
+    EXPECT_TRUE(other.shows("control of /drive of agent mixer is yours now")) << other.output();
+    const std::int64_t given = cycleOfAgent();
+    ASSERT_TRUE(becomesTrue([&] { return cycleOfAgent() > given + 3000; })) << "3 s";
+    const json shown = leases();
+    ASSERT_EQ(shown.size(), 1U) << shown;
+    EXPECT_EQ(shown[0]["holder"], other.name);
+    one.run("set /drive naturalFrequency=8", "is held by " + other.name);
+    other.run("set /drive naturalFrequency=8", "Done");
+}
+
+}  // namespace
+}  // namespace cortex::test
