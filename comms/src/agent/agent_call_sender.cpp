@@ -4,6 +4,7 @@
 #include "cortex/core/error.hpp"
 
 #include "security/security_identity.hpp"
+#include "wire/presence_extras.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -75,8 +76,17 @@ void AgentCallSender::send(const AgentCall& call, const Peers& peers, bool silen
                                                  : "its agent is not heard: it was not sent"));
     }
     try {
-        const CommandTarget target{peer->model(), tablesOf(owner), peer->model().presence()->cycle,
-                                   Moment{std::chrono::nanoseconds{peer->lastHeard}}, false};
+        const Presence& presence = *peer->model().presence();
+        const Moment heard{std::chrono::nanoseconds{peer->lastHeard}};
+        const CommandTarget target{
+            .model = peer->model(),
+            .tables = tablesOf(owner),
+            .cycle = presence.cycle,
+            .heard = heard,
+            .clock = timeIn(presence, clockOfAgent),
+            .clockHeard = heard,
+            .lost = false,
+        };
         const std::uint64_t number =
             sent_.send(target, pipe_.pathOf(call), pipe_.commandOf(call), pipe_.argumentsOf(call),
                        budget, std::chrono::steady_clock::now());

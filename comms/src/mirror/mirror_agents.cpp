@@ -19,7 +19,6 @@ constexpr std::uint16_t major = 1;
 constexpr std::size_t mostAgents = 10'000;
 constexpr std::chrono::seconds forgottenAfter{61};
 constexpr std::size_t longestReason = 200;
-constexpr std::uint64_t latestClock = std::uint64_t{1} << 61U;  // ns; no sum with it overflows
 
 // Visits those of an agent's own simplexes that a view shows.
 template <class Visit>
@@ -54,14 +53,14 @@ std::chrono::nanoseconds MirrorAgent::patience() const {
 CommandTarget MirrorAgent::target() {
     if (!structure) throw Error("agent " + model.agent() + " has not sent its structure yet");
     if (!commands) commands = std::make_shared<CommandTables>(structure);
-    return {model, *commands, cycle, heard, lost};
+    return {model, *commands, cycle, heard, clock, clockHeard, lost};
 }
 
 // As of the last presence, and the time since then.
 std::string MirrorAgent::standstillText(Moment now) const {
     const std::string why = present() && !lost ? textIn(*model.presence(), standstill) : "";
     if (why.empty()) return {};
-    const std::uint64_t stood = std::min(numberIn(*model.presence(), timeStood), latestClock);
+    const std::int64_t stood = timeIn(*model.presence(), timeStood);
     const double seconds =
         static_cast<double>(stood) * 1e-9 + std::chrono::duration<double>(now - clockHeard).count();
     return why.substr(0, longestReason) + " for " + toText(std::round(seconds * 10) / 10) + " s";
@@ -172,11 +171,9 @@ void MirrorAgents::take(const Presence& presence, Moment now) {
     agent->heard = now;
     agent->lost = agent->missed = false;
     agent->cycle = std::max(agent->cycle, presence.cycle);
-    agent->clock =
-        static_cast<std::int64_t>(std::min(numberIn(presence, clockOfAgent), latestClock));
+    agent->clock = timeIn(presence, clockOfAgent);
     agent->clockHeard = now;
-    const auto age =
-        static_cast<std::int64_t>(std::min(numberIn(presence, ageOfLoop), latestClock));
+    const auto age = timeIn(presence, ageOfLoop);
     agent->moved = now - std::chrono::nanoseconds{age};
 }
 

@@ -43,7 +43,7 @@ struct MirrorAgent {
     bool settled() const { return lost || foreign() || (present() && model.complete()); }
     std::chrono::nanoseconds patience() const;  // how long it may be silent
     AgentStatus status(Moment now) const;
-    CommandTarget target();  // throws Error where its structure has not come
+    CommandTarget target();                        // throws Error where its structure has not come
     std::string standstillText(Moment now) const;  // empty: its loop runs
 };
 

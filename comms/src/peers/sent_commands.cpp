@@ -34,7 +34,7 @@ std::int64_t unheardOf(const CommandTarget& agent, Moment now) {
 
 // By the agent's own clock, which goes on while its loop stands still. The cycle that runs now has
 // begun already, so it does not count.
-std::int64_t untilOf(const MirrorAgent& agent, std::chrono::nanoseconds budget, Moment now) {
+std::int64_t untilOf(const CommandTarget& agent, std::chrono::nanoseconds budget, Moment now) {
     if (agent.clock == 0) return 0;
     const std::int64_t period =
         std::clamp(agent.model.presence()->period, std::int64_t{0}, longestPeriod);

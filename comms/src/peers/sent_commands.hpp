@@ -22,6 +22,8 @@ struct CommandTarget {
     const CommandTables& tables;
     std::int64_t cycle;  // the newest that is known
     Moment heard;        // last
+    std::int64_t clock;  // its own, ns, when its last presence came; 0: it tells none
+    Moment clockHeard;
     bool lost;
 };
 

@@ -3,6 +3,7 @@
 
 #include "wire/messages.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <string>
@@ -38,6 +39,13 @@ std::uint64_t numberIn(const Message& message, std::string_view name) {
         std::from_chars(extra.value.data(), extra.value.data() + extra.value.size(), number);
     }
     return number;
+}
+
+// The same of a time in ns, so bounded that no sum with it overflows.
+template <class Message>
+std::int64_t timeIn(const Message& message, std::string_view name) {
+    constexpr std::uint64_t longest = std::uint64_t{1} << 61U;
+    return static_cast<std::int64_t>(std::min(numberIn(message, name), longest));
 }
 
 }  // namespace cortex::comms
