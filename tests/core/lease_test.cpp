@@ -126,6 +126,16 @@ TEST_F(Control, EightLeasesAreAllThatCanBeHeld) {
     EXPECT_EQ(shown("leasePrefix", 2), "");  // taking again is no second lease
 }
 
+TEST_F(Control, ARenewalIsAnEventOnlyIfItIsRefused) {
+    take("desk", "/army");
+    EXPECT_EQ(renew("desk", "/army").outcome, Outcome::Done);
+    EXPECT_TRUE(rig.hasEvent("takeControl"));
+    EXPECT_FALSE(rig.hasEvent("renewControl"));
+
+    EXPECT_EQ(renew("hall", "/army").reason, Reason::Authority);
+    EXPECT_TRUE(rig.hasEvent("renewControl"));
+}
+
 TEST_F(Control, IsLostTwoSecondsAfterTheLastRenewal) {
     take("desk", "/army");
     rig.step(150);

@@ -238,8 +238,9 @@ void Router::answer(std::uint32_t interface, const OutsideAnswer& answer) {
           EventText{"an answer to "} << answer.sender.nameText() << " was dropped: too many");
 }
 
-// "operator@desk: zero(speed=0.5): Done in 2 cycles"
+// "operator@desk: zero(speed=0.5): Done in 2 cycles". Renewals that succeed would drown the rest.
 void Router::report(const OutsideCommand& command, const AnswerHead& answer) {
+    if (answer.outcome == Outcome::Done && isRenewal(command)) return;
     EventText text{command.sender.nameText()};
     if (command.sender.host.front() != '\0') text << "@" << command.sender.host.data();
     text << ": ";

@@ -70,6 +70,7 @@ private:
     // router_control.cpp: who may, and life-cycle commands.
     void authorise(const OutsideCommand& command, Verdict& verdict) const;
     void setControlHandlers();
+    bool isRenewal(const OutsideCommand& command) const;
     template <Outcome (Router::*Method)(Call&)>
     void setControlHandler(std::string_view command);
     std::string_view argument(Call& call, std::string_view command, std::string_view name) const;
@@ -93,9 +94,10 @@ private:
     std::vector<std::byte> records_;
     std::vector<OutsideEntry*> free_, arrivals_, active_;
     std::vector<std::uint32_t> taskless_;
-    std::vector<const std::int64_t*> states_;  // the item `state` of each simplex, or null
-    std::vector<std::uint32_t> leaseMinded_;   // simplexes whose type minds losing control
-    std::vector<AnswerQueue> answers_;         // by interface
+    std::vector<const std::int64_t*> states_;     // the item `state` of each simplex, or null
+    std::uint32_t renewal_ = CommandTable::none;  // the agent's command renewControl
+    std::vector<std::uint32_t> leaseMinded_;      // simplexes whose type minds losing control
+    std::vector<AnswerQueue> answers_;            // by interface
     SenderTable senders_;
     LeaseTable leases_;
     LinkTable links_;

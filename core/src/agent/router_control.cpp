@@ -68,10 +68,16 @@ void Router::setControlHandlers() {
     setControlHandler<&Router::renewControl>("renewControl");
     setControlHandler<&Router::releaseControl>("releaseControl");
     const CommandTable& table = runtime_.commands(runtime_.agentSimplex());
+    renewal_ = table.find("renewControl");
     const std::uint32_t handOver = table.find("handOverControl");
     if (handOver != CommandTable::none && takesText(table.entries[handOver].request, "to")) {
         setControlHandler<&Router::handOverControl>("handOverControl");
     }
+}
+
+bool Router::isRenewal(const OutsideCommand& command) const {
+    return command.simplex == runtime_.agentSimplex() && command.command == renewal_ &&
+           renewal_ != CommandTable::none;
 }
 
 std::string_view Router::argument(Call& call, std::string_view command,
