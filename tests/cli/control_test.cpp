@@ -11,7 +11,9 @@ namespace cortex::test {
 namespace {
 
 using nlohmann::json;
-const std::string longWay = "pose=1e5 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0";
+const std::string others = " 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0";
+const std::string longWay = "pose=1e5" + others, shortWay = "pose=20" + others,
+                  startPose = "pose=0" + others;
 
 using Words = std::vector<std::string>;
 
@@ -92,6 +94,26 @@ TEST_F(CortexControl, AnInterruptReleasesControl) {
         EXPECT_TRUE(leases().empty()) << leases();
     }
     EXPECT_FALSE(hasEvent("no longer has control")) << "released, not lost";
+}
+
+// A move of some seconds.
+TEST_F(CortexControl, ProgressOfALongCommandIsShownOnStandardErrorWhileItRuns) {
+    ASSERT_EQ(live({"call", "/mixer", "startup", "--take"}).exit, 0);
+    ASSERT_EQ(live({"set", "/controller", shortWay, "--take"}).exit, 0);
+    const Words move{"call", "/controller", "moveTo", "speedShare=0.01", "--take"};
+
+    const Outcome lines = live(move);
+    EXPECT_EQ(lines.output, "Done\n");
+    EXPECT_TRUE(contains(lines.errors, "moveTo: ")) << lines.errors;
+    EXPECT_TRUE(lines.errors.ends_with(" %\n")) << lines.errors;
+    EXPECT_FALSE(contains(lines.errors, "\r")) << lines.errors;
+
+    ASSERT_EQ(live({"set", "/controller", startPose, "--take"}).exit, 0);
+    OnTerminal terminal{cortexCommand(move + Words{"--timeout", "20"})};
+    EXPECT_TRUE(terminal.shows("\r\033[KmoveTo: ")) << terminal.output();
+    EXPECT_TRUE(terminal.shows("\r\033[KDone")) << "on a line that is empty again";
+    EXPECT_EQ(terminal.exit(), 0);
+    EXPECT_EQ(live({"call", "/drive", "shutdown"}).errors, "") << "no long command";
 }
 
 TEST_F(CortexControl, ALeaseEndsWithAHolderThatWasKilled) {

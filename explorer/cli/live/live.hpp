@@ -57,8 +57,9 @@ public:
     // Everything that waits ends with the time to wait, or throws Interrupted.
     bool waitForValues();
     comms::CommandAnswer call(const std::string& path, const std::string& command,
-                              const comms::Mirror::Arguments& arguments) {
-        return session_->call(path, command, arguments, left());
+                              const comms::Mirror::Arguments& arguments,
+                              const std::function<void()>& meanwhile = {}) {
+        return session_->call(path, command, arguments, left(), meanwhile);
     }
     // Until everything of everybody is here; throws Failure if nobody is there.
     void waitForAll();

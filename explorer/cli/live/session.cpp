@@ -17,7 +17,8 @@ Session::Session(const comms::NetworkOptions& options)
     : domain_{options.domain}, mirror_{"cortex", options}, leases_{mirror_} {}
 
 comms::CommandAnswer Session::call(const std::string& path, const std::string& command,
-                                   const comms::Mirror::Arguments& arguments, Milliseconds limit) {
+                                   const comms::Mirror::Arguments& arguments, Milliseconds limit,
+                                   const std::function<void()>& meanwhile) {
     const auto end = std::chrono::steady_clock::now() + limit;
     const std::uint64_t number = mirror_.send(path, command, arguments, limit);
     comms::CommandAnswer answer;
@@ -25,6 +26,7 @@ comms::CommandAnswer Session::call(const std::string& path, const std::string& c
         const auto left = std::chrono::ceil<Milliseconds>(end - std::chrono::steady_clock::now());
         const Milliseconds wait = std::clamp(left, Milliseconds{0}, interruptSlice);
         if (mirror_.waitForAnswer(number, answer, wait)) return answer;
+        if (meanwhile) meanwhile();
         if (left > interruptSlice && Interrupts::signal() == 0) continue;
         mirror_.abandon(number);
         throwIfInterrupted("no answer has come to '" + command + "': it may go on without us");

@@ -28,9 +28,10 @@ public:
     comms::Mirror& mirror() { return mirror_; }
     Leases& leases() { return leases_; }
     int domain() const { return domain_; }
-    // As the mirror does, but an interrupt ends it.
+    // As the mirror does, but an interrupt ends it; `meanwhile` is called ten times a second.
     comms::CommandAnswer call(const std::string& path, const std::string& command,
-                              const comms::Mirror::Arguments& arguments, Milliseconds limit);
+                              const comms::Mirror::Arguments& arguments, Milliseconds limit,
+                              const std::function<void()>& meanwhile = {});
     // As the mirror does; it replaces the last view.
     void view(std::vector<std::string> prefixes, std::uint32_t rate);
     // From now on agents may hand leases over to us: their own simplexes are always viewed.

@@ -3,6 +3,7 @@
 
 #include "live/control.hpp"
 #include "live/live_values.hpp"
+#include "live/progress.hpp"
 #include "text/interrupts.hpp"
 #include "verbs/live_verbs.hpp"
 
@@ -76,7 +77,11 @@ Exit callCommand(const CallOptions& options) {
     const auto prefix = controlledBy(simplex, entry, arguments);
     if (options.take && prefix) control.emplace(live, simplex.agent, *prefix);
     const std::chrono::milliseconds left = live.left();
-    comms::CommandAnswer answer = live.call(options.path, options.command, arguments);
+    std::optional<Progress> progress;
+    progress.emplace(live, simplex, entry);
+    comms::CommandAnswer answer =
+        live.call(options.path, options.command, arguments, [&] { progress->look(); });
+    progress.reset();
     if (answer.outcome == Outcome::Unknown) {
         answer.why += " (finding the agent left " + std::to_string(left.count()) + " of the " +
                       std::to_string(live.timeout().count()) + " ms of --timeout)";
