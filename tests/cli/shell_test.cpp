@@ -109,6 +109,9 @@ TEST_F(CortexShell, ControlIsKeptWhileAPersonThinksAndReleasedAtTheEnd) {
 
     shell.run("call /drive startup", "Done");
     shell.run("leases", "  you");
+    shell.run("set /controller mode=1 --take", "has no 'mode'");
+    shell.run("call /controller startup --take", "cortex [/drive]");
+    EXPECT_EQ(leases().size(), 1U) << "for the verb alone";
     shell.run("release /drive", "cortex> ");
     EXPECT_TRUE(leases().empty());
     shell.run("release /drive", "you do not hold /drive; you hold nothing");

@@ -11,6 +11,7 @@
 #include "verbs/shell_completion.hpp"
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -58,15 +59,14 @@ public:
         std::cout << "cortex shell: you are " << session_->mirror().name() << " in domain "
                   << session_->domain() << "; 'help' lists the verbs, Ctrl-D leaves" << std::endl;
         for (std::string line; !leaves_;) {
+            leaveIfAsked();
             Interrupts::forget();
             printNews();
             const auto ended = editor.read(line);
-            leaveIfAsked();
             if (ended == LineEditor::Ended::ByEnd) break;
-            if (ended == LineEditor::Ended::ByInterrupt) continue;
-            if (run(line) == Yes) continue;
-            leaveIfAsked();
+            if (ended == LineEditor::Ended::ByReturn) run(line);
         }
+        leaveIfAsked();
         return Yes;
     }
 
@@ -133,7 +133,8 @@ Exit runShell(const ShellOptions& options) {
     std::ifstream file;
     if (!options.file.empty()) {
         file.open(options.file);
-        if (!file) throw Failure{NotFound, "there is no file '" + options.file + "' to run"};
+        if (!file || std::filesystem::is_directory(options.file))
+            throw Failure{NotFound, "there is no file '" + options.file + "' to run"};
     }
     const Interrupts interrupts;
     const std::shared_ptr<Session> session = makeQuietSession(options.network);
