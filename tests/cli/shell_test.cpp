@@ -86,7 +86,23 @@ TEST_F(CortexShell, StopsAtTheFirstLineThatFailsUnlessToldToGoOn) {
         << all.errors;
     EXPECT_EQ(runsFile("list --timeout 20\nquit\nnonsense\n").exit, 0);
     EXPECT_EQ(runsFile("set /drive 'a\n").exit, 2);
+    EXPECT_EQ(cortex({"shell", folder.path().string()}).exit, 3) << "no file";
     EXPECT_EQ(cortex({"shell", "no-such-file"}).exit, 3);
+}
+
+TEST_F(CortexShell, HelpListsAndExplainsItsVerbs) {
+    const Outcome outcome = runsFile("help\nhelp handover\n");
+    EXPECT_EQ(outcome.exit, 0) << outcome.errors;
+    for (const char* verb : {"list", "watch", "take", "release", "handover", "quit"}) {
+        EXPECT_TRUE(contains(outcome.output, std::string{"\n  "} + verb + " ")) << verb;
+    }
+    EXPECT_FALSE(contains(outcome.output, "\n  shell ")) << "no shell in a shell";
+    EXPECT_TRUE(contains(outcome.output, "PREFIX")) << outcome.output;
+
+    const Outcome wrong = runsFile("help wach\n");
+    EXPECT_EQ(wrong.exit, 2);
+    EXPECT_TRUE(contains(wrong.errors, "nearest of: watch")) << wrong.errors;
+    EXPECT_TRUE(contains(runsFile("tak /\n").errors, "nearest of: take"));
 }
 
 TEST_F(CortexShell, RunsLinesOfAPipe) {

@@ -53,7 +53,8 @@ CLI::App* addControl(Verbs& verbs, const char* name, const char* description, co
 
 Exit printHelp(const CLI::App& app, const std::string& name) {
     if (name.empty()) {
-        std::cout << app.help();
+        // App::help() would explain the verb of this line, `help`.
+        std::cout << app.get_formatter()->make_help(&app, "cortex", CLI::AppFormatMode::Normal);
         return Yes;
     }
     std::vector<std::string> names;
