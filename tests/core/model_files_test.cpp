@@ -101,6 +101,7 @@ TEST(ModelFiles, ChecksTheFormOfClusterAttributes) {
                                   "catchUpCycles='-1'",
                                   "warnDuty='-1'",
                                   "watchdogPeriods='0'",
+                                  "triggerTimeout='0'",
                                   "control='maybe'",
                                   "imageReaders='many'"}) {
         EXPECT_TRUE(finds(readOne("<system name='s'>\n<cluster name='c' " + std::string{attribute} +

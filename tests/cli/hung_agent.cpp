@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/hung_agent.hpp"
+
+#include "cortex/comms/dds_interface.hpp"
+#include "cortex/core/agent.hpp"
+
+#include "support/probe.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace cortex::test {
+
+struct HungAgent::Implementation {
+    ProbeCluster cluster{{}, "robot"};
+    std::atomic<bool> hangs{false};
+
+    bool standsStill() { return cluster.cluster->agent().standstill().get().has_value(); }
+};
+
+HungAgent::HungAgent(int domain) : implementation_{std::make_unique<Implementation>()} {
+    Implementation& self = *implementation_;
+    self.cluster.trigger = nullptr;
+    self.cluster.cluster->setTriggerSource<cs::InternalClock>(std::chrono::milliseconds{5});
+    comms::NetworkOptions options;
+    options.domain = domain;
+    options.interfaces = {"127.0.0.1"};
+    self.cluster.cluster->addInterface<comms::DdsInterface>(options);
+    self.cluster.probe("/ctl").onStandby = [&self](Probe&, const Tick&) {
+        while (self.hangs.load()) std::this_thread::yield();
+    };
+    self.cluster.start();
+}
+
+HungAgent::~HungAgent() { implementation_->hangs.store(false); }
+
+void HungAgent::hang() {
+    implementation_->hangs.store(true);
+    while (!implementation_->standsStill()) std::this_thread::yield();
+}
+
+void HungAgent::release() {
+    implementation_->hangs.store(false);
+    while (implementation_->standsStill()) std::this_thread::yield();
+}
+
+}  // namespace cortex::test

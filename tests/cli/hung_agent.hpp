@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+namespace cortex::test {
+
+// The agent "robot" in this process, on loopback, with one task, /ctl, that does not return from
+// its hook while it is told so.
+class HungAgent {
+public:
+    explicit HungAgent(int domain);
+    ~HungAgent();
+
+    void hang();     // returns when its watchdog has seen it
+    void release();  // returns when its watchdog has seen it
+
+private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace cortex::test

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the tools say of a loop that hangs while they begin to look.
+#include "cli/hung_agent.hpp"
+#include "cli/json_schema.hpp"
+#include "cli/live_agent.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using nlohmann::json;
+
+TEST(LiveStandstill, IsShownByEveryToolWithTheHookAndTheTime) {
+    HungAgent robot{std::stoi(domain)};
+    robot.hang();
+    const std::string where = "hangs in /ctl.stateStandby for ";
+    const json agents = liveJson({"agents"}, "agents");
+    ASSERT_EQ(agents.size(), 1U);
+    EXPECT_EQ(agents[0]["state"], "standstill");
+    EXPECT_TRUE(std::string{agents[0]["standstill"]}.starts_with(where)) << agents;
+    EXPECT_GE(agents[0]["age_ms"], 100) << "that of its loop";
+
+    const Outcome list = live({"list"});
+    EXPECT_TRUE(contains(list.errors, "robot " + where)) << list.errors;
+    EXPECT_TRUE(contains(list.output, "stale")) << list.output;
+    EXPECT_FALSE(contains(list.output, "good")) << list.output;
+
+    const json shown = liveJson({"show", "/ctl"}, "show");
+    EXPECT_EQ(shown["quality"], "stale");
+    EXPECT_GE(shown["age_ms"], 100);
+    EXPECT_TRUE(contains(live({"show", "/ctl"}).output, "robot, " + where));
+
+    const json top = liveJson({"top", "--once"}, "top");
+    EXPECT_EQ(top["agents"][0]["state"], "standstill");
+    EXPECT_EQ(top["tasks"][0]["path"], "/ctl");
+    const Outcome screen = live({"top", "--once"});
+    EXPECT_TRUE(contains(screen.output, "robot " + where)) << screen.output;
+    EXPECT_TRUE(contains(screen.output, "tasks us  /ctl ")) << screen.output;
+
+    EXPECT_TRUE(contains(live({"doctor"}).output, "the loop of robot on ")) << "an error";
+}
+
+TEST(LiveStandstill, IsOverWhenTheHookReturns) {
+    HungAgent robot{std::stoi(domain)};
+    robot.hang();
+    robot.release();
+
+    EXPECT_EQ(liveJson({"agents"}, "agents")[0]["state"], "running");
+    EXPECT_EQ(live({"list"}).errors, "");
+}
+
+}  // namespace
+}  // namespace cortex::test
