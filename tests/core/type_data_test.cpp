@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/agreement.hpp"
+
 #include "core/xml_model.hpp"
 
 #include <gtest/gtest.h>
@@ -207,6 +209,33 @@ TEST(Narrowing, NeverChangesTheShape) {
                       "A", 3));
     EXPECT_TRUE(
         isValid(narrowed("kind='float' unit='m/s'", "kind='float' length='1' unit='m.s-1'")));
+}
+
+TEST(DataItem, IsRetainedWhereItSaysSoAndKeepsItsHashWhereItDoesNot) {
+    const XmlModel plain = item("kind='int'"), denied = item("kind='int' retain='false'"),
+                   retained = item("kind='int' retain='true'");
+    ASSERT_TRUE(isValid(retained));
+    EXPECT_TRUE(retained.data("A", "x").retain);
+    EXPECT_FALSE(plain.data("A", "x").retain);
+    EXPECT_EQ(typeHash(plain.type("A")), typeHash(denied.type("A")));
+    EXPECT_NE(typeHash(plain.type("A")), typeHash(retained.type("A")));
+}
+
+TEST(DataItem, IsNotRetainedWhereARestartMustNotBringItBack) {
+    for (const char* other : {"kind='int' constant='true'", "kind='int' measured='true'",
+                              "kind='int' safe='0'", "kind='string' length='2'"}) {
+        EXPECT_TRUE(
+            finds(item("retain='true' " + std::string{other}), "retain", "A", 2, "remove retain"))
+            << other;
+    }
+}
+
+TEST(Narrowing, AddsRetainAndNeverTakesItBack) {
+    EXPECT_TRUE(narrowed("kind='int'", "retain='true'").data("A", "x").retain);
+    EXPECT_TRUE(narrowed("kind='int' retain='true'", "min='0'").data("A", "x").retain);
+    EXPECT_TRUE(finds(narrowed("kind='int' retain='true'", "retain='false'"), "flag-changed", "A",
+                      3, "leave retain out"));
+    EXPECT_TRUE(joined("kind='int'", "kind='int' retain='true'").data("A", "x").retain);
 }
 
 TEST(Narrowing, NeverWidens) {

@@ -116,6 +116,7 @@ constexpr std::array dataAttributes{
     AttributeReader<D>{"settable", statesInto<&D::settable>},
     AttributeReader<D>{"constant", boolInto<&D::constant>},
     AttributeReader<D>{"measured", boolInto<&D::measured>},
+    AttributeReader<D>{"retain", boolInto<&D::retain>},
 };
 constexpr std::size_t parameterAttributes = 13;
 

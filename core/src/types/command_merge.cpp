@@ -152,11 +152,12 @@ void checkNames(const Command& own, const ItemContext& context) {
                 parameter.error(finding::duplicateParameter, "is given twice", "keep one of them");
             }
             const bool other = each.safe.kind != Safe::Kind::None || !each.settable.empty() ||
-                               each.constant || each.measured || each.rate ||
+                               each.constant || each.measured || each.retain || each.rate ||
                                each.onLimit != OnLimit::Clamp;
             if (other) {
-                parameter.error(finding::parameterAttribute, "has an attribute of data items",
-                                "remove safe, settable, constant, measured, rate and onLimit");
+                parameter.error(
+                    finding::parameterAttribute, "has an attribute of data items",
+                    "remove safe, settable, constant, measured, retain, rate and onLimit");
             }
         }
     }

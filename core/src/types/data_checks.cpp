@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/data.hpp"
 #include "cortex/core/findings.hpp"
+#include "cortex/core/labelled_value.hpp"
 
 #include "base/bounds.hpp"
 #include "base/text.hpp"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 namespace cortex {
 
@@ -84,19 +86,6 @@ std::string elementError(const DataItem& item, const T& element) {
     } else {
         return "";
     }
-}
-
-std::string valueError(const DataItem& item, const Value& value) {
-    return std::visit(
-        [&item](const auto& elements) {
-            using Element = typename std::decay_t<decltype(elements)>::value_type;
-            for (const auto& element : elements) {
-                std::string error = elementError<Element>(item, element);
-                if (!error.empty()) return error;
-            }
-            return std::string{};
-        },
-        value);
 }
 
 // Zero, or what is nearest to it in the range; the first label's number where 0 has none.
@@ -204,7 +193,36 @@ void checkTexts(const DataItem& item, const ItemContext& context) {
     }
 }
 
+// A text whose blanks divide elements would come back as other elements.
+void checkRetained(DataItem& item, const ItemContext& context) {
+    if (!item.retain) return;
+    const std::pair<bool, const char*> reasons[] = {
+        {item.constant, "constant"},
+        {item.measured, "measured"},
+        {item.safe.kind != Safe::Kind::None, "a demand with a safe value"},
+        {item.kind == Kind::String && item.length != 1, "an array of texts"}};
+    for (const auto& [holds, what] : reasons) {
+        if (!holds) continue;
+        context.error(finding::retain, std::string{"is retained and "} + what,
+                      "remove retain: a restart cannot bring this value back");
+        item.retain = false;
+    }
+}
+
 }  // namespace
+
+std::string valueError(const DataItem& item, const Value& value) {
+    return std::visit(
+        [&item](const auto& elements) {
+            using Element = typename std::decay_t<decltype(elements)>::value_type;
+            for (const auto& element : elements) {
+                std::string error = elementError<Element>(item, element);
+                if (!error.empty()) return error;
+            }
+            return std::string{};
+        },
+        value);
+}
 
 Value implicitValue(const DataItem& item) {
     switch (item.kind) {
@@ -276,6 +294,7 @@ void checkData(DataItem& item, const DataItem* own, const ItemContext& context) 
                       "remove one of the two: a constant item is set in the system file only");
         item.settable = StateSet::none();
     }
+    checkRetained(item, context);
     checkSteps(item, context);
     checkLabels(item, own, context);
     checkValues(item, own, context);

@@ -130,6 +130,7 @@ void intersect(DataItem& item, const FromParent<DataItem>& second, const std::st
     intersectSettable(item, second, first, context);
     joinLabels(item, other, finding::intersectionEmpty, "in " + second.parent, context);
     item.onLimit = std::max(item.onLimit, other.onLimit);
+    item.retain = item.retain || other.retain;
     finer(item.resolution, other.resolution);
     finer(item.deadband, other.deadband);
     if (item.format.empty()) item.format = other.format;
@@ -214,6 +215,11 @@ void narrow(DataItem& item, const DataItem& own, const Stated& stated, const Ite
         }
         item.onLimit = std::max(item.onLimit, own.onLimit);
     }
+    if (item.retain && !own.retain && stated("retain", false)) {
+        context.error(finding::flagChanged, "takes back the inherited retain=\"true\"",
+                      "leave retain out, or take another name");
+    }
+    item.retain = item.retain || own.retain;
     joinLabels(item, own, finding::labelChanged, "in this type", context);
     if (own.resolution != 0) item.resolution = own.resolution;
     if (own.deadband != 0) item.deadband = own.deadband;

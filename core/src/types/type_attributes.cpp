@@ -117,6 +117,7 @@ std::vector<TypeAttribute> attributesOf(const DataItem& item) {
                                           {"onLimit", name(item.onLimit), name(plain.onLimit)},
                                           {"rate", optionalText(item.rate), ""},
                                           {"resolution", toText(item.resolution), "0"},
+                                          {"retain", truth(item.retain), "false"},
                                           {"safe", safeText(item.safe), ""},
                                           {"settable", item.settable.text(), ""},
                                           {"unit", item.unit, ""}};

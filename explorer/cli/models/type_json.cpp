@@ -83,6 +83,7 @@ Json dataJson(const DataItem& item) {
     json["settable"] = statesJson(item.settable);
     json["constant"] = item.constant;
     json["measured"] = item.measured;
+    json["retain"] = item.retain;
     json["resolution"] = item.resolution;
     json["deadband"] = item.deadband;
     json["format"] = item.format;

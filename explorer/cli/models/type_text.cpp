@@ -79,6 +79,7 @@ void printData(std::ostream& stream, const Type& type) {
         if (!item.settable.empty()) more.push_back("settable: " + item.settable.text());
         if (item.constant) more.emplace_back("constant");
         if (item.measured) more.emplace_back("measured");
+        if (item.retain) more.emplace_back("retained");
         if (item.resolution > 0) more.push_back("resolution " + toText(item.resolution));
         if (item.deadband > 0) more.push_back("deadband " + toText(item.deadband));
         addOrigin(more, type, item.definedBy);

@@ -68,6 +68,7 @@ struct DataItem {
     StateSet settable;
     bool constant = false;
     bool measured = false;
+    bool retain = false;  // survives a restart
     double resolution = 0, deadband = 0;
     std::string format;
     UnknownAttributes unknown;

@@ -71,6 +71,7 @@ inline constexpr char safeKind[] = "safe-kind";
 inline constexpr char safeRange[] = "safe-range";
 inline constexpr char settableConstant[] = "settable-constant";
 inline constexpr char settableWidened[] = "settable-widened";
+inline constexpr char retain[] = "retain";
 inline constexpr char flagChanged[] = "flag-changed";
 inline constexpr char limitLoosened[] = "limit-loosened";
 inline constexpr char parameterAttribute[] = "parameter-attribute";
