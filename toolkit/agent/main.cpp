@@ -9,10 +9,13 @@
 #include "cortex/toolkit/classes.hpp"
 
 #include "options.hpp"
+#include "retained_file.hpp"
+#include "stored_values.hpp"
 #include "summary.hpp"
 
 #include <array>
 #include <iostream>
+#include <memory>
 #include <set>
 #include <string>
 
@@ -62,7 +65,18 @@ void applySetting(SimplexTree& tree, const std::string& text, std::set<std::stri
     simplex.set(itemName, *value, {"--set", 0});
 }
 
-SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry) {
+// Start values from files: the later outranks the earlier one, and --set both.
+void applyFiles(const CommandLine& line, SimplexTree& tree, RetainedFile& retained) {
+    if (!line.settingsFile.empty()) std::cout << applySettingsFile(line.settingsFile, tree);
+    if (RetainedFile::hasItems(tree)) {
+        std::cout << retained.restore(tree);
+    } else if (!line.retainFile.empty()) {
+        std::cerr << "--retain: no item of this system has retain=\"true\"" << std::endl;
+    }
+    std::cout << std::flush;
+}
+
+SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry, RetainedFile& retained) {
     Report report;
     const std::array files{line.system};
     ModelFiles model = readModelFiles(files, report);
@@ -76,6 +90,7 @@ SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry) {
     tree.add(model.system, &registry, report);
     if (!report.ok()) throw ModelError(std::move(report));
     tree.createRelated(&registry);
+    applyFiles(line, tree, retained);
     try {
         std::set<std::string> given;
         for (const std::string& setting : line.settings) applySetting(tree, setting, given);
@@ -138,8 +153,20 @@ void watch(cs::ClusterCS& cluster, const std::string& name, double seconds) {
     if (terminal) std::cout << "\r\033[K" << std::flush;
 }
 
-int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTree& tree) {
-    const ClusterSettings settings = clusterSettings(tree.description(), line);
+void printEnd(cs::ClusterCS& cluster, const std::string& name, const comms::DdsInterface* network) {
+    std::cout << metricsTable(cluster.image(), name);
+    if (network != nullptr) {
+        std::cout << countLine("lost samples", network->lost())
+                  << countLine("refused samples", network->rejected());
+    }
+    std::cout << monitorTables(cluster.image()) << faultLines(cluster.image()) << std::flush;
+}
+
+int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTree& tree,
+               RetainedFile& retained) {
+    ClusterSettings settings = clusterSettings(tree.description(), line);
+    const bool retains = RetainedFile::hasItems(tree);
+    if (retains) ++settings.options.imageReaders;
     cs::blockStopSignals();
     const auto began = Clock::now();
     cs::ClusterCS cluster{settings.name, settings.options};
@@ -150,7 +177,10 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
                          EventLog::Repeats::Folded);
     const comms::DdsInterface* network =
         line.offline ? nullptr : &cluster.addInterface<comms::DdsInterface>(networkOptions(line));
+    const auto finish = [](RetainedFile* each) { each->finish(); };
+    const std::unique_ptr<RetainedFile, decltype(finish)> keeping{&retained, finish};
     cluster.start();
+    if (retains) retained.keep(cluster);
     for (const std::string& refused : cluster.realtimeReport()) {
         std::cerr << "real time: " << refused << std::endl;
     }
@@ -163,14 +193,10 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
         watch(cluster, settings.name, left(line, began));
     }
     const bool endedItself = !cluster.running();  // its trigger has ended, as an event says
-    std::cout << metricsTable(cluster.image(), settings.name);
-    if (network != nullptr) {
-        std::cout << countLine("lost samples", network->lost())
-                  << countLine("refused samples", network->rejected());
-    }
-    std::cout << monitorTables(cluster.image()) << faultLines(cluster.image()) << std::flush;
+    printEnd(cluster, settings.name, network);
     const bool halted = cluster.ended() == cs::Ended::Halted;
     const bool stopped = cluster.stop();
+    retained.finish();
     return stopped && !halted && !endedItself ? Ended : Halted;
 }
 
@@ -180,8 +206,9 @@ int run(int argc, char** argv) {
     if (!line) return exitCode;
     ClassRegistry registry;
     addClasses(registry);
-    SimplexTree tree = readSystem(*line, registry);
-    return runCluster(*line, registry, tree);
+    RetainedFile retained{retainFile(*line)};
+    SimplexTree tree = readSystem(*line, registry, retained);
+    return runCluster(*line, registry, tree, retained);
 }
 
 }  // namespace

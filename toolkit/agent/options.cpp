@@ -135,6 +135,13 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
     app.add_option("--set", line.settings, "value that an item starts with; once for each")
         ->type_name("PATH.ITEM=VALUE")
         ->allow_extra_args(false);
+    app.add_option("--settings", line.settingsFile,
+                   "file that `cortex save` wrote: values that items start with")
+        ->type_name("FILE");
+    app.add_option("--retain", line.retainFile,
+                   "file that keeps items with retain=\"true\" over restarts; SYSTEM.retained.xml "
+                   "beside the system file if not given")
+        ->type_name("FILE");
     app.add_option("--frequency", line.frequency, "cycles per second")
         ->type_name("HZ")
         ->check(CLI::Range(0.01, 1e5));
@@ -169,6 +176,12 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
         return std::nullopt;
     }
     return line;
+}
+
+std::filesystem::path retainFile(const CommandLine& line) {
+    if (!line.retainFile.empty()) return line.retainFile;
+    std::filesystem::path file = line.system;
+    return file.replace_extension(".retained.xml");
 }
 
 comms::NetworkOptions networkOptions(const CommandLine& line) {

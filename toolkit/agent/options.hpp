@@ -18,6 +18,7 @@ struct CommandLine {
     std::filesystem::path system;
     std::vector<std::filesystem::path> plugins;
     std::vector<std::string> settings;  // PATH.ITEM=VALUE
+    std::filesystem::path settingsFile, retainFile;
     std::optional<double> frequency;
     std::optional<std::uint32_t> threads;
     std::optional<int> priority;
@@ -33,6 +34,9 @@ struct CommandLine {
 
 // Empty when the program is to end at once, with `exitCode`: help was shown, or usage was wrong.
 std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode);
+
+// Where retained items are kept: as asked for, otherwise mixer.retained.xml beside mixer.xml.
+std::filesystem::path retainFile(const CommandLine& line);
 
 struct ClusterSettings {
     std::string name;

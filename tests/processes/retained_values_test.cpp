@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of an agent survives a restart, and what it takes from a file that `cortex save` wrote.
+#include "cli/cortex_process.hpp"
+#include "comms/inbox.hpp"
+#include "processes/station.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <regex>
+#include <string>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+const std::string counter = "/counter";
+
+class RetainedValues : public testing::Test {
+protected:
+    RetainedValues() {
+        folder.write("types.xml",
+                     "<ontology name='t' version='1.0'><include file='base.xml'/>"
+                     "<type name='Counter' extends='Processor'>"
+                     "<data name='count' kind='int' min='0' retain='true'/>"
+                     "<data name='gain' kind='float' unit='Hz' min='0' max='10' default='1' "
+                     "settable='always' retain='true'/>"
+                     "<data name='offset' kind='float' default='0.5' settable='always'/>"
+                     "<data name='title' kind='string' capacity='40' settable='always' "
+                     "retain='true'/></type></ontology>");
+        folder.write("rules.xml",
+                     "<morphology name='m' version='1.0'><include file='base-morphology.xml'/>"
+                     "<include file='types.xml'/></morphology>");
+        system = folder.write("plant.xml",
+                              "<system name='s'><morphology file='rules.xml'/>"
+                              "<cluster name='plant' frequency='100'/>"
+                              "<simplex path='/output' type='DigitalIoConcept'/>"
+                              "<simplex path='/counter' type='Counter'>"
+                              "<relate rule='outputs' to='/output'/></simplex></system>");
+    }
+    std::vector<std::string> options(std::vector<std::string> more = {}) const {
+        std::vector<std::string> all{"--plugin", CORTEX_BINARY_DIR "/lib/plugins/counter.so"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    std::filesystem::path retained() const { return folder.path() / "plant.retained.xml"; }
+    std::string retainedText() const {
+        return std::filesystem::exists(retained()) ? textOf(retained()) : "";
+    }
+    std::int64_t retainedCount() const {
+        const std::string text = retainedText();
+        std::smatch found;
+        const std::regex value{"data=\"count\" value=\"([0-9]+)\""};
+        return std::regex_search(text, found, value) ? std::stoll(found[1]) : -1;
+    }
+    bool isSet(const std::string& item, double value) {
+        return station.waitFor([&] { return station.real(counter, item) == value; });
+    }
+    static Outcome set(const std::vector<std::string>& items) {
+        std::vector<std::string> arguments{"set", counter};
+        arguments.insert(arguments.end(), items.begin(), items.end());
+        return tool(arguments);
+    }
+    static Outcome tool(std::vector<std::string> arguments) {
+        const comms::NetworkOptions network = comms::loopback();
+        arguments.insert(arguments.end(), {"--domain", std::to_string(network.domain),
+                                           "--interface", network.interfaces.front()});
+        return cortex(arguments);
+    }
+    std::string write(const std::string& name, const std::string& items) const {
+        return folder
+            .write(name, "<system name='saved'>\n<simplex path='/counter' type='Counter'>\n" +
+                             items + "</simplex>\n</system>\n")
+            .string();
+    }
+
+    ModelFolder folder;
+    std::filesystem::path system;
+    Station station;
+};
+
+TEST_F(RetainedValues, ComeBackAfterAnOrderlyEndAndOthersDoNot) {
+    AgentProcess agent{folder, system, options()};
+    ASSERT_TRUE(station.waitFor([&] { return station.number(counter, "count") > 10; }));
+    const Outcome done = set({"gain=2.5", "offset=3", "title=two <words>"});
+    ASSERT_EQ(done.exit, 0) << done.errors;
+    EXPECT_EQ(agent.endInOrder(), 0);
+    const std::int64_t last = retainedCount();
+    EXPECT_GT(last, 10) << agent.output();
+
+    agent.start();
+
+    ASSERT_TRUE(station.waitFor([&] { return station.number(counter, "count") > last; }));
+    EXPECT_EQ(station.real(counter, "gain"), 2.5);
+    EXPECT_EQ(station.real(counter, "offset"), 0.5);
+    const std::string output = agent.output();
+    EXPECT_TRUE(contains(output, "/counter.count 0 -> " + std::to_string(last) + "\n")) << output;
+    EXPECT_TRUE(contains(output, "/counter.gain 1 -> 2.5 Hz\n")) << output;
+    EXPECT_TRUE(contains(output, "/counter.title \"\" -> \"two <words>\"\n")) << output;
+    EXPECT_FALSE(contains(output, "/counter.offset")) << output;
+}
+
+TEST_F(RetainedValues, LoseAtMostTheLastSecondWhenTheAgentIsKilled) {
+    constexpr std::int64_t secondOfCycles = 100;
+    AgentProcess agent{folder, system, options()};
+    for (int round = 0; round < 3; ++round) {
+        const std::int64_t first = std::max<std::int64_t>(retainedCount(), 0);
+        ASSERT_TRUE(station.waitFor([&] {
+            return retainedCount() > first + secondOfCycles &&
+                   station.number(counter, "count") > retainedCount();
+        })) << agent.output();
+        const std::int64_t seen = *station.number(counter, "count");
+        agent.kill9();
+
+        const std::int64_t kept = retainedCount();
+        // One second, and what writing and a busy machine take.
+        EXPECT_GE(kept, seen - 2 * secondOfCycles);
+        agent.start();
+        ASSERT_TRUE(station.waitFor([&] {
+            return contains(agent.output(), "/counter.count 0 -> " + std::to_string(kept) + "\n");
+        })) << agent.output();
+    }
+}
+
+TEST_F(RetainedValues, StartWithoutABrokenFileWhichIsToldAndSetAside) {
+    folder.write("plant.retained.xml", "<system name='retained'>\n<simplex path='/coun");
+
+    AgentProcess agent{folder, system, options({"--seconds", "0.3"})};
+    EXPECT_EQ(agent.waitForEnd(), 0);
+
+    const std::string output = agent.output();
+    EXPECT_TRUE(contains(output, "plant.retained.xml:")) << output;
+    EXPECT_TRUE(contains(output, "it was set aside as ")) << output;
+    EXPECT_TRUE(contains(textOf(retained().string() + ".broken"), "/coun"));
+    EXPECT_GT(retainedCount(), 0) << "a new one was written";
+}
+
+TEST_F(RetainedValues, TakeWhatIsGoodOfAFileAndTellAllThatIsNot) {
+    std::filesystem::rename(
+        write("values.xml",
+              "<set data='gain' value='99'/>\n<set data='count' value='many'/>\n"
+              "<set data='offset' value='1'/>\n<set data='gian' value='1'/>\n"
+              "<set data='title' value='kept'/>\n"),
+        retained());
+
+    AgentProcess agent{folder, system, options({"--seconds", "0.3"})};
+    EXPECT_EQ(agent.waitForEnd(), 0);
+
+    const std::string output = agent.output();
+    for (const char* told :
+         {"'gain': 99 is out of the range 0 to 10 [", "'count': ", "does not retain 'offset' [",
+          "has no item 'gian' [", "plant.retained.xml:6]; nearest of: gain",
+          "and 1 good values of it count", "/counter.title \"\" -> \"kept\""}) {
+        EXPECT_TRUE(contains(output, told)) << told << " in\n" << output;
+    }
+}
+
+TEST_F(RetainedValues, CannotBeWrittenWhichIsToldOnceWhileTheAgentGoesOn) {
+    AgentProcess agent{
+        folder, system,
+        options({"--retain", (folder.path() / "none" / "r.xml").string(), "--seconds", "2.5"})};
+    EXPECT_EQ(agent.waitForEnd(), 0);
+
+    const std::string output = agent.output();
+    const std::string told = "retained items are not written: ";
+    ASSERT_TRUE(contains(output, told)) << output;
+    EXPECT_EQ(output.find(told), output.rfind(told)) << output;
+}
+
+TEST_F(RetainedValues, SettingsThatWereSavedAreStartValuesAndEveryDifferenceIsShown) {
+    const std::string saved = (folder.path() / "tuned.xml").string();
+    {
+        AgentProcess agent{folder, system, options()};
+        ASSERT_TRUE(isSet("gain", 1));
+        ASSERT_EQ(set({"gain=4", "offset=2"}).exit, 0);
+        ASSERT_TRUE(isSet("gain", 4));
+        const Outcome done = tool({"save", saved, counter});
+        ASSERT_EQ(done.exit, 0) << done.errors;
+    }
+    AgentProcess agent{folder, system,
+                       options({"--settings", saved, "--set", "/counter.offset=7", "--retain",
+                                (folder.path() / "fresh.xml").string(), "--seconds", "0.3"})};
+    EXPECT_EQ(agent.waitForEnd(), 0);
+
+    const std::string output = agent.output();
+    EXPECT_TRUE(contains(output, "tuned.xml: 3 items, 2 of them other than before\n")) << output;
+    EXPECT_TRUE(contains(output, "/counter.gain 1 -> 4 Hz\n")) << output;
+    EXPECT_TRUE(contains(output, "/counter.offset 0.5 -> 2\n")) << output;
+    EXPECT_TRUE(contains(textOf(folder.path() / "fresh.xml"), "data=\"gain\" value=\"4\""));
+}
+
+TEST_F(RetainedValues, SettingsWithErrorsAreRefusedWithAllOfThem) {
+    const std::string wrong =
+        write("wrong.xml",
+              "<set data='gain' value='99'/>\n<set data='count' value='1'/>\n"
+              "<set data='ofset' value='1'/>\n<set data='offset' value='x'/>\n</simplex>\n"
+              "<simplex path='/conter' type='Counter'>\n</simplex>\n"
+              "<simplex path='/output' type='Counter'>\n");
+
+    AgentProcess agent{folder, system, options({"--settings", wrong})};
+    EXPECT_EQ(agent.waitForEnd(), 1);
+
+    const std::string output = agent.output();
+    for (const char* told :
+         {"/counter: 'gain': 99 is out of the range 0 to 10 [", "wrong.xml:3]",
+          "Counter lets nobody set 'count' [", "Counter has no item 'ofset' [",
+          "wrong.xml:5]; nearest of: offset",
+          "'offset': ", "/conter: the system has no such simplex [", "nearest of: /counter",
+          "the values are of the type Counter, the simplex is a DigitalIoConcept ["}) {
+        EXPECT_TRUE(contains(output, told)) << told << " in\n" << output;
+    }
+    EXPECT_FALSE(std::filesystem::exists(retained()));
+}
+
+}  // namespace
+}  // namespace cortex::test

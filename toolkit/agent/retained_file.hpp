@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/simplex_tree.hpp"
+#include "cortex/cs/cluster_cs.hpp"
+
+#include <condition_variable>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace cortex::toolkit {
+
+// Keeps the items with retain="true" in a file, so that they survive a restart. restore() before
+// start(), keep() after it, finish() after stop(): the program's thread. A thread of its own reads
+// images and writes once a second at most; the loop knows nothing of it.
+class RetainedFile {
+public:
+    explicit RetainedFile(std::filesystem::path file) : file_{std::move(file)} {}
+    ~RetainedFile();
+    RetainedFile(const RetainedFile&) = delete;
+    RetainedFile& operator=(const RetainedFile&) = delete;
+
+    static bool hasItems(const SimplexTree& tree);
+
+    // Makes what the file holds start values, and returns the lines that tell it. A file with
+    // anything wrong in it is set aside as FILE.broken; what is good of it counts all the same.
+    std::string restore(SimplexTree& tree);
+    void keep(cs::ClusterCS& cluster);
+    void finish();  // the last values, of the last cycle
+
+private:
+    void run();
+    void write();
+    std::string textOf(const Image& image);
+    void tell(const std::string& problem);
+
+    std::filesystem::path file_;
+    cs::ClusterCS* cluster_ = nullptr;
+    std::map<std::string, std::string> good_;  // path.item: the last value that may be restored
+    std::string written_, problem_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool ending_ = false;
+    std::thread thread_;
+};
+
+}  // namespace cortex::toolkit
