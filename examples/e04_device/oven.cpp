@@ -39,6 +39,7 @@ public:
     // The temperature, while the heater gives `power` from now on.
     double exchange(double power) const {
         const std::string request = "H " + std::to_string(power) + "\n";
+        tcflush(file_, TCIFLUSH);  // a late answer is none to this request
         if (write(file_, request.data(), request.size()) < 0) refuse(std::strerror(errno));
         const std::string answer = readLine();
         const char* const end = answer.data() + answer.size();

@@ -77,6 +77,28 @@ TEST(DescriptorTrigger, RunsACycleOfAClusterForEachDatagram) {
     EXPECT_TRUE(probes.cluster->stop());
 }
 
+TEST(DescriptorTrigger, KeepsClustersInStepThatGetTheSameTicks) {
+    const int first = cs::DescriptorTrigger::openUdp("127.0.0.1", 0);
+    const int second = cs::DescriptorTrigger::openUdp("127.0.0.1", 0);
+    const TickSender toFirst{first}, toSecond{second};
+    ProbeCluster one{{}, "one"}, two{{}, "two"};
+    for (ProbeCluster* each : {&one, &two}) {
+        each->probe("/a");
+        each->cluster->setTriggerSource<cs::DescriptorTrigger>(each == &one ? first : second, 1ms);
+        each->start();
+    }
+    for (std::int64_t cycle = 1; cycle <= 10; ++cycle) {
+        toFirst.send();
+        toSecond.send();
+        for (ProbeCluster* each : {&one, &two}) {
+            while (each->cluster->image().cycle() < cycle) std::this_thread::yield();
+        }
+        EXPECT_EQ(one.cluster->image().nominalTime(), two.cluster->image().nominalTime());
+    }
+    EXPECT_TRUE(one.cluster->stop());
+    EXPECT_TRUE(two.cluster->stop());
+}
+
 TEST(DescriptorTrigger, PassesOverTicksThatCameMeanwhileAndSaysHowMany) {
     const int receiver = cs::DescriptorTrigger::openUdp("127.0.0.1", 0);
     const TickSender sender{receiver};

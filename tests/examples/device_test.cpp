@@ -39,6 +39,8 @@ public:
     OvenProcess(const OvenProcess&) = delete;
     OvenProcess& operator=(const OvenProcess&) = delete;
 
+    void signal(int number) const { kill(process_, number); }
+
 private:
     std::string port_;
     pid_t process_ = -1;
@@ -121,6 +123,19 @@ TEST_F(Bakery, SaysThatTheOvenIsGoneHeatsNoMoreAndConnectsAnew) {
     waitUntil([&] { return quality() == Quality::Good; });
     waitUntil([&] { return says("the device is back"); });
     waitUntil([&] { return value("/heater", "power") > 1500; });
+}
+
+TEST_F(Bakery, SaysThatTheOvenDoesNotAnswerAndGoesOnWhenItDoes) {
+    const OvenProcess oven{port()};
+    waitUntil([&] { return quality() == Quality::Good; });
+
+    oven.signal(SIGSTOP);
+    waitUntil([&] { return quality() == Quality::Lost; });
+    waitUntil([&] { return says("the device is lost: " + port() + ": no answer for 200 ms"); });
+    oven.signal(SIGCONT);
+
+    waitUntil([&] { return quality() == Quality::Good; });
+    waitUntil([&] { return says("the device is back"); });
 }
 
 TEST_F(Bakery, WithoutAnOvenSaysWhichPortIsMissingAndDoesNotFault) {

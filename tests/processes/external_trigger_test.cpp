@@ -77,6 +77,18 @@ TEST(ExternallyTriggeredAgent, SaysWithFileAndLineWhatItCannotOpen) {
         << agent.output();
 }
 
+TEST(ExternallyTriggeredAgent, RefusesToSpinWithoutAClock) {
+    const ModelFolder folder;
+    AgentProcess agent{folder, plant(folder, "triggerFrom='udp:5005'"), {"--spin", "10"}};
+
+    EXPECT_EQ(agent.waitForEnd(), 1);
+
+    EXPECT_TRUE(contains(agent.output(),
+                         "plant.xml:2: ticks come from udp:5005, and only a clock "
+                         "can spin: leave --spin out"))
+        << agent.output();
+}
+
 TEST(ExternallyTriggeredAgent, RunsByAnInheritedPipeAndEndsWithThreeWhenItsSenderIsGone) {
     constexpr int inherited = 60;
     std::array<int, 2> ends{};

@@ -44,7 +44,7 @@ struct ThreadedSimplex::Thread {
 
     // Tick: why it died, until goOn(); null while it lives.
     const EventText* death() const CORTEX_REALTIME {
-        return deaths_.load(std::memory_order_acquire) == resumed_.load(std::memory_order_relaxed)
+        return deaths_.load(std::memory_order_acquire) == resumed_.load(std::memory_order_acquire)
                    ? nullptr
                    : &why_;
     }
