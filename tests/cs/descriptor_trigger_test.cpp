@@ -48,7 +48,7 @@ private:
     sockaddr_in place_{};
 };
 
-std::string refusalOf(int descriptor) {
+std::string whyRefused(int descriptor) {
     try {
         cs::DescriptorTrigger{descriptor, 1ms};
     } catch (const Error& error) {
@@ -157,11 +157,11 @@ TEST(DescriptorTrigger, IsInterruptedFromAnotherThread) {
 }
 
 TEST(DescriptorTrigger, RefusesWhatHasNoTicks) {
-    EXPECT_NE(refusalOf(open("/proc/self/exe", O_RDONLY)).find("it is no socket for datagrams"),
+    EXPECT_NE(whyRefused(open("/proc/self/exe", O_RDONLY)).find("it is no socket for datagrams"),
               std::string::npos);
-    EXPECT_NE(refusalOf(socket(AF_INET, SOCK_STREAM, 0)).find("it is no socket for datagrams"),
+    EXPECT_NE(whyRefused(socket(AF_INET, SOCK_STREAM, 0)).find("it is no socket for datagrams"),
               std::string::npos);
-    EXPECT_NE(refusalOf(-1).find("Bad file descriptor"), std::string::npos);
+    EXPECT_NE(whyRefused(-1).find("Bad file descriptor"), std::string::npos);
     EXPECT_THROW(cs::DescriptorTrigger::openUdp("localhost", 5005), Error);
     const TickSender taken{cs::DescriptorTrigger::openUdp("127.0.0.1", 0)};
     EXPECT_THROW(
