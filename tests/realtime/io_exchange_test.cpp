@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 namespace cortex::test {
@@ -54,20 +56,22 @@ TEST(BlockingDevice, DisturbsNoTickWhateverItsThreadDoes) {
     auto& drive = tree.add<RestlessDrive>("/drive", "Drive");
     tree.relate(drive, "demand", tree.add("/wish", "Demand"));
     tree.relate(drive, "observation", tree.add("/axis", "Observation"));
-    cs::ClusterCS cluster{"watched", optionsOf(1, 0)};
+    cs::ClusterCS cluster{"watched", optionsOf(1, geteuid() == 0 ? 10 : 0)};
     watch(cluster, 1);
     cluster.addSimplexTree(tree);
     cluster.setTriggerSource<WatchedClock>();
     cluster.start();
     runCycles(cluster, 100);
-    const std::uint64_t faultsBefore = pageFaults();
-
-    for (int i = 0; i < 3; ++i) {
-        while (drive.throws <= i) runCycles(cluster, 10);
+    const auto killAndClear = [&](int deaths) {
+        while (drive.throws < deaths) runCycles(cluster, 10);
         runCycles(cluster, 10);
         EXPECT_EQ(cluster.image().get<std::int64_t>("/drive", "state"), 4);
         EXPECT_EQ(cluster.call("/drive", "clearFaults").outcome, Outcome::Done);
-    }
+    };
+    killAndClear(1);  // what runs for the first time may meet a page of code
+    const std::uint64_t faultsBefore = pageFaults();
+
+    for (int deaths = 2; deaths <= 4; ++deaths) killAndClear(deaths);
 
     EXPECT_TRUE(offences().none()) << offences().text();
     EXPECT_EQ(pageFaults(), faultsBefore);
