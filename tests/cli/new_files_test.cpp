@@ -83,6 +83,22 @@ TEST(CortexNewType, MakesFilesThatAreValidAsTheyAreAndWithTheirExamplesForEveryT
     EXPECT_EQ(xmllint("morphology", morphologies, folder), "");
 }
 
+TEST(CortexNewType, OfAnAbstractParentSaysWhichUnitsAreStillToBeStated) {
+    const ModelFolder folder;
+
+    const Outcome open =
+        cortex({"new-type", "Slide", "--extends", "AxisConcept"}, {}, folder.path());
+    const Outcome fixed =
+        cortex({"new-type", "Slide", "--extends", "LinearAxisConcept"}, {}, folder.path());
+
+    EXPECT_NE(open.output.find("version=\"1.0\" abstract=\"true\""), std::string::npos)
+        << open.output;
+    EXPECT_NE(open.output.find("Units still open: acceleration, effort, position, velocity."),
+              std::string::npos)
+        << open.output;
+    EXPECT_EQ(fixed.output.find("abstract"), std::string::npos) << fixed.output;
+}
+
 TEST(CortexNewType, PrintsBothFilesWhereNoneIsNamed) {
     const ModelFolder folder;
 

@@ -3,6 +3,7 @@
 #include "rig.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -201,6 +202,31 @@ TEST_F(OneController, PoseOutOfRangeFails) {
     EXPECT_NEAR(rig_.get<double>("/axis", "position"), 0.2, 1e-9);
 }
 
+// What they write as acceleration is what their velocity changes by.
+TEST_F(OneController, PoseDemandsAndTheDriveMeasuresTheAcceleration) {
+    begin("AxisPoseController");
+    std::vector<double> pose(16);
+    pose[0] = -0.7;
+    EXPECT_TRUE(rig_.call("/controller", "set", {{"pose", Value{pose}}}).done());
+    rig_.cluster.send("/controller", "moveTo", {{"speedShare", 0.5}});
+    double demanded = 0, measured = 0, greatest = 0;
+    for (int i = 0; i < 2000; ++i) {
+        rig_.step();
+        const double demand = rig_.get<double>("/demand", "velocity");
+        const double axis = rig_.get<double>("/axis", "velocity");
+        const double change = (demand - demanded) * 1e3;
+        const double wanted = rig_.get<double>("/demand", "acceleration");
+        greatest = std::max(greatest, std::abs(wanted));
+        EXPECT_LE(std::abs(change), greatest * (1 + 1e-6));
+        EXPECT_NEAR(rig_.get<double>("/axis", "acceleration"), (axis - measured) * 1e3, 1e-9);
+        demanded = demand;
+        measured = axis;
+    }
+
+    EXPECT_GT(greatest, 1);
+    EXPECT_EQ(rig_.get<double>("/demand", "acceleration"), 0);
+}
+
 TEST(SineController, MovesAVirtualAxis) {
     Rig rig;
     rig.add("/axis", "VirtualAxis");
@@ -211,7 +237,10 @@ TEST(SineController, MovesAVirtualAxis) {
     double greatest = 0;
     for (int i = 0; i < 1000; ++i) {
         rig.step();
-        greatest = std::max(greatest, rig.get<double>("/axis", "position"));
+        const double position = rig.get<double>("/axis", "position");
+        greatest = std::max(greatest, position);
+        EXPECT_NEAR(rig.get<double>("/axis", "acceleration"),
+                    -4 * std::numbers::pi * std::numbers::pi * position, 1e-9);
     }
 
     EXPECT_NEAR(greatest, 0.5, 1e-4);

@@ -21,7 +21,7 @@ class Rig {
 public:
     using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-    Rig() { addClasses(registry); }
+    explicit Rig(std::string agent = "rig") : name{std::move(agent)} { addClasses(registry); }
 
     void add(const std::string& path, const std::string& type, const Pairs& relates = {},
              const Pairs& settings = {}) {
@@ -46,7 +46,7 @@ public:
     }
     void startUp() {
         const CallResult answer =
-            call("/rig", "startup", {{"prefix", Value{std::vector<std::string>{"/"}}}});
+            call("/" + name, "startup", {{"prefix", Value{std::vector<std::string>{"/"}}}});
         ASSERT_TRUE(answer.done()) << answer.text();
     }
     CallResult call(const std::string& path, const std::string& command,
@@ -69,10 +69,11 @@ public:
         return static_cast<State>(get<std::int64_t>(path, "state"));
     }
 
+    std::string name;
     ClassRegistry registry;
     SystemDescription system;
     SimplexTree tree{TypeModel::load(CORTEX_SOURCE_DIR "/ontology/robotics-morphology.xml")};
-    cs::ClusterCS cluster{"rig"};
+    cs::ClusterCS cluster{name};
     cs::ManualTrigger* trigger = nullptr;
 };
 

@@ -36,7 +36,7 @@ void FollowAxisController::populate() {
 
 void FollowAxisController::stateActive(const Tick&) {
     for (std::size_t i = 0; i < demands_.size(); ++i) {
-        demands_[i].write(targets_[i].position, targets_[i].velocity);
+        demands_[i].write(targets_[i].position, targets_[i].velocity, targets_[i].acceleration);
     }
 }
 
@@ -54,7 +54,8 @@ bool SineController::stateStartingUp(const Tick& tick) {
 void SineController::stateActive(const Tick& tick) {
     const double turning = 2 * std::numbers::pi * frequency_;
     const double angle = turning * static_cast<double>(tick.nominalTime - startedAt_) * 1e-9;
-    axis_->write(amplitude_ * std::sin(angle), amplitude_ * turning * std::cos(angle));
+    const double position = amplitude_ * std::sin(angle);
+    axis_->write(position, amplitude_ * turning * std::cos(angle), -turning * turning * position);
 }
 
 void SineController::keep(Archive& archive) {

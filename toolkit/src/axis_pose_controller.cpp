@@ -10,16 +10,17 @@ namespace {
 constexpr double rampShare = 0.2;  // share of the time to speed up, and to slow down
 
 struct Share {
-    double way, speed;
+    double way, speed, acceleration;
 };
 
-// Trapezoidal speed: share of the way after a share of the time, and its derivative.
+// Trapezoidal speed: share of the way after a share of the time, and its derivatives.
 Share trapezoid(double time) {
     const double speed = 1 / (1 - rampShare);
-    if (time < rampShare) return {speed * time * time / (2 * rampShare), speed * time / rampShare};
-    if (time <= 1 - rampShare) return {speed * (time - rampShare / 2), speed};
+    const double ramp = speed / rampShare;
+    if (time < rampShare) return {ramp * time * time / 2, ramp * time, ramp};
+    if (time <= 1 - rampShare) return {speed * (time - rampShare / 2), speed, 0};
     const double left = std::max(0.0, 1 - time);
-    return {1 - speed * left * left / (2 * rampShare), speed * left / rampShare};
+    return {1 - ramp * left * left / 2, ramp * left, left > 0 ? -ramp : 0};
 }
 
 }  // namespace
@@ -86,13 +87,14 @@ void AxisPoseController::stateActive(const Tick& tick) {
     const bool moves = time_ < duration_;
     if (moves) time_ += tick.elapsedSeconds();
     for (Axis& axis : axes_) {
-        double velocity = 0;
+        double velocity = 0, acceleration = 0;
         if (moves) {
             const Share share = trapezoid(std::min(1.0, time_ / duration_));
             axis.position = axis.from + share.way * axis.way;
             velocity = share.speed * axis.way / duration_;
+            acceleration = share.acceleration * axis.way / (duration_ * duration_);
         }
-        axis.demand.write(axis.position, velocity);
+        axis.demand.write(axis.position, velocity, acceleration);
     }
 }
 

@@ -89,16 +89,20 @@ void PoseOutput::write(const Pose& pose, const Twist& velocity) {
 }
 
 AxisInput::AxisInput(const InputSimplex& axis)
-    : position{axis.data<double>("position")}, velocity{axis.data<double>("velocity")} {}
+    : position{axis.data<double>("position")},
+      velocity{axis.data<double>("velocity")},
+      acceleration{axis.data<double>("acceleration")} {}
 
 AxisOutput::AxisOutput(const OutputSimplex& axis)
     : position{axis.data<double>("position")},
       velocity{axis.data<double>("velocity")},
+      acceleration{axis.data<double>("acceleration")},
       effort{axis.data<double>("effort")} {}
 
-void AxisOutput::write(double newPosition, double newVelocity) {
+void AxisOutput::write(double newPosition, double newVelocity, double newAcceleration) {
     position = newPosition;
     velocity = newVelocity;
+    acceleration = newAcceleration;
     effort = 0.0;
 }
 

@@ -72,13 +72,13 @@ struct PoseOutput {
 
 struct AxisInput {
     explicit AxisInput(const InputSimplex& axis);
-    Data<const double> position, velocity;
+    Data<const double> position, velocity, acceleration;
 };
 
 struct AxisOutput {
     explicit AxisOutput(const OutputSimplex& axis);
-    void write(double newPosition, double newVelocity) CORTEX_REALTIME;
-    Data<double> position, velocity, effort;
+    void write(double newPosition, double newVelocity, double newAcceleration = 0) CORTEX_REALTIME;
+    Data<double> position, velocity, acceleration, effort;
 };
 
 std::vector<AxisInput> axisInputs(const std::vector<InputSimplex>& axes);

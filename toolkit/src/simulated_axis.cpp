@@ -80,14 +80,14 @@ std::int64_t SimulatedAxis::status() const {
 }
 
 void SimulatedAxis::loopEnd(const Tick& tick) {
-    const double before = position_;
+    const double before = position_, velocityBefore = velocity_;
     const double seconds = tick.elapsedSeconds();
     if (state() == State::Active)
         servo(seconds);
     else
         brake(seconds);
     limit(before, seconds);
-    observation_->write(position_, velocity_);
+    observation_->write(position_, velocity_, (velocity_ - velocityBefore) / seconds);
     observedStatus_ = status();
     followingError_ = demand_->position - position_;
 }

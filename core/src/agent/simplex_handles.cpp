@@ -27,6 +27,10 @@ void checkUnit(const DataItem& item, std::string_view assumed, const std::string
     if (!unit)
         throw Error(where + ": the code assumes the unit '" + std::string{assumed} + "': " + why);
     if (unit->canonical == item.unit) return;
+    if (item.unit == openUnit) {
+        throw Error(where + ": its type leaves the unit open, the code assumes " + unit->canonical +
+                    ": name the type that the other agent has there, <relate … type=\"…\"/>");
+    }
     throw Error(where + " is in " + (item.unit.empty() ? "no stated unit" : item.unit) +
                 ", the code assumes " + unit->canonical +
                 ": convert in the code, or state that unit in the type" + placeOf(item));

@@ -50,6 +50,11 @@ void tighter(std::optional<T>& bound, const std::optional<T>& other, bool greate
     if (!bound || (greater ? *other > *bound : *other < *bound)) bound = other;
 }
 
+// A unit that is left open takes the one that somebody states.
+void fixUnit(DataItem& item, const std::string& unit) {
+    if (item.unit == openUnit && !unit.empty()) item.unit = unit;
+}
+
 // Labels are joined: a number has one label, whoever gives it.
 void joinLabels(DataItem& item, const DataItem& other, const char* rule, const std::string& from,
                 const ItemContext& context) {
@@ -119,7 +124,9 @@ void finer(double& step, double other) {
 // Narrows `item`, from `first`, to what `second` allows as well.
 void intersect(DataItem& item, const FromParent<DataItem>& second, const std::string& first,
                const Stated& stated, const ItemContext& context) {
-    const DataItem& other = *second.item;
+    DataItem other = *second.item;
+    fixUnit(item, other.unit);
+    fixUnit(other, item.unit);
     for (const Shape& each : shape) {
         if (each.text(item) == each.text(other)) continue;
         context.exclude(each.attribute, each.text(item), each.text(other), first, second.parent);
@@ -229,7 +236,7 @@ void narrow(DataItem& item, const DataItem& own, const Stated& stated, const Ite
 
 // The unit's canonical text; without a valid one the item has none.
 void canonicalUnit(DataItem& own, const ItemContext& context) {
-    if (own.unit.empty()) return;
+    if (own.unit.empty() || own.unit == openUnit) return;
     std::string why;
     const auto unit = parseUnit(own.unit, why);
     if (!unit) context.error(finding::unit, "has unit=" + inQuotes(own.unit), why);
@@ -254,6 +261,7 @@ DataItem mergeData(const std::vector<FromParent<DataItem>>& parents, const DataI
     if (own) {
         item.definedBy = context.type.type;
         item.place = own->place;
+        fixUnit(item, stating.unit);
         if (!parents.empty() && !keepsShape(item, stating, stated, context)) return item;
         fitData(stating, item, context);
         if (parents.empty()) {

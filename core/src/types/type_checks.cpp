@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "types/type_attributes.hpp"
 #include "types/type_resolver.hpp"
+#include "types/unit.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -179,6 +180,30 @@ void TypeResolver::checkSameCount(const Type& type, const Rule& rule) {
                       " relationships and that one " + countText(other->min) + " to " +
                       countText(other->max),
                   "give both rules a number that both allow");
+}
+
+// An open unit is for types that nothing is an instance of; parameters have no children to fix it.
+void TypeResolver::checkUnits(const Type& type) {
+    const auto open = [&](const DataItem& item, const std::string& what, const char* remedy) {
+        if (item.unit != openUnit) return;
+        const bool own = item.definedBy == type.name && !item.place.file.empty();
+        report_.error(type.name, finding::unitOpen, own ? item.place : type.place,
+                      what + " " + inQuotes(item.name) + " has an open unit", remedy);
+    };
+    if (!type.isAbstract) {
+        for (const DataItem& item : type.data) {
+            open(item, "data", "state its unit in this type, or write abstract=\"true\"");
+        }
+    }
+    for (const Command& command : type.commands) {
+        if (command.definedBy != type.name) continue;
+        for (const auto* list : {&command.request, &command.response}) {
+            for (const DataItem& parameter : *list) {
+                open(parameter, "command " + inQuotes(command.name) + ": parameter",
+                     "state its unit, or leave it out");
+            }
+        }
+    }
 }
 
 void TypeResolver::checkBehaviour(const Type& type) {

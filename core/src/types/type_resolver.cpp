@@ -74,6 +74,7 @@ TypeResolver::Types TypeResolver::run() {
         const Type& type = types_.find(name)->second;
         checkRules(type);
         checkBehaviour(type);
+        checkUnits(type);
     }
     return std::move(types_);
 }

@@ -43,6 +43,7 @@ private:
     void checkCreate(const Type& type, const Rule& rule);
     void checkRefines(const Type& type, const Rule& rule);
     void checkCounterpart(const Type& type, const Rule& rule);
+    void checkUnits(const Type& type);
     void checkSameCount(const Type& type, const Rule& rule);
     void checkBehaviour(const Type& type);
 

@@ -17,13 +17,13 @@ constexpr std::string_view ontologySkeleton = R"(<?xml version="1.0" encoding="U
 {includes}
   <!-- extends: one or more types whose data, commands and rules it has too. It may add and narrow,
        never widen. version: count it up when something changes. -->
-  <type name="{name}" extends="{parents}" version="1.0"
+  <type name="{name}" extends="{parents}" version="1.0"{abstract}
         description="Say in one sentence what a {name} is.">
 
     <!-- Inherited data: {data}.
          To narrow an inherited item, write it again with its name and only what is narrower.
          A new item: kind is int, float, bool or string, with a unit, a range and a default.
-{dataHint} -->
+{dataHint}{openUnits} -->
     <!--
     <data name="{item}" kind="float" unit="m" min="0" max="10" default="0" {itemAttribute}
           description="Say what it means."/>
@@ -84,6 +84,18 @@ std::string rulesOf(const Type& type) {
     return lines.empty() ? "none" : xmlComment(joined(lines, ",\n         "));
 }
 
+// Items whose unit is for the new type to state.
+std::string openUnitsOf(const Type& type) {
+    std::vector<std::string> names;
+    for (const DataItem& item : type.data) {
+        if (item.unit == "*") names.push_back(item.name);
+    }
+    if (names.empty()) return {};
+    return "\n         Units still open: " + xmlComment(joined(names)) +
+           ". State each, as in <data name=\"" + xmlComment(names.front()) +
+           "\" unit=\"m\"/>,\n         and remove abstract.";
+}
+
 std::string freeName(std::string name, const Type& type) {
     while (type.findData(name) != nullptr || type.findCommand(name) != nullptr ||
            type.findRule(name) != nullptr) {
@@ -112,6 +124,8 @@ std::string ontologyText(const NewTypeText& text) {
          {"rulesFile", xmlComment(text.morphologyFile)},
          {"includes", includes},
          {"parents", joined(text.parents, " ")},
+         {"abstract", text.type.isAbstract ? " abstract=\"true\"" : ""},
+         {"openUnits", openUnitsOf(text.type)},
          {"data", namesOf(text.type.data)},
          {"dataHint",
           active ? "         settable: the states in which the command `set` may change it."

@@ -48,11 +48,15 @@ Type resolve(const TypeModel& types, const NewTypeOptions& options) {
     TypeDeclaration added;
     added.name = options.name;
     added.parents = options.parents;
+    added.isAbstract = true;  // as long as a unit is open
     declarations.push_back(std::move(added));
     Report report;
     const TypeModel extended = TypeModel::build(std::move(declarations), report);
     if (!report.ok()) throw Failure{No, "such a type would not be valid", report};
-    return extended.at(options.name);
+    Type type = extended.at(options.name);
+    type.isAbstract =
+        std::ranges::any_of(type.data, [](const DataItem& item) { return item.unit == "*"; });
+    return type;
 }
 
 // The folder of $CORTEX_PATH or the installation in which a file was found; none: it was found as

@@ -55,6 +55,7 @@ inline constexpr char capacityBounds[] = "capacity-bounds";
 inline constexpr char capacityKind[] = "capacity-kind";
 inline constexpr char unit[] = "unit";
 inline constexpr char unitChanged[] = "unit-changed";
+inline constexpr char unitOpen[] = "unit-open";
 inline constexpr char unitKind[] = "unit-kind";
 inline constexpr char rangeKind[] = "range-kind";
 inline constexpr char rangeEmpty[] = "range-empty";
