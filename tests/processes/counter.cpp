@@ -4,6 +4,7 @@
 #include "cortex/cs/simplex_cs.hpp"
 
 #include <cstdint>
+#include <limits>
 
 namespace {
 
@@ -12,10 +13,20 @@ public:
     using SimplexCS::SimplexCS;
 
 private:
-    void populate() override { count_ = data<std::int64_t>("count"); }
-    void loopEnd(const cortex::Tick&) override { count_ += 1; }
+    void populate() override {
+        count_ = data<std::int64_t>("count");
+        gain_ = data<const double>("gain");
+        share_ = data<double>("share");
+    }
+    // A gain above 5 makes the share no number, as a mistake in a real class would.
+    void loopEnd(const cortex::Tick&) override {
+        count_ += 1;
+        share_ = gain_ > 5 ? std::numeric_limits<double>::quiet_NaN() : 0.25;
+    }
 
     cortex::Data<std::int64_t> count_;
+    cortex::Data<const double> gain_;
+    cortex::Data<double> share_;
 };
 
 void addClasses(cortex::ClassRegistry& registry) { registry.add<Counter>("Counter"); }

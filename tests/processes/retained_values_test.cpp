@@ -27,6 +27,7 @@ protected:
                      "<data name='count' kind='int' min='0' retain='true'/>"
                      "<data name='gain' kind='float' unit='Hz' min='0' max='10' default='1' "
                      "settable='always' retain='true'/>"
+                     "<data name='share' kind='float' min='0' max='1' retain='true'/>"
                      "<data name='offset' kind='float' default='0.5' settable='always'/>"
                      "<data name='title' kind='string' capacity='40' settable='always' "
                      "retain='true'/></type></ontology>");
@@ -122,6 +123,22 @@ TEST_F(RetainedValues, LoseAtMostTheLastSecondWhenTheAgentIsKilled) {
             return contains(agent.output(), "/counter.count 0 -> " + std::to_string(kept) + "\n");
         })) << agent.output();
     }
+}
+
+TEST_F(RetainedValues, KeepTheirLastGoodValueWhereTheNewOneIsNoNumber) {
+    AgentProcess agent{folder, system, options()};
+    const std::string good = "data=\"share\" value=\"0.25\"";
+    ASSERT_TRUE(station.waitFor([&] { return contains(retainedText(), good); }));
+    ASSERT_EQ(set({"gain=6"}).exit, 0);
+    EXPECT_EQ(agent.endInOrder(), 0);
+    EXPECT_TRUE(contains(retainedText(), "data=\"gain\" value=\"6\"")) << retainedText();
+    EXPECT_TRUE(contains(retainedText(), good)) << retainedText();
+
+    agent.start();
+    ASSERT_TRUE(
+        station.waitFor([&] { return contains(agent.output(), "/counter.share 0 -> 0.25\n"); }));
+    EXPECT_EQ(agent.endInOrder(), 0);
+    EXPECT_TRUE(contains(retainedText(), good)) << "it was good before the restart";
 }
 
 TEST_F(RetainedValues, StartWithoutABrokenFileWhichIsToldAndSetAside) {
