@@ -116,7 +116,7 @@ Example:
 void addAttach(CLI::App& app, Arguments& arguments) {
     CLI::App* verb = app.add_subcommand("attach", "Look at the metrics of a running agent");
     verb->footer(
-        R"(Takes what the agent shows as data: time between cycles, jitter, duty cycle, missed ticks,
+        R"(Takes what the agent shows as data: time between cycles, jitter, lateness, duty cycle, missed ticks,
 latency of commands, and the task times of its simplexes. Nothing in the agent is changed.
 Examples:
   cortex-profiler attach arm

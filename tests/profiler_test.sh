@@ -72,7 +72,7 @@ export CORTEX_DOMAIN=$ownDomain
     >"$out/agent.log" 2>&1 &
 agent=$!
 expect 0 attach attach teleop --interface lo --seconds 2 --timeout 30 --out "$out/attached"
-for figure in duty jitter task; do
+for figure in duty jitter lateness task; do
     ls "$out/attached" | grep -qi "$figure" || fail "no figure of $figure: $(ls "$out/attached")"
 done
 expect 1 absent attach nobody --interface lo --timeout 0.5 --out "$out/absent"

@@ -35,7 +35,8 @@ struct Metric {
 };
 constexpr std::array metrics{
     Metric{"cycleDuration", "Time between beginnings of cycles", "us", false},
-    Metric{"jitter", "Jitter: how late cycles begin", "us", true},
+    Metric{"jitter", "Jitter: how far these times are from the period", "us", true},
+    Metric{"lateness", "Lateness: how late cycles begin", "us", true},
     Metric{"dutyCycle", "Duty cycle", "%", true},
     Metric{"commandLatency", "Latency of commands", "us", true}};
 constexpr std::array statistics{"Last", "P50", "P99", "P999", "Max"};

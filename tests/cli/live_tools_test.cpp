@@ -39,7 +39,7 @@ TEST_F(CortexLive, TopPrintsOneMomentOfEverything) {
 
     const Outcome text = live({"top", "--once"});
     EXPECT_EQ(text.exit, 0) << text.errors;
-    EXPECT_TRUE(contains(text.output, "jitter us")) << text.output;
+    EXPECT_TRUE(contains(text.output, "late us")) << text.output;
     EXPECT_TRUE(contains(text.output, "running")) << text.output;
     EXPECT_FALSE(contains(text.output, "\033")) << "no terminal";
 }

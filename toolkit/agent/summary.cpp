@@ -94,7 +94,8 @@ std::string statusLine(const Image& image, const std::string& cluster) {
 std::string metricsTable(const Image& image, const std::string& cluster) {
     using Row = std::array<const char*, 3>;  // title, unit, item
     constexpr std::array rows{Row{"cycle duration", "us", "cycleDuration"},
-                              Row{"jitter", "us", "jitter"}, Row{"duty cycle", "%", "dutyCycle"},
+                              Row{"jitter", "us", "jitter"}, Row{"lateness", "us", "lateness"},
+                              Row{"duty cycle", "%", "dutyCycle"},
                               Row{"command latency", "us", "commandLatency"}};
     constexpr std::array columns{"Last", "Mean", "P50", "P99", "P999", "Max"};
     constexpr std::array titles{"last", "mean", "p50", "p99", "p99.9", "max"};

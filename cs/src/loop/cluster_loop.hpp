@@ -10,6 +10,7 @@
 #include "loop/rescheduler.hpp"
 #include "loop/watchdog.hpp"
 #include "tasks/task_runner.hpp"
+#include "threads/cpu_claims.hpp"
 #include "threads/realtime_thread.hpp"
 #include "threads/thread_pool.hpp"
 
@@ -55,6 +56,7 @@ public:
 private:
     void run();
     void prepareThread();
+    void claimCpus();
     void threadStarts(std::uint32_t worker);
     void addThreads(Plan& plan);
     void startRescheduler();
@@ -82,6 +84,8 @@ private:
     std::vector<std::function<void(const Heartbeat&)>> heartbeats_;
     std::vector<std::string> realtimeReport_;
     std::optional<AwakeCpus> awakeCpus_;
+    CpuClaims claims_;
+    bool pin_ = true;
     std::unique_ptr<Plan> plan_;
     TaskRunner runner_;
     GroupCommands group_;

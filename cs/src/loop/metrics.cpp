@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <string>
 
 namespace cortex::cs {
@@ -15,13 +16,13 @@ constexpr std::array percentiles{0.5, 0.99, 0.999};
 constexpr std::array percentileNames{"P50", "P99", "P999"};
 
 // First bin at which the cumulated count reaches each percentile.
-template <class Bins, class ValueOf>
+template <class Bins, class CountOf, class ValueOf>
 void findPercentiles(const Bins& bins, std::uint64_t count, std::span<Data<double>> items,
-                     ValueOf valueOf) {
+                     CountOf countOf, ValueOf valueOf) {
     std::uint64_t below = 0;
     std::size_t wanted = 0;
     for (std::uint32_t bin = 0; bin < bins.size() && wanted < percentiles.size(); ++bin) {
-        below += bins[bin];
+        below += countOf(bins[bin]);
         while (wanted < percentiles.size() &&
                static_cast<double>(below) >= percentiles[wanted] * static_cast<double>(count)) {
             items[wanted++] = valueOf(bin);
@@ -57,7 +58,9 @@ void MetricSeries::add(double figure) {
     const auto octave = static_cast<unsigned>(std::bit_width(scaled)) - 6U;
     const auto bin = static_cast<std::size_t>(octave) * binsPerOctave +
                      static_cast<std::size_t>((scaled >> octave) - binsPerOctave);
-    ++bins_[std::min(bin, bins_.size() - 1)];
+    Bin& of = bins_[std::min(bin, bins_.size() - 1)];
+    ++of.count;
+    of.sum += figure;
 }
 
 void MetricSeries::write() {
@@ -67,23 +70,20 @@ void MetricSeries::write() {
     maxItem_ = greatest_;
 }
 
-// A percentile is the upper end of its bin, so it is never too low.
 void MetricSeries::writePercentiles() {
     if (count_ == 0) return;
-    findPercentiles(bins_, count_, percentileItems_, [this](std::uint32_t bin) {
-        const std::uint32_t octave = bin / binsPerOctave;
-        const std::uint64_t upper =
-            (static_cast<std::uint64_t>(bin % binsPerOctave) + binsPerOctave + 1) << octave;
-        const double figure = static_cast<double>(upper - binsPerOctave) / scale_;
-        return std::min(figure, greatest_);
-    });
+    findPercentiles(
+        bins_, count_, percentileItems_, [](const Bin& bin) { return bin.count; },
+        [this](std::uint32_t bin) {
+            return bins_[bin].sum / static_cast<double>(bins_[bin].count);
+        });
 }
 
 ClusterMetrics::ClusterMetrics(AgentRuntime& agent, std::int64_t period, std::uint32_t threads)
     : agent_{agent},
       period_{static_cast<double>(period)},
       series_{MetricSeries{agent, "cycleDuration", 1000}, MetricSeries{agent, "jitter", 1000},
-              MetricSeries{agent, "dutyCycle", 10000}},
+              MetricSeries{agent, "lateness", 1000}, MetricSeries{agent, "dutyCycle", 10000}},
       latencySum_(latencyBuckets),
       threads_{threads} {
     constexpr std::array latencyNames{"Last", "Mean", "P50", "P99", "P999", "Max"};
@@ -100,19 +100,30 @@ ClusterMetrics::ClusterMetrics(AgentRuntime& agent, std::int64_t period, std::ui
     aliveItem_ = clusterItem<bool>(agent, "alive");
 }
 
-// All arguments in ns. Durations and jitter are shown in µs, the duty cycle in % of the period.
+void ClusterMetrics::cpus(const std::vector<int>& cpus) {
+    std::string text;
+    for (const int cpu : cpus) text += (text.empty() ? "" : " ") + std::to_string(cpu);
+    clusterItem<std::string_view>(agent_, "cpus") = text;
+}
+
+// All arguments in ns. The duty cycle is shown in % of the period, all else in µs. Jitter is that
+// of the paper: how far the time between the beginnings of two cycles is from the period.
 void ClusterMetrics::cycleEnded(std::int64_t sinceLastWakeUp, std::int64_t lateness,
                                 std::int64_t work) {
-    if (sinceLastWakeUp > 0) series_[0].add(static_cast<double>(sinceLastWakeUp) * 1e-3);
-    series_[1].add(static_cast<double>(std::max<std::int64_t>(lateness, 0)) * 1e-3);
+    if (sinceLastWakeUp > 0) {
+        const auto duration = static_cast<double>(sinceLastWakeUp);
+        series_[0].add(duration * 1e-3);
+        series_[1].add(std::abs(duration - period_) * 1e-3);
+    }
+    series_[2].add(static_cast<double>(std::max<std::int64_t>(lateness, 0)) * 1e-3);
     lastDuty_ = static_cast<double>(work) / period_ * 100;
-    series_[2].add(lastDuty_);
+    series_[3].add(lastDuty_);
 }
 
 void ClusterMetrics::write(const RunnerCounts& counts) {
     for (MetricSeries& series : series_) series.write();
-    // The walks over the bins take turns: one in every 16 cycles, all within 64.
-    const std::uint64_t turn = written_++ % 64;
+    // The walks over the bins take turns: one in every 16 cycles, all within 80.
+    const std::uint64_t turn = written_++ % 80;
     if (turn % 16 == 1) {
         if (turn / 16 < series_.size())
             series_[turn / 16].writePercentiles();
@@ -157,7 +168,9 @@ void ClusterMetrics::writeLatency() {
     latency_[0] = static_cast<double>(last) * 1e-3;
     latency_[1] = sum / static_cast<double>(count);
     latency_[5] = greatest;
-    findPercentiles(latencySum_, count, std::span{latency_}.subspan(2, 3), latencyOfBucket);
+    findPercentiles(
+        latencySum_, count, std::span{latency_}.subspan(2, 3),
+        [](std::uint64_t bin) { return bin; }, latencyOfBucket);
 }
 
 }  // namespace cortex::cs

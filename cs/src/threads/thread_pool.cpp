@@ -75,10 +75,19 @@ ThreadOptions ThreadPool::threadOptions(std::uint32_t worker) const {
     ThreadOptions thread{options_.name + (worker == 0 ? "-loop" : "-" + std::to_string(worker)),
                          options_.priority, options_.affinity};
     const bool sharesWork = threads() > 1 && threads() <= cpuCount(options_.affinity);
-    if (thread.priority != 0 || sharesWork) {
+    if (options_.pin && (thread.priority != 0 || sharesWork)) {
         thread.affinity = {cpuForThread(options_.affinity, worker)};
     }
     return thread;
+}
+
+std::vector<int> ThreadPool::pinnedTo() const {
+    std::vector<int> cpus;
+    for (std::uint32_t worker = 0; worker < threads(); ++worker) {
+        const std::vector<int> of = threadOptions(worker).affinity;
+        if (of.size() == 1) cpus.push_back(of.front());
+    }
+    return cpus;
 }
 
 std::vector<std::string> ThreadPool::configureLoopThread() const {

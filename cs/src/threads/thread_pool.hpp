@@ -21,6 +21,7 @@ struct PoolOptions {
     std::uint32_t threads = 0;    // with the loop's own; 0: as the schedule says
     int priority = 0;             // see ThreadOptions
     std::vector<int> affinity{};  // CPUs for all threads, the loop's first; empty: all usable
+    bool pin = true;              // each thread to one of them, where they share work
     std::uint32_t spinMicroseconds = 20;  // before a waiting thread sleeps
     bool oversubscribe = false;           // tests: more real-time threads than CPUs
 
@@ -72,6 +73,9 @@ public:
     void cycle(std::int64_t next = 0) noexcept;
 
     std::uint32_t threads() const noexcept { return static_cast<std::uint32_t>(workers_.size()); }
+
+    // The CPUs of its threads, the loop's first; empty: the system places them.
+    std::vector<int> pinnedTo() const;
 
     // How often this worker slept within a cycle because what it waited for took too long.
     std::uint64_t sleeps(std::uint32_t worker) const noexcept;

@@ -99,6 +99,20 @@ void examineClock(Live& live, const comms::AgentStatus& agent, Diagnoses& found)
                      "synchronise the clocks of both hosts: sudo apt install chrony"});
 }
 
+// Where the loops of this host run, of those that are pinned.
+void examineCpus(Live& live, const comms::AgentStatus& agent, Diagnoses& found) {
+    const comms::AgentImage image = live.mirror().image(agent.name);
+    const std::uint32_t own = image ? ownSimplex(image->structure()) : noSimplex;
+    if (own == noSimplex || !image.came(own)) return;
+    const SimplexInfo& info = image->structure().simplexes[own];
+    const ItemLayout* item = info.layout->find("cpus");
+    if (item == nullptr || item->item->kind != Kind::String || item->item->length != 1) return;
+    const std::string cpus = toText(image->value(own, *item));
+    if (cpus.empty()) return;
+    found.push_back(
+        {Level::Ok, "agent", "the loop of " + agent.name + " is pinned to CPU " + cpus, ""});
+}
+
 }  // namespace
 
 void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
@@ -128,6 +142,7 @@ void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
     }
     for (const auto& each : live.mirror().agents()) {
         examineState(each, found);
+        examineCpus(live, each, found);
         if (each.host != hostName()) examineClock(live, each, found);
     }
     for (const std::string& each : live.contradictions()) {

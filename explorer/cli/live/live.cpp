@@ -133,7 +133,7 @@ std::string Live::limitText() const {
 }
 
 std::string Live::standstillOf(const std::string& agent) const {
-    for (const comms::AgentStatus& each : mirror_->agents()) {
+    for (const comms::AgentStatus& each : mirror().agents()) {
         if (each.name == agent) return each.standstill;
     }
     return {};
@@ -229,7 +229,7 @@ std::vector<std::string> Live::contradictions() const {
 }
 
 void Live::printWarnings() const {
-    for (const comms::AgentStatus& each : mirror_->agents()) {
+    for (const comms::AgentStatus& each : mirror().agents()) {
         if (each.standstill.empty()) continue;
         std::cerr << "cortex: " << printable(each.name + " " + each.standstill) << '\n';
     }
