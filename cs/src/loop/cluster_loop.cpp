@@ -58,7 +58,9 @@ void ClusterLoop::start() {
             static_cast<std::int64_t>(options_.triggerTimeout * 1e9)};
         watchdog_ = std::make_unique<Watchdog>(
             WatchdogLimits{limit, trigger_.realTime() ? std::max(timeout, limit) : 0ns},
-            [this](Watchdog::Finding finding, const Tick& tick) { tell(finding, tick); });
+            [this](Watchdog::Finding finding, const Tick& tick, std::int64_t since) {
+                tell(finding, tick, since);
+            });
     }
     startRescheduler();
     ended_.store(Ended::Running, std::memory_order_release);
@@ -352,13 +354,15 @@ void ClusterLoop::shutDown() {
 }
 
 // On the watchdog's thread.
-void ClusterLoop::tell(Watchdog::Finding finding, const Tick& tick) {
+void ClusterLoop::tell(Watchdog::Finding finding, const Tick& tick, std::int64_t since) {
     if (finished_.load(std::memory_order_acquire)) return;
     if (finding == Watchdog::Finding::Hangs) {
         const HungHook hook = findHungHook(runner_, agent_);
-        standsStill(tick, hook, hook.standstill(), hook.text());
+        agent_.standstill().set({hook.standstill(), since});
+        standsStill(tick, hook, hook.text());
     } else if (finding == Watchdog::Finding::NoTick) {
-        standsStill(tick, {"/" + agent_.name(), "the trigger", false}, "has had no tick",
+        agent_.standstill().set({"has had no tick", since});
+        standsStill(tick, {"/" + agent_.name(), "the trigger", false},
                     "no tick has come for longer than the watchdog allows");
     } else if (finding == Watchdog::Finding::TimedOut) {
         timedOutAfter_.store(tick.cycle, std::memory_order_release);
@@ -370,9 +374,7 @@ void ClusterLoop::tell(Watchdog::Finding finding, const Tick& tick) {
     }
 }
 
-void ClusterLoop::standsStill(const Tick& tick, const HungHook& where, std::string_view why,
-                              std::string_view text) {
-    agent_.standstill().set({std::string{why}, watchdog_->since()});
+void ClusterLoop::standsStill(const Tick& tick, const HungHook& where, std::string_view text) {
     post(tick, agent_.structure().find(where.path), text);
     beat({tick.cycle, false, where.path, where.hook});
 }

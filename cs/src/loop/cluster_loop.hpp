@@ -72,9 +72,8 @@ private:
     void reportMissed() CORTEX_REALTIME;
     void warnDuty() CORTEX_REALTIME;
     void shutDown();
-    void tell(Watchdog::Finding finding, const Tick& tick);
-    void standsStill(const Tick& tick, const HungHook& where, std::string_view why,
-                     std::string_view text);
+    void tell(Watchdog::Finding finding, const Tick& tick, std::int64_t since);
+    void standsStill(const Tick& tick, const HungHook& where, std::string_view text);
     void post(const Tick& tick, std::uint32_t simplex, std::string_view text);
 
     AgentRuntime& agent_;

@@ -67,7 +67,7 @@ void Watchdog::look(std::int64_t runs, std::int64_t last, std::chrono::nanosecon
 }
 
 void Watchdog::tell(Finding finding, std::int64_t cycle) {
-    report_(finding, {cycle, nominalTime_.load(std::memory_order_relaxed)});
+    report_(finding, {cycle, nominalTime_.load(std::memory_order_relaxed)}, since_);
 }
 
 }  // namespace cortex::cs

@@ -36,13 +36,11 @@ struct WatchdogLimits {
 class Watchdog {
 public:
     enum class Finding : std::uint8_t { Hangs, NoTick, TimedOut, GoesOn };
-    using Report = std::function<void(Finding, const Tick&)>;
+    // `since`: when the cycle counter moved last, ns of the monotonic clock.
+    using Report = std::function<void(Finding, const Tick&, std::int64_t since)>;
 
     Watchdog(WatchdogLimits limits, Report report);
     ~Watchdog();
-
-    // Since when the cycle counter stands still, ns of the monotonic clock; in a report only.
-    std::int64_t since() const { return since_; }
 
     // Loop thread.
     void cycleBegins(const Tick& tick) CORTEX_REALTIME {
