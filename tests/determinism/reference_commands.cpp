@@ -362,6 +362,10 @@ Ending Reference::set(int simplex, State state, const Arguments& arguments) {
         if (!why.empty()) return {Outcome::Rejected, Reason::Range, why};
     }
     if (arguments.empty()) return {Outcome::Rejected, Reason::Range, "set names no item"};
+    if (self.task != nullptr && self.task->dead) {
+        return {Outcome::Rejected, Reason::State,
+                "one of its hooks threw: clearFaults comes first"};
+    }
     for (const auto& [name, value] : arguments) {
         if (name == "gain")
             item<double>(simplex, name) = std::get<1>(value).front();

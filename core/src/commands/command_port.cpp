@@ -293,6 +293,10 @@ void CommandPort::set(const std::byte* request, Verdict& verdict) {
         refuse(verdict, Reason::Range, "set names no item");
         return;
     }
+    if (dead_) {
+        refuse(verdict, Reason::State, hookThrew);
+        return;
+    }
     if (settingsHooks_.object != nullptr && !agreed(request, verdict)) return;
     for (std::size_t i = 0; i < settables_.size(); ++i) {
         if (request[i] != std::byte{0}) settables_[i].store(request);
@@ -302,10 +306,6 @@ void CommandPort::set(const std::byte* request, Verdict& verdict) {
 
 // What the simplex itself says of values that are right one by one.
 bool CommandPort::agreed(const std::byte* request, Verdict& verdict) const {
-    if (dead_) {
-        refuse(verdict, Reason::State, hookThrew);
-        return false;
-    }
     ProposedSettings proposed{settables_, request};
     settingsHooks_.proposed(settingsHooks_.object, proposed);
     if (!proposed.refusal()) return true;
