@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -78,6 +79,7 @@ private:
     void writeSafe(Link& output);
     LimitFinding limit(RefSimplex& demand, double elapsed);
     void limitOutputs(int simplex, double elapsed);
+    void checkValues(int writer, RefSimplex& checked, Record& values);
 
     // reference_commands.cpp
     Outcome send(SenderHandle& handle, double amount, std::int64_t number);
@@ -119,7 +121,8 @@ private:
     std::uint64_t shuffle_;
     std::uint64_t arrivals_ = 0;
     std::map<const Type*, Shape> shapes_;
-    std::vector<RefSimplex> all_;  // sorted by path
+    std::vector<RefSimplex> all_;                                      // sorted by path
+    std::set<std::pair<const Record*, const DataItem*>> wrongValues_;  // in the cycle before
     std::deque<Link> links_;
     std::vector<int> order_;      // canonical, of all
     std::vector<int> execution_;  // any order that the relationships allow

@@ -277,6 +277,10 @@ void Reference::finish(int simplex, SlotState state, std::int64_t elapsed) {
     }
     at(simplex).live.state = state;
     for (Link* output : task.outputs) output->seen->state = state;
+    for (Link* output : task.outputs) {
+        if (!at(output->target).demand) checkValues(simplex, at(output->target), *output->seen);
+    }
+    checkValues(simplex, at(simplex), at(simplex).live);
 }
 
 }  // namespace cortex::determinism

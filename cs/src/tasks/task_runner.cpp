@@ -34,6 +34,7 @@ TaskRunner::TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64
       demands_{set_},
       inputs_{set_, demands_},
       states_{set_, demands_},
+      values_{set_},
       chunks_{schedule.chunks},
       positions_{std::make_unique<Position[]>(agent.threadCount())},
       timesAll_{agent.options().realTime && set_.tasks.size() <= timedWhole} {}
@@ -136,6 +137,7 @@ inline void TaskRunner::runSimplex(Task& task, const Tick& tick, TaskThread& thr
     if (task.limits) limitOutputs(task, tick);
     TaskInputs::settleQuality(set_.states[task.index], task, simplex, tick);
     for (const TaskOutput& output : set_.outputsOf(task)) *output.state = set_.states[task.index];
+    if (task.values != Task::Values::Right) values_.check(task);
 }
 
 inline void TaskRunner::runHooks(Task& task, SimplexCS& simplex, const Tick& tick,

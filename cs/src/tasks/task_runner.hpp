@@ -6,6 +6,7 @@
 #include "tasks/task_inputs.hpp"
 #include "tasks/task_set.hpp"
 #include "tasks/task_states.hpp"
+#include "tasks/task_values.hpp"
 #include "threads/scheduler.hpp"
 
 #include <cstdint>
@@ -61,6 +62,7 @@ private:
     TaskDemands demands_;
     TaskInputs inputs_;
     TaskStates states_;
+    TaskValues values_;
     std::span<const Chunk> chunks_;
     std::unique_ptr<Position[]> positions_;
     Tick tick_;

@@ -23,6 +23,10 @@ struct TaskBuilder {
     const Structure& structure;
     std::vector<DemandLimits*> limitsOf;  // per simplex
     std::vector<std::vector<Arbiter::Candidate>> candidates;
+    struct RunEnds {
+        std::size_t floats = 0, ints = 0;
+    };
+    std::vector<RunEnds> runEnds;  // per task
 
     const TypeLayout& layout(std::uint32_t simplex) const {
         return *structure.simplexes[simplex].layout;
@@ -66,6 +70,8 @@ struct TaskBuilder {
         }
         set.tasks.resize(schedule.tasks.size());
         set.details.resize(schedule.tasks.size());
+        set.runsOf.resize(schedule.tasks.size());
+        runEnds.resize(schedule.tasks.size());
         for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
             const std::uint32_t index = schedule.tasks[t];
             if (isActive(index)) buildTask(set.tasks[t], index);
@@ -74,8 +80,22 @@ struct TaskBuilder {
             const std::uint32_t index = schedule.tasks[t];
             if (!isActive(index)) buildArbiter(set.tasks[t], index);
         }
+        shareRuns();
         for (const auto& limits : set.limits) limits->accept();
         agent.tables().latch();
+    }
+
+    // Each task gets its part of the runs, now that they stay where they are.
+    void shareRuns() {
+        RunEnds before;
+        for (std::size_t t = 0; t < set.tasks.size(); ++t) {
+            if (set.tasks[t].simplex == nullptr) continue;
+            const auto [floats, ints] = runEnds[t];
+            set.runsOf[t] = {
+                std::span{set.runs.floats}.subspan(before.floats, floats - before.floats),
+                std::span{set.runs.ints}.subspan(before.ints, ints - before.ints)};
+            before = runEnds[t];
+        }
     }
 
     void buildTask(Task& task, std::uint32_t index) {
@@ -102,8 +122,12 @@ struct TaskBuilder {
             if (edge.rule->direction == Direction::Input)
                 addInput(edge);
             else if (!isActive(edge.target))
-                task.limits = addOutput(edge, simplex) || task.limits;
+                addOutput(task, edge, simplex);
         }
+        details.checks = checksOf(agent.tables().live(index), index);
+        if (details.checks != nullptr) task.values = Task::Values::ToPass;
+        runEnds[static_cast<std::size_t>(&task - set.tasks.data())] = {set.runs.floats.size(),
+                                                                       set.runs.ints.size()};
         task.inputCount = static_cast<std::uint32_t>(set.inputs.size()) - task.firstInput;
         task.outputCount = static_cast<std::uint32_t>(set.outputs.size()) - task.firstOutput;
     }
@@ -132,8 +156,16 @@ struct TaskBuilder {
         set.inputs.push_back(input);
     }
 
-    // Whether the task itself applies limits to it.
-    bool addOutput(const Edge& edge, SimplexCS& writer) {
+    // Null: nothing of it could be wrong.
+    ValueChecks* checksOf(const Slice& values, std::uint32_t simplex) {
+        auto checks = std::make_unique<ValueChecks>(*structure.types, layout(simplex), values,
+                                                    simplex, set.runs);
+        if (checks->empty()) return nullptr;
+        set.checks.push_back(std::move(checks));
+        return set.checks.back().get();
+    }
+
+    void addOutput(Task& task, const Edge& edge, SimplexCS& writer) {
         TaskOutput output;
         output.target = edge.target;
         const Slice out = agent.tables().edge(numberOf(edge));
@@ -145,10 +177,13 @@ struct TaskBuilder {
                 layout(edge.target), out, *limitsOf[edge.target], observedLayout, observed));
             output.safe = set.safe.back().get();
             if (!shared) output.limits = limitsOf[edge.target];
+        } else {
+            output.checks = checksOf(out, edge.target);
         }
         set.outputs.push_back(output);
         if (shared) candidates[edge.target].push_back({&writer, out, &set.outputs.back()});
-        return output.limits != nullptr;
+        task.limits = task.limits || output.limits != nullptr;
+        if (output.checks != nullptr) task.values = Task::Values::ToPass;
     }
 
     // What observes the n-th demand: the n-th relationship under the counterpart rule, or its only.
@@ -191,7 +226,7 @@ TaskSet::TaskSet(AgentRuntime& runtime, const Schedule& schedule, std::int64_t n
       period{nominalPeriod},
       threads(runtime.threadCount()) {
     for (std::uint32_t i = 0; i < agent.threadCount(); ++i) threads[i].loop = &agent.thread(i);
-    TaskBuilder{*this, agent, structure, {}, {}}.build(schedule);
+    TaskBuilder{*this, agent, structure, {}, {}, {}}.build(schedule);
 }
 
 }  // namespace cortex::cs

@@ -5,6 +5,7 @@
 
 #include "tasks/demands.hpp"
 #include "tasks/task_thread.hpp"
+#include "tasks/value_checks.hpp"
 #include "threads/scheduler.hpp"
 
 #include <cstdint>
@@ -50,6 +51,7 @@ struct TaskOutput {
     SlotState* state = nullptr;
     SafeDemands* safe = nullptr;     // null: not a demand
     DemandLimits* limits = nullptr;  // null: an arbiter applies them, or not a demand
+    ValueChecks* checks = nullptr;   // null: a demand, or nothing that could be wrong
     std::uint32_t target = noSimplex;
     LimitResult refused;  // set by the arbiter: this demand faults its writer
 };
@@ -79,11 +81,20 @@ struct alignas(32) Task {
     bool everyCycle = true;
     bool measures = false;
     bool limits = false;  // an output of its own has limits
+    // Whether an observation or an item of its own can be wrong, or was wrong in the cycle before.
+    enum class Values : std::uint8_t { Right, ToPass, Wrong } values = Values::Right;
+};
+
+// What the values that a task writes are to pass: runs of all of its outputs and of its own items.
+struct TaskRuns {
+    std::span<const ValueRun<double>> floats;
+    std::span<const ValueRun<std::int64_t>> ints;
 };
 
 // What it looks at when something happens, or where a task does not run in every cycle.
 struct TaskDetails {
     Arbiter* arbiter = nullptr;
+    ValueChecks* checks = nullptr;  // of its own items; null: nothing that could be wrong
     std::uint32_t every = 1, phase = 0;
     std::int64_t lastRun = 0;
     std::int64_t stateSince = 0;
@@ -126,6 +137,9 @@ struct TaskSet {
     std::vector<std::unique_ptr<HeldInput>> held;
     std::vector<std::unique_ptr<SafeDemands>> safe;
     std::vector<std::unique_ptr<DemandLimits>> limits;
+    std::vector<std::unique_ptr<ValueChecks>> checks;
+    ValueRuns runs;
+    std::vector<TaskRuns> runsOf;  // of the same tasks
     std::vector<std::unique_ptr<Arbiter>> arbiters;
     std::vector<TaskThread> threads;
 };

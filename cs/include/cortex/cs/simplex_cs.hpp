@@ -23,6 +23,7 @@ class TaskRunner;
 class TaskStates;
 class TaskInputs;
 class TaskDemands;
+class TaskValues;
 struct TaskBuilder;
 class ThreadedSimplex;
 class GroupCommands;
@@ -121,6 +122,7 @@ private:
     friend class TaskInputs;
     friend class TaskDemands;
     friend class ThreadedSimplex;
+    friend class TaskValues;
     friend struct TaskBuilder;
     friend class GroupCommands;
     friend class ClusterCS;

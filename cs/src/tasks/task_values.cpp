@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tasks/task_values.hpp"
+
+namespace cortex::cs {
+
+namespace {
+
+EventText& operator<<(EventText& text, const Number& number) {
+    if (const auto* whole = std::get_if<std::int64_t>(&number)) return text << *whole;
+    return text << std::get<double>(number);
+}
+
+}  // namespace
+
+bool TaskValues::examine(const Task& task) {
+    bool any = false;
+    for (const TaskOutput& output : set_.outputsOf(task)) {
+        if (output.checks != nullptr) any = examine(task, *output.checks, *output.state) || any;
+    }
+    ValueChecks* own = set_.detailsOf(task).checks;
+    if (own != nullptr) any = examine(task, *own, set_.states[task.index]) || any;
+    return any;
+}
+
+bool TaskValues::examine(const Task& task, ValueChecks& checks, SlotState& state) {
+    const ValueChecks::Result result = checks.examine();
+    for (const ValueChecks::Beginning& each : checks.beginnings()) report(checks, each, task);
+    if (!result.any) return false;
+    ++task.simplex->thread_->limits;
+    if (result.notFinite && state.quality < Quality::Bad) {
+        state.quality = Quality::Bad;
+        state.cause = checks.simplex();
+    }
+    return true;
+}
+
+// One event for each item whose episode begins.
+void TaskValues::report(const ValueChecks& checks, const ValueChecks::Beginning& each,
+                        const Task& task) {
+    const DataItem& item = *each.item;
+    EventText text{item.name};
+    text << " of " << set_.structure.simplexes[checks.simplex()].path;
+    if (each.notFinite) {
+        text << " is not a number: its quality is bad";
+    } else {
+        text << " is " << each.value;
+        if (!item.unit.empty()) text << " " << item.unit;
+        text << ", out of its range ";
+        if (item.min) text << *item.min;
+        text << " .. ";
+        if (item.max) text << *item.max;
+    }
+    set_.agent.post(*task.simplex->thread_->loop, Severity::Warning, EventKind::Limit, task.index,
+                    text);
+}
+
+}  // namespace cortex::cs

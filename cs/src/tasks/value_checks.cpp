@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tasks/value_checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <variant>
+
+namespace cortex::cs {
+
+namespace {
+
+template <class T>
+T boundOf(const std::optional<Number>& bound, T otherwise) {
+    if (!bound) return otherwise;
+    return std::visit([](auto number) { return static_cast<T>(number); }, *bound);
+}
+
+// What the framework writes into every active simplex; the progress of a long command is its own.
+bool writtenByFramework(const TypeModel& types, const Type& type, const DataItem& item) {
+    if (item.name == "progress") return false;
+    constexpr std::array<std::string_view, 2> bases{"Active", "Activity"};
+    return std::ranges::any_of(bases, [&](std::string_view name) {
+        const Type* base = types.find(name);
+        return base != nullptr && type.isA(name) && base->findData(item.name) != nullptr;
+    });
+}
+
+// Neighbours with one range become one.
+template <class T>
+void join(std::vector<ValueRun<T>> found, std::vector<ValueRun<T>>& runs) {
+    std::ranges::sort(found, {}, &ValueRun<T>::first);
+    const std::size_t begin = runs.size();
+    for (const ValueRun<T>& each : found) {
+        const bool joins = runs.size() > begin && runs.back().end == each.first &&
+                           runs.back().min == each.min && runs.back().max == each.max;
+        if (joins)
+            runs.back().end = each.end;
+        else
+            runs.push_back(each);
+    }
+}
+
+}  // namespace
+
+ValueChecks::ValueChecks(const TypeModel& types, const TypeLayout& layout, const Slice& values,
+                         std::uint32_t simplex, ValueRuns& runs)
+    : simplex_{simplex} {
+    ValueRuns found;
+    for (const ItemLayout& entry : layout.items) {
+        const DataItem& item = *entry.item;
+        if (entry.constant || item.measured) continue;
+        if (writtenByFramework(types, *layout.type, item)) continue;
+        add(item, values.at(item.kind, entry.offset), found);
+    }
+    join(std::move(found.floats), runs.floats);
+    join(std::move(found.ints), runs.ints);
+    beginnings_.reserve(items_.size());
+}
+
+void ValueChecks::add(const DataItem& item, const void* cells, ValueRuns& runs) {
+    constexpr double greatest = std::numeric_limits<double>::max();
+    using Int = std::numeric_limits<std::int64_t>;
+    const bool ranged = item.min || item.max;
+    if (item.kind != Kind::Float && !(item.kind == Kind::Int && ranged)) return;
+    Item added{&item, cells, boundOf(item.min, -greatest), boundOf(item.max, greatest), 0, 0};
+    if (item.kind == Kind::Int) {
+        added.minInt = boundOf(item.min, Int::min());
+        added.maxInt = boundOf(item.max, Int::max());
+        const auto* first = static_cast<const std::int64_t*>(cells);
+        runs.ints.push_back({first, first + item.length, added.minInt, added.maxInt});
+    } else {
+        const auto* first = static_cast<const double*>(cells);
+        runs.floats.push_back({first, first + item.length, added.min, added.max});
+    }
+    items_.push_back(added);
+}
+
+// True: one of its values is wrong; the first of them, or the first that is not finite, is found.
+bool ValueChecks::judge(const Item& item, Beginning& found) {
+    bool wrong = false;
+    for (std::uint32_t i = 0; i < item.item->length; ++i) {
+        if (item.item->kind == Kind::Int) {
+            const std::int64_t value = static_cast<const std::int64_t*>(item.cells)[i];
+            if (value >= item.minInt && value <= item.maxInt) continue;
+            found = {item.item, static_cast<double>(value), false};
+            return true;
+        }
+        const double value = static_cast<const double*>(item.cells)[i];
+        if (value >= item.min && value <= item.max) continue;
+        const bool notFinite = !std::isfinite(value);
+        if (!wrong || notFinite) found = {item.item, value, notFinite};
+        wrong = true;
+        if (notFinite) return true;
+    }
+    return wrong;
+}
+
+ValueChecks::Result ValueChecks::examine() {
+    Result result;
+    beginnings_.clear();
+    for (Item& item : items_) {
+        Beginning found{};
+        const bool wrong = judge(item, found);
+        if (wrong && !item.inEpisode) beginnings_.push_back(found);
+        item.inEpisode = wrong;
+        result.any = result.any || wrong;
+        result.notFinite = result.notFinite || (wrong && found.notFinite);
+    }
+    return result;
+}
+
+}  // namespace cortex::cs

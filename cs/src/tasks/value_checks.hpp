@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/structure.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cortex::cs {
+
+// Neighbours in a table that have one range.
+template <class T>
+struct ValueRun {
+    const T *first, *end;
+    T min, max;
+
+    bool passes() const CORTEX_REALTIME {
+        const T* value = first;
+        do {
+            if (!(*value >= min && *value <= max)) return false;
+        } while (++value != end);
+        return true;
+    }
+};
+struct ValueRuns {
+    std::vector<ValueRun<double>> floats;
+    std::vector<ValueRun<std::int64_t>> ints;
+};
+
+// Looks at what a task has written where nothing limits it: an observation, or its own items. Not
+// finite, or out of the range of the type. Built by start(); used by the task that writes, where
+// the runs that it gave the task do not pass.
+class ValueChecks {
+public:
+    // The first cycle of an episode of one item.
+    struct Beginning {
+        const DataItem* item;
+        double value;
+        bool notFinite;
+    };
+    struct Result {
+        bool any = false;
+        bool notFinite = false;
+    };
+
+    // `simplex`: that has the values. Items of the framework and measured ones are not looked at.
+    // Adds to the runs what is to pass.
+    ValueChecks(const TypeModel& types, const TypeLayout& layout, const Slice& values,
+                std::uint32_t simplex, ValueRuns& runs);
+
+    bool empty() const { return items_.empty(); }
+    std::uint32_t simplex() const { return simplex_; }
+    // What is wrong, item by item.
+    Result examine() CORTEX_REALTIME;
+    std::span<const Beginning> beginnings() const { return beginnings_; }  // of the last examine()
+
+private:
+    struct Item {
+        const DataItem* item;
+        const void* cells;
+        double min, max;
+        std::int64_t minInt, maxInt;
+        bool inEpisode = false;
+    };
+    void add(const DataItem& item, const void* cells, ValueRuns& runs);
+    static bool judge(const Item& item, Beginning& found) CORTEX_REALTIME;
+
+    std::uint32_t simplex_;
+    std::vector<Item> items_;
+    std::vector<Beginning> beginnings_;
+};
+
+}  // namespace cortex::cs
