@@ -12,7 +12,7 @@
 namespace cortex::comms {
 namespace {
 
-NetworkOptions secured(const std::string& folder) {
+NetworkOptions securedBy(const std::string& folder) {
     NetworkOptions options = loopback();
     options.security = folder;
     return options;
@@ -114,9 +114,9 @@ TEST(DdsAgentCalls, AreUnknownOrExpiredWhenTheAgentEndsAndReachItsNextStart) {
 
 TEST(DdsAgentCalls, EndAsTheCertificateOfTheSenderSays) {
     const SecuredPlant plant;
-    WorkAgent worker{secured(plant.make("worker"))};
+    WorkAgent worker{securedBy(plant.make("worker"))};
     std::optional<BossAgent> boss;
-    boss.emplace(secured(plant.make("chief", {"/elsewhere"})));
+    boss.emplace(securedBy(plant.make("chief", {"/elsewhere"})));
     ASSERT_TRUE(linked(*boss, worker));
     boss->send();
     ASSERT_TRUE(becomeTrue(*boss, &worker, [&] { return boss->answered(); }));
@@ -127,8 +127,8 @@ TEST(DdsAgentCalls, EndAsTheCertificateOfTheSenderSays) {
 
 TEST(DdsAgentCalls, AreSignedWhereSecurityIsOn) {
     const SecuredPlant plant;
-    WorkAgent worker{secured(plant.make("worker"))};
-    BossAgent boss{secured(plant.make("chief", {"/work"}))};
+    WorkAgent worker{securedBy(plant.make("worker"))};
+    BossAgent boss{securedBy(plant.make("chief", {"/work"}))};
     ASSERT_TRUE(linked(boss, worker));
     boss.send();
     ASSERT_TRUE(becomeTrue(boss, &worker, [&] { return boss.answered(); }));

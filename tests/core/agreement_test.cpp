@@ -252,6 +252,20 @@ TEST(ShippedOntology, HasTheCommittedHashes) {
         << "on purpose? cp " << written << " tests/data/";
 }
 
+// These four are in every agent. An item that one side lacks is a contradiction, so with the first
+// release they are final: what the framework adds later gets simplexes of its own.
+TEST(ShippedOntology, HasTheFinalTypesOfTheFramework) {
+    const TypeModel types = TypeModel::load(CORTEX_SOURCE_DIR "/ontology/base.xml");
+    std::string now;
+    for (const char* name : {"Active", "Activity", "Agent", "Cluster"}) {
+        now += canonicalText(types.at(name)) + "\n";
+    }
+    const std::string written = CORTEX_BINARY_DIR "/framework-types.txt";
+    std::ofstream{written} << now;
+    EXPECT_EQ(now, test::textOf(CORTEX_SOURCE_DIR "/tests/data/framework-types.txt"))
+        << "give a new function a type of its own; see docs/architecture.md";
+}
+
 TEST(HashOf, IsTheFirstHalfOfSha256) {
     EXPECT_EQ(toHex(hashOf("abc")), "ba7816bf8f01cfea414140de5dae2223");
 }

@@ -12,29 +12,29 @@ namespace cortex::cs {
 namespace {
 
 // CPUs that no machine has, so that loops of other tests claim none of them.
-const std::vector<int> cpus{70'001, 70'002, 70'003};
+const std::vector<int> unusedCpus{70'001, 70'002, 70'003};
 
 TEST(CpuClaims, AreFreeOnesFirst) {
     CpuClaims one, other;
-    EXPECT_EQ(one.take(cpus, 1), (std::vector{70'001}));
-    EXPECT_EQ(other.take(cpus, 2), (std::vector{70'002, 70'003}));
+    EXPECT_EQ(one.take(unusedCpus, 1), (std::vector{70'001}));
+    EXPECT_EQ(other.take(unusedCpus, 2), (std::vector{70'002, 70'003}));
 }
 
 TEST(CpuClaims, AreAllOrNone) {
     CpuClaims one, other, third;
-    one.take(cpus, 2);
-    EXPECT_TRUE(other.take(cpus, 2).empty());
-    EXPECT_EQ(third.take(cpus, 1), (std::vector{70'003})) << "the one before kept nothing";
+    one.take(unusedCpus, 2);
+    EXPECT_TRUE(other.take(unusedCpus, 2).empty());
+    EXPECT_EQ(third.take(unusedCpus, 1), (std::vector{70'003})) << "the one before kept nothing";
 }
 
 TEST(CpuClaims, EndWithTheirOwner) {
     CpuClaims later;
     {
         CpuClaims one;
-        one.take(cpus, 3);
-        EXPECT_TRUE(later.take(cpus, 1).empty());
+        one.take(unusedCpus, 3);
+        EXPECT_TRUE(later.take(unusedCpus, 1).empty());
     }
-    EXPECT_EQ(later.take(cpus, 3), cpus);
+    EXPECT_EQ(later.take(unusedCpus, 3), unusedCpus);
 }
 
 TEST(CpuClaims, OfAKilledProcessAreFree) {
@@ -43,7 +43,7 @@ TEST(CpuClaims, OfAKilledProcessAreFree) {
     const pid_t child = fork();
     if (child == 0) {
         CpuClaims claims;
-        const char taken = claims.take(cpus, 3).size() == 3 ? 'y' : 'n';
+        const char taken = claims.take(unusedCpus, 3).size() == 3 ? 'y' : 'n';
         (void)!write(ready[1], &taken, 1);
         pause();
         _exit(0);
@@ -52,10 +52,10 @@ TEST(CpuClaims, OfAKilledProcessAreFree) {
     ASSERT_EQ(read(ready[0], &taken, 1), 1);
     EXPECT_EQ(taken, 'y');
     CpuClaims claims;
-    EXPECT_TRUE(claims.take(cpus, 1).empty());
+    EXPECT_TRUE(claims.take(unusedCpus, 1).empty());
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    EXPECT_EQ(claims.take(cpus, 3), cpus);
+    EXPECT_EQ(claims.take(unusedCpus, 3), unusedCpus);
     close(ready[0]);
     close(ready[1]);
 }

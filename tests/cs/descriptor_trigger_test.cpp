@@ -156,6 +156,20 @@ TEST(DescriptorTrigger, IsInterruptedFromAnotherThread) {
     interrupting.join();
 }
 
+TEST(DescriptorTrigger, EndsAWaitOnceWhereNoTickComes) {
+    const int counter = eventfd(0, 0);
+    cs::DescriptorTrigger trigger{counter, 1ms};
+    trigger.start();
+    EXPECT_TRUE(trigger.timeOut());
+    EXPECT_TRUE(trigger.waitForTick().timedOut);
+
+    const std::uint64_t one = 1;
+    ASSERT_EQ(write(counter, &one, sizeof one), static_cast<ssize_t>(sizeof one));
+    const cs::Trigger next = trigger.waitForTick();
+    EXPECT_FALSE(next.timedOut);
+    EXPECT_EQ(next.nominalTime, 1'000'000) << "the cycle without a tick counted as one";
+}
+
 TEST(DescriptorTrigger, RefusesWhatHasNoTicks) {
     EXPECT_NE(whyRefused(open("/proc/self/exe", O_RDONLY)).find("it is no socket for datagrams"),
               std::string::npos);

@@ -120,10 +120,16 @@ void DescriptorTrigger::start() {
 
 Trigger DescriptorTrigger::waitForTick() {
     if (skip_ && isReadable(0)) takePending();
-    while (pending_ == 0 && !interrupted_.load(std::memory_order_acquire)) {
+    const auto isEnded = [this] {
+        return interrupted_.load(std::memory_order_acquire) ||
+               timedOut_.load(std::memory_order_acquire);
+    };
+    while (pending_ == 0 && !isEnded()) {
         if (isReadable(-1)) takePending();
     }
     Trigger trigger;
+    trigger.timedOut = timedOut_.exchange(false, std::memory_order_acq_rel);
+    if (trigger.timedOut) takeCount(interrupt_);
     trigger.stopped = interrupted_.load(std::memory_order_acquire);
     if (skip_) trigger.periods = std::max<std::int64_t>(pending_, 1);
     seen_ += trigger.periods;
@@ -134,6 +140,17 @@ Trigger DescriptorTrigger::waitForTick() {
 
 void DescriptorTrigger::interrupt() {
     interrupted_.store(true, std::memory_order_release);
+    endWait();
+}
+
+// The cycle that follows counts as a tick of its own.
+bool DescriptorTrigger::timeOut() {
+    timedOut_.store(true, std::memory_order_release);
+    endWait();
+    return true;
+}
+
+void DescriptorTrigger::endWait() const {
     const std::uint64_t one = 1;
     // Into an empty counter one always fits.
     [[maybe_unused]] const auto written = write(interrupt_, &one, sizeof one);

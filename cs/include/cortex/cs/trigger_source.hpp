@@ -138,6 +138,7 @@ public:
     void start() override;
     Trigger waitForTick() override;  // throws Error when there is nobody left who could send ticks
     void interrupt() override;
+    bool timeOut() override;
     std::int64_t period() const override { return period_; }
     std::int64_t missed() override { return pending_; }
     void skipMissed(bool skip) override { skip_ = skip; }
@@ -147,6 +148,7 @@ private:
 
     bool isReadable(int milliseconds) const;
     void takePending();
+    void endWait() const;
 
     int descriptor_;
     int interrupt_ = -1;
@@ -155,7 +157,7 @@ private:
     std::int64_t seen_ = 0;     // ticks that were returned or passed over
     std::int64_t pending_ = 0;  // that were taken, but not returned
     bool skip_ = true;
-    std::atomic<bool> interrupted_{false};
+    std::atomic<bool> interrupted_{false}, timedOut_{false};
 };
 
 }  // namespace cortex::cs
