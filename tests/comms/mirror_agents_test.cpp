@@ -345,7 +345,7 @@ TEST_F(MirrorCommandsTest, AreRepeatedAsTheyAreUntilTheyAreAnswered) {
     message.response = namedValues({{"sum", std::vector{5.0}}});
     commands.take(message);
 
-    ASSERT_TRUE(commands.poll(number, result));
+    ASSERT_TRUE(commands.poll(number, result, &result.latency));
     EXPECT_EQ(result.outcome, Outcome::Done);
     EXPECT_EQ(result.response.at("sum"), Value(std::vector{5.0}));
     EXPECT_EQ(result.latency, 1500ns);

@@ -70,7 +70,8 @@ struct LineEditor::Implementation {
         el_set(editor, EL_SIGNAL, 0);
         el_set(editor, EL_HIST, history, past);
         el_set(editor, EL_GETCFN, &nextCharacter);
-        el_set(editor, EL_ADDFN, "cortex-complete", "Completes the word", &complete);
+        // The wide form keeps these texts as they are; the other makes copies that it never frees.
+        el_wset(editor, EL_ADDFN, L"cortex-complete", L"Completes the word", &complete);
         el_set(editor, EL_BIND, "^I", "cortex-complete", nullptr);
         el_set(editor, EL_BIND, "^R", "em-inc-search-prev", nullptr);
     }
