@@ -68,6 +68,7 @@ TEST(KeptState, IsNotSavedWhileAClockRunsTheLoop) {
 
     EXPECT_THROW(probe.savedState(), Error);
     EXPECT_THROW(probe.restoreState({}), Error);
+    cluster.cluster->stop();  // before its hooks are forgotten
 }
 
 }  // namespace

@@ -244,8 +244,9 @@ void ClusterLoop::reportMissed() {
     // By the clock of the machine: a loop that is stepped by hand writes the same at each run.
     const LongestTask longest = runner_.longest();
     if (trigger_.realTime() && longest.time > trigger_.period() / 2) {
+        const std::int64_t hundredths = longest.time / 10'000;
         text << "; " << agent_.structure().simplexes[longest.simplex].path << " took "
-             << static_cast<double>(longest.time / 10'000) / 100 << " ms";
+             << static_cast<double>(hundredths) / 100 << " ms";
     }
     agent_.post(agent_.thread(0), Severity::Warning, EventKind::Overflow, agent_.agentSimplex(),
                 text);

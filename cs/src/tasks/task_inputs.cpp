@@ -28,7 +28,8 @@ std::int64_t ageOf(const TaskInput& input, const Tick& tick) {
 // In tenths, rounded up.
 double milliseconds(std::int64_t time) {
     constexpr std::int64_t tenth = 100'000;
-    return static_cast<double>((time + tenth - 1) / tenth) / 10;
+    const std::int64_t tenths = (time + tenth - 1) / tenth;
+    return static_cast<double>(tenths) / 10;
 }
 
 // What was not followed for so long may have moved anywhere: it is lost for one run of the task,
