@@ -81,6 +81,10 @@ TEST_F(CortexLive, CallsCommandsAndEndsWithWhatCameOfThem) {
     EXPECT_EQ(answer["outcome"], "Rejected");
     EXPECT_TRUE(contains(answer["reason"], "Standby")) << answer;
     EXPECT_TRUE(contains(live({"call", "/drive", "startup"}).output, "Rejected"));
+    EXPECT_GT(answer["round_trip_us"], answer["latency_us"]);
+    live({"call", "/drive", "startup", "--for", "alice"});
+    EXPECT_TRUE(contains(live({"events"}).output, " for alice: startup()"));
+    EXPECT_EQ(live({"call", "/drive", "startup", "--for", std::string(40, 'x')}).exit, 2);
     EXPECT_EQ(liveJson({"call", "/mixer", "startup", "prefix=/"}, "call")["outcome"], "Done");
     EXPECT_EQ(liveJson({"show", "/controller"}, "show")["state"], "Active");
 }

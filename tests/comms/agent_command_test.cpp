@@ -86,6 +86,37 @@ TEST_F(DdsCommand, AnswersCarryTheResponse) {
     EXPECT_EQ(done->response.front(), namedValue("sum", Value{std::vector{42.0}}));
 }
 
+TEST_F(DdsCommand, SaysWhoIsBehindItAndIsAnsweredWithThat) {
+    start();
+    Command poke = command("/worker", "poke");
+    poke.extras = {{"onBehalfOf", "alice"}, {"correlation", "order-7"}, {"mood", "good"}};
+    const auto done = send(poke);
+    ASSERT_TRUE(done);
+    EXPECT_EQ(done->outcome, "Done") << done->why;
+    const std::vector<Extra> both{{"onBehalfOf", "alice"}, {"correlation", "order-7"}};
+    EXPECT_EQ(done->extras, both);
+    EXPECT_TRUE(agent.rig.hasEvent("operator@desk for alice: poke(): Done"));
+
+    Command refused = command("/worker", "dance");
+    refused.extras = {{"correlation", "order-8"}};
+    const auto rejected = send(refused);
+    ASSERT_TRUE(rejected);
+    EXPECT_EQ(rejected->extras, refused.extras);
+}
+
+TEST_F(DdsCommand, SaysNothingOfWhatIsNoNameOfAPerson) {
+    start();
+    for (const std::string& name : {std::string(32, 'x'), std::string{"a\nb"}, std::string{}}) {
+        Command poke = command("/worker", "poke");
+        poke.extras = {{"onBehalfOf", name}};
+        const auto done = send(poke);
+        ASSERT_TRUE(done);
+        EXPECT_EQ(done->outcome, "Done");
+        EXPECT_TRUE(done->extras.empty());
+    }
+    EXPECT_FALSE(agent.rig.hasEvent("operator@desk for"));
+}
+
 TEST_F(DdsCommand, SentTwiceIsExecutedOnceAndAnsweredTwice) {
     start();
     const Command poke = command("/worker", "poke");

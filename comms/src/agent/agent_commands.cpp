@@ -39,6 +39,20 @@ std::optional<Sender> senderOf(const Command& command) {
     return sender;
 }
 
+// What a command says of its origin, for its answer: who is behind it, and its correlation. Both
+// are texts from outside.
+std::vector<Extra> originOf(const Command& command) {
+    constexpr std::size_t longest = 31;  // bytes
+    std::vector<Extra> origin;
+    for (const char* name : {onBehalfOf, correlation}) {
+        const std::string text = textIn(command, name);
+        const bool plain = std::ranges::none_of(
+            text, [](unsigned char each) { return each < ' ' || each == 127U; });
+        if (!text.empty() && text.size() <= longest && plain) origin.push_back({name, text});
+    }
+    return origin;
+}
+
 std::string prefixOf(const Value& value) {
     const auto* texts = std::get_if<std::vector<std::string>>(&value);
     std::string prefix = texts != nullptr && !texts->empty() ? texts->front() : "";
@@ -89,6 +103,15 @@ void AgentCommands::take(const Command& command, std::int64_t now) {
     message.notAfter = command.notAfter;
     message.until = static_cast<std::int64_t>(numberIn(command, validUntil));
     HeardSender& from = senders_[command.sender];
+    std::vector<Extra> origin = originOf(command);
+    for (const Extra& each : origin) {
+        if (each.name == onBehalfOf) put(each.value, message.onBehalfOf);
+    }
+    auto& origins = from.origins;
+    origins.erase(origins.begin(), origins.lower_bound(command.answeredBelow));
+    if (!origin.empty() && origins.size() < 2 * senderWindow) {
+        origins[message.sequence] = std::move(origin);
+    }
     if (from.turnedAway.contains(message.sequence)) return turnAway(command, from);
     if (pipe_.push(message, reinterpret_cast<const std::byte*>(record.data()))) {
         from.newest = std::max(from.newest, message.sequence);
@@ -177,6 +200,7 @@ void AgentCommands::refuse(const Command& command, const Refusal& refusal) {
     answer.outcome = name(refusal.outcome);
     answer.reason = name(refusal.reason);
     answer.why = refusal.why;
+    answer.extras = originOf(command);
     send_(answer);
 }
 
@@ -245,6 +269,11 @@ Answer AgentCommands::answerFor(const OutsideAnswer& answer) const {
     if (answer.size > 0) {
         const auto& entry = pipe_.table(answer.simplex).entries[answer.command];
         message.response = namedValues(decodeRecord(entry.response, answer.response));
+    }
+    const auto known = senders_.find(message.sender);
+    if (known != senders_.end() && known->second.sender.epoch == message.senderEpoch) {
+        const auto origin = known->second.origins.find(message.sequenceNumber);
+        if (origin != known->second.origins.end()) message.extras = origin->second;
     }
     return message;
 }

@@ -13,6 +13,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace cortex::comms {
 
@@ -48,6 +49,7 @@ private:
         std::int64_t patience = shortestPatience;  // ns of silence after which it counts as lost
         std::uint64_t newest = 0;              // sequence number of the newest command in the loop
         std::set<std::uint64_t> turnedAway{};  // refused numbers that are not acknowledged
+        std::map<std::uint64_t, std::vector<Extra>> origins{};  // of commands that say one
     };
     struct Refusal {
         Outcome outcome;

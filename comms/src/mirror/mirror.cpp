@@ -2,9 +2,11 @@
 #include "cortex/comms/mirror.hpp"
 
 #include "cortex/comms/security.hpp"
+#include "cortex/core/error.hpp"
 
 #include "mirror/mirror_thread.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <utility>
@@ -139,6 +141,18 @@ std::uint64_t Mirror::waitForImage(std::uint64_t last, Milliseconds limit) const
         return images > last;
     });
     return images;
+}
+
+void Mirror::actFor(const std::string& person) {
+    constexpr std::size_t longest = 31;
+    const bool plain =
+        std::ranges::none_of(person, [](unsigned char each) { return each < ' ' || each == 127U; });
+    if (person.size() > longest || !plain) {
+        throw Error(
+            "a command is on behalf of a name of at most 31 bytes, without control "
+            "characters");
+    }
+    implementation_->thread.read([&](MirrorState& state) { state.commands.actFor(person); });
 }
 
 std::uint64_t Mirror::send(std::string_view path, std::string_view command,

@@ -76,6 +76,7 @@ std::uint64_t SentCommands::send(const CommandTarget& agent, std::string_view pa
     message.answeredBelow = head.answeredBelow;
     message.notAfter = head.notAfter;
     if (head.until != 0) message.extras.push_back({validUntil, std::to_string(head.until)});
+    if (!onBehalfOf_.empty()) message.extras.push_back({onBehalfOf, onBehalfOf_});
     message.path = path;
     message.command = command;
     message.arguments =

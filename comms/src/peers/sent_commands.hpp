@@ -13,6 +13,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace cortex::comms {
 
@@ -40,6 +41,7 @@ public:
     std::uint64_t send(const CommandTarget& agent, std::string_view path, std::string_view command,
                        const CommandClient::Arguments& arguments, std::chrono::nanoseconds budget,
                        Moment now);
+    void actFor(std::string person) { onBehalfOf_ = std::move(person); }  // empty: for itself
     // `latency`: in the agent that executed it.
     bool poll(std::uint64_t number, CallResult& answer,
               std::chrono::nanoseconds* latency = nullptr);
@@ -72,6 +74,7 @@ private:
     };
 
     Sender sender_;
+    std::string onBehalfOf_;
     std::map<std::string, Target> targets_;
     std::map<std::uint64_t, Number> numbers_;
     std::uint64_t next_ = 1;

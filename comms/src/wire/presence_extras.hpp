@@ -20,6 +20,9 @@ inline constexpr const char* ageOfLoop = "age";          // ns since its newest 
 inline constexpr const char* standstill = "standstill";  // why the loop stands still, in words
 inline constexpr const char* timeStood = "stood";        // ns since it stands still
 inline constexpr const char* validUntil = "until";       // of a command, by the clock of its target
+// Of a command: who is behind it, and what its sender knows it by. The answer says both again.
+inline constexpr const char* onBehalfOf = "onBehalfOf";
+inline constexpr const char* correlation = "correlation";
 
 // Empty: the message does not say so.
 template <class Message>

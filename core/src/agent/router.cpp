@@ -142,6 +142,7 @@ void Router::admit(const OutsideCommand& command, std::uint32_t record) {
     OutsideEntry& entry = *free_.back();
     free_.pop_back();
     entry.sender = command.sender;
+    entry.onBehalfOf = command.onBehalfOf;
     entry.sequence = command.sequence;
     entry.notAfter = command.notAfter;
     entry.until = command.until;
@@ -225,7 +226,7 @@ void Router::publish(OutsideEntry& entry) {
     const std::uint32_t request =
         runtime_.commands(entry.simplex).entries[entry.command].request.size;
     report({entry.sender, 0, entry.sequence, 0, entry.notAfter, entry.until, entry.simplex,
-            entry.command, request, entry.request},
+            entry.command, request, entry.request, entry.onBehalfOf},
            head);
     if (known) --record.onTheirWay;
     entry.simplex = noSimplex;
@@ -243,6 +244,7 @@ void Router::report(const OutsideCommand& command, const AnswerHead& answer) {
     if (answer.outcome == Outcome::Done && isRenewal(command)) return;
     EventText text{command.sender.nameText()};
     if (command.sender.host.front() != '\0') text << "@" << command.sender.host.data();
+    if (command.onBehalfOf.front() != '\0') text << " for " << command.onBehalfOf.data();
     text << ": ";
     const bool here = command.simplex < structure_.simplexes.size();
     if (here && command.command < runtime_.commands(command.simplex).entries.size()) {

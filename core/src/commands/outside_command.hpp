@@ -5,6 +5,7 @@
 
 #include "commands/lane.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -21,6 +22,7 @@ inline bool isOver(std::int64_t notAfter, std::int64_t until, const ChunkClock& 
 // simplex, whose task answers it in place; the router collects the answer at the end of the cycle.
 struct OutsideEntry {
     Sender sender;
+    std::array<char, 32> onBehalfOf{};
     std::uint64_t sequence = 0;
     std::int64_t notAfter = 0, until = 0;
     std::uint32_t interface = 0, senderRecord = 0;  // indexes in the router

@@ -7,6 +7,7 @@
 #include "text/interrupts.hpp"
 #include "verbs/live_verbs.hpp"
 
+#include <chrono>
 #include <iostream>
 
 namespace cortex::explorer {
@@ -76,18 +77,23 @@ Exit callCommand(const CallOptions& options) {
     std::optional<BriefControl> control;
     const auto prefix = controlledBy(simplex, entry, arguments);
     if (options.take && prefix) control.emplace(live, simplex.agent, *prefix);
+    live.mirror().actFor(options.person);
     const std::chrono::milliseconds left = live.left();
+    const auto sent = std::chrono::steady_clock::now();
     std::optional<Progress> progress;
     progress.emplace(live, simplex, entry);
     comms::CommandAnswer answer =
         live.call(options.path, options.command, arguments, [&] { progress->look(); });
     progress.reset();
+    const auto took = std::chrono::steady_clock::now() - sent;
     if (answer.outcome == Outcome::Unknown) {
         answer.why += " (finding the agent left " + std::to_string(left.count()) + " of the " +
                       std::to_string(live.timeout().count()) + " ms of --timeout)";
     }
     if (options.json) {
-        print(answerJson(answer, entry.response));
+        Json shown = answerJson(answer, entry.response);
+        shown["round_trip_us"] = std::chrono::duration<double, std::micro>(took).count();
+        print(shown);
     } else {
         printAnswer(answer, entry.response);
         if (answer.reason == Reason::Authority && !options.take) {

@@ -86,6 +86,16 @@ CLI::Option* addTake(CLI::App& verb, bool& take) {
         "--take", take, "Take control (the lease) of what is commanded, and release it at the end");
 }
 
+void addPerson(CLI::App& verb, std::string& person) {
+    constexpr std::size_t longest = 31;
+    verb.add_option("--for", person,
+                    "On behalf of whom, for the events of the agent; no right follows")
+        ->type_name("NAME")
+        ->check([](const std::string& name) {
+            return name.size() <= longest ? "" : "a name has at most 31 bytes";
+        });
+}
+
 void addCall(LiveVerbs& verbs) {
     const auto call = std::make_shared<CallOptions>();
     CLI::App* verb = verbs.add("call", "Send a command and wait for its answer",
@@ -101,6 +111,7 @@ Examples:
                      "Parameters; those not given have their defaults")
         ->type_name("");
     addTake(*verb, call->take);
+    addPerson(*verb, call->person);
 
     const auto set = std::make_shared<CallOptions>();
     verb = verbs.add("set", "Set settable items of a simplex, all together or none",
@@ -111,6 +122,7 @@ Examples:
     verb->add_option("PATH", set->path, "Path of the simplex")->required()->type_name("");
     verb->add_option("ITEM=VALUE", set->arguments, "New values")->required()->type_name("");
     addTake(*verb, set->take);
+    addPerson(*verb, set->person);
 }
 
 void addLeases(LiveVerbs& verbs) {

@@ -45,6 +45,7 @@ struct CallOptions : LiveOptions {
     std::string path, command;
     std::vector<std::string> arguments;  // name=value
     bool take = false;                   // control, for as long as it takes
+    std::string person;                  // on behalf of whom; empty: nobody says
 };
 Exit callCommand(const CallOptions& options);
 Exit setItems(const CallOptions& options);  // command "set"

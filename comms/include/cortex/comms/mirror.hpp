@@ -124,6 +124,10 @@ public:
     // number.
     std::uint64_t waitForImage(std::uint64_t last, Milliseconds limit) const;
 
+    // From now on its commands say that they are on behalf of this person or program (at most 31
+    // bytes; empty: of the tool itself). Events and answers say it again; no right follows from it.
+    // Throws Error for a longer name or one with control characters.
+    void actFor(const std::string& person);
     // Sends a command. It expires if the agent has not read it within `budget` of the agent's time.
     // The number identifies the answer. Throws Error for unknown paths, commands and parameters,
     // and for values of the wrong kind. The agent checks states and ranges.

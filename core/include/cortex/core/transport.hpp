@@ -36,7 +36,8 @@ struct OutsideCommand {
     std::uint32_t simplex = noSimplex;
     std::uint32_t command = CommandTable::none;
     std::uint32_t size = 0;
-    const std::byte* request = nullptr;  // valid during the call only
+    const std::byte* request = nullptr;    // valid during the call only
+    std::array<char, 32> onBehalfOf = {};  // who is behind it, as its sender says; often empty
 };
 
 struct OutsideAnswer {
