@@ -79,7 +79,8 @@ void addNetwork(CLI::App& app, CommandLine& line) {
         ->check(CLI::Range(0, comms::lastDomain))
         ->excludes(offline);
     app.add_option("--interface", line.interfaces,
-                   "address or name of a network interface to use; all if not given")
+                   "address or name of a network interface to use; CORTEX_INTERFACE or all if not "
+                   "given")
         ->type_name("ADDR")
         ->allow_extra_args(false)
         ->excludes(offline);
@@ -187,7 +188,7 @@ std::filesystem::path retainFile(const CommandLine& line) {
 comms::NetworkOptions networkOptions(const CommandLine& line) {
     comms::NetworkOptions options;
     if (line.domain) options.domain = *line.domain;
-    options.interfaces = line.interfaces;
+    if (!line.interfaces.empty()) options.interfaces = line.interfaces;
     options.peers = line.peers;
     if (line.discoveryServer) options.discoveryServer = *line.discoveryServer;
     if (line.security) options.security = *line.security;

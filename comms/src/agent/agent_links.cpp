@@ -74,7 +74,7 @@ void AgentLinks::update(Peers& peers) {
         if (!link->claims.empty()) continue;
         const std::string& path = self_.structure().simplexes[link->simplex].path;
         const std::string hint = misspelt_.hint(path, peers);
-        if (!hint.empty()) self_.event(Severity::Info, link->simplex, "is not linked: " + hint);
+        if (!hint.empty()) self_.event(Severity::Warning, link->simplex, "is not linked: " + hint);
     }
     const std::lock_guard lock{mutex_};
     for (const auto& link : links_) choose(*link);

@@ -5,6 +5,8 @@
 
 #include <charconv>
 #include <cstdlib>
+#include <iterator>
+#include <sstream>
 #include <string_view>
 
 namespace cortex::comms {
@@ -21,6 +23,12 @@ int defaultDomain() {
                     ", or unset it for domain 0"};
     }
     return domain;
+}
+
+std::vector<std::string> defaultInterfaces() {
+    const char* text = std::getenv("CORTEX_INTERFACE");
+    std::istringstream words{text != nullptr ? text : ""};
+    return {std::istream_iterator<std::string>{words}, {}};
 }
 
 std::string defaultDiscoveryServer() {

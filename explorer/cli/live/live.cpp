@@ -9,12 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
-#include <iterator>
 #include <map>
 #include <set>
-#include <sstream>
 #include <tuple>
 
 namespace cortex::explorer {
@@ -23,18 +20,10 @@ namespace {
 using Milliseconds = std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-// CORTEX_INTERFACE: addresses or names with blanks between; none: all.
-std::vector<std::string> interfacesInEnvironment() {
-    const char* text = std::getenv("CORTEX_INTERFACE");
-    std::istringstream words{text != nullptr ? text : ""};
-    return {std::istream_iterator<std::string>{words}, {}};
-}
-
 comms::NetworkOptions optionsOf(const NetworkArguments& arguments) {
     comms::NetworkOptions options;
     if (arguments.domain) options.domain = *arguments.domain;
-    options.interfaces =
-        arguments.interfaces.empty() ? interfacesInEnvironment() : arguments.interfaces;
+    if (!arguments.interfaces.empty()) options.interfaces = arguments.interfaces;
     options.peers = arguments.peers;
     if (arguments.discoveryServer) options.discoveryServer = *arguments.discoveryServer;
     if (arguments.security) options.security = *arguments.security;

@@ -10,6 +10,8 @@ inline constexpr int lastDomain = 230;  // the last whose ports are below 65536
 
 // The environment variable CORTEX_DOMAIN, 0 where it is not set; throws Error unless 0 to 230.
 int defaultDomain();
+// The environment variable CORTEX_INTERFACE: names or addresses with blanks between.
+std::vector<std::string> defaultInterfaces();
 // The environment variable CORTEX_SECURITY, empty where it is not set.
 std::string defaultSecurity();
 
@@ -21,7 +23,7 @@ struct NetworkOptions {
     // The DDS domain, 0 to 230. Only agents and tools of one domain meet.
     int domain = defaultDomain();
     // Names ("eth0") or IPv4 addresses of this machine's interfaces to use. None: all.
-    std::vector<std::string> interfaces;
+    std::vector<std::string> interfaces = defaultInterfaces();
     // "host" or "host:port" of agents and tools that multicast does not reach.
     std::vector<std::string> peers;
     // "host" or "host:port" of a Fast DDS Discovery Server, which replaces peers and multicast.
