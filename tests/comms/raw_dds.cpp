@@ -117,7 +117,12 @@ RawWriter::RawWriter(const NetworkOptions& options, const Topic& topic, const st
                         ->create_datawriter(made, writerQos(topic.qos));
 }
 
-RawWriter::~RawWriter() { remove(impl_->participant); }
+// Fast DDS 2.9 may look for holes in the history of a writer that is being removed, for ever.
+RawWriter::~RawWriter() {
+    std::size_t removed = 0;
+    impl_->writer->clear_history(&removed);
+    remove(impl_->participant);
+}
 
 bool RawWriter::write(const Id& key, const std::vector<std::uint8_t>& octets) {
     RawSample sample{key, octets};
