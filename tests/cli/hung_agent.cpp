@@ -33,7 +33,11 @@ HungAgent::HungAgent(int domain) : implementation_{std::make_unique<Implementati
     self.cluster.start();
 }
 
-HungAgent::~HungAgent() { implementation_->hangs.store(false); }
+// The loop ends before the cluster takes its hooks away.
+HungAgent::~HungAgent() {
+    implementation_->hangs.store(false);
+    implementation_->cluster.cluster->stop();
+}
 
 void HungAgent::hang() {
     implementation_->hangs.store(true);

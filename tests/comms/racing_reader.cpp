@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Races on purpose: a listener counts what another thread reads. ThreadSanitizer must say so, with
-// its suppressions for Fast DDS in force.
+// its suppressions for Fast DDS in force. A single access may escape it, a thousand do not.
 #include "comms/inbox.hpp"
 #include "dds/participant.hpp"
 
@@ -16,7 +16,7 @@ int main() {
     std::jthread talker{[&](const std::stop_token& stop) {
         for (Presence presence; !stop.stop_requested(); ++presence.cycle) writer->write(presence);
     }};
-    const bool counted = comesTrue([&] { return heard > 2; });
+    const bool counted = comesTrue([&] { return heard > 1000; });
     std::cerr << (counted ? "heard" : "nothing was heard") << '\n';
     return counted ? 0 : 1;
 }
