@@ -3,6 +3,7 @@
 
 #include "cortex/comms/dds_interface.hpp"
 #include "cortex/core/agent.hpp"
+#include "cortex/core/clock.hpp"
 
 #include "support/probe.hpp"
 
@@ -14,7 +15,7 @@ namespace cortex::test {
 
 struct HungAgent::Implementation {
     ProbeCluster cluster{{}, "robot"};
-    std::atomic<bool> hangs{false};
+    std::atomic<bool> hangs{false}, slow{false};
 
     bool standsStill() { return cluster.cluster->agent().standstill().get().has_value(); }
 };
@@ -28,7 +29,8 @@ HungAgent::HungAgent(int domain) : implementation_{std::make_unique<Implementati
     options.interfaces = {"127.0.0.1"};
     self.cluster.cluster->addInterface<comms::DdsInterface>(options);
     self.cluster.probe("/ctl").onStandby = [&self](Probe&, const Tick&) {
-        while (self.hangs.load()) std::this_thread::yield();
+        const std::int64_t end = monotonicNow() + (self.slow.load() ? 15'000'000 : 0);
+        while (self.hangs.load() || monotonicNow() < end) std::this_thread::yield();
     };
     self.cluster.start();
 }
@@ -42,6 +44,13 @@ HungAgent::~HungAgent() {
 void HungAgent::hang() {
     implementation_->hangs.store(true);
     while (!implementation_->standsStill()) std::this_thread::yield();
+}
+
+void HungAgent::overload() {
+    implementation_->slow.store(true);
+    while (!implementation_->cluster.cluster->agent().pace().overloaded()) {
+        std::this_thread::yield();
+    }
 }
 
 void HungAgent::release() {

@@ -6,14 +6,15 @@
 namespace cortex::test {
 
 // The agent "robot" in this process, on loopback, with one task, /ctl, that does not return from
-// its hook while it is told so.
+// its hook while it is told so, or takes three periods.
 class HungAgent {
 public:
     explicit HungAgent(int domain);
     ~HungAgent();
 
-    void hang();     // returns when its watchdog has seen it
-    void release();  // returns when its watchdog has seen it
+    void hang();      // returns when its watchdog has seen it
+    void release();   // returns when its watchdog has seen it
+    void overload();  // returns when its loop says so
 
 private:
     struct Implementation;

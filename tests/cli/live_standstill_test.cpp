@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tools say of a loop that hangs while they begin to look.
+// What the tools say of a loop that hangs while they begin to look, and of one that is too slow.
 #include "cli/hung_agent.hpp"
 #include "cli/json_schema.hpp"
 #include "cli/live_agent.hpp"
@@ -41,6 +41,25 @@ TEST(LiveStandstill, IsShownByEveryToolWithTheHookAndTheTime) {
     EXPECT_TRUE(contains(screen.output, "tasks us  /ctl ")) << screen.output;
 
     EXPECT_TRUE(contains(live({"doctor"}).output, "the loop of robot on ")) << "an error";
+}
+
+TEST(LiveOverload, IsShownByEveryToolWithTheRateAndTheNominalOne) {
+    HungAgent robot{std::stoi(domain)};
+    robot.overload();
+    const std::string where = "is overloaded: it runs at ";
+    const json agents = liveJson({"agents"}, "agents");
+    ASSERT_EQ(agents.size(), 1U);
+    EXPECT_EQ(agents[0]["state"], "overloaded");
+    EXPECT_LT(agents[0]["rate_hz"], 180) << agents;
+    EXPECT_TRUE(contains(live({"agents"}).output, " of 200 Hz"));
+    EXPECT_TRUE(contains(live({"list"}).errors, "robot " + where));
+    EXPECT_EQ(liveJson({"show", "/ctl"}, "show")["overloaded"], true);
+    EXPECT_TRUE(contains(live({"show", "/ctl"}).output, "robot, " + where));
+    EXPECT_EQ(liveJson({"top", "--once"}, "top")["agents"][0]["state"], "overloaded");
+    const Outcome screen = live({"top", "--once"});
+    EXPECT_TRUE(contains(screen.output, "robot " + where)) << screen.output;
+    EXPECT_TRUE(contains(screen.output, " of 200 Hz")) << screen.output;
+    EXPECT_TRUE(contains(live({"doctor"}).output, where)) << "an error";
 }
 
 TEST(LiveStandstill, IsOverWhenTheHookReturns) {

@@ -90,6 +90,27 @@ TEST(DdsAgentInRealTime, TellsItsClockItsAgeAndWhyItsLoopStandsStill) {
     EXPECT_TRUE(hears([&] { return textIn(newest, standstill).empty(); }));
 }
 
+TEST(DdsAgentInRealTime, TellsHowFastItsLoopReallyIsAndThatItIsOverloaded) {
+    NetworkAgent agent{test::commandTypes(), "robot", {.realTime = true}};
+    agent.rig.tree.add("/plate", "Plate");
+    RawTool tool{"operator"};
+    agent.rig.start();
+    tool.connect();
+    const auto says = [&](const char* name, const std::string& value) {
+        return comesTrue([&] {
+            const auto presences = tool.heard.elements();
+            return !presences.empty() && textIn(presences.back(), name) == value;
+        });
+    };
+
+    ASSERT_TRUE(says(rateOfLoop, "")) << "before it is known";
+    agent.rig.agent->pace().set(9.1, true);
+    EXPECT_TRUE(says(rateOfLoop, "9100"));
+    EXPECT_TRUE(says(overloaded, "1"));
+    agent.rig.agent->pace().set(100, false);
+    EXPECT_TRUE(says(overloaded, ""));
+}
+
 TEST_F(DdsAgent, TellsAModelThatMakesTheSameStructure) {
     Inbox<Model> models;
     const auto reader = tool.participant.reader<Model>(topics::model, models.push());

@@ -192,6 +192,19 @@ TEST_F(MirrorAgentsTest, SayWhereTheirLoopHangsAndHowLong) {
     EXPECT_EQ(status().standstill, "");
 }
 
+TEST_F(MirrorAgentsTest, SayHowFastTheirLoopReallyIsAndWhetherItIsOverloaded) {
+    agent.presence.extras = {{rateOfLoop, "9100"}, {overloaded, "1"}};
+    tellAll();
+    EXPECT_EQ(status().state, "overloaded");
+    EXPECT_TRUE(status().overloaded);
+    EXPECT_DOUBLE_EQ(status().rate, 9.1);
+
+    agent.presence.extras = {{rateOfLoop, "1000000"}};
+    tellAll();
+    EXPECT_EQ(status().state, "running");
+    EXPECT_DOUBLE_EQ(status().rate, 1000);
+}
+
 TEST_F(MirrorAgentsTest, ValuesOfALoopThatStandsStillAreAsOldAsItsLastCycle) {
     agent.rig.step();
     Block again = agent.block(1);

@@ -136,6 +136,18 @@ TEST(ClusterCS, MetricsOfACycleStandInTheNextImage) {
     }
 }
 
+TEST(ClusterCS, PercentilesOfASlowLoopAreAboutASecondOld) {
+    ProbeCluster cluster;
+    cluster.trigger =
+        &cluster.cluster->setTriggerSource<cs::ManualTrigger>(std::chrono::milliseconds{110});
+    cluster.probe("/a");
+    cluster.start();
+    cluster.step(12);
+
+    EXPECT_GT(cluster.number("/test", "cycleDurationP50"), 0);
+    EXPECT_GT(cluster.number("/test", "dutyCycleP50"), 0);
+}
+
 TEST(ClusterCS, CountsCommandsAndTheirLatencyInCyclesAndMicroseconds) {
     ProbeCluster cluster;
     cluster.probe("/a");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/agent.hpp"
 #include "cortex/core/clock.hpp"
 #include "cortex/cs/testing.hpp"
 
@@ -130,6 +131,44 @@ TEST(Overflow, HaltFaultsAllThatIsActiveInTheNextCycleAndRunsOnWithSafeDemands) 
     EXPECT_EQ(cluster.call("/writer", "clearFaults").outcome, Outcome::Done);
     cluster.startup(writer);
     EXPECT_EQ(cluster.state("/writer"), State::Active);
+}
+
+// Of each 1 + `missed` ticks one is run.
+void stepLate(ProbeCluster& cluster, int cycles, std::int64_t missed) {
+    for (int i = 0; i < cycles; ++i) {
+        cs::ClusterTesting::playLate(*cluster.trigger, missed);
+        cluster.step();
+    }
+}
+
+TEST(Overflow, ALoopThatMissesMoreThanATenthOfItsTicksForTwoSecondsIsOverloaded) {
+    ProbeCluster cluster;
+    cluster.probe("/a");
+    cluster.start();
+    const LoopPace& pace = cluster.cluster->agent().pace();
+    stepLate(cluster, 150, 9);  // one second of it is no overload yet
+    EXPECT_EQ(pace.rate(), 100);
+    EXPECT_FALSE(pace.overloaded());
+
+    stepLate(cluster, 60, 9);
+    EXPECT_TRUE(pace.overloaded());
+    EXPECT_TRUE(cluster.hasEvent("/test: overloaded: 100 cycles a second instead of 1000"));
+    EXPECT_FALSE(cluster.hasEvent("no longer"));
+
+    cluster.step(3'000);
+    EXPECT_FALSE(pace.overloaded());
+    EXPECT_EQ(pace.rate(), 1000);
+    EXPECT_TRUE(cluster.hasEvent("no longer overloaded: 1000 cycles a second instead of 1000"));
+}
+
+TEST(Overflow, OneLongCycleIsNoOverload) {
+    ProbeCluster cluster;
+    cluster.probe("/a");
+    cluster.start();
+    stepLate(cluster, 1, 900);
+    cluster.step(3'000);
+
+    EXPECT_FALSE(cluster.hasEvent("overloaded"));
 }
 
 TEST(Overflow, WarnTellsEachCycleAboveItsDutyThreshold) {

@@ -308,7 +308,8 @@ void Station::poll() {
 
 bool Station::sees(std::int64_t newerThan) {
     for (const comms::AgentStatus& each : mirror_.agents()) {
-        if (each.name != "robot" || each.state != "running") continue;
+        const bool runs = each.state == "running" || each.state == "overloaded";
+        if (each.name != "robot" || !runs) continue;
         const comms::AgentImage image = mirror_.image("robot");
         if (!image || image->cycle() <= newerThan) return false;
         const auto& simplexes = image->structure().simplexes;

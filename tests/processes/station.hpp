@@ -23,7 +23,10 @@ public:
 
     // Waits for it; false after 20 s.
     bool waitFor(const std::function<bool()>& condition);
-    bool hears(const std::string& agent) const { return stateOf(agent) == "running"; }
+    bool hears(const std::string& agent) const {
+        const std::string state = stateOf(agent);
+        return state == "running" || state == "overloaded";
+    }
     std::string stateOf(const std::string& agent) const;  // "": never heard
     std::int64_t epochOf(const std::string& agent) const;
     std::int64_t cycleOf(const std::string& agent) const;  // of what is seen of it

@@ -3,6 +3,7 @@
 
 #include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/loop_pace.hpp"
 #include "cortex/core/service_threads.hpp"
 #include "cortex/core/standstill.hpp"
 
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <exception>
@@ -267,6 +269,10 @@ void AgentThread::addTimes(Presence& presence) const {
     const std::int64_t now = monotonicNow();
     presence.extras.push_back({clockOfAgent, std::to_string(now)});
     presence.extras.push_back({ageOfLoop, std::to_string(now - newCycleAt_)});
+    if (const LoopPace* pace = self_.access.pace; pace != nullptr && pace->rate() > 0) {
+        presence.extras.push_back({rateOfLoop, std::to_string(std::llround(pace->rate() * 1000))});
+        if (pace->overloaded()) presence.extras.push_back({overloaded, "1"});
+    }
     const StandstillNote* note = self_.access.standstill;
     const auto found = note != nullptr ? note->get() : std::nullopt;
     if (!found) return;

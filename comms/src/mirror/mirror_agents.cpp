@@ -82,6 +82,8 @@ AgentStatus MirrorAgent::status(Moment now) const {
         status.simplexes = presence.simplexes;
         status.period = presence.period;
         status.security = presence.security;
+        status.rate = static_cast<double>(numberIn(presence, rateOfLoop)) * 1e-3;
+        status.overloaded = !lost && numberIn(presence, overloaded) != 0;
     }
     if (foreign()) {
         status.trouble = "it speaks none of the protocols that this program knows";
@@ -90,6 +92,7 @@ AgentStatus MirrorAgent::status(Moment now) const {
     }
     status.standstill = standstillText(now);
     const bool whole = present() && !foreign() && model.complete() && status.trouble.empty();
+    if (status.overloaded) status.state = "overloaded";
     if (!status.standstill.empty()) status.state = "standstill";
     if (!whole) status.state = "incomplete";
     if (lost) status.state = "lost";

@@ -256,7 +256,8 @@ void AgentRuntime::start() {
                              .period = options_.period,
                              .calls = callsToAgents(),
                              .realTime = options_.realTime,
-                             .standstill = &standstill_};
+                             .standstill = &standstill_,
+                             .pace = &pace_};
     std::size_t announced = 0;
     try {
         for (; announced < interfaces_.size(); ++announced)

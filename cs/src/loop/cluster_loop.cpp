@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace cortex::cs {
 
@@ -39,7 +40,8 @@ ClusterLoop::ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const Clus
       plan_{std::make_unique<Plan>(Plan{std::move(schedule), nullptr})},
       runner_{agent, plan_->schedule, trigger.period()},
       group_{agent, runner_.states(), std::move(simplexes)},
-      metrics_{agent, trigger.period(), plan_->schedule.threads} {
+      metrics_{agent, trigger.period(), plan_->schedule.threads},
+      pace_{trigger.period()} {
     agent_.registerHandler(agent_.agentSimplex(), "reschedule",
                            {this, [](void* self, Call& call) {
                                 return static_cast<ClusterLoop*>(self)->reschedule(call);
@@ -158,12 +160,13 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     agent_.beginCycle(tick);
     reportMissed();
     warnDuty();
+    judgePace(tick.nominalTime, begin);
     if (rescheduler_) adoptPlan();
     runner_.beginCycle(tick);
     plan_->pool->cycle(trigger_.nextDeadline());
     const RunnerCounts counts = runner_.counts();
     if (watchdog_->reported() == tick.cycle - 1) metrics_.hung(true);
-    metrics_.write(counts);
+    metrics_.write(counts, tick.nominalTime);
     if (mayReschedule_) rescheduler_->follow(counts.startups, tick.nominalTime);
     agent_.endCycle(tick, wallClockNow() - (monotonicNow() - begin) - trigger.lateness);
     metrics_.cycleEnded(lastWakeUp_ == 0 ? 0 : begin - lastWakeUp_, trigger.lateness,
@@ -226,12 +229,35 @@ void ClusterLoop::warnDuty() {
                 text);
 }
 
+// A loop that is stepped by hand has only its nominal time.
+void ClusterLoop::judgePace(std::int64_t nominalTime, std::int64_t begin) {
+    if (!pace_.add(nominalTime, trigger_.realTime() ? begin : nominalTime)) return;
+    agent_.pace().set(pace_.rate(), pace_.overloaded());
+    if (!pace_.changed()) return;
+    const double due = 1e9 / static_cast<double>(trigger_.period());
+    EventText text{pace_.overloaded() ? "overloaded: " : "no longer overloaded: "};
+    text << std::round(pace_.rate() * 10) / 10 << " cycles a second instead of "
+         << std::round(due * 10) / 10;
+    if (pace_.overloaded()) nameLongest(text);
+    agent_.post(agent_.thread(0), pace_.overloaded() ? Severity::Warning : Severity::Info,
+                EventKind::Overflow, agent_.agentSimplex(), text);
+}
+
 void ClusterLoop::countMissed(std::int64_t missed) {
     metrics_.overflow(missed);
     unreported_ += missed;
     if (options_.overflow != Overflow::Halt) return;
     runner_.states().halt(ClusterHalted, "the loop overran its period and overflow is \"halt\"");
     ended_.store(Ended::Halted, std::memory_order_release);
+}
+
+// By the clock of the machine: a loop that is stepped by hand writes the same at each run.
+void ClusterLoop::nameLongest(EventText& text) {
+    const LongestTask longest = runner_.longest();
+    if (!trigger_.realTime() || longest.time <= trigger_.period() / 2) return;
+    const std::int64_t hundredths = longest.time / 10'000;
+    text << "; " << agent_.structure().simplexes[longest.simplex].path << " took "
+         << static_cast<double>(hundredths) / 100 << " ms";
 }
 
 // Events of the cycle that follows: those of the one before have been handed out.
@@ -241,13 +267,7 @@ void ClusterLoop::reportMissed() {
     text << unreported_ << (unreported_ == 1 ? " tick" : " ticks") << ", " << metrics_.overflows()
          << " since the start";
     unreported_ = 0;
-    // By the clock of the machine: a loop that is stepped by hand writes the same at each run.
-    const LongestTask longest = runner_.longest();
-    if (trigger_.realTime() && longest.time > trigger_.period() / 2) {
-        const std::int64_t hundredths = longest.time / 10'000;
-        text << "; " << agent_.structure().simplexes[longest.simplex].path << " took "
-             << static_cast<double>(hundredths) / 100 << " ms";
-    }
+    nameLongest(text);
     agent_.post(agent_.thread(0), Severity::Warning, EventKind::Overflow, agent_.agentSimplex(),
                 text);
 }

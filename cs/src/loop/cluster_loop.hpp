@@ -7,6 +7,7 @@
 
 #include "loop/group_commands.hpp"
 #include "loop/metrics.hpp"
+#include "loop/pace_judge.hpp"
 #include "loop/rescheduler.hpp"
 #include "loop/watchdog.hpp"
 #include "tasks/task_runner.hpp"
@@ -70,7 +71,9 @@ private:
     void checkOverflow() CORTEX_REALTIME;
     void countMissed(std::int64_t missed) CORTEX_REALTIME;
     void reportMissed() CORTEX_REALTIME;
+    void nameLongest(EventText& text) CORTEX_REALTIME;
     void warnDuty() CORTEX_REALTIME;
+    void judgePace(std::int64_t nominalTime, std::int64_t begin) CORTEX_REALTIME;
     void shutDown();
     void tell(Watchdog::Finding finding, const Tick& tick, std::int64_t since);
     void standsStill(const Tick& tick, const HungHook& where, std::string_view text);
@@ -89,6 +92,7 @@ private:
     TaskRunner runner_;
     GroupCommands group_;
     ClusterMetrics metrics_;
+    PaceJudge pace_;
     ScheduleMaker makeSchedule_;
     std::unique_ptr<Rescheduler> rescheduler_;  // null: one thread
     bool mayReschedule_ = false;

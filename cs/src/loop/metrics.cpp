@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loop/metrics.hpp"
 
+#include "cortex/core/clock.hpp"
 #include "cortex/core/framework_item.hpp"
 
 #include <algorithm>
@@ -120,16 +121,9 @@ void ClusterMetrics::cycleEnded(std::int64_t sinceLastWakeUp, std::int64_t laten
     series_[3].add(lastDuty_);
 }
 
-void ClusterMetrics::write(const RunnerCounts& counts) {
+void ClusterMetrics::write(const RunnerCounts& counts, std::int64_t nominalTime) {
     for (MetricSeries& series : series_) series.write();
-    // The walks over the bins take turns: one in every 16 cycles, all within 80.
-    const std::uint64_t turn = written_++ % 80;
-    if (turn % 16 == 1) {
-        if (turn / 16 < series_.size())
-            series_[turn / 16].writePercentiles();
-        else
-            writeLatency();
-    }
+    writePercentiles(nominalTime);
     std::uint64_t commands = 0;
     std::uint64_t rejected = 0;
     for (std::uint32_t i = 0; i < agent_.threadCount(); ++i) {
@@ -144,6 +138,22 @@ void ClusterMetrics::write(const RunnerCounts& counts) {
     droppedItem_ = static_cast<std::int64_t>(agent_.events().dropped());
     threadsItem_ = threads_;
     aliveItem_ = !hung_;
+}
+
+// The walks over the bins take turns: one in 16 cycles at first, and then one every 200 ms, so that
+// figures are about a second old. In a slow loop several are due in one cycle.
+void ClusterMetrics::writePercentiles(std::int64_t nominalTime) {
+    const std::size_t all = series_.size() + 1;
+    const std::int64_t early = std::max(16 * static_cast<std::int64_t>(period_), nominalTime / 8);
+    const std::int64_t interval = std::min(nsPerSecond / 5, early);
+    for (std::size_t i = 0; i < all && nextWalk_ <= nominalTime; ++i, nextWalk_ += interval) {
+        const std::size_t turn = walks_++ % all;
+        if (turn < series_.size())
+            series_[turn].writePercentiles();
+        else
+            writeLatency();
+    }
+    nextWalk_ = std::max(nextWalk_, nominalTime + 1);
 }
 
 // The latencies of commands are counted by each thread of the loop; here they are added up.

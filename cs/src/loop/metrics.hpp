@@ -51,13 +51,14 @@ public:
     void overflow(std::int64_t missed) CORTEX_REALTIME { overflows_ += missed; }
     void hung(bool hung) CORTEX_REALTIME { hung_ = hung; }
     // Writes all into the tables; before the image is taken.
-    void write(const RunnerCounts& counts) CORTEX_REALTIME;
+    void write(const RunnerCounts& counts, std::int64_t nominalTime) CORTEX_REALTIME;
     void cpus(const std::vector<int>& cpus);  // setup
     void threads(std::uint32_t threads) CORTEX_REALTIME { threads_ = threads; }
     double lastDuty() const { return lastDuty_; }
     std::int64_t overflows() const { return overflows_; }
 
 private:
+    void writePercentiles(std::int64_t nominalTime) CORTEX_REALTIME;
     void writeLatency() CORTEX_REALTIME;
 
     AgentRuntime& agent_;
@@ -69,7 +70,8 @@ private:
     Data<bool> aliveItem_;
     std::vector<std::uint64_t> latencySum_;
     std::int64_t overflows_ = 0;
-    std::uint64_t written_ = 0;
+    std::int64_t nextWalk_ = 1;  // nominal time, ns
+    std::size_t walks_ = 0;
     std::uint32_t threads_;
     double lastDuty_ = 0;
     bool hung_ = false;

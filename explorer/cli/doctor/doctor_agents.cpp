@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doctor/doctor.hpp"
+#include "live/loop_text.hpp"
 #include "live/top_data.hpp"
 #include "text/interrupts.hpp"
 
@@ -35,6 +36,9 @@ void examineState(const comms::AgentStatus& agent, Diagnoses& found) {
     } else if (!agent.standstill.empty()) {
         add(Level::Error, "the loop of " + who + " " + agent.standstill,
             "look at that hook, or at what gives the ticks; its values are as old as that");
+    } else if (agent.overloaded) {
+        add(Level::Error, "the loop of " + who + " " + loopTrouble(agent),
+            "look for the task that takes longest ('cortex top'), or state a lower frequency");
     } else if (!agent.trouble.empty()) {
         add(Level::Error, who + " cannot be understood: " + agent.trouble,
             "run the same version of CorteX everywhere");
@@ -87,7 +91,7 @@ void examineClock(Live& live, const comms::AgentStatus& agent, Diagnoses& found)
     if (!image || image->wallClock() == 0) return;
     const std::uint32_t own = ownSimplex(image->structure());
     const auto age = own == noSimplex ? std::nullopt : live.mirror().age(agent.name, own);
-    if (!age || agent.state != "running") return;
+    if (!age || (agent.state != "running" && agent.state != "overloaded")) return;
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     const double there = static_cast<double>(image->wallClock()) * 1e-9 + *age;
     const double offset = there - std::chrono::duration<double>(now).count();

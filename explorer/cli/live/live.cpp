@@ -5,6 +5,7 @@
 #include "cortex/core/path.hpp"
 #include "cortex/core/simplex_tree.hpp"
 
+#include "live/loop_text.hpp"
 #include "text/interrupts.hpp"
 
 #include <algorithm>
@@ -121,9 +122,9 @@ std::string Live::limitText() const {
     return toText(static_cast<double>(timeout_.count()) / 1000) + " s";
 }
 
-std::string Live::standstillOf(const std::string& agent) const {
+comms::AgentStatus Live::statusOf(const std::string& agent) const {
     for (const comms::AgentStatus& each : mirror().agents()) {
-        if (each.name == agent) return each.standstill;
+        if (each.name == agent) return each;
     }
     return {};
 }
@@ -219,8 +220,9 @@ std::vector<std::string> Live::contradictions() const {
 
 void Live::printWarnings() const {
     for (const comms::AgentStatus& each : mirror().agents()) {
-        if (each.standstill.empty()) continue;
-        std::cerr << "cortex: " << printable(each.name + " " + each.standstill) << '\n';
+        const std::string trouble = loopTrouble(each);
+        if (trouble.empty()) continue;
+        std::cerr << "cortex: " << printable(each.name + " " + trouble) << '\n';
     }
     for (const std::string& each : contradictions()) {
         std::cerr << "cortex: " << printable(each) << '\n';

@@ -65,11 +65,10 @@ public:
     void waitForAll();
     // Two agents with one path, each as a sentence.
     std::vector<std::string> contradictions() const;
-    // These, agents whose loop stands still, and participants that cannot be seen without security,
+    // These, agents whose loop is not well, and participants that cannot be seen without security,
     // on standard error.
     void printWarnings() const;
-    // "hangs in /ctl.stateActive for 8.5 s", or "" while its loop runs.
-    std::string standstillOf(const std::string& agent) const;
+    comms::AgentStatus statusOf(const std::string& agent) const;
     // "incomplete: 37 of 44 from robot", or "" when all is here.
     std::string incomplete() const;
     FoundSimplex find(const std::string& path);  // throws Failure naming the nearest

@@ -24,6 +24,7 @@ Json agentJson(const comms::AgentStatus& agent) {
             {"cycle", agent.cycle},
             {"loss", agent.loss},
             {"security", agent.security},
+            {"rate_hz", agent.rate > 0 ? Json(agent.rate) : Json()},
             {"standstill", agent.standstill}};
 }
 

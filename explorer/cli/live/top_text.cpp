@@ -3,6 +3,7 @@
 
 #include "live/live_json.hpp"
 #include "live/live_values.hpp"
+#include "live/loop_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -48,10 +49,6 @@ std::string ageText(double seconds) {
     return withDecimals(seconds, 1) + " s";
 }
 
-std::string rateText(std::int64_t period) {
-    return period > 0 ? toText(std::round(1e10 / static_cast<double>(period)) / 10) + " Hz" : "-";
-}
-
 TextTable agentTable(const TopFrame& frame, std::size_t count) {
     TextTable table{{{"", "agent", 9, 0, false},
                      {"", "state", 8, 0, false},
@@ -69,7 +66,7 @@ TextTable agentTable(const TopFrame& frame, std::size_t count) {
                    {each.host},
                    {ageText(each.age)},
                    {std::to_string(each.simplexes)},
-                   {rateText(each.period)},
+                   {rateText(each), each.overloaded ? Look::Warning : Look::Plain},
                    {std::to_string(each.cycle)},
                    countCell(each.loss, Look::Warning),
                    {each.security.empty() ? "none" : each.security}});
@@ -152,9 +149,9 @@ TextTable stateTable(const TopFrame& frame, std::size_t count) {
 Lines faultLines(const TopFrame& frame) {
     Lines lines;
     for (const TopAgent& each : frame.agents) {
-        if (each.status.standstill.empty()) continue;
-        lines.push_back(
-            {{each.status.name, Look::Strong}, {" " + each.status.standstill, Look::Error}});
+        const std::string trouble = loopTrouble(each.status);
+        if (trouble.empty()) continue;
+        lines.push_back({{each.status.name, Look::Strong}, {" " + trouble, Look::Error}});
     }
     std::size_t told = 0;
     for (const TopFault& each : frame.faults) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/live_json.hpp"
+#include "live/loop_text.hpp"
 #include "verbs/live_verbs.hpp"
 
 #include <iostream>
@@ -18,9 +19,10 @@ Exit listAgents(const LiveOptions& options) {
         return Yes;
     }
     Columns columns{0};
-    columns.add({"agent", "host", "state", "age", "simplexes", "cycle", "loss", "security"});
+    columns.add(
+        {"agent", "host", "state", "rate", "age", "simplexes", "cycle", "loss", "security"});
     for (const auto& each : agents) {
-        columns.add({each.name, each.host, each.state,
+        columns.add({each.name, each.host, each.state, rateText(each),
                      std::to_string(milliseconds(each.age)) + " ms", std::to_string(each.simplexes),
                      std::to_string(each.cycle), std::to_string(each.loss),
                      each.security.empty() ? "none" : each.security});

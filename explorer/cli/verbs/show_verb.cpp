@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/live_values.hpp"
+#include "live/loop_text.hpp"
 #include "verbs/live_verbs.hpp"
 
 #include <cmath>
@@ -12,8 +13,8 @@ namespace {
 struct Shown {
     FoundSimplex simplex;
     comms::AgentImage image;
-    double age = 0;            // s
-    std::string standstill{};  // of the agent's loop
+    double age = 0;  // s
+    comms::AgentStatus owner{};
 
     Value value(const ItemLayout& item) const { return image->value(simplex.index, item); }
     std::optional<State> state() const { return stateOf(image, simplex.index); }
@@ -91,7 +92,8 @@ Json shownJson(const Shown& shown) {
             {"agent", shown.simplex.agent},
             {"quality", name(shown.quality())},
             {"age_ms", shown.age * 1000},
-            {"standstill", shown.standstill},
+            {"overloaded", shown.owner.overloaded},
+            {"standstill", shown.owner.standstill},
             {"state", state ? Json(name(*state)) : Json()},
             {"data", dataJson(shown)},
             {"relationships", relationshipsJson(shown.simplex)},
@@ -111,8 +113,8 @@ void printHead(const Shown& shown) {
     columns.add(
         {"is a", joined({simplex.type().ancestors.begin(), simplex.type().ancestors.end()})});
     columns.add({"role", name(simplex.info().role)});
-    const std::string& standstill = shown.standstill;
-    columns.add({"agent", simplex.agent + (standstill.empty() ? "" : ", " + standstill)});
+    const std::string trouble = loopTrouble(shown.owner);
+    columns.add({"agent", simplex.agent + (trouble.empty() ? "" : ", " + trouble)});
     if (state) columns.add({"state", name(*state)});
     columns.add({"quality", name(shown.quality())});
     columns.add({"age", toText(std::round(shown.age * 1e4) / 10) + " ms"});
@@ -165,7 +167,7 @@ Exit showSimplex(const ShowOptions& options) {
     Shown shown{live.find(options.path), {}, 0};
     shown.image = live.values(shown.simplex);
     shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index).value_or(0);
-    shown.standstill = live.standstillOf(shown.simplex.agent);
+    shown.owner = live.statusOf(shown.simplex.agent);
     if (options.json) {
         print(shownJson(shown));
         return Yes;

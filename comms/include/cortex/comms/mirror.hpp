@@ -22,17 +22,19 @@ namespace cortex::comms {
 // An agent on the network, as of its last message.
 struct AgentStatus {
     std::string name, host;
-    std::int64_t epoch = 0;                  // UTC microseconds
-    std::string state;                       // "running", "standstill", "incomplete", "lost"
-    double age = 0;                          // s since its newest cycle
+    std::int64_t epoch = 0;  // UTC microseconds
+    std::string state;       // "running", "overloaded", "standstill", "incomplete", "lost"
+    double age = 0;          // s since its newest cycle
     std::uint32_t types = 0, simplexes = 0;  // as it announces them
     std::uint32_t missing = 0;               // those that have not come yet
     std::int64_t cycle = 0;                  // newest
     std::int64_t period = 0;                 // ns
     std::uint64_t loss = 0;                  // blocks and events that did not come
     std::string security;
-    std::string trouble;     // the contradiction in its model that keeps it incomplete
-    std::string standstill;  // of its loop: "hangs in /ctl.stateActive for 8.5 s"
+    std::string trouble;      // the contradiction in its model that keeps it incomplete
+    std::string standstill;   // of its loop: "hangs in /ctl.stateActive for 8.5 s"
+    double rate = 0;          // Hz, what its loop reached of late; 0: not said
+    bool overloaded = false;  // its loop misses more than a tenth of its ticks
 };
 
 // An event of an agent, as it was published.

@@ -15,6 +15,7 @@
 namespace cortex {
 
 class ImagePool;
+class LoopPace;
 class StandstillNote;
 
 // Largest request or response record, bytes; a type that needs more is refused when it is loaded.
@@ -127,6 +128,7 @@ struct AgentAccess {
     std::uint32_t calls = 0;  // commands to other agents that may be on their way at once
     bool realTime = false;    // the loop's clock is that of the machine, so commands end by it too
     const StandstillNote* standstill = nullptr;  // of the loop
+    const LoopPace* pace = nullptr;              // of the loop
 
     Image newestImage() const;  // empty if too many are held
     std::int64_t newestCycle() const;

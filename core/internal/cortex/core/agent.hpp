@@ -3,6 +3,7 @@
 
 #include "cortex/core/event.hpp"
 #include "cortex/core/image_pool.hpp"
+#include "cortex/core/loop_pace.hpp"
 #include "cortex/core/loop_thread.hpp"
 #include "cortex/core/mailbox.hpp"
 #include "cortex/core/proposed_settings.hpp"
@@ -77,6 +78,7 @@ public:
     ImagePool& images() { return *images_; }
     EventLog& events() { return *events_; }
     StandstillNote& standstill() { return standstill_; }
+    LoopPace& pace() { return pace_; }
     LoopThread& thread(std::uint32_t worker) { return threads_[worker]; }
     std::uint32_t threadCount() const { return static_cast<std::uint32_t>(threads_.size()); }
     Simplex& simplex(std::uint32_t index) { return *simplexes_[index]; }
@@ -162,6 +164,7 @@ private:
     std::unique_ptr<ImagePool> images_;
     std::unique_ptr<EventLog> events_;
     StandstillNote standstill_;
+    LoopPace pace_;
     std::unique_ptr<Router> router_;
     std::vector<Simplex*> simplexes_;
     std::vector<std::unique_ptr<CommandTable>> commandTables_;  // per type layout

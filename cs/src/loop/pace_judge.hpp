@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/realtime.hpp"
+
+#include <cstdint>
+
+namespace cortex::cs {
+
+// Counts the cycles of each second (of ten periods where that is longer). A loop that ran fewer
+// than nine tenths of those that were due, twice in a row, is overloaded, until it runs more twice
+// in a row: one long cycle is no overload. Loop thread.
+class PaceJudge {
+public:
+    explicit PaceJudge(std::int64_t period);  // ns
+
+    // At the beginning of a cycle, its nominal time and that of the clock. Whether a count ended.
+    bool add(std::int64_t nominalTime, std::int64_t now) CORTEX_REALTIME;
+    double rate() const { return rate_; }  // Hz, of the last count
+    bool overloaded() const { return overloaded_; }
+    bool changed() const { return changed_; }  // by the last count
+
+private:
+    std::int64_t period_, window_;
+    std::int64_t since_ = -1, sinceNow_ = 0;  // the beginning of this count
+    std::int64_t cycles_ = 0;
+    double rate_ = 0;
+    bool before_ = false, overloaded_ = false, changed_ = false;
+};
+
+}  // namespace cortex::cs
