@@ -175,6 +175,33 @@ TEST_F(AgentPeersTest, AGoodbyeOfAnEarlierStartChangesNothing) {
     EXPECT_EQ(lost, std::vector{first});
 }
 
+TEST_F(AgentPeersTest, AStandstillOfThisProcessIsNobodysSilence) {
+    tell(first, 100 * millisecond);
+    peers.expire(200 * millisecond);
+    peers.expire(5'000 * millisecond);
+    EXPECT_TRUE(lost.empty());
+
+    for (int tenth = 51; tenth < 70; ++tenth) peers.expire(tenth * 100 * millisecond);
+    EXPECT_EQ(lost, std::vector{first}) << "it is silent indeed, and told once";
+}
+
+TEST(Rejections, AreCountedByReasonAndToldOnceASecond) {
+    Rejections rejections;
+    for (int i = 0; i < 3; ++i) rejections.add("a block with another structure");
+    rejections.add("values of no simplex");
+    const std::vector<std::string> told{"3 samples were refused: a block with another structure",
+                                        "1 sample was refused: values of no simplex"};
+    EXPECT_EQ(rejections.takeReports(1'000 * millisecond), told);
+    rejections.add("values of no simplex");
+    EXPECT_TRUE(rejections.takeReports(1'999 * millisecond).empty());
+    EXPECT_EQ(rejections.takeReports(2'000 * millisecond), std::vector{told[1]});
+    EXPECT_EQ(rejections.byReason().at("values of no simplex"), 2U);
+
+    for (int i = 0; i < 1'000; ++i) rejections.add("of " + std::to_string(i));
+    EXPECT_LE(rejections.byReason().size(), 33U) << "others cannot fill the memory";
+    EXPECT_EQ(rejections.count(), 1'005U);
+}
+
 // This agent is "near".
 struct FirstOfNameTest : AgentPeersTest {
     void hearOurs(std::int64_t epoch, std::int64_t uptime, std::int64_t now,

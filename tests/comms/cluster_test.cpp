@@ -81,6 +81,21 @@ TEST_F(TwoClusters, LinkASimplexOfTheOther) {
     }
 }
 
+TEST_F(TwoClusters, WhatHasNeverBeenThereIsNotLostButALossIsTold) {
+    near.start();
+    near.step(1'500);
+    EXPECT_FALSE(near.hasEvent("input observed"));
+    EXPECT_TRUE(near.hasEvent("/near: waits for /axis, which no other agent has offered yet"));
+
+    far.start();
+    ASSERT_TRUE(both([&] { return near.quality("/axis") == Quality::Stale; }));
+    far.cluster->stop();
+    EXPECT_TRUE(comesTrue([&] {
+        near.step();
+        return near.hasEvent("/reader: input observed from /axis is ");
+    }));
+}
+
 TEST_F(TwoClusters, LoseWhatIsOfTheOtherAndComeBackWithIt) {
     start();
     far.cluster->stop();

@@ -5,6 +5,7 @@
 #include "core/xml_model.hpp"
 #include "support/agent_rig.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -173,6 +174,50 @@ TEST_F(Link, SaysThatItIsStaleAfterTwentyMissedPeriods) {
     EXPECT_FALSE(rig.hasEvent("/far: no fresh sample for 20 periods"));
     rig.step();
     EXPECT_TRUE(rig.hasEvent("/far: no fresh sample for 20 periods"));
+}
+
+TEST_F(Link, AStandstillOfItsOwnLoopIsNoSilenceOfTheOther) {
+    sample();
+    rig.tick.nominalTime += 500'000'000;
+    rig.step();
+    EXPECT_EQ(quality(), Quality::Stale);
+    EXPECT_FALSE(rig.hasEvent("no fresh sample"));
+    rig.step(20);
+    EXPECT_TRUE(rig.hasEvent("no fresh sample")) << "it is silent indeed";
+}
+
+TEST_F(Link, OneLossIsOneEventUntilItIsBack) {
+    const auto lose = [this] {
+        rig.step(30);
+        rig.outside.atRead([this](Inbox& inbox) { inbox.linkLost(simplex); });
+        rig.step(30);
+    };
+    const auto told = [this] {
+        return std::ranges::count_if(rig.events(), [](const std::string& each) {
+            return each.find("no fresh sample") != each.npos || each.find("lost") != each.npos;
+        });
+    };
+    sample();
+    lose();
+    EXPECT_EQ(told(), 1);
+    sample();
+    lose();
+    EXPECT_EQ(told(), 2);
+}
+
+TEST_F(Link, WhatHasNeverBeenThereIsWaitedForAfterASecondAndOnce) {
+    rig.step(999);
+    EXPECT_FALSE(rig.hasEvent("waits for"));
+    rig.step(5'000);
+    const std::string line = "/rig: waits for /far, which no other agent has offered yet";
+    EXPECT_EQ(std::ranges::count(rig.events(), line), 1);
+}
+
+TEST_F(Link, WhatIsThereWithinASecondIsNotWaitedFor) {
+    rig.step(500);
+    sample();
+    rig.step(1'000);
+    EXPECT_FALSE(rig.hasEvent("waits for"));
 }
 
 TEST_F(Link, StalenessDoesNotMakeABadSampleBetter) {

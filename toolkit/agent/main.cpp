@@ -158,6 +158,9 @@ void printEnd(cs::ClusterCS& cluster, const std::string& name, const comms::DdsI
     if (network != nullptr) {
         std::cout << countLine("lost samples", network->lost())
                   << countLine("refused samples", network->rejected());
+        for (const auto& [reason, count] : network->rejections()) {
+            std::cout << "    " << count << ": " << reason << '\n';
+        }
     }
     std::cout << monitorTables(cluster.image()) << faultLines(cluster.image()) << std::flush;
 }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::int64_t longestLead = 86'400'000'000;      // us that another clock may be ahead
 constexpr std::int64_t longestAbsence = 600'000'000'000;  // ns until a lost agent is given up
+constexpr std::int64_t longestLook = 500'000'000;         // ns between two looks of a live thread
 constexpr std::size_t mostPeers = 1'024;
 constexpr std::size_t longestAgentName = 127;
 constexpr std::size_t mostPaths = 100'000;  // in one interest
@@ -146,8 +147,12 @@ void AgentPeers::lose(Peer& peer, const std::string& why) {
 void AgentPeers::expire(std::int64_t now) {
     name_.expire(now);
     const std::uint32_t crowd = agents();
+    // A process that stood still (a debugger, a paused machine) heard nobody meanwhile.
+    const std::int64_t since = now - std::exchange(looked_, now);
+    const std::int64_t stood = since > longestLook && since < now ? since : 0;
     for (auto& [name, peer] : peers_) {
         if (!peer.heard) continue;
+        peer.lastHeard = std::min(now, peer.lastHeard + stood);
         const std::int64_t patience =
             patienceWith(*peer.model().presence(), peer.agent ? crowd : 0);
         if (now - peer.lastHeard <= patience) continue;

@@ -78,6 +78,7 @@ private:
     std::function<void(const std::string&, std::int64_t)> lost_;
     Peers peers_;
     FirstOfName name_{self_};
+    std::int64_t looked_ = 0;  // expire() was called last
     bool changed_ = false;
     std::string early_;  // whose clock was last said to be ahead
 };

@@ -221,6 +221,15 @@ void AgentThread::reportRefusals() {
     for (const std::string& each : participant_.takeRefusals()) {
         self_.event(Severity::Warning, self_.simplex, each);
     }
+    for (const std::string& each : self_.rejections.takeReports(monotonicNow())) {
+        self_.event(Severity::Warning, self_.simplex, each);
+    }
+}
+
+std::map<std::string, std::uint64_t> AgentThread::rejections() const {
+    auto counts = participant_.refusals();
+    counts.merge(self_.rejections.byReason());
+    return counts;
 }
 
 void AgentThread::changed() {

@@ -40,6 +40,7 @@ public:
     std::uint64_t rejected() const {
         return self_.rejections.count() + participant_.malformed() + participant_.refused();
     }
+    std::map<std::string, std::uint64_t> rejections() const;  // by reason
     std::uint64_t lost() const { return links_.lost(); }
     std::string lastRejection() const { return self_.rejections.last(); }
 

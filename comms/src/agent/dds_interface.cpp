@@ -34,6 +34,11 @@ std::uint64_t DdsInterface::rejected() const {
     return implementation_->thread ? implementation_->thread->rejected() : 0;
 }
 
+std::map<std::string, std::uint64_t> DdsInterface::rejections() const {
+    return implementation_->thread ? implementation_->thread->rejections()
+                                   : std::map<std::string, std::uint64_t>{};
+}
+
 std::uint64_t DdsInterface::lost() const {
     return implementation_->thread ? implementation_->thread->lost() : 0;
 }

@@ -299,6 +299,19 @@ std::uint64_t Participant::refused() const {
     return impl_->gate->filter.dropped() + (impl_->guard ? impl_->guard->refused() : 0);
 }
 
+std::map<std::string, std::uint64_t> Participant::refusals() const {
+    std::map<std::string, std::uint64_t> counts{
+        {"a sample could not be decoded", malformed()},
+        {"security refused their sender", impl_->guard ? impl_->guard->refused() : 0}};
+    for (std::size_t i = 0; i < rtps::refusals; ++i) {
+        const auto reason = static_cast<rtps::Refusal>(i);
+        counts[std::string{"datagrams: "} + rtps::wordsOf(reason)] =
+            impl_->gate->filter.dropped(reason);
+    }
+    std::erase_if(counts, [](const auto& each) { return each.second == 0; });
+    return counts;
+}
+
 std::uint32_t Participant::pending() const { return impl_->guard ? impl_->guard->pending() : 0; }
 
 std::uint32_t Participant::secured() const { return impl_->listener->secured(); }

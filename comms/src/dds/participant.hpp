@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -89,6 +90,8 @@ public:
     // how often since the start.
     std::vector<std::string> takeRefusals();
     std::uint64_t refused() const;
+    // How often for each reason: refused() and malformed().
+    std::map<std::string, std::uint64_t> refusals() const;
     std::uint32_t pending() const;  // others that are not authenticated yet
     std::uint32_t secured() const;  // others that ask for security
 

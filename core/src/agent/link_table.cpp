@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/link_table.hpp"
 
+#include "cortex/core/clock.hpp"
+
 #include <algorithm>
 
 namespace cortex {
 namespace {
 
-constexpr std::int64_t stalePeriods = 3;      // missed ones
+constexpr std::int64_t patience = nsPerSecond;  // after the start, before it says what is missing
+constexpr std::int64_t stalePeriods = 3;        // missed ones
 constexpr std::int64_t reportedPeriods = 20;  // fewer happen often where nothing runs in real time
 
 std::size_t octetsOf(const LinkBinding::Copy& copy) {
@@ -50,7 +53,9 @@ void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Sl
     runtime_.ownerPeriods_[simplex - runtime_.firstRemote_] = link->period;
     if (!link->bound) post(Severity::Info, simplex, "linked");
     link->bound = true;
+    runtime_.everLinked_[simplex - first_] = true;
     link->interface = interface;
+    link->silent = 0;
     link->reported = false;
 }
 
@@ -66,11 +71,13 @@ void LinkTable::lost(std::uint32_t simplex) {
     link->bound = false;
     link->slice.state->quality = Quality::Lost;
     link->slice.state->cause = simplex;
-    post(Severity::Warning, simplex, "link lost: its agent is not heard");
+    if (!link->reported) post(Severity::Warning, simplex, "link lost: its agent is not heard");
 }
 
 void LinkTable::age() {
+    if (!toldMissing_ && runtime_.nominalTime() >= patience) tellMissing();
     for (Link& link : links_) {
+        ++link.silent;
         const std::int64_t age = runtime_.nominalTime() - link.freshTime;
         if (!link.bound || age < stalePeriods * link.period) continue;
         SlotState& state = *link.slice.state;
@@ -78,10 +85,31 @@ void LinkTable::age() {
             state.quality = Quality::Stale;
             state.cause = link.simplex;
         }
-        if (link.reported || age < reportedPeriods * link.period) continue;
+        // A loop that stood still has missed its own cycles, and the owner has said nothing wrong.
+        const bool brief = age < reportedPeriods * link.period || link.silent <= reportedPeriods;
+        if (link.reported || brief) continue;
         link.reported = true;
         post(Severity::Warning, link.simplex, "no fresh sample for 20 periods");
     }
+}
+
+// Once: whatever else follows from it is no news.
+void LinkTable::tellMissing() {
+    toldMissing_ = true;
+    const Link* first = nullptr;
+    std::int64_t others = -1;
+    for (const Link& link : links_) {
+        if (!runtime_.neverLinked(link.simplex)) continue;
+        if (first == nullptr) first = &link;
+        ++others;
+    }
+    if (first == nullptr) return;
+    EventText text{"waits for "};
+    text << runtime_.structure().simplexes[first->simplex].path;
+    if (others > 0) text << " and " << others << " more";
+    text << ", which no other agent has offered yet";
+    runtime_.post(runtime_.thread(0), Severity::Warning, EventKind::Agent, runtime_.agentSimplex(),
+                  text);
 }
 
 void LinkTable::post(Severity severity, std::uint32_t simplex, const char* text) {

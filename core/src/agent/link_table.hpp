@@ -35,14 +35,17 @@ private:
         Slice slice;
         std::int64_t freshTime = 0, period = 0;  // ns, nominal time
         std::uint32_t interface = none;
+        std::int64_t silent = 0;  // cycles of ours since its last sample
         bool bound = false, reported = false;
     };
     Link* find(std::uint32_t simplex) CORTEX_REALTIME;
+    void tellMissing() CORTEX_REALTIME;
     void post(Severity severity, std::uint32_t simplex, const char* text) CORTEX_REALTIME;
 
     AgentRuntime& runtime_;
     std::uint32_t first_ = 0;  // index of the first remote simplex: they stand last
     std::vector<Link> links_;
+    bool toldMissing_ = false;
 };
 
 }  // namespace cortex

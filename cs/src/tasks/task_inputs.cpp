@@ -2,6 +2,7 @@
 #include "tasks/task_inputs.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cortex::cs {
 
@@ -106,6 +107,7 @@ void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick,
     EventText text{"input "};
     text << input.rule->name << " from " << set_.structure.simplexes[input.target].path;
     if (!input.lost) {
+        if (!std::exchange(input.told, false)) return;
         text << " is back";
         set_.agent.post(*simplex.thread_->loop, Severity::Info, EventKind::Message, task.index,
                         text);
@@ -126,7 +128,11 @@ void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick,
                  << " ms, as the loop stood still";
         text << ", allowed " << milliseconds(input.maxAge) << " ms";
     }
-    if (input.rule->onLoss == OnLoss::Fault && simplex.state_ == State::Active) {
+    const bool faults = input.rule->onLoss == OnLoss::Fault && simplex.state_ == State::Active;
+    // What follows from a simplex of another agent that has never been there is no loss.
+    input.told = faults || !set_.agent.neverLinked(input.state->cause);
+    if (!input.told) return;
+    if (faults) {
         simplex.enterFault(InputLost, text.view());
     } else {
         text << "; reaction: " << name(input.rule->onLoss);

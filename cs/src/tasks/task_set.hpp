@@ -43,6 +43,7 @@ struct TaskInput {
     bool ages = false;         // something writes it
     bool fromOutside = false;  // it moves on while this loop stands still
     bool lost = false;
+    bool told = false;  // that it is lost
     const Rule* rule = nullptr;
 };
 

@@ -5,6 +5,7 @@
 #include "cortex/core/transport.hpp"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -26,6 +27,7 @@ public:
     // How many samples of others were malformed or impossible, and the last reason; until close().
     std::uint64_t rejected() const;
     std::string lastRejection() const;
+    std::map<std::string, std::uint64_t> rejections() const;  // the same number, by reason
     // How many samples of linked simplexes were sent and did not arrive; until close().
     std::uint64_t lost() const;
 

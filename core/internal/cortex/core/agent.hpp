@@ -89,6 +89,11 @@ public:
     const std::int64_t& ownerPeriod(std::uint32_t simplex) const {
         return ownerPeriods_[simplex - firstRemote_];
     }
+    // A simplex of another agent that has not been there since the start.
+    bool neverLinked(std::uint32_t simplex) const CORTEX_REALTIME {
+        return simplex >= firstRemote_ && simplex - firstRemote_ < everLinked_.size() &&
+               !everLinked_[simplex - firstRemote_];
+    }
 
     // Step (1) of a task: answers to what it sent, commands of its lanes in canonical order, then
     // from outside, then its long command. What a handler throws passes through. `dead`: a hook of
@@ -178,6 +183,7 @@ private:
     std::vector<LoopThread> threads_;
     PresentCycle present_;
     std::vector<std::int64_t> ownerPeriods_;  // of remote simplexes, which are the last
+    std::vector<bool> everLinked_;            // the same
     std::uint32_t firstRemote_ = 0;
     // Per simplex, bits: pending life-cycle commands, and whether its port has work.
     std::unique_ptr<std::atomic<std::uint8_t>[]> calls_, callsLater_;
