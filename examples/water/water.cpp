@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The behaviour of the active types of water-types.xml, as a plug-in for cortex-agent.
+#include "cortex/core/archive.hpp"
 #include "cortex/core/registry.hpp"
 #include "cortex/cs/simplex_cs.hpp"
 
@@ -39,6 +40,11 @@ private:
         // At its limit the pump gives no more, so the integral part must not grow either.
         if (std::abs(flow) < mostFlow || flow * missing < 0) integral_ += change;
         flow_ = std::clamp(flow, -mostFlow, mostFlow);
+    }
+
+    void keep(cortex::Archive& archive) override {
+        archive.version("LevelController", 1);
+        archive & integral_;
     }
 
     static constexpr double mostFlow = 0.01;  // m3/s, as PumpFlow has it

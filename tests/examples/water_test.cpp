@@ -3,11 +3,14 @@
 #include "cortex/core/registry.hpp"
 #include "cortex/core/simplex_tree.hpp"
 #include "cortex/cs/cluster_cs.hpp"
+#include "cortex/cs/simplex_cs.hpp"
 
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -60,6 +63,20 @@ TEST_F(WaterPlant, WaterIsNeitherMadeNorLost) {
         ASSERT_NEAR(value("/ring", "volume"), 0.15, 1e-9) << "after " << second + 1 << " s";
         ASSERT_NEAR(level("1") + level("2") + level("3"), 1.5, 1e-8);
     }
+}
+
+// What is no item of a class and not in its keep() would be lost.
+TEST_F(WaterPlant, TheControllersKeepTheirIntegralPart) {
+    auto& controller = dynamic_cast<cs::SimplexCS&>(tree.at("/levels/1"));
+    runSeconds(20);
+    const std::vector<std::byte> saved = controller.savedState();
+    ASSERT_FALSE(saved.empty());
+    runSeconds(10);
+    ASSERT_NE(controller.savedState(), saved);
+
+    controller.restoreState(saved);
+
+    EXPECT_EQ(controller.savedState(), saved);
 }
 
 TEST_F(WaterPlant, WithoutTheSupervisorPumpsAreSafeAndTheValvesLevelTheTanks) {

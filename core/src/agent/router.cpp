@@ -259,7 +259,11 @@ void Router::report(const OutsideCommand& command, const AnswerHead& answer) {
     text << name(answer.outcome);
     if (answer.reason != Reason::None) text << " (" << name(answer.reason) << ")";
     if (!answer.why.view().empty()) text << ", " << answer.why.view();
-    text << " in " << answer.latencyCycles << (answer.latencyCycles == 1 ? " cycle" : " cycles");
+    if (answer.latencyCycles == 0)
+        text << " in the same cycle";
+    else
+        text << " in " << answer.latencyCycles
+             << (answer.latencyCycles == 1 ? " cycle" : " cycles");
     const bool executed = answer.outcome != Outcome::Rejected &&
                           answer.outcome != Outcome::MailboxFull &&
                           answer.outcome != Outcome::Expired;
