@@ -97,7 +97,10 @@ TEST_F(CortexShell, HelpListsAndExplainsItsVerbs) {
         EXPECT_TRUE(contains(outcome.output, std::string{"\n  "} + verb + " ")) << verb;
     }
     EXPECT_FALSE(contains(outcome.output, "\n  shell ")) << "no shell in a shell";
-    EXPECT_TRUE(contains(outcome.output, "PREFIX")) << outcome.output;
+    for (const char* usage : {"  list [PREFIX] [OPTIONS]", "  set PATH ITEM=VALUE... [OPTIONS]",
+                              "  handover PREFIX TO [OPTIONS]", "  help [VERB]"}) {
+        EXPECT_TRUE(contains(outcome.output, usage)) << usage << '\n' << outcome.output;
+    }
 
     const Outcome wrong = runsFile("help wach\n");
     EXPECT_EQ(wrong.exit, 2);

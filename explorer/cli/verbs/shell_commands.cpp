@@ -51,10 +51,30 @@ CLI::App* addControl(Verbs& verbs, const char* name, const char* description, co
     return verb;
 }
 
+// "watch PATH[.ITEM]... [OPTIONS]"
+std::string usageOf(const CLI::App& verb) {
+    std::string usage = verb.get_name();
+    bool options = false;
+    for (const CLI::Option* each : verb.get_options()) {
+        if (!each->get_positional()) {
+            options = options || each->get_name() != "--help";
+            continue;
+        }
+        const bool many = each->get_items_expected_max() > 1;
+        const std::string word = each->get_name(true) + (many ? "..." : "");
+        usage += each->get_required() ? " " + word : " [" + word + "]";
+    }
+    return usage + (options ? " [OPTIONS]" : "");
+}
+
 Exit printHelp(const CLI::App& app, const std::string& name) {
     if (name.empty()) {
-        // App::help() would explain the verb of this line, `help`.
-        std::cout << app.get_formatter()->make_help(&app, "cortex", CLI::AppFormatMode::Normal);
+        Columns columns{2};
+        for (const CLI::App* each : app.get_subcommands(nullptr)) {
+            columns.add({usageOf(*each), each->get_description()});
+        }
+        columns.print(std::cout);
+        std::cout << "\n'help VERB' explains one with its options.\n";
         return Yes;
     }
     std::vector<std::string> names;
