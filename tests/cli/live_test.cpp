@@ -115,7 +115,18 @@ TEST_F(CortexLive, SetsItemsWithinTheirRange) {
     EXPECT_EQ(liveJson({"show", "/drive"}, "show")["data"]["naturalFrequency"]["value"], 9.5)
         << "all or none";
     EXPECT_EQ(live({"set", "/drive", "naturalFrequency=fast"}).exit, 2);
-    EXPECT_EQ(live({"set", "/drive", "followingError=1"}).exit, 2) << "not settable";
+    const Outcome unsettable = live({"set", "/drive", "followingError=1"});
+    EXPECT_EQ(unsettable.exit, 2);
+    EXPECT_TRUE(contains(unsettable.errors,
+                         "followingError is written by the simplex itself; it is not settable; of "
+                         "/drive are: "))
+        << unsettable.errors;
+    const Outcome observed = live({"set", "/axis/observed", "position=1"});
+    EXPECT_EQ(observed.exit, 2);
+    EXPECT_TRUE(contains(observed.errors,
+                         "position is an observation; it is not settable; nothing "
+                         "of /axis/observed is"))
+        << observed.errors;
 }
 
 TEST_F(CortexLive, WatchesValues) {

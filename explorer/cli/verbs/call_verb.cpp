@@ -7,6 +7,7 @@
 #include "text/interrupts.hpp"
 #include "verbs/live_verbs.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 
@@ -29,6 +30,32 @@ const CommandTable::Entry& entryOf(const CommandTable& table, const FoundSimplex
     throw Failure{NotFound, simplex.info().path + " (" + simplex.type().name +
                                 ") has no command '" + command + "'; " +
                                 (nearest.empty() ? all : nearest)};
+}
+
+std::string whatItIs(const FoundSimplex& simplex, const DataItem& item) {
+    if (item.constant) return "a constant of its type";
+    const Role role = simplex.info().role;
+    if (role == Role::Observation) return "an observation";
+    if (role == Role::Modification) return "a demand, which another simplex writes";
+    return "written by the simplex itself";
+}
+
+// That `set` cannot set an item of the simplex, before the network is asked.
+void checkSettable(const FoundSimplex& simplex, const CommandTable& table,
+                   const std::vector<std::string>& arguments) {
+    for (const std::string& each : arguments) {
+        const std::string name = each.substr(0, each.find('='));
+        const ItemLayout* found = simplex.info().layout->find(name);
+        const auto isIt = [&](const DataItem* item) { return item->name == name; };
+        if (found == nullptr || std::ranges::any_of(table.settable, isIt)) continue;
+        std::vector<std::string> settable;
+        for (const DataItem* item : table.settable) settable.push_back(item->name);
+        const std::string others = settable.empty()
+                                       ? "nothing of " + simplex.info().path + " is"
+                                       : "of " + simplex.info().path + " are: " + joined(settable);
+        throw Failure{Usage, name + " is " + whatItIs(simplex, *found->item) +
+                                 "; it is not settable; " + others};
+    }
 }
 
 double microseconds(const comms::CommandAnswer& answer) {
@@ -71,6 +98,7 @@ Exit callCommand(const CallOptions& options) {
     Live live{options.network};
     const FoundSimplex simplex = live.find(options.path);
     const CommandTable table = commandTable(simplex.type());
+    if (options.command == "set") checkSettable(simplex, table, options.arguments);
     const CommandTable::Entry& entry = entryOf(table, simplex, options.command);
     const auto arguments =
         parseArguments("command '" + options.command + "'", entry.request, options.arguments);
