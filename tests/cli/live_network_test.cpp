@@ -222,6 +222,15 @@ TEST_F(CortexLive, AnAgentThatKeepsToLoopbackIsListedWithTheVariableThatTheDemoP
     EXPECT_TRUE(contains(outcome.output, "/drive")) << outcome.output;
 }
 
+TEST_F(CortexLive, AnAgentThatKeepsToLoopbackIsListedWithoutAnyOption) {
+    ASSERT_EQ(live({"list"}).exit, 0) << "it is there";
+    const Outcome outcome = cortex({"list", "--domain", domain, "--timeout", "20"});
+
+    EXPECT_EQ(outcome.exit, 0) << outcome.errors;
+    EXPECT_TRUE(contains(outcome.output, "/drive")) << outcome.output;
+    EXPECT_TRUE(contains(outcome.errors, "looks on the loopback interface alone"));
+}
+
 TEST(CortexHidden, ListWithoutSecuritySaysThatSecuredAgentsWereHeard) {
     const ModelFolder folder;
     const std::string keys = (folder.path() / "mixer").string();

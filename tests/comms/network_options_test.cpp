@@ -7,9 +7,14 @@
 #include "comms/raw_dds.hpp"
 #include "dds/participant.hpp"
 
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
+#include <sstream>
 #include <string>
+
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -31,6 +36,29 @@ std::string joinRefusal(const NetworkOptions& options) {
 
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
+}
+
+// As /proc/net/udp of a machine with one participant of domain 0 on each of these addresses.
+bool onlyLoopbackAmong(int domain, const std::string& addresses) {
+    const std::string file = testing::TempDir() + "cortex-udp-" + std::to_string(::getpid());
+    {
+        std::ofstream out{file};
+        out << "   sl  local_address rem_address   st tx_queue rx_queue\n";
+        std::istringstream words{addresses};
+        for (std::string each; words >> each;) out << "  26: " << each << " 00000000:0000 07 0:0\n";
+    }
+    const bool only = onlyOnLoopback(domain, file);
+    std::remove(file.c_str());
+    return only;
+}
+
+TEST(NetworkOptions, KnowWhetherAllParticipantsOfADomainKeepToTheLoopbackInterface) {
+    const std::string agent = "0100007F:1CF2 0100007F:1CF3 ";  // 127.0.0.1:7410, 7411
+    EXPECT_TRUE(onlyLoopbackAmong(0, agent));
+    EXPECT_FALSE(onlyLoopbackAmong(0, "")) << "nobody is there";
+    EXPECT_FALSE(onlyLoopbackAmong(0, agent + "00000000:1CF4")) << "one uses all interfaces";
+    EXPECT_TRUE(onlyLoopbackAmong(0, agent + "00000000:0035 0200000A:BEEF")) << "no participants";
+    EXPECT_FALSE(onlyLoopbackAmong(1, agent)) << "those of domain 0 do not count";
 }
 
 TEST(NetworkOptions, RefusesUnknownInterfacesAndListsThoseThatThereAre) {

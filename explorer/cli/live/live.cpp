@@ -45,7 +45,16 @@ void checkPrefix(const std::string& prefix) {
 }
 
 std::shared_ptr<Session> makeSession(const NetworkArguments& arguments) {
-    return std::make_shared<Session>(optionsOf(arguments));
+    comms::NetworkOptions options = optionsOf(arguments);
+    const bool chosen =
+        !options.interfaces.empty() || !options.peers.empty() || !options.discoveryServer.empty();
+    if (!chosen && comms::onlyOnLoopback(options.domain)) {
+        options.interfaces = {"127.0.0.1"};
+        std::cerr << "cortex: looks on the loopback interface alone, to which all agents and tools "
+                     "of domain "
+                  << options.domain << " on this machine keep; --interface ADDR looks elsewhere\n";
+    }
+    return std::make_shared<Session>(options);
 }
 
 Live::Live(const NetworkArguments& arguments)

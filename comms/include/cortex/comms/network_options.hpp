@@ -18,6 +18,11 @@ std::string defaultSecurity();
 // The environment variable CORTEX_DISCOVERY_SERVER, empty where it is not set.
 std::string defaultDiscoveryServer();
 
+// Whether there are participants of the domain on this machine and all keep to the loopback
+// interface, where one that uses the other interfaces does not meet them. `sockets`: as Linux lists
+// them.
+bool onlyOnLoopback(int domain, const std::string& sockets = "/proc/net/udp");
+
 // The network that an agent or a tool joins. Joining throws Error if an option cannot be fulfilled.
 struct NetworkOptions {
     // The DDS domain, 0 to 230. Only agents and tools of one domain meet.
