@@ -145,7 +145,9 @@ void Reference::collect() {
                  (ending.reason == Reason::None ? ""
                                                 : std::string{" ("} + name(ending.reason) + ")") +
                  (ending.why.empty() ? "" : ", " + ending.why) + " in " +
-                 std::to_string(visitor->latency) + (visitor->latency == 1 ? " cycle" : " cycles"));
+                 (visitor->latency == 0   ? "the same cycle"
+                  : visitor->latency == 1 ? "1 cycle"
+                                          : std::to_string(visitor->latency) + " cycles"));
     }
     std::erase_if(active_, [](const Visitor* visitor) { return visitor->over; });
 }
