@@ -32,7 +32,8 @@ LAYERS = {
 # The room of each header that other folders see (include/ and internal/).
 PUBLIC = {
     "core": {
-        "base": "clock data error event_count findings loop_pace machine nearest_names path quality realtime "
+        "base": "cell clock data error event_count findings loop_pace machine nearest_names path quality "
+                "realtime "
                 "report service_threads spsc_ring standstill state system_findings tick value xml_text",
         "types": "agreement labelled_value type_model",
         "files": "model_files type_description",

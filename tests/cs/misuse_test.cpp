@@ -41,9 +41,70 @@ TEST(UnboundHandles, PutTheSimplexIntoFaultWithHandleHookAndType) {
     EXPECT_EQ(cluster.state("/ctl"), State::Fault);
     EXPECT_EQ(cluster.integer("/ctl", "faultCode"), -1);
     EXPECT_TRUE(
-        cluster.hasEvent("handle Data<double> of /ctl is not bound (forgotten in "
+        cluster.hasEvent("/ctl: fault -1: handle Data<double> is not bound (forgotten in "
                          "populate()?); used in stateActive of Probe"));
+    EXPECT_EQ(cluster.cluster->image().get<std::string_view>("/ctl", "faultText"),
+              "unbound Data<double> in stateActive");
     EXPECT_GE(others, 4);
+}
+
+// Members as a user writes them; `used`: which of them the hook uses.
+class Forgetful final : public Probe {
+public:
+    enum class Member { Start, Middle, End };
+    Forgetful(Identity identity, Member used) : Probe{std::move(identity)}, used_{used} {}
+
+private:
+    void populate() override {
+        Probe::populate();
+        gain_ = data<double>("gain");
+        seen_ = input("in").data<double>("value");
+    }
+    void stateStandby(const Tick&) override {
+        if (used_ == Member::Start) start_ = 1;
+        if (used_ == Member::Middle) gain_ = middle_;
+        if (used_ == Member::End) end_ = "x";
+    }
+
+    Member used_;
+    Data<std::int64_t> start_;
+    Data<double> gain_;
+    Data<const double> middle_;
+    Data<const double> seen_;
+    Data<std::string_view> end_;
+};
+
+TEST(UnboundHandles, AreFoundByTheItemsOfTheirNeighboursInTheClass) {
+    using Member = Forgetful::Member;
+    const std::pair<Member, std::string> cases[] = {
+        {Member::Start, "handle Data<std::int64_t> before that of 'gain' is not bound"},
+        {Member::Middle,
+         "handle Data<const double> between those of 'gain' and 'value' is not "
+         "bound (forgotten in populate()?); used in stateStandby of Probe"},
+        {Member::End, "handle Data<std::string_view> after that of 'value' is not bound"}};
+    for (const auto& [member, text] : cases) {
+        ProbeCluster cluster;
+        Simplex& signal = cluster.tree.add("/signal", "Signal");
+        auto& reader = cluster.tree.add<Forgetful>("/reader", "Probe", member);
+        cluster.tree.relate(reader, "in", signal);
+        cluster.start();
+        cluster.step();
+
+        EXPECT_TRUE(cluster.hasEvent(text)) << text;
+    }
+}
+
+TEST(UnboundHandles, LeaveOutTheirTypeWhereItDoesNotFitIntoFaultText) {
+    ProbeCluster cluster;
+    Data<std::string_view> forgotten;
+    cluster.probe("/a").onStartingUp = [&](Probe&, const Tick&) { return forgotten = "x", true; };
+    cluster.start();
+    cluster.call("/a", "startup");
+    cluster.step(2);
+
+    EXPECT_EQ(cluster.cluster->image().get<std::string_view>("/a", "faultText"),
+              "unbound handle in stateStartingUp");
+    EXPECT_TRUE(cluster.hasEvent("handle Data<std::string_view> is not bound"));
 }
 
 TEST(UnboundHandles, AreFoundForSendersToo) {
@@ -55,8 +116,8 @@ TEST(UnboundHandles, AreFoundForSendersToo) {
     cluster.start();
     cluster.step();
 
-    EXPECT_TRUE(cluster.hasEvent("handle CommandSender of /a is not bound"));
-    EXPECT_TRUE(cluster.hasEvent("handle LifeCycleSender of /b is not bound"));
+    EXPECT_TRUE(cluster.hasEvent("/a: fault -1: handle CommandSender is not bound"));
+    EXPECT_TRUE(cluster.hasEvent("/b: fault -1: handle LifeCycleSender is not bound"));
 }
 
 TEST(UnboundHandles, ThatPopulateUsesAreFindingsOfTheStart) {
@@ -70,7 +131,9 @@ TEST(UnboundHandles, ThatPopulateUsesAreFindingsOfTheStart) {
     const std::string refusal = refusalOf([&] { cluster.start(); });
 
     EXPECT_TRUE(contains(refusal, "/ctl")) << refusal;
-    EXPECT_TRUE(contains(refusal, "handle Data<double> is not bound")) << refusal;
+    EXPECT_TRUE(contains(refusal, "handle Data<double> is used before it is bound: = with a value"))
+        << refusal;
+    EXPECT_TRUE(contains(refusal, "is bound by =")) << refusal;
 }
 
 TEST(WhatMayBeWritten, LeavesTheItemsOfTheFrameworkOutAlreadyAtTheStart) {

@@ -3,9 +3,11 @@
 
 #include "cortex/core/error.hpp"
 
+#include <array>
 #include <atomic>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <string>
 
 namespace cortex {
@@ -14,27 +16,20 @@ namespace {
 
 std::atomic<std::uint64_t> changes{0};
 
-const char* handleOf(Kind kind) {
-    switch (kind) {
-        case Kind::Int:
-            return "Data<std::int64_t>";
-        case Kind::Float:
-            return "Data<double>";
-        case Kind::Bool:
-            return "Data<bool>";
-        case Kind::String:
-            break;
-    }
-    return "Data<std::string_view>";
-}
+constexpr std::array cellTypes{"std::int64_t", "double", "bool", "std::string_view"};
 
 }  // namespace
 
-UnboundHandle::UnboundHandle(const char* handle)
-    : Error{std::string{"handle "} + handle + " is not bound (forgotten in populate()?)"},
-      handle_{handle} {}
+UnboundHandle::UnboundHandle(const std::string& handle, const void* at)
+    : Error{"handle " + handle + " is not bound (forgotten in populate()?)"},
+      handle_{std::make_shared<const std::string>(handle)},
+      at_{at} {}
 
-void throwUnbound(Kind kind) { throw UnboundHandle{handleOf(kind)}; }
+void throwUnbound(const HandleWords& handle, const void* at) {
+    const char* cellType = cellTypes[static_cast<std::size_t>(handle.kind)];
+    throw UnboundHandle{
+        std::string{handle.form} + '<' + (handle.reads ? "const " : "") + cellType + '>', at};
+}
 
 std::uint64_t textChanges() { return changes.load(std::memory_order_relaxed); }
 

@@ -81,7 +81,7 @@ Outcome CommandSender::send() {
 }
 
 CommandSender::State& CommandSender::boundState() const {
-    if (state_ == nullptr) throw UnboundHandle{"CommandSender"};
+    if (state_ == nullptr) throw UnboundHandle{"CommandSender", this};
     return *state_;
 }
 

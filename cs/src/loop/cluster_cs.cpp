@@ -11,6 +11,7 @@
 #include "loop/group_commands.hpp"
 #include "tasks/crash_report.hpp"
 #include "tasks/io_threads.hpp"
+#include "tasks/unbound_handle.hpp"
 #include "threads/realtime_thread.hpp"
 #include "threads/scheduler.hpp"
 
@@ -175,6 +176,15 @@ void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) 
         try {
             simplex->populate();
             joinSettings(*simplex, report);
+        } catch (const UnboundHandle& unbound) {
+            report.error(
+                simplex->path(), finding::populate, simplex->place(),
+                "handle " + unbound.handle() +
+                    std::string{neighboursOf(unbound, *simplex, agent->tables()).view()} +
+                    " is used before it is bound: = with a value or another handle copies a value",
+                "bind it first: what data<…>(\"item\"), input(…).data<…>(\"item\") and their "
+                "like return is bound by =");
+            continue;
         } catch (const std::exception& error) {
             const std::string path = simplex->path() + ": ";
             std::string_view what = error.what();

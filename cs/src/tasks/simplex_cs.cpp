@@ -22,11 +22,12 @@ void SimplexCS::fault(std::int64_t code, std::string_view text) {
     enterFault(code, text);
 }
 
-void SimplexCS::enterFault(std::int64_t code, std::string_view text) {
+void SimplexCS::enterFault(std::int64_t code, std::string_view text, std::string_view brief) {
     if (pending_.fault) return;
     pending_.fault = true;
     thread_->faultCode = code;
     thread_->text = EventText{text};
+    thread_->brief = EventText{brief.empty() ? text : brief};
 }
 
 void SimplexCS::setQuality(Quality quality, std::int64_t measuredAt) {
@@ -116,7 +117,7 @@ SimplexCS::LifeCycleSender SimplexCS::lifeCycle(const RelatedSimplex& target, bo
 }
 
 AgentRuntime& SimplexCS::LifeCycleSender::bound() const {
-    if (runtime_ == nullptr) throw UnboundHandle{"LifeCycleSender"};
+    if (runtime_ == nullptr) throw UnboundHandle{"LifeCycleSender", this};
     return *runtime_;
 }
 

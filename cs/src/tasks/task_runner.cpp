@@ -4,6 +4,8 @@
 #include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
 
+#include "tasks/unbound_handle.hpp"
+
 #include <chrono>
 #include <exception>
 #include <span>
@@ -17,14 +19,6 @@ constexpr std::size_t timedWhole = 64;  // tasks; to time one takes some 20 ns
 
 bool isTransitional(State state) {
     return state == State::StartingUp || state == State::ShuttingDown;
-}
-
-EventText textOf(const UnboundHandle& unbound, const SimplexCS& simplex, const Position& position) {
-    EventText text{"handle "};
-    text << unbound.handle() << " of " << simplex.path()
-         << " is not bound (forgotten in populate()?); used in "
-         << name(position.hook.load(std::memory_order_relaxed)) << " of " << simplex.type().name;
-    return text;
 }
 
 }  // namespace
@@ -124,7 +118,9 @@ inline void TaskRunner::runSimplex(Task& task, const Tick& tick, TaskThread& thr
         if (task.inputCount != 0) set_.states[task.index] = inputs_.read(task, tick);
         if (!simplex.pending_.fault) runHooks(task, simplex, tick, position);
     } catch (const UnboundHandle& unbound) {
-        simplex.enterFault(HookThrew, textOf(unbound, simplex, position).view());
+        const Hook hook = position.hook.load(std::memory_order_relaxed);
+        simplex.enterFault(HookThrew, textOf(unbound, simplex, set_.agent.tables(), hook).view(),
+                           briefOf(unbound, hook).view());
         simplex.dead_ = true;
     } catch (const std::exception& error) {
         simplex.enterFault(HookThrew, error.what());

@@ -132,7 +132,7 @@ void TaskStates::enterFault(Task& task, const Tick& tick) {
     if (!faultedBefore) enter(task, State::Fault, tick);
     TaskDetails& details = set_.detailsOf(task);
     details.faultCode = simplex.thread_->faultCode;
-    details.faultText = simplex.thread_->text.view();
+    details.faultText = simplex.thread_->brief.view();
     EventText text{"fault "};
     text << simplex.thread_->faultCode << ": " << simplex.thread_->text.view();
     noteReason(task);

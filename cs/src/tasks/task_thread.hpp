@@ -20,7 +20,8 @@ struct alignas(64) TaskThread {
     std::int64_t measuredAt = 0;                            // setQuality()
     std::int64_t faultCode = 0;                             // fault()
     LongestTask longest;                                    // of this cycle
-    EventText text;  // of the fault, or why a command was refused
+    EventText text;   // of the fault, or why a command was refused
+    EventText brief;  // of the fault, for the item faultText
 };
 
 }  // namespace cortex::cs

@@ -83,22 +83,26 @@ public:
     Call(const std::byte* request, std::byte* response) : request_{request}, response_{response} {}
 
     template <class T>
-    Data<const T> operator[](Argument<T> argument) const CORTEX_REALTIME {
+    CellReference<const T> operator[](Argument<T> argument) const CORTEX_REALTIME {
         using Cell = typename StorageOf<const T>::type;
-        return Data<const T>{reinterpret_cast<Cell*>(request_ + bound<T>(argument.offset))};
+        return CellReference<const T>{
+            reinterpret_cast<Cell*>(request_ + bound<T>(argument.offset, "Argument"))};
     }
     template <class T>
-    Data<T> operator[](Result<T> result) CORTEX_REALTIME {
+    CellReference<T> operator[](Result<T> result) CORTEX_REALTIME {
         using Cell = typename StorageOf<T>::type;
-        return Data<T>{reinterpret_cast<Cell*>(response_ + bound<T>(result.offset))};
+        return CellReference<T>{
+            reinterpret_cast<Cell*>(response_ + bound<T>(result.offset, "Result"))};
     }
     template <class T>
     std::span<const T> operator[](ArrayArgument<T> argument) const CORTEX_REALTIME {
-        return {reinterpret_cast<const T*>(request_ + bound<T>(argument.offset)), argument.length};
+        const std::uint32_t offset = bound<T>(argument.offset, "ArrayArgument");
+        return {reinterpret_cast<const T*>(request_ + offset), argument.length};
     }
     template <class T>
     std::span<T> operator[](ArrayResult<T> result) CORTEX_REALTIME {
-        return {reinterpret_cast<T*>(response_ + bound<T>(result.offset)), result.length};
+        const std::uint32_t offset = bound<T>(result.offset, "ArrayResult");
+        return {reinterpret_cast<T*>(response_ + offset), result.length};
     }
     bool first() const { return first_; }            // false when a long command is called again
     bool cancelling() const { return cancelling_; }  // its last call
@@ -124,9 +128,9 @@ public:
 
 private:
     template <class T>
-    static std::uint32_t bound(std::uint32_t offset) CORTEX_REALTIME {
+    static std::uint32_t bound(std::uint32_t offset, const char* form) CORTEX_REALTIME {
         if (offset == unboundParameter) [[unlikely]]
-            throwUnbound(kindFor<T>());
+            throwUnbound({form, kindFor<T>(), false});
         return offset;
     }
 

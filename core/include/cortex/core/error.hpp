@@ -3,6 +3,7 @@
 
 #include "cortex/core/report.hpp"
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -14,15 +15,18 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-// A handle was used that populate() has not bound; `handle`: its type.
+// A handle was used that populate() has not bound; `handle`: its type, `at`: the handle itself,
+// where that is known.
 class UnboundHandle : public Error {
 public:
-    explicit UnboundHandle(const char* handle);
+    explicit UnboundHandle(const std::string& handle, const void* at = nullptr);
 
-    const char* handle() const { return handle_; }
+    const std::string& handle() const { return *handle_; }
+    const void* at() const { return at_; }
 
 private:
-    const char* handle_;
+    std::shared_ptr<const std::string> handle_;
+    const void* at_;
 };
 
 // The model (ontology, morphology or system) is refused; the report lists every finding.

@@ -31,9 +31,14 @@ public:
 
     // An item that the request does not name, or that cannot be set, keeps its value.
     template <class T>
-    Data<const T> operator[](const Data<T>& item) const CORTEX_REALTIME {
+    CellReference<const T> operator[](const Data<T>& item) const CORTEX_REALTIME {
         using Cell = typename StorageOf<const T>::type;
-        return Data<const T>{static_cast<Cell*>(valueOf(&item.cell()))};
+        return CellReference<const T>{static_cast<Cell*>(valueOf(&item.cell()))};
+    }
+    template <class T>
+    CellReference<const T> operator[](const CellReference<T>& item) const CORTEX_REALTIME {
+        using Cell = typename StorageOf<const T>::type;
+        return CellReference<const T>{static_cast<Cell*>(valueOf(item.cell_))};
     }
     template <ArrayElement T>
     std::span<const T> operator[](std::span<T> items) const CORTEX_REALTIME {

@@ -22,9 +22,8 @@ public:
 
     template <class T>
     void add(std::string_view type) {
-        addFactory(type, [](Simplex::Identity identity) {
-            return std::make_unique<T>(std::move(identity));
-        });
+        addFactory(type,
+                   [](Simplex::Identity identity) { return makeSimplex<T>(std::move(identity)); });
     }
     void addFactory(std::string_view type, Factory factory);  // throws Error if the type has one
     const Factory* find(std::string_view type) const;

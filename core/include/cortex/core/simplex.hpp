@@ -6,12 +6,14 @@
 #include "cortex/core/structure.hpp"
 #include "cortex/core/type_model.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace cortex {
@@ -132,6 +134,8 @@ public:
     int every() const { return description_->every; }
     int phase() const { return description_->phase; }
     std::uint32_t index() const { return index_; }  // in the Structure, from start() on
+    // The whole object with its class; empty where it was not made by makeSimplex().
+    std::span<const std::byte> object() const { return description_->object; }
 
     // Setup, before start(): the value an item starts with. Wrong ones are findings of validate().
     void set(std::string_view item, const GivenValue& value, Place place = {});
@@ -188,6 +192,8 @@ private:
     friend class AgentRuntime;
     friend class RelatedSimplex;
     friend class SimplexTree;
+    template <class T, class... Arguments>
+    friend std::unique_ptr<T> makeSimplex(Simplex::Identity identity, Arguments&&... arguments);
 
     AgentRuntime& startedRuntime() const;  // throws before start()
     void* cell(std::string_view item, const ItemAccess& access, std::size_t& length);
@@ -206,11 +212,19 @@ private:
         std::vector<Relation> relations{};
         std::vector<Setting> settings{};
         int every = 1, phase = -1;
+        std::span<const std::byte> object{};
     };
 
     std::unique_ptr<Description> description_;
     AgentRuntime* runtime_ = nullptr;
     std::uint32_t index_ = noSimplex;
 };
+
+template <class T, class... Arguments>
+std::unique_ptr<T> makeSimplex(Simplex::Identity identity, Arguments&&... arguments) {
+    auto made = std::make_unique<T>(std::move(identity), std::forward<Arguments>(arguments)...);
+    made->Simplex::description_->object = std::as_bytes(std::span{made.get(), 1});
+    return made;
+}
 
 }  // namespace cortex

@@ -37,8 +37,7 @@ public:
     Simplex& add(std::string_view path, std::string_view type);
     template <class T, class... Arguments>
     T& add(std::string_view path, std::string_view type, Arguments&&... arguments) {
-        auto simplex =
-            std::make_unique<T>(identity(path, type), std::forward<Arguments>(arguments)...);
+        auto simplex = makeSimplex<T>(identity(path, type), std::forward<Arguments>(arguments)...);
         T& reference = *simplex;
         insert(std::move(simplex));
         return reference;

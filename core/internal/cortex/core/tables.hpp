@@ -41,6 +41,9 @@ public:
     // otherwise the slice itself.
     Slice edgeSource(std::uint32_t index) { return wanted(viewOf(index).source, index); }
 
+    // What edge() gives, also where it was given up: only to compare addresses.
+    Slice seen(std::uint32_t index) const { return viewOf(index).seen; }
+
     // Copies every simplex that has delayed readers; at the start of a cycle.
     void latch() CORTEX_REALTIME;
     // End of setup: what nobody asked for through edge() or edgeSource() is latched no longer, as

@@ -132,7 +132,9 @@ private:
         return (static_cast<Self*>(static_cast<SimplexCS*>(self))->*method)(call);
     }
 
-    void enterFault(std::int64_t code, std::string_view text) CORTEX_REALTIME;
+    // `brief`: for the item faultText, where the text may be too long for it.
+    void enterFault(std::int64_t code, std::string_view text, std::string_view brief = {})
+        CORTEX_REALTIME;
 
     // With the head of the object this is most of a cache line; what derives from it goes on there.
     std::uint32_t manager_ = noSimplex;  // starts and stops it instead of group commands
