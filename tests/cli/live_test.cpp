@@ -97,6 +97,10 @@ TEST_F(CortexLive, SaysWhatIsValidWhereACommandIsNot) {
     EXPECT_EQ(outcome.exit, 2);
     EXPECT_TRUE(contains(outcome.errors, "prefix")) << outcome.errors;
     EXPECT_EQ(live({"call", "/mixer", "startup", "prefix"}).exit, 2);
+    outcome = live({"call", "/mixer", "takeControl"});
+    EXPECT_EQ(outcome.exit, 2) << "as for one too many";
+    EXPECT_TRUE(contains(outcome.errors, "needs the parameter 'prefix' (string)"))
+        << outcome.errors;
     outcome = live({"call", "/drve", "startup"});
     EXPECT_EQ(outcome.exit, 3);
     EXPECT_TRUE(contains(outcome.errors, "/drive")) << outcome.errors;

@@ -297,6 +297,8 @@ TEST(InnerControl, IsForThoseOutside) {
     rig.make();
     auto take = boss.input("agent").command("takeControl");
     auto renew = boss.input("agent").command("renewControl");
+    take.argument<std::string_view>("prefix") = "/";
+    renew.argument<std::string_view>("prefix") = "/";
     rig.start();
     boss.run = [&] {
         take.send();

@@ -136,6 +136,47 @@ TEST(UnboundHandles, ThatPopulateUsesAreFindingsOfTheStart) {
     EXPECT_TRUE(contains(refusal, "is bound by =")) << refusal;
 }
 
+TEST(Commands, AreNotSentWhileAParameterWithoutADefaultWasNeverSet) {
+    ProbeCluster cluster;
+    CommandSender add;
+    Data<double> amount;
+    Outcome sent = Outcome::None;
+    std::vector<double> executed;
+    Probe& sender = cluster.probe("/a");
+    Probe& receiver = cluster.probe("/b");
+    cluster.tree.relate(sender, "after", receiver);
+    sender.onPopulate = [&](Probe& self) {
+        add = self.output("after").command("add");
+        amount = add.argument<double>("amount");
+    };
+    sender.onActive = [&](Probe&, const Tick&) { sent = add.send(); };
+    receiver.onAdd = [&](Probe& self, Call& call) {
+        executed.push_back(call[self.amount]);
+        return Outcome::Done;
+    };
+    cluster.start();
+    cluster.startup(receiver);
+    cluster.startup(sender);
+
+    cluster.step(3);
+    EXPECT_EQ(sent, Outcome::Rejected);
+    EXPECT_EQ(add.answer().why.view(), "'amount' has no default and was never set");
+    amount += 1;  // counts what was never set
+    cluster.step();
+    EXPECT_EQ(sent, Outcome::Rejected);
+    EXPECT_TRUE(executed.empty());
+    EXPECT_EQ(add.sent(), 0U);
+    const std::vector<std::string> events = cluster.events();
+    EXPECT_EQ(std::ranges::count(
+                  events, "/a: add to /b: 'amount' has no default and was never set, not sent"),
+              1);
+
+    amount = 0;
+    cluster.step();
+    EXPECT_EQ(sent, Outcome::None);
+    EXPECT_EQ(executed, std::vector<double>{0});
+}
+
 TEST(WhatMayBeWritten, LeavesTheItemsOfTheFrameworkOutAlreadyAtTheStart) {
     ProbeCluster cluster;
     for (const char* path : {"/a", "/b"}) {

@@ -369,17 +369,17 @@ void CommandPort::count(const Verdict& verdict, std::int64_t latency) {
         countExecuted(latency);
 }
 
-Outcome CommandPort::mailboxFull(CommandSender::State& state) {
+Outcome CommandPort::notSent(CommandSender::State& state, Outcome outcome, std::string_view why) {
     ++thread_->rejected;
-    state.answer.outcome = Outcome::MailboxFull;
-    if (!std::exchange(state.full, true)) {
+    state.answer.outcome = outcome;
+    if (!state.notSent) {
+        state.notSent = true;
         const std::uint32_t receiver = state.lane->shape().receiver;
         EventText text{state.table->entries[state.command].name};
-        text << " to " << agent_.structure.simplexes[receiver].path
-             << ": the mailbox is full, not sent";
+        text << " to " << agent_.structure.simplexes[receiver].path << ": " << why << ", not sent";
         agent_.present.post(*thread_, Severity::Warning, EventKind::Refusal, simplex_, text);
     }
-    return Outcome::MailboxFull;
+    return outcome;
 }
 
 }  // namespace cortex

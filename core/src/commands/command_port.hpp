@@ -57,7 +57,8 @@ public:
 
     LoopThread& thread() { return *thread_; }
     // What send() returns where the lane has no room; it is counted and told once.
-    Outcome mailboxFull(CommandSender::State& state) CORTEX_REALTIME;
+    Outcome notSent(CommandSender::State& state, Outcome outcome, std::string_view why)
+        CORTEX_REALTIME;
 
 private:
     void callFor(bool work) CORTEX_REALTIME;  // sets or clears the simplex's bit

@@ -5,6 +5,7 @@
 
 #include "commands/command_port.hpp"
 #include "commands/lane.hpp"
+#include "commands/unset_arguments.hpp"
 #include "tables/lookup.hpp"
 
 #include <memory>
@@ -39,6 +40,15 @@ const ItemLayout& parameterAt(const CommandSender::State* state, std::string_vie
     return *item;
 }
 
+Outcome refuse(CommandSender::State& state, const DataItem& unset) {
+    EventText why{"'"};
+    why << unset.name << "' has no default and was never set";
+    state.answer.reason = Reason::Range;
+    state.answer.why = why;
+    state.hasReason = true;
+    return state.lane->sender().notSent(state, Outcome::Rejected, why.view());
+}
+
 }  // namespace
 
 CommandSender::State::State(const CommandTable& commands, std::uint32_t entry,
@@ -58,6 +68,7 @@ CommandSender::State::State(const CommandTable& commands, std::uint32_t entry,
     }
     initialiseRecord(commands.entries[entry].request, request());
     initialiseRecord(commands.entries[entry].response, response());
+    mayBeUnset = markUnset(commands.entries[entry], request());
 }
 
 void CommandSender::State::storeFinal(const AnswerHead& head, const std::byte* record) {
@@ -71,11 +82,16 @@ Outcome CommandSender::send() {
     if (state.lane == nullptr) return Outcome::MailboxFull;  // before start()
     state.answer.outcome = Outcome::None;
     CommandPort& sender = state.lane->sender();
+    if (state.mayBeUnset) [[unlikely]] {
+        if (const DataItem* unset = findUnset(state.table->entries[state.command], state.request()))
+            return refuse(state, *unset);
+        state.mayBeUnset = false;
+    }
     if (!state.lane->post(state.command, state.handle, state.request(), state.requestSize(),
                           sender.thread().clock)) {
-        return sender.mailboxFull(state);
+        return sender.notSent(state, Outcome::MailboxFull, "the mailbox is full");
     }
-    if (state.full) state.full = false;
+    if (state.notSent) state.notSent = false;
     if (!state.lane->hasOneHandle()) ++state.sent;
     return Outcome::None;
 }

@@ -54,10 +54,11 @@ Value converted(const DataItem& item, const Value& value, const std::string& wha
     return result;
 }
 
-// A parameter without a default has no value that its sender could have meant.
-void requireArguments(const CommandTable::Entry& entry,
-                      const std::map<std::string, Value>& arguments) {
-    if (entry.command == nullptr) return;
+}  // namespace
+
+std::string missingArguments(const CommandTable::Entry& entry,
+                             const std::map<std::string, Value>& arguments) {
+    if (entry.command == nullptr) return {};
     std::string missing;
     bool several = false;
     for (const DataItem& each : entry.command->request) {
@@ -65,13 +66,10 @@ void requireArguments(const CommandTable::Entry& entry,
         several = !missing.empty();
         missing += (several ? ", " : "") + inQuotes(each.name) + " (" + shapeOf(each) + ")";
     }
-    if (missing.empty()) return;
-    throw Error("command " + inQuotes(entry.name) + " needs the parameter" +
-                (several ? "s " : " ") + missing + (several ? ": they have" : ": it has") +
-                " no default");
+    if (missing.empty()) return {};
+    return "command " + inQuotes(entry.name) + " needs the parameter" + (several ? "s " : " ") +
+           missing + (several ? ": they have" : ": it has") + " no default";
 }
-
-}  // namespace
 
 void describeRecord(const CommandTable& table, std::uint32_t command, const std::byte* record,
                     EventText& text) {
@@ -106,7 +104,8 @@ void encodeRecord(const CommandTable& table, std::uint32_t command,
         storeValue(*item->item, converted(*item->item, value, what), record + item->offset);
         if (isSet(entry)) record[item - entry.request.items.data()] = std::byte{1};
     }
-    requireArguments(entry, arguments);
+    const std::string missing = missingArguments(entry, arguments);
+    if (!missing.empty()) throw Error(missing);
 }
 
 std::map<std::string, Value> decodeRecord(const RecordLayout& layout, const std::byte* record) {

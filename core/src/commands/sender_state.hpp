@@ -41,8 +41,9 @@ struct alignas(64) CommandSender::State {
     std::array<std::uint64_t, 2> smallRecords{};  // request, then response, where they fit
     std::uint8_t requestWords = 0, responseWords = 0;
     std::uint16_t command = 0, handle = 0;
-    bool full = false;       // the last send() found no room
-    bool hasReason = false;  // answer.why is not empty
+    bool mayBeUnset : 1 = false;  // a parameter without a default: looked at by send()
+    bool notSent : 1 = false;     // by the last send()
+    bool hasReason = false;       // answer.why is not empty
     AnswerHead answer;
 
     const CommandTable* table = nullptr;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/nearest_names.hpp"
+#include "cortex/core/record.hpp"
 
 #include "live/control.hpp"
 #include "live/live_values.hpp"
@@ -102,6 +103,8 @@ Exit callCommand(const CallOptions& options) {
     const CommandTable::Entry& entry = entryOf(table, simplex, options.command);
     const auto arguments =
         parseArguments("command '" + options.command + "'", entry.request, options.arguments);
+    const std::string missing = missingArguments(entry, arguments);
+    if (!missing.empty()) throw Failure{Usage, missing};
     std::optional<BriefControl> control;
     const auto prefix = controlledBy(simplex, entry, arguments);
     if (options.take && prefix) control.emplace(live, simplex.agent, *prefix);

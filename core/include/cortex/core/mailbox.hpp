@@ -58,7 +58,8 @@ public:
         const auto [first, length] = responseCells(name, kindFor<T>(), true);
         return {static_cast<const T*>(first), length};
     }
-    // Returns None if the command is on its way, otherwise MailboxFull.
+    // Returns None if the command is on its way, otherwise MailboxFull; or Rejected, where a
+    // parameter without a default was never set: answer() says which.
     Outcome send() CORTEX_REALTIME;
     // The newest answer; outcome None from a send() until the next answer comes.
     const AnswerHead& answer() const;

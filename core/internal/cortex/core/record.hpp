@@ -18,6 +18,9 @@ namespace cortex {
 // kind or length; parameters that are not given have their defaults.
 void encodeRecord(const CommandTable& table, std::uint32_t command,
                   const std::map<std::string, Value>& arguments, std::byte* record);
+// Which of those without a default are not given, in words; "" if none.
+std::string missingArguments(const CommandTable::Entry& entry,
+                             const std::map<std::string, Value>& arguments);
 std::map<std::string, Value> decodeRecord(const RecordLayout& layout, const std::byte* record);
 // The other way round for a response, of what fits; the rest of the record stays as it is.
 void encodeResponse(const RecordLayout& layout, const std::map<std::string, Value>& values,
