@@ -148,6 +148,29 @@ TEST_F(CortexLoss, AControllerWhoseInputIsLostShowsItsStateAndCommands) {
     }
 }
 
+TEST_F(CortexLoss, IsFollowedThroughOtherAgentsToItsFirstCause) {
+    const Background watcher{
+        agentCommand(systemFile(folder, "watcher",
+                                "<simplex path=\"/watcher/demanded\" type=\"RotaryAxisConcept\"/>"
+                                "<simplex path=\"/watcher/controller\" type=\"HoldAxisController\">"
+                                "<relate rule=\"axes\" to=\"/desk/demanded\" remote=\"true\" "
+                                "type=\"RotaryAxisConcept\"/>"
+                                "<relate rule=\"demands\" to=\"/watcher/demanded\"/></simplex>"))};
+    loseTheDevice();
+    const json expected{{{"path", "/desk/demanded"}, {"agent", "desk"}},
+                        {{"path", "/cell/observed"}, {"agent", ""}}};
+
+    const json shown = lookUntil([] { return liveJson({"show", "/watcher/controller"}, "show"); },
+                                 [&](const json& seen) { return seen["causes"] == expected; });
+
+    EXPECT_EQ(shown["causes"], expected);
+    const Outcome text = live({"show", "/watcher/controller"});
+    EXPECT_TRUE(
+        contains(text.output, "/desk/demanded of desk <- /cell/observed, which is not heard"))
+        << text.output;
+    EXPECT_EQ(liveJson({"show", "/watcher"}, "show")["causes"], json::array());
+}
+
 TEST_F(CortexLoss, AMisspeltRemotePathNamesTheNearestOnceTheOtherAgentIsKnown) {
     const Background other{agentCommand(systemFile(
         folder, "other",

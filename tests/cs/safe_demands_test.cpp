@@ -269,6 +269,7 @@ TEST(DemandLimits, FaultTheWriterOfASharedDemandThatIsNotFinite) {
     cluster.step();
     EXPECT_EQ(cluster.state("/bad"), State::Fault);
     EXPECT_TRUE(cluster.hasEvent("/bad: fault -3: value of /s was not a number"));
+    EXPECT_EQ(cluster.integer("/test", "limitCount"), 0);
 }
 
 TEST(DemandLimits, SayWhereItIsTheRateThatLimits) {

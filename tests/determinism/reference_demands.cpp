@@ -137,7 +137,7 @@ LimitFinding Reference::limit(RefSimplex& demand, double elapsed) {
                                     (type.unit.empty() ? "" : " " + type.unit) +
                                     (byRate ? " by its rate" : ""));
         }
-        first = finding.any = true;
+        first = finding.limited = true;
     };
     for (std::size_t n = 0; n < demand.shape->items.size(); ++n) {
         const Item& item = demand.shape->items[n];
@@ -149,7 +149,7 @@ LimitFinding Reference::limit(RefSimplex& demand, double elapsed) {
                 double& value = demand.live.floats[i];
                 const double written = value;
                 if (!std::isfinite(written)) {
-                    finding.any = finding.notFinite = finding.faults = true;
+                    finding.notFinite = finding.faults = true;
                     finding.item = item.type;
                     finding.texts.push_back(item.type->name + " of " + demand.path +
                                             " was not a number");
@@ -195,7 +195,7 @@ void Reference::limitOutputs(int simplex, double elapsed) {
         RefSimplex& demand = at(output->target);
         if (!demand.demand || demand.writers.size() > 1) continue;
         const LimitFinding finding = limit(demand, elapsed);
-        if (finding.any) ++limits_;
+        if (finding.limited) ++limits_;
         output->notFinite = finding.notFinite;
         again = again || finding.notFinite;
         if (!reports) continue;
@@ -238,7 +238,7 @@ void Reference::arbitrate(int simplex) {
     if (!target.demand) return;
     const double elapsed = static_cast<double>(elapsed_) * 1e-9;
     const LimitFinding finding = limit(target, elapsed);
-    if (finding.any) ++limits_;
+    if (finding.limited) ++limits_;
     const bool reports = active > 0 && !at(chosen.owner).task->safeByLoss;
     if (reports) {
         for (const std::string& text : finding.texts) {

@@ -178,7 +178,7 @@ struct RefSimplex {
 };
 
 struct LimitFinding {
-    bool any = false, notFinite = false, faults = false;
+    bool limited = false, notFinite = false, faults = false;
     const DataItem* item = nullptr;  // that faults
     std::vector<std::string> texts;  // of items newly limited
 };

@@ -53,7 +53,7 @@ bool isIn(const TypeModel& types, const Type& type, const char* base, const std:
 // What is not limited: a value that is no number makes its simplex bad, one out of its range is
 // told. A writer of several has values of its own, and so episodes of its own.
 void Reference::checkValues(int writer, RefSimplex& checked, Record& values) {
-    bool any = false, notFinite = false;
+    bool any = false, notFinite = false, outOfRange = false;
     for (const Item& item : checked.shape->items) {
         const std::string& name = item.type->name;
         const bool framework = isIn(types_, *checked.type, "Active", name) ||
@@ -63,6 +63,7 @@ void Reference::checkValues(int writer, RefSimplex& checked, Record& values) {
         const bool began = wrong.any && !wrongValues_.contains({&values, item.type});
         any = any || wrong.any;
         notFinite = notFinite || wrong.notFinite;
+        outOfRange = outOfRange || (wrong.any && !wrong.notFinite);
         if (!wrong.any)
             wrongValues_.erase({&values, item.type});
         else
@@ -78,7 +79,7 @@ void Reference::checkValues(int writer, RefSimplex& checked, Record& values) {
         post(writer, Severity::Warning, EventKind::Limit, text);
     }
     if (!any) return;
-    ++limits_;
+    if (outOfRange) ++limits_;
     if (!notFinite || values.state.quality >= Quality::Bad) return;
     values.state.quality = Quality::Bad;
     values.state.cause = static_cast<std::uint32_t>(&checked - all_.data());

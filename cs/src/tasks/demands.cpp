@@ -124,7 +124,7 @@ LimitResult DemandLimits::apply(double elapsedSeconds) {
 
 void DemandLimits::found(const Item& item, bool first, double value, double limit, bool byRate,
                          LimitResult& result) {
-    result.any = true;
+    result.any = result.limited = true;
     if (first && !item.inEpisode) beginnings_.push_back({item.item, value, limit, false, byRate});
 }
 
@@ -139,7 +139,7 @@ bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
         const double written = values[i];
         if (!rated && written >= item.min && written <= item.max) continue;
         if (!std::isfinite(written)) {
-            result = {true, true, item.item};
+            result = {true, true, item.item, result.limited};
             beginnings_.push_back({item.item, written, previous[i], true, false});
             return true;
         }

@@ -16,6 +16,7 @@ struct LimitResult {
     bool any = false;                    // an item was not finite, out of range or too fast
     bool notFinite = false;              // `faulting` is; the items after it were not looked at
     const DataItem* faulting = nullptr;  // the first item that puts its writer into Fault
+    bool limited = false;                // an item was out of range or too fast
 };
 
 // The last step before a modification is read or sent: not finite, out of range, too fast.

@@ -12,7 +12,7 @@ bool TaskDemands::limit(Task& task, const Tick& tick) {
         if (output.limits == nullptr) continue;
         const LimitResult result = output.limits->apply(elapsed);
         if (!result.any) continue;
-        ++simplex.thread_->limits;
+        if (result.limited) ++simplex.thread_->limits;
         if (result.notFinite) {
             output.safe->write();
             again = true;
@@ -88,7 +88,7 @@ void TaskDemands::arbitrate(Arbiter& arbiter, const Tick& tick, TaskThread& thre
     if (arbiter.limits == nullptr) return;
     const double elapsed = tick.elapsedSeconds();
     const LimitResult result = arbiter.limits->apply(elapsed);
-    if (result.any) ++thread.limits;
+    if (result.limited) ++thread.limits;
     // Events here are the shared simplex's: its writer's own may come from another thread.
     const bool demands = active > 0 && !chosen.writer->safeByLoss_;
     if (demands) reportLimits(*arbiter.limits, arbiter.target, *thread.loop);

@@ -26,7 +26,7 @@ bool TaskValues::examine(const Task& task, ValueChecks& checks, SlotState& state
     const ValueChecks::Result result = checks.examine();
     for (const ValueChecks::Beginning& each : checks.beginnings()) report(checks, each, task);
     if (!result.any) return false;
-    ++task.simplex->thread_->limits;
+    if (result.outOfRange) ++task.simplex->thread_->limits;
     if (result.notFinite && state.quality < Quality::Bad) {
         state.quality = Quality::Bad;
         state.cause = checks.simplex();

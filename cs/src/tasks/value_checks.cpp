@@ -108,6 +108,7 @@ ValueChecks::Result ValueChecks::examine() {
         item.inEpisode = wrong;
         result.any = result.any || wrong;
         result.notFinite = result.notFinite || (wrong && found.notFinite);
+        result.outOfRange = result.outOfRange || (wrong && !found.notFinite);
     }
     return result;
 }

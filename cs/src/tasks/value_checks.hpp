@@ -42,6 +42,7 @@ public:
     struct Result {
         bool any = false;
         bool notFinite = false;
+        bool outOfRange = false;
     };
 
     // `simplex`: that has the values. Items of the framework and measured ones are not looked at.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "live/causes.hpp"
 #include "live/live_values.hpp"
 #include "live/loop_text.hpp"
 #include "verbs/live_verbs.hpp"
@@ -15,6 +16,7 @@ struct Shown {
     comms::AgentImage image;
     double age = 0;  // s
     comms::AgentStatus owner{};
+    std::vector<Cause> causes{};
 
     Value value(const ItemLayout& item) const { return image->value(simplex.index, item); }
     std::optional<State> state() const { return stateOf(image, simplex.index); }
@@ -82,6 +84,12 @@ Json commandsJson(const Shown& shown, const CommandTable& table) {
     return list;
 }
 
+Json causesJson(const std::vector<Cause>& causes) {
+    Json list = Json::array();
+    for (const Cause& each : causes) list.push_back({{"path", each.path}, {"agent", each.agent}});
+    return list;
+}
+
 Json shownJson(const Shown& shown) {
     const Type& type = shown.simplex.type();
     const auto state = shown.state();
@@ -91,6 +99,7 @@ Json shownJson(const Shown& shown) {
             {"role", name(shown.simplex.info().role)},
             {"agent", shown.simplex.agent},
             {"quality", name(shown.quality())},
+            {"causes", causesJson(shown.causes)},
             {"age_ms", shown.age * 1000},
             {"overloaded", shown.owner.overloaded},
             {"standstill", shown.owner.standstill},
@@ -117,6 +126,7 @@ void printHead(const Shown& shown) {
     columns.add({"agent", simplex.agent + (trouble.empty() ? "" : ", " + trouble)});
     if (state) columns.add({"state", name(*state)});
     columns.add({"quality", name(shown.quality())});
+    if (!shown.causes.empty()) columns.add({"because of", causesText(shown.causes)});
     columns.add({"age", toText(std::round(shown.age * 1e4) / 10) + " ms"});
     std::cout << simplex.info().path << '\n';
     columns.print(std::cout);
@@ -168,6 +178,7 @@ Exit showSimplex(const ShowOptions& options) {
     shown.image = live.values(shown.simplex);
     shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index).value_or(0);
     shown.owner = live.statusOf(shown.simplex.agent);
+    shown.causes = causesOf(live, shown.simplex, shown.image);
     if (options.json) {
         print(shownJson(shown));
         return Yes;
