@@ -152,6 +152,17 @@ TEST(Doctor, SeesWhetherALoopMayKeepCpusAwake) {
     EXPECT_EQ(machine.of("idle").message, "a program keeps CPUs awake: at most 0 us to wake up");
 }
 
+TEST(Doctor, SaysWhereNoDriverWouldKeepCpusAwake) {
+    const Machine machine;
+    EXPECT_EQ(machine.of("idle").message, "without a cpuidle driver keepCpusAwake has no effect");
+
+    machine.set("proc/cpuinfo", "processor : 0\nflags\t\t: fpu hypervisor vme");
+    expectWarning(machine.of("idle"), "keepCpusAwake has no effect", "--spin");
+
+    machine.set(machine.cpus + "cpuidle/current_driver", "intel_idle");
+    expectWarning(machine.of("idle"), "given to the host", "/dev/cpu_dma_latency");
+}
+
 TEST(Doctor, WarnsOfPagesThatMoveAndOfAHypervisor) {
     const Machine machine;
     machine.set("sys/kernel/mm/transparent_hugepage/enabled", "[always] madvise never");

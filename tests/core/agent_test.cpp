@@ -179,6 +179,24 @@ TEST(Agent, EventsOfACycleStandInCanonicalOrderBeginTasksEnd) {
               (std::vector<std::string>{"/b: task", "/a: task", "/a: read", "/a: task"}));
 }
 
+TEST(Agent, EventsAfterTheLastCycleStandBehindThoseOfIt) {
+    AgentRig rig;
+    Hand& first = rig.hand("/a");
+    Hand& second = rig.hand("/b");
+    rig.start();
+    const auto post = [&](const Hand& hand, const char* text) {
+        rig.agent->post(rig.agent->thread(0), Severity::Info, EventKind::Message, hand.index(),
+                        text);
+    };
+    rig.begin();
+    post(second, "task");
+    rig.end();
+    post(first, "afterwards");
+    rig.agent->stop();
+
+    EXPECT_EQ(rig.events(), (std::vector<std::string>{"/b: task", "/a: afterwards"}));
+}
+
 // The whole path of commands: along relationships, from outside, refused, long, set, life cycle.
 TEST(Agent, AllocatesNothingAfterStart) {
     AgentRig rig;

@@ -109,7 +109,9 @@ TEST_F(TablesTest, LatchADelayedOutputForEveryReader) {
 
 TEST_F(TablesTest, GiveUpALatchThatNobodyAskedForAndSayWhenToAsk) {
     const Slice kept = tables.edge(plant.latched);
+    const std::size_t before = tables.copies();
     tables.giveUpUnusedLatches();
+    EXPECT_EQ(tables.copies(), before - 1) << "nobody reads the active simplex delayed";
     position(tables.live(plant.axis)) = 2;
     tables.latch();
 

@@ -6,8 +6,10 @@
 #include "support/probe.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -99,6 +101,30 @@ TEST(DataFlow, QualitySaidOutsideOfItsOwnHooksDoesNotCount) {
     chain.cluster.step(2);
 
     EXPECT_EQ(chain.cluster.quality("/z-writer"), Quality::Good);
+}
+
+// Any number of tasks ask at once, also for the latch that they share.
+TEST(DataFlow, HooksOnSeveralThreadsSeeTheStateOfWhatTheyAreRelatedTo) {
+    for (const std::uint32_t threads : {1U, 2U, 4U}) {
+        ProbeCluster cluster{{.threads = threads}};
+        cs::ClusterTesting::set(*cluster.cluster, {.forceThreads = true, .chunkSize = 1});
+        Probe& writer = cluster.probe("/writer");
+        std::array<std::int64_t, 8> seen{};
+        std::array<std::optional<InputSimplex>, 8> inputs;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            Probe& reader = cluster.probe("/reader" + std::to_string(i));
+            cluster.tree.relate(reader, "before", writer, true);
+            reader.onPopulate = [&, i](Probe& self) { inputs[i] = self.input("before"); };
+            reader.onLoopStart = [&, i](Probe&, const Tick&) {
+                seen[i] = inputs[i]->state().cycle;
+            };
+        }
+        cluster.start();
+
+        cluster.step(20);
+
+        for (const std::int64_t cycle : seen) EXPECT_EQ(cycle, 19) << threads << " threads";
+    }
 }
 
 TEST(DataFlow, ALossIsSeenByTheReaderWithItsFirstCause) {

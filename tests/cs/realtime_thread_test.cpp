@@ -337,6 +337,16 @@ TEST(RealtimeThreadDeathTest, TellsAnUnprivilegedUserHowToKeepCpusAwake) {
                 "Idle CPUs sleep between cycles.*udev.*keepCpusAwake");
 }
 
+TEST(RealtimeThread, SaysWhereKeepingCpusAwakeHasNoEffect) {
+    EXPECT_TRUE(awakeReport("intel_idle").empty());
+    for (const char* none : {"", "none"}) {
+        const Lines report = awakeReport(none);
+        ASSERT_EQ(report.size(), 1U);
+        EXPECT_NE(report.front().find("keepCpusAwake has no effect"), std::string::npos);
+        EXPECT_NE(report.front().find("--spin"), std::string::npos) << report.front();
+    }
+}
+
 TEST(RealtimeThread, RoundsToNearestWithoutFlushingToZero) {
     volatile double one = 1.0, tiny = 1e-20, smallest = std::numeric_limits<double>::min();
     std::fesetround(FE_UPWARD);

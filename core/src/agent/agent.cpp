@@ -24,6 +24,7 @@ std::uint8_t bitOf(LifeCycle command) {
 
 void AgentRuntime::beginCycle(const Tick& tick) {
     present_.cycle = tick.cycle;
+    present_.over = false;
     present_.nominalTime = tick.nominalTime;
     lateness_ = tick.lateness;
     for (LoopThread& thread : threads_) {
@@ -45,6 +46,7 @@ void AgentRuntime::endCycle(const Tick& tick, std::int64_t wallClock) {
     images_->publish(tick.cycle, tick.nominalTime, wallClock);
     router_->write(interfaces_);
     events_->complete(tick.cycle);
+    present_.over = true;
 }
 
 void AgentRuntime::stop() {

@@ -12,7 +12,7 @@ double latencyOfBucket(std::uint32_t bucket) {
 void PresentCycle::post(LoopThread& thread, Severity severity, EventKind kind,
                         std::uint32_t simplex, const EventText& text) const {
     Event event;
-    event.cycle = cycle;
+    event.cycle = over ? cycle + 1 : cycle;
     event.time = nominalTime;
     event.simplex = simplex;
     event.order = simplex == noSimplex ? noSimplex : ranks[simplex];

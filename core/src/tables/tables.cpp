@@ -188,28 +188,51 @@ std::vector<Slice> Tables::makeLatches() {
             {&structure_->simplexes[edge.target].layout->cyclic, live(edge.target), latch});
     }
     std::ranges::sort(latches_, std::less<>{}, stateOfCopy);
-    latched_ = latches_;
     return latches;
 }
 
-Slice Tables::wanted(const Slice& slice, std::uint32_t edge) {
+Tables::Latch* Tables::latchOf(const Slice& slice) {
     const auto latch = std::ranges::lower_bound(latches_, slice.state, std::less<>{}, stateOfCopy);
-    const bool isLatch = latch != latches_.end() && latch->to.state == slice.state;
-    if (!isLatch) return slice;
-    if (gaveUp_ && !latch->used) {
+    return latch != latches_.end() && latch->to.state == slice.state ? &*latch : nullptr;
+}
+
+Slice Tables::wanted(const Slice& slice, std::uint32_t edge) {
+    if (viewOfEdge_[edge] == givenUp) {
         const Edge& relation = structure_->edges[edge];
         throw Error(structure_->simplexes[relation.owner].path + ": rule '" + relation.rule->name +
                     "' is delayed: ask for data of " + structure_->simplexes[relation.target].path +
                     " in populate(), not later");
     }
-    latch->used = true;
+    if (gaveUp_) return slice;
+    if (Latch* latch = latchOf(slice); latch != nullptr) latch->used = true;
     return slice;
 }
 
 void Tables::giveUpUnusedLatches() {
     gaveUp_ = true;
-    latched_ = latches_;
-    std::erase_if(latched_, [](const Latch& latch) { return !latch.used; });
+    const auto isUnused = [this](const Slice& slice) {
+        const Latch* latch = latchOf(slice);
+        return latch != nullptr && !latch->used;
+    };
+    std::vector<View> kept;
+    for (std::uint32_t& view : viewOfEdge_) {
+        if (view == noSimplex) continue;
+        if (isUnused(views_[view].seen) || isUnused(views_[view].source)) {
+            view = givenUp;
+            continue;
+        }
+        kept.push_back(views_[view]);
+        view = static_cast<std::uint32_t>(kept.size() - 1);
+    }
+    kept.shrink_to_fit();
+    views_ = std::move(kept);
+    std::erase_if(extra_, [&](const Memory& memory) {
+        return std::ranges::any_of(latches_, [&](const Latch& latch) {
+            return !latch.used && reinterpret_cast<std::byte*>(latch.to.floats) == memory.get();
+        });
+    });
+    std::erase_if(latches_, [](const Latch& latch) { return !latch.used; });
+    latches_.shrink_to_fit();
 }
 
 void Tables::resolveEdges(const std::vector<Slice>& latches) {
@@ -236,7 +259,7 @@ void Tables::resolveEdges(const std::vector<Slice>& latches) {
 }
 
 Tables::View Tables::viewOf(std::uint32_t edge) const {
-    if (viewOfEdge_[edge] != noSimplex) return views_[viewOfEdge_[edge]];
+    if (viewOfEdge_[edge] < views_.size()) return views_[viewOfEdge_[edge]];
     const Slice slice = live(structure_->edges[edge].target);
     return {slice, slice};
 }
@@ -277,7 +300,7 @@ Slice Tables::sliceIn(std::byte* arena, std::uint32_t simplex) const {
 }
 
 void Tables::latch() {
-    for (const Latch& latch : latched_) copySlice(*latch.sizes, latch.from, latch.to);
+    for (const Latch& latch : latches_) copySlice(*latch.sizes, latch.from, latch.to);
 }
 
 }  // namespace cortex

@@ -227,11 +227,23 @@ std::vector<std::string> lockMemory() {
             std::to_string(limit.rlim_cur / 1024) + " KiB. To lock all, " + remedy};
 }
 
+std::vector<std::string> awakeReport(const std::string& idleDriver) {
+    if (!idleDriver.empty() && idleDriver != "none") return {};
+    return {
+        "keepCpusAwake has no effect: this system has no cpuidle driver that would follow it, "
+        "so how deep idle CPUs sleep is decided elsewhere, in a virtual machine by its host. "
+        "If cycles begin late, let the clock spin (--spin), or start the kernel with idle=poll."};
+}
+
 AwakeCpus::AwakeCpus(std::vector<std::string>& report)
     : request_{open(latencyFile, O_WRONLY | O_CLOEXEC)} {
     // https://docs.kernel.org/power/pm_qos_interface.html: the longest wake-up in us, as 32 bits
     constexpr std::int32_t noSleep = 0;
-    if (request_ >= 0 && write(request_, &noSleep, sizeof noSleep) == sizeof noSleep) return;
+    if (request_ >= 0 && write(request_, &noSleep, sizeof noSleep) == sizeof noSleep) {
+        const std::string driver = firstLineOf("/sys/devices/system/cpu/cpuidle/current_driver");
+        for (std::string& line : awakeReport(driver)) report.push_back(std::move(line));
+        return;
+    }
     report.push_back("Idle CPUs sleep between cycles (" + std::string{latencyFile} + ": " +
                      reason(errno) +
                      "), so a cycle can begin late. To keep them awake, let the user write that "

@@ -65,6 +65,10 @@ private:
 // Keeps all memory of the process resident, what it obtains later included.
 std::vector<std::string> lockMemory();
 
+// What speaks against AwakeCpus where this driver of cpuidle (empty or "none": none) manages the
+// sleep of idle CPUs.
+std::vector<std::string> awakeReport(const std::string& idleDriver);
+
 // While one exists, no idle CPU of this machine sleeps: a CPU that does needs time to wake up, and
 // one of a virtual machine is given to others until they return it. This costs power.
 class AwakeCpus {

@@ -146,13 +146,21 @@ void examineIdle(const fs::path& root, const std::vector<int>& isolated, Diagnos
     const std::optional<int> limit = latencyLimit(root);
     const std::string takes = state.name + ", " + std::to_string(state.latency) + " us to wake up";
     const bool isGivenAway = isVirtualMachine(root);
-    if (limit && *limit <= (isGivenAway ? 0 : soonAwake)) {
+    const std::string driver = firstLineOf(root / cpuFolder / "cpuidle/current_driver");
+    if ((driver.empty() || driver == "none") && state.name.empty()) {
+        found.push_back({isGivenAway ? Level::Warning : Level::Ok, "idle",
+                         std::string{isGivenAway ? "idle CPUs are given to the host; " : ""} +
+                             "without a cpuidle driver keepCpusAwake has no effect",
+                         isGivenAway
+                             ? "if cycles begin late, let the clock spin (--spin), or start "
+                               "the kernel with idle=poll"
+                             : ""});
+    } else if (limit && *limit <= (isGivenAway ? 0 : soonAwake)) {
         found.push_back(
             {Level::Ok, "idle",
              "a program keeps CPUs awake: at most " + std::to_string(*limit) + " us to wake up",
              ""});
     } else if (state.latency <= soonAwake && !isGivenAway) {
-        const std::string driver = firstLineOf(root / cpuFolder / "cpuidle/current_driver");
         found.push_back({Level::Ok, "idle",
                          state.name.empty() ? "no deep idle state" +
                                                   (driver.empty() ? "" : " (driver " + driver + ")")

@@ -46,9 +46,11 @@ public:
 
     // Copies every simplex that has delayed readers; at the start of a cycle.
     void latch() CORTEX_REALTIME;
-    // End of setup: what nobody asked for through edge() or edgeSource() is latched no longer, as
-    // where a delayed relationship only carries commands.
+    // End of setup: what nobody asked for through edge() or edgeSource() is latched no longer and
+    // takes no memory, as where a delayed relationship only carries commands. From now on edge()
+    // and edgeSource() write nothing: any thread of the loop may call them.
     void giveUpUnusedLatches();
+    std::size_t copies() const { return extra_.size(); }  // latches, candidates, held copies
 
     std::span<const std::byte> arena() const { return {arena_.get(), arenaSize_}; }
     // Where the texts are in it: an offset and a number of bytes.
@@ -80,6 +82,7 @@ private:
     };
     View viewOf(std::uint32_t edge) const;
     static const SlotState* stateOfCopy(const Latch& latch);
+    Latch* latchOf(const Slice& slice);
     Slice wanted(const Slice& slice, std::uint32_t edge);
     void resolveEdges(const std::vector<Slice>& latches);
 
@@ -88,9 +91,10 @@ private:
     std::size_t arenaSize_ = 0, constantSize_ = 0;
     std::vector<Memory> extra_;   // latches, candidates, held copies
     std::vector<Latch> latches_;  // by the address of the copy's state
-    std::vector<Latch> latched_;  // those of them that latch() copies
     bool gaveUp_ = false;
-    std::vector<std::uint32_t> viewOfEdge_;  // index into views_, or noSimplex: the live slice
+    // An index into views_; noSimplex: the live slice; givenUp: nobody asked for it in time.
+    static constexpr std::uint32_t givenUp = noSimplex - 1;
+    std::vector<std::uint32_t> viewOfEdge_;
     std::vector<View> views_;
 };
 
