@@ -170,6 +170,12 @@ TEST_F(CortexLive, PrintsEventsOfThePast) {
     })) << events;
     for (const json& each : liveJson({"events", "/drive"}, "events")) {
         EXPECT_EQ(each["path"], "/drive");
+        EXPECT_GT(each["repeatable"], 0) << each;
+    }
+    for (const json& each : events) {
+        if (each["kind"] == "overflow") {
+            EXPECT_EQ(each["repeatable"], 0) << each;
+        }
     }
     EXPECT_TRUE(liveJson({"events", "/drive", "--severity", "error"}, "events").empty());
     const Outcome csv = live({"events", "--csv"});

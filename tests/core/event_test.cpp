@@ -38,13 +38,14 @@ protected:
             if (!texts.empty()) texts += ' ';
             texts += event.text.view();
             numbers.push_back(event.number);
+            repeatable.push_back(event.repeatable);
         });
     }
 
     std::shared_ptr<const Structure> structure = test::makePlant().structure;
     EventLog log{structure, 3, 4};
     std::string texts;
-    std::vector<std::uint64_t> numbers;
+    std::vector<std::uint64_t> numbers, repeatable;
 };
 
 TEST_F(EventLogTest, MergesByCycleOrderAndSequenceWhateverTheRing) {
@@ -218,6 +219,25 @@ TEST_F(EventLogTest, NumbersEventsFromOutsideTheCyclesToo) {
 
     EXPECT_EQ(texts, "1.0.0 0.9.9");
     EXPECT_EQ(numbers, (std::vector<std::uint64_t>{1, 2}));
+}
+
+TEST_F(EventLogTest, NumbersApartWhatTheSameInputDoesNotCauseAgain) {
+    Event missed = eventAt(1, 1, 0), hung = eventAt(1, 2, 0);
+    missed.kind = EventKind::Overflow;
+    hung.kind = EventKind::Watchdog;
+    log.ring(0).post(eventAt(1, 0, 0));
+    log.ring(0).post(missed);
+    log.ring(0).post(hung);
+    log.ring(1).post(eventAt(1, 3, 0));
+    log.postOutside(eventAt(1, 4, 0));
+    log.ring(1).post(eventAt(2, 0, 0));
+    log.complete(1);
+    log.flush();
+    log.complete(2);
+    log.flush();
+
+    EXPECT_EQ(numbers, (std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(repeatable, (std::vector<std::uint64_t>{1, 0, 0, 2, 0, 3}));
 }
 
 TEST_F(EventLogTest, LetsASinkPostFromOutside) {

@@ -7,6 +7,8 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -32,6 +34,32 @@ TEST(Overflow, SkipGoesOnAtTheNextTickOfTheGridAndCountsEachMissedOne) {
     EXPECT_EQ(elapsed, (std::vector<std::int64_t>{1, 1, 1, 4, 1}));
     EXPECT_EQ(cluster.integer("/test", "overflowCount"), 3);
     EXPECT_TRUE(cluster.hasEvent("/test: missed 3 ticks, 3 since the start"));
+}
+
+// By number among those that the same input causes again; without those of measured times.
+std::map<std::uint64_t, std::string> repeatableEvents(std::int64_t late) {
+    std::map<std::uint64_t, std::string> seen;
+    ProbeCluster cluster;
+    cluster.cluster->addEventSink([&](const Event& event, const Structure&) {
+        if (event.repeatable != 0) seen[event.repeatable] = event.text.view();
+    });
+    Probe& probe = cluster.probe("/a");
+    probe.onActive = [](Probe& self, const Tick&) { self.event(Severity::Info, "works"); };
+    cluster.start();
+    cluster.startup(probe);
+    if (late > 0) cs::ClusterTesting::playLate(*cluster.trigger, late);
+    cluster.step(3);
+    EXPECT_EQ(cluster.hasEvent("missed"), late > 0);
+    cluster.cluster->stop();
+    return seen;
+}
+
+TEST(Overflow, LeavesTheNumbersOfEventsThatComeFromValues) {
+    const auto punctual = repeatableEvents(0);
+
+    EXPECT_GE(punctual.size(), 5U);
+    EXPECT_EQ(punctual.rbegin()->first, punctual.size()) << "without gaps";
+    EXPECT_EQ(repeatableEvents(2), punctual);
 }
 
 // Ticks by hand, in a loop that takes them for real.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/agent_events.hpp"
 
+#include "wire/presence_extras.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -22,6 +24,7 @@ EventMessage messageOf(const Event& event, const Structure& structure, const Eve
                        ? structure.simplexes[event.simplex].path
                        : "/" + structure.agent;
     message.text = event.text.view();
+    message.extras.push_back({repeatable, std::to_string(event.repeatable)});
     return message;
 }
 

@@ -220,8 +220,10 @@ std::optional<AgentEvent> MirrorAgents::take(const EventMessage& message) {
         }
         agent->lastEvent = std::max(agent->lastEvent, message.number);
     }
-    return AgentEvent{message.name, message.epoch, message.number, message.cycle, message.wallClock,
-                      *severity,    message.kind,  message.path,   message.text};
+    AgentEvent event{message.name, message.epoch, message.number, message.cycle, message.wallClock,
+                     *severity,    message.kind,  message.path,   message.text};
+    if (!textIn(message, repeatable).empty()) event.repeatable = numberIn(message, repeatable);
+    return event;
 }
 
 // Builds the structure once the model is complete, and tables once it is viewed.

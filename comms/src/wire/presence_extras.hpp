@@ -25,6 +25,8 @@ inline constexpr const char* validUntil = "until";       // of a command, by the
 // Of a command: who is behind it, and what its sender knows it by. The answer says both again.
 inline constexpr const char* onBehalfOf = "onBehalfOf";
 inline constexpr const char* correlation = "correlation";
+// Of an event: its number among those that the same input causes again; 0: from measured times.
+inline constexpr const char* repeatable = "repeatable";
 
 // Empty: the message does not say so.
 template <class Message>

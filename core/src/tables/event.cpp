@@ -49,6 +49,10 @@ std::string utcText(std::int64_t wallClock) {
            padded(static_cast<unsigned>(clock.subseconds().count()), 3) + 'Z';
 }
 
+bool comesFromTimes(EventKind kind) {
+    return kind == EventKind::Overflow || kind == EventKind::Watchdog;
+}
+
 auto mergeKey(const Event& event) {
     return std::tie(event.cycle, event.order, event.sequence, event.number);
 }
@@ -180,6 +184,7 @@ bool EventLog::handOut(std::int64_t upTo) {
     for (const auto& ring : rings_) {
         for (; ring->peek(event) && event.cycle <= upTo; ring->pop()) {
             event.number = batch_.size();  // for now: the order of the rings decides at last
+            event.repeatable = comesFromTimes(event.kind) ? 0 : 1;
             batch_.push_back(event);
         }
     }
@@ -199,6 +204,7 @@ bool EventLog::handOut(std::int64_t upTo) {
 
 void EventLog::handOn(Event& event) {
     event.number = ++number_;
+    if (event.repeatable != 0) event.repeatable = ++repeatable_;
     for (const Sink& sink : sinks_) sink(event, *structure_);
     if (!foldedSinks_.empty()) fold_->take(event, monotonicNow());
 }

@@ -32,6 +32,7 @@ Json eventJson(const comms::AgentEvent& event) {
     return {{"time", timeText(event.wallClock)},
             {"agent", event.agent},
             {"number", event.number},
+            {"repeatable", event.repeatable ? Json(*event.repeatable) : Json()},
             {"cycle", event.cycle},
             {"severity", name(event.severity)},
             {"kind", event.kind},

@@ -46,6 +46,9 @@ struct AgentEvent {
     std::int64_t wallClock = 0;  // UTC ns
     Severity severity = Severity::Info;
     std::string kind, path, text;
+    // Number among the events that the same input causes again; 0: it came from measured times.
+    // None: its agent does not say so.
+    std::optional<std::uint64_t> repeatable{};
 };
 
 // The answer to a command, with the time that it took.

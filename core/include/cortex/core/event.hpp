@@ -65,6 +65,9 @@ struct Event {
     std::int64_t cycle = 0;
     std::int64_t time = 0;     // nominal, ns since the cluster's start
     std::uint64_t number = 0;  // per agent and epoch, from 1
+    // Number among the events that the same input causes again. 0: it came from measured times, or
+    // from another thread than those of the loop.
+    std::uint64_t repeatable = 0;
     std::uint32_t simplex = noSimplex;
     std::uint32_t order = 0;     // canonical order of the simplex, then `sequence` decide the merge
     std::uint32_t sequence = 0;  // per ring and cycle
@@ -137,7 +140,7 @@ private:
     std::mutex merging_;  // guards the rest, and the rings' consumer end
     std::vector<Event> batch_;
     std::unique_ptr<EventFold> fold_;
-    std::uint64_t number_ = 0;
+    std::uint64_t number_ = 0, repeatable_ = 0;
     std::uint64_t reportedDrops_ = 0;
     std::int64_t lastCycle_ = 0, lastTime_ = 0;
 };
