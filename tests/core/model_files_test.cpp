@@ -102,6 +102,7 @@ TEST(ModelFiles, ChecksTheFormOfClusterAttributes) {
                                   "warnDuty='-1'",
                                   "watchdogPeriods='0'",
                                   "triggerTimeout='0'",
+                                  "stopTimeout='0'",
                                   "control='maybe'",
                                   "imageReaders='many'"}) {
         EXPECT_TRUE(finds(readOne("<system name='s'>\n<cluster name='c' " + std::string{attribute} +

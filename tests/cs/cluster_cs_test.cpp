@@ -216,7 +216,7 @@ TEST(ClusterCS, StopForcesStandbyWithSafeDemandsWhereAShutdownDoesNotEnd) {
     cluster.start();
     cluster.startup(stubborn);
 
-    EXPECT_TRUE(cluster.cluster->stop());
+    EXPECT_FALSE(cluster.cluster->stop());
 
     EXPECT_EQ(cluster.state("/stubborn"), State::Standby);
 }

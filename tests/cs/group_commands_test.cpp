@@ -147,6 +147,120 @@ TEST(GroupCommands, ShutDownWhatAManagerLeavesRunningWhenItFaults) {
     EXPECT_EQ(choice.state(), State::Standby);
 }
 
+TEST(GroupCommands, AskAllOfALevelAtOnceAndTheNextOneOnlyThen) {
+    ProbeCluster cluster;
+    Simplex& signal = cluster.tree.add("/s", "Signal");
+    Probe& writer = cluster.probe("/writer");
+    Probe& beside = cluster.probe("/beside");
+    Probe& reader = cluster.probe("/reader");
+    cluster.tree.relate(writer, "out", signal);
+    cluster.tree.relate(reader, "in", signal);
+    bool mayGoOn = false;
+    beside.onStartingUp = beside.onShuttingDown = [&](Probe&, const Tick&) { return mayGoOn; };
+    reader.onShuttingDown = [&](Probe&, const Tick&) { return mayGoOn; };
+    cluster.start();
+    const ProgramInterface::Arguments all{{"prefix", std::vector<std::string>{"/"}}};
+
+    cluster.cluster->send("/test", "startup", all);
+    cluster.step(5);
+    EXPECT_EQ(writer.state(), State::Active);
+    EXPECT_EQ(beside.state(), State::StartingUp);
+    EXPECT_EQ(reader.state(), State::Standby);
+    mayGoOn = true;
+    cluster.step(5);
+    EXPECT_EQ(reader.state(), State::Active);
+
+    mayGoOn = false;
+    cluster.cluster->send("/test", "shutdown", all);
+    cluster.step(5);
+    EXPECT_EQ(reader.state(), State::ShuttingDown);
+    EXPECT_EQ(writer.state(), State::Active);
+    EXPECT_EQ(beside.state(), State::Active);
+    mayGoOn = true;
+    cluster.step(5);
+    EXPECT_EQ(writer.state(), State::Standby);
+    EXPECT_EQ(beside.state(), State::Standby);
+}
+
+TEST(GroupCommands, NameWhoWaitsForOneInFaultAndStartTheOthers) {
+    ProbeCluster cluster;
+    Simplex& first = cluster.tree.add("/s1", "Signal");
+    Simplex& second = cluster.tree.add("/s2", "Signal");
+    Probe& a = cluster.probe("/a");
+    Probe& b = cluster.probe("/b");
+    Probe& c = cluster.probe("/c");
+    Probe& free = cluster.probe("/free");
+    cluster.tree.relate(a, "out", first);
+    cluster.tree.relate(b, "in", first);
+    cluster.tree.relate(b, "out", second);
+    cluster.tree.relate(c, "in", second);
+    a.onStartingUp = [](Probe& self, const Tick&) {
+        self.fault(9, "no air");
+        return false;
+    };
+    cluster.start();
+
+    const CallResult result =
+        cluster.call("/test", "startup", {{"prefix", std::vector<std::string>{"/"}}});
+
+    EXPECT_EQ(result.outcome, Outcome::Failed);
+    EXPECT_EQ(result.why,
+              "/a did not follow: no air; /b waits for /a, which is in Fault: no air; "
+              "/c waits for /a, which is in Fault: no air");
+    EXPECT_TRUE(cluster.hasEvent("/b: waits for /a, which is in Fault: no air"));
+    EXPECT_TRUE(cluster.hasEvent("/c: waits for /a, which is in Fault: no air"));
+    EXPECT_EQ(b.state(), State::Standby);
+    EXPECT_EQ(c.state(), State::Standby);
+    EXPECT_EQ(free.state(), State::Active);
+}
+
+TEST(GroupCommands, CountThoseThatAnAnswerHasNoRoomFor) {
+    ProbeCluster cluster;
+    Simplex& signal = cluster.tree.add("/s", "Signal");
+    Probe& first = cluster.probe("/first");
+    cluster.tree.relate(first, "out", signal);
+    for (const char* path : {"/r1", "/r2", "/r3", "/r4", "/r5"}) {
+        cluster.tree.relate(cluster.probe(path), "in", signal);
+    }
+    first.onStartingUp = [](Probe& self, const Tick&) {
+        self.fault(9, "no pressure in the line");
+        return false;
+    };
+    cluster.start();
+
+    const CallResult result =
+        cluster.call("/test", "startup", {{"prefix", std::vector<std::string>{"/"}}});
+
+    EXPECT_TRUE(result.why.ends_with("; and 4 more, as events say")) << result.why;
+    EXPECT_TRUE(cluster.hasEvent("/r5: waits for /first, which is in Fault"));
+}
+
+TEST(GroupCommands, NameWhoDidNotGetThroughTheShutdownOfAStop) {
+    ProbeCluster cluster{{.stopTimeout = 0.05}};
+    Simplex& signal = cluster.tree.add("/s", "Signal");
+    Probe& writer = cluster.probe("/writer");
+    Probe& reader = cluster.probe("/reader");
+    cluster.tree.relate(writer, "out", signal);
+    cluster.tree.relate(reader, "in", signal);
+    int asked = 0;
+    reader.onShuttingDown = [&](Probe&, const Tick&) { return ++asked < 0; };
+    cluster.start();
+    cluster.startup(writer);
+    cluster.startup(reader);
+
+    EXPECT_FALSE(cluster.cluster->stop());
+
+    EXPECT_GT(asked, 0);
+    const std::string after = " after the stopTimeout of 0.05 s; now in Standby by force";
+    EXPECT_EQ(cluster.cluster->notShutDown(),
+              (std::vector<std::string>{
+                  "/writer did not follow: waits for /reader, which is in ShuttingDown" + after,
+                  "/reader did not follow: ShuttingDown" + after}));
+    EXPECT_TRUE(cluster.hasEvent("/reader: did not follow: ShuttingDown" + after));
+    EXPECT_EQ(reader.state(), State::Standby);
+    EXPECT_EQ(writer.state(), State::Standby);
+}
+
 }  // namespace
 
 }  // namespace cortex::test

@@ -130,6 +130,7 @@ constexpr std::array clusterAttributes{
     ClusterAttribute{"warnDuty", notNegative, "a number of % from 0"},
     ClusterAttribute{"watchdogPeriods", positive, "a number greater than 0"},
     ClusterAttribute{"triggerTimeout", positive, "a number of seconds greater than 0"},
+    ClusterAttribute{"stopTimeout", positive, "a number of seconds greater than 0"},
     ClusterAttribute{"control", control, "open or required"},
     ClusterAttribute{"imageReaders", count, "a whole number from 0 to 1000000"},
 };

@@ -8,7 +8,7 @@
 #include "cortex/cs/testing.hpp"
 
 #include "loop/cluster_loop.hpp"
-#include "loop/group_commands.hpp"
+#include "loop/start_order.hpp"
 #include "tasks/crash_report.hpp"
 #include "tasks/io_threads.hpp"
 #include "tasks/unbound_handle.hpp"
@@ -36,9 +36,11 @@ struct ClusterCS::Implementation {
     std::unique_ptr<AgentRuntime> agent;
     std::unique_ptr<ClusterLoop> loop;
     IoThreads ioThreads;
+    std::vector<std::string> notShutDown;
 
     std::vector<SimplexCS*> activeInOrder(std::span<const std::uint32_t> order) const;
     TaskGraph graph() const;
+    StartOrder startOrder(const TaskGraph& graph, std::span<const std::uint32_t> order) const;
     void requireClasses() const;
     void populate(std::span<SimplexCS* const> simplexes) const;
     void joinSettings(SimplexCS& simplex, Report& report) const;
@@ -149,6 +151,13 @@ std::vector<SimplexCS*> ClusterCS::Implementation::activeInOrder(
         simplexes.push_back(&static_cast<SimplexCS&>(agent->simplex(index)));
     }
     return simplexes;
+}
+
+StartOrder ClusterCS::Implementation::startOrder(const TaskGraph& graph,
+                                                 std::span<const std::uint32_t> order) const {
+    std::vector<SimplexCS*> actives(graph.nodes.size());
+    for (SimplexCS* each : activeInOrder(order)) actives[each->index()] = each;
+    return cs::startOrder(graph, order, actives);
 }
 
 // The simplex judges each `set`, and now the values that it begins with.
@@ -283,9 +292,9 @@ void ClusterCS::startAll() {
     self.agent->addInterface(self.program);
     for (const auto& interface : self.interfaces) self.agent->addInterface(*interface);
     for (const auto& [sink, repeats] : self.sinks) self.agent->events().addSink(sink, repeats);
-    self.loop =
-        std::make_unique<ClusterLoop>(*self.agent, *self.trigger, self.options, std::move(schedule),
-                                      simplexes, self.heartbeats, std::move(realtimeReport));
+    self.loop = std::make_unique<ClusterLoop>(*self.agent, *self.trigger, self.options,
+                                              std::move(schedule), self.startOrder(graph, order),
+                                              self.heartbeats, std::move(realtimeReport));
     self.loop->testWith(self.test);
     self.loop->rescheduleBy([&self, threads](std::span<const double> costs) {
         return makeSchedule(self.graph(), {threads, self.test.chunkSize, costs, false});
@@ -301,12 +310,17 @@ void ClusterCS::startAll() {
 
 bool ClusterCS::stop() {
     Implementation& self = *implementation_;
-    if (!self.loop || !self.loop->joinable()) return true;
+    if (!self.loop || !self.loop->joinable()) return self.notShutDown.empty();
     refuseInHooks("stop()", "tell the program to stop, or command the simplexes: shutdown");
     if (const auto hung = self.loop->stop()) self.endProcess(hung->text());
     self.endIoThreads();
     self.agent->stop();
-    return true;
+    self.notShutDown = self.loop->notFollowed();
+    return self.notShutDown.empty();
+}
+
+const std::vector<std::string>& ClusterCS::notShutDown() const {
+    return implementation_->notShutDown;
 }
 
 void ClusterTesting::set(ClusterCS& cluster, TestOptions options) {

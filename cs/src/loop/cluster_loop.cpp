@@ -18,8 +18,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::int64_t stopBudget = 2'000'000'000;  // ns for an orderly end
-
 std::int64_t wallClockNow() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
                std::chrono::system_clock::now().time_since_epoch())
@@ -29,7 +27,7 @@ std::int64_t wallClockNow() {
 }  // namespace
 
 ClusterLoop::ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const ClusterOptions& options,
-                         Schedule schedule, std::vector<SimplexCS*> simplexes,
+                         Schedule schedule, StartOrder startOrder,
                          std::vector<std::function<void(const Heartbeat&)>> heartbeats,
                          std::vector<std::string> realtimeReport)
     : agent_{agent},
@@ -39,7 +37,7 @@ ClusterLoop::ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const Clus
       realtimeReport_{std::move(realtimeReport)},
       plan_{std::make_unique<Plan>(Plan{std::move(schedule), nullptr})},
       runner_{agent, plan_->schedule, trigger.period()},
-      group_{agent, runner_.states(), std::move(simplexes)},
+      group_{agent, runner_.states(), std::move(startOrder)},
       metrics_{agent, trigger.period(), plan_->schedule.threads},
       pace_{trigger.period()} {
     agent_.registerHandler(agent_.agentSimplex(), "reschedule",
@@ -290,10 +288,11 @@ void ClusterLoop::checkOverflow() {
     trigger_.skipMissed(!catchUp);
 }
 
-// After the last tick: everything to Standby in order, then by force; the last write is the last
-// cycle's.
+// After the last tick: everything to Standby level by level, then by force; the last write is the
+// last cycle's.
 void ClusterLoop::shutDown() {
     const std::int64_t period = trigger_.period();
+    const std::int64_t stopBudget = std::llround(options_.stopTimeout * 1e9);
     const std::int64_t budget = std::max<std::int64_t>(stopBudget / period, 2);
     Trigger trigger = last_;
     trigger.periods = 1;
@@ -311,6 +310,7 @@ void ClusterLoop::shutDown() {
         group_.step();
         if (i == budget || passed.look().count() > stopBudget) {
             i = budget;
+            group_.tellOverdue(options_.stopTimeout);
             runner_.states().forceStandby();
         }
         cycle(trigger);

@@ -33,7 +33,7 @@ namespace cortex::cs {
 class ClusterLoop {
 public:
     ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const ClusterOptions& options,
-                Schedule schedule, std::vector<SimplexCS*> simplexes,
+                Schedule schedule, StartOrder startOrder,
                 std::vector<std::function<void(const Heartbeat&)>> heartbeats,
                 std::vector<std::string> realtimeReport);
     ~ClusterLoop();
@@ -46,6 +46,8 @@ public:
     // Shuts down and joins; the hook that prevents it if there is one.
     std::optional<HungHook> stop();
 
+    // Who did not get through the shutdown, and why. After stop().
+    std::vector<std::string> notFollowed() const { return group_.notFollowed(); }
     Ended ended() const { return ended_.load(std::memory_order_acquire); }
     const std::vector<std::string>& realtimeReport() const { return realtimeReport_; }
     std::uint32_t threads() const { return threads_.load(std::memory_order_relaxed); }

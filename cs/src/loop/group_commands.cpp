@@ -3,8 +3,6 @@
 
 #include "cortex/core/path.hpp"
 
-#include "tasks/task_states.hpp"
-
 #include <algorithm>
 #include <utility>
 
@@ -14,13 +12,23 @@ namespace {
 
 bool resting(State state) { return state == State::Standby || state == State::Fault; }
 
+constexpr std::size_t mostOfAnswer = 120;  // characters; behind them, how many more there are
+
 }  // namespace
 
-GroupCommands::GroupCommands(AgentRuntime& agent, TaskStates& states, std::vector<SimplexCS*> order)
-    : agent_{agent}, states_{states}, order_{std::move(order)} {
-    faultTexts_.reserve(order_.size());
-    for (SimplexCS* each : order_) {
-        faultTexts_.push_back(each->data<const std::string_view>("faultText"));
+GroupCommands::GroupCommands(AgentRuntime& agent, TaskStates& states, StartOrder order)
+    : agent_{agent},
+      states_{states},
+      order_{std::move(order)},
+      members_(order_.nodes.size()),
+      blockers_(order_.nodes.size(), noSimplex) {
+    for (std::uint32_t node = 0; node < order_.nodes.size(); ++node) {
+        SimplexCS* each = order_.nodes[node].active;
+        if (each == nullptr) continue;
+        actives_.push_back(node);
+        members_[node] = std::make_unique<Member>();
+        members_[node]->faultText = each->data<const std::string_view>("faultText");
+        states_.registerWatched(each->index(), members_[node]->watched);
     }
     registerHandler<LifeCycle::Startup>("startup");
     registerHandler<LifeCycle::Shutdown>("shutdown");
@@ -42,7 +50,7 @@ void GroupCommands::registerHandler(std::string_view name) {
 
 Outcome GroupCommands::handle(LifeCycle command, Call& call, Argument<std::string_view> prefix) {
     if (call.cancelling()) {
-        if (!stopping_) states_.observe(noSimplex);
+        if (!stopping_) states_.watch(false);
         return Outcome::Cancelled;
     }
     if (stopping_) return call.fail("the cluster is stopping");
@@ -54,7 +62,7 @@ Outcome GroupCommands::handle(LifeCycle command, Call& call, Argument<std::strin
         }
     }
     if (step()) return Outcome::Running;
-    return anyFailed_ ? call.fail(failures_.view()) : Outcome::Done;
+    return anyFailed_ ? call.fail(answer().view()) : Outcome::Done;
 }
 
 void GroupCommands::beginStop() {
@@ -65,53 +73,163 @@ void GroupCommands::beginStop() {
 void GroupCommands::begin(LifeCycle command, std::string_view prefix) {
     command_ = command;
     prefix_ = EventText{withoutEndSlashes(prefix)};
-    failures_ = EventText{};
-    at_ = 0;
-    posted_ = false;
+    level_ = 0;
+    asked_ = false;
     again_ = false;
     anyFailed_ = false;
+    std::ranges::fill(blockers_, noSimplex);
+    for (const std::uint32_t node : actives_) {
+        members_[node]->watched = {};
+        members_[node]->failed = false;
+    }
+    states_.watch(true);
 }
 
 bool GroupCommands::step() {
-    while (at_ < order_.size()) {
-        SimplexCS& simplex = member(at_);
-        if (!belongs(simplex) || reached(simplex)) {
-            ++at_;
-            posted_ = false;
+    for (; level_ < order_.levels.size(); ++level_, asked_ = false) {
+        if (!std::exchange(asked_, true) && ask()) return true;
+        if (goesOn()) return true;
+        settle();
+    }
+    if (command_ == LifeCycle::Shutdown && !std::exchange(again_, true) && anyWorks()) {
+        level_ = 0;
+        return step();
+    }
+    states_.watch(false);
+    return false;
+}
+
+const StartOrder::Level& GroupCommands::level() const {
+    const bool reverse = command_ == LifeCycle::Shutdown;
+    return order_.levels[reverse ? order_.levels.size() - 1 - level_ : level_];
+}
+
+// All of a level at once. False: nobody had to be asked.
+bool GroupCommands::ask() {
+    bool any = false;
+    for (std::uint32_t node = level().first; node < level().passive; ++node) {
+        const SimplexCS& each = simplex(node);
+        TaskStates::Watched& watched = members_[node]->watched;
+        watched.asked = false;
+        if (each.state_ != State::Active) blockers_[node] = blockerOf(node);
+        if (!belongs(each) || reached(node)) continue;
+        if (command_ == LifeCycle::Startup && blockers_[node] != noSimplex) {
+            holdBack(node);
             continue;
         }
-        if (!posted_) {
-            posted_ = true;
-            states_.observe(simplex.index());
-            agent_.postLifeCycle(simplex.index(), command_, false);
-            return true;
-        }
-        if (!failed(simplex)) return true;
-        addFailure(simplex);
-        posted_ = false;
-        // What comes after relies on it; a shutdown goes on all the same.
-        at_ = command_ == LifeCycle::Startup ? order_.size() : at_ + 1;
+        any = true;
+        watched = {.asked = true, .ran = false, .reason = {}};
+        agent_.postLifeCycle(each.index(), command_, false);
     }
-    states_.observe(noSimplex);
-    if (command_ != LifeCycle::Shutdown || std::exchange(again_, true) || !anyWorks()) return false;
-    at_ = 0;
-    return step();
+    return any;
+}
+
+bool GroupCommands::goesOn() const {
+    for (std::uint32_t node = level().first; node < level().passive; ++node) {
+        if (members_[node]->watched.asked && !reached(node) && !failed(node)) return true;
+    }
+    return false;
+}
+
+void GroupCommands::settle() {
+    for (std::uint32_t node = level().first; node < level().passive; ++node) {
+        const Member& member = *members_[node];
+        if (!member.watched.asked || !failed(node)) continue;
+        // Why it refused or faulted since it was asked, otherwise the state that it is in.
+        const State state = simplex(node).state_;
+        std::string_view why = member.watched.reason.view();
+        if (why.empty() && state == State::Fault) why = member.faultText.get();
+        EventText text{"did not follow: "};
+        text << (why.empty() ? name(state) : why);
+        fail(node, text);
+        blockers_[node] = node;
+    }
+    for (std::uint32_t node = level().passive; node < level().end; ++node) {
+        blockers_[node] = blockerOf(node);
+    }
+}
+
+void GroupCommands::holdBack(std::uint32_t node) {
+    const std::uint32_t blocker = blockers_[node];
+    const SimplexCS& other = simplex(blocker);
+    EventText text{"waits for "};
+    text << other.path() << ", which is in " << name(other.state_);
+    if (other.state_ == State::Fault) text << ": " << members_[blocker]->faultText.get();
+    fail(node, text);
+    tell(Severity::Warning, node);
+}
+
+void GroupCommands::fail(std::uint32_t node, const EventText& text) {
+    members_[node]->failed = true;
+    members_[node]->watched = {.asked = false, .ran = false, .reason = text};
+    anyFailed_ = true;
+}
+
+void GroupCommands::tell(Severity severity, std::uint32_t node) {
+    agent_.post(agent_.thread(0), severity, EventKind::Refusal, simplex(node).index(),
+                members_[node]->watched.reason);
+}
+
+// As many as an answer has room for. Each has an event of its own.
+EventText GroupCommands::answer() const {
+    EventText text;
+    std::size_t more = 0;
+    for (const std::uint32_t node : actives_) {
+        if (!members_[node]->failed) continue;
+        EventText one{text.view().empty() ? "" : "; "};
+        one << simplex(node).path() << " " << members_[node]->watched.reason.view();
+        const bool first = text.view().empty();
+        const bool fits = more == 0 && text.view().size() + one.view().size() <= mostOfAnswer;
+        if (first || fits)
+            text << one.view().substr(0, mostOfAnswer);
+        else
+            ++more;
+    }
+    if (more > 0) text << "; and " << more << " more, as events say";
+    return text;
+}
+
+std::vector<std::string> GroupCommands::notFollowed() const {
+    std::vector<std::string> lines;
+    for (const std::uint32_t node : actives_) {
+        if (!members_[node]->failed) continue;
+        lines.push_back(simplex(node).path() + " " +
+                        std::string{members_[node]->watched.reason.view()});
+    }
+    return lines;
+}
+
+void GroupCommands::tellOverdue(double seconds) {
+    const auto stuck = std::ranges::find_if(actives_, [this](std::uint32_t node) {
+        return members_[node]->watched.asked && !resting(simplex(node).state_);
+    });
+    for (const std::uint32_t node : actives_) {
+        const SimplexCS& each = simplex(node);
+        if (resting(each.state_)) continue;
+        EventText text{"did not follow: "};
+        if (members_[node]->watched.asked || stuck == actives_.end()) {
+            text << name(each.state_);
+        } else {
+            text << "waits for " << simplex(*stuck).path() << ", which is in "
+                 << name(simplex(*stuck).state_);
+        }
+        text << " after the stopTimeout of " << seconds << " s; now in Standby by force";
+        fail(node, text);
+        tell(Severity::Error, node);
+    }
+    states_.watch(false);
 }
 
 // Something was left to a manager that then faulted.
 bool GroupCommands::anyWorks() const {
-    return std::ranges::any_of(order_, [this](const SimplexCS* simplex) {
-        return belongs(*simplex) && !resting(simplex->state_);
+    return std::ranges::any_of(actives_, [this](std::uint32_t node) {
+        return belongs(simplex(node)) && !resting(simplex(node).state_);
     });
 }
 
-std::size_t GroupCommands::place(std::size_t at) const {
-    return command_ == LifeCycle::Shutdown ? order_.size() - 1 - at : at;
-}
-
 bool GroupCommands::anyStandsThere() const {
-    return std::ranges::any_of(order_, [this](const SimplexCS* simplex) {
-        return isAtOrBelow(simplex->path(), prefix_.view());
+    return std::ranges::any_of(actives_, [this](std::uint32_t node) {
+        return isAtOrBelow(simplex(node).path(), prefix_.view());
     });
 }
 
@@ -123,48 +241,49 @@ bool GroupCommands::belongs(const SimplexCS& simplex) const {
     return command_ == LifeCycle::Shutdown && resting(manager.state_);
 }
 
-bool GroupCommands::reached(const SimplexCS& simplex) const {
+bool GroupCommands::reached(std::uint32_t node) const {
+    const State state = simplex(node).state_;
     switch (command_) {
         case LifeCycle::Startup:
-            return simplex.state_ == State::Active;
-        case LifeCycle::Shutdown:  // what faults on its way has not followed
-            return simplex.state_ == State::Standby || (simplex.state_ == State::Fault && !posted_);
+            return state == State::Active;
+        case LifeCycle::Shutdown:
+            return state == State::Standby ||
+                   (state == State::Fault && !members_[node]->watched.asked);
         case LifeCycle::ClearFaults:
-            return simplex.state_ != State::Fault;
+            return state != State::Fault;
         case LifeCycle::None:
             break;
     }
     return true;
 }
 
-bool GroupCommands::failed(const SimplexCS& simplex) const {
-    const bool ran = states_.observedRan();
+bool GroupCommands::failed(std::uint32_t node) const {
+    const State state = simplex(node).state_;
+    const bool ran = members_[node]->watched.ran;
     switch (command_) {
         case LifeCycle::Startup:
-            return simplex.state_ == State::Fault || (ran && simplex.state_ == State::Standby);
+            return state == State::Fault || (ran && state == State::Standby);
         case LifeCycle::ClearFaults:
-            return ran && simplex.state_ == State::Fault;
+            return ran && state == State::Fault;
         case LifeCycle::Shutdown:
-            return simplex.state_ == State::Fault;
+            return state == State::Fault;
         case LifeCycle::None:
             break;
     }
     return false;
 }
 
-void GroupCommands::addFailure(const SimplexCS& simplex) {
-    if (anyFailed_) failures_ << "; ";
-    anyFailed_ = true;
-    // Why it refused or faulted since it was asked, otherwise the state that it is in.
-    std::string_view why = states_.observedReason().view();
-    if (why.empty() && simplex.state_ == State::Fault) why = faultTexts_[place(at_)].get();
-    failures_ << simplex.path()
-              << " did not follow: " << (why.empty() ? name(simplex.state_) : why);
+// Whoever failed among those that it relies on, directly or through others.
+std::uint32_t GroupCommands::blockerOf(std::uint32_t node) const {
+    for (const std::uint32_t before : order_.nodes[node].before) {
+        if (blockers_[before] != noSimplex) return blockers_[before];
+    }
+    return noSimplex;
 }
 
 bool GroupCommands::allResting() const {
-    return std::ranges::all_of(order_,
-                               [](const SimplexCS* simplex) { return resting(simplex->state_); });
+    return std::ranges::all_of(
+        actives_, [this](std::uint32_t node) { return resting(simplex(node).state_); });
 }
 
 }  // namespace cortex::cs

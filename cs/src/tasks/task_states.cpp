@@ -11,7 +11,11 @@ namespace cortex::cs {
 void TaskStates::beginCycle() {
     halted_ = haltNext_;
     haltNext_ = false;
-    anyMayMove_ = halted_ || forced_ || observed_ != noSimplex;
+    anyMayMove_ = halted_ || forced_ || watching_;
+}
+
+void TaskStates::registerWatched(std::uint32_t simplex, Watched& watched) {
+    watched_[simplex] = &watched;
 }
 
 void TaskStates::checkTimeout(Task& task, const Tick& tick) {
@@ -27,7 +31,7 @@ void TaskStates::checkTimeout(Task& task, const Tick& tick) {
 void TaskStates::transition(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     simplex.pending_.quality = false;  // of the cycle before
-    if (task.index == observed_) observedRan_ = true;
+    if (Watched* watched = watchedOf(task)) watched->ran = true;
     if (simplex.pending_.demandRefused) demands_.faultForRefused(task);
     simplex.pending_.demandRefused = false;
     if (halted_ && simplex.state_ == State::Active) {
@@ -140,7 +144,7 @@ void TaskStates::enterFault(Task& task, const Tick& tick) {
 }
 
 void TaskStates::noteReason(const Task& task) {
-    if (task.index == observed_) observedReason_ = task.simplex->thread_->text;
+    if (Watched* watched = watchedOf(task)) watched->reason = task.simplex->thread_->text;
 }
 
 }  // namespace cortex::cs

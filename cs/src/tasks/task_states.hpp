@@ -4,12 +4,16 @@
 #include "tasks/task_demands.hpp"
 #include "tasks/task_set.hpp"
 
+#include <cstdint>
+#include <vector>
+
 namespace cortex::cs {
 
 // The state machine of every active simplex: life-cycle commands, transitions, faults.
 class TaskStates {
 public:
-    TaskStates(TaskSet& set, TaskDemands& demands) : set_{set}, demands_{demands} {}
+    TaskStates(TaskSet& set, TaskDemands& demands)
+        : set_{set}, demands_{demands}, watched_(set.structure.simplexes.size()) {}
 
     // Loop thread, before the tasks of a cycle.
     void beginCycle() CORTEX_REALTIME;
@@ -34,27 +38,30 @@ public:
     // Tasks run in this cycle whatever their rate.
     bool allRun() const CORTEX_REALTIME { return halted_ || forced_; }
 
-    // From now on notes whether that simplex ran, and why it refuses or faults; `noSimplex`: none.
-    // Loop thread, between cycles.
-    void observe(std::uint32_t simplex) CORTEX_REALTIME {
-        observed_ = simplex;
-        observedRan_ = false;
-        observedReason_ = {};
-    }
-    bool observedRan() const { return observedRan_; }
-    const EventText& observedReason() const { return observedReason_; }
+    // What becomes of a simplex that a group command asks; it outlives the tasks.
+    struct Watched {
+        bool asked = false;
+        bool ran = false;  // written by the task of that simplex, if it is asked
+        EventText reason;  // likewise: why it refuses or faults
+    };
+    void registerWatched(std::uint32_t simplex, Watched& watched);  // setup
+    // Whether those registered are written. Loop thread, between cycles.
+    void watch(bool on) CORTEX_REALTIME { watching_ = on; }
 
 private:
     bool lifeCycle(Task& task, LifeCycle command, const Tick& tick) CORTEX_REALTIME;
     void enter(Task& task, State to, const Tick& tick) CORTEX_REALTIME;
     bool mayStart(Task& task) CORTEX_REALTIME;
     void noteReason(const Task& task) CORTEX_REALTIME;
+    Watched* watchedOf(const Task& task) const CORTEX_REALTIME {
+        Watched* watched = watching_ ? watched_[task.index] : nullptr;
+        return watched != nullptr && watched->asked ? watched : nullptr;
+    }
 
     TaskSet& set_;
     TaskDemands& demands_;
-    std::uint32_t observed_ = noSimplex;
-    bool observedRan_ = false;  // written by the task of that simplex
-    EventText observedReason_;  // likewise
+    std::vector<Watched*> watched_;  // by simplex; null: none
+    bool watching_ = false;
     FaultCode haltCode_ = ClusterHalted;
     const char* haltWhy_ = "";
     bool haltNext_ = false, halted_ = false, forced_ = false, stopping_ = false;

@@ -41,6 +41,7 @@ struct ClusterOptions {
     double warnDuty = 0;           // duty cycle in % above which each cycle is an event; 0: none
     double watchdogPeriods = 10;   // at least 100 ms
     double triggerTimeout = 1;     // s without a tick after which all that is Active faults
+    double stopTimeout = 2;        // s after which the shutdown of stop() goes on by force
     bool controlRequired = false;  // commands from outside need a control lease
     std::uint32_t imageReaders = 8;
     // Tells this start from others of its name, UTC microseconds; 0: now. A replay gives that of
@@ -90,9 +91,11 @@ public:
     // Creates related simplexes, validates (throws ModelError with everything), fixes the layout,
     // populates, builds the schedule, announces, starts the loop.
     void start();
-    // Shuts all simplexes down in order (2 s at most), safe demands, last write, ends the loop.
-    // If a hook does not return it is named, and the process ends with exit code 3.
+    // Shuts all simplexes down level by level (at most `stopTimeout`), safe demands, last write,
+    // ends the loop. False: not all got through, notShutDown() names them. If a hook does not
+    // return it is named, and the process ends with exit code 3.
     bool stop();
+    const std::vector<std::string>& notShutDown() const;  // path and reason; from stop() on
 
     bool running() const;
     Ended ended() const;
