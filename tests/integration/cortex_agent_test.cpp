@@ -46,6 +46,35 @@ TEST(CortexAgent, RunsTheCaseStudyAndPrintsMetricsAndMonitors) {
     EXPECT_TRUE(says(ended, "/tracking (TrackingMonitor)")) << ended.output;
 }
 
+TEST(CortexAgent, NamesWhatItsStartupWaitsForAtOnceAndAtTheEndAndEndsWithFour) {
+    const std::string robot = CORTEX_SOURCE_DIR "/examples/lbr_teleop/robot.xml";
+
+    const Ended ended =
+        agent(robot + " --priority 0 --startup --seconds 2.5 --frequency 100 --log /dev/null");
+
+    EXPECT_EQ(ended.exitCode, 4) << ended.output;
+    const std::string waits =
+        "startup: /control/clutch waits for /handset/pose of another agent, which is not there";
+    const std::size_t first = ended.output.find(waits);
+    EXPECT_LT(first, ended.output.find("cycle duration")) << ended.output;
+    EXPECT_NE(ended.output.find(waits, first + 1), std::string::npos) << ended.output;
+    EXPECT_TRUE(says(ended, "did not follow: startup needs enable")) << ended.output;
+    EXPECT_TRUE(says(ended, "more, as events say")) << ended.output;
+}
+
+TEST(CortexAgent, NamesWhoDidNotGetThroughTheShutdownInTimeAndEndsWithFour) {
+    const TeleopFile file{{{"<cluster ", "<cluster stopTimeout=\"0.001\" "}}};
+
+    const Ended ended =
+        agent(file.path().string() + " --priority 0 --startup --seconds 1 --frequency 200");
+
+    EXPECT_EQ(ended.exitCode, 4) << ended.output;
+    EXPECT_TRUE(says(ended,
+                     "shutdown: /drives/1 did not follow: Active after the stopTimeout of "
+                     "0.001 s; now in Standby by force"))
+        << ended.output;
+}
+
 TEST(CortexAgent, RefusesAnArmWithoutGripperWithRulePlaceAndRemedy) {
     const TeleopFile file{{{"<relate rule=\"gripper\" to=\"/arm/gripper\"/>", ""}}};
 

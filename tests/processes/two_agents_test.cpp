@@ -235,7 +235,7 @@ TEST_F(TwoAgents, TheRobotStartsFirstAndWaitsForTheOperator) {
     robot.kill9();
     const std::size_t before = robot.output().size();
     robot.start();
-    const std::string waits = "waits for other agents, which have: /handset/pose";
+    const std::string waits = "waits for /handset/pose of another agent, which is not there";
     ASSERT_TRUE(station.waitFor([&] {
         return robot.output().find(waits, before) != std::string::npos;
     })) << outputs();

@@ -10,12 +10,14 @@
 
 #include "options.hpp"
 #include "retained_file.hpp"
+#include "start_up.hpp"
 #include "stored_values.hpp"
 #include "summary.hpp"
 
 #include <array>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -24,7 +26,7 @@
 namespace cortex::toolkit {
 namespace {
 
-enum ExitCode { Ended = 0, Refused = 1, Usage = 2, Halted = 3 };
+enum ExitCode { Ended = 0, Refused = 1, Usage = 2, Halted = 3, NotFollowed = 4 };
 
 class UsageError : public Error {
 public:
@@ -110,40 +112,11 @@ double left(const CommandLine& line, Clock::time_point began) {
     return line.seconds > 0 ? std::max(1e-3, line.seconds - used.count()) : 0;
 }
 
-// What relationships need of other agents has to be there before their owners can start. False: to
-// be ended, or the time is over.
-bool waitForOthers(cs::ClusterCS& cluster, double seconds) {
-    const std::string missing = missingLinks(cluster.image());
-    if (missing.empty()) return true;
-    std::cout << "waits for other agents, which have:" << missing << std::endl;
-    const auto linked = [&] { return missingLinks(cluster.image()).empty(); };
-    const bool interrupted =
-        cs::waitForInterrupt(seconds, [&] { return !cluster.running() || linked(); });
-    return !interrupted && cluster.running() && linked();
-}
-
-// Waits for the answer to the group command while it also minds signals. False: to be ended.
-bool startUp(cs::ClusterCS& cluster, const std::string& name) {
-    const std::uint64_t sent =
-        cluster.send("/" + name, "startup", {{"prefix", Value{std::vector<std::string>{"/"}}}});
-    CallResult answer;
-    const bool interrupted = cs::waitForInterrupt(
-        60, [&] { return cluster.program().poll(sent, answer) || !cluster.running(); });
-    if (interrupted) return false;
-    const std::string faults = faultLines(cluster.image());
-    if (!answer.done())
-        std::cerr << "startup: " << answer.text() << std::endl;
-    else if (faults.empty())
-        std::cout << "all active simplexes are started" << std::endl;
-    else
-        std::cerr << "started, but not all went on:\n" << faults << std::flush;
-    return true;
-}
-
-void watch(cs::ClusterCS& cluster, const std::string& name, double seconds) {
+void watch(cs::ClusterCS& cluster, const std::string& name, double seconds, StartUp* startUp) {
     const bool terminal = isatty(STDOUT_FILENO) != 0;
     auto next = Clock::now();
     cs::waitForInterrupt(seconds, [&] {
+        if (startUp != nullptr) startUp->look();
         if (terminal && Clock::now() >= next) {
             next += std::chrono::seconds{1};
             std::cout << "\r\033[K" << statusLine(cluster.image(), name) << std::flush;
@@ -182,6 +155,8 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
         line.offline ? nullptr : &cluster.addInterface<comms::DdsInterface>(networkOptions(line));
     const auto finish = [](RetainedFile* each) { each->finish(); };
     const std::unique_ptr<RetainedFile, decltype(finish)> keeping{&retained, finish};
+    std::optional<StartUp> startUp;
+    if (line.startup) startUp.emplace(cluster, settings.name);
     cluster.start();
     if (retains) retained.keep(cluster);
     for (const std::string& refused : cluster.realtimeReport()) {
@@ -191,16 +166,17 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
               << 1e9 / static_cast<double>(settings.period.count()) << " Hz as /" << settings.name
               << (line.offline ? "" : ", domain " + std::to_string(networkOptions(line).domain))
               << std::endl;
-    const bool starts = !line.startup || waitForOthers(cluster, left(line, began));
-    if (starts && (!line.startup || startUp(cluster, settings.name))) {
-        watch(cluster, settings.name, left(line, began));
-    }
+    watch(cluster, settings.name, left(line, began), startUp ? &*startUp : nullptr);
     const bool endedItself = !cluster.running();  // its trigger has ended, as an event says
     printEnd(cluster, settings.name, network);
     const bool halted = cluster.ended() == cs::Ended::Halted;
-    const bool stopped = cluster.stop();
+    std::string notFollowed = startUp ? startUp->endText() : "";
+    cluster.stop();
+    for (const std::string& each : cluster.notShutDown()) notFollowed += "shutdown: " + each + "\n";
     retained.finish();
-    return stopped && !halted && !endedItself ? Ended : Halted;
+    std::cerr << notFollowed << std::flush;
+    if (halted || endedItself) return Halted;
+    return notFollowed.empty() ? Ended : NotFollowed;
 }
 
 int run(int argc, char** argv) {

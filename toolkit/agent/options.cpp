@@ -18,7 +18,8 @@ namespace {
 constexpr int usageError = 2;
 
 constexpr const char* footerText =
-    R"(Exit codes: 0 ended; 1 model refused, the report was printed; 2 usage; 3 halted or hung.
+    R"(Exit codes: 0 ended; 1 model refused, the report was printed; 2 usage; 3 halted or hung;
+4 ended, but some simplexes did not follow --startup or the shutdown, they were named.
 Settings of the loop stand in the system file, <cluster name="…" frequency="…" threads="…"
 priority="…" overflow="…"/>; options outrank them. Files are looked for beside the file that names
 them, in $CORTEX_PATH, and where CorteX is installed.)";
@@ -66,6 +67,7 @@ cs::ClusterOptions optionsOf(const Attributes& attributes, const CommandLine& li
     options.warnDuty = number(attributes, "warnDuty", options.warnDuty);
     options.watchdogPeriods = number(attributes, "watchdogPeriods", options.watchdogPeriods);
     options.triggerTimeout = number(attributes, "triggerTimeout", options.triggerTimeout);
+    options.stopTimeout = number(attributes, "stopTimeout", options.stopTimeout);
     options.controlRequired = word(attributes, "control") == "required";
     options.imageReaders = count(attributes, "imageReaders", options.imageReaders);
     return options;

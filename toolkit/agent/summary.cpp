@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -133,17 +132,16 @@ std::string countLine(const std::string& title, std::uint64_t count) {
     return "  " + left(title, 20) + right(std::to_string(count), 11) + "\n";
 }
 
-std::string missingLinks(const Image& image) {
+MissingLinks missingLinks(const Image& image) {
     const Structure& structure = image.structure();
-    std::set<std::string> missing;
+    MissingLinks missing;
     for (const Edge& edge : structure.edges) {
         const bool needed = structure.simplexes[edge.target].remote && edge.rule->min > 0;
         if (needed && image.state(edge.target).quality == Quality::Lost)
-            missing.insert(structure.simplexes[edge.target].path);
+            missing.emplace(structure.simplexes[edge.target].path,
+                            structure.simplexes[edge.owner].path);
     }
-    std::string text;
-    for (const std::string& path : missing) text += " " + path;
-    return text;
+    return missing;
 }
 
 std::string faultLines(const Image& image) {

@@ -4,6 +4,7 @@
 #include "cortex/core/image.hpp"
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 namespace cortex::toolkit {
@@ -17,9 +18,10 @@ std::string metricsTable(const Image& image, const std::string& cluster);
 // One more line of it.
 std::string countLine(const std::string& title, std::uint64_t count);
 
-// Paths of other agents that are not linked and without which a simplex cannot start, each after a
-// blank.
-std::string missingLinks(const Image& image);
+// Paths of other agents that are not linked and without which a simplex cannot start, with that
+// simplex.
+using MissingLinks = std::map<std::string, std::string>;
+MissingLinks missingLinks(const Image& image);
 
 // Simplexes in Fault and why, a line each; "" if there is none.
 std::string faultLines(const Image& image);

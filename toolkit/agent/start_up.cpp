@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "start_up.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <string_view>
+#include <utility>
+
+namespace cortex::toolkit {
+namespace {
+
+// Agents that are started together see each other within this time.
+constexpr std::chrono::seconds grace{1};
+constexpr std::string_view notLinked = "is not linked: ";  // as the links of an agent say it
+
+}  // namespace
+
+// Of paths that are not linked: the nearest that other agents have.
+struct StartUp::Hints {
+    std::mutex mutex;
+    std::map<std::string, std::string> byPath;
+
+    void note(const Event& event, const Structure& structure) {
+        std::string_view text = event.text.view();
+        if (event.kind != EventKind::Agent || event.simplex == noSimplex) return;
+        if (!text.starts_with(notLinked)) return;
+        text.remove_prefix(notLinked.size());
+        const std::lock_guard lock{mutex};
+        byPath[structure.simplexes[event.simplex].path] = text;
+    }
+    std::string of(const std::string& path) {
+        const std::lock_guard lock{mutex};
+        const auto hint = byPath.find(path);
+        return hint == byPath.end() ? "" : "; " + hint->second;
+    }
+};
+
+StartUp::StartUp(cs::ClusterCS& cluster, std::string agentName)
+    : cluster_{cluster}, path_{"/" + std::move(agentName)}, hints_{std::make_shared<Hints>()} {
+    cluster_.addEventSink([hints = hints_](const Event& event, const Structure& structure) {
+        hints->note(event, structure);
+    });
+}
+
+void StartUp::look() {
+    if (complete_ || !cluster_.running()) return;
+    if (answerIsDue_) {
+        CallResult answer;
+        if (!cluster_.program().poll(sent_, answer)) return;
+        answerIsDue_ = false;
+        return tell(answer);
+    }
+    const Image image = cluster_.image();
+    const MissingLinks missing = missingLinks(image);
+    if (missing == missing_ && sent_ != 0) return;
+    if (!missing.empty() && !std::exchange(told_, true)) std::cerr << missingText(missing);
+    if (!missing.empty() && Clock::now() - began_ < grace) return;
+    missing_ = missing;
+    const std::string stopped = shutDownSince(image);
+    if (stopped.empty()) return send(image);
+    std::cerr << "startup: " << stopped << " was shut down since, so the rest is left to you: "
+              << "cortex call " << path_ << " startup prefix=/" << std::endl;
+    complete_ = missing.empty();
+}
+
+std::string StartUp::missingText(const MissingLinks& missing) const {
+    std::string text;
+    for (const auto& [path, neededBy] : missing) {
+        text += "startup: " + neededBy + " waits for " + path +
+                " of another agent, which is not there" + hints_->of(path) + "\n";
+    }
+    return text;
+}
+
+void StartUp::send(const Image& image) {
+    started_ = activeIn(image);
+    sent_ = cluster_.send(path_, "startup", {{"prefix", Value{std::vector<std::string>{"/"}}}});
+    answerIsDue_ = true;
+}
+
+void StartUp::tell(const CallResult& answer) {
+    const Image image = cluster_.image();
+    started_ = activeIn(image);
+    complete_ = missing_.empty();
+    notFollowed_ = answer.done() ? "" : "startup: " + answer.text() + "\n";
+    const std::string faults = faultLines(image);
+    if (!answer.done())
+        std::cerr << notFollowed_ << std::flush;
+    else if (faults.empty())
+        std::cout << "all active simplexes are started" << std::endl;
+    else
+        std::cerr << "started, but not all went on:\n" << faults << std::flush;
+}
+
+std::vector<std::string> StartUp::activeIn(const Image& image) const {
+    std::vector<std::string> paths;
+    for (const SimplexInfo& info : image.structure().simplexes) {
+        if (!info.remote && info.layout->type->isA("Active") &&
+            image.get<std::int64_t>(info.path, "state") == static_cast<int>(State::Active)) {
+            paths.push_back(info.path);
+        }
+    }
+    return paths;
+}
+
+// Whoever stopped something meanwhile does not want it to be started again.
+std::string StartUp::shutDownSince(const Image& image) const {
+    const auto found = std::ranges::find_if(started_, [&](const std::string& path) {
+        return image.get<std::int64_t>(path, "state") == static_cast<int>(State::Standby);
+    });
+    return found == started_.end() ? "" : *found;
+}
+
+std::string StartUp::endText() const {
+    return notFollowed_ + missingText(complete_ ? MissingLinks{} : missingLinks(cluster_.image()));
+}
+
+}  // namespace cortex::toolkit

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/program_interface.hpp"
+#include "cortex/cs/cluster_cs.hpp"
+
+#include "summary.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cortex::toolkit {
+
+// --startup: starts all, once more when another agent has come that some wait for, and says who did
+// not follow. Program's thread; made before the cluster starts, for what its events say.
+class StartUp {
+public:
+    StartUp(cs::ClusterCS& cluster, std::string agentName);
+    StartUp(const StartUp&) = delete;
+    StartUp& operator=(const StartUp&) = delete;
+
+    void look();  // again and again, while the loop runs
+    // At the end: who was not started, and what is not there; "" if all were started.
+    std::string endText() const;
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    struct Hints;  // shared with the event thread, which may outlive this
+
+    std::string missingText(const MissingLinks& missing) const;
+    void send(const Image& image);
+    void tell(const CallResult& answer);
+    std::vector<std::string> activeIn(const Image& image) const;
+    std::string shutDownSince(const Image& image) const;
+
+    cs::ClusterCS& cluster_;
+    std::string path_;
+    Clock::time_point began_ = Clock::now();
+    std::uint64_t sent_ = 0;
+    bool answerIsDue_ = false, told_ = false, complete_ = false;
+    MissingLinks missing_;              // when the command was sent last
+    std::vector<std::string> started_;  // by it
+    std::string notFollowed_;           // what it was answered
+    std::shared_ptr<Hints> hints_;
+};
+
+}  // namespace cortex::toolkit
