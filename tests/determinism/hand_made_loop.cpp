@@ -54,19 +54,20 @@ HandMadeLoop::HandMadeLoop(const Plan& plan)
         schedule_.chunks[i].place = (static_cast<float>(i) + 0.5F) / threads;
     }
     agent_->setCanonicalOrder(schedule_.order);
-    std::vector<cs::SimplexCS*> simplexes;
+    std::vector<cs::SimplexCS*> actives(graph.nodes.size());
     for (const std::uint32_t index : schedule_.order) {
         if (!hasTask(agent_->structure().simplexes[index])) continue;
         auto& task = static_cast<RandomTask&>(agent_->simplex(index));
         task.bind();
-        simplexes.push_back(&task);
+        actives[index] = &task;
     }
     agent_->addInterface(script_);
     agent_->events().addSink([this](const Event& event, const Structure& structure) {
         observation_.events.push_back(seen(event, structure));
     });
     runner_ = std::make_unique<cs::TaskRunner>(*agent_, schedule_, period);
-    group_ = std::make_unique<cs::GroupCommands>(*agent_, runner_->states(), simplexes);
+    group_ = std::make_unique<cs::GroupCommands>(*agent_, runner_->states(),
+                                                 cs::startOrder(graph, schedule_.order, actives));
     agent_->start();
 }
 

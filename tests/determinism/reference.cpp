@@ -131,7 +131,7 @@ void Reference::decideRoles() {
 
 // An input before its owner, the owner before its outputs, all writers of a shared simplex before
 // what is made of them; ties by path, or by chance.
-std::vector<int> Reference::orderBy(Chance* chance) const {
+std::vector<std::set<int>> Reference::dependencies() const {
     std::vector<std::set<int>> before(all_.size());
     for (const Link& link : links_) {
         const RefSimplex& target = all_[index(link.target)];
@@ -142,13 +142,17 @@ std::vector<int> Reference::orderBy(Chance* chance) const {
             before[index(link.owner)].insert(link.target);
         }
     }
+    return before;
+}
+
+std::vector<int> Reference::orderBy(Chance* chance) const {
     std::vector<bool> done(all_.size());
     std::vector<int> order;
     while (order.size() < all_.size()) {
         std::vector<int> ready;
         for (std::size_t i = 0; i < all_.size(); ++i) {
             const auto isDone = [&](int each) { return done[index(each)]; };
-            if (!done[i] && std::ranges::all_of(before[i], isDone)) {
+            if (!done[i] && std::ranges::all_of(before_[i], isDone)) {
                 ready.push_back(static_cast<int>(i));
             }
         }
@@ -161,7 +165,17 @@ std::vector<int> Reference::orderBy(Chance* chance) const {
 }
 
 void Reference::findOrder() {
+    before_ = dependencies();
     order_ = execution_ = orderBy(nullptr);
+    startLevels_.resize(all_.size());
+    for (const int simplex : order_) {
+        int& level = startLevels_[index(simplex)];
+        for (const int each : before_[index(simplex)]) {
+            level = std::max(level, startLevels_[index(each)]);
+        }
+        if (isActive(simplex)) ++level;
+        levels_ = std::max(levels_, level);
+    }
     for (std::size_t i = 0; i < order_.size(); ++i) {
         at(order_[i]).rank = i;
         if (isActive(order_[i])) tasks_.push_back(order_[i]);

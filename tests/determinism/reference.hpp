@@ -36,6 +36,7 @@ private:
     void decideRoles();
     void findOrder();
     std::vector<int> orderBy(Chance* chance) const;
+    std::vector<std::set<int>> dependencies() const;
     void bindLinks();
     void cycle();
     void tick(std::int64_t late);
@@ -112,8 +113,16 @@ private:
     void collect();
     Ending group(const std::string& command, const Arguments& arguments, bool first);
     bool groupStep();
+    bool groupAsks();
+    void groupAsk(int simplex);
+    void groupLooks();
     bool groupCovers(int simplex);
     bool groupHas(int simplex);
+    bool groupIsThere(int simplex, bool asked);
+    bool groupMisses(int simplex);
+    int groupBlocker(int simplex);
+    void groupFails(int simplex, const std::string& text);
+    std::string groupAnswer();
 
     const Plan& plan_;
     const TypeModel& types_;
@@ -124,9 +133,12 @@ private:
     std::vector<RefSimplex> all_;                                      // sorted by path
     std::set<std::pair<const Record*, const DataItem*>> wrongValues_;  // in the cycle before
     std::deque<Link> links_;
-    std::vector<int> order_;      // canonical, of all
-    std::vector<int> execution_;  // any order that the relationships allow
-    std::vector<int> tasks_;      // in canonical order
+    std::vector<int> order_;             // canonical, of all
+    std::vector<int> execution_;         // any order that the relationships allow
+    std::vector<int> tasks_;             // in canonical order
+    std::vector<std::set<int>> before_;  // by simplex: whom it relies on
+    std::vector<int> startLevels_;       // by simplex: how many levels start before it is settled
+    int levels_ = 0;
     std::deque<Line> lines_;
     int agent_ = 0;
 
@@ -152,17 +164,18 @@ private:
 
     struct {
         LifeCycle command = LifeCycle::None;
-        std::string prefix, failures;
-        int listenedTo = -1;
-        std::string heard;  // of that simplex, since it was asked
-        std::size_t at = 0;
+        std::string prefix;
+        int level = 0;  // how many are done
         bool posted = false, again = false;
-        std::int64_t postedAfter = 0;
+        std::map<int, std::int64_t> asked;  // of this level, with the time before
+        std::map<int, std::string> heard;   // of those, since they were asked
+        std::set<int> started, missing;     // were Active before; did not follow
+        std::map<std::pair<int, std::size_t>, std::string> failures;  // by level and rank
     } group_;
     Observation observation_;
 
     void tell(int simplex, const std::string& text) {
-        if (simplex == group_.listenedTo) group_.heard = text;
+        if (group_.asked.contains(simplex)) group_.heard[simplex] = text;
     }
 };
 

@@ -152,7 +152,7 @@ void Reference::collect() {
     std::erase_if(active_, [](const Visitor* visitor) { return visitor->over; });
 }
 
-// startup, shutdown and clearFaults sent to the agent: one simplex after the other.
+// startup, shutdown and clearFaults sent to the agent: one level after the other.
 Ending Reference::group(const std::string& command, const Arguments& arguments, bool first) {
     if (first) {
         group_ = {};
@@ -170,7 +170,7 @@ Ending Reference::group(const std::string& command, const Arguments& arguments, 
     }
     if (groupStep()) return {Outcome::Running, Reason::None, {}};
     if (group_.failures.empty()) return {};
-    return {Outcome::Failed, Reason::None, group_.failures};
+    return {Outcome::Failed, Reason::None, groupAnswer()};
 }
 
 bool Reference::groupCovers(int simplex) {
@@ -187,44 +187,77 @@ bool Reference::groupHas(int simplex) {
            (state == State::Standby || state == State::Fault);
 }
 
+bool Reference::groupIsThere(int simplex, bool asked) {
+    const State state = at(simplex).task->state;
+    if (group_.command == LifeCycle::Startup) return state == State::Active;
+    if (group_.command == LifeCycle::ClearFaults) return state != State::Fault;
+    return state == State::Standby || (state == State::Fault && !asked);
+}
+
+bool Reference::groupMisses(int simplex) {
+    const RefTask& task = *at(simplex).task;
+    const bool ran = task.now > group_.asked.at(simplex);
+    if (group_.command == LifeCycle::Startup) {
+        return task.state == State::Fault || (ran && task.state == State::Standby);
+    }
+    return (group_.command == LifeCycle::Shutdown || ran) && task.state == State::Fault;
+}
+
+// Who did not start of those that it relies on, also through what is not Active; -1: nobody.
+int Reference::groupBlocker(int simplex) {
+    const auto place = [this](int each) {
+        return std::pair{startLevels_[index(each)], at(each).rank};
+    };
+    int first = -1;
+    for (const int each : before_[index(simplex)]) {
+        const bool active = isActive(each);
+        if (active && group_.started.contains(each)) continue;
+        const int found = active && group_.missing.contains(each) ? each : groupBlocker(each);
+        if (found >= 0 && (first < 0 || place(found) < place(first))) first = found;
+    }
+    return first;
+}
+
+void Reference::groupFails(int simplex, const std::string& text) {
+    group_.failures[{startLevels_[index(simplex)], at(simplex).rank}] =
+        at(simplex).path + " " + cut(text, eventCapacity);
+}
+
+void Reference::groupAsk(int simplex) {
+    if (at(simplex).task->state == State::Active) group_.started.insert(simplex);
+    if (!groupHas(simplex) || groupIsThere(simplex, false)) return;
+    const int blocker = group_.command == LifeCycle::Startup ? groupBlocker(simplex) : -1;
+    if (blocker < 0) {
+        group_.asked[simplex] = at(simplex).task->now;
+        postLifeCycle(simplex, group_.command, false);
+        return;
+    }
+    const State state = at(blocker).task->state;
+    std::string text = "waits for " + at(blocker).path + ", which is in " + name(state);
+    if (state == State::Fault) text += ": " + item<std::string>(blocker, "faultText");
+    groupFails(simplex, text);
+    post(simplex, Severity::Warning, EventKind::Refusal, text);
+}
+
+void Reference::groupLooks() {
+    for (const auto& [simplex, since] : group_.asked) {
+        if (!groupMisses(simplex)) continue;
+        const State state = at(simplex).task->state;
+        std::string why = group_.heard[simplex];
+        if (why.empty() && state == State::Fault) why = item<std::string>(simplex, "faultText");
+        groupFails(simplex, "did not follow: " + (why.empty() ? std::string{name(state)} : why));
+        group_.missing.insert(simplex);
+    }
+}
+
 // True: somebody is still on the way.
 bool Reference::groupStep() {
-    while (group_.at < tasks_.size()) {
-        const bool shutdown = group_.command == LifeCycle::Shutdown;
-        const bool startup = group_.command == LifeCycle::Startup;
-        const int simplex = tasks_[shutdown ? tasks_.size() - 1 - group_.at : group_.at];
-        RefTask& task = *at(simplex).task;
-        const bool resting = task.state == State::Standby || task.state == State::Fault;
-        const bool there = startup    ? task.state == State::Active
-                           : shutdown ? resting && !(group_.posted && task.state == State::Fault)
-                                      : task.state != State::Fault;
-        if (!groupHas(simplex) || there) {
-            ++group_.at;
-            group_.posted = false;
-            continue;
+    for (; group_.level < levels_; ++group_.level, group_.posted = false) {
+        if (!std::exchange(group_.posted, true) && groupAsks()) return true;
+        for (const auto& [simplex, since] : group_.asked) {
+            if (!groupIsThere(simplex, true) && !groupMisses(simplex)) return true;
         }
-        if (!group_.posted) {
-            group_.posted = true;
-            group_.postedAfter = task.now;
-            group_.listenedTo = simplex;
-            group_.heard.clear();
-            postLifeCycle(simplex, group_.command, false);
-            return true;
-        }
-        const bool ran = task.now > group_.postedAfter;
-        const bool failed =
-            startup ? task.state == State::Fault || (ran && task.state == State::Standby)
-                    : (shutdown || ran) && task.state == State::Fault;
-        if (!failed) return true;
-        if (!group_.failures.empty()) group_.failures += "; ";
-        std::string why = group_.heard;
-        if (why.empty() && task.state == State::Fault)
-            why = item<std::string>(simplex, "faultText");
-        group_.failures +=
-            at(simplex).path + " did not follow: " + (why.empty() ? name(task.state) : why);
-        group_.failures = cut(group_.failures, eventCapacity);
-        group_.posted = false;
-        group_.at = startup ? tasks_.size() : group_.at + 1;
+        groupLooks();
     }
     // What a manager was to shut down before it faulted: once more from the beginning.
     const bool left = std::ranges::any_of(tasks_, [this](int simplex) {
@@ -233,8 +266,35 @@ bool Reference::groupStep() {
     });
     if (group_.command != LifeCycle::Shutdown || group_.again || !left) return false;
     group_.again = true;
-    group_.at = 0;
+    group_.level = 0;
     return groupStep();
+}
+
+// Those of the next level, and in a shutdown of the one before it.
+bool Reference::groupAsks() {
+    const bool down = group_.command == LifeCycle::Shutdown;
+    const int level = down ? levels_ - group_.level : group_.level + 1;
+    group_.asked.clear();
+    group_.heard.clear();
+    for (const int simplex : tasks_) {
+        if (startLevels_[index(simplex)] == level) groupAsk(simplex);
+    }
+    return !group_.asked.empty();
+}
+
+std::string Reference::groupAnswer() {
+    constexpr std::size_t most = 120;
+    std::string text;
+    std::size_t more = 0;
+    for (const auto& [place, failure] : group_.failures) {
+        const std::string one = cut((text.empty() ? "" : "; ") + failure, eventCapacity);
+        if (text.empty() || (more == 0 && text.size() + one.size() <= most))
+            text += one.substr(0, most);
+        else
+            ++more;
+    }
+    if (more > 0) text += "; and " + std::to_string(more) + " more, as events say";
+    return cut(text, eventCapacity);
 }
 
 }  // namespace cortex::determinism

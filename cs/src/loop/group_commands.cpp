@@ -57,6 +57,7 @@ Outcome GroupCommands::handle(LifeCycle command, Call& call, Argument<std::strin
     if (call.first()) {
         begin(command, call[prefix]);
         if (!prefix_.view().empty() && !anyStandsThere()) {
+            states_.watch(false);
             EventText text{"no active simplex stands at or below "};
             return call.fail((text << prefix_.view()).view());
         }
@@ -273,12 +274,13 @@ bool GroupCommands::failed(std::uint32_t node) const {
     return false;
 }
 
-// Whoever failed among those that it relies on, directly or through others.
+// Whoever failed among those that it relies on, directly or through others; the first of them.
 std::uint32_t GroupCommands::blockerOf(std::uint32_t node) const {
+    std::uint32_t first = noSimplex;
     for (const std::uint32_t before : order_.nodes[node].before) {
-        if (blockers_[before] != noSimplex) return blockers_[before];
+        first = std::min(first, blockers_[before]);
     }
-    return noSimplex;
+    return first;
 }
 
 bool GroupCommands::allResting() const {
