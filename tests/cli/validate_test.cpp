@@ -104,6 +104,42 @@ TEST(CortexValidate, KnowsTheSimplexOfTheAgentItself) {
     EXPECT_EQ(findingsOf(outcome).at(0)["path"], "/test");
 }
 
+// The two agents of the case study, with what one of them reads written otherwise.
+Outcome validateTwo(const std::string& written, const std::string& instead) {
+    const ModelFolder folder;
+    const std::filesystem::path files = std::filesystem::path{example}.parent_path();
+    for (const char* name : {"arm.xml", "hand.xml", "robot.xml", "operator.xml"}) {
+        std::string text = textOf(files / name);
+        const std::size_t at = text.find(written);
+        if (at != std::string::npos) text.replace(at, written.size(), instead);
+        folder.write(name, text);
+    }
+    return cortex({"validate", "robot.xml", "operator.xml"}, {}, folder.path());
+}
+
+TEST(CortexValidate, LooksForThePathsOfAnotherAgentInTheOtherSystem) {
+    const std::string clutch = "rule=\"enable\" to=\"/handset/trigger\" remote=\"true\"";
+    const Outcome right = validateTwo(clutch, clutch);
+    EXPECT_EQ(right.exit, 0) << right.output;
+    EXPECT_FALSE(contains(right.output, "remote-path")) << right.output;
+
+    const Outcome misspelt =
+        validateTwo(clutch, "rule=\"enable\" to=\"/handset/triger\" remote=\"true\"");
+    EXPECT_EQ(misspelt.exit, 0) << misspelt.output;
+    EXPECT_TRUE(contains(misspelt.output,
+                         "rule 'enable' names /handset/triger of another agent, but no system "
+                         "given has it [arm.xml:69]; nearest of: /handset/trigger"))
+        << misspelt.output;
+
+    const Outcome other = validateTwo(clutch, "rule=\"enable\" to=\"/playback\" remote=\"true\"");
+    EXPECT_EQ(other.exit, 1) << other.output;
+    EXPECT_TRUE(contains(other.output, "rule 'enable' reads /playback (HandsetPlayback, "))
+        << other.output;
+    EXPECT_TRUE(contains(other.output, "is needed, the other agent has a HandsetPlayback"))
+        << other.output;
+    EXPECT_TRUE(contains(other.output, "[arm.xml:69]")) << other.output;
+}
+
 // As cortex-agent has it.
 TEST(CortexValidate, WantsOneClusterWithANameThatCanBeAPath) {
     const ModelFolder folder;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "models/remote_paths.hpp"
 #include "verbs/verbs.hpp"
 
 #include <algorithm>
@@ -13,7 +14,8 @@ struct Checked {
     Model model;
 };
 
-// Files make one model together; of several systems each is a model with all other files.
+// Files make one model together; of several systems each is a model with all other files, and what
+// they read of each other is compared.
 std::vector<Checked> check(const Paths& files) {
     Paths systems, others;
     if (files.size() > 1) {
@@ -31,6 +33,9 @@ std::vector<Checked> check(const Paths& files) {
         together.push_back(system);
         checked.push_back({{system}, readSystem(together)});
     }
+    std::vector<Model*> models;
+    for (Checked& each : checked) models.push_back(&each.model);
+    checkRemotePaths(models);
     return checked;
 }
 

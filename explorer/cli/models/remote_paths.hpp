@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "models/model.hpp"
+
+#include <span>
+
+namespace cortex::explorer {
+
+// Compares what each system reads of another agent with what the others declare, and adds what it
+// finds to the report of the one that reads.
+void checkRemotePaths(std::span<Model* const> systems);
+
+}  // namespace cortex::explorer
