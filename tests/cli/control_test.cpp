@@ -116,6 +116,19 @@ TEST_F(CortexControl, ProgressOfALongCommandIsShownOnStandardErrorWhileItRuns) {
     EXPECT_EQ(live({"call", "/drive", "shutdown"}).errors, "") << "no long command";
 }
 
+TEST_F(CortexControl, ALongCommandThatIsNotWaitedForAnyLongerIsKnownToRun) {
+    ASSERT_EQ(live({"call", "/mixer", "startup", "--take"}).exit, 0);
+    ASSERT_EQ(live({"set", "/controller", longWay, "--take"}).exit, 0);
+
+    const Outcome left =
+        cortex(Words{"call", "/controller", "moveTo", "speedShare=0.01", "--take"} + network +
+               Words{"--timeout", "8"});
+
+    EXPECT_EQ(left.exit, 4) << left.output << left.errors;
+    EXPECT_TRUE(contains(left.output, "still running at ")) << left.output;
+    EXPECT_TRUE(contains(left.output, " %, not waited for any longer\n")) << left.output;
+}
+
 TEST_F(CortexControl, ALeaseEndsWithAHolderThatWasKilled) {
     ASSERT_EQ(live({"call", "/mixer", "startup", "--take"}).exit, 0);
     ASSERT_EQ(live({"set", "/controller", longWay, "--take"}).exit, 0);

@@ -62,6 +62,18 @@ TEST(LiveOverload, IsShownByEveryToolWithTheRateAndTheNominalOne) {
     EXPECT_TRUE(contains(live({"doctor"}).output, where)) << "an error";
 }
 
+TEST(LiveStandstill, IsWhyACallHasNoAnswer) {
+    HungAgent robot{std::stoi(domain)};
+    robot.hang();
+
+    const Outcome call = cortex(std::vector<std::string>{"call", "/ctl", "startup"} + network +
+                                std::vector<std::string>{"--timeout", "5"});
+
+    EXPECT_EQ(call.exit, 3) << call.output;
+    EXPECT_TRUE(contains(call.output, "the loop of robot hangs in /ctl.stateStandby for "))
+        << call.output << call.errors;
+}
+
 TEST(LiveStandstill, IsOverWhenTheHookReturns) {
     HungAgent robot{std::stoi(domain)};
     robot.hang();

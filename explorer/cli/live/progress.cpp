@@ -38,10 +38,11 @@ Progress::~Progress() {
 }
 
 // Nothing is shown of a command that ran before, or of somebody else's.
-std::string Progress::text() const {
+std::optional<long> Progress::percent() const {
+    if (!follows_) return std::nullopt;
     const comms::AgentImage image = live_.mirror().image(simplex_.agent);
     const bool same = image && &image->structure() == simplex_.structure.get();
-    if (!same || !image.came(simplex_.index)) return "";
+    if (!same || !image.came(simplex_.index)) return std::nullopt;
     const auto value = [&](const char* item) {
         return image->value(simplex_.index, *simplex_.info().layout->find(item));
     };
@@ -50,18 +51,20 @@ std::string Progress::text() const {
     const auto* activity = oneOf<std::string>(activities);
     const auto* outcome = oneOf<std::int64_t>(outcomes);
     const auto* share = oneOf<double>(shares);
-    if (activity == nullptr || outcome == nullptr || share == nullptr) return "";
+    if (activity == nullptr || outcome == nullptr || share == nullptr) return std::nullopt;
     const bool runs =
         *activity == command_ && *outcome == static_cast<std::int64_t>(Outcome::Running);
-    if (!runs || !std::isfinite(*share)) return "";
-    return command_ + ": " + std::to_string(std::lround(*share * 100)) + " %";
+    if (!runs || !std::isfinite(*share)) return std::nullopt;
+    return std::lround(*share * 100);
 }
 
 void Progress::look() {
     const auto now = std::chrono::steady_clock::now();
     if (!follows_ || now < next_) return;
-    const std::string seen = text();
-    if (seen.empty() || seen == shown_) return;
+    const std::optional<long> share = percent();
+    if (!share) return;
+    const std::string seen = command_ + ": " + std::to_string(*share) + " %";
+    if (seen == shown_) return;
     shown_ = seen;
     if (onTerminal_) {
         std::cerr << "\r\033[K" << printable(seen) << std::flush;

@@ -6,6 +6,7 @@
 #include "live/live.hpp"
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace cortex::explorer {
@@ -20,10 +21,10 @@ public:
     Progress& operator=(const Progress&) = delete;
 
     void look();
+    // The share in % if the command is seen to run now; empty while nothing is known of it.
+    std::optional<long> percent() const;
 
 private:
-    std::string text() const;  // "" while nothing is known of this command
-
     Live& live_;
     FoundSimplex simplex_;
     std::string command_, shown_;

@@ -21,7 +21,7 @@ bool coloured(Stream stream);  // on a terminal only, and not where NO_COLOR say
 using Json = nlohmann::ordered_json;  // keys in the order in which they are added
 
 // What the program ends with: docs/command-line.md.
-enum Exit : int { Yes = 0, No = 1, Usage = 2, NotFound = 3 };
+enum Exit : int { Yes = 0, No = 1, Usage = 2, NotFound = 3, StillRunning = 4 };
 
 // A verb that cannot do what it was asked; main() prints it as text or as schemas/error.json.
 class Failure : public std::runtime_error {

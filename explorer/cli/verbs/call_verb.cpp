@@ -11,12 +11,14 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <optional>
 
 namespace cortex::explorer {
 namespace {
 
 Exit exitOf(Outcome outcome) {
     if (outcome == Outcome::Done) return Yes;
+    if (outcome == Outcome::Running) return StillRunning;
     return outcome == Outcome::Unknown ? NotFound : No;
 }
 
@@ -79,6 +81,20 @@ Json answerJson(const comms::CommandAnswer& answer, const RecordLayout& layout) 
             {"latency_us", microseconds(answer)}};
 }
 
+// Why nothing has come, as far as the presence of the agent and its activity tell.
+void explainSilence(comms::CommandAnswer& answer, const Live& live, const std::string& agent,
+                    std::optional<long> percent) {
+    const std::string standstill = live.standstillOf(agent);
+    if (!standstill.empty()) {
+        answer.why =
+            "the loop of " + agent + " " + standstill + ", so nothing is answered; " + answer.why;
+    } else if (percent) {
+        answer.outcome = Outcome::Running;
+        answer.why =
+            "still running at " + std::to_string(*percent) + " %, not waited for any longer";
+    }
+}
+
 void printAnswer(const comms::CommandAnswer& answer, const RecordLayout& layout) {
     std::cout << printable(answer.text()) << '\n';
     Columns columns{2};
@@ -115,12 +131,13 @@ Exit callCommand(const CallOptions& options) {
     progress.emplace(live, simplex, entry);
     comms::CommandAnswer answer =
         live.call(options.path, options.command, arguments, [&] { progress->look(); });
-    progress.reset();
-    const auto took = std::chrono::steady_clock::now() - sent;
     if (answer.outcome == Outcome::Unknown) {
         answer.why += " (finding the agent left " + std::to_string(left.count()) + " of the " +
                       std::to_string(live.timeout().count()) + " ms of --timeout)";
+        explainSilence(answer, live, simplex.agent, progress->percent());
     }
+    progress.reset();
+    const auto took = std::chrono::steady_clock::now() - sent;
     if (options.json) {
         Json shown = answerJson(answer, entry.response);
         shown["round_trip_us"] = std::chrono::duration<double, std::micro>(took).count();

@@ -98,13 +98,14 @@ void addPerson(CLI::App& verb, std::string& person) {
 
 void addCall(LiveVerbs& verbs) {
     const auto call = std::make_shared<CallOptions>();
-    CLI::App* verb = verbs.add("call", "Send a command and wait for its answer",
-                               R"(Exit code 0: done, 1: rejected or failed, 3: no answer.
+    CLI::App* verb =
+        verbs.add("call", "Send a command and wait for its answer",
+                  R"(Exit code 0: done, 1: rejected or failed, 3: no answer, 4: still running.
 Examples:
   cortex call /arm startup
   cortex call /robot startup prefix=/arm --timeout 60
   cortex call /arm startup --take          where others may command too: docs/leases.md)",
-                               call, callCommand);
+                  call, callCommand);
     verb->add_option("PATH", call->path, "Path of the simplex")->required()->type_name("");
     verb->add_option("COMMAND", call->command, "Name of the command")->required()->type_name("");
     verb->add_option("NAME=VALUE", call->arguments,

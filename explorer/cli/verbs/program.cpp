@@ -78,7 +78,8 @@ void printFailure(const Failure& failure, bool json) {
 Program::Program(std::shared_ptr<Session> session, const AddVerbs& addMore)
     : app_{"cortex: look at, check and make models of control systems", "cortex"} {
     app_.footer(
-        R"(Exit codes: 0 yes, 1 no (findings, a difference, refused), 2 wrong usage, 3 not found, no answer.
+        R"(Exit codes: 0 yes, 1 no (findings, a difference, refused), 2 wrong usage, 3 not found, no answer,
+4 still running.
 Help on a verb: cortex VERB --help
 Files are looked for as given, then in $CORTEX_PATH, then in the installed share/cortex.)");
     app_.set_version_flag("--version", "cortex " CORTEX_VERSION, "Print the version and end");
