@@ -196,9 +196,45 @@ TEST_F(DdsAgent, WritesAViewOnlyWhileSomebodyAsks) {
     EXPECT_EQ(block.simplexes[0].index, 0U);
     EXPECT_EQ(block.simplexes[0].floats, std::vector{1.0});
 
-    wanted.views.clear();
+    Inbox<Block> others;
+    const auto other = tool.participant.reader<Block>(topics::viewEvery, others.push());
+    wanted.views = {{0, {"/"}}};
     ASSERT_TRUE(tool.interests->write(tool.interest(wanted)));
-    EXPECT_TRUE(comesTrue([&] { return alive() && reader->writers() == 0; }));
+    ASSERT_TRUE(comesTrue([&] { return alive() && !others.elements().empty(); }));
+    const std::size_t before = blocks.elements().size(), said = tool.heard.elements().size();
+    EXPECT_TRUE(comesTrue([&] { return alive() && tool.heard.elements().size() >= said + 10; }));
+    EXPECT_EQ(blocks.elements().size(), before);
+}
+
+// A link or a tool that was cut off for a while goes on with the first sample that arrives again.
+TEST_F(DdsAgent, KeepsItsEndpointsForAnAskerThatIsLost) {
+    Inbox<Block> blocks;
+    const auto reader = tool.participant.reader<Block>(topics::viewEvery, blocks.push());
+    start();
+    Interest wanted;
+    wanted.views = {{0, {"/"}}};
+    const auto comesMore = [&] {
+        ASSERT_TRUE(tool.presences->write(tool.presence()));
+        ASSERT_TRUE(tool.interests->write(tool.interest(wanted)));
+        const std::size_t before = blocks.elements().size();
+        ASSERT_TRUE(comesTrue([&] {
+            agent.rig.step();
+            return blocks.elements().size() > before;
+        }));
+    };
+    comesMore();
+    ASSERT_TRUE(tool.presences->write(tool.presence("stopping")));
+    ASSERT_TRUE(comesTrue([&] {
+        const std::size_t before = blocks.elements().size(), said = tool.heard.elements().size();
+        EXPECT_TRUE(comesTrue([&] {
+            agent.rig.step();
+            return tool.heard.elements().size() > said;
+        }));
+        return blocks.elements().size() == before;
+    }));
+
+    EXPECT_EQ(reader->writers(), 1U);
+    comesMore();
 }
 
 TEST_F(DdsAgent, ViewsOnlyWhatIsBelowThePrefixes) {

@@ -85,7 +85,7 @@ void setUpCards(const Host& first, const Host& second) {
 std::string whyNoHosts() {
     if (!mayAdminister()) return "no right to make network namespaces (CAP_SYS_ADMIN)";
     int error = 0;
-    aside([&] { error = unshare(CLONE_NEWNET) == 0 ? 0 : errno; });
+    aside([&] { error = unshare(CLONE_NEWNET | CLONE_NEWUTS) == 0 ? 0 : errno; });
     if (error == ENOSYS || error == EINVAL) return "the kernel has no network namespaces";
     if (error != 0) return std::string{"no network namespace: "} + std::strerror(error);
     for (const char* program : {"ip", "nft"}) {
@@ -102,38 +102,45 @@ std::string whyNoRelay() {
     return "";
 }
 
-Host::Host() {
-    aside([this] {
-        if (unshare(CLONE_NEWNET) != 0) fail("a network namespace");
-        handle_ = open("/proc/thread-self/ns/net", O_RDONLY | O_CLOEXEC);
-        if (handle_ < 0) fail("/proc/thread-self/ns/net");
+Host::Host(const std::string& name) {
+    aside([&] {
+        if (unshare(CLONE_NEWNET | CLONE_NEWUTS) != 0) fail("a network namespace");
+        if (sethostname(name.c_str(), name.size()) != 0) fail("a host name");
+        network_ = open("/proc/thread-self/ns/net", O_RDONLY | O_CLOEXEC);
+        name_ = open("/proc/thread-self/ns/uts", O_RDONLY | O_CLOEXEC);
+        if (network_ < 0 || name_ < 0) fail("/proc/thread-self/ns");
     });
     command("ip link set lo up");
 }
 
-Host::~Host() { close(handle_); }
+Host::~Host() {
+    close(network_);
+    close(name_);
+}
 
 void Host::within(const std::function<void()>& function) const {
     aside([&] {
-        if (setns(handle_, CLONE_NEWNET) != 0) fail("a network namespace");
+        if (setns(network_, CLONE_NEWNET) != 0) fail("a network namespace");
+        if (setns(name_, CLONE_NEWUTS) != 0) fail("a namespace of host names");
         function();
     });
 }
 
-void Host::command(const std::string& line) const {
+std::string Host::command(const std::string& line) const {
+    std::string output;
     within([&] {
         FILE* pipe =
             popen(("{ " + line + "; } 2>&1").c_str(), "r");  // NOLINT: a test runs a program
         if (pipe == nullptr) fail(line);
-        std::string output;
         std::array<char, 256> text{};
         while (fgets(text.data(), text.size(), pipe) != nullptr) output += text.data();
         if (pclose(pipe) != 0) throw std::runtime_error(line + ": " + output);
     });
+    return output;
 }
 
 std::string Host::path() const {
-    return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(handle_);
+    return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(network_);
 }
 
 TwoHosts::TwoHosts() {
@@ -155,10 +162,31 @@ void TwoHosts::losePercent(int percent) {
     filter("iifname eth0 numgen random mod 100 < " + std::to_string(percent) + " drop");
 }
 
+void TwoHosts::loseAll() { filter("iifname eth0 drop"); }
+
 void TwoHosts::dropMulticast() { filter("ip daddr 224.0.0.0/4 drop"); }
 
 void TwoHosts::passAll() {
     for (const Host* host : {&first, &second}) host->command("nft flush ruleset");
+}
+
+// Nobody is there where the route leads. Without a route each question would fail at once.
+void TwoHosts::silenceNames() {
+    for (const Host* host : {&first, &second}) {
+        host->command(
+            "ip route add default dev eth0 && nft add table ip names && "
+            "nft 'add chain ip names out { type filter hook output priority 0; }' && "
+            "nft 'add rule ip names out udp dport 53 counter'");
+    }
+}
+
+int TwoHosts::askedForNames() const {
+    int asked = 0;
+    for (const Host* host : {&first, &second}) {
+        asked += std::stoi(host->command(
+            "nft list table ip names | sed -n 's/.*counter packets \\([0-9]*\\).*/\\1/p'"));
+    }
+    return asked;
 }
 
 DelayedHosts::DelayedHosts() {

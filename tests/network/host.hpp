@@ -12,21 +12,21 @@ namespace cortex::test {
 std::string whyNoHosts();
 std::string whyNoRelay();  // the same of the cards that DelayedHosts needs
 
-// A host of its own as far as the network goes: a namespace that ends with this object. Threads
-// and programs that are started within stay within.
+// A host of its own as far as network and host name go: namespaces that end with this object.
+// Threads and programs that are started within stay within.
 class Host {
 public:
-    Host();
+    explicit Host(const std::string& name);
     ~Host();
     Host(const Host&) = delete;
     Host& operator=(const Host&) = delete;
 
     void within(const std::function<void()>& function) const;  // throws what the function throws
-    void command(const std::string& line) const;               // of the shell; throws if it fails
-    std::string path() const;                                  // of the namespace, for `ip`
+    std::string command(const std::string& line) const;        // of the shell; throws if it fails
+    std::string path() const;  // of the namespace of the network, for `ip`
 
 private:
-    int handle_ = -1;
+    int network_ = -1, name_ = -1;
 };
 
 // Two hosts, 10.77.0.1 and 10.77.0.2, joined by a pair of virtual network cards.
@@ -37,10 +37,14 @@ public:
     void cut() { second.command("ip link set eth0 down"); }
     void join() { second.command("ip link set eth0 up"); }
     void losePercent(int percent);  // of what comes in, on both
+    void loseAll();
     void dropMulticast();
     void passAll();
+    // Questions about names get no answer, as in a plant whose name service cannot be reached.
+    void silenceNames();
+    int askedForNames() const;  // since then, by both
 
-    Host first, second;
+    Host first{"first"}, second{"second"};
 
 private:
     void filter(const std::string& rule);
@@ -55,7 +59,7 @@ public:
     std::uint64_t frames() const { return frames_; }
     std::uint64_t overtaken() const { return overtaken_; }
 
-    Host first, second;
+    Host first{"first"}, second{"second"};
 
 private:
     void relay();

@@ -18,7 +18,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double maxAge = 50;  // ms
+constexpr double maxAge = 50;           // ms
+constexpr double longestStart = 1'500;  // ms; on a free machine without sanitizer a third of that
+enum class Network : std::uint8_t { Usual, WithoutMulticast, WithoutNames };
 
 double milliseconds(Clock::duration duration) {
     return std::chrono::duration<double, std::milli>(duration).count();
@@ -40,10 +42,13 @@ std::string figures(std::vector<double> values) {
 // The hand and the station on the first host, the robot on the second.
 template <class Hosts>
 struct Plant {
-    explicit Plant(bool peers = false) {
+    explicit Plant(Network kind = Network::Usual) {
+        const bool peers = kind == Network::WithoutMulticast;
         if constexpr (std::is_same_v<Hosts, TwoHosts>) {
             if (peers) hosts.dropMulticast();
+            if (kind == Network::WithoutNames) hosts.silenceNames();
         }
+        began = Clock::now();
         hosts.first.within([&] { hand.emplace(network(peers ? "10.77.0.2" : "")); });
         hosts.second.within([&] { robot.emplace(peers ? "10.77.0.1" : ""); });
         hosts.first.within([&] { station.emplace(network(peers ? "10.77.0.2" : "")); });
@@ -178,6 +183,7 @@ struct Plant {
     }
 
     Hosts hosts;
+    Clock::time_point began;  // when the first agent was started
     std::optional<HandAgent> hand;
     std::optional<RobotProcess> robot;
     std::optional<Station> station;
@@ -237,11 +243,43 @@ TEST(TwoHosts, WorkWithDelayAndReordering) {
 
 TEST(TwoHosts, FindEachOtherWithoutMulticast) {
     if (const std::string why = whyNoHosts(); !why.empty()) GTEST_SKIP() << why;
-    Plant<TwoHosts> plant{true};
+    Plant<TwoHosts> plant{Network::WithoutMulticast};
     ASSERT_NO_FATAL_FAILURE(plant.start("no multicast"));
     cutFor(plant, 200ms, 5);
 
     plant.check("no multicast");
+}
+
+// A resolver gives up after 5 s and more. Between hosts with names that nobody knows, none is
+// asked.
+TEST(TwoHosts, MeetAtOnceWhereNoNameServiceAnswers) {
+    if (const std::string why = whyNoHosts(); !why.empty()) GTEST_SKIP() << why;
+    Plant<TwoHosts> plant{Network::WithoutNames};
+    ASSERT_NO_FATAL_FAILURE(plant.start("no names"));
+    const double time = milliseconds(Clock::now() - plant.began);
+    std::cout << "no names: whole " << static_cast<int>(time) << " ms after the first start\n";
+    EXPECT_LT(time, longestStart);
+    EXPECT_EQ(plant.hosts.askedForNames(), 0);
+
+    plant.check("no names");
+}
+
+// The cards stay up, so it is our own time that is measured: after a card came up again, Linux may
+// take a second before it sends.
+TEST(TwoHosts, AreWholeSoonAfterTheNetworkWorksAgain) {
+    if (const std::string why = whyNoHosts(); !why.empty()) GTEST_SKIP() << why;
+    Plant<TwoHosts> plant;
+    ASSERT_NO_FATAL_FAILURE(plant.start("losses"));
+    for (const std::chrono::milliseconds time : {200ms, 200ms, 200ms, 3'000ms, 3'000ms}) {
+        plant.hosts.loseAll();
+        std::this_thread::sleep_for(time);
+        plant.hosts.passAll();
+        const double recovery = plant.becomesWhole("after a loss");
+        std::cout << "nothing passed for " << time.count() << " ms: whole "
+                  << static_cast<int>(recovery) << " ms later\n";
+        EXPECT_LT(recovery, longestStart);
+    }
+    plant.check("losses");
 }
 
 }  // namespace

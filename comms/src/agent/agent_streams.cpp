@@ -31,13 +31,13 @@ AgentStreams::AgentStreams(AgentSelf& self, const Id& structureHash, Participant
 
 bool AgentStreams::everyCycle() const {
     return std::ranges::any_of(
-        streams_, [](const Stream& each) { return each.writer != nullptr && each.rate == 0; });
+        streams_, [](const Stream& each) { return each.isWanted() && each.rate == 0; });
 }
 
 std::int64_t AgentStreams::due() const {
     std::int64_t earliest = std::numeric_limits<std::int64_t>::max();
     for (const Stream& each : streams_) {
-        if (each.writer != nullptr && each.rate != 0) earliest = std::min(earliest, each.due);
+        if (each.isWanted() && each.rate != 0) earliest = std::min(earliest, each.due);
     }
     return earliest;
 }
@@ -92,11 +92,7 @@ void AgentStreams::open(Stream& stream, const std::vector<bool>& wanted) {
     }
     if (simplexes != stream.simplexes) stream.block.cycle = 0;  // sends the newest cycle
     stream.simplexes = std::move(simplexes);
-    if (stream.simplexes.empty()) {
-        stream.writer.reset();
-        return;
-    }
-    if (stream.writer != nullptr) return;
+    if (stream.simplexes.empty() || stream.writer != nullptr) return;
     try {
         stream.writer = participant_.writer<Block>(stream.topic);
     } catch (const Error& error) {
@@ -113,7 +109,7 @@ void AgentStreams::step(std::int64_t now) {
     Image image;
     for (Stream& stream : streams_) {
         const bool due = stream.rate == 0 || now >= stream.due;
-        if (stream.writer == nullptr || !due) continue;
+        if (!stream.isWanted() || !due) continue;
         if (stream.block.cycle == cycle) {
             sayAgain(stream, now);
             continue;

@@ -15,8 +15,9 @@ namespace cortex::comms {
 
 // Sends the values of this agent's simplexes that others ask for: one stream for links, and one for
 // each rate of views. A link is the input of another agent, a view is what a tool wants to see;
-// both ask with the message Interest. A stream has a writer only while somebody asks for it.
-// Communication thread only. Times are ns of monotonicNow().
+// both ask with the message Interest. A stream has a writer from when somebody first asks for it;
+// an asker that comes back after a cut then has no endpoint to discover. Communication thread only.
+// Times are ns of monotonicNow().
 class AgentStreams {
 public:
     AgentStreams(AgentSelf& self, const Id& structureHash, Participant& participant);
@@ -28,6 +29,8 @@ public:
 
 private:
     struct Stream {
+        bool isWanted() const { return writer != nullptr && !simplexes.empty(); }
+
         Topic topic;
         std::uint32_t rate;  // Hz; 0: every cycle
         std::vector<std::uint32_t> simplexes = {};
@@ -41,7 +44,7 @@ private:
     void addLinks(const Interest& interest, std::vector<bool>& wanted);
     void addView(const View& view);
     void addBelow(const std::string& prefix, std::vector<bool>& wanted);
-    // Makes, changes or closes the writer, so that the stream has what is wanted.
+    // Makes the writer if there is none, and gives the stream what is wanted.
     void open(Stream& stream, const std::vector<bool>& wanted);
     // Sends the last block again.
     void sayAgain(Stream& stream, std::int64_t now);

@@ -14,8 +14,6 @@
 #include <random>
 #include <string_view>
 
-#include <unistd.h>
-
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/log/Log.hpp>
 #include <fastdds/rtps/attributes/ServerAttributes.h>
@@ -91,18 +89,16 @@ void addPeers(dds::WireProtocolConfigQos& protocol, const NetworkOptions& option
     }
 }
 
-// A prefix that no other participant of any process has: vendor, host and random numbers.
+// A prefix that no other participant has: vendor and random numbers. An id of the host would be
+// looked up by its name, which takes seconds where no name service answers.
 GuidPrefix_t newPrefix() {
     static std::random_device chance;
     static std::mutex mutex;
     const std::lock_guard lock{mutex};
     GuidPrefix_t prefix;
-    const auto host = static_cast<std::uint32_t>(gethostid());
     prefix.value[0] = 0x01;
     prefix.value[1] = 0x0f;
-    prefix.value[2] = static_cast<std::uint8_t>(host);
-    prefix.value[3] = static_cast<std::uint8_t>(host >> 8);
-    for (std::size_t i = 4; i < GuidPrefix_t::size; ++i) {
+    for (std::size_t i = 2; i < GuidPrefix_t::size; ++i) {
         prefix.value[i] = static_cast<std::uint8_t>(chance());
     }
     return prefix;
