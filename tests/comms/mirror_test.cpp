@@ -324,6 +324,8 @@ TEST(Mirror, HasANameOfItsOwnForEveryInstance) {
 
     EXPECT_NE(first.name(), second.name());
     EXPECT_EQ(first.name().find("test@"), 0U) << first.name();
+    const std::string process = "." + std::to_string(getpid()) + "-";
+    EXPECT_NE(first.name().find(process), std::string::npos) << "a random part follows";
     EXPECT_LT(first.name().size(), 64U);
     EXPECT_LT((Mirror{std::string(200, 'x'), loopback()}.name().size()), 64U);
 }

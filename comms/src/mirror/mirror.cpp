@@ -8,7 +8,8 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
+#include <cstdio>
+#include <random>
 #include <utility>
 
 #include <unistd.h>
@@ -16,15 +17,14 @@
 namespace cortex::comms {
 namespace {
 
-// Several instances of a tool may run at once, and several mirrors in one process. With security
-// the name is that in the certificate.
+// Host and process tell people which tool it is. Both are the same in containers made alike, so a
+// random part tells one start from another. With security the name is that in the certificate.
 std::string ownName(const std::string& tool, const NetworkOptions& options) {
-    static std::atomic<int> made{0};
     std::array<char, 64> host{};
     ::gethostname(host.data(), host.size() - 1);
-    const int before = made.fetch_add(1);
-    std::string end = "." + std::to_string(::getpid());
-    if (before > 0) end += "." + std::to_string(before);
+    std::array<char, 7> chance{};
+    std::snprintf(chance.data(), chance.size(), "%06x", std::random_device{}() & 0xff'ff'ffU);
+    const std::string end = "." + std::to_string(::getpid()) + "-" + chance.data();
     const std::string owner =
         options.security.empty() ? tool : checkSecurity(options.security).agent;
     const std::string start = owner + "@" + host.data();

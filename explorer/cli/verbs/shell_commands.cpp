@@ -105,7 +105,7 @@ Example:
         verbs, "handover", "Give control to another agent or tool",
         R"(A shell says its name when it begins. It keeps what is handed over to it; another tool must renew it.
 Example:
-  handover /arm cortex@desk.4711)",
+  handover /arm cortex@desk.4711-5e1f0a)",
         to, handOver)
         ->add_option("TO", to->to, "Name of the agent or tool")
         ->required()
