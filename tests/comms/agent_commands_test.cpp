@@ -9,6 +9,7 @@
 #include "wire/presence_extras.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -46,7 +47,7 @@ struct AgentCommandsTest : testing::Test {
         rig.start();
     }
     // Number n of one of a few senders that poke in turn.
-    void send(int number, std::int64_t until = 0) {
+    Command commandOf(int number) const {
         Command command;
         command.sender = "tool" + std::to_string(number % 4);
         command.host = "desk";
@@ -57,9 +58,13 @@ struct AgentCommandsTest : testing::Test {
         command.sequenceNumber = static_cast<std::uint64_t>(number / 4 + 1);
         command.answeredBelow = 1;
         command.notAfter = 1000;
-        if (until != 0) command.extras = {{validUntil, std::to_string(until)}};
         command.path = "/worker";
         command.command = "poke";
+        return command;
+    }
+    void send(int number, std::int64_t until = 0) {
+        Command command = commandOf(number);
+        if (until != 0) command.extras = {{validUntil, std::to_string(until)}};
         network.commands->take(command, monotonicNow());
     }
     void step() {
@@ -129,6 +134,19 @@ TEST_F(AgentCommandsTest, ComeFromAHundredSendersAtOnce) {
     step();
 
     EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Done", 100}}));
+}
+
+// Otherwise one datagram would lock the sender of that name out.
+TEST_F(AgentCommandsTest, OfAStartThatNoClockCanSayAreNotTaken) {
+    Command command = commandOf(0);
+    command.senderEpoch = std::numeric_limits<std::int64_t>::max();
+    network.commands->take(command, monotonicNow());
+    send(0);
+    step();
+
+    EXPECT_EQ(network.self->rejections.last(), "a command of a sender that cannot be");
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Done", 1}}));
+    EXPECT_EQ(pokes, 1);
 }
 
 TEST_F(AgentCommandsTest, CommandWhoseTimeIsOverByTheClockOfItsTargetIsExpired) {

@@ -206,6 +206,17 @@ TEST_F(DdsAgent, WritesAViewOnlyWhileSomebodyAsks) {
     EXPECT_EQ(blocks.elements().size(), before);
 }
 
+TEST_F(DdsAgent, SaysHowManyMessagesItRefusedAndWhy) {
+    start();
+    EXPECT_EQ(textIn(*heard(), refusedMessages), "");
+    Command lying = tool.command(agent.structure(), "/plate", "set");
+    lying.link.front() ^= 1;
+    ASSERT_TRUE(tool.commands->write(lying));
+
+    EXPECT_TRUE(comesTrue(
+        [&] { return textIn(*heard(), refusedMessages) == "1: a command with a wrong id"; }));
+}
+
 // A link or a tool that was cut off for a while goes on with the first sample that arrives again.
 TEST_F(DdsAgent, KeepsItsEndpointsForAnAskerThatIsLost) {
     Inbox<Block> blocks;

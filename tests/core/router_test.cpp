@@ -133,6 +133,33 @@ TEST_F(Router, WhatIsAcknowledgedIsForgottenAndALateRepeatOfItIgnored) {
     EXPECT_EQ(rig.outside.answers.size(), 2U);
 }
 
+TEST_F(Router, CommandThatAnotherOneSaysIsAnsweredAlreadyIsRefusedInWords) {
+    start();
+    answerTo({.path = "/worker", .command = "poke", .sequence = 1});
+    answerTo({.path = "/worker", .command = "poke", .sequence = 100, .answeredBelow = 100});
+    const auto answer = answerTo({.path = "/worker", .command = "poke", .sequence = 2});
+
+    EXPECT_EQ(answer.sequence, 2U);
+    EXPECT_EQ(answer.outcome, Outcome::Rejected);
+    EXPECT_EQ(answer.reason, Reason::Window);
+    EXPECT_EQ(calls, 2);
+    EXPECT_EQ(rig.agent->thread(0).rejected, 1U);
+    EXPECT_TRUE(rig.hasEvent("another command of its sender said that this one was answered"));
+}
+
+TEST_F(Router, CommandOfAnEarlierStartIsTakenWhenTheLaterOneIsOver) {
+    start();
+    const auto poke = [&](std::int64_t epoch, std::int64_t notAfter) {
+        return answerTo(
+            {.path = "/worker", .command = "poke", .epoch = epoch, .notAfter = notAfter});
+    };
+    EXPECT_EQ(poke(2'000, 5).outcome, Outcome::Done);
+    EXPECT_EQ(poke(1'000, 100).reason, Reason::Restarted) << "the later one may still repeat";
+    rig.step(10);
+    EXPECT_EQ(poke(1'000, 100).outcome, Outcome::Done);
+    EXPECT_EQ(poke(2'000, 100).outcome, Outcome::Done) << "a later start always counts";
+}
+
 TEST_F(Router, RefusalIsRepeatedLikeAnyOutcome) {
     start();
     worker.state = State::Fault;

@@ -35,7 +35,7 @@ std::optional<Sender> senderOf(const Command& command) {
     Sender sender;
     sender.epoch = command.senderEpoch;
     const bool fits = put(command.sender, sender.name) && put(command.host, sender.host);
-    if (!fits || command.sender.empty() || command.senderEpoch <= 0) return {};
+    if (!fits || command.sender.empty()) return {};
     return sender;
 }
 
@@ -73,7 +73,7 @@ AgentCommands::AgentCommands(AgentSelf& self, std::function<void(const Answer&)>
 bool AgentCommands::believable(const Command& command) {
     const char* wrong = nullptr;
     if (command.link != linkId(command.sender, command.target)) wrong = "with a wrong id";
-    if (!senderOf(command)) wrong = "of a sender that cannot be";
+    if (!senderOf(command) || !isStart(command.senderEpoch)) wrong = "of a sender that cannot be";
     if (command.sequenceNumber == 0 || command.answeredBelow > command.sequenceNumber) {
         wrong = "with a number that cannot be";
     }

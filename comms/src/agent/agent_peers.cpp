@@ -5,24 +5,17 @@
 #include "wire/presence_interval.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <tuple>
 #include <utility>
 
 namespace cortex::comms {
 namespace {
 
-constexpr std::int64_t longestLead = 86'400'000'000;      // us that another clock may be ahead
 constexpr std::int64_t longestAbsence = 600'000'000'000;  // ns until a lost agent is given up
 constexpr std::int64_t longestLook = 500'000'000;         // ns between two looks of a live thread
 constexpr std::size_t mostPeers = 1'024;
 constexpr std::size_t longestAgentName = 127;
 constexpr std::size_t mostPaths = 100'000;  // in one interest
-
-std::int64_t utcMicroseconds() {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-}
 
 std::size_t pathsIn(const Interest& interest) {
     std::size_t count = interest.links.size();
@@ -40,7 +33,7 @@ bool AgentPeers::plausible(const std::string& name, std::int64_t epoch) {
         self_.rejections.add("a name or epoch that cannot be");
         return false;
     }
-    if (epoch <= utcMicroseconds() + longestLead) return true;
+    if (isStart(epoch)) return true;
     self_.rejections.add(name + " started in the future");
     if (std::exchange(early_, name) != name) {
         self_.event(Severity::Warning, self_.simplex,

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <utility>
 
@@ -16,6 +17,7 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::size_t mostReasons = 32;
+constexpr std::int64_t longestLead = 86'400'000'000;  // us that another clock may be ahead
 
 std::string hostName() {
     std::array<char, 64> host{};
@@ -24,6 +26,12 @@ std::string hostName() {
 }
 
 }  // namespace
+
+bool isStart(std::int64_t epoch) {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const auto utc = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+    return epoch > 0 && epoch <= utc + longestLead;
+}
 
 void Rejections::add(std::string_view reason) {
     count_.fetch_add(1, std::memory_order_relaxed);

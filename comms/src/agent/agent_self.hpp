@@ -37,6 +37,10 @@ private:
     std::map<std::string, Reason, std::less<>> reasons_;  // bounded: others invent names
 };
 
+// Whether a start (UTC microseconds) can have been: after 1970, and at most a day ahead of our
+// clock.
+bool isStart(std::int64_t epoch);
+
 // The identity of this agent on the network. announce() makes it, and the communication thread uses
 // it.
 struct AgentSelf {

@@ -34,6 +34,7 @@ constexpr std::int64_t muchTooEarly = 100'000;      // ns
 constexpr std::int64_t shortestExpected = 500'000;  // ns; of less, too much would be waited awake
 constexpr std::int64_t lead = 20'000;               // ns, before and after an expected write
 constexpr std::int64_t silentInterval = 1'000'000'000;  // ns
+constexpr std::size_t longestReason = 200;              // of a refusal, in a presence
 constexpr int timesStopping = 3;
 constexpr std::chrono::milliseconds pauseStopping{10};
 
@@ -270,7 +271,19 @@ Presence AgentThread::presence(const char* state) const {
     presence.extras.insert(presence.extras.begin(),
                            {uptimeOfAgent, std::to_string(monotonicNow() - began_)});
     if (self_.access.realTime) addTimes(presence);
+    addRefusals(presence);
     return presence;
+}
+
+// The rest of what was rejected() are datagrams.
+void AgentThread::addRefusals(Presence& presence) const {
+    const std::string datagrams = participant_.dropped();
+    const std::uint64_t messages = self_.rejections.count() + participant_.malformed();
+    if (!datagrams.empty()) presence.extras.push_back({droppedDatagrams, datagrams});
+    if (messages == 0) return;
+    const std::string last = self_.rejections.last().substr(0, longestReason);
+    presence.extras.push_back(
+        {refusedMessages, std::to_string(messages) + (last.empty() ? "" : ": " + last)});
 }
 
 // A loop that is stepped by hand has no time of its own.

@@ -61,6 +61,7 @@ private:
     void sendEvents();
     Presence presence(const char* state) const;
     void addTimes(Presence& presence) const;
+    void addRefusals(Presence& presence) const;
     void sendPresence(std::int64_t now);
     void beSilent(bool silent);
     void sendAnswer(const Answer& answer);

@@ -311,6 +311,7 @@ std::map<std::string, std::uint64_t> Participant::refusals() const {
     std::erase_if(counts, [](const auto& each) { return each.second == 0; });
     return counts;
 }
+std::string Participant::dropped() const { return impl_->gate->filter.summary(); }
 
 std::uint32_t Participant::pending() const { return impl_->guard ? impl_->guard->pending() : 0; }
 

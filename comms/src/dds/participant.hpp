@@ -92,6 +92,7 @@ public:
     std::uint64_t refused() const;
     // How often for each reason: refused() and malformed().
     std::map<std::string, std::uint64_t> refusals() const;
+    std::string dropped() const;    // datagrams, by reason, in words; empty: none
     std::uint32_t pending() const;  // others that are not authenticated yet
     std::uint32_t secured() const;  // others that ask for security
 

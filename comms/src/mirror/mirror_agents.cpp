@@ -84,6 +84,8 @@ AgentStatus MirrorAgent::status(Moment now) const {
         status.security = presence.security;
         status.rate = static_cast<double>(numberIn(presence, rateOfLoop)) * 1e-3;
         status.overloaded = !lost && numberIn(presence, overloaded) != 0;
+        status.dropped = textIn(presence, droppedDatagrams);
+        status.refused = textIn(presence, refusedMessages);
     }
     if (foreign()) {
         status.trouble = "it speaks none of the protocols that this program knows";

@@ -203,6 +203,17 @@ std::uint64_t DatagramFilter::dropped() const {
     return all;
 }
 
+std::string DatagramFilter::summary() const {
+    std::string text;
+    const std::lock_guard lock{mutex_};
+    for (std::size_t i = 0; i < refusals; ++i) {
+        if (dropped_[i].count == 0) continue;
+        text += (text.empty() ? "" : "; ") + std::to_string(dropped_[i].count) + ": " +
+                wordsOf(static_cast<Refusal>(i));
+    }
+    return text;
+}
+
 std::vector<std::string> DatagramFilter::takeReports(std::int64_t now) {
     std::vector<std::string> reports;
     const std::lock_guard lock{mutex_};

@@ -35,6 +35,7 @@ public:
 
     std::uint64_t dropped(Refusal reason) const;
     std::uint64_t dropped() const;  // for any reason
+    std::string summary() const;    // by reason, in words; empty: nothing was dropped
     // A sentence for each reason for which something was dropped, at most one a second.
     std::vector<std::string> takeReports(std::int64_t now);
 

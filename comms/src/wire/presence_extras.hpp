@@ -21,7 +21,9 @@ inline constexpr const char* standstill = "standstill";  // why the loop stands 
 inline constexpr const char* timeStood = "stood";        // ns since it stands still
 inline constexpr const char* rateOfLoop = "rate";        // of late, cycles in 1,000 s
 inline constexpr const char* overloaded = "overloaded";  // "1"; not said of a loop that keeps up
-inline constexpr const char* validUntil = "until";       // of a command, by the clock of its target
+inline constexpr const char* droppedDatagrams = "dropped";  // by reason, in words
+inline constexpr const char* refusedMessages = "refused";   // how many, and why the last, in words
+inline constexpr const char* validUntil = "until";  // of a command, by the clock of its target
 // Of a command: who is behind it, and what its sender knows it by. The answer says both again.
 inline constexpr const char* onBehalfOf = "onBehalfOf";
 inline constexpr const char* correlation = "correlation";

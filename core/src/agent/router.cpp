@@ -11,6 +11,8 @@ namespace cortex {
 namespace {
 
 constexpr std::uint32_t knownSenders = 128;
+constexpr const char* forgotten =
+    "its time was over when it came, and whether it had run before is forgotten";
 constexpr std::int64_t longestBudget = 3'600'000'000'000;  // ns: no record is kept for longer
 
 std::uint32_t largest(const AgentRuntime& runtime, std::uint32_t CommandTable::* size) {
@@ -85,7 +87,7 @@ void Router::command(const OutsideCommand& command) {
     if (found == SenderTable::Found::Restarted) senderLost(before);
     SenderRecord& record = senders_[index];
     record.acknowledge(command.answeredBelow);
-    if (command.sequence < record.answeredBelow) return;  // a late repeat: its answer is known
+    if (command.sequence < record.answeredBelow) return refuseAcknowledged(command, record);
     if (command.sequence - record.answeredBelow >= senderWindow) {
         verdict.why.emplace("too many of its sender are unanswered");
         return refuse(command, verdict);
@@ -113,13 +115,21 @@ void Router::command(const OutsideCommand& command) {
     refuse(command, verdict);
 }
 
+// A late repeat needs no answer: its sender has it. But a number that never came was acknowledged
+// by mistake, or by somebody who used the name of its sender.
+void Router::refuseAcknowledged(const OutsideCommand& command, SenderRecord& sender) {
+    if (sender.came(command.sequence)) return;
+    if (sender.unsure) return refuse(command, {Outcome::Unknown, Reason::None, forgotten});
+    refuse(command, {Outcome::Rejected, Reason::Window,
+                     "another command of its sender said that this one was answered"});
+}
+
 // Leaves Done where the command may go on its way.
 void Router::judge(const OutsideCommand& command, const SenderRecord& sender,
                    Verdict& verdict) const {
     const bool over = isOver(command.notAfter, command.until, began_);
     if (over && sender.unsure) {
-        verdict = {Outcome::Unknown, Reason::None,
-                   "its time was over when it came, and whether it had run before is forgotten"};
+        verdict = {Outcome::Unknown, Reason::None, forgotten};
     } else if (over) {
         verdict = {Outcome::Expired, Reason::None, "its time was over when it came"};
     } else if (command.notAfter - cycle() > longestBudget_) {

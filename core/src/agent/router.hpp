@@ -58,6 +58,7 @@ private:
     using Stage = KeptOutcome::Stage;
 
     // router.cpp: on their way in and out.
+    void refuseAcknowledged(const OutsideCommand& command, SenderRecord& sender);
     void judge(const OutsideCommand& command, const SenderRecord& sender, Verdict& verdict) const;
     void admit(const OutsideCommand& command, std::uint32_t record);
     void repeat(const KeptOutcome& kept, const Sender& sender);

@@ -32,13 +32,14 @@ SenderTable::Found SenderTable::find(std::uint32_t interface, const Sender& send
         SenderRecord& each = records_[record];
         if (each.used && each.interface == interface && each.sender.name == sender.name) {
             if (each.sender.epoch == sender.epoch) return Found::Known;
-            if (each.sender.epoch > sender.epoch) return Found::Older;
+            const bool isOlder = each.sender.epoch > sender.epoch;
+            if (isOlder && !each.isOver(cycle)) return Found::Older;
             before = each.sender;
             adopt(each, interface, sender);
+            each.unsure = each.unsure || isOlder;
             return Found::Restarted;
         }
-        // One whose commands are all over and past repeating may be forgotten.
-        if (!each.used || (each.onTheirWay == 0 && each.lastNotAfter < cycle)) {
+        if (!each.used || each.isOver(cycle)) {
             if (free == nullptr || (free->used && !each.used)) free = &each;
         }
     }
@@ -57,7 +58,10 @@ void SenderTable::adopt(SenderRecord& record, std::uint32_t interface, const Sen
     record.lastNotAfter = 0;
     record.onTheirWay = 0;
     record.used = true;
-    for (KeptOutcome& outcome : record.window) outcome.stage = KeptOutcome::Stage::Empty;
+    for (KeptOutcome& outcome : record.window) {
+        outcome.stage = KeptOutcome::Stage::Empty;
+        outcome.sequence = 0;
+    }
 }
 
 }  // namespace cortex

@@ -34,6 +34,10 @@ struct SenderRecord {
     bool unsure = false;              // it may be a forgotten sender that comes back
     std::vector<KeptOutcome> window;  // by sequence modulo its size
 
+    // Its commands are all over and past repeating: it may be forgotten.
+    bool isOver(std::int64_t cycle) const { return onTheirWay == 0 && lastNotAfter < cycle; }
+    // A sequence number stays in its place when it is acknowledged.
+    bool came(std::uint64_t sequence) { return kept(sequence).sequence >= sequence; }
     KeptOutcome& kept(std::uint64_t sequence) { return window[sequence % window.size()]; }
     void acknowledge(std::uint64_t below) CORTEX_REALTIME;
 };
@@ -44,7 +48,9 @@ public:
     SenderTable(std::uint32_t senders, std::uint32_t maxResponse);
 
     enum class Found : std::uint8_t { Known, New, Restarted, Older, NoRoom };
-    // `Restarted`: the record, with `before` its former owner, is now that of a newer start.
+    // `Restarted`: the record, with `before` its former owner, is now that of another start. It is
+    // that of an earlier one only if everything of the later one is over: a wrong clock, or
+    // somebody who used its name, does not lock a sender out.
     Found find(std::uint32_t interface, const Sender& sender, std::int64_t cycle,
                std::uint32_t& record, Sender& before) CORTEX_REALTIME;
     SenderRecord& operator[](std::uint32_t record) { return records_[record]; }

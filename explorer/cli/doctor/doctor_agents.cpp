@@ -3,6 +3,7 @@
 #include "live/loop_text.hpp"
 #include "live/top_data.hpp"
 #include "text/interrupts.hpp"
+#include "text/plain_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -50,6 +51,15 @@ void examineState(const comms::AgentStatus& agent, Diagnoses& found) {
     } else {
         add(Level::Ok, who + ", security " + (agent.security.empty() ? "none" : agent.security),
             "");
+    }
+    if (!agent.dropped.empty()) {
+        add(Level::Warning, who + " dropped datagrams: " + printable(agent.dropped),
+            "its events say where they came from (cortex events)");
+    }
+    if (!agent.refused.empty()) {
+        add(Level::Warning,
+            who + " refused messages: " + printable(agent.refused) + " (the last reason)",
+            "look for programs of another version, and for strangers on the network");
     }
     if (agent.loss > 0) {
         add(Level::Warning, plural(agent.loss, "message") + " of " + agent.name + " did not come",
