@@ -3,6 +3,7 @@
 #include "comms/network_agent.hpp"
 #include "comms/raw_dds.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -126,6 +127,38 @@ TEST_F(HostilePeer, ABlockWithAHugeNumberHoldsUpTheFollowingOnlyForAMoment) {
         away.rig.step();
         near.rig.step();
         return near.rig.get<double>("/far", "a") == 7;
+    }));
+}
+
+// The presences of "away" say that its loop goes on, and no values come.
+TEST_F(HostilePeer, ALinkThatStarvesWhileItsAgentRunsIsMadeAnewOnce) {
+    ASSERT_TRUE(linked());
+    ASSERT_TRUE(comesTrue([&] { return presenceOf("away").has_value(); }));
+    const std::string told = "although it runs; the link is made anew";
+    Presence said = *presenceOf("away");
+    EXPECT_TRUE(comesTrue([&] {
+        said.cycle += 1'000;
+        liar.presences->write(said);
+        near.rig.step();
+        return near.rig.hasEvent(told);
+    }));
+    const std::size_t before = liar.heard.elements().size();
+    EXPECT_TRUE(comesTrue([&] {
+        said.cycle += 1'000;
+        liar.presences->write(said);
+        near.rig.step();
+        return liar.heard.elements().size() > before + 30;
+    }));
+    const auto events = near.rig.events();
+    EXPECT_EQ(std::ranges::count_if(
+                  events, [&](const auto& each) { return each.find(told) != std::string::npos; }),
+              1);
+
+    away.rig.tree.at("/far").data<double>("a") = 8;
+    EXPECT_TRUE(comesTrue([&] {
+        away.rig.step();
+        near.rig.step();
+        return near.rig.get<double>("/far", "a") == 8;
     }));
 }
 

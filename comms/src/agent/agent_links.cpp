@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::int64_t longestTime = std::int64_t{1} << 60U;  // ns: sums do not overflow
 constexpr std::int64_t longestDetour = 100'000'000;           // ns that the network may add
+constexpr std::int64_t longestStarving = 2 * nsPerSecond;     // or two of its patiences
 constexpr std::size_t mostDelays = 1'000;
 
 bool isTime(std::int64_t time) { return time >= 0 && time < longestTime; }
@@ -203,7 +204,11 @@ void AgentLinks::findOwners() {
         if (old != before.end() && old->second.epoch == claim.epoch) {
             owner.newest = old->second.newest;
             owner.newestCame = old->second.newestCame;
+            owner.newestCycle = old->second.newestCycle;
+            owner.since = old->second.since;
+            owner.starved = old->second.starved;
         }
+        if (owner.since == 0) owner.since = monotonicNow();
     }
 }
 
@@ -246,6 +251,29 @@ bool AgentLinks::askAgain(std::int64_t now) {
     });
 }
 
+// A loop that stands still, or is stepped by hand, has nothing to send.
+std::vector<std::string> AgentLinks::takeStarving(const Peers& peers, std::int64_t now) {
+    std::vector<std::string> starving;
+    const std::lock_guard lock{mutex_};
+    for (const auto& [name, peer] : peers) {
+        const auto found = owners_.find(agentId(name));
+        if (found == owners_.end() || !peer.heard || !peer.current) continue;
+        Owner& owner = found->second;
+        const bool goesOn = peer.model().presence()->cycle > owner.newestCycle;
+        const std::int64_t silence = now - std::max(owner.newestCame, owner.since);
+        if (owner.starved || !goesOn || silence < std::max(longestStarving, 2 * owner.patience)) {
+            continue;
+        }
+        owner.starved = true;
+        starving.push_back(name);
+        self_.event(Severity::Warning, self_.simplex,
+                    "nothing linked has come from agent " + name + " for " +
+                        std::to_string(silence / nsPerSecond) +
+                        " s, although it runs; the link is made anew");
+    }
+    return starving;
+}
+
 bool AgentLinks::believable(const Block& block, const Owner& owner) {
     const char* wrong = nullptr;
     if (block.structureHash != owner.structureHash) wrong = "another structure";
@@ -270,6 +298,8 @@ void AgentLinks::take(const Block& block, std::int64_t came) {
     if (!older && owner.newest != 0) lost_ += block.sequenceNumber - owner.newest - 1;
     owner.newest = block.sequenceNumber;
     owner.newestCame = came;
+    owner.newestCycle = block.cycle;
+    owner.starved = false;
     // The time that a block spent in queues or waiting for a thread adds to its age.
     const std::int64_t delay =
         block.wallClock > 0 ? delays_[block.agent].next(block.wallClock, came) : 0;

@@ -61,6 +61,9 @@ public:
     Interest interest() const;  // what this agent wants of others
     // Whether to send the interest again, because an owner has sent nothing for a second.
     bool askAgain(std::int64_t now);
+    // The owners whose loops go on, as their presences say, while nothing of them arrives: their
+    // readers are to be made anew. Each is named once until something arrives.
+    std::vector<std::string> takeStarving(const Peers& peers, std::int64_t now);
 
     void read(Inbox& inbox) CORTEX_REALTIME;
 
@@ -105,6 +108,9 @@ private:
                                                  // this was not overtaken, and is taken
         std::uint64_t newest = 0;                // sequence number of the block
         std::int64_t newestCame = 0;             // monotonicNow()
+        std::int64_t newestCycle = 0;            // of it
+        std::int64_t since = 0;                  // it is linked, monotonicNow()
+        bool starved = false;                    // since the newest came, and it was told
         std::map<std::uint32_t, Bound*> bounds;  // by index there
     };
 

@@ -170,7 +170,7 @@ void AgentThread::step() {
     reportRefusals();
     peers_.expire(now);
     if (peers_.takeChanged()) changed();
-    if (links_.askAgain(now)) sendInterest();
+    if (links_.askAgain(now)) feed(now);
     commands_.step(now);
     calls_.step(peers_.all(), silent_);
     answers_.keep([this](const std::string& sender) { return commands_.knows(sender); }, now);
@@ -251,6 +251,15 @@ void AgentThread::listenToOwners() {
     }
     if (linksIn_.size() <= owners.size() + mostLostOwners) return;
     std::erase_if(linksIn_, [&](const auto& each) { return !owners.contains(each.first); });
+}
+
+// An owner sends nothing: it may have forgotten what we want, or our reader may wait for numbers
+// that somebody forged.
+void AgentThread::feed(std::int64_t now) {
+    const std::vector<std::string> starving = links_.takeStarving(peers_.all(), now);
+    for (const std::string& owner : starving) linksIn_.erase(owner);
+    if (!starving.empty()) listenToOwners();
+    sendInterest();
 }
 
 void AgentThread::sendInterest() {

@@ -57,6 +57,7 @@ private:
     void reportRefusals();
     void changed();
     void listenToOwners();
+    void feed(std::int64_t now);
     void sendInterest();
     void sendEvents();
     Presence presence(const char* state) const;
