@@ -336,7 +336,7 @@ TEST_F(FilterTest, TellsEachReasonOnceASecondWithItsCount) {
     EXPECT_EQ(refusal({}), Refusal::Framing);
     EXPECT_TRUE(filter.takeReports(now + 999'999'999).empty());
     EXPECT_EQ(filter.takeReports(now + 1'000'000'000).size(), 1U);
-    EXPECT_EQ(filter.summary(), "4: they are no messages of RTPS");
+    EXPECT_EQ(filter.summary(), "4 as they are no messages of RTPS");
     EXPECT_EQ(filter.dropped(), 4U);
 }
 

@@ -37,7 +37,6 @@ public:
     void lost(const std::string& sender, std::int64_t epoch);
     // Sends the answers of the loop. A sender whose presence is overdue is reported to the loop.
     void step(std::int64_t now);
-    bool knows(const std::string& sender) const { return senders_.contains(sender); }
 
     void read(Inbox& inbox) CORTEX_REALTIME;
     bool write(Outbox& outbox) CORTEX_REALTIME;  // whether answers are to be sent

@@ -173,7 +173,6 @@ void AgentThread::step() {
     if (links_.askAgain(now)) feed(now);
     commands_.step(now);
     calls_.step(peers_.all(), silent_);
-    answers_.keep([this](const std::string& sender) { return commands_.knows(sender); }, now);
     sendEvents();
     if (peers_.isSecond() != silent_) beSilent(!silent_);
     sendPresence(now);
@@ -211,8 +210,7 @@ void AgentThread::takeMessages(std::int64_t now) {
 void AgentThread::sendAnswer(const Answer& answer) {
     if (silent_) return;
     try {
-        if (answers_.send(answer, monotonicNow())) return;
-        self_.rejections.add("commands of too many new senders at a time");
+        answers_.send(answer);
     } catch (const Error& error) {
         self_.rejections.add(error.what());
     }

@@ -37,8 +37,9 @@ inline const Topic event{"cortex/1/event", Qos::Log};
 inline Topic linkOf(const std::string& agent) {
     return {"cortex/1/link/" + toHex(agentId(agent)), Qos::Cycle};
 }
-inline Topic answerTo(const std::string& sender) {  // of a command
-    return {"cortex/1/answer/" + toHex(agentId(sender)), Qos::Exchange};
+// Of the commands of some senders, one of sixteen: the first digit of the sender's id names it.
+inline Topic answerTo(const std::string& sender) {
+    return {"cortex/1/answer/" + toHex(agentId(sender)).substr(0, 1), Qos::Exchange};
 }
 }  // namespace topics
 

@@ -208,7 +208,7 @@ std::string DatagramFilter::summary() const {
     const std::lock_guard lock{mutex_};
     for (std::size_t i = 0; i < refusals; ++i) {
         if (dropped_[i].count == 0) continue;
-        text += (text.empty() ? "" : "; ") + std::to_string(dropped_[i].count) + ": " +
+        text += (text.empty() ? "" : "; ") + std::to_string(dropped_[i].count) + " as " +
                 wordsOf(static_cast<Refusal>(i));
     }
     return text;

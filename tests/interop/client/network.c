@@ -81,7 +81,8 @@ void join(Tool* tool, dds_domainid_t domain) {
     tool->blocks = endpoint(tool, &viewTopic, false);
     tool->commands = endpoint(tool, &commandTopic, true);
     char name[64];
-    snprintf(name, sizeof name, "%s%s", answerTopic.name, hex(idOf(tool->name, NULL, NULL).octets));
+    snprintf(name, sizeof name, "%s%.1s", answerTopic.name,
+             hex(idOf(tool->name, NULL, NULL).octets));
     TopicRow answers = answerTopic;
     answers.name = name;
     tool->answers = endpoint(tool, &answers, false);

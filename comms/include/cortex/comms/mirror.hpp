@@ -35,8 +35,8 @@ struct AgentStatus {
     std::string standstill;   // of its loop: "hangs in /ctl.stateActive for 8.5 s"
     double rate = 0;          // Hz, what its loop reached of late; 0: not said
     bool overloaded = false;  // its loop misses more than a tenth of its ticks
-    std::string dropped;     // datagrams, by reason: "12: a submessage is out of bounds; 3: …"
-    std::string refused;     // messages: "4: a command with a wrong id", the reason of the last
+    std::string dropped;      // datagrams, by reason: "12 as a submessage is out of bounds; 3 as …"
+    std::string refused;      // messages: "4: a command with a wrong id", the reason of the last
 };
 
 // An event of an agent, as it was published.
