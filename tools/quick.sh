@@ -12,7 +12,7 @@ changedFiles() {
 
 # The folders whose tests look at the files that are named.
 foldersOf() {
-    sed -nE 's#^tests/(cli|docs|data/schema)/.*#explorer#; s#^tests/determinism/.*#cs#
+    sed -nE 's#^tests/(cli|docs|gui|data/schema)/.*#explorer#; s#^tests/determinism/.*#cs#
         s#^tests/(support|data|plugins)/.*#core\ncs\ncomms#; s#^tests/([a-z]+)/.*#\1#
         s#^ontology/.*#core#; s#^([a-z]+)/.*#\1#; p' | sort -u |
         grep -xE 'core|cs|comms|toolkit|profiler|explorer' || true

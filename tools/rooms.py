@@ -18,6 +18,7 @@ ROOMS = {
     "comms": ["wire", "security", "peers", "rtps", "dds", "agent", "mirror"],
     "cs": ["threads", "clocks", "tasks", "loop"],
     "explorer/cli": ["text", "models", "live", "doctor", "verbs"],
+    "explorer/gui": ["style", "session", "model", "widgets", "views", "window", "program"],
 }
 # Rooms of one folder that do not know each other, although one stands before the other.
 STRANGERS = {("comms", "mirror"): ["agent"]}
@@ -28,6 +29,7 @@ LAYERS = {
     "comms": ["core"],
     "toolkit": ["core", "cs", "comms"],
     "explorer/cli": ["core", "comms"],
+    "explorer/gui": ["core", "comms"],
 }
 # The room of each header that other folders see (include/ and internal/).
 PUBLIC = {

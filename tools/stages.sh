@@ -80,7 +80,7 @@ stage_tidy() {
     cmake --preset tidy >"$logs/configure-tidy.log" 2>&1 ||
         { cat "$logs/configure-tidy.log"; return 1; }
     mapfile -t files < <(sed -n 's/^ *"file": "\(.*\)",\?$/\1/p' build/tidy/compile_commands.json |
-        grep -v _verify_interface_header_sets/)
+        grep -v -e _verify_interface_header_sets/ -e _autogen/)
     say "clang-tidy of ${#files[@]} files"
     printf '%s\n' "${files[@]}" |
         xargs -n 1 -P "$jobs" clang-tidy-19 --quiet -p build/tidy 2>"$logs/tidy.log" ||

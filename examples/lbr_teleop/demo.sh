@@ -30,7 +30,8 @@ demo() {
         look="; without a folder of this authority, one sees nobody"
     fi
     say "${names[*]} at 1 kHz for $seconds s; to look in from another terminal:
-   export CORTEX_DOMAIN=$CORTEX_DOMAIN CORTEX_INTERFACE=lo${secure:+ CORTEX_SECURITY=$folder/station}; $bin/cortex list$look"
+   export CORTEX_DOMAIN=$CORTEX_DOMAIN CORTEX_INTERFACE=lo${secure:+ CORTEX_SECURITY=$folder/station}; $bin/cortex list$look
+   in a window: $bin/cortex-explorer"
     pids=()
     trap 'ended=signal' INT TERM HUP
     for name in "${names[@]}"; do

@@ -9,4 +9,6 @@ extern "C" const char* __tsan_default_suppressions() {
 }
 
 // Certificates that it refuses are not freed there; no stack reaches further up than OpenSSL.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libcrypto.so\n"; }
+extern "C" const char* __lsan_default_suppressions() {
+    return "leak:libcrypto.so\nleak:libfontconfig.so\n";  // fonts stay loaded until the end
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/frame.hpp"
+#include "style/shapes.hpp"
+
+#include <QAbstractItemModel>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cortex::explorer {
+
+// The data of one simplex as rows: a group for its own type, for each ancestor that adds items, and
+// for each related simplex. Arrays open to one row an element.
+class ItemModel : public QAbstractItemModel {
+    Q_OBJECT
+public:
+    enum Column { Name, Value, Unit, Range, Remark, Description, ColumnCount };
+
+    // What a row shows besides texts.
+    struct Row {
+        std::string path;                // the simplex that has the item
+        const DataItem* item = nullptr;  // null: a group
+        std::size_t element = 0;         // of an array
+        QString name, value, unit, remark, note;
+        std::optional<double> number, min, max;
+        std::optional<Shape> mark;  // outside of its range, or not live
+        bool framework = false;     // only the framework writes it
+        bool whole = true;          // the item, not one of its elements
+    };
+
+    explicit ItemModel(QObject* parent = nullptr);
+    ~ItemModel() override;
+
+    void show(const std::string& path);  // and its related simplexes
+    void update(std::shared_ptr<const Frame> frame);
+
+    const Row& row(const QModelIndex& index) const;
+    // The simplexes whose values are shown.
+    std::vector<std::string> shown() const;
+    int items() const;  // of the simplex itself
+    int outside() const { return outside_; }
+
+    QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
+    QModelIndex parent(const QModelIndex& index) const override;
+    int rowCount(const QModelIndex& parent = {}) const override;
+    int columnCount(const QModelIndex& parent = {}) const override;
+    QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
+    QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+private:
+    struct Node;
+
+    void build();
+    void addGroups(Place place);
+    void addRelated(Place place);
+    void addItem(Node& group, const DataItem& item, Place place, bool framework);
+    static Quality qualityOf(const AgentFrame& agent, const Node& node);
+    void refresh(Node& node);
+    Node* nodeOf(const QModelIndex& index) const;
+
+    std::string path_;
+    std::shared_ptr<const Frame> frame_;
+    std::shared_ptr<const Structure> structure_;  // that the rows were made from
+    std::unique_ptr<Node> root_;
+    std::optional<Place> built_;
+    std::uint64_t structures_ = 0;
+    int outside_ = 0;
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/system_model.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr int framesBetweenFilters = 15;  // conditions on states are looked at twice a second
+
+// By number where a name is one, so that 10 stands behind 9; otherwise by letters.
+struct Natural {
+    bool operator()(std::string_view a, std::string_view b) const {
+        const bool numbers = isNumber(a) && isNumber(b);
+        if (numbers && a.size() != b.size()) return a.size() < b.size();
+        return a < b;
+    }
+    static bool isNumber(std::string_view text) {
+        return !text.empty() &&
+               std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+    }
+};
+
+int weight(const std::optional<Shape>& shape) {
+    if (!shape) return 0;
+    switch (*shape) {
+        case Shape::Fault:
+            return 6;
+        case Shape::Contradiction:
+            return 5;
+        case Shape::Lost:
+            return 4;
+        case Shape::Bad:
+            return 3;
+        case Shape::Stale:
+            return 2;
+        default:
+            return 1;
+    }
+}
+
+std::optional<Shape> worse(std::optional<Shape> a, std::optional<Shape> b) {
+    return weight(a) >= weight(b) ? a : b;
+}
+
+bool isAgent(const Type& type) { return type.isA("Agent"); }
+
+Marks ownMarks(const Frame& frame, std::optional<Place> place, bool twice) {
+    Marks marks;
+    if (!place) return marks;
+    const AgentFrame& agent = frame.agents[place->agent];
+    const Type& type = frame.type(*place);
+    const auto state = agent.state(place->simplex);
+    if (isAgent(type))
+        marks.shape = Shape::Agent;
+    else if (state)
+        marks.shape = shapeOf(*state);
+    else
+        marks.shape = type.active() ? Shape::Unknown : Shape::Data;
+    if (agent.lost())
+        marks.own = Shape::Lost;
+    else if (agent.came(place->simplex))
+        marks.own = shapeOf(agent.quality(place->simplex));
+    if (twice) marks.own = worse(marks.own, Shape::Contradiction);
+    marks.faults = state == State::Fault ? 1 : 0;
+    marks.lost = marks.own == Shape::Lost ? 1 : 0;
+    return marks;
+}
+
+}  // namespace
+
+struct SystemModel::Wanted {
+    std::map<std::string, Wanted, Natural> children;
+    std::optional<Place> place;
+    bool twice = false;  // two agents claim it
+
+    void add(std::string_view path, Place where, const Frame& frame) {
+        Wanted* node = this;
+        while (!path.empty()) {
+            path.remove_prefix(1);  // the slash
+            const std::string_view name = path.substr(0, path.find('/'));
+            node = &node->children[std::string{name}];
+            path.remove_prefix(name.size());
+        }
+        if (!node->place) {
+            node->place = where;
+            return;
+        }
+        node->twice = true;
+        const auto epoch = [&](Place each) { return frame.agents[each.agent].status.epoch; };
+        if (epoch(where) < epoch(*node->place)) node->place = where;
+    }
+};
+
+struct SystemModel::Node {
+    std::string name, path;
+    Node* parent = nullptr;
+    int row = 0;
+    std::vector<std::unique_ptr<Node>> children;
+    std::optional<Place> place;
+    bool twice = false;
+    Marks marks;
+
+    void number() {
+        for (std::size_t i = 0; i < children.size(); ++i) children[i]->row = static_cast<int>(i);
+    }
+    static std::unique_ptr<Node> make(Node& parent, const std::string& name, const Wanted& wanted) {
+        auto node = std::make_unique<Node>();
+        node->name = name;
+        node->path = parent.path + '/' + name;
+        node->parent = &parent;
+        node->place = wanted.place;
+        node->twice = wanted.twice;
+        for (const auto& [below, each] : wanted.children) {
+            node->children.push_back(make(*node, below, each));
+        }
+        node->number();
+        return node;
+    }
+};
+
+SystemModel::SystemModel(QObject* parent)
+    : QAbstractItemModel{parent},
+      frame_{std::make_shared<Frame>()},
+      root_{std::make_unique<Node>()} {}
+
+SystemModel::~SystemModel() = default;
+
+void SystemModel::update(std::shared_ptr<const Frame> frame) {
+    const bool changed = frame->structures != frame_->structures;
+    frame_ = std::move(frame);
+    const auto number = frame_->number % framesBetweenFilters;
+    if (changed || (!query_.empty() && number == 0)) change(*root_, wanted());
+    refresh(*root_);
+}
+
+void SystemModel::setFilter(Query query) {
+    query_ = std::move(query);
+    change(*root_, wanted());
+    refresh(*root_);
+}
+
+SystemModel::Wanted SystemModel::wanted() {
+    Wanted all;
+    simplexes_ = 0;
+    for (std::uint32_t a = 0; a < frame_->agents.size(); ++a) {
+        const auto& structure = frame_->agents[a].structure;
+        if (!structure) continue;
+        for (std::uint32_t i = 0; i < structure->simplexes.size(); ++i) {
+            const SimplexInfo& info = structure->simplexes[i];
+            if (info.remote) continue;
+            ++simplexes_;
+            if (query_.matches(*frame_, {a, i})) all.add(info.path, {a, i}, *frame_);
+        }
+    }
+    return all;
+}
+
+// Rows that go, then rows that come, then the same below what stays.
+void SystemModel::change(Node& node, const Wanted& wanted) {
+    takeRows(node, wanted);
+    addRows(node, wanted);
+    for (const auto& child : node.children) {
+        const Wanted& each = wanted.children.find(child->name)->second;
+        child->place = each.place;
+        child->twice = each.twice;
+        change(*child, each);
+    }
+}
+
+void SystemModel::takeRows(Node& node, const Wanted& wanted) {
+    const auto goes = [&](int row) {
+        return !wanted.children.contains(node.children[static_cast<std::size_t>(row)]->name);
+    };
+    for (int last = static_cast<int>(node.children.size()) - 1; last >= 0; --last) {
+        if (!goes(last)) continue;
+        int first = last;
+        while (first > 0 && goes(first - 1)) --first;
+        beginRemoveRows(indexOf(node), first, last);
+        node.children.erase(node.children.begin() + first, node.children.begin() + last + 1);
+        node.number();
+        endRemoveRows();
+        last = first;
+    }
+}
+
+void SystemModel::addRows(Node& node, const Wanted& wanted) {
+    std::size_t row = 0;
+    for (auto each = wanted.children.begin(); each != wanted.children.end();) {
+        const auto isHere = [&] {
+            return row < node.children.size() && node.children[row]->name == each->first;
+        };
+        if (isHere()) {
+            ++row;
+            ++each;
+            continue;
+        }
+        std::vector<std::unique_ptr<Node>> run;
+        for (; each != wanted.children.end() && !isHere(); ++each) {
+            run.push_back(Node::make(node, each->first, each->second));
+        }
+        const auto first = static_cast<int>(row), last = first + static_cast<int>(run.size()) - 1;
+        beginInsertRows(indexOf(node), first, last);
+        row += run.size();
+        node.children.insert(node.children.begin() + first, std::make_move_iterator(run.begin()),
+                             std::make_move_iterator(run.end()));
+        node.number();
+        endInsertRows();
+    }
+}
+
+void SystemModel::refresh(Node& node) {
+    Marks marks = ownMarks(*frame_, node.place, node.twice);
+    int first = -1, last = -1;
+    for (const auto& child : node.children) {
+        const Marks before = child->marks;
+        refresh(*child);
+        if (!(child->marks == before)) {
+            if (first < 0) first = child->row;
+            last = child->row;
+        }
+        marks.faults += child->marks.faults;
+        marks.lost += child->marks.lost;
+        marks.worst = worse(marks.worst, child->marks.worst);
+        marks.worst = worse(marks.worst, child->marks.own);
+        if (child->marks.shape == Shape::Fault) marks.worst = worse(marks.worst, Shape::Fault);
+    }
+    node.marks = marks;
+    if (first >= 0) {
+        Q_EMIT dataChanged(
+            createIndex(first, 0, node.children[static_cast<std::size_t>(first)].get()),
+            createIndex(last, 0, node.children[static_cast<std::size_t>(last)].get()));
+    }
+}
+
+SystemModel::Node* SystemModel::nodeOf(const QModelIndex& index) const {
+    return index.isValid() ? static_cast<Node*>(index.internalPointer()) : root_.get();
+}
+
+QModelIndex SystemModel::indexOf(const Node& node) const {
+    return node.parent == nullptr ? QModelIndex{}
+                                  : createIndex(node.row, 0, const_cast<Node*>(&node));
+}
+
+QModelIndex SystemModel::indexOf(const std::string& path) const {
+    const Node* node = root_.get();
+    while (node->path != path) {
+        const auto next = std::ranges::find_if(node->children, [&](const auto& child) {
+            return path == child->path || path.starts_with(child->path + '/');
+        });
+        if (next == node->children.end()) return {};
+        node = next->get();
+    }
+    return indexOf(*node);
+}
+
+const Marks& SystemModel::marks(const QModelIndex& index) const { return nodeOf(index)->marks; }
+const Marks& SystemModel::total() const { return root_->marks; }
+std::string SystemModel::path(const QModelIndex& index) const { return nodeOf(index)->path; }
+std::optional<Place> SystemModel::place(const QModelIndex& index) const {
+    return nodeOf(index)->place;
+}
+
+QModelIndex SystemModel::index(int row, int column, const QModelIndex& parent) const {
+    if (!hasIndex(row, column, parent)) return {};
+    return createIndex(row, column, nodeOf(parent)->children[static_cast<std::size_t>(row)].get());
+}
+
+QModelIndex SystemModel::parent(const QModelIndex& index) const {
+    if (!index.isValid()) return {};
+    return indexOf(*nodeOf(index)->parent);
+}
+
+int SystemModel::rowCount(const QModelIndex& parent) const {
+    return static_cast<int>(nodeOf(parent)->children.size());
+}
+
+int SystemModel::columnCount(const QModelIndex& /*parent*/) const { return 1; }
+
+// The word of the state stands in place of the type where the state is not an ordinary one.
+QString SystemModel::word(const Node& node) const {
+    if (!node.place) return {};
+    const Shape shape = node.marks.shape;
+    const bool ordinary = shape == Shape::Active || shape == Shape::Standby ||
+                          shape == Shape::Data || shape == Shape::Agent;
+    if (!ordinary) return explorer::word(shape);
+    return QString::fromStdString(frame_->type(*node.place).name);
+}
+
+QVariant SystemModel::data(const QModelIndex& index, int role) const {
+    if (!index.isValid()) return {};
+    const Node& node = *nodeOf(index);
+    switch (role) {
+        case Qt::DisplayRole:
+            return QString::fromStdString(node.name);
+        case PathRole:
+            return QString::fromStdString(node.path);
+        case WordRole:
+            return word(node);
+        case TypeRole:
+            return node.place ? QString::fromStdString(frame_->type(*node.place).name) : QString{};
+        case Qt::ToolTipRole:
+        case Qt::AccessibleTextRole: {
+            QStringList parts{QString::fromStdString(node.path)};
+            if (node.place) parts << QString::fromStdString(frame_->type(*node.place).name);
+            if (node.marks.shape <= Shape::Unknown) parts << explorer::word(node.marks.shape);
+            if (node.marks.own) parts << explorer::word(*node.marks.own);
+            if (node.marks.worst) parts << tr("below: %1").arg(explorer::word(*node.marks.worst));
+            return parts.join(QStringLiteral(", "));
+        }
+        default:
+            return {};
+    }
+}
+
+}  // namespace cortex::explorer

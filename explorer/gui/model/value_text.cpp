@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/value_text.hpp"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr QChar minus{0x2212};
+constexpr int significantDigits = 6;
+
+QString tr(const char* text) { return QCoreApplication::translate("Value", text); }
+
+// Decimals that a format such as "%.3f" asks for, or a resolution of 0.001; -1: neither.
+int decimalsOf(const DataItem& item) {
+    if (const std::size_t dot = item.format.find('.'); dot != std::string::npos) {
+        int decimals = 0;
+        const char* end = item.format.data() + item.format.size();
+        if (std::from_chars(item.format.data() + dot + 1, end, decimals).ec == std::errc{}) {
+            return std::clamp(decimals, 0, 17);
+        }
+    }
+    if (item.resolution > 0) {
+        return std::clamp(static_cast<int>(std::ceil(-std::log10(item.resolution) - 1e-9)), 0, 17);
+    }
+    return -1;
+}
+
+QString superscript(int number) {
+    static const QString digits = QStringLiteral("⁰¹²³⁴⁵⁶⁷⁸⁹");
+    QString text;
+    for (const QChar digit : QString::number(std::abs(number))) {
+        text += digits[digit.digitValue()];
+    }
+    return number < 0 ? QStringLiteral("⁻") + text : text;
+}
+
+QString withExponent(double number) {
+    const auto exponent = static_cast<int>(std::floor(std::log10(std::abs(number))));
+    const double mantissa = number / std::pow(10.0, exponent);
+    return QString::number(mantissa, 'g', significantDigits) + QStringLiteral("×10") +
+           superscript(exponent);
+}
+
+QString label(const DataItem& item, std::int64_t number) {
+    QString digits = QString::number(number).replace('-', minus);
+    if (item.labels.empty()) return digits;
+    const auto found = item.labels.find(number);
+    if (found == item.labels.end()) return tr("%1 (no label)").arg(digits);
+    return QStringLiteral("%1 (%2)").arg(QString::fromStdString(found->second), digits);
+}
+
+}  // namespace
+
+QString numberText(const DataItem& item, double number) {
+    if (std::isnan(number)) return tr("not a number");
+    if (std::isinf(number)) return number > 0 ? QStringLiteral("∞") : minus + QStringLiteral("∞");
+    const double size = std::abs(number);
+    const int decimals = decimalsOf(item);
+    QString text;
+    if (size != 0 && (size >= 1e7 || (size < 1e-4 && decimals < 0))) {
+        text = withExponent(number);
+    } else if (decimals >= 0) {
+        text = QString::number(number, 'f', decimals);
+    } else {
+        const int before = size < 1 ? 0 : static_cast<int>(std::floor(std::log10(size))) + 1;
+        const int after = std::max(0, significantDigits - std::max(before, 1));
+        text = QString::number(number, 'f', after);
+        if (text.contains('.')) {
+            while (text.endsWith('0')) text.chop(1);
+            if (text.endsWith('.')) text.chop(1);
+        }
+    }
+    if (text.startsWith('-')) {  // what rounds to zero has no sign
+        const bool zero = std::ranges::none_of(text, [](QChar c) { return c >= '1' && c <= '9'; });
+        text = zero ? text.mid(1) : minus + text.mid(1);
+    }
+    return text;
+}
+
+QString elementText(const DataItem& item, const Value& value, std::size_t element) {
+    if (element >= lengthOf(value)) return {};
+    if (const auto* ints = std::get_if<std::vector<std::int64_t>>(&value)) {
+        return label(item, (*ints)[element]);
+    }
+    if (const auto* floats = std::get_if<std::vector<double>>(&value)) {
+        return numberText(item, (*floats)[element]);
+    }
+    if (const auto* bools = std::get_if<std::vector<bool>>(&value)) {
+        return (*bools)[element] ? QStringLiteral("true") : QStringLiteral("false");
+    }
+    QString text = QString::fromStdString(std::get<std::vector<std::string>>(value)[element]);
+    for (QChar& c : text) {
+        if (!c.isPrint()) c = QChar{0xFFFD};
+    }
+    return text;
+}
+
+QString valueText(const DataItem& item, const Value& value) {
+    if (item.length == 1) return elementText(item, value, 0);
+    QStringList first;
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, lengthOf(value)); ++i) {
+        first << elementText(item, value, i);
+    }
+    if (lengthOf(value) > 3) first << QStringLiteral("…");
+    return first.join(QStringLiteral("  "));
+}
+
+QString bracketed(const QString& text) { return '[' + text + ']'; }
+
+QString unitText(const std::string& ucum) {
+    static constexpr std::array<std::array<const char*, 2>, 6> names{
+        {{"Cel", "°C"}, {"deg", "°"}, {"Ohm", "Ω"}, {"um", "µm"}, {"us", "µs"}, {"uA", "µA"}}};
+    QString text;
+    QString name;
+    const auto endName = [&] {
+        for (const auto& [written, shown] : names) {
+            if (name == QLatin1String{written}) name = QString::fromUtf8(shown);
+        }
+        text += name;
+        name.clear();
+    };
+    const QString all = QString::fromStdString(ucum);
+    for (int i = 0; i < all.size(); ++i) {
+        const QChar c = all[i];
+        const bool sign = c == '-' && i + 1 < all.size() && all[i + 1].isDigit();
+        if ((c.isDigit() || sign) && !(name.isEmpty() && text.isEmpty())) {
+            int end = i + 1;
+            while (end < all.size() && all[end].isDigit()) ++end;
+            endName();
+            text += superscript(all.mid(i, end - i).toInt());
+            i = end - 1;
+        } else if (c == '.') {
+            endName();
+            text += QStringLiteral("·");
+        } else if (c == '/') {
+            endName();
+            text += c;
+        } else {
+            name += c;
+        }
+    }
+    endName();
+    return text == QLatin1String{"1"} ? QString{} : text;
+}
+
+QString ageText(double seconds) {
+    if (seconds < 1) return tr("%1 ms").arg(std::lround(seconds * 1000));
+    if (seconds < 100) return tr("%1 s").arg(seconds, 0, 'f', 1);
+    const auto minutes = static_cast<int>(seconds / 60);
+    if (minutes < 100) return tr("%1 min").arg(minutes);
+    return tr("%1 h %2 min").arg(minutes / 60).arg(minutes % 60, 2, 10, QLatin1Char{'0'});
+}
+
+std::optional<double> numberOf(const Value& value, std::size_t element) {
+    if (element >= lengthOf(value)) return std::nullopt;
+    if (const auto* ints = std::get_if<std::vector<std::int64_t>>(&value)) {
+        return static_cast<double>((*ints)[element]);
+    }
+    if (const auto* floats = std::get_if<std::vector<double>>(&value)) return (*floats)[element];
+    return std::nullopt;
+}
+
+std::optional<double> numberOf(const std::optional<Number>& bound) {
+    if (!bound) return std::nullopt;
+    return std::visit([](auto number) { return static_cast<double>(number); }, *bound);
+}
+
+}  // namespace cortex::explorer

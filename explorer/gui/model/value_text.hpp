@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/image.hpp"
+#include "cortex/core/type_model.hpp"
+
+#include <QString>
+
+// Values as the screen shows them. Copies use cortex::toText, in plain ASCII at full precision.
+namespace cortex::explorer {
+
+// By the format of the item, otherwise its resolution, otherwise 6 significant digits; with a minus
+// sign as it is printed, and exponents only below 1e-4 and from 1e7 on.
+QString numberText(const DataItem& item, double number);
+
+// "−0.0121", "AtLimit (3)", "7 (no label)", "true", "7 values" with the first three.
+QString valueText(const DataItem& item, const Value& value);
+QString elementText(const DataItem& item, const Value& value, std::size_t element);
+// A value that is not live: in brackets, which survive copies, grey prints and screen readers.
+QString bracketed(const QString& text);
+
+QString unitText(const std::string& ucum);  // "N.m" as "N·m", "m/s2" as "m/s²"
+QString ageText(double seconds);            // "6 ms", "2.1 s", "12 min", "3 h 05 min"
+
+// The value as a number, where it is one; for bars and limits.
+std::optional<double> numberOf(const Value& value, std::size_t element = 0);
+std::optional<double> numberOf(const std::optional<Number>& bound);
+
+}  // namespace cortex::explorer

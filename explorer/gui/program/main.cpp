@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/options.hpp"
+#include "program/screenshot.hpp"
+#include "style/look.hpp"
+#include "views/system_tree.hpp"
+#include "window/main_window.hpp"
+
+#include <QApplication>
+
+using namespace cortex::explorer;
+
+int main(int argc, char** argv) {
+    int exit = 0;
+    const auto options = parseOptions(argc, argv, exit);
+    if (!options) return exit;
+    const bool picture = !options->screenshot.empty();
+    if (picture) qputenv("QT_QPA_PLATFORM", "offscreen");
+    QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
+    QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
+    QCoreApplication::setApplicationName(QStringLiteral("cortex-explorer"));
+    QApplication application{argc, argv};
+    // Pictures are alike on every machine, as far as the font is installed.
+    Look::apply(options->theme, options->scale, picture ? QStringLiteral("Open Sans") : QString{});
+
+    Session session{options->network};
+    MainWindow window{session};
+    window.resize(options->size);
+    if (!options->filter.empty()) window.tree().filter(QString::fromStdString(options->filter));
+    for (const std::string& path : options->paths) {
+        path == options->paths.front() ? window.open(path) : window.openTab(path);
+    }
+    if (options->view == "agents") window.openAgents();
+    window.show();
+    return picture ? writeScreenshot(window, options->screenshot, options->timeout)
+                   : QApplication::exec();
+}

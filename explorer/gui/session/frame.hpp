@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/comms/mirror.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// One moment of everything that is known. Frames are immutable: the session's thread makes them,
+// any thread may read them.
+namespace cortex::explorer {
+
+// What is known of one agent. Without a structure its types and simplexes have not all come.
+struct AgentFrame {
+    comms::AgentStatus status;
+    std::shared_ptr<const Structure> structure;
+    std::shared_ptr<const comms::AgentImage> image;  // null: nothing of it is viewed
+    std::vector<float> ages;                         // s, by simplex; negative: never came
+
+    bool lost() const { return status.state == "lost"; }
+    bool beats() const;  // its loop runs, as far as was heard within a second
+    bool came(std::uint32_t simplex) const { return image && *image && image->came(simplex); }
+    Quality quality(std::uint32_t simplex) const;  // lost where nothing is known
+    std::optional<State> state(std::uint32_t simplex) const;
+    std::optional<float> age(std::uint32_t simplex) const;
+};
+
+// A simplex of a frame.
+struct Place {
+    std::uint32_t agent = 0, simplex = 0;
+    bool operator==(const Place&) const = default;
+};
+
+struct Frame {
+    std::uint64_t number = 0;
+    std::uint64_t structures = 0;  // changes whenever an agent or its structure came or went
+    int domain = 0;
+    bool joined = false;
+    double seconds = 0;   // since it began to join
+    std::string problem;  // why the domain cannot be joined, with the remedy
+    std::string security;
+    std::uint32_t closed = 0;  // participants with security, which cannot be seen without
+    std::vector<AgentFrame> agents;
+
+    // Where the simplex is; of several agents that claim the path, the one that owns it.
+    std::optional<Place> find(std::string_view path) const;
+    const SimplexInfo& info(Place place) const {
+        return agents[place.agent].structure->simplexes[place.simplex];
+    }
+    const Type& type(Place place) const { return *info(place).layout->type; }
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/session.hpp"
+
+#include "cortex/core/error.hpp"
+#include "cortex/core/realtime.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+namespace cortex::explorer {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto framePeriod = 33ms;
+constexpr std::uint32_t valueRate = 30;  // Hz
+constexpr std::size_t mostEvents = 100'000;
+
+bool sameStructures(const Frame& a, const Frame& b) {
+    return std::ranges::equal(a.agents, b.agents, [](const AgentFrame& x, const AgentFrame& y) {
+        return x.structure == y.structure && x.status.name == y.status.name && x.lost() == y.lost();
+    });
+}
+
+AgentFrame agentFrame(const comms::Mirror& mirror, const comms::AgentStatus& status) {
+    AgentFrame result;
+    result.status = status;
+    result.structure = mirror.structure(status.name);
+    if (!result.structure) return result;
+    auto image = std::make_shared<comms::AgentImage>(mirror.image(status.name));
+    if (!*image || (*image)->structure().epoch != result.structure->epoch) return result;
+    result.image = std::move(image);
+    result.ages.reserve(result.structure->simplexes.size());
+    for (std::uint32_t i = 0; i < result.structure->simplexes.size(); ++i) {
+        const auto age = result.image->came(i) ? mirror.age(status.name, i) : std::nullopt;
+        result.ages.push_back(age ? static_cast<float>(*age) : -1.0F);
+    }
+    return result;
+}
+
+}  // namespace
+
+Session::Session(comms::NetworkOptions options)
+    : options_{std::move(options)}, begin_{Clock::now()} {
+    auto first = std::make_shared<Frame>();
+    first->domain = options_.domain;
+    frame_.store(std::move(first));
+    thread_ = std::thread{[this] { run(); }};
+}
+
+Session::~Session() {
+    {
+        const std::lock_guard lock{mutex_};
+        ends_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+}
+
+void Session::view(std::vector<std::string> prefixes) {
+    const std::lock_guard lock{mutex_};
+    wanted_ = std::move(prefixes);
+}
+
+std::vector<comms::AgentEvent> Session::takeEvents() {
+    const std::lock_guard lock{mutex_};
+    return std::exchange(events_, {});
+}
+
+void Session::joinAgain() {
+    {
+        const std::lock_guard lock{mutex_};
+        again_ = true;
+    }
+    changed_.notify_all();
+}
+
+void Session::run() {
+    join();
+    do {
+        bool again = false;
+        std::vector<std::string> wanted;
+        {
+            const std::lock_guard lock{mutex_};
+            again = std::exchange(again_, false);
+            wanted = wanted_;
+        }
+        if (again && !mirror_) join();
+        if (mirror_ && wanted != applied_) {
+            applied_ = wanted;
+            mirror_->view(std::move(wanted), valueRate);
+        }
+        publish();
+    } while (pause());
+    mirror_.reset();
+}
+
+void Session::join() {
+    begin_ = Clock::now();
+    problem_.clear();
+    publish();
+    try {
+        mirror_ = std::make_unique<comms::Mirror>("cortex-explorer", options_);
+        applied_.clear();
+        mirror_->onEvent([this](const comms::AgentEvent& event) {
+            const std::lock_guard lock{mutex_};
+            if (events_.size() < mostEvents) events_.push_back(event);
+        });
+    } catch (const std::exception& error) {
+        problem_ = error.what();
+    }
+}
+
+void Session::publish() {
+    const auto last = frame_.load();
+    auto frame = std::make_shared<Frame>();
+    frame->number = ++number_;
+    frame->domain = options_.domain;
+    frame->joined = mirror_ != nullptr;
+    frame->seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+    frame->problem = problem_;
+    frame->security = options_.security;
+    if (mirror_) {
+        frame->closed = mirror_->closed();
+        for (const comms::AgentStatus& status : mirror_->agents()) {
+            frame->agents.push_back(agentFrame(*mirror_, status));
+        }
+    }
+    if (!sameStructures(*last, *frame)) ++structures_;
+    frame->structures = structures_;
+    frame_.store(std::move(frame));
+}
+
+bool Session::pause() {
+    std::unique_lock lock{mutex_};
+    changed_.wait_for(lock, framePeriod, [this] { return ends_ || again_; });
+    return !ends_;
+}
+
+}  // namespace cortex::explorer

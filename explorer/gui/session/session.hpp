@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/comms/mirror.hpp"
+
+#include "session/frame.hpp"
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cortex::explorer {
+
+// One domain, looked at by a thread of its own: it alone joins, asks and leaves, so that nothing
+// the network does can hold up the screen. Called by the GUI thread; no call waits.
+class Session {
+public:
+    explicit Session(comms::NetworkOptions options);
+    ~Session();  // leaves the domain
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    const comms::NetworkOptions& options() const { return options_; }
+    // The newest moment; never null.
+    std::shared_ptr<const Frame> frame() const { return frame_.load(); }
+    // From now on the values of all simplexes at and below these paths, besides all states.
+    void view(std::vector<std::string> prefixes);
+    // The events that came since the last call, the last 1,000 of each agent first.
+    std::vector<comms::AgentEvent> takeEvents();
+    void joinAgain();  // after it could not join
+
+private:
+    void run();
+    void join();
+    void publish();
+    bool pause();  // until the next frame is due; false: the session ends
+
+    comms::NetworkOptions options_;
+    std::unique_ptr<comms::Mirror> mirror_;  // thread_ alone, once it runs
+    std::vector<std::string> applied_;       // the view that the mirror has; thread_ alone
+    std::uint64_t number_ = 0, structures_ = 0;
+    std::chrono::steady_clock::time_point begin_;
+    std::string problem_;
+
+    std::mutex mutex_;  // of what follows, held for a swap only
+    std::condition_variable changed_;
+    std::vector<std::string> wanted_;
+    std::vector<comms::AgentEvent> events_;
+    bool ends_ = false, again_ = false;
+
+    std::atomic<std::shared_ptr<const Frame>> frame_;
+    std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "views/base_view.hpp"
+
+#include "model/value_text.hpp"
+#include "views/command_list.hpp"
+#include "views/relation_table.hpp"
+#include "views/type_page.hpp"
+#include "widgets/item_table.hpp"
+#include "widgets/state_mark.hpp"
+#include "widgets/text_label.hpp"
+
+#include <QHBoxLayout>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+
+namespace cortex::explorer {
+
+namespace {
+
+enum Tab { DataTab, RelationsTab, CommandsTab, TypeTab };
+
+// "SimulatedAxis ‹ AxisDevice ‹ Device ‹ Active ‹ Simplex", the first parents.
+QString chainOf(const Type& type, const TypeModel& types) {
+    QStringList names{QString::fromStdString(type.name)};
+    for (const Type* each = &type; each != nullptr && !each->parents.empty();) {
+        names << QString::fromStdString(each->parents.front());
+        each = types.find(each->parents.front());
+    }
+    return names.join(QStringLiteral("  ‹  "));
+}
+
+}  // namespace
+
+BaseView::BaseView(QWidget* parent)
+    : QWidget{parent},
+      whole_{new QStackedWidget},
+      emptyTitle_{new TextLabel{TextSize::Empty}},
+      emptyText_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
+      mark_{new StateMark{8}},
+      state_{new TextLabel{TextSize::Title, true}},
+      quality_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
+      agent_{new TextLabel{TextSize::Text}},
+      name_{new TextLabel{TextSize::Title, true}},
+      chain_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
+      description_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
+      notice_{new TextLabel{TextSize::Text, true, &Tokens::dataText}},
+      tabs_{new QTabBar},
+      pages_{new QStackedWidget},
+      table_{new ItemTable{items_}},
+      relations_{new RelationTable},
+      commands_{new CommandList},
+      type_{new TypePage} {
+    auto* header = new QVBoxLayout;
+    header->setContentsMargins(Look::units(4), Look::units(3), Look::units(4), Look::units(2));
+    header->setSpacing(Look::units(2));
+
+    auto* first = new QHBoxLayout;
+    auto* states = new QVBoxLayout;
+    states->setSpacing(0);
+    states->addWidget(state_);
+    states->addWidget(quality_);
+    first->addWidget(mark_);
+    first->addSpacing(Look::units(1));
+    first->addLayout(states, 1);
+    agent_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    first->addStretch(1);
+    first->addWidget(agent_, 0, Qt::AlignTop);
+    header->addLayout(first);
+
+    auto* second = new QHBoxLayout;
+    second->setSpacing(Look::units(4));
+    name_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);  // the chain gives way first
+    second->addWidget(name_);
+    second->addWidget(chain_);
+    second->addStretch(1);
+    header->addLayout(second);
+    header->addWidget(description_);
+    header->addWidget(notice_);
+    notice_->hide();
+
+    for (int i = 0; i < 4; ++i) tabs_->addTab({});
+    tabs_->setExpanding(false);
+    tabs_->setDrawBase(false);
+    tabs_->setAccessibleName(tr("What to show"));
+    for (QWidget* page : {static_cast<QWidget*>(table_), static_cast<QWidget*>(relations_),
+                          static_cast<QWidget*>(commands_), static_cast<QWidget*>(type_)}) {
+        pages_->addWidget(page);
+    }
+    connect(tabs_, &QTabBar::currentChanged, pages_, &QStackedWidget::setCurrentIndex);
+    connect(relations_, &RelationTable::opened, this, &BaseView::opened);
+
+    auto* content = new QWidget;
+    auto* rows = new QVBoxLayout{content};
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(0);
+    rows->addLayout(header);
+    rows->addWidget(tabs_);
+    rows->addWidget(pages_, 1);
+
+    auto* empty = new QWidget;
+    auto* lines = new QVBoxLayout{empty};
+    lines->addStretch(1);
+    for (TextLabel* label : {emptyTitle_, emptyText_}) {
+        label->setAlignment(Qt::AlignCenter);
+        label->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+        lines->addWidget(label);
+    }
+    lines->addStretch(2);
+
+    whole_->addWidget(empty);
+    whole_->addWidget(content);
+    setAutoFillBackground(true);
+    auto* outer = new QVBoxLayout{this};
+    outer->setContentsMargins(0, 0, 0, 0);
+    outer->addWidget(whole_);
+}
+
+void BaseView::show(const std::string& path) {
+    path_ = path;
+    fresh_ = true;
+    items_.show(path);
+}
+
+void BaseView::refresh(const std::shared_ptr<const Frame>& frame) {
+    const auto place = path_.empty() ? std::nullopt : frame->find(path_);
+    items_.update(frame);
+    whole_->setCurrentIndex(place ? 1 : 0);
+    if (!place) {
+        showNothing(*frame);
+        fresh_ = true;
+        return;
+    }
+    refreshHeader(*frame, place);
+    if (fresh_ || structures_ != frame->structures) refreshTabs(*frame, place);
+    relations_->refresh(*frame, *place);
+    fresh_ = false;
+    structures_ = frame->structures;
+}
+
+// Nobody is heard, the domain cannot be joined, the path is not there, nothing is chosen.
+void BaseView::showNothing(const Frame& frame) {
+    if (!frame.problem.empty()) {
+        emptyTitle_->show(tr("Domain %1 cannot be joined.").arg(frame.domain));
+        emptyText_->show(QString::fromStdString(frame.problem));
+    } else if (!frame.joined) {
+        emptyTitle_->show(tr("Joining domain %1…").arg(frame.domain));
+        emptyText_->show(
+            frame.security.empty()
+                ? QString{}
+                : tr("Security: reading %1.").arg(QString::fromStdString(frame.security)));
+    } else if (frame.agents.empty()) {
+        emptyTitle_->show(tr("Nobody is heard in domain %1.").arg(frame.domain));
+        const QString looked = tr("Looked for %1.").arg(ageText(frame.seconds));
+        emptyText_->show(frame.closed == 0
+                             ? looked
+                             : looked + ' ' +
+                                   tr("%n participants with security were found; they are seen "
+                                      "only with a folder of their authority.",
+                                      nullptr, static_cast<int>(frame.closed)));
+    } else if (path_.empty()) {
+        emptyTitle_->show(tr("Choose a simplex in the tree."));
+        emptyText_->show({});
+    } else {
+        emptyTitle_->show(tr("%1 is not heard.").arg(QString::fromStdString(path_)));
+        emptyText_->show(tr("This pane fills itself when it comes."));
+    }
+}
+
+void BaseView::refreshHeader(const Frame& frame, std::optional<Place> place) {
+    const AgentFrame& agent = frame.agents[place->agent];
+    const Type& type = frame.type(*place);
+    const auto state = agent.state(place->simplex);
+    const QString agentName = QString::fromStdString(agent.status.name);
+    if (type.active()) {
+        const Shape shape = state && !agent.lost() ? shapeOf(*state) : Shape::Unknown;
+        mark_->show(shape);
+        state_->show(word(shape), shape == Shape::Fault ? &Tokens::faultText : &Tokens::ink);
+    } else {
+        mark_->show(type.isA("Agent") ? Shape::Agent : Shape::Data);
+        state_->show(QLatin1String{name(frame.info(*place).role)});
+    }
+    const auto age = agent.age(place->simplex);
+    agent_->show(age ? tr("agent %1, %2 old").arg(agentName, ageText(*age))
+                     : tr("agent %1, no values yet").arg(agentName));
+    const bool came = agent.came(place->simplex);
+    const Quality quality = agent.lost() ? Quality::Lost : agent.quality(place->simplex);
+    quality_->show(came ? tr("quality %1").arg(QLatin1String{name(quality)})
+                        : tr("waiting for the first values"),
+                   came && quality != Quality::Good ? &Tokens::dataText : &Tokens::ink2);
+    QString notice;
+    if (agent.lost()) {
+        notice = tr("%1 is not heard for %2. Values are the last ones, in brackets.")
+                     .arg(agentName, ageText(agent.status.age));
+    } else if (!agent.status.standstill.empty()) {
+        notice = tr("%1 %2. Values are the last ones, in brackets.")
+                     .arg(agentName, QString::fromStdString(agent.status.standstill));
+    }
+    notice_->show(notice);
+    notice_->setVisible(!notice.isEmpty());
+}
+
+void BaseView::refreshTabs(const Frame& frame, std::optional<Place> place) {
+    const Type& type = frame.type(*place);
+    const AgentFrame& agent = frame.agents[place->agent];
+    name_->show(QString::fromStdString(path_));
+    chain_->show(chainOf(type, *agent.structure->types));
+    description_->show(QString::fromStdString(type.description));
+    commands_->show(type);
+    relations_->show(frame, *place);
+    type_->show(type, *agent.structure->types);
+    const auto title = [](const QString& text, int count) {
+        return QStringLiteral("%1  %2").arg(text).arg(count);
+    };
+    tabs_->setTabText(DataTab, title(tr("Data"), static_cast<int>(type.data.size())));
+    tabs_->setTabText(RelationsTab, title(tr("Relationships"), relations_->count()));
+    tabs_->setTabText(CommandsTab, title(tr("Commands"), static_cast<int>(type.commands.size())));
+    tabs_->setTabText(TypeTab, tr("Type"));
+}
+
+}  // namespace cortex::explorer

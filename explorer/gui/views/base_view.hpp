@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "model/item_model.hpp"
+#include "session/frame.hpp"
+
+#include <QTabBar>
+#include <QWidget>
+#include <memory>
+#include <string>
+#include <vector>
+
+class QStackedWidget;
+
+namespace cortex::explorer {
+
+class ItemTable;
+class RelationTable;
+class CommandList;
+class TypePage;
+class StateMark;
+class TextLabel;
+
+// What can be said of every simplex, whatever its type: state, data, relationships, commands, type.
+class BaseView : public QWidget {
+    Q_OBJECT
+public:
+    explicit BaseView(QWidget* parent = nullptr);
+
+    void show(const std::string& path);
+    const std::string& path() const { return path_; }
+    void refresh(const std::shared_ptr<const Frame>& frame);
+    // The simplexes of which it shows values.
+    std::vector<std::string> watches() const { return items_.shown(); }
+    void openTab(int tab) { tabs_->setCurrentIndex(tab); }
+    int tabCount() const { return tabs_->count(); }
+
+Q_SIGNALS:
+    void opened(const std::string& path);  // the user followed a link
+
+private:
+    void refreshHeader(const Frame& frame, std::optional<Place> place);
+    void refreshTabs(const Frame& frame, std::optional<Place> place);
+    void showNothing(const Frame& frame);
+
+    std::string path_;
+    std::uint64_t structures_ = 0;
+    bool fresh_ = true;  // another path is shown since the last frame
+    ItemModel items_;
+    QStackedWidget* whole_;
+    TextLabel *emptyTitle_, *emptyText_;
+    StateMark* mark_;
+    TextLabel *state_, *quality_, *agent_, *name_, *chain_, *description_, *notice_;
+    QTabBar* tabs_;
+    QStackedWidget* pages_;
+    ItemTable* table_;
+    RelationTable* relations_;
+    CommandList* commands_;
+    TypePage* type_;
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "views/system_tree.hpp"
+
+#include "style/glyphs.hpp"
+#include "widgets/rows.hpp"
+#include "widgets/text_label.hpp"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLineEdit>
+#include <QStyledItemDelegate>
+#include <QVBoxLayout>
+#include <utility>
+
+namespace cortex::explorer {
+
+namespace {
+
+class TreeDelegate : public QStyledItemDelegate {
+public:
+    TreeDelegate(const SystemModel& model, QObject* parent)
+        : QStyledItemDelegate{parent}, model_{model} {}
+
+    QSize sizeHint(const QStyleOptionViewItem& /*option*/,
+                   const QModelIndex& /*index*/) const override {
+        return {Look::units(20), rowHeight()};
+    }
+
+    // Shape and name, and at the right end the type or the state with its mark.
+    void paint(QPainter* painter, const QStyleOptionViewItem& option,
+               const QModelIndex& index) const override {
+        const Tokens& c = Look::colours();
+        const Marks& marks = model_.marks(index);
+        const bool selected = option.state.testFlag(QStyle::State_Selected);
+        const Tokens& drawn = selected && Look::theme() == Theme::HighContrast ? onSelection() : c;
+        const int size = markSize(), gap = Look::units(2);
+        QRect box = option.rect.adjusted(Look::units(1), 0, -Look::units(3), 0);
+        const auto mark = [&](Shape shape, int left) {
+            explorer::paint(*painter, markBox(left, box, size), shape, drawn);
+        };
+        mark(marks.shape, box.left());
+        box.setLeft(box.left() + size + gap);
+
+        const auto shown = marks.own ? marks.own : marks.worst;
+        if (shown) {
+            mark(*shown, box.right() - size);
+            box.setRight(box.right() - size - gap);
+        }
+        const QString name = index.data().toString();
+        const int nameWidth = textWidth(name);
+        paintText(*painter, box, name, rowInk(option, c.ink));
+        box.setLeft(box.left() + std::min(nameWidth, box.width()) + gap);
+        QString text = index.data(SystemModel::WordRole).toString();
+        QColor ink = marks.shape == Shape::Fault ? c.faultText : c.ink2;
+        if (marks.own) {
+            const QString quality = word(*marks.own);
+            const int width = textWidth(quality);
+            paintText(*painter, box, quality, rowInk(option, textColour(*marks.own, c)),
+                      Qt::AlignRight);
+            box.setRight(box.right() - width - gap);
+        }
+        paintText(*painter, box, text, rowInk(option, ink), Qt::AlignRight);
+    }
+
+private:
+    static const Tokens& onSelection() {
+        static const Tokens all = [] {
+            Tokens t = tokens(Theme::HighContrast);
+            for (QColor Tokens::* each :
+                 {&Tokens::ink, &Tokens::ink2, &Tokens::data, &Tokens::warnEdge, &Tokens::fault}) {
+                t.*each = t.onAccent;
+            }
+            t.onFault = t.accent;
+            return t;
+        }();
+        return all;
+    }
+
+    const SystemModel& model_;
+};
+
+class TreeRows : public QTreeView {
+public:
+    using QTreeView::QTreeView;
+
+protected:
+    void drawRow(QPainter* painter, const QStyleOptionViewItem& option,
+                 const QModelIndex& index) const override {
+        QStyleOptionViewItem whole = option;
+        whole.rect.setLeft(0);
+        if (selectionModel()->isSelected(index)) whole.state |= QStyle::State_Selected;
+        paintRow(*painter, whole);
+        if (whole.state.testFlag(QStyle::State_Selected)) {
+            painter->fillRect(QRect{0, option.rect.top(), 3, option.rect.height()},
+                              Look::colours().accent);
+        }
+        QTreeView::drawRow(painter, option, index);
+    }
+};
+
+}  // namespace
+
+SystemTree::SystemTree(QWidget* parent)
+    : QWidget{parent},
+      tree_{new TreeRows},
+      filter_{new QLineEdit},
+      count_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
+      trouble_{new TextLabel{TextSize::Note, false, &Tokens::warnText}} {
+    auto* title = new TextLabel{TextSize::Text, true};
+    title->show(tr("Simplexes"));
+    auto* head = new QHBoxLayout;
+    head->setContentsMargins(Look::units(3), Look::units(2), Look::units(3), 0);
+    head->addWidget(title);
+    head->addStretch(1);
+    head->addWidget(count_);
+
+    filter_->setPlaceholderText(tr("Filter: name, type, is:Axis, state:Fault"));
+    filter_->setAccessibleName(tr("Filter"));
+    filter_->setClearButtonEnabled(true);
+    filter_->setTextMargins(Look::units(1), 0, Look::units(1), 0);
+    setAutoFillBackground(true);
+    auto* box = new QVBoxLayout;
+    box->setContentsMargins(Look::units(3), Look::units(2), Look::units(3), Look::units(2));
+    box->setSpacing(Look::units(1));
+    box->addWidget(filter_);
+    box->addWidget(trouble_);
+    trouble_->hide();
+
+    tree_->setModel(&model_);
+    tree_->setItemDelegate(new TreeDelegate{model_, tree_});
+    setUpRows(*tree_);
+    tree_->setHeaderHidden(true);
+    tree_->setAccessibleName(tr("Simplexes"));
+    tree_->setExpandsOnDoubleClick(false);
+
+    auto* rows = new QVBoxLayout{this};
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(0);
+    rows->addLayout(head);
+    rows->addLayout(box);
+    rows->addWidget(tree_, 1);
+
+    connect(filter_, &QLineEdit::textChanged, this, &SystemTree::useFilter);
+    connect(tree_->selectionModel(), &QItemSelectionModel::currentChanged, this,
+            [this](const QModelIndex& now) {
+                if (now.isValid() && model_.place(now)) Q_EMIT chosen(model_.path(now));
+            });
+    connect(tree_, &QTreeView::activated, this, [this](const QModelIndex& index) {
+        if (model_.place(index)) Q_EMIT pinned(model_.path(index));
+    });
+}
+
+void SystemTree::refresh(std::shared_ptr<const Frame> frame) {
+    model_.update(std::move(frame));
+    count_->show(tr("%1 of %n agents", nullptr, static_cast<int>(model_.frame().agents.size()))
+                     .arg(model_.simplexes()));
+    if (!opened_ && model_.rowCount() > 0) openFirstLevels();
+    if (!wanted_.empty()) choose(std::exchange(wanted_, {}));
+}
+
+// Depth 2 at first; later what the user opens and closes stays as it is.
+void SystemTree::openFirstLevels() {
+    opened_ = true;
+    for (int i = 0; i < model_.rowCount(); ++i) {
+        const QModelIndex top = model_.index(i, 0);
+        if (model_.marks(top).shape != Shape::Agent) tree_->expandRecursively(top, 1);
+    }
+}
+
+void SystemTree::choose(const std::string& path) {
+    const QModelIndex index = model_.indexOf(path);
+    if (!index.isValid()) {
+        wanted_ = path;
+        return;
+    }
+    for (QModelIndex above = index.parent(); above.isValid(); above = above.parent()) {
+        tree_->expand(above);
+    }
+    tree_->setCurrentIndex(index);
+    tree_->scrollTo(index);
+}
+
+void SystemTree::filter(const QString& text) { filter_->setText(text); }
+
+void SystemTree::focusFilter() {
+    filter_->setFocus(Qt::ShortcutFocusReason);
+    filter_->selectAll();
+}
+
+void SystemTree::useFilter() {
+    Query query{filter_->text()};
+    QString trouble = query.trouble();
+    const bool empty = query.empty();
+    model_.setFilter(std::move(query));
+    if (trouble.isEmpty() && !empty && model_.rowCount() == 0) {
+        trouble = tr("Nothing matches \"%1\".").arg(filter_->text());
+    }
+    trouble_->show(trouble);
+    trouble_->setVisible(!trouble.isEmpty());
+    if (!empty) tree_->expandAll();
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "model/system_model.hpp"
+
+#include <QWidget>
+#include <memory>
+#include <string>
+
+class QLineEdit;
+class QTreeView;
+
+namespace cortex::explorer {
+
+class TextLabel;
+
+// All simplexes of all agents as one tree, with a filter above it.
+class SystemTree : public QWidget {
+    Q_OBJECT
+public:
+    explicit SystemTree(QWidget* parent = nullptr);
+
+    void refresh(std::shared_ptr<const Frame> frame);
+    void choose(const std::string& path);  // opens what is above it, as soon as it is there
+    const SystemModel& model() const { return model_; }
+    void filter(const QString& text);
+    void focusFilter();
+
+Q_SIGNALS:
+    void chosen(const std::string& path);  // shown in the current tab
+    void pinned(const std::string& path);  // in a tab of its own
+
+private:
+    void openFirstLevels();
+    void useFilter();
+
+    SystemModel model_;
+    QTreeView* tree_;
+    QLineEdit* filter_;
+    TextLabel *count_, *trouble_;
+    bool opened_ = false;
+    std::string wanted_;  // to be chosen as soon as it is there
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "widgets/item_table.hpp"
+
+#include "model/item_model.hpp"
+#include "model/value_text.hpp"
+#include "widgets/range_bar.hpp"
+#include "widgets/rows.hpp"
+
+#include <QHeaderView>
+#include <QStyledItemDelegate>
+#include <algorithm>
+#include <array>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr int mostOpenRows = 20;  // of a related simplex; one with more is closed at first
+constexpr std::array<double, ItemModel::ColumnCount> itemWidths{52, 28, 16, 52, 32, 40};  // units
+
+class ItemDelegate : public QStyledItemDelegate {
+public:
+    ItemDelegate(const ItemModel& items, QObject* parent)
+        : QStyledItemDelegate{parent}, items_{items} {}
+
+    QSize sizeHint(const QStyleOptionViewItem& /*option*/,
+                   const QModelIndex& /*index*/) const override {
+        return {Look::units(10), rowHeight()};
+    }
+
+    void paint(QPainter* painter, const QStyleOptionViewItem& option,
+               const QModelIndex& index) const override {
+        const ItemModel::Row& row = items_.row(index);
+        if (row.item == nullptr) return;  // a group is painted as a whole
+        const Tokens& c = Look::colours();
+        const QRect box = option.rect.adjusted(Look::units(2), 0, -Look::units(2), 0);
+        const bool outside = row.mark == Shape::AboveLimit || row.mark == Shape::BelowLimit;
+        const QColor ink = rowInk(option, row.mark ? textColour(*row.mark, c) : c.ink);
+        switch (index.column()) {
+            case ItemModel::Name:
+                paintText(*painter, box, row.name, rowInk(option, c.ink));
+                break;
+            case ItemModel::Value:
+                paintText(*painter, option.rect.adjusted(0, 0, -Look::units(2), 0), row.value, ink,
+                          Qt::AlignRight, outside);
+                break;
+            case ItemModel::Unit:
+                paintText(*painter, box, row.unit, rowInk(option, c.ink2));
+                break;
+            case ItemModel::Range:
+                paintRangeOf(*painter, option, box, row);
+                break;
+            case ItemModel::Remark:
+                paintRemark(*painter, option, box, row);
+                break;
+            default:
+                paintText(*painter, box, row.note, rowInk(option, c.ink2));
+        }
+    }
+
+private:
+    static void paintRangeOf(QPainter& painter, const QStyleOptionViewItem& option, QRect box,
+                             const ItemModel::Row& row) {
+        if (!row.min && !row.max) return;
+        const QColor ink = rowInk(option, Look::colours().ink2);
+        const int side = box.width() * 3 / 10;
+        const auto bound = [&](const std::optional<double>& number) {
+            return number ? numberText(*row.item, *number) : QStringLiteral("∞");
+        };
+        paintText(painter, {box.left(), box.top(), side, box.height()},
+                  row.min ? bound(row.min) : QStringLiteral("−∞"), ink, Qt::AlignRight);
+        paintText(painter, {box.right() - side, box.top(), side, box.height()}, bound(row.max),
+                  ink);
+        if (!row.min || !row.max) return;
+        const bool live =
+            row.mark != Shape::Stale && row.mark != Shape::Bad && row.mark != Shape::Lost;
+        paintRange(painter, box.adjusted(side, 0, -side, 0),
+                   {*row.min, *row.max, row.number, live});
+    }
+
+    static void paintRemark(QPainter& painter, const QStyleOptionViewItem& option, QRect box,
+                            const ItemModel::Row& row) {
+        const Tokens& c = Look::colours();
+        if (!row.mark) {
+            paintText(painter, box, row.remark, rowInk(option, c.ink2));
+            return;
+        }
+        const int size = markSize();
+        cortex::explorer::paint(painter, markBox(box.left(), box, size), *row.mark, c);
+        box.setLeft(box.left() + size + Look::units(1.5));
+        paintText(painter, box, word(*row.mark), rowInk(option, textColour(*row.mark, c)),
+                  Qt::AlignLeft, true);
+    }
+
+    const ItemModel& items_;
+};
+
+}  // namespace
+
+ItemTable::ItemTable(ItemModel& model, QWidget* parent) : QTreeView{parent}, items_{model} {
+    setModel(&model);
+    setItemDelegate(new ItemDelegate{model, this});
+    setUpRows(*this);
+    setAccessibleName(tr("Data"));
+    setSelectionBehavior(SelectRows);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    connect(&model, &QAbstractItemModel::modelReset, this, &ItemTable::openGroups);
+    openGroups();
+}
+
+void ItemTable::openGroups() {
+    for (int i = 0; i < items_.rowCount(); ++i) {
+        const QModelIndex group = items_.index(i, 0);
+        setFirstColumnSpanned(i, {}, true);
+        setExpanded(group, items_.rowCount(group) <= mostOpenRows);
+    }
+    fitColumns();
+}
+
+void ItemTable::resizeEvent(QResizeEvent* event) {
+    QTreeView::resizeEvent(event);
+    fitColumns();
+}
+
+void ItemTable::fitColumns() {
+    double left = viewport()->width() / static_cast<double>(Look::units(1));
+    for (const int column : {ItemModel::Name, ItemModel::Value, ItemModel::Unit, ItemModel::Range,
+                             ItemModel::Remark, ItemModel::Description}) {
+        const double width = itemWidths[static_cast<std::size_t>(column)];
+        const bool fits = column <= ItemModel::Unit || left >= width;
+        setColumnHidden(column, !fits);
+        if (fits) {
+            header()->resizeSection(column, Look::units(width));
+            left -= width;
+        }
+    }
+}
+
+void ItemTable::drawRow(QPainter* painter, const QStyleOptionViewItem& option,
+                        const QModelIndex& index) const {
+    const Tokens& c = Look::colours();
+    const ItemModel::Row& row = items_.row(index);
+    QStyleOptionViewItem whole = option;
+    if (selectionModel()->isRowSelected(index.row(), index.parent())) {
+        whole.state |= QStyle::State_Selected;
+    }
+    const bool outside =
+        row.mark == explorer::Shape::AboveLimit || row.mark == explorer::Shape::BelowLimit;
+    paintRow(*painter, whole, row.item == nullptr ? c.hover : outside ? c.warnBg : QColor{});
+    QTreeView::drawRow(painter, option, index);
+    if (row.item != nullptr) return;
+    QRect box = option.rect.adjusted(Look::units(8), 0, -Look::units(2), 0);
+    paintText(*painter, box, row.name, rowInk(whole, c.ink), Qt::AlignLeft, true);
+    box.setLeft(box.left() + textWidth(row.name, true) + Look::units(4));
+    paintText(*painter, box, row.value, rowInk(whole, c.accent));
+    box.setLeft(box.left() + textWidth(row.value) + Look::units(4));
+    paintText(*painter, box, row.note, rowInk(whole, c.ink2));
+}
+
+}  // namespace cortex::explorer

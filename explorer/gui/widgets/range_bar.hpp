@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QPainter>
+#include <QRect>
+#include <optional>
+
+namespace cortex::explorer {
+
+// A number within its range: a track with a needle, and an arrow beyond the end when it is outside.
+struct RangeShown {
+    double min = 0, max = 0;
+    std::optional<double> number;
+    bool live = true;  // otherwise the needle is hollow
+};
+
+void paintRange(QPainter& painter, const QRect& box, const RangeShown& range);
+
+}  // namespace cortex::explorer

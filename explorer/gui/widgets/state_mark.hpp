@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "style/shapes.hpp"
+
+#include <QWidget>
+
+namespace cortex::explorer {
+
+// A shape as a widget, named for screen readers by its word.
+class StateMark : public QWidget {
+    Q_OBJECT
+public:
+    explicit StateMark(double units, QWidget* parent = nullptr);
+    void show(Shape shape);
+    QSize sizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    double units_;
+    Shape shape_ = Shape::Unknown;
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "widgets/text_label.hpp"
+
+#include <QEvent>
+#include <QFontMetrics>
+#include <QPainter>
+
+namespace cortex::explorer {
+
+TextLabel::TextLabel(TextSize size, bool strong, QColor Tokens::* colour, QWidget* parent)
+    : QLabel{parent}, size_{size}, strong_{strong}, colour_{colour} {
+    setTextFormat(Qt::PlainText);
+    setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
+    dress();
+}
+
+void TextLabel::show(const QString& text) {
+    if (text == this->text()) return;
+    setText(text);
+    setAccessibleName(text);
+    updateGeometry();
+}
+
+void TextLabel::show(const QString& text, QColor Tokens::* colour) {
+    if (colour != colour_) {
+        colour_ = colour;
+        update();
+    }
+    show(text);
+}
+
+QSize TextLabel::sizeHint() const {
+    const QFontMetrics metrics{font()};
+    return {metrics.horizontalAdvance(text()) + 2, metrics.height()};
+}
+
+QSize TextLabel::minimumSizeHint() const {
+    const QFontMetrics metrics{font()};
+    return {std::min(metrics.horizontalAdvance(text()) + 2, Look::units(8)), metrics.height()};
+}
+
+void TextLabel::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter{this};
+    const QString shown = fontMetrics().elidedText(text(), Qt::ElideRight, width());
+    setToolTip(shown == text() ? QString{} : text().toHtmlEscaped());
+    painter.setPen(Look::colours().*colour_);
+    painter.drawText(rect(), static_cast<int>(alignment()) | Qt::TextSingleLine, shown);
+}
+
+void TextLabel::changeEvent(QEvent* event) {
+    QLabel::changeEvent(event);
+    if (event->type() == QEvent::StyleChange || event->type() == QEvent::ApplicationFontChange) {
+        dress();
+    }
+}
+
+void TextLabel::dress() {
+    if (dressing_) return;
+    dressing_ = true;
+    setFont(Look::font(size_, strong_));
+    updateGeometry();
+    dressing_ = false;
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "style/look.hpp"
+
+#include <QLabel>
+
+namespace cortex::explorer {
+
+// One line of plain text in a size and a colour of the tokens. What does not fit ends with "…" and
+// is whole in the tooltip; markup in it is text.
+class TextLabel : public QLabel {
+    Q_OBJECT
+public:
+    explicit TextLabel(TextSize size = TextSize::Text, bool strong = false,
+                       QColor Tokens::* colour = &Tokens::ink, QWidget* parent = nullptr);
+
+    void show(const QString& text);
+    void show(const QString& text, QColor Tokens::* colour);
+
+    QSize sizeHint() const override;
+    QSize minimumSizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void dress();  // in the look that applies now
+
+    TextSize size_;
+    bool strong_;
+    QColor Tokens::* colour_;
+    bool dressing_ = false;
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "window/main_window.hpp"
+
+#include "style/glyphs.hpp"
+#include "style/look.hpp"
+#include "views/agent_table.hpp"
+#include "views/base_view.hpp"
+#include "views/event_list.hpp"
+#include "views/system_tree.hpp"
+#include "widgets/text_label.hpp"
+#include "window/status_bar.hpp"
+
+#include <QAction>
+#include <QApplication>
+#include <QHBoxLayout>
+#include <QMenu>
+#include <QPainter>
+#include <QPushButton>
+#include <QResizeEvent>
+#include <QShortcut>
+#include <QSplitter>
+#include <QStackedWidget>
+#include <QTabBar>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <array>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr int framePeriod = 33;  // ms
+constexpr std::array scales{1.0, 1.25, 1.5};
+
+}  // namespace
+
+MainWindow::MainWindow(Session& session, QWidget* parent)
+    : QWidget{parent},
+      session_{session},
+      tree_{new SystemTree},
+      tabs_{new QTabBar},
+      views_{new QStackedWidget},
+      agents_{new AgentTable},
+      eventList_{new EventList{events_}},
+      across_{new QSplitter{Qt::Horizontal}},
+      down_{new QSplitter{Qt::Vertical}},
+      status_{new StatusBar} {
+    setWindowTitle(tr("CorteX Explorer"));
+    tabs_->setExpanding(false);
+    tabs_->setDrawBase(false);
+    tabs_->setTabsClosable(false);
+    tabs_->setAccessibleName(tr("Views"));
+
+    auto* workspace = new QWidget;
+    auto* column = new QVBoxLayout{workspace};
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    column->addWidget(tabs_);
+    column->addWidget(views_, 1);
+
+    down_->addWidget(workspace);
+    down_->addWidget(eventList_);
+    down_->setStretchFactor(0, 1);
+    down_->setChildrenCollapsible(false);
+    across_->addWidget(tree_);
+    across_->addWidget(down_);
+    across_->setStretchFactor(1, 1);
+    across_->setChildrenCollapsible(false);
+
+    auto* rows = new QVBoxLayout{this};
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(0);
+    rows->addWidget(makeBar());
+    rows->addWidget(across_, 1);
+    rows->addWidget(status_);
+
+    addView({}, false);
+    views_->addWidget(agents_);
+    tabs_->addTab(tr("Agents"));
+    connect(tabs_, &QTabBar::currentChanged, views_, &QStackedWidget::setCurrentIndex);
+    connect(tree_, &SystemTree::chosen, this, &MainWindow::open);
+    connect(tree_, &SystemTree::pinned, this, &MainWindow::openTab);
+    connect(eventList_, &EventList::opened, this, &MainWindow::open);
+    addKeys();
+
+    setMinimumSize(800, 600);
+    resize(1280, 800);
+    session_.view({"/"});  // states and qualities of all are in the tree
+    connect(&timer_, &QTimer::timeout, this, &MainWindow::refresh);
+    timer_.start(framePeriod);
+}
+
+QWidget* MainWindow::makeBar() {
+    auto* bar = new QWidget;
+    auto* row = new QHBoxLayout{bar};
+    row->setContentsMargins(Look::units(3), Look::units(2), Look::units(3), Look::units(2));
+    auto* menu = new QPushButton{tr("Menu")};
+    auto* entries = new QMenu{menu};
+    entries->addAction(tr("Next theme"), this, [this] { setTheme(1); });
+    for (const double scale : scales) {
+        entries->addAction(tr("Text %1 %").arg(scale * 100), this,
+                           [this, scale] { setScale(scale); });
+    }
+    entries->addSeparator();
+    entries->addAction(tr("Join again"), this, [this] { session_.joinAgain(); });
+    entries->addAction(tr("Quit"), qApp, &QApplication::quit);
+    menu->setMenu(entries);
+    row->addWidget(menu);
+    auto* title = new TextLabel{TextSize::Value, true};
+    title->show(tr("CorteX Explorer"));
+    row->addWidget(title);
+    row->addStretch(1);
+    auto* control = new TextLabel{TextSize::Text, false, &Tokens::ink2};
+    control->show(tr("Read-only"));
+    row->addWidget(control);
+    return bar;
+}
+
+void MainWindow::addKeys() {
+    const auto key = [this](const char* keys, auto&& action) {
+        connect(new QShortcut{QKeySequence{QLatin1String{keys}}, this}, &QShortcut::activated, this,
+                action);
+    };
+    key("Ctrl+F", [this] { tree_->focusFilter(); });
+    key("Ctrl+B", [this] { tree_->setVisible(!tree_->isVisible()); });
+    key("Ctrl+E", [this] { eventList_->setVisible(!eventList_->isVisible()); });
+    key("Ctrl+W", [this] { closeTab(tabs_->currentIndex()); });
+    key("Ctrl+Shift+L", [this] { setTheme(1); });
+    key("Ctrl+0", [this] { setScale(1); });
+    key("Ctrl++", [this] { setScale(std::min(Look::scale() + 0.25, 1.5)); });
+    key("Ctrl+-", [this] { setScale(std::max(Look::scale() - 0.25, 1.0)); });
+    key("F11", [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
+    for (int i = 1; i <= 9; ++i) {
+        const std::string keys = "Ctrl+" + std::to_string(i);
+        key(keys.c_str(), [this, i] {
+            if (i <= tabs_->count()) tabs_->setCurrentIndex(i - 1);
+        });
+    }
+}
+
+BaseView* MainWindow::addView(const std::string& path, bool closable) {
+    auto* view = new BaseView;
+    view->show(path);
+    connect(view, &BaseView::opened, this, &MainWindow::open);
+    // Views stand before the table of agents, which is last.
+    const int at = closable ? tabs_->count() - 1 : 0;
+    views_->insertWidget(at, view);
+    tabs_->insertTab(at, path.empty() ? tr("Simplex") : QString::fromStdString(path));
+    return view;
+}
+
+QWidget* MainWindow::current() const { return views_->currentWidget(); }
+
+void MainWindow::open(const std::string& path) {
+    auto* view = qobject_cast<BaseView*>(views_->widget(0));
+    tabs_->setCurrentIndex(0);
+    tabs_->setTabText(0, QString::fromStdString(path));
+    if (view->path() != path) view->show(path);
+    tree_->choose(path);
+    refresh();
+}
+
+void MainWindow::openTab(const std::string& path) {
+    addView(path, true);
+    tabs_->setCurrentIndex(tabs_->count() - 2);
+    refresh();
+}
+
+void MainWindow::openAgents() { tabs_->setCurrentIndex(tabs_->count() - 1); }
+
+// The first tab and the table of agents stay.
+void MainWindow::closeTab(int tab) {
+    if (tab <= 0 || tab >= tabs_->count() - 1) return;
+    QWidget* view = views_->widget(tab);
+    views_->removeWidget(view);
+    tabs_->removeTab(tab);
+    view->deleteLater();
+}
+
+void MainWindow::refresh() {
+    const auto frame = session_.frame();
+    events_.add(session_.takeEvents());
+    tree_->refresh(frame);
+    status_->refresh(*frame, tree_->model().total());
+    if (auto* view = qobject_cast<BaseView*>(current())) view->refresh(frame);
+    if (current() == agents_) agents_->refresh(*frame);
+}
+
+bool MainWindow::ready() const {
+    const auto frame = session_.frame();
+    if (!frame->joined || frame->agents.empty()) return false;
+    return std::ranges::all_of(frame->agents, [](const AgentFrame& agent) {
+        return agent.structure && agent.status.missing == 0 && agent.image && agent.came(0);
+    });
+}
+
+void MainWindow::setTheme(int step) {
+    const auto next = (static_cast<std::size_t>(Look::theme()) + static_cast<std::size_t>(step)) %
+                      allThemes.size();
+    Look::apply(allThemes[next], Look::scale());
+    restyle();
+}
+
+void MainWindow::setScale(double scale) {
+    Look::apply(Look::theme(), scale);
+    restyle();
+}
+
+void MainWindow::restyle() {
+    for (QWidget* each : findChildren<QWidget*>()) each->updateGeometry();
+    update();
+}
+
+void MainWindow::paintEvent(QPaintEvent* /*event*/) {
+    QPainter{this}.fillRect(rect(), Look::colours().window);
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    if (event->oldSize().isValid()) return;
+    across_->setSizes({Look::units(76), width() - Look::units(76)});
+    down_->setSizes({height() - Look::units(42), Look::units(25)});
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "model/event_model.hpp"
+#include "session/session.hpp"
+
+#include <QTimer>
+#include <QWidget>
+#include <string>
+
+class QSplitter;
+class QStackedWidget;
+class QTabBar;
+
+namespace cortex::explorer {
+
+class AgentTable;
+class BaseView;
+class EventList;
+class StatusBar;
+class SystemTree;
+
+// The window: the tree of simplexes, tabs with views, events, status. It takes the newest frame of
+// the session 30 times a second and waits for nothing.
+class MainWindow : public QWidget {
+    Q_OBJECT
+public:
+    explicit MainWindow(Session& session, QWidget* parent = nullptr);
+
+    void open(const std::string& path);     // in the current tab, or in one of its own
+    void openTab(const std::string& path);  // in one of its own
+    void openAgents();
+    bool ready() const;  // everything has come, with the values that are shown
+    void refresh();      // with the newest frame
+    SystemTree& tree() { return *tree_; }
+    QWidget* current() const;
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    QWidget* makeBar();
+    void addKeys();
+    BaseView* addView(const std::string& path, bool closable);
+    void closeTab(int tab);
+    void setTheme(int step);
+    void setScale(double scale);
+    void restyle();
+
+    Session& session_;
+    EventModel events_;
+    SystemTree* tree_;
+    QTabBar* tabs_;
+    QStackedWidget* views_;
+    AgentTable* agents_;
+    EventList* eventList_;
+    QSplitter *across_, *down_;
+    StatusBar* status_;
+    QTimer timer_;
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests of the graphical program, with a real window that no display shows.
+#include "style/look.hpp"
+
+#include <QApplication>
+
+#include <gtest/gtest.h>
+
+int main(int count, char** words) {
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+    // Not destroyed: Qt's offscreen platform leaves parts of its screen behind when it ends.
+    static auto* const application = new QApplication{count, words};
+    application->setQuitOnLastWindowClosed(false);
+    cortex::explorer::Look::apply(cortex::explorer::Theme::Light, 1, QStringLiteral("Open Sans"));
+    testing::InitGoogleTest(&count, words);
+    return RUN_ALL_TESTS();
+}

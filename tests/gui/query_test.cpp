@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/query.hpp"
+
+#include "support/small_structure.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using namespace explorer;
+
+// The plant of small_structure.hpp, of the agent "robot"; nothing of it has come.
+Frame plantFrame() {
+    Frame frame;
+    AgentFrame robot;
+    robot.status.name = "robot";
+    robot.structure = makePlant().structure;
+    frame.agents.push_back(std::move(robot));
+    return frame;
+}
+
+int hits(const QString& text) {
+    const Frame frame = plantFrame();
+    const Query query{text};
+    int count = 0;
+    const auto& simplexes = frame.agents.front().structure->simplexes;
+    for (std::uint32_t i = 0; i < simplexes.size(); ++i) count += query.matches(frame, {0, i});
+    return count;
+}
+
+int all() { return static_cast<int>(makePlant().structure->simplexes.size()); }
+
+TEST(Query, MatchesEverythingWhenItIsEmpty) {
+    EXPECT_TRUE(Query{}.empty());
+    EXPECT_EQ(hits(""), all());
+    EXPECT_EQ(hits("   "), all());
+}
+
+TEST(Query, FindsPartsOfPathAndTypeInAnyCase) {
+    EXPECT_EQ(hits("AXIS"), hits("axis"));
+    EXPECT_GT(hits("axis"), 0);
+    EXPECT_EQ(hits("\"no such words\""), 0);
+}
+
+TEST(Query, JoinsByAndBindsOrWeakerAndNegates) {
+    EXPECT_EQ(hits("agent:robot axis"), hits("axis"));
+    EXPECT_EQ(hits("axis or agent:robot"), all());
+    EXPECT_EQ(hits("axis"), all() - hits("-axis"));
+    EXPECT_EQ(hits("agent:nobody"), 0);
+}
+
+TEST(Query, KnowsPathsAndQualities) {
+    EXPECT_EQ(hits("in:/"), all());
+    EXPECT_EQ(hits("quality:lost"), all()) << "nothing has come";
+    EXPECT_EQ(hits("lost"), all());
+    EXPECT_EQ(hits("fault"), 0);
+}
+
+TEST(Query, NamesTheNearestFieldForAnUnknownOne) {
+    const Query query{"stat:Fault"};
+    EXPECT_TRUE(query.trouble().contains("state")) << query.trouble().toStdString();
+    EXPECT_TRUE(Query{"state:Fault"}.trouble().isEmpty());
+}
+
+}  // namespace
+}  // namespace cortex::test

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole window, offscreen, with a real agent over DDS.
+#include "cli/live_agent.hpp"
+#include "model/item_model.hpp"
+#include "style/look.hpp"
+#include "views/base_view.hpp"
+#include "views/system_tree.hpp"
+#include "widgets/item_table.hpp"
+#include "widgets/text_label.hpp"
+#include "window/main_window.hpp"
+
+#include <QAbstractItemModelTester>
+#include <QApplication>
+#include <QElapsedTimer>
+#include <QImage>
+#include <csignal>
+#include <functional>
+
+namespace cortex::test {
+namespace {
+
+using namespace explorer;
+
+constexpr qint64 longEnough = 30'000;  // ms; no test waits so long unless it fails
+
+comms::NetworkOptions ownNetwork() {
+    comms::NetworkOptions options;
+    options.domain = std::stoi(domain);
+    options.interfaces = {"127.0.0.1"};
+    return options;
+}
+
+bool comes(const std::function<bool()>& condition) {
+    QElapsedTimer timer;
+    timer.start();
+    while (!condition()) {
+        if (timer.elapsed() > longEnough) return false;
+        QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    }
+    return true;
+}
+
+// The system of `cortex new-system`: one simulated axis that is held where it is.
+class Window : public CortexLive {
+protected:
+    Window()
+        : session{ownNetwork()},
+          window{session},
+          tester{const_cast<SystemModel*>(&window.tree().model()),
+                 QAbstractItemModelTester::FailureReportingMode::Fatal} {
+        window.show();
+    }
+
+    bool everythingComes() {
+        return comes([this] { return window.ready(); });
+    }
+    const SystemModel& tree() { return window.tree().model(); }
+    // What the table of data shows of an item.
+    QString valueOf(const QString& item) {
+        const auto& rows = *window.current()->findChild<ItemTable*>()->model();
+        for (int group = 0; group < rows.rowCount(); ++group) {
+            const QModelIndex above = rows.index(group, 0);
+            for (int row = 0; row < rows.rowCount(above); ++row) {
+                if (rows.index(row, ItemModel::Name, above).data() == item) {
+                    return rows.index(row, ItemModel::Value, above).data().toString();
+                }
+            }
+        }
+        return QStringLiteral("no such row");
+    }
+    QString wordOf(const std::string& path) {
+        return tree().indexOf(path).data(Qt::AccessibleTextRole).toString();
+    }
+    std::string anActiveSimplex() {
+        const auto frame = session.frame();
+        for (const AgentFrame& each : frame->agents) {
+            for (std::uint32_t i = 0; i < each.structure->simplexes.size(); ++i) {
+                const Type& type = *each.structure->simplexes[i].layout->type;
+                if (type.active() && !type.isA("Agent")) return each.structure->simplexes[i].path;
+            }
+        }
+        return {};
+    }
+
+    Session session;
+    MainWindow window;
+    QAbstractItemModelTester tester;
+};
+
+TEST_F(Window, ShowsEverySimplexOfAnAgentItHasNeverHeardOf) {
+    ASSERT_TRUE(everythingComes());
+    const auto frame = session.frame();
+    for (const AgentFrame& each : frame->agents) {
+        for (const SimplexInfo& info : each.structure->simplexes) {
+            EXPECT_TRUE(tree().indexOf(info.path).isValid()) << info.path;
+        }
+    }
+}
+
+TEST_F(Window, ShowsTheValuesThatTheAgentHas) {
+    ASSERT_TRUE(everythingComes());
+    const std::string path = anActiveSimplex();
+    window.open(path);
+    EXPECT_TRUE(comes([this] { return valueOf("state") == "Standby (0)"; }))
+        << valueOf("state").toStdString();
+    EXPECT_EQ(live({"call", path, "startup"}).exit, 0);
+    EXPECT_TRUE(comes([this] { return valueOf("state") == "Active (2)"; }))
+        << valueOf("state").toStdString();
+    EXPECT_TRUE(wordOf(path).contains("Active")) << wordOf(path).toStdString();
+}
+
+TEST_F(Window, SaysThatAnAgentIsLostAndPutsItsLastValuesInBrackets) {
+    ASSERT_TRUE(everythingComes());
+    const std::string path = anActiveSimplex();
+    window.open(path);
+    ASSERT_TRUE(comes([this] { return valueOf("state") == "Standby (0)"; }));
+    agent->end(SIGKILL);
+    EXPECT_TRUE(comes([&] { return wordOf(path).contains("lost"); })) << wordOf(path).toStdString();
+    EXPECT_TRUE(comes([this] { return !valueOf("state").startsWith("Standby"); }))
+        << "an old value never looks live: " << valueOf("state").toStdString();
+    EXPECT_TRUE(comes([this] { return tree().total().lost > 0; }));
+}
+
+TEST_F(Window, FillsItselfAgainWhenTheAgentComesBack) {
+    ASSERT_TRUE(everythingComes());
+    const std::string path = anActiveSimplex();
+    window.open(path);
+    agent->end(SIGKILL);
+    ASSERT_TRUE(comes([&] { return wordOf(path).contains("lost"); }));
+    start();
+    EXPECT_TRUE(comes([this] { return valueOf("state") == "Standby (0)"; }))
+        << valueOf("state").toStdString();
+    EXPECT_FALSE(wordOf(path).contains("lost"));
+}
+
+TEST_F(Window, FiltersTheTreeAndNamesWhatIsWrongWithAFilter) {
+    ASSERT_TRUE(everythingComes());
+    const int before = tree().rowCount();
+    window.tree().filter(QStringLiteral("agent:nobody"));
+    EXPECT_EQ(tree().rowCount(), 0);
+    window.tree().filter({});
+    EXPECT_EQ(tree().rowCount(), before);
+}
+
+// Labels end with … only where their text is whole in the tooltip.
+TEST_F(Window, CutsNoTextWithoutATooltipInAnyThemeOrSize) {
+    ASSERT_TRUE(everythingComes());
+    window.open(anActiveSimplex());
+    for (const Theme theme : allThemes) {
+        for (const double scale : {1.0, 1.25, 1.5}) {
+            Look::apply(theme, scale, QStringLiteral("Open Sans"));
+            QApplication::processEvents();  // lays everything out anew
+            const QImage image = window.grab().toImage();
+            EXPECT_EQ(image.size(), window.size());
+            for (const auto* label : window.findChildren<TextLabel*>()) {
+                if (!label->isVisible() || label->text().isEmpty()) continue;
+                EXPECT_GE(label->font().pointSizeF(), 9);
+                const bool fits = label->sizeHint().width() <= label->width();
+                EXPECT_TRUE(fits || !label->toolTip().isEmpty()) << label->text().toStdString();
+                EXPECT_GE(label->height(), label->fontMetrics().height())
+                    << label->text().toStdString();
+            }
+        }
+    }
+    Look::apply(Theme::Light, 1, QStringLiteral("Open Sans"));
+}
+
+TEST(WindowAlone, SaysThatNobodyIsHeard) {
+    Session session{ownNetwork()};
+    MainWindow window{session};
+    window.show();
+    const auto says = [&](const QString& text) {
+        for (const auto* label : window.findChildren<TextLabel*>()) {
+            if (label->text().contains(text)) return true;
+        }
+        return false;
+    };
+    EXPECT_TRUE(comes([&] { return says("Nobody is heard in domain"); }));
+}
+
+TEST(WindowAlone, SaysWhyADomainCannotBeJoinedAndPaintsAllTheSame) {
+    comms::NetworkOptions options = ownNetwork();
+    options.interfaces = {"no-such-interface"};
+    Session session{options};
+    MainWindow window{session};
+    window.show();
+    EXPECT_TRUE(comes([&] { return !session.frame()->problem.empty(); }));
+    EXPECT_TRUE(contains(session.frame()->problem, "no-such-interface"))
+        << session.frame()->problem;
+    EXPECT_FALSE(window.grab().isNull());
+}
+
+}  // namespace
+}  // namespace cortex::test
