@@ -84,7 +84,7 @@ Json answerJson(const comms::CommandAnswer& answer, const RecordLayout& layout) 
 // Why nothing has come, as far as the presence of the agent and its activity tell.
 void explainSilence(comms::CommandAnswer& answer, const Live& live, const std::string& agent,
                     std::optional<long> percent) {
-    const std::string standstill = live.standstillOf(agent);
+    const std::string standstill = live.statusOf(agent).standstill;
     if (!standstill.empty()) {
         answer.why =
             "the loop of " + agent + " " + standstill + ", so nothing is answered; " + answer.why;
