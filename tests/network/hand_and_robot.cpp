@@ -302,6 +302,7 @@ void Station::poll() {
         comms::CommandAnswer answer;
         if (!mirror_.poll(each.first, answer)) return false;
         sent_[each.second].outcome = answer.outcome;
+        if (answer.done()) ++done_;
         return true;
     });
 }

@@ -133,6 +133,7 @@ public:
         Outcome outcome = Outcome::None;
         std::int64_t latest = 0;  // cycle of the robot in which it may still be executed
     };
+    int done() const { return done_; }
     std::map<std::int64_t, Sent> end();         // by number; when all are answered, 20 s at most
     std::int64_t count();                       // of the robot
     std::vector<std::string> warnings() const;  // of all agents
@@ -146,6 +147,7 @@ private:
     comms::Mirror mirror_;
     std::map<std::int64_t, Sent> sent_;
     std::map<std::uint64_t, std::int64_t> pending_;
+    std::atomic<int> done_{0};
     std::atomic<bool> sends_{false}, stop_{false};
     std::thread thread_;
 };

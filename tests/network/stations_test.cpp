@@ -91,9 +91,9 @@ public:
     StationProcess(const StationProcess&) = delete;
     StationProcess& operator=(const StationProcess&) = delete;
 
-    // A mirror appends host and process to its name.
+    // A mirror appends host, process and a random part to its name.
     bool isNamed(const std::string& name) const {
-        return name.ends_with("." + std::to_string(process_));
+        return name.find('.' + std::to_string(process_) + '-') != std::string::npos;
     }
     void killIt() {
         if (process_ == 0) return;

@@ -84,6 +84,8 @@ struct Plant {
 
     // Nothing is sent any more: what is to be said of all that happened.
     void check(const char* what, double networkDelay = 2) {
+        const auto limit = Clock::now() + 20s;
+        while (station->done() == 0 && Clock::now() < limit) std::this_thread::sleep_for(1ms);
         hand->endOrders();
         checkCommands(what, station->end());
         const auto end = Clock::now() + 60s;

@@ -53,7 +53,7 @@ EventText neighboursOf(const UnboundHandle& unbound, const SimplexCS& simplex,
         for (std::ptrdiff_t at = place + step; at >= 0 && at + handleSize <= size; at += step) {
             if (at - place > farthest || place - at > farthest) break;
             const void* cell = nullptr;
-            std::memcpy(&cell, object.data() + at, sizeof cell);
+            std::memcpy(static_cast<void*>(&cell), object.data() + at, sizeof cell);
             if (cell == nullptr) continue;
             const std::string_view item = itemAt(cell, simplex.index(), tables);
             if (!item.empty()) return item;

@@ -52,7 +52,7 @@ public:
     {
         return this == &other ? *this : *this = other.get();
     }
-    Data& operator=(const Data&)
+    Data& operator=(const Data&)  // NOLINT(bugprone-unhandled-self-assignment): never compiled
         requires(std::is_const_v<T>)
     {
         static_assert(neverTrue<T>,
