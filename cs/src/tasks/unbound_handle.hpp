@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/tables.hpp"
 #include "cortex/cs/simplex_cs.hpp"
 
 #include "tasks/hook.hpp"
