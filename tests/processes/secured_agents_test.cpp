@@ -102,7 +102,8 @@ TEST_F(SecuredAgents, FollowEachOtherAndAreSeenAndCommandedByTools) {
     EXPECT_TRUE(contains(tool({"doctor"}).output, "security authenticated, encrypted"));
     EXPECT_EQ(tool({"set", "/control/selector", "stillTime=0.25"}).exit, Done) << robot.output();
     EXPECT_EQ(value("/control/selector", "stillTime"), 0.25);
-    EXPECT_EQ(tool({"call", "/playback", "shutdown"}).exit, Done);
+    const Outcome stopped = tool({"call", "/playback", "shutdown"});
+    EXPECT_EQ(stopped.exit, Done) << stopped.output << stopped.errors << operator_.output();
     EXPECT_EQ(tool({"watch", "/playback.state", "/tracking.time", "--count", "2"}).exit, Done);
 }
 TEST_F(SecuredAgents, AreNotSeenOrCommandedWithoutACertificateOfTheirAuthority) {

@@ -162,13 +162,14 @@ void GroupCommands::holdBack(std::uint32_t node) {
 
 void GroupCommands::fail(std::uint32_t node, const EventText& text) {
     members_[node]->failed = true;
-    members_[node]->watched = {.asked = false, .ran = false, .reason = text};
+    members_[node]->failure = text;
+    members_[node]->watched = {};
     anyFailed_ = true;
 }
 
 void GroupCommands::tell(Severity severity, std::uint32_t node) {
     agent_.post(agent_.thread(0), severity, EventKind::Refusal, simplex(node).index(),
-                members_[node]->watched.reason);
+                members_[node]->failure);
 }
 
 // As many as an answer has room for. Each has an event of its own.
@@ -178,7 +179,7 @@ EventText GroupCommands::answer() const {
     for (const std::uint32_t node : actives_) {
         if (!members_[node]->failed) continue;
         EventText one{text.view().empty() ? "" : "; "};
-        one << simplex(node).path() << " " << members_[node]->watched.reason.view();
+        one << simplex(node).path() << " " << members_[node]->failure.view();
         const bool first = text.view().empty();
         const bool fits = more == 0 && text.view().size() + one.view().size() <= mostOfAnswer;
         if (first || fits)
@@ -194,8 +195,7 @@ std::vector<std::string> GroupCommands::notFollowed() const {
     std::vector<std::string> lines;
     for (const std::uint32_t node : actives_) {
         if (!members_[node]->failed) continue;
-        lines.push_back(simplex(node).path() + " " +
-                        std::string{members_[node]->watched.reason.view()});
+        lines.push_back(simplex(node).path() + " " + std::string{members_[node]->failure.view()});
     }
     return lines;
 }

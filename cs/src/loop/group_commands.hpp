@@ -40,8 +40,9 @@ private:
     // An active simplex, and what becomes of it in the command that runs.
     struct Member {
         Data<const std::string_view> faultText;
-        TaskStates::Watched watched;  // of one that failed: what is told of it
+        TaskStates::Watched watched;
         bool failed = false;
+        EventText failure;  // how it failed; what it does when it is asked again changes nothing
     };
 
     Outcome handle(LifeCycle command, Call& call, Argument<std::string_view> prefix);

@@ -102,7 +102,7 @@ std::optional<std::string> Live::waitForOwner(const std::string& path) {
                                    }) ||
                mirror().waitUntilComplete(Milliseconds{0});
     });
-    return owner;
+    return owner ? owner : mirror().ownerOf(path);  // it may have come after it was asked for
 }
 
 void Live::failWithNobody() const {
