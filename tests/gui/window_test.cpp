@@ -4,6 +4,8 @@
 #include "model/item_model.hpp"
 #include "style/look.hpp"
 #include "views/base_view.hpp"
+#include "views/graph_canvas.hpp"
+#include "views/graph_view.hpp"
 #include "views/system_tree.hpp"
 #include "widgets/item_table.hpp"
 #include "widgets/text_label.hpp"
@@ -13,6 +15,7 @@
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QImage>
+#include <QKeyEvent>
 #include <csignal>
 #include <functional>
 
@@ -140,6 +143,26 @@ TEST_F(Window, FiltersTheTreeAndNamesWhatIsWrongWithAFilter) {
     EXPECT_EQ(tree().rowCount(), 0);
     window.tree().filter({});
     EXPECT_EQ(tree().rowCount(), before);
+}
+
+TEST_F(Window, DrawsWhatIsRelatedAndOpensItByKey) {
+    ASSERT_TRUE(everythingComes());
+    window.openGraph();
+    window.refresh();
+    const SystemGraph& graph = qobject_cast<GraphView*>(window.current())->graph();
+    ASSERT_FALSE(graph.edges.empty());
+    const auto frame = session.frame();
+    for (const GraphNode& node : graph.nodes) {
+        for (const std::string& path : node.paths) EXPECT_TRUE(frame->find(path)) << path;
+    }
+    auto* canvas = window.current()->findChild<GraphCanvas*>();
+    const std::string path = graph.nodes.front().paths.front();
+    canvas->select(0);
+    QKeyEvent enter{QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier};
+    QApplication::sendEvent(canvas, &enter);
+    const auto* shown = qobject_cast<BaseView*>(window.current());
+    ASSERT_NE(shown, nullptr) << "Enter opens the simplex that is chosen";
+    EXPECT_EQ(shown->path(), path);
 }
 
 // Labels end with … only where their text is whole in the tooltip.

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
         path == options->paths.front() ? window.open(path) : window.openTab(path);
     }
     if (options->view == "agents") window.openAgents();
+    if (options->view == "system") window.openGraph();
     window.show();
     return picture ? writeScreenshot(window, options->screenshot, options->timeout)
                    : QApplication::exec();

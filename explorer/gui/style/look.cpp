@@ -99,7 +99,9 @@ QFont Look::font(TextSize size, bool strong) {
     return font;
 }
 
-int Look::units(double count) { return static_cast<int>(std::lround(4 * count * scale())); }
+double Look::length(double units) { return 4 * units * scale(); }
+
+int Look::units(double count) { return static_cast<int>(std::lround(length(count))); }
 
 int Look::lineWidth() { return theme() == Theme::HighContrast ? 2 : 1; }
 

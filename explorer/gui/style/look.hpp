@@ -24,6 +24,7 @@ public:
     static QFont font(TextSize size = TextSize::Text, bool strong = false);
     // Pixels of so many units; a unit is 4 pixels at 100 %. All sizes and distances are units.
     static int units(double count);
+    static double length(double units);  // the same, not rounded; for drawings
     static int lineWidth();  // 1 px; 2 in high contrast
 };
 

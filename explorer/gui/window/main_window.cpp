@@ -6,6 +6,7 @@
 #include "views/agent_table.hpp"
 #include "views/base_view.hpp"
 #include "views/event_list.hpp"
+#include "views/graph_view.hpp"
 #include "views/system_tree.hpp"
 #include "widgets/text_label.hpp"
 #include "window/status_bar.hpp"
@@ -31,6 +32,7 @@ namespace {
 
 constexpr int framePeriod = 33;  // ms
 constexpr std::array scales{1.0, 1.25, 1.5};
+constexpr int fixedTabs = 2;  // at the end: graph and agents
 
 }  // namespace
 
@@ -40,6 +42,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       tree_{new SystemTree},
       tabs_{new QTabBar},
       views_{new QStackedWidget},
+      graph_{new GraphView},
       agents_{new AgentTable},
       eventList_{new EventList{events_}},
       across_{new QSplitter{Qt::Horizontal}},
@@ -75,12 +78,15 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     rows->addWidget(status_);
 
     addView({}, false);
+    views_->addWidget(graph_);
+    tabs_->addTab(tr("System"));
     views_->addWidget(agents_);
     tabs_->addTab(tr("Agents"));
     connect(tabs_, &QTabBar::currentChanged, views_, &QStackedWidget::setCurrentIndex);
     connect(tree_, &SystemTree::chosen, this, &MainWindow::open);
     connect(tree_, &SystemTree::pinned, this, &MainWindow::openTab);
     connect(eventList_, &EventList::opened, this, &MainWindow::open);
+    connect(graph_, &GraphView::opened, this, &MainWindow::open);
     addKeys();
 
     setMinimumSize(800, 600);
@@ -142,8 +148,8 @@ BaseView* MainWindow::addView(const std::string& path, bool closable) {
     auto* view = new BaseView;
     view->show(path);
     connect(view, &BaseView::opened, this, &MainWindow::open);
-    // Views stand before the table of agents, which is last.
-    const int at = closable ? tabs_->count() - 1 : 0;
+    // Views stand before the graph and the table of agents.
+    const int at = closable ? tabs_->count() - fixedTabs : 0;
     views_->insertWidget(at, view);
     tabs_->insertTab(at, path.empty() ? tr("Simplex") : QString::fromStdString(path));
     return view;
@@ -162,15 +168,17 @@ void MainWindow::open(const std::string& path) {
 
 void MainWindow::openTab(const std::string& path) {
     addView(path, true);
-    tabs_->setCurrentIndex(tabs_->count() - 2);
+    tabs_->setCurrentIndex(tabs_->count() - fixedTabs - 1);
     refresh();
 }
 
 void MainWindow::openAgents() { tabs_->setCurrentIndex(tabs_->count() - 1); }
 
-// The first tab and the table of agents stay.
+void MainWindow::openGraph() { tabs_->setCurrentIndex(tabs_->count() - fixedTabs); }
+
+// The first tab and the last ones stay.
 void MainWindow::closeTab(int tab) {
-    if (tab <= 0 || tab >= tabs_->count() - 1) return;
+    if (tab <= 0 || tab >= tabs_->count() - fixedTabs) return;
     QWidget* view = views_->widget(tab);
     views_->removeWidget(view);
     tabs_->removeTab(tab);
@@ -183,6 +191,7 @@ void MainWindow::refresh() {
     tree_->refresh(frame);
     status_->refresh(*frame, tree_->model().total());
     if (auto* view = qobject_cast<BaseView*>(current())) view->refresh(frame);
+    if (current() == graph_) graph_->refresh(frame);
     if (current() == agents_) agents_->refresh(*frame);
 }
 

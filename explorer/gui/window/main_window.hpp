@@ -17,6 +17,7 @@ namespace cortex::explorer {
 class AgentTable;
 class BaseView;
 class EventList;
+class GraphView;
 class StatusBar;
 class SystemTree;
 
@@ -30,6 +31,7 @@ public:
     void open(const std::string& path);     // in the current tab, or in one of its own
     void openTab(const std::string& path);  // in one of its own
     void openAgents();
+    void openGraph();
     bool ready() const;  // everything has come, with the values that are shown
     void refresh();      // with the newest frame
     SystemTree& tree() { return *tree_; }
@@ -53,6 +55,7 @@ private:
     SystemTree* tree_;
     QTabBar* tabs_;
     QStackedWidget* views_;
+    GraphView* graph_;
     AgentTable* agents_;
     EventList* eventList_;
     QSplitter *across_, *down_;
