@@ -63,5 +63,31 @@ TEST(Query, NamesTheNearestFieldForAnUnknownOne) {
     EXPECT_TRUE(Query{"state:Fault"}.trouble().isEmpty());
 }
 
+TEST(Query, ReadsConditionsOnValues) {
+    QString trouble;
+    const auto more = conditionFrom("position>=-1.5e-3 rad", trouble);
+    ASSERT_TRUE(more);
+    EXPECT_EQ(more->item, "position");
+    EXPECT_EQ(more->is, Condition::Is::AtLeast);
+    EXPECT_EQ(more->number, -1.5e-3);
+    EXPECT_EQ(more->unit, "rad");
+    EXPECT_EQ(conditionFrom("mode!=Position", trouble)->word, "Position");
+    EXPECT_FALSE(conditionFrom("in:/arm", trouble));
+    EXPECT_FALSE(conditionFrom("axis", trouble));
+    EXPECT_TRUE(trouble.isEmpty()) << trouble.toStdString();
+}
+
+TEST(Query, SaysThatAConditionNeedsANumber) {
+    EXPECT_TRUE(Query{"position>fast"}.trouble().contains("number"));
+    EXPECT_TRUE(Query{"position="}.trouble().contains("number"));
+    EXPECT_TRUE(Query{"position>1"}.trouble().isEmpty());
+}
+
+TEST(Query, AValueThatNeverCameFulfilsNoCondition) {
+    EXPECT_EQ(hits("position<1"), 0);
+    EXPECT_EQ(hits("position>=1"), 0);
+    EXPECT_EQ(hits("outside"), 0);
+}
+
 }  // namespace
 }  // namespace cortex::test

@@ -165,6 +165,23 @@ TEST_F(Window, DrawsWhatIsRelatedAndOpensItByKey) {
     EXPECT_EQ(shown->path(), path);
 }
 
+TEST_F(Window, FiltersByTheValuesThatAreThere) {
+    ASSERT_TRUE(everythingComes());
+    const auto finds = [this](const char* filter, const std::string& path) {
+        window.tree().filter(QString::fromUtf8(filter));
+        return tree().indexOf(path).isValid();
+    };
+    const std::string path = anActiveSimplex();
+    EXPECT_TRUE(finds("state=Standby", path)) << "a label";
+    EXPECT_TRUE(finds("state<1", path)) << "its number";
+    EXPECT_FALSE(finds("state>=1", path));
+    EXPECT_FALSE(finds("state=Active", path));
+    EXPECT_TRUE(finds("state!=Active", path));
+    EXPECT_FALSE(finds("state<1furlong", path)) << "a unit that the item does not have";
+    EXPECT_FALSE(finds("outside", path));
+    window.tree().filter({});
+}
+
 // Labels end with … only where their text is whole in the tooltip.
 TEST_F(Window, CutsNoTextWithoutATooltipInAnyThemeOrSize) {
     ASSERT_TRUE(everythingComes());

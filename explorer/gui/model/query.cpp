@@ -13,7 +13,7 @@ namespace cortex::explorer {
 namespace {
 
 constexpr std::array fields{"agent", "has", "in", "is", "path", "quality", "role", "state", "type"};
-constexpr std::array flags{"fault", "lost"};
+constexpr std::array flags{"fault", "lost", "outside"};
 
 bool contains(const std::string& text, const QString& part) {
     return QString::fromStdString(text).contains(part, Qt::CaseInsensitive);
@@ -74,6 +74,11 @@ void Query::add(std::vector<Term>& terms, QString text) {
         text.remove(0, 1);
     }
     const int colon = text.indexOf(':');
+    term.condition = conditionFrom(text, trouble_);
+    if (term.condition) {
+        terms.push_back(std::move(term));
+        return;
+    }
     if (colon < 0) {
         const bool flag = std::ranges::any_of(flags, [&](auto each) { return equal(each, text); });
         term.field = flag ? text.toLower() : QString{};
@@ -101,6 +106,7 @@ bool Query::matches(const Frame& frame, Place place) const {
 
 bool Query::holds(const Term& term, const Frame& frame, Place place) {
     const AgentFrame& agent = frame.agents[place.agent];
+    if (term.condition) return explorer::holds(*term.condition, agent, place.simplex);
     const SimplexInfo& info = frame.info(place);
     const Type& type = frame.type(place);
     const QString& field = term.field;
@@ -118,6 +124,7 @@ bool Query::holds(const Term& term, const Frame& frame, Place place) {
     if (field == QLatin1String{"quality"})
         return equal(name(agent.quality(place.simplex)), term.value);
     if (field == QLatin1String{"lost"}) return agent.quality(place.simplex) == Quality::Lost;
+    if (field == QLatin1String{"outside"}) return isOutside(agent, place.simplex);
     const auto state = agent.state(place.simplex);
     if (field == QLatin1String{"fault"}) return state == State::Fault;
     return field == QLatin1String{"state"} && state && equal(name(*state), term.value);

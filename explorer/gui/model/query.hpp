@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "model/condition.hpp"
 #include "session/frame.hpp"
 
 #include <QString>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace cortex::explorer {
 
-// What is typed into a filter: words, "texts", field:value, flags; blank is `and`, `or` binds
-// weaker, - is not. `is:Axis state:Active`, `agent:robot -quality:good`, `fault or lost`.
+// What is typed into a filter: words, "texts", field:value, conditions on values, flags; blank is
+// `and`, `or` binds weaker, - is not. `is:Axis state:Active`, `position>1.5 in:/arm`,
+// `agent:robot -quality:good`, `fault or lost`.
 class Query {
 public:
     Query() = default;  // matches everything
@@ -23,7 +26,8 @@ public:
 
 private:
     struct Term {
-        QString field, value;  // an empty field: a part of path, type or description
+        QString field, value;                // an empty field: a part of path, type or description
+        std::optional<Condition> condition;  // instead of both
         bool no = false;
     };
     static bool holds(const Term& term, const Frame& frame, Place place);

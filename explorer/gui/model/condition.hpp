@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/frame.hpp"
+
+#include <QString>
+#include <optional>
+
+namespace cortex::explorer {
+
+// What a filter asks of a value: `position>1.5`, `speed<=0.1m/s`, `mode=Position`. Without a unit
+// the number is in that of the item; with another unit it does not hold.
+struct Condition {
+    enum class Is { Less, AtMost, More, AtLeast, Equal, Other };
+
+    QString item, word;  // the word is a label or a text, where it is no number
+    Is is = Is::Equal;
+    std::optional<double> number;
+    QString unit;
+};
+
+// None: the text is no condition. `trouble` says what is wrong with one.
+std::optional<Condition> conditionFrom(const QString& text, QString& trouble);
+
+// Of an array: whether it holds for an element. A value that never came fulfils nothing.
+bool holds(const Condition& condition, const AgentFrame& agent, std::uint32_t simplex);
+
+// Whether a number of the simplex is beyond the limits of its item.
+bool isOutside(const AgentFrame& agent, std::uint32_t simplex);
+
+}  // namespace cortex::explorer
