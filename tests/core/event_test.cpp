@@ -61,6 +61,24 @@ TEST_F(EventLogTest, MergesByCycleOrderAndSequenceWhateverTheRing) {
     EXPECT_EQ(numbers, (std::vector<std::uint64_t>{1, 2, 3, 4, 5}));
 }
 
+TEST_F(EventLogTest, DatesEventsByTheClockAndNotByNominalTime) {
+    std::vector<std::int64_t> dates;
+    log.addSink([&](const Event& event, const Structure&) { dates.push_back(event.wallClock); });
+    Event first = eventAt(1, 0, 0);
+    first.clock = 5'000'000'000;
+    Event second = eventAt(1, 1, 0);
+    second.clock = first.clock + 1'400'000'000;
+    log.ring(0).post(first);
+    log.ring(0).post(second);
+    log.complete(1);
+    log.postOutside(eventAt(1, 2, 0));
+    log.flush();
+
+    ASSERT_EQ(dates.size(), 3U);
+    EXPECT_EQ(dates[1] - dates[0], 1'400'000'000);
+    EXPECT_GT(dates[2], structure->epoch * 1000 + eventAt(1, 2, 0).time) << "dated by nominal time";
+}
+
 TEST_F(EventLogTest, LetsTheOrderOfTheRingsDecideAtLast) {
     Event first = eventAt(1, 1, 0);
     first.text = "loop";

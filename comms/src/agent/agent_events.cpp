@@ -17,7 +17,7 @@ EventMessage messageOf(const Event& event, const Structure& structure, const Eve
     EventMessage message = head;
     message.number = event.number;
     message.cycle = event.cycle;
-    message.wallClock = structure.epoch * 1000 + event.time;
+    message.wallClock = event.wallClock;
     message.severity = name(event.severity);
     message.kind = name(event.kind);
     message.path = event.simplex < structure.simplexes.size()

@@ -26,6 +26,7 @@ void AgentRuntime::beginCycle(const Tick& tick) {
     present_.cycle = tick.cycle;
     present_.over = false;
     present_.nominalTime = tick.nominalTime;
+    present_.clock = monotonicNow() - tick.lateness;
     lateness_ = tick.lateness;
     for (LoopThread& thread : threads_) {
         thread.sequence = taskSequence;

@@ -14,6 +14,7 @@ void PresentCycle::post(LoopThread& thread, Severity severity, EventKind kind,
     Event event;
     event.cycle = over ? cycle + 1 : cycle;
     event.time = nominalTime;
+    event.clock = clock;
     event.simplex = simplex;
     event.order = simplex == noSimplex ? noSimplex : ranks[simplex];
     event.sequence = thread.sequence++;

@@ -53,6 +53,13 @@ bool comesFromTimes(EventKind kind) {
     return kind == EventKind::Overflow || kind == EventKind::Watchdog;
 }
 
+// What to add to the monotonic clock to get UTC ns, at present.
+std::int64_t utcOffset() {
+    using namespace std::chrono;
+    const auto utc = system_clock::now().time_since_epoch();
+    return duration_cast<nanoseconds>(utc).count() - monotonicNow();
+}
+
 auto mergeKey(const Event& event) {
     return std::tie(event.cycle, event.order, event.sequence, event.number);
 }
@@ -166,6 +173,7 @@ void EventLog::run() {
 void EventLog::complete(std::int64_t cycle) { complete_.store(cycle, std::memory_order_release); }
 
 void EventLog::postOutside(Event event) {
+    if (event.clock == 0) event.clock = monotonicNow();
     const std::lock_guard lock{mutex_};
     outside_.push_back(event);
 }
@@ -195,7 +203,12 @@ bool EventLog::handOut(std::int64_t upTo) {
         std::ranges::move(outside_, std::back_inserter(batch_));
         outside_.clear();
     }
-    for (Event& each : batch_) handOn(each);
+    const std::int64_t offset = utcOffset();
+    for (Event& each : batch_) {
+        each.wallClock =
+            each.clock > 0 ? each.clock + offset : structure_->epoch * 1000 + each.time;
+        handOn(each);
+    }
     if (batch_.empty()) fold_->pass(monotonicNow());
     const bool any = !batch_.empty();
     batch_.clear();
@@ -219,6 +232,7 @@ void EventLog::addDrops() {
     Event event;
     event.cycle = lastCycle_;
     event.time = lastTime_;
+    event.clock = monotonicNow();
     event.severity = Severity::Warning;
     event.text << static_cast<std::int64_t>(drops - reportedDrops_)
                << " events dropped: more were posted than their ring holds";

@@ -12,9 +12,7 @@ namespace cortex {
 namespace {
 
 void writeLine(std::ostream& out, const Event& event, const Structure& structure) {
-    constexpr std::int64_t perMicrosecond = 1000;
-    out << lineOf(event, structure, structure.epoch * perMicrosecond + event.time) << '\n'
-        << std::flush;
+    out << lineOf(event, structure, event.wallClock) << '\n' << std::flush;
 }
 
 }  // namespace

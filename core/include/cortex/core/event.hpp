@@ -63,8 +63,10 @@ private:
 // One thing that happened in a cycle. Fixed size; the number is given when it is merged.
 struct Event {
     std::int64_t cycle = 0;
-    std::int64_t time = 0;     // nominal, ns since the cluster's start
-    std::uint64_t number = 0;  // per agent and epoch, from 1
+    std::int64_t time = 0;       // nominal, ns since the cluster's start
+    std::int64_t clock = 0;      // the same by monotonicNow(); 0: not known
+    std::int64_t wallClock = 0;  // the same in UTC ns; the log sets it
+    std::uint64_t number = 0;    // per agent and epoch, from 1
     // Number among the events that the same input causes again. 0: it came from measured times, or
     // from another thread than those of the loop.
     std::uint64_t repeatable = 0;

@@ -8,7 +8,7 @@
 
 namespace cortex {
 
-// Sinks for EventLog: one line each as lineOf() makes it, dated by the agent's epoch.
+// Sinks for EventLog: one line each as lineOf() makes it, dated by the time of day.
 EventLog::Sink printEvents(std::ostream& out);  // `out` must outlive the log
 
 // Appends to `file`; throws Error if it cannot be opened. A failed write is said once on stderr.

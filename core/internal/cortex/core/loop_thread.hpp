@@ -35,7 +35,8 @@ double latencyOfBucket(std::uint32_t bucket);  // us, upper edge
 // What every part of an agent needs to post an event of the present cycle.
 struct PresentCycle {
     std::int64_t cycle = 0, nominalTime = 0;
-    bool over = false;  // its events are handed out, and what comes belongs to the next
+    std::int64_t clock = 0;  // monotonicNow() that belongs to nominalTime
+    bool over = false;       // its events are handed out, and what comes belongs to the next
     std::vector<std::uint32_t> ranks;  // of the simplexes in canonical order
 
     void post(LoopThread& thread, Severity severity, EventKind kind, std::uint32_t simplex,
