@@ -105,6 +105,24 @@ TEST(Mirror, ShowsTheValuesThatAreViewed) {
     EXPECT_FALSE(mirror.age("robot", image->structure().find("/hand")));
 }
 
+TEST(Mirror, TellsTheAgesOfAllSimplexesOfAnAgentAtOnce) {
+    const auto agent = robot();
+    agent->run();
+    Mirror mirror{"test", loopback()};
+    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    EXPECT_TRUE(mirror.ages("robot").empty()) << "nothing is viewed";
+    mirror.view({"/arm"}, 100);
+    ASSERT_TRUE(mirror.waitForValues(longEnough));
+
+    const auto ages = mirror.ages("robot");
+
+    const auto structure = mirror.structure("robot");
+    ASSERT_EQ(ages.size(), structure->simplexes.size());
+    EXPECT_GE(ages[structure->find("/arm")].value_or(-1), 0.0);
+    EXPECT_FALSE(ages[structure->find("/hand")]) << "nobody asked for it";
+    EXPECT_TRUE(mirror.ages("nobody").empty());
+}
+
 TEST(Mirror, CallsStaleWhatAnAgentThatHangsNoLongerSays) {
     const auto agent = robot();
     agent->run();

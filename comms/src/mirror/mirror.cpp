@@ -134,6 +134,19 @@ std::optional<double> Mirror::age(const std::string& agent, std::uint32_t simple
     });
 }
 
+std::vector<std::optional<double>> Mirror::ages(const std::string& agent) const {
+    return implementation_->thread.read([&](MirrorState& state) {
+        std::vector<std::optional<double>> ages;
+        const MirrorAgent* found = state.agents.find(agent);
+        if (found == nullptr || !found->tables) return ages;
+        const Moment now = std::chrono::steady_clock::now();
+        const auto count = static_cast<std::uint32_t>(found->structure->simplexes.size());
+        ages.reserve(count);
+        for (std::uint32_t i = 0; i < count; ++i) ages.push_back(found->tables->age(i, now));
+        return ages;
+    });
+}
+
 std::uint64_t Mirror::waitForImage(std::uint64_t last, Milliseconds limit) const {
     std::uint64_t images = last;
     implementation_->thread.waitFor(limit, [&](MirrorState& state) {

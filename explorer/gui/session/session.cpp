@@ -33,10 +33,11 @@ AgentFrame agentFrame(const comms::Mirror& mirror, const comms::AgentStatus& sta
     auto image = std::make_shared<comms::AgentImage>(mirror.image(status.name));
     if (!*image || (*image)->structure().epoch != result.structure->epoch) return result;
     result.image = std::move(image);
+    const auto ages = mirror.ages(status.name);
     result.ages.reserve(result.structure->simplexes.size());
     for (std::uint32_t i = 0; i < result.structure->simplexes.size(); ++i) {
-        const auto age = result.image->came(i) ? mirror.age(status.name, i) : std::nullopt;
-        result.ages.push_back(age ? static_cast<float>(*age) : -1.0F);
+        const bool known = result.image->came(i) && i < ages.size() && ages[i];
+        result.ages.push_back(known ? static_cast<float>(*ages[i]) : -1.0F);
     }
     return result;
 }

@@ -127,6 +127,8 @@ public:
     AgentImage image(const std::string& agent) const;
     // Seconds since the measurement. None: no values have come.
     std::optional<double> age(const std::string& agent, std::uint32_t simplex) const;
+    // The same for every simplex at one instant, by its index. Empty: nothing of it is viewed.
+    std::vector<std::optional<double>> ages(const std::string& agent) const;
     // Waits until all agents together have published more than `last` images, and returns their
     // number.
     std::uint64_t waitForImage(std::uint64_t last, Milliseconds limit) const;
