@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -103,6 +104,36 @@ TEST(Mirror, ShowsTheValuesThatAreViewed) {
     EXPECT_EQ(image->quality("/hand"), Quality::Lost) << "nobody asked for it";
     EXPECT_GE(mirror.age("robot", image->structure().find("/arm")).value_or(-1), 0.0);
     EXPECT_FALSE(mirror.age("robot", image->structure().find("/hand")));
+}
+
+TEST(Mirror, ReportsEveryImageInOrderToWhoAskedForEveryCycle) {
+    const auto agent = robot();
+    agent->run();
+    std::mutex mutex;
+    std::vector<std::int64_t> cycles;  // outlives the mirror, whose thread writes it
+    Mirror mirror{"test", loopback()};
+    mirror.onImage([&](const std::string& name, const AgentImage& image) {
+        const std::lock_guard lock{mutex};
+        if (name == "robot" && image.came(image->structure().find("/arm"))) {
+            cycles.push_back(image->cycle());
+        }
+    });
+    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    mirror.view({"/arm"}, 0);
+    const auto told = [&] {
+        const std::lock_guard lock{mutex};
+        return cycles;
+    };
+    ASSERT_TRUE(comesTrue([&] { return told().size() >= 200; }));
+    agent->stop();
+
+    const std::vector<std::int64_t> all = told();
+    std::uint64_t missed = 0;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        EXPECT_GE(all[i], all[i - 1]);
+        if (all[i] > all[i - 1] + 1) missed += static_cast<std::uint64_t>(all[i] - all[i - 1] - 1);
+    }
+    EXPECT_LE(missed, statusOf(mirror, "robot").loss) << "only what was lost on the way";
 }
 
 TEST(Mirror, TellsTheAgesOfAllSimplexesOfAnAgentAtOnce) {

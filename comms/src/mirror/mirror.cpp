@@ -114,16 +114,10 @@ bool Mirror::waitForValues(Milliseconds limit) const {
 }
 
 AgentImage Mirror::image(const std::string& agent) const {
-    std::vector<bool> came;  // before the image is taken, which then has what came
-    const auto tables =
-        implementation_->thread.read([&](MirrorState& state) -> std::shared_ptr<MirrorTables> {
-            const MirrorAgent* found = state.agents.find(agent);
-            if (found == nullptr || !found->tables) return nullptr;
-            if (!found->lost) came = found->tables->received();
-            return found->tables;
-        });
-    if (!tables) return {};
-    return {tables, tables->newest(), std::move(came)};
+    return implementation_->thread.read([&](MirrorState& state) {
+        const MirrorAgent* found = state.agents.find(agent);
+        return found != nullptr ? found->image() : AgentImage{};
+    });
 }
 
 std::optional<double> Mirror::age(const std::string& agent, std::uint32_t simplex) const {
@@ -202,6 +196,11 @@ CommandAnswer Mirror::call(std::string_view path, std::string_view command,
 void Mirror::onEvent(std::function<void(const AgentEvent&)> listener) {
     implementation_->thread.change(
         [&](MirrorState& state) { state.listeners.push_back(std::move(listener)); });
+}
+
+void Mirror::onImage(std::function<void(const std::string&, const AgentImage&)> listener) {
+    implementation_->thread.change(
+        [&](MirrorState& state) { state.imageListeners.push_back(std::move(listener)); });
 }
 
 bool Mirror::eventsComplete() const {

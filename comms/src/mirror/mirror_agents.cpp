@@ -50,6 +50,11 @@ std::chrono::nanoseconds MirrorAgent::patience() const {
     return std::chrono::nanoseconds{present() ? patienceWith(*model.presence()) : shortestPatience};
 }
 
+AgentImage MirrorAgent::image() const {
+    if (!tables) return {};
+    return {tables, tables->newest(), lost ? std::vector<bool>{} : tables->received()};
+}
+
 CommandTarget MirrorAgent::target() {
     if (!structure) throw Error("agent " + model.agent() + " has not sent its structure yet");
     if (!commands) commands = std::make_shared<CommandTables>(structure);
@@ -190,19 +195,20 @@ void MirrorAgents::take(const Model& model, Moment now) {
     if (agent->model.add(model)) finish(*agent);
 }
 
-void MirrorAgents::take(const Block& block, const MirrorView& view, Moment now) {
+const MirrorAgent* MirrorAgents::take(const Block& block, const MirrorView& view, Moment now) {
     const auto name = names_.find(block.agent);
     MirrorAgent* agent = name != names_.end() ? find(name->second) : nullptr;
-    if (agent == nullptr || !agent->tables || view.prefixes.empty()) return;
+    if (agent == nullptr || !agent->tables || view.prefixes.empty()) return nullptr;
     if (block.cycle > agent->cycle) agent->moved = now;
     // What is sent again while the loop stands still is as old as its cycle.
-    if (!agent->tables->apply(block, agent->moved)) return;
+    if (!agent->tables->apply(block, agent->moved)) return nullptr;
     if (agent->moved < now) {
         agent->tables->markStale(now, view.patience(agent->model.presence()->period));
     }
     agent->heard = now;
     agent->lost = agent->missed = false;
     agent->cycle = std::max(agent->cycle, block.cycle);
+    return agent;
 }
 
 std::optional<AgentEvent> MirrorAgents::take(const EventMessage& message) {

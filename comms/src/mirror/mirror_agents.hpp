@@ -43,6 +43,7 @@ struct MirrorAgent {
     bool settled() const { return lost || foreign() || (present() && model.complete()); }
     std::chrono::nanoseconds patience() const;  // how long it may be silent
     AgentStatus status(Moment now) const;
+    AgentImage image() const;                      // empty: nothing of it is viewed
     CommandTarget target();                        // throws Error where its structure has not come
     std::string standstillText(Moment now) const;  // empty: its loop runs
 };
@@ -60,7 +61,8 @@ public:
 
     void take(const Presence& presence, Moment now);
     void take(const Model& model, Moment now);
-    void take(const Block& block, const MirrorView& view, Moment now);
+    // The agent that has a new image now. Null: the block was refused.
+    const MirrorAgent* take(const Block& block, const MirrorView& view, Moment now);
     // The event for the listeners. None: it was refused.
     std::optional<AgentEvent> take(const EventMessage& message);
     void withdraw(const Id& agent);

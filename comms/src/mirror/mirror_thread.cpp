@@ -64,26 +64,41 @@ bool MirrorThread::turn() {
         return state.commands.waiting() || !state.everybodyIsHere() ? shortTick : tick;
     });
     const auto samples = inbox_.take(std::chrono::steady_clock::now() + pause);
+    for (const MirrorSample& sample : samples) takeAndTell(sample);
     {
         const std::lock_guard lock{mutex_};
         if (state_.stopping) return false;
-        const Moment now = std::chrono::steady_clock::now();
-        for (const MirrorSample& sample : samples) take(sample, now);
-        serve(now);
+        serve(std::chrono::steady_clock::now());
     }
     changed_.notify_all();
     tellListeners();
     return true;
 }
 
-void MirrorThread::take(const MirrorSample& sample, Moment now) {
+// The mutex is not held while listeners run, because they may call the mirror.
+void MirrorThread::takeAndTell(const MirrorSample& sample) {
+    decltype(state_.imageListeners) listeners;
+    std::string name;
+    AgentImage image;
+    {
+        const std::lock_guard lock{mutex_};
+        const MirrorAgent* agent = take(sample, std::chrono::steady_clock::now());
+        if (agent == nullptr || state_.imageListeners.empty()) return;
+        listeners = state_.imageListeners;
+        name = agent->model.agent();
+        image = agent->image();
+    }
+    for (const auto& listener : listeners) listener(name, image);
+}
+
+const MirrorAgent* MirrorThread::take(const MirrorSample& sample, Moment now) {
     MirrorAgents& agents = state_.agents;
     if (const auto* presence = std::get_if<Presence>(&sample)) {
         agents.take(*presence, now);
     } else if (const auto* model = std::get_if<Model>(&sample)) {
         agents.take(*model, now);
     } else if (const auto* block = std::get_if<Block>(&sample)) {
-        agents.take(*block, state_.view, now);
+        return agents.take(*block, state_.view, now);
     } else if (const auto* answer = std::get_if<Answer>(&sample)) {
         state_.commands.take(*answer);
     } else if (const auto* message = std::get_if<EventMessage>(&sample)) {
@@ -91,6 +106,7 @@ void MirrorThread::take(const MirrorSample& sample, Moment now) {
     } else {
         agents.withdraw(std::get<Withdrawn>(sample).agent);
     }
+    return nullptr;
 }
 
 void MirrorThread::serve(Moment now) {

@@ -36,6 +36,7 @@ struct MirrorState {
     SentCommands commands;
     MirrorView view;
     std::vector<std::function<void(const AgentEvent&)>> listeners;
+    std::vector<std::function<void(const std::string&, const AgentImage&)>> imageListeners;
     // How many participants send presences, whether theirs has come already or not.
     std::uint32_t speakers = 0;
     std::uint32_t closed = 0;  // those with security, while this mirror has none
@@ -82,10 +83,12 @@ public:
 
 private:
     void run();
-    bool turn();                                        // false: the thread is to end
-    void take(const MirrorSample& sample, Moment now);  // what was received
-    void serve(Moment now);                             // sends what is due, finds who is lost
-    void tellListeners();                               // outside of the mutex
+    bool turn();  // false: the thread is to end
+    // What was received; returns the agent that has a new image, or null.
+    const MirrorAgent* take(const MirrorSample& sample, Moment now);
+    void takeAndTell(const MirrorSample& sample);  // outside of the mutex
+    void serve(Moment now);                        // sends what is due, finds who is lost
+    void tellListeners();                          // outside of the mutex
 
     std::string name_;
     Sender tool_;

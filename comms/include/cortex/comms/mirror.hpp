@@ -125,6 +125,10 @@ public:
     // The newest image; empty if nothing of the agent is viewed. Simplexes that are not viewed, or
     // have not come, have the quality `lost`. Those that should have come again have `stale`.
     AgentImage image(const std::string& agent) const;
+    // Reports each image that an agent sends, in order and before the next is taken in. The
+    // listener runs on the mirror's thread: it copies what it needs, does not throw, and returns.
+    // Images that were lost on the way are counted in AgentStatus::loss.
+    void onImage(std::function<void(const std::string& agent, const AgentImage&)> listener);
     // Seconds since the measurement. None: no values have come.
     std::optional<double> age(const std::string& agent, std::uint32_t simplex) const;
     // The same for every simplex at one instant, by its index. Empty: nothing of it is viewed.
