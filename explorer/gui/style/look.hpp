@@ -25,7 +25,7 @@ public:
     // Pixels of so many units; a unit is 4 pixels at 100 %. All sizes and distances are units.
     static int units(double count);
     static double length(double units);  // the same, not rounded; for drawings
-    static int lineWidth();  // 1 px; 2 in high contrast
+    static int lineWidth();              // 1 px; 2 in high contrast
 };
 
 // Digits of equal width and letters that cannot be taken for digits; otherwise Open Sans, or what

@@ -7,7 +7,6 @@
 #include <QPainter>
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace cortex::explorer {
 
@@ -116,8 +115,8 @@ void GraphNodeItem::paint(QPainter* painter, const QStyleOptionGraphicsItem* /*o
     if (both) paintText(*painter, row.translated(0, height - 1).toRect(), type_, colours.ink2);
 }
 
-GraphEdgeItem::GraphEdgeItem(const GraphEdge& edge, QPainterPath path, QPointF label)
-    : path_{std::move(path)}, label_{label}, delayed_{edge.delayed} {
+GraphEdgeItem::GraphEdgeItem(const GraphEdge& edge, const QPainterPath& path, QPointF label)
+    : path_{path}, label_{label}, delayed_{edge.delayed} {
     QStringList rules;
     for (const std::string& rule : edge.rules) rules << QString::fromStdString(rule);
     rules_ = rules.join(QStringLiteral(", "));

@@ -38,7 +38,7 @@ private:
 // chosen.
 class GraphEdgeItem : public QGraphicsItem {
 public:
-    GraphEdgeItem(const GraphEdge& edge, QPainterPath path, QPointF label);
+    GraphEdgeItem(const GraphEdge& edge, const QPainterPath& path, QPointF label);
 
     void choose(bool chosen);
     void lose(bool lost);  // one of its ends is lost
