@@ -6,6 +6,7 @@
 #include "comms/stepped_agent.hpp"
 
 #include <algorithm>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -106,17 +107,22 @@ TEST(Mirror, ShowsTheValuesThatAreViewed) {
     EXPECT_FALSE(mirror.age("robot", image->structure().find("/hand")));
 }
 
+// The listener stands still while the agent goes on; then it is told what came meanwhile, too.
 TEST(Mirror, ReportsEveryImageInOrderToWhoAskedForEveryCycle) {
     const auto agent = robot();
     agent->run();
     std::mutex mutex;
     std::vector<std::int64_t> cycles;  // outlives the mirror, whose thread writes it
+    std::promise<void> goOn;
+    const std::shared_future<void> mayGoOn = goOn.get_future().share();
     Mirror mirror{"test", loopback()};
     mirror.onImage([&](const std::string& name, const AgentImage& image) {
-        const std::lock_guard lock{mutex};
-        if (name == "robot" && image.came(image->structure().find("/arm"))) {
+        if (name != "robot" || !image.came(image->structure().find("/arm"))) return;
+        {
+            const std::lock_guard lock{mutex};
             cycles.push_back(image->cycle());
         }
+        mayGoOn.wait();
     });
     ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
     mirror.view({"/arm"}, 0);
@@ -124,16 +130,20 @@ TEST(Mirror, ReportsEveryImageInOrderToWhoAskedForEveryCycle) {
         const std::lock_guard lock{mutex};
         return cycles;
     };
-    ASSERT_TRUE(comesTrue([&] { return told().size() >= 200; }));
+    const auto cycle = [&] { return agent->rig.agent->images().newest().cycle(); };
+    EXPECT_TRUE(comesTrue([&] { return !told().empty(); }));
+    const std::int64_t begin = cycle();
+    EXPECT_TRUE(comesTrue([&] { return cycle() >= begin + 100; }));
+    const std::int64_t end = cycle();
+    goOn.set_value();
+    ASSERT_TRUE(comesTrue([&] { return !told().empty() && told().back() > end; }));
     agent->stop();
 
     const std::vector<std::int64_t> all = told();
-    std::uint64_t missed = 0;
-    for (std::size_t i = 1; i < all.size(); ++i) {
-        EXPECT_GE(all[i], all[i - 1]);
-        if (all[i] > all[i - 1] + 1) missed += static_cast<std::uint64_t>(all[i] - all[i - 1] - 1);
-    }
-    EXPECT_LE(missed, statusOf(mirror, "robot").loss) << "only what was lost on the way";
+    EXPECT_TRUE(std::ranges::is_sorted(all));
+    const auto meanwhile =
+        std::ranges::count_if(all, [&](std::int64_t each) { return each > begin && each <= end; });
+    EXPECT_GE(meanwhile, 10) << "of 100, some of which a busy agent may leave out";
 }
 
 TEST(Mirror, TellsTheAgesOfAllSimplexesOfAnAgentAtOnce) {
