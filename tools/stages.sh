@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # The stages of `./run test`, and the other commands that run tests or tools. Sourced by `./run`.
-stages=(format tidy coverage tsan fuzz realtime package instructions profiler docs)
+stages=(format tidy coverage tsan fuzz realtime package debian instructions profiler docs)
 
 # --- what a stage reports ---------------------------------------------------------------------
 
@@ -162,6 +162,25 @@ stage_package() {
     bash tests/package_test.sh "$prefix"
 }
 
+# The Debian packages; where we are root, installed into a bare root, started and removed.
+stage_debian() {
+    buildRelease
+    makePackages
+    if ((EUID)); then note "not installed: that needs root"; return; fi
+    say "installing into a bare root"
+    bash tests/debian_test.sh build/debian build/debian
+}
+
+makePackages() {
+    say "making Debian packages in build/debian"
+    rm -rf build/debian
+    (cd build/release && cpack -B ../debian) >"$logs/cpack.log" 2>&1 ||
+        { cat "$logs/cpack.log"; return 1; }
+    rm -rf build/debian/_CPack_Packages
+    lintian --allow-root --fail-on error build/debian/*.deb
+    ls build/debian/*.deb
+}
+
 # What the hot paths cost, in instructions under callgrind, beside instructions/baseline.txt.
 stage_instructions() {
     local log=$logs/instructions.log status=0
@@ -226,6 +245,13 @@ command_test() {
 command_stage() {
     export stage=$1
     "stage_$stage"
+}
+
+command_package() {
+    ensure "${packagePackages[@]}"
+    build release
+    makePackages
+    say "install with: sudo apt-get install ./build/debian/*.deb"
 }
 
 command_baseline() {

@@ -19,12 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// share/cortex beside the library that this code is in, wherever it was installed to.
+// share/cortex beside the library that this code is in, wherever it was installed to. The loader
+// may name the library by a link to its folder: where /lib is a link, /lib/../share is not
+// /usr/share.
 fs::path shareFolder() {
     Dl_info library{};
     if (dladdr(reinterpret_cast<const void*>(&findModelFile), &library) == 0) return {};
-    return (fs::path{library.dli_fname}.parent_path() / CORTEX_SHARE_FROM_LIBRARY)
-        .lexically_normal();
+    const fs::path folder = fs::path{library.dli_fname}.parent_path();
+    std::error_code failed;
+    const fs::path real = fs::canonical(folder, failed);
+    return ((failed ? folder : real) / CORTEX_SHARE_FROM_LIBRARY).lexically_normal();
 }
 
 std::vector<fs::path> searchFolders() {
