@@ -63,6 +63,17 @@ oven=$!
 kill "$oven"
 grep 'all active simplexes are started' "$outside/bakery"
 
+echo 'the example of a view: the window loads it, and names what it cannot load'
+built e05_own_view
+mkdir "$outside/broken"
+touch "$outside/broken/broken.so"
+for plugins in e05_own_view/build broken; do
+    CORTEX_EXPLORER_PLUGINS=$outside/$plugins "$prefix/bin/cortex-explorer" --timeout 0.1 \
+        --screenshot "$outside/picture.png" 2>"$outside/$(basename "$plugins").said"
+done
+grep 'broken.so was not loaded' "$outside/broken.said"
+if grep 'was not loaded' "$outside/build.said"; then exit 1; fi
+
 echo 'the same with pkg-config'
 export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
 g++ -std=c++20 "$outside"/e01_two_simplexes/*.cpp -o "$outside/e01" \

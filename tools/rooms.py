@@ -18,7 +18,7 @@ ROOMS = {
     "comms": ["wire", "security", "peers", "rtps", "dds", "agent", "mirror"],
     "cs": ["threads", "clocks", "tasks", "loop"],
     "explorer/cli": ["text", "models", "live", "doctor", "verbs"],
-    "explorer/gui": ["style", "session", "model", "widgets", "views", "window", "program"],
+    "explorer/gui": ["style", "session", "model", "plugin", "widgets", "views", "window", "program"],
 }
 # Rooms of one folder that do not know each other, although one stands before the other.
 STRANGERS = {("comms", "mirror"): ["agent"]}
@@ -50,6 +50,7 @@ PUBLIC = {
         "agent": "dds_interface",
         "mirror": "mirror",
     },
+    "explorer/gui": {"plugin": "view"},
     "cs": {
         "clocks": "trigger_source",
         "tasks": "io_exchange simplex_cs",
@@ -85,8 +86,10 @@ def target_of(folder, included):
     """Folder and room of what an #include names; (None, None): none of this project's layers."""
     parts = included.split("/")
     if parts[0] == "cortex" and len(parts) == 3:
-        other = next((f for f in LAYERS if f.split("/")[0] == parts[1]), None)
-        return other, room_of_public(other, parts[2].removesuffix(".hpp"))
+        name = parts[2].removesuffix(".hpp")
+        others = [f for f in LAYERS if f.split("/")[0] == parts[1]]
+        other = next((f for f in others if room_of_public(f, name)), next(iter(others), None))
+        return other, room_of_public(other, name)
     if len(parts) == 2 and parts[0] in ROOMS.get(folder, []):
         return folder, parts[0]
     return None, None

@@ -8,6 +8,7 @@
 
 int main(int count, char** words) {
     qputenv("QT_QPA_PLATFORM", "offscreen");
+    qputenv("CORTEX_EXPLORER_PLUGINS", CORTEX_BINARY_DIR "/lib/views");
     // Not destroyed: Qt's offscreen platform leaves parts of its screen behind when it ends.
     static auto* const application = new QApplication{count, words};
     application->setQuitOnLastWindowClosed(false);

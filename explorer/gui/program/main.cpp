@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "plugin/plugins.hpp"
 #include "program/options.hpp"
 #include "program/screenshot.hpp"
 #include "style/look.hpp"
@@ -6,6 +7,7 @@
 #include "window/main_window.hpp"
 
 #include <QApplication>
+#include <iostream>
 
 using namespace cortex::explorer;
 
@@ -21,6 +23,10 @@ int main(int argc, char** argv) {
     QApplication application{argc, argv};
     // Pictures are alike on every machine, as far as the font is installed.
     Look::apply(options->theme, options->scale, picture ? QStringLiteral("Open Sans") : QString{});
+
+    for (const QString& problem : Plugins::all().problems()) {
+        std::cerr << "warning: " << problem.toStdString() << '\n';
+    }
 
     Session session{options->network};
     MainWindow window{session};

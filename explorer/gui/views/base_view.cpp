@@ -2,7 +2,9 @@
 #include "views/base_view.hpp"
 
 #include "model/value_text.hpp"
+#include "plugin/plugins.hpp"
 #include "views/command_list.hpp"
+#include "views/own_view.hpp"
 #include "views/relation_table.hpp"
 #include "views/type_page.hpp"
 #include "widgets/item_table.hpp"
@@ -17,7 +19,7 @@ namespace cortex::explorer {
 
 namespace {
 
-enum Tab { DataTab, RelationsTab, CommandsTab, TypeTab };
+enum Tab { OwnTab, DataTab, RelationsTab, CommandsTab, TypeTab, TabCount };
 
 // "SimulatedAxis ‹ AxisDevice ‹ Device ‹ Active ‹ Simplex", the first parents.
 QString chainOf(const Type& type, const TypeModel& types) {
@@ -46,6 +48,7 @@ BaseView::BaseView(QWidget* parent)
       notice_{new TextLabel{TextSize::Text, true, &Tokens::dataText}},
       tabs_{new QTabBar},
       pages_{new QStackedWidget},
+      own_{new OwnView},
       table_{new ItemTable{items_}},
       relations_{new RelationTable},
       commands_{new CommandList},
@@ -57,8 +60,8 @@ BaseView::BaseView(QWidget* parent)
     auto* first = new QHBoxLayout;
     auto* states = new QVBoxLayout;
     states->setSpacing(0);
-    states->addWidget(state_);
-    states->addWidget(quality_);
+    states->addWidget(state_, 0, Qt::AlignLeft);  // each as wide as its own text
+    states->addWidget(quality_, 0, Qt::AlignLeft);
     first->addWidget(mark_);
     first->addSpacing(Look::units(1));
     first->addLayout(states, 1);
@@ -78,16 +81,18 @@ BaseView::BaseView(QWidget* parent)
     header->addWidget(notice_);
     notice_->hide();
 
-    for (int i = 0; i < 4; ++i) tabs_->addTab({});
+    for (int i = 0; i < TabCount; ++i) tabs_->addTab({});
     tabs_->setExpanding(false);
     tabs_->setDrawBase(false);
     tabs_->setAccessibleName(tr("What to show"));
-    for (QWidget* page : {static_cast<QWidget*>(table_), static_cast<QWidget*>(relations_),
-                          static_cast<QWidget*>(commands_), static_cast<QWidget*>(type_)}) {
+    for (QWidget* page :
+         std::initializer_list<QWidget*>{own_, table_, relations_, commands_, type_}) {
         pages_->addWidget(page);
     }
     connect(tabs_, &QTabBar::currentChanged, pages_, &QStackedWidget::setCurrentIndex);
+    connect(tabs_, &QTabBar::tabBarClicked, this, [this](int tab) { wanted_ = tab; });
     connect(relations_, &RelationTable::opened, this, &BaseView::opened);
+    connect(own_, &OwnView::opened, this, &BaseView::opened);
 
     auto* content = new QWidget;
     auto* rows = new QVBoxLayout{content};
@@ -133,6 +138,7 @@ void BaseView::refresh(const std::shared_ptr<const Frame>& frame) {
     refreshHeader(*frame, place);
     if (fresh_ || structures_ != frame->structures) refreshTabs(*frame, place);
     relations_->refresh(*frame, *place);
+    own_->refresh(*frame);
     fresh_ = false;
     structures_ = frame->structures;
 }
@@ -215,6 +221,20 @@ void BaseView::refreshTabs(const Frame& frame, std::optional<Place> place) {
     tabs_->setTabText(RelationsTab, title(tr("Relationships"), relations_->count()));
     tabs_->setTabText(CommandsTab, title(tr("Commands"), static_cast<int>(type.commands.size())));
     tabs_->setTabText(TypeTab, tr("Type"));
+    showOwnView(type, *agent.structure->types);
+}
+
+// The view that a plug-in has for the type, as the first tab.
+void BaseView::showOwnView(const Type& type, const TypeModel& types) {
+    const ViewType* own = Plugins::all().viewFor(type, types);
+    if (own == nullptr) {
+        own_->clear();
+    } else {
+        own_->show(*own, path_);
+        tabs_->setTabText(OwnTab, QString::fromUtf8(own->title));
+    }
+    tabs_->setTabVisible(OwnTab, own != nullptr);
+    tabs_->setCurrentIndex(wanted_ == OwnTab && own == nullptr ? DataTab : wanted_);
 }
 
 }  // namespace cortex::explorer

@@ -15,6 +15,7 @@ class QStackedWidget;
 namespace cortex::explorer {
 
 class ItemTable;
+class OwnView;
 class RelationTable;
 class CommandList;
 class TypePage;
@@ -41,6 +42,7 @@ Q_SIGNALS:
 private:
     void refreshHeader(const Frame& frame, std::optional<Place> place);
     void refreshTabs(const Frame& frame, std::optional<Place> place);
+    void showOwnView(const Type& type, const TypeModel& types);
     void showNothing(const Frame& frame);
 
     std::string path_;
@@ -52,7 +54,9 @@ private:
     StateMark* mark_;
     TextLabel *state_, *quality_, *agent_, *name_, *chain_, *description_, *notice_;
     QTabBar* tabs_;
+    int wanted_ = 0;  // tab that the user chose
     QStackedWidget* pages_;
+    OwnView* own_;
     ItemTable* table_;
     RelationTable* relations_;
     CommandList* commands_;
