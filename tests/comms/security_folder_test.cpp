@@ -259,5 +259,19 @@ TEST(CommandList, ThatIsNoneIsNotRead) {
     EXPECT_FALSE(commandListFrom(governance()));
 }
 
+TEST(CommandList, OfALaterVersionIsReadWithoutWhatOnlyThatKnows) {
+    const CommandList list{{"a", {"/x"}, {1}, "2027-11-20T12:00:00Z", {"cell-host"}}, "K"};
+    std::string text = textOf(list);
+    text.insert(text.find("domain: "), "colour: blue\n");
+    text += "owns: /x\n";
+    const auto read = commandListFrom(text);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->rights.mayCommand, list.rights.mayCommand);
+    EXPECT_EQ(read->rights.domains, list.rights.domains);
+    EXPECT_EQ(read->rights.carriedBy, list.rights.carriedBy);
+    EXPECT_FALSE(commandListFrom(text + ": nameless\n"));
+    EXPECT_FALSE(commandListFrom(text + "domain: none\n"));
+}
+
 }  // namespace
 }  // namespace cortex::comms

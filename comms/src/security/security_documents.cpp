@@ -34,6 +34,14 @@ bool takeField(std::string_view& text, std::string_view name, std::string& value
     return true;
 }
 
+// The same for a name that only a later version knows.
+bool skipField(std::string_view& text) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    const std::string name{line.substr(0, line.find(": "))};
+    std::string ignored;
+    return !name.empty() && takeField(text, name, ignored);
+}
+
 std::optional<int> domainFrom(const std::string& text) {
     int domain = -1;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), domain);
@@ -105,6 +113,7 @@ std::string textOf(const CommandList& list) {
                        "\nuntil: " + list.rights.until + "\n";
     for (const int each : list.rights.domains) text += "domain: " + std::to_string(each) + "\n";
     for (const std::string& each : list.rights.mayCommand) text += "may-command: " + each + "\n";
+    for (const std::string& each : list.rights.carriedBy) text += "carried-by: " + each + "\n";
     return text;
 }
 
@@ -118,13 +127,20 @@ std::optional<CommandList> commandListFrom(std::string_view text) {
                         takeField(text, "key", list.key) && takeField(text, "until", rights.until);
     if (!begins) return {};
     std::string value;
-    while (takeField(text, "domain", value)) {
-        const auto domain = domainFrom(value);
-        if (!domain) return {};
-        rights.domains.push_back(*domain);
+    while (!text.empty()) {
+        if (takeField(text, "domain", value)) {
+            const auto domain = domainFrom(value);
+            if (!domain) return {};
+            rights.domains.push_back(*domain);
+        } else if (takeField(text, "may-command", value)) {
+            rights.mayCommand.push_back(value);
+        } else if (takeField(text, "carried-by", value)) {
+            rights.carriedBy.push_back(value);
+        } else if (!skipField(text)) {
+            return {};
+        }
     }
-    while (takeField(text, "may-command", value)) rights.mayCommand.push_back(value);
-    if (!text.empty() || !utcFrom(rights.until)) return {};
+    if (!utcFrom(rights.until)) return {};
     return list;
 }
 

@@ -15,6 +15,8 @@ struct AgentRights {
     std::vector<std::string> mayCommand{"/"};  // these paths with all below; none: only look
     std::vector<int> domains;                  // none: all
     std::string until;                         // UTC, 2027-11-20T12:00:00Z
+    // Hosts whose process may carry it, for versions to come: known, and without effect today.
+    std::vector<std::string> carriedBy{};
 };
 
 inline constexpr int authorityDays = 3650, agentDays = 365;
