@@ -47,7 +47,7 @@ std::optional<double> SimplexNow::number(std::string_view item, std::size_t elem
 }
 
 QString SimplexNow::text(std::string_view item, std::size_t element) const {
-    const QString nothing = QStringLiteral("—");
+    QString nothing = QStringLiteral("—");
     if (!present()) return nothing;
     const AgentFrame& agent = frame_->agents[agent_];
     const ItemLayout* layout = agent.structure->simplexes[simplex_].layout->find(item);

@@ -18,6 +18,7 @@ using namespace std::chrono_literals;
 constexpr auto framePeriod = 33ms;
 constexpr std::uint32_t valueRate = 30;  // Hz
 constexpr std::size_t mostEvents = 100'000;
+constexpr auto answerLimit = 30s;  // a group that shuts down takes its time
 
 bool sameStructures(const Frame& a, const Frame& b) {
     return std::ranges::equal(a.agents, b.agents, [](const AgentFrame& x, const AgentFrame& y) {
@@ -71,6 +72,23 @@ std::vector<comms::AgentEvent> Session::takeEvents() {
     return std::exchange(events_, {});
 }
 
+std::uint64_t Session::send(std::string path, std::string command,
+                            comms::Mirror::Arguments arguments) {
+    std::uint64_t number = 0;
+    {
+        const std::lock_guard lock{mutex_};
+        number = ++lastNumber_;
+        requests_.push_back({number, std::move(path), std::move(command), std::move(arguments)});
+    }
+    changed_.notify_all();
+    return number;
+}
+
+std::vector<CommandOutcome> Session::takeOutcomes() {
+    const std::lock_guard lock{mutex_};
+    return std::exchange(outcomes_, {});
+}
+
 void Session::joinAgain() {
     {
         const std::lock_guard lock{mutex_};
@@ -94,6 +112,8 @@ void Session::run() {
             applied_ = wanted;
             mirror_->view(std::move(wanted), valueRate);
         }
+        sendRequests();
+        takeAnswers();
         publish();
     } while (pause());
     mirror_.reset();
@@ -113,6 +133,45 @@ void Session::join() {
     } catch (const std::exception& error) {
         problem_ = error.what();
     }
+}
+
+void Session::sendRequests() {
+    std::vector<Request> requests;
+    {
+        const std::lock_guard lock{mutex_};
+        requests = std::exchange(requests_, {});
+    }
+    for (Request& each : requests) {
+        std::string problem = "no domain is joined";
+        if (mirror_) {
+            try {
+                each.sent = mirror_->send(each.path, each.command, each.arguments);
+                each.since = Clock::now();
+                unanswered_.push_back(std::move(each));
+                continue;
+            } catch (const std::exception& error) {
+                problem = error.what();
+            }
+        }
+        const std::lock_guard lock{mutex_};
+        outcomes_.push_back({each.number, each.path, each.command, {}, std::move(problem)});
+    }
+}
+
+void Session::takeAnswers() {
+    const auto now = Clock::now();
+    std::erase_if(unanswered_, [&](Request& each) {
+        CommandOutcome outcome{each.number, each.path, each.command, {}, {}};
+        const bool answered = mirror_->poll(each.sent, outcome.answer);
+        if (!answered && now - each.since < answerLimit) return false;
+        if (!answered) {
+            mirror_->abandon(each.sent);
+            outcome.answer.outcome = Outcome::Unknown;
+        }
+        const std::lock_guard lock{mutex_};
+        outcomes_.push_back(std::move(outcome));
+        return true;
+    });
 }
 
 void Session::publish() {
@@ -137,7 +196,7 @@ void Session::publish() {
 
 bool Session::pause() {
     std::unique_lock lock{mutex_};
-    changed_.wait_for(lock, framePeriod, [this] { return ends_ || again_; });
+    changed_.wait_for(lock, framePeriod, [this] { return ends_ || again_ || !requests_.empty(); });
     return !ends_;
 }
 

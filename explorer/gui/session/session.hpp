@@ -16,6 +16,14 @@
 
 namespace cortex::explorer {
 
+// What became of a command that was sent.
+struct CommandOutcome {
+    std::uint64_t number = 0;  // that Session::send() gave
+    std::string path, command;
+    comms::CommandAnswer answer;
+    std::string problem;  // why it was never sent; otherwise empty
+};
+
 // One domain, looked at by a thread of its own: it alone joins, asks and leaves, so that nothing
 // the network does can hold up the screen. Called by the GUI thread; no call waits.
 class Session {
@@ -33,11 +41,19 @@ public:
     // The events that came since the last call, the last 1,000 of each agent first.
     std::vector<comms::AgentEvent> takeEvents();
     void joinAgain();  // after it could not join
+    // Sends a command at once, and gives its number. Whoever has not answered after 30 s is
+    // Unknown.
+    std::uint64_t send(std::string path, std::string command,
+                       comms::Mirror::Arguments arguments = {});
+    // The outcomes that came since the last call, each once.
+    std::vector<CommandOutcome> takeOutcomes();
 
 private:
     void run();
     void join();
     void publish();
+    void sendRequests();
+    void takeAnswers();
     bool pause();  // until the next frame is due; false: the session ends
 
     comms::NetworkOptions options_;
@@ -47,10 +63,22 @@ private:
     std::chrono::steady_clock::time_point begin_;
     std::string problem_;
 
+    struct Request {
+        std::uint64_t number = 0;
+        std::string path, command;
+        comms::Mirror::Arguments arguments;
+        std::uint64_t sent = 0;  // the mirror's number of it
+        std::chrono::steady_clock::time_point since{};
+    };
+    std::vector<Request> unanswered_;  // thread_ alone
+
     std::mutex mutex_;  // of what follows, held for a swap only
     std::condition_variable changed_;
     std::vector<std::string> wanted_;
     std::vector<comms::AgentEvent> events_;
+    std::vector<Request> requests_;
+    std::vector<CommandOutcome> outcomes_;
+    std::uint64_t lastNumber_ = 0;
     bool ends_ = false, again_ = false;
 
     std::atomic<std::shared_ptr<const Frame>> frame_;

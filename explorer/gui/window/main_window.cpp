@@ -10,6 +10,7 @@
 #include "views/system_tree.hpp"
 #include "widgets/text_label.hpp"
 #include "window/status_bar.hpp"
+#include "window/stop_button.hpp"
 
 #include <QAction>
 #include <QApplication>
@@ -47,7 +48,8 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       eventList_{new EventList{events_}},
       across_{new QSplitter{Qt::Horizontal}},
       down_{new QSplitter{Qt::Vertical}},
-      status_{new StatusBar} {
+      status_{new StatusBar},
+      stop_{new StopButton{session}} {
     setWindowTitle(tr("CorteX Explorer"));
     tabs_->setExpanding(false);
     tabs_->setDrawBase(false);
@@ -116,9 +118,15 @@ QWidget* MainWindow::makeBar() {
     title->show(tr("CorteX Explorer"));
     row->addWidget(title);
     row->addStretch(1);
+    auto* stopped = new TextLabel{TextSize::Text};
+    connect(stop_, &StopButton::told, stopped, qOverload<const QString&>(&TextLabel::show));
+    row->addWidget(stopped);
+    row->addSpacing(Look::units(4));
     auto* control = new TextLabel{TextSize::Text, false, &Tokens::ink2};
     control->show(tr("Read-only"));
     row->addWidget(control);
+    row->addSpacing(Look::units(4));
+    row->addWidget(stop_);
     return bar;
 }
 
@@ -190,6 +198,7 @@ void MainWindow::refresh() {
     events_.add(session_.takeEvents());
     tree_->refresh(frame);
     status_->refresh(*frame, tree_->model().total());
+    stop_->refresh(*frame, session_.takeOutcomes());
     if (auto* view = qobject_cast<BaseView*>(current())) view->refresh(frame);
     if (current() == graph_) graph_->refresh(frame);
     if (current() == agents_) agents_->refresh(*frame);

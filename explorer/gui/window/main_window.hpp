@@ -19,6 +19,7 @@ class BaseView;
 class EventList;
 class GraphView;
 class StatusBar;
+class StopButton;
 class SystemTree;
 
 // The window: the tree of simplexes, tabs with views, events, status. It takes the newest frame of
@@ -32,6 +33,7 @@ public:
     void openTab(const std::string& path);  // in one of its own
     void openAgents();
     void openGraph();
+    StopButton& stopButton() { return *stop_; }
     bool ready() const;  // everything has come, with the values that are shown
     void refresh();      // with the newest frame
     SystemTree& tree() { return *tree_; }
@@ -60,6 +62,7 @@ private:
     EventList* eventList_;
     QSplitter *across_, *down_;
     StatusBar* status_;
+    StopButton* stop_;
     QTimer timer_;
 };
 

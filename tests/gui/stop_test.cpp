@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Stop button of the window, with a real agent over DDS.
+#include "gui/window_fixture.hpp"
+#include "widgets/text_label.hpp"
+#include "window/stop_button.hpp"
+
+#include <QLineEdit>
+#include <QMenu>
+#include <QPushButton>
+
+#include <QtTest/QTest>
+
+namespace cortex::test {
+namespace {
+
+class Stopping : public Window {
+protected:
+    bool isIn(const std::string& path, State state) {
+        const auto frame = session.frame();
+        const auto place = frame->find(path);
+        return place && frame->agents[place->agent].state(place->simplex) == state;
+    }
+    bool everythingRuns() {
+        if (!everythingComes()) return false;
+        EXPECT_EQ(live({"call", "/mixer", "startup"}).exit, 0);
+        return comes(
+            [this] { return isIn("/drive", State::Active) && isIn("/controller", State::Active); });
+    }
+    bool everythingStops() {
+        return comes([this] {
+            return isIn("/drive", State::Standby) && isIn("/controller", State::Standby);
+        });
+    }
+    bool says(const QString& text) {
+        return comes([&] { return window.stopButton().progress().contains(text); });
+    }
+};
+
+TEST_F(Stopping, AClickStopsEverythingAtOnceAndSaysSo) {
+    ASSERT_TRUE(everythingRuns());
+    QTest::mouseClick(&window.stopButton(), Qt::LeftButton);
+    EXPECT_TRUE(window.stopButton().progress().startsWith("Stopping all: 0 of 2"));
+    EXPECT_TRUE(everythingStops());
+    EXPECT_TRUE(says("All 2 in Standby, ")) << window.stopButton().progress().toStdString();
+    const auto labels = window.findChildren<TextLabel*>();
+    EXPECT_TRUE(std::ranges::any_of(
+        labels, [&](const auto* each) { return each->text() == window.stopButton().progress(); }));
+}
+
+TEST_F(Stopping, F12StopsAtItsSecondPressFromATextField) {
+    ASSERT_TRUE(everythingRuns());
+    window.tree().focusFilter();
+    auto* field = window.findChild<QLineEdit*>();
+    QTest::keyClick(field, Qt::Key_F12);
+    EXPECT_EQ(window.stopButton().text(), "F12 again: stop all");
+    EXPECT_TRUE(window.stopButton().progress().isEmpty()) << "the first press does nothing";
+    QTest::keyClick(field, Qt::Key_F12);
+    EXPECT_TRUE(everythingStops());
+    EXPECT_TRUE(field->text().isEmpty());
+}
+
+TEST_F(Stopping, F12WorksWhileAMenuIsOpen) {
+    ASSERT_TRUE(everythingRuns());
+    QMenu menu;
+    menu.addAction("anything");
+    menu.popup({});
+    QTest::keyClick(&menu, Qt::Key_F12);
+    QTest::keyClick(&menu, Qt::Key_F12);
+    EXPECT_TRUE(everythingStops());
+    menu.close();
+}
+
+TEST_F(Stopping, AKeyThatIsHeldDownIsOnePress) {
+    ASSERT_TRUE(everythingComes());
+    QTest::keyClick(&window, Qt::Key_F12);
+    QKeyEvent repeat{QEvent::KeyPress, Qt::Key_F12, Qt::NoModifier, {}, true};
+    QApplication::sendEvent(&window, &repeat);
+    EXPECT_TRUE(window.stopButton().progress().isEmpty());
+}
+
+TEST_F(Stopping, NamesWhoIsNotHeard) {
+    ASSERT_TRUE(everythingRuns());
+    agent->end(SIGKILL);
+    ASSERT_TRUE(comes([this] { return session.frame()->agents.front().lost(); }));
+    window.stopButton().click();
+    EXPECT_TRUE(says("Nothing was stopped: mixer is not heard."))
+        << window.stopButton().progress().toStdString();
+}
+
+TEST_F(Stopping, ACommandThatCannotBeSentSaysWhy) {
+    ASSERT_TRUE(everythingComes());
+    const auto number = session.send("/nobody", "startup");
+    std::vector<CommandOutcome> outcomes;
+    ASSERT_TRUE(comes([&] {
+        if (outcomes.empty()) outcomes = session.takeOutcomes();
+        return !outcomes.empty();
+    }));
+    EXPECT_EQ(outcomes.front().number, number);
+    EXPECT_TRUE(contains(outcomes.front().problem, "/nobody")) << outcomes.front().problem;
+}
+
+TEST(StoppingAlone, SaysThatNobodyIsHeard) {
+    Session session{ownNetwork()};
+    MainWindow window{session};
+    window.stopButton().click();
+    EXPECT_EQ(window.stopButton().progress(), "Nobody is heard: nothing was stopped.");
+}
+
+}  // namespace
+}  // namespace cortex::test
