@@ -97,12 +97,13 @@ stage_coverage() {
 
 measureCoverage() {
     local status=0
-    say "counting covered lines of core, cs and comms"
+    say "counting covered lines of core, cs, comms and the window"
     gcovr --gcov-executable "llvm-cov-19 gcov" --filter core/ --filter cs/ --filter comms/ \
-        -j "$jobs" --json build/coverage/coverage.json build/coverage >"$logs/gcovr.log" 2>&1 ||
+        --filter explorer/gui/ --exclude ".*_autogen.*" -j "$jobs" --json build/coverage/coverage.json build/coverage >"$logs/gcovr.log" 2>&1 ||
         { cat "$logs/gcovr.log"; return 1; }
     requireCoverage 90 core cs || status=$?
     requireCoverage 85 comms || status=$?
+    requireCoverage 80 explorer/gui || status=$?
     return "$status"
 }
 
@@ -113,8 +114,8 @@ requireCoverage() {
     say "coverage of $* (at least $percent % of the lines)"
     for folder in "$@"; do filters+=(--filter "$folder/"); done
     gcovr --add-tracefile build/coverage/coverage.json "${filters[@]}" --txt \
-        --print-summary --fail-under-line "$percent" | tee "$logs/coverage-$1.txt" || status=$?
-    note "$*: $(awk '/^lines:/ {print $2}' "$logs/coverage-$1.txt") of the lines"
+        --print-summary --fail-under-line "$percent" | tee "$logs/coverage-${1##*/}.txt" || status=$?
+    note "$*: $(awk '/^lines:/ {print $2}' "$logs/coverage-${1##*/}.txt") of the lines"
     return "$status"
 }
 
