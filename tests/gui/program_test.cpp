@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program `cortex-explorer` as it is started, without a display.
+#include "gui/window_fixture.hpp"
+
+#include <QImage>
+
+namespace cortex::test {
+namespace {
+
+Outcome explorerWith(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--domain", domain, "--interface", "127.0.0.1"});
+    // Qt's offscreen platform leaves parts of its screen behind when it ends.
+    return runProgram(CORTEX_BINARY_DIR "/bin/cortex-explorer", arguments,
+                      {{"ASAN_OPTIONS", "detect_leaks=0:new_delete_type_mismatch=0"}});
+}
+
+class Program : public CortexLive {
+protected:
+    std::string file() const { return (folder.path() / "picture.png").string(); }
+};
+
+TEST_F(Program, MakesAPictureOfEveryViewInTheSizeThatWasAskedFor) {
+    for (const std::string view : {"simplex", "system", "agents"}) {
+        const Outcome made = explorerWith({"/drive", "--view", view, "--size", "900x700", "--theme",
+                                           "dark", "--screenshot", file()});
+        EXPECT_EQ(made.exit, 0) << made.errors;
+        EXPECT_EQ(QImage(QString::fromStdString(file())).size(), QSize(900, 700));
+    }
+}
+
+TEST_F(Program, SaysThatAPictureCannotBeWritten) {
+    const Outcome made = explorerWith({"--screenshot", "/no/such/folder/picture.png"});
+    EXPECT_EQ(made.exit, 1);
+    EXPECT_TRUE(contains(made.errors, "is its folder there")) << made.errors;
+}
+
+TEST_F(Program, SaysThatNotEverythingCame) {
+    agent.reset();
+    const Outcome made = explorerWith({"--timeout", "0.2", "--screenshot", file()});
+    EXPECT_EQ(made.exit, 0);
+    EXPECT_TRUE(contains(made.errors, "not everything had come within 0.2 s")) << made.errors;
+}
+
+TEST(ProgramAlone, RefusesOptionsThatItDoesNotKnowWithTheValidOnes) {
+    const Outcome theme = explorerWith({"--theme", "pink"});
+    EXPECT_EQ(theme.exit, 2);
+    EXPECT_TRUE(contains(theme.errors, "high-contrast")) << theme.errors;
+    const Outcome size = explorerWith({"--size", "10x10"});
+    EXPECT_EQ(size.exit, 2);
+    EXPECT_TRUE(contains(size.errors, "from 800x600")) << size.errors;
+}
+
+}  // namespace
+}  // namespace cortex::test
