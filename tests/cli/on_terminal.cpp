@@ -59,8 +59,28 @@ void OnTerminal::type(const std::string& keys) {
 
 void OnTerminal::signal(int number) { kill(child_, number); }
 
-int OnTerminal::exit() {
-    if (child_ > 0) waitpid(child_, &status_, 0);
+int OnTerminal::exit(const std::string& keys) {
+    constexpr int patience = 20;  // s
+    std::array<char, 4096> buffer{};
+    for (int second = 0; child_ > 0 && waitpid(child_, &status_, WNOHANG) == 0; ++second) {
+        if (second == patience) {
+            ADD_FAILURE() << "it does not end; it is killed. It said: " << output_;
+            kill(child_, SIGKILL);
+            waitpid(child_, &status_, 0);
+            break;
+        }
+        const bool gone = !keys.empty() && write(terminal_, keys.data(), keys.size()) < 0;
+        pollfd file{terminal_, POLLIN, 0};
+        while (poll(&file, 1, 1000) > 0) {  // until it is silent for a second, or gone
+            const ssize_t count = read(terminal_, buffer.data(), buffer.size());
+            if (count <= 0) break;
+            output_.append(buffer.data(), static_cast<std::size_t>(count));
+        }
+        if (gone || (file.revents & POLLHUP) != 0) {
+            waitpid(child_, &status_, 0);
+            break;
+        }
+    }
     child_ = 0;
     return WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_);
 }

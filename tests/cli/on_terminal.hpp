@@ -23,7 +23,10 @@ public:
     void mark() { from_ = output_.size(); }
     void type(const std::string& keys);
     void signal(int number);
-    int exit();  // code; minus the signal that ended it
+    // Waits for its end, at most 20 s, and gives its code, or minus the signal that ended it. It
+    // types the keys each second: what is typed while a line editor changes the terminal's mode is
+    // lost.
+    int exit(const std::string& keys = {});
     const std::string& output() const { return output_; }
 
 private:

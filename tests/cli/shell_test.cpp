@@ -135,9 +135,8 @@ TEST_F(CortexShell, ControlIsKeptWhileAPersonThinksAndReleasedAtTheEnd) {
     EXPECT_TRUE(leases().empty());
     shell.run("release /drive", "you do not hold /drive; you hold nothing");
     shell.run("take /axis", "cortex [/axis]");
-    shell.type("\x04");
 
-    EXPECT_EQ(shell.exit(), 0) << shell.output();
+    EXPECT_EQ(shell.exit("\x04"), 0) << shell.output();
     EXPECT_TRUE(leases().empty());
     EXPECT_FALSE(hasEvent("no longer has control"));
 }
