@@ -7,7 +7,9 @@
 #include "processes/agent_process.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
+#include <random>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -139,6 +141,27 @@ TEST_F(SecuredAgents, RefuseCommandsBeyondTheRightsOfATool) {
     EXPECT_TRUE(isEvent("refused: it may only look"));
     EXPECT_TRUE(isEvent("refused: its authority ends at /handset, /playback"));
     EXPECT_EQ(shown("/playback")["state"], "Standby");
+}
+
+// A tool gives up after its time, wherever the handshake is by then.
+TEST_F(SecuredAgents, OutliveToolsThatLeaveAtAnyMoment) {
+    const char* given = std::getenv("CORTEX_SECURED_JOINS");
+    const int joins = given != nullptr ? std::stoi(given) : 25;
+    const AgentProcess robot = start("robot");
+    const auto epoch = [this] {
+        const json list = json::parse(tool({"agents", "--json"}).output, nullptr, false);
+        return list.is_array() && list.size() == 1 ? list[0]["epoch"] : json{};
+    };
+    const json before = epoch();
+    ASSERT_FALSE(before.is_null()) << robot.output();
+
+    std::mt19937 random{4711};
+    std::uniform_real_distribution<double> seconds{0.01, 0.5};
+    for (int i = 0; i < joins; ++i) {
+        const Words watch{"watch", "/robot", "--count", "1"};
+        tool(i % 2 == 0 ? watch : Words{"agents"}, "station", std::to_string(seconds(random)));
+    }
+    EXPECT_EQ(epoch(), before) << robot.output();
 }
 
 TEST_F(SecuredAgents, DoNotStartWithAFolderThatWasChanged) {

@@ -20,6 +20,7 @@
 namespace cortex::explorer {
 namespace {
 
+constexpr char endOfInput = '\x04';  // Ctrl-D
 constexpr int keptLines = 1000;
 constexpr std::size_t shownCandidates = 200;
 constexpr const char* nothingFollows = "/.=";  // a word that ends so goes on
@@ -103,6 +104,12 @@ struct LineEditor::Implementation {
         el_set(editor, EL_REFRESH);
     }
 
+    static bool lineIsEmpty(EditLine* editor) {
+        const LineInfo* line = el_line(editor);
+        return line->lastchar == line->buffer;
+    }
+
+    // Ctrl-D in an empty line ends it here: libedit was seen to take it for a character under load.
     static int nextCharacter(EditLine* editor, wchar_t* character) {
         const Implementation& self = of(editor);
         std::mbstate_t state{};
@@ -116,6 +123,7 @@ struct LineEditor::Implementation {
             const ssize_t count = ::read(STDIN_FILENO, &octet, 1);
             if (count < 0 && errno == EINTR) continue;
             if (count <= 0) return 0;
+            if (octet == endOfInput && lineIsEmpty(editor)) return 0;
             const std::size_t used = std::mbrtowc(character, &octet, 1, &state);
             if (used == static_cast<std::size_t>(-1)) state = {};  // no character: it is left out
             if (used <= 1) return 1;

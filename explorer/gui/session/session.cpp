@@ -49,7 +49,7 @@ Session::Session(comms::NetworkOptions options)
     : options_{std::move(options)}, begin_{Clock::now()} {
     auto first = std::make_shared<Frame>();
     first->domain = options_.domain;
-    frame_.store(std::move(first));
+    frame_ = std::move(first);
     thread_ = std::thread{[this] { run(); }};
 }
 
@@ -60,6 +60,12 @@ Session::~Session() {
     }
     changed_.notify_all();
     thread_.join();
+}
+
+// A lock for the copy of a pointer: libstdc++ 12 has a data race in std::atomic<std::shared_ptr>.
+std::shared_ptr<const Frame> Session::frame() const {
+    const std::lock_guard lock{mutex_};
+    return frame_;
 }
 
 void Session::view(std::vector<std::string> prefixes) {
@@ -175,7 +181,7 @@ void Session::takeAnswers() {
 }
 
 void Session::publish() {
-    const auto last = frame_.load();
+    const auto last = this->frame();
     auto frame = std::make_shared<Frame>();
     frame->number = ++number_;
     frame->domain = options_.domain;
@@ -191,7 +197,8 @@ void Session::publish() {
     }
     if (!sameStructures(*last, *frame)) ++structures_;
     frame->structures = structures_;
-    frame_.store(std::move(frame));
+    const std::lock_guard lock{mutex_};
+    frame_ = std::move(frame);
 }
 
 bool Session::pause() {

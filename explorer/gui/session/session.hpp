@@ -5,7 +5,6 @@
 
 #include "session/frame.hpp"
 
-#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -35,7 +34,7 @@ public:
 
     const comms::NetworkOptions& options() const { return options_; }
     // The newest moment; never null.
-    std::shared_ptr<const Frame> frame() const { return frame_.load(); }
+    std::shared_ptr<const Frame> frame() const;
     // From now on the values of all simplexes at and below these paths, besides all states.
     void view(std::vector<std::string> prefixes);
     // The events that came since the last call, the last 1,000 of each agent first.
@@ -72,7 +71,7 @@ private:
     };
     std::vector<Request> unanswered_;  // thread_ alone
 
-    std::mutex mutex_;  // of what follows, held for a swap only
+    mutable std::mutex mutex_;  // of what follows, held for a swap only
     std::condition_variable changed_;
     std::vector<std::string> wanted_;
     std::vector<comms::AgentEvent> events_;
@@ -81,7 +80,7 @@ private:
     std::uint64_t lastNumber_ = 0;
     bool ends_ = false, again_ = false;
 
-    std::atomic<std::shared_ptr<const Frame>> frame_;
+    std::shared_ptr<const Frame> frame_;
     std::thread thread_;  // last: it uses all of the above
 };
 
