@@ -70,5 +70,19 @@ TEST(Session, IsUsedWhileAgentsComeAndGoAndCommandsAreAnswered) {
     window.join();
 }
 
+TEST(Session, SaysWhyACommandCannotBeSent) {
+    Session session{loopback()};
+    ASSERT_TRUE(comesTrue([&] { return session.frame()->joined; }));
+    const std::uint64_t number = session.send("/nobody", "startup");
+    std::vector<CommandOutcome> outcomes;
+    ASSERT_TRUE(comesTrue([&] {
+        for (auto& each : session.takeOutcomes()) outcomes.push_back(std::move(each));
+        return !outcomes.empty();
+    }));
+    EXPECT_EQ(outcomes.front().number, number);
+    EXPECT_NE(outcomes.front().problem.find("/nobody"), std::string::npos)
+        << outcomes.front().problem;
+}
+
 }  // namespace
 }  // namespace cortex::comms

@@ -87,18 +87,6 @@ TEST_F(Stopping, NamesWhoIsNotHeard) {
         << window.stopButton().progress().toStdString();
 }
 
-TEST_F(Stopping, ACommandThatCannotBeSentSaysWhy) {
-    ASSERT_TRUE(everythingComes());
-    const auto number = session.send("/nobody", "startup");
-    std::vector<CommandOutcome> outcomes;
-    ASSERT_TRUE(comes([&] {
-        if (outcomes.empty()) outcomes = session.takeOutcomes();
-        return !outcomes.empty();
-    }));
-    EXPECT_EQ(outcomes.front().number, number);
-    EXPECT_TRUE(contains(outcomes.front().problem, "/nobody")) << outcomes.front().problem;
-}
-
 TEST(StoppingAlone, SaysThatNobodyIsHeard) {
     Session session{ownNetwork()};
     MainWindow window{session};
