@@ -37,6 +37,16 @@ inline bool comes(const std::function<bool()>& condition) {
     return true;
 }
 
+// The same while the window handles no event at all.
+inline bool comesWithoutEvents(const std::function<bool()>& condition) {
+    QElapsedTimer timer;
+    timer.start();
+    while (!condition()) {
+        if (timer.elapsed() > longEnough) return false;
+    }
+    return true;
+}
+
 // The system of `cortex new-system`: one simulated axis that is held where it is.
 class Window : public CortexLive {
 protected:

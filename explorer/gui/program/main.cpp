@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
     for (const std::string& path : options->paths) {
         path == options->paths.front() ? window.open(path) : window.openTab(path);
     }
+    window.openPart(options->view);
     if (options->view == "agents") window.openAgents();
     if (options->view == "system") window.openGraph();
     window.show();

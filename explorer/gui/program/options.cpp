@@ -55,7 +55,8 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exit) {
                    "Folder made by `cortex security create-agent`; otherwise CORTEX_SECURITY")
         ->type_name("FOLDER");
     app.add_option("--view", options.view, "What to show at first")
-        ->check(CLI::IsMember({"simplex", "system", "agents"}));
+        ->check(CLI::IsMember(
+            {"simplex", "data", "relationships", "commands", "type", "system", "agents"}));
     app.add_option("--filter", options.filter, "Filter of the tree")->type_name("TEXT");
     app.add_option("--theme", theme, "Colours")
         ->check(CLI::IsMember({"light", "dark", "high-contrast"}))

@@ -16,7 +16,7 @@ namespace cortex::explorer {
 struct Options {
     comms::NetworkOptions network;
     std::vector<std::string> paths;  // simplexes to open, each in a tab
-    std::string view;                // "system", "agents", or "" for the simplex
+    std::string view;                // as --view lists them
     std::string filter;
     Theme theme = Theme::Light;
     double scale = 1;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/frame.hpp"
 
+#include "cortex/core/path.hpp"
+
+#include <algorithm>
+
 namespace cortex::explorer {
 
 bool AgentFrame::beats() const { return !lost() && status.standstill.empty() && status.age < 1; }
@@ -26,6 +30,11 @@ std::optional<State> AgentFrame::state(std::uint32_t simplex) const {
 std::optional<float> AgentFrame::age(std::uint32_t simplex) const {
     if (simplex >= ages.size() || ages[simplex] < 0) return std::nullopt;
     return ages[simplex];
+}
+
+bool Control::covers(const std::string& agent, std::string_view path) const {
+    return !prefix.empty() && isAtOrBelow(path, prefix) &&
+           std::ranges::find(agents, agent) != agents.end();
 }
 
 std::optional<Place> Frame::find(std::string_view path) const {

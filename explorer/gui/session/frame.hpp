@@ -35,6 +35,17 @@ struct Place {
     bool operator==(const Place&) const = default;
 };
 
+// What this session may command. Without a prefix it is read-only.
+struct Control {
+    std::string self;                 // how agents know this session
+    std::string prefix, asks;         // what it holds; what it is taking just now
+    std::vector<std::string> agents;  // that have granted it
+    std::int64_t since = 0;           // UTC ns
+    std::string notice;               // why it was lost or refused last; empty again when taken
+
+    bool covers(const std::string& agent, std::string_view path) const;
+};
+
 struct Frame {
     std::uint64_t number = 0;
     std::uint64_t structures = 0;  // changes whenever an agent or its structure came or went
@@ -44,6 +55,7 @@ struct Frame {
     std::string problem;  // why the domain cannot be joined, with the remedy
     std::string security;
     std::uint32_t closed = 0;  // participants with security, which cannot be seen without
+    Control control;
     std::vector<AgentFrame> agents;
 
     // Where the simplex is; of several agents that claim the path, the one that owns it.

@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 constexpr auto framePeriod = 33ms;
 constexpr std::uint32_t valueRate = 30;  // Hz
 constexpr std::size_t mostEvents = 100'000;
-constexpr auto answerLimit = 30s;  // a group that shuts down takes its time
+constexpr auto deaf = 1s;  // a window that does not answer for so long must not hold a plant
 
 bool sameStructures(const Frame& a, const Frame& b) {
     return std::ranges::equal(a.agents, b.agents, [](const AgentFrame& x, const AgentFrame& y) {
@@ -79,12 +79,13 @@ std::vector<comms::AgentEvent> Session::takeEvents() {
 }
 
 std::uint64_t Session::send(std::string path, std::string command,
-                            comms::Mirror::Arguments arguments) {
+                            comms::Mirror::Arguments arguments, std::chrono::milliseconds limit) {
     std::uint64_t number = 0;
     {
         const std::lock_guard lock{mutex_};
         number = ++lastNumber_;
-        requests_.push_back({number, std::move(path), std::move(command), std::move(arguments)});
+        Request request{number, std::move(path), std::move(command), std::move(arguments), limit};
+        requests_.push_back(std::move(request));
     }
     changed_.notify_all();
     return number;
@@ -94,6 +95,18 @@ std::vector<CommandOutcome> Session::takeOutcomes() {
     const std::lock_guard lock{mutex_};
     return std::exchange(outcomes_, {});
 }
+
+void Session::takeControl(std::string prefix) {
+    {
+        const std::lock_guard lock{mutex_};
+        control_ = std::move(prefix);
+    }
+    changed_.notify_all();
+}
+
+void Session::releaseControl() { takeControl({}); }
+
+void Session::isAlive() { alive_ = Clock::now().time_since_epoch().count(); }
 
 void Session::joinAgain() {
     {
@@ -120,8 +133,10 @@ void Session::run() {
         }
         sendRequests();
         takeAnswers();
+        keepControl();
         publish();
     } while (pause());
+    leases_.reset();
     mirror_.reset();
 }
 
@@ -131,6 +146,7 @@ void Session::join() {
     publish();
     try {
         mirror_ = std::make_unique<comms::Mirror>("cortex-explorer", options_);
+        leases_ = std::make_unique<LeaseKeeper>(*mirror_);
         applied_.clear();
         mirror_->onEvent([this](const comms::AgentEvent& event) {
             const std::lock_guard lock{mutex_};
@@ -153,6 +169,11 @@ void Session::sendRequests() {
             try {
                 each.sent = mirror_->send(each.path, each.command, each.arguments);
                 each.since = Clock::now();
+                const auto last = this->frame();
+                if (const auto place = last->find(each.path)) {
+                    each.agent = last->agents[place->agent].status.name;
+                    each.epoch = last->agents[place->agent].status.epoch;
+                }
                 unanswered_.push_back(std::move(each));
                 continue;
             } catch (const std::exception& error) {
@@ -169,7 +190,7 @@ void Session::takeAnswers() {
     std::erase_if(unanswered_, [&](Request& each) {
         CommandOutcome outcome{each.number, each.path, each.command, {}, {}};
         const bool answered = mirror_->poll(each.sent, outcome.answer);
-        if (!answered && now - each.since < answerLimit) return false;
+        if (!answered && now - each.since < each.limit && !isGone(each)) return false;
         if (!answered) {
             mirror_->abandon(each.sent);
             outcome.answer.outcome = Outcome::Unknown;
@@ -178,6 +199,29 @@ void Session::takeAnswers() {
         outcomes_.push_back(std::move(outcome));
         return true;
     });
+}
+
+// Whether the agent that the command went to is lost, or has started anew.
+bool Session::isGone(const Request& request) const {
+    if (request.agent.empty()) return false;
+    const auto last = this->frame();
+    const auto agent = std::ranges::find(last->agents, request.agent,
+                                         [](const AgentFrame& each) { return each.status.name; });
+    return agent == last->agents.end() || agent->lost() || agent->status.epoch != request.epoch;
+}
+
+void Session::keepControl() {
+    std::optional<std::string> wanted;
+    {
+        const std::lock_guard lock{mutex_};
+        wanted = std::exchange(control_, std::nullopt);
+    }
+    if (!leases_) return;
+    const auto last = this->frame();
+    if (wanted && wanted->empty()) leases_->release();
+    if (wanted && !wanted->empty()) leases_->take(*wanted, *last);
+    const auto now = Clock::now().time_since_epoch().count();
+    leases_->step(*last, Clock::duration{now - alive_} < deaf);
 }
 
 void Session::publish() {
@@ -191,6 +235,7 @@ void Session::publish() {
     frame->security = options_.security;
     if (mirror_) {
         frame->closed = mirror_->closed();
+        frame->control = leases_->now();
         for (const comms::AgentStatus& status : mirror_->agents()) {
             frame->agents.push_back(agentFrame(*mirror_, status));
         }
@@ -203,7 +248,8 @@ void Session::publish() {
 
 bool Session::pause() {
     std::unique_lock lock{mutex_};
-    changed_.wait_for(lock, framePeriod, [this] { return ends_ || again_ || !requests_.empty(); });
+    changed_.wait_for(lock, framePeriod,
+                      [this] { return ends_ || again_ || control_ || !requests_.empty(); });
     return !ends_;
 }
 

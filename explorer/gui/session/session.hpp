@@ -4,7 +4,10 @@
 #include "cortex/comms/mirror.hpp"
 
 #include "session/frame.hpp"
+#include "session/lease_keeper.hpp"
 
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -40,12 +43,19 @@ public:
     // The events that came since the last call, the last 1,000 of each agent first.
     std::vector<comms::AgentEvent> takeEvents();
     void joinAgain();  // after it could not join
-    // Sends a command at once, and gives its number. Whoever has not answered after 30 s is
-    // Unknown.
+    // Sends a command at once, and gives its number. Whoever has not answered within the limit, or
+    // is not heard any longer, is Unknown.
     std::uint64_t send(std::string path, std::string command,
-                       comms::Mirror::Arguments arguments = {});
+                       comms::Mirror::Arguments arguments = {},
+                       std::chrono::milliseconds limit = std::chrono::seconds{30});
     // The outcomes that came since the last call, each once.
     std::vector<CommandOutcome> takeOutcomes();
+
+    // Control of everything at and below a path, or of nothing. Frame::control tells what came of
+    // it. It is renewed only while isAlive() is called at least once a second.
+    void takeControl(std::string prefix);
+    void releaseControl();
+    void isAlive();
 
 private:
     void run();
@@ -53,10 +63,12 @@ private:
     void publish();
     void sendRequests();
     void takeAnswers();
+    void keepControl();
     bool pause();  // until the next frame is due; false: the session ends
 
     comms::NetworkOptions options_;
     std::unique_ptr<comms::Mirror> mirror_;  // thread_ alone, once it runs
+    std::unique_ptr<LeaseKeeper> leases_;    // ends before the mirror; thread_ alone
     std::vector<std::string> applied_;       // the view that the mirror has; thread_ alone
     std::uint64_t number_ = 0, structures_ = 0;
     std::chrono::steady_clock::time_point begin_;
@@ -66,10 +78,16 @@ private:
         std::uint64_t number = 0;
         std::string path, command;
         comms::Mirror::Arguments arguments;
+        std::chrono::milliseconds limit{};
+        std::string agent{};  // that owned the path, and its start
+        std::int64_t epoch = 0;
         std::uint64_t sent = 0;  // the mirror's number of it
         std::chrono::steady_clock::time_point since{};
     };
+    bool isGone(const Request& request) const;
+
     std::vector<Request> unanswered_;  // thread_ alone
+    std::atomic<std::chrono::steady_clock::rep> alive_{0};
 
     mutable std::mutex mutex_;  // of what follows, held for a swap only
     std::condition_variable changed_;
@@ -77,6 +95,7 @@ private:
     std::vector<comms::AgentEvent> events_;
     std::vector<Request> requests_;
     std::vector<CommandOutcome> outcomes_;
+    std::optional<std::string> control_;  // wanted; empty: released; none: as it is
     std::uint64_t lastNumber_ = 0;
     bool ends_ = false, again_ = false;
 

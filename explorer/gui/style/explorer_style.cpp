@@ -171,8 +171,11 @@ void ExplorerStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* 
         case PE_PanelLineEdit:
         case PE_FrameLineEdit: {
             const bool focus = option->state.testFlag(State_HasFocus);
+            const bool wrong = widget != nullptr && widget->property(wrongInput).toBool();
             box(*painter, option->rect, element == PE_PanelLineEdit ? c.raised : QColor{},
-                focus ? c.accent : c.border);
+                wrong   ? c.warnEdge
+                : focus ? c.accent
+                        : c.border);
             return;
         }
         case PE_PanelTipLabel:

@@ -29,7 +29,8 @@ public:
 
 // The kinds of buttons that differ from others; a property of the button, "kind".
 inline constexpr const char* buttonKind = "kind";
-inline constexpr const char* stopKind = "stop";    // filled: the Stop button alone
-inline constexpr const char* plainKind = "plain";  // no edge before the pointer is on it
+inline constexpr const char* stopKind = "stop";          // filled: the Stop button alone
+inline constexpr const char* wrongInput = "wrongInput";  // of a field: true makes its edge amber
+inline constexpr const char* plainKind = "plain";        // no edge before the pointer is on it
 
 }  // namespace cortex::explorer

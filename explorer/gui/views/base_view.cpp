@@ -4,6 +4,7 @@
 #include "model/value_text.hpp"
 #include "plugin/plugins.hpp"
 #include "views/command_list.hpp"
+#include "views/life_cycle_bar.hpp"
 #include "views/own_view.hpp"
 #include "views/relation_table.hpp"
 #include "views/type_page.hpp"
@@ -14,12 +15,17 @@
 #include <QHBoxLayout>
 #include <QStackedWidget>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <array>
 
 namespace cortex::explorer {
 
 namespace {
 
 enum Tab { OwnTab, DataTab, RelationsTab, CommandsTab, TypeTab, TabCount };
+
+constexpr std::array<std::string_view, TabCount> partNames{"own", "data", "relationships",
+                                                           "commands", "type"};
 
 // "SimulatedAxis ‹ AxisDevice ‹ Device ‹ Active ‹ Simplex", the first parents.
 QString chainOf(const Type& type, const TypeModel& types) {
@@ -33,7 +39,7 @@ QString chainOf(const Type& type, const TypeModel& types) {
 
 }  // namespace
 
-BaseView::BaseView(QWidget* parent)
+BaseView::BaseView(Commands& commands, QWidget* parent)
     : QWidget{parent},
       whole_{new QStackedWidget},
       emptyTitle_{new TextLabel{TextSize::Empty}},
@@ -46,12 +52,14 @@ BaseView::BaseView(QWidget* parent)
       chain_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
       description_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
       notice_{new TextLabel{TextSize::Text, true, &Tokens::dataText}},
+      outcome_{new TextLabel{TextSize::Text}},
+      lifeCycle_{new LifeCycleBar{commands}},
       tabs_{new QTabBar},
       pages_{new QStackedWidget},
       own_{new OwnView},
       table_{new ItemTable{items_}},
       relations_{new RelationTable},
-      commands_{new CommandList},
+      commands_{new CommandList{commands}},
       type_{new TypePage} {
     auto* header = new QVBoxLayout;
     header->setContentsMargins(Look::units(4), Look::units(3), Look::units(4), Look::units(2));
@@ -67,7 +75,7 @@ BaseView::BaseView(QWidget* parent)
     first->addLayout(states, 1);
     agent_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     first->addStretch(1);
-    first->addWidget(agent_, 0, Qt::AlignTop);
+    first->addWidget(lifeCycle_, 0, Qt::AlignTop);
     header->addLayout(first);
 
     auto* second = new QHBoxLayout;
@@ -76,10 +84,17 @@ BaseView::BaseView(QWidget* parent)
     second->addWidget(name_);
     second->addWidget(chain_);
     second->addStretch(1);
+    second->addWidget(agent_);
     header->addLayout(second);
     header->addWidget(description_);
     header->addWidget(notice_);
     notice_->hide();
+    header->addWidget(outcome_);
+    outcome_->hide();
+    connect(lifeCycle_, &LifeCycleBar::told, this, [this](const QString& text) {
+        outcome_->show(text);
+        outcome_->setVisible(!text.isEmpty());
+    });
 
     for (int i = 0; i < TabCount; ++i) tabs_->addTab({});
     tabs_->setExpanding(false);
@@ -124,6 +139,15 @@ void BaseView::show(const std::string& path) {
     path_ = path;
     fresh_ = true;
     items_.show(path);
+    lifeCycle_->show(path);
+    outcome_->hide();
+}
+
+void BaseView::openPart(const std::string& name) {
+    const auto found = std::ranges::find(partNames, name);
+    if (found == partNames.end()) return;
+    wanted_ = static_cast<int>(found - partNames.begin());
+    tabs_->setCurrentIndex(wanted_);
 }
 
 void BaseView::refresh(const std::shared_ptr<const Frame>& frame) {
@@ -137,6 +161,8 @@ void BaseView::refresh(const std::shared_ptr<const Frame>& frame) {
     }
     refreshHeader(*frame, place);
     if (fresh_ || structures_ != frame->structures) refreshTabs(*frame, place);
+    lifeCycle_->refresh(*frame, *place);
+    commands_->refresh(*frame, *place);
     relations_->refresh(*frame, *place);
     own_->refresh(*frame);
     fresh_ = false;
@@ -177,13 +203,16 @@ void BaseView::refreshHeader(const Frame& frame, std::optional<Place> place) {
     const Type& type = frame.type(*place);
     const auto state = agent.state(place->simplex);
     const QString agentName = QString::fromStdString(agent.status.name);
-    if (type.active()) {
+    if (type.isA("Agent")) {  // it has commands, but no state of its own
+        mark_->show(agent.lost() ? Shape::Lost : Shape::Agent);
+        state_->show(QString::fromStdString(agent.status.state), &Tokens::ink);
+    } else if (type.active()) {
         const Shape shape = state && !agent.lost() ? shapeOf(*state) : Shape::Unknown;
         mark_->show(shape);
         state_->show(word(shape), shape == Shape::Fault ? &Tokens::faultText : &Tokens::ink);
     } else {
-        mark_->show(type.isA("Agent") ? Shape::Agent : Shape::Data);
-        state_->show(QLatin1String{name(frame.info(*place).role)});
+        mark_->show(Shape::Data);
+        state_->show(QLatin1String{name(frame.info(*place).role)}, &Tokens::ink);
     }
     const auto age = agent.age(place->simplex);
     agent_->show(age ? tr("agent %1, %2 old").arg(agentName, ageText(*age))
@@ -211,7 +240,7 @@ void BaseView::refreshTabs(const Frame& frame, std::optional<Place> place) {
     name_->show(QString::fromStdString(path_));
     chain_->show(chainOf(type, *agent.structure->types));
     description_->show(QString::fromStdString(type.description));
-    commands_->show(type);
+    commands_->show(frame, *place);
     relations_->show(frame, *place);
     type_->show(type, *agent.structure->types);
     const auto title = [](const QString& text, int count) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/item_model.hpp"
-#include "session/frame.hpp"
+#include "session/commands.hpp"
 
 #include <QTabBar>
 #include <QWidget>
@@ -18,6 +18,7 @@ class ItemTable;
 class OwnView;
 class RelationTable;
 class CommandList;
+class LifeCycleBar;
 class TypePage;
 class StateMark;
 class TextLabel;
@@ -26,15 +27,12 @@ class TextLabel;
 class BaseView : public QWidget {
     Q_OBJECT
 public:
-    explicit BaseView(QWidget* parent = nullptr);
+    explicit BaseView(Commands& commands, QWidget* parent = nullptr);
 
     void show(const std::string& path);
     const std::string& path() const { return path_; }
     void refresh(const std::shared_ptr<const Frame>& frame);
-    // The simplexes of which it shows values.
-    std::vector<std::string> watches() const { return items_.shown(); }
-    void openTab(int tab) { tabs_->setCurrentIndex(tab); }
-    int tabCount() const { return tabs_->count(); }
+    void openPart(const std::string& name);  // "data", "relationships", "commands", "type"
 
 Q_SIGNALS:
     void opened(const std::string& path);  // the user followed a link
@@ -52,7 +50,8 @@ private:
     QStackedWidget* whole_;
     TextLabel *emptyTitle_, *emptyText_;
     StateMark* mark_;
-    TextLabel *state_, *quality_, *agent_, *name_, *chain_, *description_, *notice_;
+    TextLabel *state_, *quality_, *agent_, *name_, *chain_, *description_, *notice_, *outcome_;
+    LifeCycleBar* lifeCycle_;
     QTabBar* tabs_;
     int wanted_ = 0;  // tab that the user chose
     QStackedWidget* pages_;

@@ -1,71 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/command_list.hpp"
 
-#include "model/value_text.hpp"
-#include "widgets/rows.hpp"
+#include "style/look.hpp"
+#include "views/command_card.hpp"
+#include "widgets/text_label.hpp"
+
+#include <QVBoxLayout>
 
 namespace cortex::explorer {
 
-namespace {
-
-QString rangeText(const DataItem& item) {
-    const auto bound = [&](const std::optional<Number>& number, const QString& none) {
-        return number ? numberText(item, *numberOf(number)) : none;
-    };
-    if (!item.labels.empty()) {
-        QStringList labels;
-        for (const auto& [number, label] : item.labels) labels << QString::fromStdString(label);
-        return labels.join(QStringLiteral(", "));
-    }
-    if (!item.min && !item.max) return {};
-    return CommandList::tr("%1 to %2")
-        .arg(bound(item.min, QStringLiteral("−∞")), bound(item.max, QStringLiteral("∞")));
-}
-
-QString kindText(const DataItem& item) {
-    const QString kind = QLatin1String{name(item.kind)};
-    return item.length == 1 ? kind : QStringLiteral("%1 × %2").arg(item.length).arg(kind);
-}
-
-void add(QTreeWidgetItem* command, const DataItem& item, bool given) {
-    const QString fallback = item.hasDefault ? valueText(item, item.initial) : QString{};
-    new QTreeWidgetItem{command,
-                        {QString::fromStdString(item.name),
-                         given ? CommandList::tr("gives") : CommandList::tr("takes"),
-                         kindText(item), unitText(item.unit), rangeText(item),
-                         given             ? QString{}
-                         : item.hasDefault ? fallback
-                                           : CommandList::tr("required"),
-                         QString::fromStdString(item.description)}};
-}
-
-}  // namespace
-
-CommandList::CommandList(QWidget* parent) : QTreeWidget{parent} {
-    setUpRows(*this);
+CommandList::CommandList(Commands& commands, QWidget* parent)
+    : QScrollArea{parent}, commands_{commands} {
     setAccessibleName(tr("Commands"));
-    setHeaderLabels({tr("Command"), tr("Available"), tr("Kind"), tr("Unit"), tr("Range"),
-                     tr("Default"), tr("Description")});
+    setWidgetResizable(true);
+    setFrameShape(QFrame::NoFrame);
 }
 
-void CommandList::show(const Type& type) {
-    clear();
-    for (const Command& command : type.commands) {
-        QString kind = command.isLong ? tr("long") : QString{};
-        auto* item = new QTreeWidgetItem{this,
-                                         {QString::fromStdString(command.name),
-                                          QString::fromStdString(command.available.text()),
-                                          kind,
-                                          {},
-                                          {},
-                                          {},
-                                          QString::fromStdString(command.description)}};
-        item->setFont(0, Look::font(TextSize::Text, true));
-        for (const DataItem& each : command.request) add(item, each, false);
-        for (const DataItem& each : command.response) add(item, each, true);
+void CommandList::show(const Frame& frame, Place place) {
+    const std::string& path = frame.info(place).path;
+    const Type& type = frame.type(place);
+    if (path == path_ && type.commands == shown_) return;
+    path_ = path;
+    shown_ = type.commands;
+    cards_.clear();
+    auto* all = new QWidget;
+    auto* rows = new QVBoxLayout{all};
+    rows->setContentsMargins(0, Look::units(1), 0, Look::units(1));
+    rows->setSpacing(Look::units(2));
+    for (const Command& each : shown_) {
+        cards_.push_back(new CommandCard{commands_, path_, each});
+        rows->addWidget(cards_.back());
     }
-    expandAll();
-    setWidths(*this, {44.0, 36.0, 24.0, 14.0, 36.0, 24.0});
+    if (shown_.empty()) {
+        auto* none = new TextLabel{TextSize::Text, false, &Tokens::ink2};
+        none->show(tr("Its type has no commands."));
+        none->setContentsMargins(Look::units(4), 0, 0, 0);
+        rows->addWidget(none);
+    }
+    rows->addStretch(1);
+    setWidget(all);
+}
+
+void CommandList::refresh(const Frame& frame, Place place) {
+    for (CommandCard* each : cards_) each->refresh(frame, place);
 }
 
 }  // namespace cortex::explorer

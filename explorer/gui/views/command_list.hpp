@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/core/type_model.hpp"
+#include "session/commands.hpp"
 
-#include <QTreeWidget>
+#include <QScrollArea>
+#include <vector>
 
 namespace cortex::explorer {
 
-// The commands of a type with their parameters: what they do, when they are available, what they
-// take and give.
-class CommandList : public QTreeWidget {
+class CommandCard;
+
+// The commands of a simplex, one form each, below one another.
+class CommandList : public QScrollArea {
     Q_OBJECT
 public:
-    explicit CommandList(QWidget* parent = nullptr);
-    void show(const Type& type);
+    explicit CommandList(Commands& commands, QWidget* parent = nullptr);
+    void show(const Frame& frame, Place place);  // forms that stay keep what was entered
+    void refresh(const Frame& frame, Place place);
+
+private:
+    Commands& commands_;
+    std::string path_;
+    std::vector<Command> shown_;
+    std::vector<CommandCard*> cards_;
 };
 
 }  // namespace cortex::explorer

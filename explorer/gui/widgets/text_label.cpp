@@ -30,20 +30,26 @@ void TextLabel::show(const QString& text, QColor Tokens::* colour) {
 }
 
 QSize TextLabel::sizeHint() const {
+    if (wordWrap()) return QLabel::sizeHint();
     const QFontMetrics metrics{font()};
     return {metrics.horizontalAdvance(text()) + 2, metrics.height()};
 }
 
 QSize TextLabel::minimumSizeHint() const {
+    if (wordWrap()) return QLabel::minimumSizeHint();
     const QFontMetrics metrics{font()};
     return {std::min(metrics.horizontalAdvance(text()) + 2, Look::units(8)), metrics.height()};
 }
 
 void TextLabel::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter{this};
+    painter.setPen(Look::colours().*colour_);
+    if (wordWrap()) {
+        painter.drawText(rect(), static_cast<int>(alignment()) | Qt::TextWordWrap, text());
+        return;
+    }
     const QString shown = fontMetrics().elidedText(text(), Qt::ElideRight, width());
     setToolTip(shown == text() ? QString{} : text().toHtmlEscaped());
-    painter.setPen(Look::colours().*colour_);
     painter.drawText(rect(), static_cast<int>(alignment()) | Qt::TextSingleLine, shown);
 }
 

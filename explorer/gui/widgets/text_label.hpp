@@ -8,7 +8,7 @@
 namespace cortex::explorer {
 
 // One line of plain text in a size and a colour of the tokens. What does not fit ends with "…" and
-// is whole in the tooltip; markup in it is text.
+// is whole in the tooltip; markup in it is text. With setWordWrap() it takes more lines instead.
 class TextLabel : public QLabel {
     Q_OBJECT
 public:

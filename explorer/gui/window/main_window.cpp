@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window/main_window.hpp"
 
+#include "model/permission.hpp"
 #include "style/glyphs.hpp"
 #include "style/look.hpp"
 #include "views/agent_table.hpp"
@@ -9,13 +10,16 @@
 #include "views/graph_view.hpp"
 #include "views/system_tree.hpp"
 #include "widgets/text_label.hpp"
+#include "window/control_bar.hpp"
 #include "window/status_bar.hpp"
 #include "window/stop_button.hpp"
 
 #include <QAction>
 #include <QApplication>
+#include <QCloseEvent>
 #include <QHBoxLayout>
 #include <QMenu>
+#include <QMessageBox>
 #include <QPainter>
 #include <QPushButton>
 #include <QResizeEvent>
@@ -33,13 +37,15 @@ namespace {
 
 constexpr int framePeriod = 33;  // ms
 constexpr std::array scales{1.0, 1.25, 1.5};
-constexpr int fixedTabs = 2;  // at the end: graph and agents
+constexpr int controlLine = 3;  // px, along the top edge
+constexpr int fixedTabs = 2;    // at the end: graph and agents
 
 }  // namespace
 
 MainWindow::MainWindow(Session& session, QWidget* parent)
     : QWidget{parent},
       session_{session},
+      commands_{session},
       tree_{new SystemTree},
       tabs_{new QTabBar},
       views_{new QStackedWidget},
@@ -49,7 +55,8 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       across_{new QSplitter{Qt::Horizontal}},
       down_{new QSplitter{Qt::Vertical}},
       status_{new StatusBar},
-      stop_{new StopButton{session}} {
+      stop_{new StopButton{session}},
+      control_{new ControlBar{session}} {
     setWindowTitle(tr("CorteX Explorer"));
     tabs_->setExpanding(false);
     tabs_->setDrawBase(false);
@@ -73,9 +80,10 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     across_->setChildrenCollapsible(false);
 
     auto* rows = new QVBoxLayout{this};
-    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setContentsMargins(0, controlLine, 0, 0);
     rows->setSpacing(0);
     rows->addWidget(makeBar());
+    rows->addWidget(control_->notice());
     rows->addWidget(across_, 1);
     rows->addWidget(status_);
 
@@ -89,6 +97,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     connect(tree_, &SystemTree::pinned, this, &MainWindow::openTab);
     connect(eventList_, &EventList::opened, this, &MainWindow::open);
     connect(graph_, &GraphView::opened, this, &MainWindow::open);
+    connect(control_, &ControlBar::changed, this, qOverload<>(&QWidget::update));
     addKeys();
 
     setMinimumSize(800, 600);
@@ -111,7 +120,7 @@ QWidget* MainWindow::makeBar() {
     }
     entries->addSeparator();
     entries->addAction(tr("Join again"), this, [this] { session_.joinAgain(); });
-    entries->addAction(tr("Quit"), qApp, &QApplication::quit);
+    entries->addAction(tr("Quit"), this, &QWidget::close);
     menu->setMenu(entries);
     row->addWidget(menu);
     auto* title = new TextLabel{TextSize::Value, true};
@@ -122,9 +131,7 @@ QWidget* MainWindow::makeBar() {
     connect(stop_, &StopButton::told, stopped, qOverload<const QString&>(&TextLabel::show));
     row->addWidget(stopped);
     row->addSpacing(Look::units(4));
-    auto* control = new TextLabel{TextSize::Text, false, &Tokens::ink2};
-    control->show(tr("Read-only"));
-    row->addWidget(control);
+    row->addWidget(control_);
     row->addSpacing(Look::units(4));
     row->addWidget(stop_);
     return bar;
@@ -143,6 +150,8 @@ void MainWindow::addKeys() {
     key("Ctrl+0", [this] { setScale(1); });
     key("Ctrl++", [this] { setScale(std::min(Look::scale() + 0.25, 1.5)); });
     key("Ctrl+-", [this] { setScale(std::max(Look::scale() - 0.25, 1.0)); });
+    key("Ctrl+T", [this] { control_->choose(); });
+    key("Ctrl+Shift+T", [this] { control_->release(); });
     key("F11", [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
     for (int i = 1; i <= 9; ++i) {
         const std::string keys = "Ctrl+" + std::to_string(i);
@@ -153,7 +162,7 @@ void MainWindow::addKeys() {
 }
 
 BaseView* MainWindow::addView(const std::string& path, bool closable) {
-    auto* view = new BaseView;
+    auto* view = new BaseView{commands_};
     view->show(path);
     connect(view, &BaseView::opened, this, &MainWindow::open);
     // Views stand before the graph and the table of agents.
@@ -184,6 +193,10 @@ void MainWindow::openAgents() { tabs_->setCurrentIndex(tabs_->count() - 1); }
 
 void MainWindow::openGraph() { tabs_->setCurrentIndex(tabs_->count() - fixedTabs); }
 
+void MainWindow::openPart(const std::string& name) {
+    if (auto* view = qobject_cast<BaseView*>(current())) view->openPart(name);
+}
+
 // The first tab and the last ones stay.
 void MainWindow::closeTab(int tab) {
     if (tab <= 0 || tab >= tabs_->count() - fixedTabs) return;
@@ -194,11 +207,16 @@ void MainWindow::closeTab(int tab) {
 }
 
 void MainWindow::refresh() {
+    session_.isAlive();
     const auto frame = session_.frame();
     events_.add(session_.takeEvents());
     tree_->refresh(frame);
     status_->refresh(*frame, tree_->model().total());
-    stop_->refresh(*frame, session_.takeOutcomes());
+    const auto outcomes = session_.takeOutcomes();
+    commands_.deliver(outcomes);
+    stop_->refresh(*frame, outcomes);
+    const auto* shown = qobject_cast<BaseView*>(current());
+    control_->refresh(frame, shown != nullptr ? shown->path() : std::string{});
     if (auto* view = qobject_cast<BaseView*>(current())) view->refresh(frame);
     if (current() == graph_) graph_->refresh(frame);
     if (current() == agents_) agents_->refresh(*frame);
@@ -230,7 +248,29 @@ void MainWindow::restyle() {
 }
 
 void MainWindow::paintEvent(QPaintEvent* /*event*/) {
-    QPainter{this}.fillRect(rect(), Look::colours().window);
+    QPainter painter{this};
+    painter.fillRect(rect(), Look::colours().window);
+    if (control_->holds()) painter.fillRect(0, 0, width(), controlLine, Look::colours().accent);
+}
+
+// Nothing but what the user asked for ends control: the end of the program releases it.
+void MainWindow::closeEvent(QCloseEvent* event) {
+    if (!control_->holds() || leaves_) {
+        event->accept();
+        return;
+    }
+    event->ignore();
+    auto* question = new QMessageBox{this};
+    question->setAttribute(Qt::WA_DeleteOnClose);
+    question->setText(tr("Release %1 and quit?").arg(scopeText(control_->prefix())));
+    question->setInformativeText(tr("What is Active stays so."));
+    auto* quit = question->addButton(tr("Quit"), QMessageBox::AcceptRole);
+    question->setDefaultButton(question->addButton(tr("Stay"), QMessageBox::RejectRole));
+    connect(quit, &QAbstractButton::clicked, this, [this] {
+        leaves_ = true;
+        close();
+    });
+    question->open();
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/event_model.hpp"
-#include "session/session.hpp"
+#include "session/commands.hpp"
 
 #include <QTimer>
 #include <QWidget>
@@ -16,6 +16,7 @@ namespace cortex::explorer {
 
 class AgentTable;
 class BaseView;
+class ControlBar;
 class EventList;
 class GraphView;
 class StatusBar;
@@ -33,7 +34,9 @@ public:
     void openTab(const std::string& path);  // in one of its own
     void openAgents();
     void openGraph();
+    void openPart(const std::string& name);  // of the simplex that is shown
     StopButton& stopButton() { return *stop_; }
+    ControlBar& control() { return *control_; }
     bool ready() const;  // everything has come, with the values that are shown
     void refresh();      // with the newest frame
     SystemTree& tree() { return *tree_; }
@@ -41,6 +44,7 @@ public:
 
 protected:
     void paintEvent(QPaintEvent* event) override;
+    void closeEvent(QCloseEvent* event) override;  // asks first while it is in control
     void resizeEvent(QResizeEvent* event) override;
 
 private:
@@ -53,6 +57,7 @@ private:
     void restyle();
 
     Session& session_;
+    Commands commands_;
     EventModel events_;
     SystemTree* tree_;
     QTabBar* tabs_;
@@ -63,6 +68,8 @@ private:
     QSplitter *across_, *down_;
     StatusBar* status_;
     StopButton* stop_;
+    bool leaves_ = false;  // the user said so
+    ControlBar* control_;
     QTimer timer_;
 };
 

@@ -96,8 +96,7 @@ StatusBar::StatusBar(QWidget* parent)
       lost_{new Counter{Shape::Lost, &Tokens::dataBg, &Tokens::dataText, &Tokens::data}},
       domain_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
       agents_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
-      security_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
-      control_{new TextLabel{TextSize::Note, false, &Tokens::ink2}} {
+      security_{new TextLabel{TextSize::Note, false, &Tokens::ink2}} {
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
     auto* row = new QHBoxLayout{this};
     row->setContentsMargins(Look::units(3), Look::units(0.75), Look::units(3), Look::units(0.75));
@@ -108,8 +107,6 @@ StatusBar::StatusBar(QWidget* parent)
     row->addWidget(agents_);
     row->addWidget(security_);
     row->addStretch(1);
-    row->addWidget(control_);
-    control_->show(tr("Read-only"));
 }
 
 void StatusBar::refresh(const Frame& frame, const Marks& total) {

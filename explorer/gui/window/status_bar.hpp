@@ -23,7 +23,7 @@ protected:
 private:
     class Counter;
     Counter *faults_, *lost_;
-    TextLabel *domain_, *agents_, *security_, *control_;
+    TextLabel *domain_, *agents_, *security_;
 };
 
 }  // namespace cortex::explorer

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window/stop_button.hpp"
 
+#include "cortex/core/path.hpp"
+
+#include "session/lease.hpp"
 #include "style/look.hpp"
 
 #include <QApplication>
@@ -16,21 +19,21 @@ namespace {
 constexpr int secondPress = 1000;  // ms
 constexpr int lastValues = 1000;   // ms after the last answer, until states are told too
 constexpr int mostNamed = 3;
+const std::string everything{"/"};
 
-bool isStoppable(const SimplexInfo& info) {
+bool isStoppable(const SimplexInfo& info, const std::string& prefix) {
     const Type& type = *info.layout->type;
-    return !info.remote && type.active() && !type.isA("Agent");
+    return !info.remote && type.active() && !type.isA("Agent") && isAtOrBelow(info.path, prefix);
 }
 
 }  // namespace
 
 StopButton::StopButton(Session& session, QWidget* parent)
     : QAbstractButton{parent}, session_{session} {
-    setText(tr("Stop all"));
-    setAccessibleName(tr("Stop all, F12"));
+    showScope();
     setToolTip(
-        tr("Shuts down every simplex of every agent that is heard. It is no emergency stop: "
-           "the network, and the agents, must work."));
+        tr("Shuts down every simplex below the path that stands on it, of every agent that is "
+           "heard. It is no emergency stop: the network, and the agents, must work."));
     setFocusPolicy(Qt::StrongFocus);
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
     connect(this, &QAbstractButton::clicked, this, &StopButton::stop);
@@ -49,38 +52,50 @@ bool StopButton::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void StopButton::pressedByKey() {
-    if (armed_.isValid() && !armed_.hasExpired(secondPress)) {
+    if (inControl_ || (armed_.isValid() && !armed_.hasExpired(secondPress))) {
         stop();
         return;
     }
     armed_.start();
-    setText(tr("F12 again: stop all"));
+    setText(tr("F12 again: stop %1").arg(scopeWord()));
     QTimer::singleShot(secondPress, this, [this] {
         if (armed_.isValid() && !armed_.hasExpired(secondPress - 1)) return;  // pressed again
         armed_.invalidate();
-        setText(tr("Stop all"));
+        showScope();
     });
+}
+
+QString StopButton::scopeWord() const {
+    return prefix_ == "/" ? tr("all") : QString::fromStdString(prefix_);
+}
+
+void StopButton::showScope() {
+    setText(tr("Stop %1").arg(scopeWord()));
+    setAccessibleName(tr("Stop %1, F12").arg(scopeWord()));
+    update();
 }
 
 void StopButton::stop() {
     armed_.invalidate();
-    setText(tr("Stop all"));
+    showScope();
     const auto frame = session_.frame();
+    stopped_ = scopeWord();
     stopping_.clear();
     unanswered_.clear();
     refusals_.clear();
     since_.start();
     answered_.start();
     for (const AgentFrame& agent : frame->agents) {
+        if (agent.structure && !hasBelow(agent, prefix_)) continue;
         if (agent.lost()) {
             refusals_ << tr("%1 is not heard").arg(QString::fromStdString(agent.status.name));
             continue;
         }
         unanswered_.push_back(
-            session_.send("/" + agent.status.name, "shutdown", {{"prefix", "/"}}));
+            session_.send("/" + agent.status.name, "shutdown", {{"prefix", prefix_}}));
         if (!agent.structure) continue;
         for (const SimplexInfo& info : agent.structure->simplexes) {
-            if (isStoppable(info)) stopping_.push_back(info.path);
+            if (isStoppable(info, prefix_)) stopping_.push_back(info.path);
         }
     }
     active_ = true;
@@ -94,6 +109,14 @@ void StopButton::stop() {
 }
 
 void StopButton::refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes) {
+    // It never follows what is selected: the same key must not mean something else after a click.
+    inControl_ = !frame.control.prefix.empty();
+    const std::string& scope = inControl_ ? frame.control.prefix : everything;
+    if (scope != prefix_) {
+        prefix_ = scope;
+        armed_.invalidate();
+        showScope();
+    }
     for (const CommandOutcome& each : outcomes) {
         if (std::erase(unanswered_, each.number) == 0 || each.answer.done()) continue;
         const std::string why = each.problem.empty() ? each.answer.text() : each.problem;
@@ -122,7 +145,7 @@ void StopButton::countStates(const Frame& frame) {
     const auto all = static_cast<int>(stopping_.size());
     const QString seconds = QString::number(static_cast<double>(since_.elapsed()) / 1000, 'f', 1);
     if (!unanswered_.empty() || (left > 0 && !answered_.hasExpired(lastValues))) {
-        say(tr("Stopping all: %1 of %2 in Standby").arg(all - left).arg(all));
+        say(tr("Stopping %1: %2 of %3 in Standby").arg(stopped_).arg(all - left).arg(all));
         return;
     }
     active_ = false;
@@ -162,7 +185,9 @@ void StopButton::paintEvent(QPaintEvent* /*event*/) {
         painter.drawText(inner, Qt::AlignCenter, text());
         return;
     }
-    painter.drawText(inner, int{Qt::AlignVCenter} | int{Qt::AlignLeft}, text());
+    const int room = inner.width() - Look::units(10);
+    painter.drawText(inner, int{Qt::AlignVCenter} | int{Qt::AlignLeft},
+                     painter.fontMetrics().elidedText(text(), Qt::ElideMiddle, room));
     painter.drawText(inner, int{Qt::AlignVCenter} | int{Qt::AlignRight}, QStringLiteral("F12"));
 }
 

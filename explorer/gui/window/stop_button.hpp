@@ -11,10 +11,10 @@
 
 namespace cortex::explorer {
 
-// Stops everything that is heard: every agent is told to shut down all of its simplexes. A click
-// does it at once. F12 does it wherever the focus is, in dialogs, menus and fields too, at the
-// second press within a second: an elbow must not stop a plant. It needs no control, asks nothing,
-// and is no emergency stop.
+// Stops what this window controls, otherwise everything that is heard: every agent is told to shut
+// down its simplexes there. A click does it at once. F12 does it wherever the focus is, in dialogs,
+// menus and fields too: in control at the first press, read-only at the second within a second, as
+// an elbow must not stop a plant. It needs no control, asks nothing, and is no emergency stop.
 class StopButton : public QAbstractButton {
     Q_OBJECT
 public:
@@ -34,6 +34,8 @@ protected:
 
 private:
     void pressedByKey();
+    QString scopeWord() const;  // "all", "/arm"
+    void showScope();
     void stop();
     void say(const QString& progress);
     void countStates(const Frame& frame);
@@ -43,7 +45,10 @@ private:
     std::vector<std::string> stopping_;       // paths that are to reach Standby
     std::vector<std::uint64_t> unanswered_;   // commands
     QStringList refusals_;                    // "robot: …"
-    bool active_ = false;                     // until it is known what followed
+    std::string prefix_{"/"};                 // at and below which it stops
+    bool inControl_ = false;
+    QString stopped_;      // the scope of the stop that is told about
+    bool active_ = false;  // until it is known what followed
     QString progress_;
 };
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/permission.hpp"
+
+#include "cortex/core/path.hpp"
+
+#include "model/value_text.hpp"
+#include "session/lease.hpp"
+
+#include <QCoreApplication>
+#include <QDateTime>
+
+namespace cortex::explorer {
+
+namespace {
+
+QString say(const char* text) { return QCoreApplication::translate("Permission", text); }
+
+}  // namespace
+
+QString clockText(std::int64_t utc) {
+    return QDateTime::fromMSecsSinceEpoch(utc / 1'000'000, Qt::UTC)
+        .toString(QStringLiteral("HH:mm"));
+}
+
+QString scopeText(const std::string& prefix) {
+    return prefix == "/" ? say("everything") : QString::fromStdString(prefix);
+}
+
+std::string scopeOf(const Frame& frame, Place place) {
+    if (frame.type(place).isA("Agent")) return "/";
+    const std::string& path = frame.info(place).path;
+    return path.substr(0, path.find('/', 1));
+}
+
+QString whyNotNow(const Frame& frame, Place place, StateSet available) {
+    const AgentFrame& agent = frame.agents[place.agent];
+    const std::string& path = frame.info(place).path;
+    const bool ofAgent = frame.type(place).isA("Agent");
+    if (agent.lost()) {
+        return say("%1 is not heard").arg(QString::fromStdString(agent.status.name));
+    }
+    if (available.empty()) return say("never available");
+    if (available != StateSet::always()) {
+        const auto state = agent.state(place.simplex);
+        if (!state) return say("its state has not come yet");
+        if (!available.has(*state)) {
+            return say("needs %1")
+                .arg(QString::fromStdString(available.text()).replace(' ', say(" or ")));
+        }
+    }
+    // What an agent's own command concerns follows from its prefix, which the agent checks.
+    const bool ours = ofAgent ? frame.control.covers(agent.status.name, frame.control.prefix)
+                              : frame.control.covers(agent.status.name, path);
+    if (ours) return {};
+    for (const Lease& lease : leasesOf(agent)) {
+        if (lease.holder == frame.control.self || !isAtOrBelow(path, lease.prefix)) continue;
+        return say("held by %1 since %2 (%3)")
+            .arg(QString::fromStdString(lease.holder), clockText(lease.since),
+                 ageText(lease.seconds));
+    }
+    return say("read-only: take control of %1").arg(scopeText(scopeOf(frame, place)));
+}
+
+}  // namespace cortex::explorer

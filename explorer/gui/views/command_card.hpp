@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/commands.hpp"
+
+#include <QWidget>
+#include <vector>
+
+class QGridLayout;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+
+namespace cortex::explorer {
+
+class TextLabel;
+class ValueField;
+
+// One command of a simplex as a form: what it does, a field for each parameter, Run with the reason
+// why not, progress and Cancel of a long one, what became of the last.
+class CommandCard : public QWidget {
+    Q_OBJECT
+public:
+    CommandCard(Commands& commands, std::string path, const Command& command,
+                QWidget* parent = nullptr);
+
+    void refresh(const Frame& frame, Place place);
+    void run();  // asks first where the type says so
+    const Command& command() const { return command_; }
+
+protected:
+    void contextMenuEvent(QContextMenuEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;  // Ctrl+Enter
+
+private:
+    void addParameter(QGridLayout& grid, const DataItem& item);
+    comms::Mirror::Arguments arguments() const;
+    QString whyNotRun() const;  // empty: it can be sent
+    void decide();
+    void ask();
+    void send();
+
+    Commands& commands_;
+    std::string path_;
+    Command command_;  // a copy: the agent's types may go
+    QString whyNot_;   // from outside of the form
+    bool isSending_ = false;
+    std::vector<ValueField*> fields_;
+    QPushButton *run_, *cancel_;
+    TextLabel *reason_, *progressText_;
+    QProgressBar* progress_;
+    QLabel* outcome_;
+};
+
+}  // namespace cortex::explorer

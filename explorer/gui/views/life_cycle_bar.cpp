@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "views/life_cycle_bar.hpp"
+
+#include "model/outcome_text.hpp"
+#include "model/permission.hpp"
+#include "widgets/text_label.hpp"
+
+#include <QGridLayout>
+#include <QPushButton>
+#include <algorithm>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr std::chrono::milliseconds transitionLimit = std::chrono::seconds{30};
+
+}  // namespace
+
+LifeCycleBar::LifeCycleBar(Commands& commands, QWidget* parent)
+    : QWidget{parent}, commands_{commands} {
+    auto* grid = new QGridLayout{this};
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setHorizontalSpacing(Look::units(2));
+    grid->setVerticalSpacing(0);
+    const std::array<std::pair<const char*, QString>, 3> all{{{"startup", tr("Startup")},
+                                                              {"shutdown", tr("Shutdown")},
+                                                              {"clearFaults", tr("Clear faults")}}};
+    for (int i = 0; i < 3; ++i) {
+        const auto& [command, title] = all[static_cast<std::size_t>(i)];
+        Button& each = buttons_[static_cast<std::size_t>(i)];
+        each = {command, new QPushButton{title},
+                new TextLabel{TextSize::Note, false, &Tokens::ink2}};
+        each.button->setFixedWidth(Look::units(32));
+        each.reason->setWordWrap(true);  // two lines, whether they are needed or not
+        each.reason->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+        each.reason->setFixedSize(Look::units(32), 2 * each.reason->fontMetrics().height());
+        grid->addWidget(each.button, 0, i);
+        grid->addWidget(each.reason, 1, i);
+        connect(each.button, &QPushButton::clicked, this,
+                [this, &each] { send(each.command, each.button->text()); });
+    }
+}
+
+void LifeCycleBar::show(const std::string& path) { path_ = path; }
+
+void LifeCycleBar::refresh(const Frame& frame, Place place) {
+    const Type& type = frame.type(place);
+    const bool shown = type.active() && !type.isA("Agent");  // an agent's own have a prefix: forms
+    setVisible(shown);
+    if (!shown) return;
+    for (Button& each : buttons_) {
+        const auto command = std::ranges::find(type.commands, each.command, &Command::name);
+        const QString why = command == type.commands.end()
+                                ? tr("its type has no %1").arg(each.button->text())
+                                : whyNotNow(frame, place, command->available);
+        each.button->setEnabled(why.isEmpty());
+        each.reason->show(why);
+        each.reason->setToolTip(why.toHtmlEscaped());
+    }
+}
+
+void LifeCycleBar::send(const std::string& command, const QString& title) {
+    Q_EMIT told(tr("%1: sending").arg(title));
+    commands_.send(path_, command, {}, transitionLimit, this,
+                   [this, title, path = path_](const CommandOutcome& outcome) {
+                       if (path != path_) return;  // another simplex is shown by now
+                       Q_EMIT told(tr("%1: %2").arg(title, outcomeText(outcome)));
+                   });
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/commands.hpp"
+
+#include <QWidget>
+#include <array>
+
+class QPushButton;
+
+namespace cortex::explorer {
+
+class TextLabel;
+
+// Startup, Shutdown and Clear faults of an active simplex, with the reasons why not below them.
+class LifeCycleBar : public QWidget {
+    Q_OBJECT
+public:
+    explicit LifeCycleBar(Commands& commands, QWidget* parent = nullptr);
+
+    void show(const std::string& path);
+    void refresh(const Frame& frame, Place place);
+
+Q_SIGNALS:
+    void told(const QString& outcome);  // of the last one
+
+private:
+    struct Button {
+        std::string command;
+        QPushButton* button;
+        TextLabel* reason;
+    };
+    void send(const std::string& command, const QString& title);
+
+    Commands& commands_;
+    std::string path_;
+    std::array<Button, 3> buttons_;
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "widgets/value_field.hpp"
+
+#include "cortex/core/labelled_value.hpp"
+
+#include "model/value_text.hpp"
+#include "style/explorer_style.hpp"
+#include "style/look.hpp"
+
+#include <QButtonGroup>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QStyle>
+#include <QWheelEvent>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr std::size_t mostButtons = 4;
+
+// The wheel scrolls the page, and never chooses.
+class QuietList : public QComboBox {
+protected:
+    void wheelEvent(QWheelEvent* event) override { event->ignore(); }
+};
+
+QStringList choicesOf(const DataItem& item) {
+    if (item.length != 1) return {};
+    if (item.kind == Kind::Bool) return {QStringLiteral("false"), QStringLiteral("true")};
+    QStringList texts;
+    for (const auto& [number, label] : item.labels) texts << QString::fromStdString(label);
+    return texts;
+}
+
+QString initialText(const DataItem& item) {
+    const auto labels = labelsOf(item, item.initial);
+    if (labels.size() == 1 && !labels.front().empty()) return QString::fromStdString(labels[0]);
+    return QString::fromStdString(toText(item.initial));
+}
+
+}  // namespace
+
+std::optional<Value> enteredValue(const DataItem& item, const QString& text, QString& why) {
+    std::string reason;
+    const std::string plain = QString{text}.replace(QChar{0x2212}, QLatin1Char{'-'}).toStdString();
+    auto value = parseItemValue(item, plain, reason);
+    if (value) reason = valueError(item, *value);
+    why = QString::fromStdString(reason);
+    if (!reason.empty()) value.reset();
+    return value;
+}
+
+ValueField::ValueField(const DataItem& item, QWidget* parent) : QWidget{parent}, item_{item} {
+    auto* row = new QHBoxLayout{this};
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(Look::units(1));
+    if (choicesOf(item_).isEmpty())
+        addField();
+    else
+        addChoices();
+    setAccessibleName(QString::fromStdString(item_.name));
+}
+
+void ValueField::addChoices() {
+    const QStringList choices = choicesOf(item_);
+    const QString first = item_.hasDefault ? initialText(item_) : QString{};
+    if (static_cast<std::size_t>(choices.size()) > mostButtons) {
+        list_ = new QuietList;
+        list_->setFocusPolicy(Qt::StrongFocus);
+        if (first.isEmpty()) list_->addItem({});
+        list_->addItems(choices);
+        list_->setCurrentText(first);
+        layout()->addWidget(list_);
+        setFocusProxy(list_);
+        connect(list_, qOverload<int>(&QComboBox::currentIndexChanged), this, &ValueField::changed);
+        return;
+    }
+    buttons_ = new QButtonGroup{this};
+    for (const QString& each : choices) {
+        auto* button = new QPushButton{each};
+        button->setCheckable(true);
+        button->setChecked(each == first);
+        buttons_->addButton(button);
+        layout()->addWidget(button);
+    }
+    static_cast<QHBoxLayout*>(layout())->addStretch(1);
+    setFocusProxy(buttons_->buttons().front());
+    connect(buttons_, qOverload<QAbstractButton*>(&QButtonGroup::buttonClicked), this,
+            &ValueField::changed);
+}
+
+void ValueField::addField() {
+    field_ = new QLineEdit;
+    field_->setAccessibleName(QString::fromStdString(item_.name));
+    if (item_.hasDefault) field_->setPlaceholderText(initialText(item_));
+    if (item_.length > 1) {
+        field_->setToolTip(
+            tr("%n values with blanks between them", nullptr, static_cast<int>(item_.length)));
+    }
+    field_->setTextMargins(Look::units(1), 0, Look::units(1), 0);
+    layout()->addWidget(field_);
+    setFocusProxy(field_);
+    connect(field_, &QLineEdit::textChanged, this, [this] {
+        field_->setProperty(wrongInput, !problem().isEmpty());
+        field_->update();
+        Q_EMIT changed();
+    });
+}
+
+QString ValueField::text() const {
+    if (field_ != nullptr) return field_->text();
+    if (list_ != nullptr) return list_->currentText();
+    const QAbstractButton* chosen = buttons_->checkedButton();
+    return chosen != nullptr ? chosen->text() : QString{};
+}
+
+void ValueField::setText(const QString& text) {
+    if (field_ != nullptr) field_->setText(text);
+    if (list_ != nullptr) list_->setCurrentText(text);
+    if (buttons_ == nullptr) return;
+    for (QAbstractButton* each : buttons_->buttons()) {
+        if (each->text() == text) each->setChecked(true);
+    }
+    Q_EMIT changed();
+}
+
+bool ValueField::isEmpty() const { return text().isEmpty(); }
+
+std::optional<Value> ValueField::value() const {
+    QString why;
+    return isEmpty() ? std::nullopt : enteredValue(item_, text(), why);
+}
+
+QString ValueField::problem() const {
+    QString why;
+    if (!isEmpty()) (void)enteredValue(item_, text(), why);
+    return why;
+}
+
+}  // namespace cortex::explorer

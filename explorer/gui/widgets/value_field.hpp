@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/type_model.hpp"
+
+#include <QWidget>
+#include <optional>
+
+class QButtonGroup;
+class QComboBox;
+class QLineEdit;
+
+namespace cortex::explorer {
+
+// Where the value of an item is entered: buttons for up to four labels and for true and false, a
+// list for more labels, otherwise a field that says while typing what is wrong. The wheel changes
+// nothing.
+class ValueField : public QWidget {
+    Q_OBJECT
+public:
+    explicit ValueField(const DataItem& item, QWidget* parent = nullptr);
+
+    // None: nothing was entered, or what was entered is wrong.
+    std::optional<Value> value() const;
+    // What is wrong with what was entered; empty: nothing.
+    QString problem() const;
+    bool isEmpty() const;
+    void setText(const QString& text);
+
+Q_SIGNALS:
+    void changed();
+
+private:
+    void addChoices();
+    void addField();
+    QString text() const;
+
+    DataItem item_;
+    QLineEdit* field_ = nullptr;  // one of these three
+    QComboBox* list_ = nullptr;
+    QButtonGroup* buttons_ = nullptr;
+};
+
+// What a person has entered for an item; none, and why, where it cannot be it.
+std::optional<Value> enteredValue(const DataItem& item, const QString& text, QString& why);
+
+}  // namespace cortex::explorer

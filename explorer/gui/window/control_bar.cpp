@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "window/control_bar.hpp"
+
+#include "model/permission.hpp"
+#include "widgets/text_label.hpp"
+
+#include <QHBoxLayout>
+#include <QPainter>
+#include <QPushButton>
+
+namespace cortex::explorer {
+
+namespace {
+
+// What was refused or lost, on the background of a warning.
+class NoticeRow : public QWidget {
+protected:
+    void paintEvent(QPaintEvent* /*event*/) override {
+        QPainter{this}.fillRect(rect(), Look::colours().warnBg);
+    }
+};
+
+}  // namespace
+
+ControlBar::ControlBar(Session& session, QWidget* parent)
+    : QWidget{parent},
+      session_{session},
+      frame_{session.frame()},
+      label_{new TextLabel{TextSize::Text}},
+      button_{new QPushButton},
+      notice_{new NoticeRow},
+      noticeText_{new TextLabel{TextSize::Text, true, &Tokens::warnText}} {
+    auto* row = new QHBoxLayout{this};
+    row->setContentsMargins(Look::units(2), 0, 0, 0);
+    row->setSpacing(Look::units(4));
+    row->addWidget(label_);
+    row->addWidget(button_);
+    label_->show(text());
+    button_->setText(tr("Take control…"));
+    button_->setToolTip(tr("Ctrl+T; releasing is Ctrl+Shift+T"));
+    connect(button_, &QPushButton::clicked, this, [this] { holds() ? release() : choose(); });
+    makeNotice();
+}
+
+void ControlBar::makeNotice() {
+    auto* row = new QHBoxLayout{notice_};
+    row->setContentsMargins(Look::units(4), Look::units(1), Look::units(2), Look::units(1));
+    noticeText_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    auto* close = new QPushButton{tr("Close")};
+    row->addWidget(noticeText_);
+    row->addWidget(close);
+    notice_->hide();
+    connect(close, &QPushButton::clicked, this, [this] {
+        told_ = noticeText_->text();
+        notice_->hide();
+    });
+}
+
+QString ControlBar::text() const {
+    const Control& control = frame_->control;
+    if (!control.asks.empty()) return tr("Asking for %1").arg(scopeText(control.asks));
+    if (control.prefix.empty()) return tr("Read-only");
+    return tr("You control %1 since %2").arg(scopeText(control.prefix), clockText(control.since));
+}
+
+QString ControlBar::noticeText() const {
+    return notice_->isHidden() ? QString{} : noticeText_->text();
+}
+
+void ControlBar::refresh(const std::shared_ptr<const Frame>& frame, const std::string& path) {
+    frame_ = frame;
+    path_ = path;
+    const Control& control = frame->control;
+    label_->show(text(), control.prefix.empty() ? &Tokens::ink2 : &Tokens::onAccent);
+    if (control.prefix != prefix_) {
+        prefix_ = control.prefix;
+        button_->setText(holds() ? tr("Release") : tr("Take control…"));
+        update();
+        Q_EMIT changed();
+    }
+    const QString said = QString::fromStdString(control.notice);
+    if (said.isEmpty()) told_.clear();
+    noticeText_->show(said);
+    notice_->setVisible(!said.isEmpty() && said != told_);
+    if (panel_) panel_->refresh(frame);
+}
+
+void ControlBar::choose() {
+    if (panel_) return;
+    panel_ = new ControlPanel{frame_, path_, this};
+    connect(panel_, &ControlPanel::taken, this, [this](const std::string& prefix) {
+        told_.clear();
+        session_.takeControl(prefix);
+    });
+    panel_->adjustSize();
+    const QPoint corner = mapToGlobal(rect().bottomRight());
+    panel_->move(corner - QPoint{panel_->width(), -Look::units(1)});
+    panel_->show();
+    panel_->takeButton().setFocus();
+}
+
+void ControlBar::release() { session_.releaseControl(); }
+
+// What the operator holds is blue.
+void ControlBar::paintEvent(QPaintEvent* /*event*/) {
+    if (!holds()) return;
+    QPainter painter{this};
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(Look::colours().accent);
+    const int height = Look::units(6);
+    const QRect chip{label_->x() - Look::units(2), (this->height() - height) / 2,
+                     label_->width() + Look::units(4), height};
+    painter.drawRoundedRect(chip, Look::units(1), Look::units(1));
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/session.hpp"
+#include "window/control_panel.hpp"
+
+#include <QPointer>
+#include <QWidget>
+
+class QPushButton;
+
+namespace cortex::explorer {
+
+class TextLabel;
+
+// Whether this window may command, and what: "Read-only" with "Take control…", or "You control /arm
+// since 12:05" with "Release". Why control was refused or lost stands in a row of its own.
+class ControlBar : public QWidget {
+    Q_OBJECT
+public:
+    explicit ControlBar(Session& session, QWidget* parent = nullptr);
+
+    // `path`: the simplex that is shown, which the scopes are made from.
+    void refresh(const std::shared_ptr<const Frame>& frame, const std::string& path);
+    void choose();  // opens the popover
+    void release();
+    bool holds() const { return !prefix_.empty(); }
+    const std::string& prefix() const { return prefix_; }
+    QString text() const;
+    QWidget* notice() { return notice_; }  // the row; its place is the window's matter
+    QString noticeText() const;
+    ControlPanel* panel() { return panel_; }
+
+Q_SIGNALS:
+    void changed();  // what is held
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    void makeNotice();
+
+    Session& session_;
+    std::shared_ptr<const Frame> frame_;
+    std::string path_, prefix_;
+    QString told_;  // the notice that was closed
+    TextLabel* label_;
+    QPushButton* button_;
+    QWidget* notice_;
+    TextLabel* noticeText_;
+    QPointer<ControlPanel> panel_;
+};
+
+}  // namespace cortex::explorer

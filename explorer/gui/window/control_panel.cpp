@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "window/control_panel.hpp"
+
+#include "cortex/core/path.hpp"
+
+#include "model/permission.hpp"
+#include "model/value_text.hpp"
+#include "session/lease.hpp"
+#include "style/look.hpp"
+#include "widgets/text_label.hpp"
+
+#include <QButtonGroup>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QRadioButton>
+#include <algorithm>
+#include <map>
+
+namespace cortex::explorer {
+
+namespace {
+
+// What each active simplex below the prefix does when control of it is lost.
+QString onLossText(const AgentFrame& agent, const std::string& prefix) {
+    std::map<OnLeaseLost, int> counts;
+    int all = 0;
+    for (const SimplexInfo& info : agent.structure->simplexes) {
+        const Type& type = *info.layout->type;
+        if (info.remote || !type.active() || !isAtOrBelow(info.path, prefix)) continue;
+        ++counts[type.onLeaseLost];
+        ++all;
+    }
+    return ControlPanel::tr("%1 active; when control is lost %2 go on, %3 hold, %4 shut down")
+        .arg(all)
+        .arg(counts[OnLeaseLost::Continue])
+        .arg(counts[OnLeaseLost::Hold])
+        .arg(counts[OnLeaseLost::Shutdown]);
+}
+
+}  // namespace
+
+ControlPanel::ControlPanel(std::shared_ptr<const Frame> frame, const std::string& path,
+                           QWidget* parent)
+    : QFrame{parent, Qt::Popup},
+      frame_{std::move(frame)},
+      buttons_{new QButtonGroup{this}},
+      holders_{new QLabel},
+      take_{new QPushButton} {
+    setAttribute(Qt::WA_DeleteOnClose);
+    for (std::string each = path; each.size() > 1; each.resize(each.rfind('/'))) {
+        scopes_.push_back(each);
+    }
+    scopes_.emplace_back("/");
+
+    auto* rows = new QVBoxLayout{this};
+    rows->setContentsMargins(Look::units(5), Look::units(4), Look::units(5), Look::units(4));
+    auto* title = new TextLabel{TextSize::Value, true};
+    title->show(tr("Take control of"));
+    rows->addWidget(title);
+    for (std::size_t i = 0; i < scopes_.size(); ++i) {
+        auto* button = new QRadioButton{scopeText(scopes_[i])};
+        buttons_->addButton(button, static_cast<int>(i));
+        rows->addWidget(button);
+    }
+    holders_->setTextFormat(Qt::PlainText);
+    rows->addWidget(holders_);
+    auto* last = new QHBoxLayout;
+    last->addStretch(1);
+    auto* cancel = new QPushButton{tr("Cancel")};
+    last->addWidget(cancel);
+    last->addWidget(take_);
+    rows->addLayout(last);
+    connect(cancel, &QPushButton::clicked, this, &QWidget::close);
+    connect(take_, &QPushButton::clicked, this, [this] {
+        Q_EMIT taken(chosen());
+        close();
+    });
+    connect(buttons_, qOverload<QAbstractButton*>(&QButtonGroup::buttonClicked), this,
+            [this] { refresh(frame_); });
+    // The part of the plant that the simplex belongs to, where one is chosen.
+    buttons_->button(static_cast<int>(std::max<std::size_t>(scopes_.size(), 2) - 2))
+        ->setChecked(true);
+    setAccessibleName(title->text());
+    refresh(frame_);
+}
+
+const std::string& ControlPanel::chosen() const {
+    return scopes_[static_cast<std::size_t>(std::max(buttons_->checkedId(), 0))];
+}
+
+void ControlPanel::choose(const std::string& prefix) {
+    const auto found = std::ranges::find(scopes_, prefix);
+    if (found == scopes_.end()) return;
+    buttons_->button(static_cast<int>(found - scopes_.begin()))->setChecked(true);
+    refresh(frame_);
+}
+
+void ControlPanel::refresh(std::shared_ptr<const Frame> frame) {
+    frame_ = std::move(frame);
+    const QString text = describe();
+    if (text != holders_->text()) {
+        holders_->setText(text);
+        adjustSize();
+    }
+    take_->setText(tr("Take %1").arg(scopeText(chosen())));
+}
+
+QString ControlPanel::describe() const {
+    QStringList lines;
+    for (const AgentFrame& agent : frame_->agents) {
+        if (agent.lost() || !hasBelow(agent, chosen())) continue;
+        const QString name = QString::fromStdString(agent.status.name);
+        const auto other = leaseOfOthers(agent, chosen(), frame_->control.self);
+        lines << (other ? tr("%1: %2 holds %3 since %4 (%5)")
+                              .arg(name, QString::fromStdString(other->holder),
+                                   QString::fromStdString(other->prefix), clockText(other->since),
+                                   ageText(other->seconds))
+                        : tr("%1: nobody else holds a part of it").arg(name));
+        if (other) lines << tr("    They must release it or hand it over; nobody can take it.");
+        lines << QStringLiteral("    ") + onLossText(agent, chosen());
+    }
+    return lines.isEmpty() ? tr("Nobody who is heard has anything there.") : lines.join('\n');
+}
+
+void ControlPanel::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter{this};
+    painter.fillRect(rect(), Look::colours().raised);
+    painter.setPen(QPen{Look::colours().border, static_cast<double>(Look::lineWidth())});
+    painter.drawRect(rect().adjusted(0, 0, -1, -1));
+}
+
+}  // namespace cortex::explorer

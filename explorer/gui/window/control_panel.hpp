@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/frame.hpp"
+
+#include <QFrame>
+#include <string>
+
+class QButtonGroup;
+class QLabel;
+class QPushButton;
+
+namespace cortex::explorer {
+
+// Which part to take control of, and who holds what of it now. A popover: a click beside it, or
+// Esc, closes it.
+class ControlPanel : public QFrame {
+    Q_OBJECT
+public:
+    // The scopes offered: the path, all above it, and everything.
+    ControlPanel(std::shared_ptr<const Frame> frame, const std::string& path,
+                 QWidget* parent = nullptr);
+
+    void refresh(std::shared_ptr<const Frame> frame);
+    QPushButton& takeButton() { return *take_; }
+    void choose(const std::string& prefix);
+
+Q_SIGNALS:
+    void taken(const std::string& prefix);
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    const std::string& chosen() const;
+    QString describe() const;
+
+    std::shared_ptr<const Frame> frame_;
+    std::vector<std::string> scopes_;  // as the buttons
+    QButtonGroup* buttons_;
+    QLabel* holders_;
+    QPushButton* take_;
+};
+
+}  // namespace cortex::explorer
