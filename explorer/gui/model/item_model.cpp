@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/item_model.hpp"
 
+#include "cortex/core/labelled_value.hpp"
+
 #include "model/value_text.hpp"
 
 #include <algorithm>
@@ -28,6 +30,18 @@ struct ItemModel::Node {
 };
 
 namespace {
+
+// As it is entered: labels where they stand for numbers, numbers at full precision.
+QString editText(const DataItem& item, const cortex::Value& value) {
+    const auto labels = labelsOf(item, value);
+    const bool labelled = !labels.empty() && std::ranges::none_of(labels, &std::string::empty);
+    const auto* texts = std::get_if<std::vector<std::string>>(&value);
+    if (texts != nullptr && texts->size() == 1) return QString::fromStdString(texts->front());
+    if (!labelled) return QString::fromStdString(toText(value));
+    QStringList all;
+    for (const std::string& each : labels) all << QString::fromStdString(each);
+    return all.join(' ');
+}
 
 QString remarkOf(const DataItem& item) {
     if (item.constant) return ItemModel::tr("constant");
@@ -77,7 +91,6 @@ void ItemModel::update(std::shared_ptr<const Frame> frame) {
             built_ = place;
         structures_ = frame_->structures;
     }
-    outside_ = 0;
     for (const auto& group : root_->children) refresh(*group);
 }
 
@@ -193,7 +206,9 @@ void ItemModel::refresh(Node& node) {
         Row& row = child->row;
         if (row.item == nullptr || child->layout == nullptr || !built_) continue;
         const AgentFrame& agent = frame_->agents[built_->agent];
-        const QString before = row.value;
+        const QString before = row.value, editedBefore = row.edited;
+        const auto entered = settableRow(row) ? edits_.find(row.item->name) : edits_.end();
+        row.edited = entered == edits_.end() ? QString{} : editText(*row.item, entered->second);
         const auto mark = row.mark;
         row.mark.reset();
         row.number.reset();
@@ -206,14 +221,13 @@ void ItemModel::refresh(Node& node) {
                               : elementText(*row.item, value, row.element);
             if (!array) row.number = numberOf(value, row.element);
             row.mark = outsideOf(row);
-            if (row.mark) ++outside_;
             const Quality quality = qualityOf(agent, *child);
             if (quality != Quality::Good && !row.item->constant) {
                 row.mark = shapeOf(quality);
                 row.value = bracketed(row.value);
             }
         }
-        if (row.value != before || row.mark != mark) {
+        if (row.value != before || row.mark != mark || row.edited != editedBefore) {
             if (first < 0) first = child->number;
             last = child->number;
         }
@@ -227,15 +241,41 @@ void ItemModel::refresh(Node& node) {
     }
 }
 
-std::vector<std::string> ItemModel::shown() const {
-    std::set<std::string> paths;
-    if (!path_.empty()) paths.insert(path_);
-    for (const auto& group : root_->children) paths.insert(group->row.path);
-    return {paths.begin(), paths.end()};
+// Items of related simplexes are set where those are shown.
+bool ItemModel::settableRow(const Row& row) const {
+    return row.item != nullptr && row.whole && !row.item->settable.empty() && row.path == path_;
 }
 
-int ItemModel::items() const {
-    return built_ ? static_cast<int>(frame_->type(*built_).data.size()) : 0;
+bool ItemModel::settable(const QModelIndex& index) const {
+    return index.isValid() && built_ && settableRow(nodeOf(index)->row);
+}
+
+Qt::ItemFlags ItemModel::flags(const QModelIndex& index) const {
+    const bool editable = index.column() == Value && settable(index);
+    return QAbstractItemModel::flags(index) | (editable ? Qt::ItemIsEditable : Qt::NoItemFlags);
+}
+
+bool ItemModel::setData(const QModelIndex& index, const QVariant& text, int role) {
+    if (role != Qt::EditRole || !settable(index)) return false;
+    if (text == data(index, Qt::EditRole)) return true;  // opened, and left as it was
+    const DataItem& item = *nodeOf(index)->row.item;
+    std::string why;
+    const std::string entered =
+        text.toString().replace(QChar{0x2212}, QLatin1Char{'-'}).toStdString();
+    auto value = parseItemValue(item, entered, why);
+    if (value) why = valueError(item, *value);
+    if (!why.empty()) {
+        Q_EMIT refused(QString::fromStdString(item.name + ' ' + why));
+        return false;
+    }
+    edits_[item.name] = std::move(*value);
+    for (const auto& group : root_->children) refresh(*group);
+    return true;
+}
+
+void ItemModel::clearEdits() {
+    edits_.clear();
+    for (const auto& group : root_->children) refresh(*group);
 }
 
 ItemModel::Node* ItemModel::nodeOf(const QModelIndex& index) const {
@@ -265,6 +305,13 @@ int ItemModel::columnCount(const QModelIndex& /*parent*/) const { return ColumnC
 QVariant ItemModel::data(const QModelIndex& index, int role) const {
     if (!index.isValid()) return {};
     const Row& row = nodeOf(index)->row;
+    if (role == Qt::EditRole && settable(index)) {
+        if (!row.edited.isEmpty()) return row.edited;
+        const AgentFrame& agent = frame_->agents[built_->agent];
+        const Node& node = *nodeOf(index);
+        if (!agent.came(node.simplex)) return {};
+        return editText(*row.item, (*agent.image)->value(node.simplex, *node.layout));
+    }
     if (role == Qt::ToolTipRole && row.item != nullptr) {
         QStringList lines{QString::fromStdString(row.path + '.' + row.item->name)};
         if (!row.item->description.empty()) {
@@ -278,7 +325,7 @@ QVariant ItemModel::data(const QModelIndex& index, int role) const {
         case Name:
             return row.name;
         case Value:
-            return row.value;
+            return row.edited.isEmpty() ? row.value : row.edited;
         case Unit:
             return row.unit;
         case Remark:

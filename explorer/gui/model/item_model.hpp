@@ -5,6 +5,7 @@
 #include "style/shapes.hpp"
 
 #include <QAbstractItemModel>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,7 @@ public:
         const DataItem* item = nullptr;  // null: a group
         std::size_t element = 0;         // of an array
         QString name, value, unit, remark, note;
+        QString edited;  // what was entered and is not sent yet
         std::optional<double> number, min, max;
         std::optional<Shape> mark;  // outside of its range, or not live
         bool framework = false;     // only the framework writes it
@@ -38,17 +40,23 @@ public:
     void update(std::shared_ptr<const Frame> frame);
 
     const Row& row(const QModelIndex& index) const;
-    // The simplexes whose values are shown.
-    std::vector<std::string> shown() const;
-    int items() const;  // of the simplex itself
-    int outside() const { return outside_; }
+    // What was entered for items of the simplex itself, and is not sent yet.
+    const std::map<std::string, cortex::Value>& edits() const { return edits_; }
+    void clearEdits();
+    bool settable(const QModelIndex& index) const;
 
+    Qt::ItemFlags flags(const QModelIndex& index) const override;
+    // Takes what a person entered, unless it is wrong.
+    bool setData(const QModelIndex& index, const QVariant& text, int role = Qt::EditRole) override;
     QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
     QModelIndex parent(const QModelIndex& index) const override;
     int rowCount(const QModelIndex& parent = {}) const override;
     int columnCount(const QModelIndex& parent = {}) const override;
     QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
     QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+Q_SIGNALS:
+    void refused(const QString& why);  // what was entered: "gain is out of the range 0 to 1"
 
 private:
     struct Node;
@@ -59,6 +67,7 @@ private:
     void addItem(Node& group, const DataItem& item, Place place, bool framework);
     static Quality qualityOf(const AgentFrame& agent, const Node& node);
     void refresh(Node& node);
+    bool settableRow(const Row& row) const;
     Node* nodeOf(const QModelIndex& index) const;
 
     std::string path_;
@@ -67,7 +76,7 @@ private:
     std::unique_ptr<Node> root_;
     std::optional<Place> built_;
     std::uint64_t structures_ = 0;
-    int outside_ = 0;
+    std::map<std::string, cortex::Value> edits_;  // by item
 };
 
 }  // namespace cortex::explorer

@@ -4,6 +4,7 @@
 #include "model/value_text.hpp"
 #include "plugin/plugins.hpp"
 #include "views/command_list.hpp"
+#include "views/edit_bar.hpp"
 #include "views/life_cycle_bar.hpp"
 #include "views/own_view.hpp"
 #include "views/relation_table.hpp"
@@ -13,6 +14,7 @@
 #include "widgets/text_label.hpp"
 
 #include <QHBoxLayout>
+#include <QShortcut>
 #include <QStackedWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -58,6 +60,7 @@ BaseView::BaseView(Commands& commands, QWidget* parent)
       pages_{new QStackedWidget},
       own_{new OwnView},
       table_{new ItemTable{items_}},
+      edits_{new EditBar{commands, items_}},
       relations_{new RelationTable},
       commands_{new CommandList{commands}},
       type_{new TypePage} {
@@ -100,8 +103,17 @@ BaseView::BaseView(Commands& commands, QWidget* parent)
     tabs_->setExpanding(false);
     tabs_->setDrawBase(false);
     tabs_->setAccessibleName(tr("What to show"));
+    auto* dataPage = new QWidget;
+    auto* dataRows = new QVBoxLayout{dataPage};
+    dataRows->setContentsMargins(0, 0, 0, 0);
+    dataRows->setSpacing(0);
+    dataRows->addWidget(table_, 1);
+    dataRows->addWidget(edits_);
+    connect(table_, &ItemTable::submitted, edits_, &EditBar::submit);
+    auto* undo = new QShortcut{QKeySequence::Undo, this};
+    connect(undo, &QShortcut::activated, edits_, &EditBar::undo);
     for (QWidget* page :
-         std::initializer_list<QWidget*>{own_, table_, relations_, commands_, type_}) {
+         std::initializer_list<QWidget*>{own_, dataPage, relations_, commands_, type_}) {
         pages_->addWidget(page);
     }
     connect(tabs_, &QTabBar::currentChanged, pages_, &QStackedWidget::setCurrentIndex);
@@ -140,6 +152,7 @@ void BaseView::show(const std::string& path) {
     fresh_ = true;
     items_.show(path);
     lifeCycle_->show(path);
+    edits_->show(path);
     outcome_->hide();
 }
 
@@ -162,6 +175,7 @@ void BaseView::refresh(const std::shared_ptr<const Frame>& frame) {
     refreshHeader(*frame, place);
     if (fresh_ || structures_ != frame->structures) refreshTabs(*frame, place);
     lifeCycle_->refresh(*frame, *place);
+    edits_->refresh(frame, *place);
     commands_->refresh(*frame, *place);
     relations_->refresh(*frame, *place);
     own_->refresh(*frame);

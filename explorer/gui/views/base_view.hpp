@@ -18,6 +18,7 @@ class ItemTable;
 class OwnView;
 class RelationTable;
 class CommandList;
+class EditBar;
 class LifeCycleBar;
 class TypePage;
 class StateMark;
@@ -57,6 +58,7 @@ private:
     QStackedWidget* pages_;
     OwnView* own_;
     ItemTable* table_;
+    EditBar* edits_;
     RelationTable* relations_;
     CommandList* commands_;
     TypePage* type_;

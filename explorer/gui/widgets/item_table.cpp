@@ -3,10 +3,13 @@
 
 #include "model/item_model.hpp"
 #include "model/value_text.hpp"
+#include "style/explorer_style.hpp"
 #include "widgets/range_bar.hpp"
 #include "widgets/rows.hpp"
+#include "widgets/value_field.hpp"
 
 #include <QHeaderView>
+#include <QLineEdit>
 #include <QStyledItemDelegate>
 #include <algorithm>
 #include <array>
@@ -41,6 +44,10 @@ public:
                 paintText(*painter, box, row.name, rowInk(option, c.ink));
                 break;
             case ItemModel::Value:
+                if (!row.edited.isEmpty()) {
+                    paintEdited(*painter, option, row);
+                    break;
+                }
                 paintText(*painter, option.rect.adjusted(0, 0, -Look::units(2), 0), row.value, ink,
                           Qt::AlignRight, outside);
                 break;
@@ -58,7 +65,40 @@ public:
         }
     }
 
+    QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& /*option*/,
+                          const QModelIndex& index) const override {
+        auto* field = new QLineEdit{parent};
+        const DataItem& item = *items_.row(index).item;
+        field->setAccessibleName(QString::fromStdString(item.name));
+        connect(field, &QLineEdit::textChanged, field, [field, item] {
+            QString why;
+            field->setProperty(wrongInput, !enteredValue(item, field->text(), why));
+            field->setToolTip(why.toHtmlEscaped());
+            field->update();
+        });
+        return field;
+    }
+
+    void updateEditorGeometry(QWidget* editor, const QStyleOptionViewItem& option,
+                              const QModelIndex& index) const override {
+        const ItemModel::Row& row = items_.row(index);
+        const bool wide = row.item->length > 1 || row.item->kind == Kind::String;
+        QRect box = option.rect;
+        if (wide)
+            box.setWidth(Look::units(itemWidths[ItemModel::Value] + itemWidths[ItemModel::Unit] +
+                                     itemWidths[ItemModel::Range]));
+        editor->setGeometry(box);
+    }
+
 private:
+    // What is not sent yet has a dot before it; what the agent has now stands beside it.
+    static void paintEdited(QPainter& painter, const QStyleOptionViewItem& option,
+                            const ItemModel::Row& row) {
+        paintText(painter, option.rect.adjusted(0, 0, -Look::units(2), 0),
+                  QStringLiteral("● ") + row.edited, rowInk(option, Look::colours().accent),
+                  Qt::AlignRight, true);
+    }
+
     static void paintRangeOf(QPainter& painter, const QStyleOptionViewItem& option, QRect box,
                              const ItemModel::Row& row) {
         if (!row.min && !row.max) return;
@@ -81,6 +121,10 @@ private:
     static void paintRemark(QPainter& painter, const QStyleOptionViewItem& option, QRect box,
                             const ItemModel::Row& row) {
         const Tokens& c = Look::colours();
+        if (!row.edited.isEmpty()) {
+            paintText(painter, box, ItemTable::tr("now %1").arg(row.value), rowInk(option, c.ink));
+            return;
+        }
         if (!row.mark) {
             paintText(painter, box, row.remark, rowInk(option, c.ink2));
             return;
@@ -103,9 +147,33 @@ ItemTable::ItemTable(ItemModel& model, QWidget* parent) : QTreeView{parent}, ite
     setUpRows(*this);
     setAccessibleName(tr("Data"));
     setSelectionBehavior(SelectRows);
+    setEditTriggers(DoubleClicked | EditKeyPressed);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     connect(&model, &QAbstractItemModel::modelReset, this, &ItemTable::openGroups);
     openGroups();
+}
+
+// Whatever column the cursor is in: it is the value that is edited. Tab goes on to the next one.
+bool ItemTable::edit(const QModelIndex& index, EditTrigger trigger, QEvent* event) {
+    const QModelIndex value = index.siblingAtColumn(ItemModel::Value);
+    if (trigger == DoubleClicked || trigger == EditKeyPressed) {
+        return QTreeView::edit(value, trigger, event);
+    }
+    return QTreeView::edit(index, trigger, event);
+}
+
+void ItemTable::closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) {
+    using Delegate = QAbstractItemDelegate;
+    QTreeView::closeEditor(editor, Delegate::NoHint);
+    if (hint == Delegate::SubmitModelCache) Q_EMIT submitted();
+    if (hint != Delegate::EditNextItem && hint != Delegate::EditPreviousItem) return;
+    QModelIndex next = currentIndex();
+    do {
+        next = hint == Delegate::EditNextItem ? indexBelow(next) : indexAbove(next);
+    } while (next.isValid() && !items_.settable(next));
+    if (!next.isValid()) return;
+    setCurrentIndex(next.siblingAtColumn(ItemModel::Value));
+    QTreeView::edit(currentIndex());
 }
 
 void ItemTable::openGroups() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QAbstractItemDelegate>
 #include <QTreeView>
 
 namespace cortex::explorer {
@@ -14,7 +15,12 @@ class ItemTable : public QTreeView {
 public:
     explicit ItemTable(ItemModel& model, QWidget* parent = nullptr);
 
+Q_SIGNALS:
+    void submitted();  // Enter in a field
+
 protected:
+    bool edit(const QModelIndex& index, EditTrigger trigger, QEvent* event) override;
+    void closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) override;
     void resizeEvent(QResizeEvent* event) override;
     void drawRow(QPainter* painter, const QStyleOptionViewItem& option,
                  const QModelIndex& index) const override;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "model/item_model.hpp"
+#include "session/commands.hpp"
+
+#include <QWidget>
+#include <vector>
+
+class QPushButton;
+
+namespace cortex::explorer {
+
+class TextLabel;
+
+// What was entered in the table of data and is not sent yet: all items of a simplex are set
+// together or none. It says why not, and what became of it, and can undo it.
+class EditBar : public QWidget {
+    Q_OBJECT
+public:
+    EditBar(Commands& commands, ItemModel& items, QWidget* parent = nullptr);
+
+    void show(const std::string& path);  // what was entered for another one is discarded
+    void refresh(const std::shared_ptr<const Frame>& frame, Place place);
+    void submit();
+    void discard();
+    // Sets what it was before, unless somebody else has set it since.
+    void undo();
+
+private:
+    // Items that were set, as they were before and as they are now.
+    struct Done {
+        std::string path;
+        comms::Mirror::Arguments before, after;
+    };
+    QString whyNot() const;
+    void send(Done change, bool undoes);
+    void answered(const Done& change, bool undoes, const CommandOutcome& outcome);
+    void say(const QString& text, QColor Tokens::* colour);
+    static QString textOf(const Done& change);
+
+    Commands& commands_;
+    ItemModel& items_;
+    std::shared_ptr<const Frame> frame_;
+    Place place_;
+    std::string path_;
+    bool isSending_ = false;
+    std::vector<Done> done_;  // newest last
+    TextLabel* told_;
+    QPushButton *set_, *discard_, *undo_;
+};
+
+}  // namespace cortex::explorer

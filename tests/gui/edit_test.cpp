@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Items that are set in the table of data, with a real agent over DDS.
+#include "gui/window_fixture.hpp"
+#include "views/edit_bar.hpp"
+#include "widgets/text_label.hpp"
+#include "window/control_bar.hpp"
+
+#include <QLineEdit>
+#include <QPushButton>
+
+#include <QtTest/QTest>
+
+namespace cortex::test {
+namespace {
+
+class Editing : public Window {
+protected:
+    bool isReady() {
+        if (!everythingComes()) return false;
+        window.open("/drive");
+        window.openPart("data");
+        return comes([this] { return valueOf("dampingRatio") != "…"; });
+    }
+    bool takes(const std::string& prefix) {
+        session.takeControl(prefix);
+        return comes([&] { return window.control().prefix() == prefix; });
+    }
+    ItemTable& table() { return *window.current()->findChild<ItemTable*>(); }
+    EditBar& bar() { return *window.current()->findChild<EditBar*>(); }
+    QModelIndex cellOf(const QString& item) {
+        const auto& rows = *table().model();
+        for (int group = 0; group < rows.rowCount(); ++group) {
+            const QModelIndex above = rows.index(group, 0);
+            for (int row = 0; row < rows.rowCount(above); ++row) {
+                if (rows.index(row, ItemModel::Name, above).data() == item) {
+                    return rows.index(row, ItemModel::Value, above);
+                }
+            }
+        }
+        return {};
+    }
+    // F2, the text, and the key that ends it.
+    void enters(const QString& item, const QString& text, Qt::Key key) {
+        table().setCurrentIndex(cellOf(item));
+        QKeyEvent edit{QEvent::KeyPress, Qt::Key_F2, Qt::NoModifier};
+        QApplication::sendEvent(&table(), &edit);
+        const auto fields = table().findChildren<QLineEdit*>();
+        const auto found = std::ranges::find_if(fields, [&](const auto* each) {
+            return !each->isHidden() && each->accessibleName() == item;
+        });
+        ASSERT_NE(found, fields.end()) << item.toStdString();
+        QLineEdit* field = *found;
+        field->setText(text);
+        QTest::keyClick(field, key);
+        QApplication::processEvents();
+    }
+    bool says(const QString& text) {
+        return comes([&] { return bar().findChild<TextLabel*>()->text().contains(text); });
+    }
+    QPushButton& button(const QString& text) {
+        for (auto* each : bar().findChildren<QPushButton*>()) {
+            if (each->text().startsWith(text)) return *each;
+        }
+        throw std::runtime_error{"no such button"};
+    }
+};
+
+TEST_F(Editing, SendsNothingBeforeControlIsTakenAndThenSetsAndUndoes) {
+    ASSERT_TRUE(isReady());
+    const QString before = valueOf("dampingRatio");
+    enters("dampingRatio", "0.75", Qt::Key_Return);
+    EXPECT_TRUE(says("Not sent: read-only: take control of /drive"));
+    EXPECT_FALSE(button("Set").isEnabled());
+    EXPECT_EQ(valueOf("dampingRatio"), "0.75") << "what was entered stays";
+    ASSERT_TRUE(takes("/drive"));
+    ASSERT_TRUE(comes([this] { return button("Set").isEnabled(); }));
+    button("Set").click();
+    EXPECT_TRUE(says("Set: dampingRatio "));
+    EXPECT_TRUE(comes([this] { return valueOf("dampingRatio").startsWith("0.75"); }));
+    EXPECT_NE(live({"show", "/drive"}).output.find("0.75"), std::string::npos);
+    ASSERT_TRUE(comes([this] { return button("Undo").isVisible(); }));
+    button("Undo").click();
+    EXPECT_TRUE(says("Undone: dampingRatio 0.75"));
+    EXPECT_TRUE(comes([&] { return valueOf("dampingRatio") == before; }));
+}
+
+TEST_F(Editing, SetsSeveralItemsTogetherAndDiscardsThem) {
+    ASSERT_TRUE(isReady());
+    ASSERT_TRUE(takes("/"));
+    enters("dampingRatio", "0.8", Qt::Key_Tab);
+    enters("naturalFrequency", "5", Qt::Key_Tab);
+    EXPECT_TRUE(comes([this] { return button("Set").text() == "Set 2 items"; }));
+    button("Discard").click();
+    EXPECT_TRUE(comes([this] { return !bar().isVisible(); }));
+    EXPECT_NE(valueOf("dampingRatio"), "0.8");
+    enters("dampingRatio", "0.8", Qt::Key_Tab);
+    enters("naturalFrequency", "5", Qt::Key_Return);
+    EXPECT_TRUE(says("Set: dampingRatio "));
+    EXPECT_TRUE(comes([this] { return valueOf("naturalFrequency").startsWith("5"); }));
+}
+
+TEST_F(Editing, DoesNotTakeWhatIsOutOfTheRange) {
+    ASSERT_TRUE(isReady());
+    enters("naturalFrequency", "1e6", Qt::Key_Return);
+    EXPECT_TRUE(says("naturalFrequency is out of the range"))
+        << bar().findChild<TextLabel*>()->text().toStdString();
+    EXPECT_TRUE(valueOf("naturalFrequency").startsWith("12"));
+}
+
+TEST_F(Editing, WillNotUndoWhatSomebodyElseHasSetSince) {
+    ASSERT_TRUE(isReady());
+    ASSERT_TRUE(takes("/drive"));
+    enters("dampingRatio", "0.75", Qt::Key_Return);
+    ASSERT_TRUE(says("Set: dampingRatio "));
+    session.releaseControl();
+    ASSERT_TRUE(comes([this] { return !window.control().holds(); }));
+    ASSERT_EQ(live({"set", "/drive", "dampingRatio=0.95"}).exit, 0);
+    ASSERT_TRUE(comes([this] { return valueOf("dampingRatio").startsWith("0.95"); }));
+    button("Undo").click();
+    EXPECT_TRUE(says("Not undone: somebody else has set dampingRatio since."));
+}
+
+}  // namespace
+}  // namespace cortex::test
