@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Items that are set in the table of data, with a real agent over DDS.
 #include "gui/window_fixture.hpp"
+#include "views/command_card.hpp"
 #include "views/edit_bar.hpp"
 #include "widgets/text_label.hpp"
 #include "window/control_bar.hpp"
 
+#include <QAction>
+#include <QClipboard>
 #include <QLineEdit>
 #include <QPushButton>
 
@@ -97,6 +100,41 @@ TEST_F(Editing, SetsSeveralItemsTogetherAndDiscardsThem) {
     enters("naturalFrequency", "5", Qt::Key_Return);
     EXPECT_TRUE(says("Set: dampingRatio "));
     EXPECT_TRUE(comes([this] { return valueOf("naturalFrequency").startsWith("5"); }));
+}
+
+TEST_F(Editing, EachCopiedCommandDoesTheSameInAShell) {
+    ASSERT_TRUE(isReady());
+    const auto copied = [](const QWidget& widget, const char* action) {
+        for (QAction* each : widget.actions()) {
+            if (each->text() == action) each->trigger();
+        }
+        return QApplication::clipboard()->text();
+    };
+    const auto shell = [](const QString& line) {
+        const std::string programs = CORTEX_BINARY_DIR "/bin";
+        return runProgram("/bin/sh", {"-c", "PATH=" + programs + ":$PATH; " + line.toStdString()});
+    };
+    table().setCurrentIndex(cellOf("dampingRatio"));
+    EXPECT_EQ(copied(table(), "Copy value"), "0.9");
+    EXPECT_EQ(copied(table(), "Copy path"), "/drive.dampingRatio");
+    EXPECT_NE(shell(copied(table(), "Copy as cortex command") + " --count 1").output.find("0.9"),
+              std::string::npos);
+    enters("dampingRatio", "0.8", Qt::Key_Tab);
+    table().setCurrentIndex(cellOf("dampingRatio"));
+    EXPECT_EQ(shell(copied(table(), "Copy as cortex command")).exit, 0);
+    const auto place = session.frame()->find("/drive");
+    ASSERT_TRUE(place);
+    EXPECT_TRUE(comes([&] {
+        const auto frame = session.frame();
+        const AgentFrame& mixer = frame->agents[place->agent];
+        const ItemLayout* item = frame->info(*place).layout->find("dampingRatio");
+        return (*mixer.image)->value(place->simplex, *item) == Value{std::vector{0.8}};
+    }));
+    for (auto* each : window.current()->findChildren<CommandCard*>()) {
+        if (each->command().name != "startup") continue;
+        EXPECT_EQ(shell(copied(*each, "Copy as cortex command")).exit, 0);
+    }
+    EXPECT_TRUE(comes([this] { return valueOf("state") == "Active (2)"; }));
 }
 
 TEST_F(Editing, DoesNotTakeWhatIsOutOfTheRange) {

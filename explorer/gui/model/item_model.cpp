@@ -273,6 +273,25 @@ bool ItemModel::setData(const QModelIndex& index, const QVariant& text, int role
     return true;
 }
 
+QString ItemModel::copyText(const QModelIndex& index) const {
+    const Node& node = *nodeOf(index);
+    if (node.row.item == nullptr || node.layout == nullptr || !built_) return node.row.name;
+    const AgentFrame& agent = frame_->agents[built_->agent];
+    if (!agent.came(node.simplex)) return {};
+    cortex::Value value = (*agent.image)->value(node.simplex, *node.layout);
+    if (!node.row.whole) {
+        std::visit(
+            [&](auto& all) {
+                all = {all.begin() + static_cast<std::ptrdiff_t>(node.row.element),
+                       all.begin() + static_cast<std::ptrdiff_t>(node.row.element) + 1};
+            },
+            value);
+    }
+    const QString text = QString::fromStdString(toText(value));
+    const bool live = qualityOf(agent, node) == Quality::Good || node.row.item->constant;
+    return live ? text : bracketed(text);
+}
+
 void ItemModel::clearEdits() {
     edits_.clear();
     for (const auto& group : root_->children) refresh(*group);

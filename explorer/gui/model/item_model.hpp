@@ -44,6 +44,8 @@ public:
     const std::map<std::string, cortex::Value>& edits() const { return edits_; }
     void clearEdits();
     bool settable(const QModelIndex& index) const;
+    // The value at full precision in plain ASCII; in brackets where it is not live.
+    QString copyText(const QModelIndex& index) const;
 
     Qt::ItemFlags flags(const QModelIndex& index) const override;
     // Takes what a person entered, unless it is wrong.

@@ -5,6 +5,7 @@
 #include "plugin/plugins.hpp"
 #include "views/command_list.hpp"
 #include "views/edit_bar.hpp"
+#include "views/item_actions.hpp"
 #include "views/life_cycle_bar.hpp"
 #include "views/own_view.hpp"
 #include "views/relation_table.hpp"
@@ -109,6 +110,7 @@ BaseView::BaseView(Commands& commands, QWidget* parent)
     dataRows->setSpacing(0);
     dataRows->addWidget(table_, 1);
     dataRows->addWidget(edits_);
+    addItemActions(*table_, items_, commands.network());
     connect(table_, &ItemTable::submitted, edits_, &EditBar::submit);
     auto* undo = new QShortcut{QKeySequence::Undo, this};
     connect(undo, &QShortcut::activated, edits_, &EditBar::undo);

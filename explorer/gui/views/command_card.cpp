@@ -8,12 +8,11 @@
 #include "widgets/text_label.hpp"
 #include "widgets/value_field.hpp"
 
+#include <QAction>
 #include <QApplication>
 #include <QClipboard>
-#include <QContextMenuEvent>
 #include <QGridLayout>
 #include <QKeyEvent>
-#include <QMenu>
 #include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
@@ -111,6 +110,13 @@ CommandCard::CommandCard(Commands& commands, std::string path, const Command& co
     connect(cancel_, &QPushButton::clicked, this, [this] {
         commands_.send(path_, "cancel", {}, shortLimit, this, [](const CommandOutcome&) {});
     });
+    auto* copy = new QAction{tr("Copy as cortex command"), this};
+    connect(copy, &QAction::triggered, this, [this] {
+        QApplication::clipboard()->setText(
+            shellText(commands_.network(), "call", path_, command_.name, arguments()));
+    });
+    addAction(copy);
+    setContextMenuPolicy(Qt::ActionsContextMenu);
     setAccessibleName(name);
     decide();
 }
@@ -223,15 +229,6 @@ void CommandCard::send() {
                        outcome_->show();
                        decide();
                    });
-}
-
-void CommandCard::contextMenuEvent(QContextMenuEvent* event) {
-    QMenu menu;
-    menu.addAction(tr("Copy as cortex command"), this, [this] {
-        QApplication::clipboard()->setText(
-            shellText(commands_.network(), "call", path_, command_.name, arguments()));
-    });
-    menu.exec(event->globalPos());
 }
 
 void CommandCard::keyPressEvent(QKeyEvent* event) {

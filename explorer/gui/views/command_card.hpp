@@ -29,7 +29,6 @@ public:
     const Command& command() const { return command_; }
 
 protected:
-    void contextMenuEvent(QContextMenuEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;  // Ctrl+Enter
 
 private:
