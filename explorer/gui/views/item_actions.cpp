@@ -34,7 +34,7 @@ void addItemActions(ItemTable& table, const ItemModel& items,
                     const comms::NetworkOptions& network) {
     using Row = ItemModel::Row;
     const auto add = [&](const QString& text, const QKeySequence& keys,
-                         std::function<void(const Row&)> act) {
+                         const std::function<void(const Row&)>& act) {
         auto* action = new QAction{text, &table};
         action->setShortcut(keys);
         action->setShortcutContext(Qt::WidgetShortcut);
@@ -44,14 +44,14 @@ void addItemActions(ItemTable& table, const ItemModel& items,
         table.addAction(action);
     };
     add(ItemTable::tr("Copy value"), QKeySequence::Copy,
-        [&](const Row& /*row*/) { copy(items.copyText(table.currentIndex())); });
+        [&table, &items](const Row& /*row*/) { copy(items.copyText(table.currentIndex())); });
     add(ItemTable::tr("Copy path"), {}, [](const Row& row) {
         copy(QString::fromStdString(row.item == nullptr ? row.path
                                                         : row.path + '.' + row.item->name));
     });
     add(ItemTable::tr("Copy as cortex command"), QKeySequence{Qt::CTRL | Qt::SHIFT | Qt::Key_C},
         [&items, network](const Row& row) { copy(commandOf(items, row, network)); });
-    add(ItemTable::tr("Set…"), {}, [&](const Row& /*row*/) {
+    add(ItemTable::tr("Set…"), {}, [&table, &items](const Row& /*row*/) {
         const QModelIndex value = table.currentIndex().siblingAtColumn(ItemModel::Value);
         if (items.settable(value)) table.QTreeView::edit(value);
     });
