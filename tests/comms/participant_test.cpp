@@ -205,14 +205,17 @@ TEST(Participant, CountsMalformedSamplesAndReadsOn) {
     const std::vector<std::vector<std::uint8_t>> malformed{
         {1}, {0, 1, 0, 0}, {good.begin(), good.end() - 5}, otherEncapsulation, longText};
 
-    // One key each: the newest of a key is delivered even to those who join late.
+    // One key each, and only once they have met: in 1 of 100 runs under load Fast DDS 2.9 stops
+    // delivering in the middle of what is written while they meet.
     ASSERT_TRUE(raw.write(idNumber(1), good));
+    ASSERT_TRUE(inbox.waitFor(1));
     for (std::size_t i = 0; i < malformed.size(); ++i) {
         ASSERT_TRUE(raw.write(idNumber(10 + i), malformed[i]));
     }
     ASSERT_TRUE(raw.write(idNumber(2), encoded(presence(2))));
 
-    ASSERT_TRUE(inbox.waitFor(2));
+    ASSERT_TRUE(inbox.waitFor(2)) << inbox.elements().size() << " came, " << tool.malformed()
+                                  << " malformed";
     ASSERT_TRUE(comesTrue([&] { return tool.malformed() >= malformed.size(); }));
     EXPECT_EQ(tool.malformed(), malformed.size());
     ASSERT_TRUE(raw.write(idNumber(3), encoded(presence(3))));
