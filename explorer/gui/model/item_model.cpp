@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/item_model.hpp"
 
-#include "cortex/core/labelled_value.hpp"
-
 #include "model/value_text.hpp"
 
 #include <algorithm>
@@ -30,18 +28,6 @@ struct ItemModel::Node {
 };
 
 namespace {
-
-// As it is entered: labels where they stand for numbers, numbers at full precision.
-QString editText(const DataItem& item, const cortex::Value& value) {
-    const auto labels = labelsOf(item, value);
-    const bool labelled = !labels.empty() && std::ranges::none_of(labels, &std::string::empty);
-    const auto* texts = std::get_if<std::vector<std::string>>(&value);
-    if (texts != nullptr && texts->size() == 1) return QString::fromStdString(texts->front());
-    if (!labelled) return QString::fromStdString(toText(value));
-    QStringList all;
-    for (const std::string& each : labels) all << QString::fromStdString(each);
-    return all.join(' ');
-}
 
 QString remarkOf(const DataItem& item) {
     if (item.constant) return ItemModel::tr("constant");
@@ -208,7 +194,7 @@ void ItemModel::refresh(Node& node) {
         const AgentFrame& agent = frame_->agents[built_->agent];
         const QString before = row.value, editedBefore = row.edited;
         const auto entered = settableRow(row) ? edits_.find(row.item->name) : edits_.end();
-        row.edited = entered == edits_.end() ? QString{} : editText(*row.item, entered->second);
+        row.edited = entered == edits_.end() ? QString{} : entryText(*row.item, entered->second);
         const auto mark = row.mark;
         row.mark.reset();
         row.number.reset();
@@ -259,13 +245,10 @@ bool ItemModel::setData(const QModelIndex& index, const QVariant& text, int role
     if (role != Qt::EditRole || !settable(index)) return false;
     if (text == data(index, Qt::EditRole)) return true;  // opened, and left as it was
     const DataItem& item = *nodeOf(index)->row.item;
-    std::string why;
-    const std::string entered =
-        text.toString().replace(QChar{0x2212}, QLatin1Char{'-'}).toStdString();
-    auto value = parseItemValue(item, entered, why);
-    if (value) why = valueError(item, *value);
-    if (!why.empty()) {
-        Q_EMIT refused(QString::fromStdString(item.name + ' ' + why));
+    QString why;
+    auto value = enteredValue(item, text.toString(), why);
+    if (!value) {
+        Q_EMIT refused(QString::fromStdString(item.name) + ' ' + why);
         return false;
     }
     edits_[item.name] = std::move(*value);
@@ -329,7 +312,7 @@ QVariant ItemModel::data(const QModelIndex& index, int role) const {
         const AgentFrame& agent = frame_->agents[built_->agent];
         const Node& node = *nodeOf(index);
         if (!agent.came(node.simplex)) return {};
-        return editText(*row.item, (*agent.image)->value(node.simplex, *node.layout));
+        return entryText(*row.item, (*agent.image)->value(node.simplex, *node.layout));
     }
     if (role == Qt::ToolTipRole && row.item != nullptr) {
         QStringList lines{QString::fromStdString(row.path + '.' + row.item->name)};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/value_text.hpp"
 
+#include "cortex/core/labelled_value.hpp"
+
 #include <QCoreApplication>
 #include <algorithm>
 #include <array>
@@ -112,6 +114,27 @@ QString valueText(const DataItem& item, const Value& value) {
 }
 
 QString bracketed(const QString& text) { return '[' + text + ']'; }
+
+QString entryText(const DataItem& item, const Value& value) {
+    const auto* texts = std::get_if<std::vector<std::string>>(&value);
+    if (texts != nullptr && texts->size() == 1) return QString::fromStdString(texts->front());
+    const auto labels = labelsOf(item, value);
+    const bool labelled = !labels.empty() && std::ranges::none_of(labels, &std::string::empty);
+    if (!labelled) return QString::fromStdString(toText(value));
+    QStringList all;
+    for (const std::string& each : labels) all << QString::fromStdString(each);
+    return all.join(' ');
+}
+
+std::optional<Value> enteredValue(const DataItem& item, const QString& text, QString& why) {
+    std::string reason;
+    const std::string plain = QString{text}.replace(minus, QLatin1Char{'-'}).toStdString();
+    auto value = parseItemValue(item, plain, reason);
+    if (value) reason = valueError(item, *value);
+    why = QString::fromStdString(reason);
+    if (!reason.empty()) value.reset();
+    return value;
+}
 
 QString unitText(const std::string& ucum) {
     static constexpr std::array<std::array<const char*, 2>, 6> names{

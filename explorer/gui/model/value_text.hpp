@@ -19,6 +19,13 @@ QString elementText(const DataItem& item, const Value& value, std::size_t elemen
 // A value that is not live: in brackets, which survive copies, grey prints and screen readers.
 QString bracketed(const QString& text);
 
+// What a person would enter for it: labels where they stand for numbers, otherwise plain ASCII at
+// full precision.
+QString entryText(const DataItem& item, const Value& value);
+// What a person has entered, also with the minus sign that is shown; none, and why, where it
+// cannot be the item's value.
+std::optional<Value> enteredValue(const DataItem& item, const QString& text, QString& why);
+
 QString unitText(const std::string& ucum);  // "N.m" as "N·m", "m/s2" as "m/s²"
 QString ageText(double seconds);            // "6 ms", "2.1 s", "12 min", "3 h 05 min"
 

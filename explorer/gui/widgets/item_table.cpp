@@ -6,7 +6,6 @@
 #include "style/explorer_style.hpp"
 #include "widgets/range_bar.hpp"
 #include "widgets/rows.hpp"
-#include "widgets/value_field.hpp"
 
 #include <QHeaderView>
 #include <QLineEdit>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "widgets/value_field.hpp"
 
-#include "cortex/core/labelled_value.hpp"
-
 #include "model/value_text.hpp"
 #include "style/explorer_style.hpp"
 #include "style/look.hpp"
@@ -35,23 +33,7 @@ QStringList choicesOf(const DataItem& item) {
     return texts;
 }
 
-QString initialText(const DataItem& item) {
-    const auto labels = labelsOf(item, item.initial);
-    if (labels.size() == 1 && !labels.front().empty()) return QString::fromStdString(labels[0]);
-    return QString::fromStdString(toText(item.initial));
-}
-
 }  // namespace
-
-std::optional<Value> enteredValue(const DataItem& item, const QString& text, QString& why) {
-    std::string reason;
-    const std::string plain = QString{text}.replace(QChar{0x2212}, QLatin1Char{'-'}).toStdString();
-    auto value = parseItemValue(item, plain, reason);
-    if (value) reason = valueError(item, *value);
-    why = QString::fromStdString(reason);
-    if (!reason.empty()) value.reset();
-    return value;
-}
 
 ValueField::ValueField(const DataItem& item, QWidget* parent) : QWidget{parent}, item_{item} {
     auto* row = new QHBoxLayout{this};
@@ -66,7 +48,7 @@ ValueField::ValueField(const DataItem& item, QWidget* parent) : QWidget{parent},
 
 void ValueField::addChoices() {
     const QStringList choices = choicesOf(item_);
-    const QString first = item_.hasDefault ? initialText(item_) : QString{};
+    const QString first = item_.hasDefault ? entryText(item_, item_.initial) : QString{};
     if (static_cast<std::size_t>(choices.size()) > mostButtons) {
         list_ = new QuietList;
         list_->setFocusPolicy(Qt::StrongFocus);
@@ -95,7 +77,7 @@ void ValueField::addChoices() {
 void ValueField::addField() {
     field_ = new QLineEdit;
     field_->setAccessibleName(QString::fromStdString(item_.name));
-    if (item_.hasDefault) field_->setPlaceholderText(initialText(item_));
+    if (item_.hasDefault) field_->setPlaceholderText(entryText(item_, item_.initial));
     if (item_.length > 1) {
         field_->setToolTip(
             tr("%n values with blanks between them", nullptr, static_cast<int>(item_.length)));

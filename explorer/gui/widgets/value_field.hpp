@@ -41,7 +41,4 @@ private:
     QButtonGroup* buttons_ = nullptr;
 };
 
-// What a person has entered for an item; none, and why, where it cannot be it.
-std::optional<Value> enteredValue(const DataItem& item, const QString& text, QString& why);
-
 }  // namespace cortex::explorer
