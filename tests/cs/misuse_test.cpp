@@ -136,6 +136,112 @@ TEST(UnboundHandles, ThatPopulateUsesAreFindingsOfTheStart) {
     EXPECT_TRUE(contains(refusal, "is bound by =")) << refusal;
 }
 
+TEST(HandlesOfRelatedSimplexes, AreGotInPopulateOnlyAndLaterOnesAreAFaultThatSaysSo) {
+    ProbeCluster cluster;
+    Simplex& signal = cluster.tree.add("/signal", "Signal");
+    Probe& writer = cluster.probe("/writer");
+    Probe& reader = cluster.probe("/reader");
+    cluster.tree.relate(writer, "out", signal);
+    cluster.tree.relate(reader, "in", signal);
+    writer.onActive = [](Probe& self, const Tick&) {
+        Data<double> late = self.output("out").data<double>("value");
+        late = 3;
+    };
+    reader.onActive = [](Probe& self, const Tick&) { self.input("in").data<double>("value"); };
+    cluster.start();
+    cluster.call("/writer", "startup");
+    cluster.call("/reader", "startup");
+    cluster.step(3);
+
+    EXPECT_TRUE(
+        cluster.hasEvent("/writer: fault -1: /writer: /signal.value: its handle is got in "
+                         "populate(), not later: keep it in a member"));
+    EXPECT_TRUE(cluster.hasEvent("/reader: /signal.value: its handle is got in populate()"));
+    EXPECT_EQ(cluster.number("/signal", "value"), 0);
+}
+
+TEST(RelatedSimplexes, BeyondThoseThatThereAreAreFindingsOfTheStart) {
+    ProbeCluster cluster;
+    Simplex& signal = cluster.tree.add("/signal", "Signal");
+    Probe& reader = cluster.probe("/reader");
+    cluster.tree.relate(reader, "in", signal);
+    reader.onPopulate = [](Probe& self) { self.inputs("in")[2].data<double>("value"); };
+    cluster.probe("/lonely").onPopulate = [](Probe& self) { self.outputs("out")[0].path(); };
+
+    const std::string refusal = refusalOf([&] { cluster.start(); });
+
+    EXPECT_TRUE(contains(refusal, "/reader")) << refusal;
+    EXPECT_TRUE(contains(refusal,
+                         "rule 'in' relates 1 simplex, so there is no [2]: [0] is the "
+                         "first, or ask size() before"))
+        << refusal;
+    EXPECT_TRUE(contains(refusal, "rule 'out' relates 0 simplexes, so there is no [0]: relate one"))
+        << refusal;
+}
+
+TEST(TheTree, IsFixedWhileAnAgentRunsWithIt) {
+    ProbeCluster cluster;
+    Probe& probe = cluster.probe("/a");
+    Simplex& signal = cluster.tree.add("/signal", "Signal");
+    cluster.start();
+    const std::string why =
+        ": agent /test runs with this tree, whose layout start() has fixed: "
+        "add and relate before it";
+
+    EXPECT_EQ(refusalOf([&] { cluster.tree.add("/late", "Signal"); }), "/late" + why);
+    EXPECT_EQ(refusalOf([&] { cluster.probe("/late"); }), "/late" + why);
+    EXPECT_EQ(refusalOf([&] { cluster.tree.relate(probe, "in", signal); }), "/a" + why);
+    EXPECT_EQ(refusalOf([&] { cluster.tree.relateRemote(probe, "in", "/far"); }), "/a" + why);
+    EXPECT_EQ(cluster.tree.find("/late"), nullptr);
+    cluster.cluster.reset();
+    cluster.tree.add("/late", "Signal");
+    EXPECT_NE(cluster.tree.find("/late"), nullptr);
+}
+
+TEST(LifeCycleSenders, CommandTheSameSimplexWhenTheyAreCopied) {
+    ProbeCluster cluster;
+    Probe& manager = cluster.probe("/manager");
+    Probe& worker = cluster.probe("/worker");
+    cluster.tree.relate(manager, "after", worker);
+    Probe::LifeCycleSender first, copy, unbound;
+    manager.onPopulate = [&](Probe& self) {
+        first = self.lifeCycle(self.output("after"));
+        copy = first;
+    };
+    State seen = State::Fault;
+    manager.onActive = [&](Probe&, const Tick&) {
+        seen = copy.state();
+        copy.startup();
+    };
+    cluster.probe("/forgetful").onLoopStart = [&](Probe&, const Tick&) { unbound.state(); };
+    cluster.start();
+    cluster.startup(manager);
+    cluster.step(3);
+
+    EXPECT_EQ(cluster.state("/worker"), State::Active);
+    EXPECT_EQ(seen, State::Active);
+    EXPECT_TRUE(cluster.hasEvent("/forgetful: fault -1: handle LifeCycleSender is not bound"));
+}
+
+TEST(Handlers, ThatAnswerWhatIsNoAnswerAreToldSo) {
+    ProbeCluster cluster;
+    Probe& probe = cluster.probe("/long", "LongProbe");
+    probe.onPoke = [](Probe&, Call&) { return Outcome::None; };
+    probe.onWork = [](Probe&, Call&) { return Outcome::MailboxFull; };
+    cluster.start();
+    cluster.startup(probe);
+
+    const CallResult none = cluster.call("/long", "poke");
+    EXPECT_EQ(none.outcome, Outcome::Failed);
+    EXPECT_TRUE(contains(none.text(),
+                         "its handler returned None, which is no answer of a handler: "
+                         "Done, Running, Cancelled, call.fail() and call.reject() are"))
+        << none.text();
+    const CallResult full = cluster.call("/long", "work");
+    EXPECT_EQ(full.outcome, Outcome::Failed);
+    EXPECT_TRUE(contains(full.text(), "its handler returned MailboxFull")) << full.text();
+}
+
 TEST(Commands, AreNotSentWhileAParameterWithoutADefaultWasNeverSet) {
     ProbeCluster cluster;
     CommandSender add;

@@ -62,10 +62,12 @@ AgentRuntime::AgentRuntime(std::string name, SimplexTree& tree, AgentOptions opt
         threads_[i].latencyCounts.resize(latencyBuckets);
     }
     bindSimplexes();
+    tree_.agent_ = name_;
 }
 
 AgentRuntime::~AgentRuntime() {
     stop();
+    tree_.agent_.clear();
     for (Simplex* simplex : simplexes_) {
         if (simplex != nullptr) simplex->runtime_ = nullptr;
     }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 namespace cortex {
 
@@ -91,15 +92,23 @@ const Rule& ruleAt(const Type& type, const std::string& path, std::string_view r
         command, names);
 }
 
-template <class Related>
-Related onlyOne(const std::vector<Related>& related, const Simplex& owner, std::string_view rule,
-                std::string_view all) {
-    if (related.size() == 1) return related.front();
-    throw Error(owner.path() + ": rule '" + std::string{rule} + "' relates " +
-                std::to_string(related.size()) + " simplexes, not one; ask " + std::string{all});
+std::string countOf(const Simplex& owner, std::string_view rule, std::size_t count) {
+    return owner.path() + ": rule '" + std::string{rule} + "' relates " + std::to_string(count) +
+           (count == 1 ? " simplex" : " simplexes");
 }
 
 }  // namespace
+
+void throwNoSuch(const Simplex& owner, std::string_view rule, std::size_t count,
+                 std::size_t place) {
+    throw Error(countOf(owner, rule, count) + ", so there is no [" + std::to_string(place) + "]: " +
+                (count == 0 ? "relate one" : "[0] is the first") + ", or ask size() before");
+}
+
+void throwNotOne(const Simplex& owner, std::string_view rule, std::size_t count,
+                 std::string_view all) {
+    throw Error(countOf(owner, rule, count) + ", not one; ask " + std::string{all});
+}
 
 const std::string& RelatedSimplex::path() const {
     const Structure& structure = owner_->runtime().structure();
@@ -143,6 +152,9 @@ void* RelatedSimplex::cell(std::string_view item, const ItemAccess& access,
     const SimplexInfo& info = tables.structure().simplexes[target];
     const ItemLayout& layout = itemAt(*info.layout, info.path, item);
     const std::string where = owner_->path() + ": " + info.path + "." + layout.item->name;
+    if (owner_->runtime().started()) {
+        throw Error(where + ": its handle is got in populate(), not later: keep it in a member");
+    }
     checkShape(*layout.item, access, where);
     if (access.write && info.role == Role::Active) {
         throw Error(where +
@@ -188,28 +200,24 @@ void* Simplex::cell(std::string_view item, const ItemAccess& access, std::size_t
 
 SlotState& Simplex::slot() { return *startedRuntime().tables().live(index_).state; }
 
-InputSimplex Simplex::input(std::string_view rule) {
-    return onlyOne(inputs(rule), *this, rule, "inputs()");
-}
+InputSimplex Simplex::input(std::string_view rule) { return inputs(rule).only("inputs()"); }
 
-OutputSimplex Simplex::output(std::string_view rule) {
-    return onlyOne(outputs(rule), *this, rule, "outputs()");
-}
+OutputSimplex Simplex::output(std::string_view rule) { return outputs(rule).only("outputs()"); }
 
-std::vector<InputSimplex> Simplex::inputs(std::string_view rule) {
+RelatedList<InputSimplex> Simplex::inputs(std::string_view rule) {
     std::vector<InputSimplex> related;
     for (const std::uint32_t edge : edgesUnder(rule, Direction::Input)) {
         related.emplace_back(*this, edge);
     }
-    return related;
+    return {*this, rule, std::move(related)};
 }
 
-std::vector<OutputSimplex> Simplex::outputs(std::string_view rule) {
+RelatedList<OutputSimplex> Simplex::outputs(std::string_view rule) {
     std::vector<OutputSimplex> related;
     for (const std::uint32_t edge : edgesUnder(rule, Direction::Output)) {
         related.emplace_back(*this, edge);
     }
-    return related;
+    return {*this, rule, std::move(related)};
 }
 
 std::vector<std::uint32_t> Simplex::edgesUnder(std::string_view rule, Direction direction) const {

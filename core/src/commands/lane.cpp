@@ -28,6 +28,10 @@ Verdict verdictOf(Outcome outcome, const Call& call) {
     if (!call.why().empty()) verdict.why.emplace(call.why());
     if (outcome == Outcome::None || outcome >= Outcome::MailboxFull) {
         verdict.outcome = Outcome::Failed;
+        EventText why{"its handler returned "};
+        verdict.why = why << name(outcome)
+                          << ", which is no answer of a handler: Done, Running, "
+                             "Cancelled, call.fail() and call.reject() are";
     }
     return verdict;
 }

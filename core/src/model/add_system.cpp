@@ -98,6 +98,7 @@ void addSetting(const TypeModel& types, Simplex& simplex, const SystemDescriptio
 
 void SimplexTree::add(const SystemDescription& system, const ClassRegistry* registry,
                       Report& report) {
+    requireNotFixed(system.name);
     for (const Entry& entry : system.simplexes) {
         if (!checkPath(*this, entry, report)) continue;
         const Type* type = checkType(*types_, entry, report);

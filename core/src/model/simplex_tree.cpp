@@ -53,7 +53,14 @@ std::string SimplexTree::pathError(std::string_view path) {
     return path.back() == '/' ? "the path ends with '/'" : "";
 }
 
+void SimplexTree::requireNotFixed(std::string_view what) const {
+    if (agent_.empty()) return;
+    throw Error{std::string{what} + ": agent /" + agent_ +
+                " runs with this tree, whose layout start() has fixed: add and relate before it"};
+}
+
 Simplex::Identity SimplexTree::identity(std::string_view path, std::string_view type) const {
+    requireNotFixed(path);
     if (const std::string wrong = pathError(path); !wrong.empty()) {
         throw Error{"'" + std::string{path} + "': " + wrong};
     }
@@ -88,6 +95,7 @@ Simplex& SimplexTree::add(std::string_view path, std::string_view type) {
 
 void SimplexTree::relate(Simplex& owner, std::string_view rule, const Simplex& target,
                          bool delayed) {
+    requireNotFixed(owner.path());
     Simplex::Relation& relation = owner.description_->relations.emplace_back();
     relation.rule = rule;
     relation.target = target.path();
@@ -96,6 +104,7 @@ void SimplexTree::relate(Simplex& owner, std::string_view rule, const Simplex& t
 
 void SimplexTree::relateRemote(Simplex& owner, std::string_view rule, std::string_view path,
                                std::string_view type, bool delayed) {
+    requireNotFixed(owner.path());
     Simplex::Relation& relation = owner.description_->relations.emplace_back();
     relation.rule = rule;
     relation.target = path;

@@ -122,6 +122,7 @@ AgentRuntime& SimplexCS::LifeCycleSender::bound() const {
 }
 
 State SimplexCS::LifeCycleSender::state() const {
+    bound();
     return static_cast<State>(static_cast<std::int64_t>(state_));
 }
 

@@ -30,7 +30,8 @@ struct ItemAccess {
 
 // What a simplex may touch of one that it is related to; got in populate(). Through an input data
 // is read; through an output to a descriptive simplex it is written. Data of an active simplex is
-// written by its own task only: read it as data<const T>, act on it with a command.
+// written by its own task only: read it as data<const T>, act on it with a command. Once the agent
+// has started, data() and command() throw Error: a tick neither looks up names nor allocates.
 class RelatedSimplex {
 public:
     RelatedSimplex(Simplex& owner, std::uint32_t edge) : owner_{&owner}, edge_{edge} {}
@@ -52,6 +53,11 @@ protected:
     Simplex* owner_;
     std::uint32_t edge_;
 };
+
+[[noreturn]] void throwNoSuch(const Simplex& owner, std::string_view rule, std::size_t count,
+                              std::size_t place);
+[[noreturn]] void throwNotOne(const Simplex& owner, std::string_view rule, std::size_t count,
+                              std::string_view all);
 
 class InputSimplex : public RelatedSimplex {
 public:
@@ -97,6 +103,37 @@ public:
     CommandSender command(std::string_view name, std::uint32_t capacity = 16) const {
         return sender(name, capacity);
     }
+};
+
+// What is related under one rule, in the order of the files.
+template <class Related>
+class RelatedList {
+public:
+    RelatedList(const Simplex& owner, std::string_view rule, std::vector<Related> all)
+        : owner_{&owner}, rule_{rule}, all_{std::move(all)} {}
+
+    std::size_t size() const { return all_.size(); }
+    bool empty() const { return all_.empty(); }
+    auto begin() { return all_.begin(); }
+    auto end() { return all_.end(); }
+    auto begin() const { return all_.begin(); }
+    auto end() const { return all_.end(); }
+    operator const std::vector<Related>&() const { return all_; }
+    // Throws Error, which names path, rule and count, where there are not so many.
+    const Related& operator[](std::size_t place) const {
+        if (place >= all_.size()) throwNoSuch(*owner_, rule_, all_.size(), place);
+        return all_[place];
+    }
+    // The only one; throws Error where there are none or several. `all`: how one asks for them.
+    const Related& only(std::string_view all) const {
+        if (all_.size() != 1) throwNotOne(*owner_, rule_, all_.size(), all);
+        return all_.front();
+    }
+
+private:
+    const Simplex* owner_;
+    std::string rule_;
+    std::vector<Related> all_;
 };
 
 // The building block: <type, id, data, relationships, commands, mailbox>. The tree creates it; its
@@ -164,8 +201,8 @@ protected:
     // In populate(): what is related under a rule. input() and output() expect exactly one.
     InputSimplex input(std::string_view rule);
     OutputSimplex output(std::string_view rule);
-    std::vector<InputSimplex> inputs(std::string_view rule);
-    std::vector<OutputSimplex> outputs(std::string_view rule);
+    RelatedList<InputSimplex> inputs(std::string_view rule);
+    RelatedList<OutputSimplex> outputs(std::string_view rule);
 
     template <class T>
     Argument<T> argument(std::string_view command, std::string_view name) const {

@@ -17,7 +17,8 @@ namespace cortex {
 class ClassRegistry;
 
 // Owns the simplexes of a system by path, with the types they are made of. Built in code, from a
-// system file, or both; frozen when an agent starts. Setup phase, one thread.
+// system file, or both. Setup phase, one thread. While an agent runs with it, its layout is fixed:
+// add() and relate() throw Error.
 class SimplexTree {
 public:
     explicit SimplexTree(TypeModel types);
@@ -66,6 +67,8 @@ public:
     static std::string pathError(std::string_view path);
 
 private:
+    friend class AgentRuntime;
+    void requireNotFixed(std::string_view what) const;
     Simplex::Identity identity(std::string_view path, std::string_view type) const;
     Simplex& insert(std::unique_ptr<Simplex> simplex);
     std::unique_ptr<Simplex> make(std::string_view path, const Type& type,
@@ -76,6 +79,7 @@ private:
     std::shared_ptr<const TypeModel> types_;
     std::map<std::string, std::unique_ptr<Simplex>, std::less<>> simplexes_;
     SystemDescription description_;
+    std::string agent_;  // that runs with it; empty: none
 };
 
 }  // namespace cortex

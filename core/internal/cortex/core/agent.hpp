@@ -65,6 +65,7 @@ public:
     // Image, write. `wallClock`: UTC ns of the tick's nominal time.
     void endCycle(const Tick& tick, std::int64_t wallClock) CORTEX_REALTIME;
 
+    bool started() const { return started_; }  // from start() on, also after stop()
     const std::string& name() const { return name_; }
     const AgentOptions& options() const { return options_; }
     // Of the present or last cycle. For the loop's threads only; all others ask an image.

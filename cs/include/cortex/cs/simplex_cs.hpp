@@ -87,6 +87,13 @@ protected:
     class LifeCycleSender {
     public:
         LifeCycleSender() = default;
+        ~LifeCycleSender() = default;
+        LifeCycleSender(const LifeCycleSender&) = default;
+        LifeCycleSender(LifeCycleSender&&) noexcept = default;
+        LifeCycleSender& operator=(LifeCycleSender&&) noexcept = default;
+        LifeCycleSender& operator=(const LifeCycleSender& other) {  // commands the same simplex
+            return *this = LifeCycleSender{other};
+        }
         void startup() CORTEX_REALTIME { post(LifeCycle::Startup); }
         void shutdown() CORTEX_REALTIME { post(LifeCycle::Shutdown); }
         void clearFaults() CORTEX_REALTIME { post(LifeCycle::ClearFaults); }
