@@ -4,6 +4,7 @@
 
 #include "support/awake_cpus.hpp"
 #include "support/probe.hpp"
+#include "support/stepped_clock.hpp"
 #include "threads/realtime_thread.hpp"
 
 #include <atomic>
@@ -314,6 +315,21 @@ TEST(ClusterCS, RefusesToRescheduleWhereThereIsNothingToShareAnew) {
 
     EXPECT_EQ(result.outcome, Outcome::Failed);
     EXPECT_NE(result.text().find("nothing to share anew"), std::string::npos) << result.text();
+}
+
+TEST(ClusterCS, TakesOtherCommandsWhileItLooksAtWhatTasksCost) {
+    if (cs::usableCpus().size() < 2) GTEST_SKIP() << "one CPU";
+    ProbeCluster cluster{{.threads = 2, .acrossCaches = true}};
+    cluster.probe("/a");
+    cluster.trigger = &cluster.cluster->setTriggerSource<SteppedClock>().trigger;
+    cluster.start();
+
+    EXPECT_EQ(cluster.call("/test", "reschedule").outcome, Outcome::Done);
+    const CallResult startup = cluster.call("/test", "startup");
+    EXPECT_EQ(startup.outcome, Outcome::Done) << startup.text();
+    while (!cluster.hasEvent("/test: reschedule: stays with 1 thread, no other plan is better")) {
+        cluster.step();
+    }
 }
 
 std::size_t realTimeThreads() {

@@ -4,6 +4,7 @@
 #include "cortex/cs/testing.hpp"
 
 #include "support/probe.hpp"
+#include "support/stepped_clock.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -61,18 +62,6 @@ TEST(Overflow, LeavesTheNumbersOfEventsThatComeFromValues) {
     EXPECT_EQ(punctual.rbegin()->first, punctual.size()) << "without gaps";
     EXPECT_EQ(repeatableEvents(2), punctual);
 }
-
-// Ticks by hand, in a loop that takes them for real.
-struct SteppedClock final : cs::TriggerSource {
-    cs::ManualTrigger trigger{std::chrono::milliseconds{1}};
-
-    void start() override { trigger.start(); }
-    cs::Trigger waitForTick() override { return trigger.waitForTick(); }
-    void interrupt() override { trigger.interrupt(); }
-    std::int64_t period() const override { return trigger.period(); }
-    std::int64_t missed() override { return trigger.missed(); }
-    void skipMissed(bool skip) override { trigger.skipMissed(skip); }
-};
 
 TEST(Overflow, NamesTheTaskThatTookLongestWhereOneTookMoreThanHalfThePeriod) {
     ProbeCluster cluster;

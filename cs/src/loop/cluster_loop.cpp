@@ -207,8 +207,11 @@ Outcome ClusterLoop::reschedule(Call& call) {
             "this loop has one thread, keeps the threads that it was given, or is "
             "stepped by hand: there is nothing to share anew");
     }
-    if (call.first()) rescheduler_->look();
-    return rescheduler_->isLooking() ? Outcome::Running : Outcome::Done;
+    if (rescheduler_->isLooking()) {
+        return call.reject(Reason::Busy, "it looks at what the tasks cost already");
+    }
+    rescheduler_->lookAndTell();
+    return Outcome::Done;
 }
 
 void ClusterLoop::adoptPlan() {

@@ -67,6 +67,12 @@ void Rescheduler::look() {
     if (!isLooking()) hand(Stage::Asked);
 }
 
+void Rescheduler::lookAndTell() {
+    if (isLooking()) return;
+    tells_ = true;
+    look();
+}
+
 bool Rescheduler::exchange(std::unique_ptr<Plan>& plan) {
     if (stage() != Stage::Offered) return false;
     std::swap(plan, plan_);
@@ -87,6 +93,7 @@ void Rescheduler::run() {
         const std::uint32_t seen = signals_.value();
         if (stage() == Stage::Asked) {
             plan_ = betterPlanIfPossible();
+            if (std::exchange(tells_, false)) tellResult();
             hand(plan_ != nullptr ? Stage::Offered : Stage::Idle);
         } else if (stage() == Stage::Returned) {
             plan_.reset();
@@ -95,6 +102,17 @@ void Rescheduler::run() {
             signals_.sleepWhile(seen);
         }
     }
+}
+
+void Rescheduler::tellResult() const {
+    EventText text{"reschedule: "};
+    text << (plan_ != nullptr ? "takes a better plan with " : "stays with ") << inUse_.threads
+         << (inUse_.threads == 1 ? " thread" : " threads")
+         << (plan_ != nullptr ? "" : ", no other plan is better");
+    Event event;
+    event.simplex = agent_.agentSimplex();
+    event.text = text;
+    agent_.events().postOutside(event);
 }
 
 // Where the system has no thread or memory left for another plan, the one in use stays.

@@ -40,6 +40,7 @@ public:
     // Loop thread, between cycles. `startups` of simplexes since the start; `now`: nominal time.
     void follow(std::uint64_t startups, std::int64_t now) CORTEX_REALTIME;
     void look() CORTEX_REALTIME;
+    void lookAndTell() CORTEX_REALTIME;  // what came of it is an event
     bool isLooking() const CORTEX_REALTIME { return stage() != Stage::Idle; }
     // Where a better plan is offered it takes the place of `plan`.
     bool exchange(std::unique_ptr<Plan>& plan) CORTEX_REALTIME;
@@ -62,6 +63,7 @@ private:
     std::unique_ptr<Plan> betterPlan();
     std::unique_ptr<Plan> betterPlanIfPossible();
     std::vector<double> measuredCosts();
+    void tellResult() const;
     bool addSample(std::vector<std::vector<double>>& samples) const;
 
     AgentRuntime& agent_;
@@ -70,6 +72,7 @@ private:
     std::atomic<Stage> stage_{Stage::Idle};
     std::unique_ptr<Plan> plan_;  // offered to the loop, or returned by it
     Schedule inUse_;
+    bool tells_ = false;  // of the present look; who has the word
     EventCount signals_;
     std::atomic<bool> stopping_{false};
 
