@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <locale>
+#include <map>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -258,6 +259,40 @@ TEST_F(EventLogTest, NumbersApartWhatTheSameInputDoesNotCauseAgain) {
     EXPECT_EQ(repeatable, (std::vector<std::uint64_t>{1, 0, 0, 2, 0, 3}));
 }
 
+// What each event is called by its number, however many of them a ring has lost.
+TEST_F(EventLogTest, NumbersWhatRepeatsAsIfNoneOfItWereLost) {
+    const auto numbersOf = [this](std::uint32_t capacity) {
+        std::map<std::string, std::uint64_t> seen;
+        EventLog some{structure, 2, capacity};
+        some.addSink([&](const Event& event, const Structure&) {
+            if (event.repeatable != 0) seen[std::string{event.text.view()}] = event.repeatable;
+        });
+        for (std::int64_t cycle = 1; cycle <= 9; ++cycle) {
+            some.ring(0).post(eventAt(cycle, 2, 0));
+            Event missed = eventAt(cycle, 1, 1);
+            missed.kind = EventKind::Overflow;
+            some.ring(0).post(missed);
+            for (std::uint32_t i = 0; i < 4; ++i) {
+                some.ring(i % 2).post(eventAt(cycle, i % 2, taskSequence + i));
+            }
+            Event fault = eventAt(cycle, 1, taskSequence + 9);
+            fault.severity = Severity::Error;
+            some.ring(1).post(fault);
+            some.ring(0).post(eventAt(cycle, 1, endSequence));
+            some.complete(cycle);
+            if (cycle % 3 == 0) some.flush();
+        }
+        return seen;
+    };
+
+    const auto all = numbersOf(1024), some = numbersOf(8);
+
+    EXPECT_EQ(all.size(), 9U * 7U);
+    EXPECT_LT(some.size(), all.size());
+    EXPECT_GT(some.size(), 20U);
+    for (const auto& [text, number] : some) EXPECT_EQ(number, all.at(text)) << text;
+}
+
 TEST_F(EventLogTest, LetsASinkPostFromOutside) {
     log.addSink([this](const Event& event, const Structure&) {
         if (event.cycle == 1) log.postOutside(eventAt(0, 0, 0));
@@ -321,6 +356,8 @@ TEST(EventRing, HoldsAtLeastOne) {
     EXPECT_FALSE(ring.peek(event));
     ring.post(eventAt(3, 0, 0));
     ring.post(eventAt(4, 0, 0));
+    EXPECT_FALSE(ring.peek(event)) << "its cycle is not over";
+    ring.publish();
     ASSERT_TRUE(ring.peek(event));
     EXPECT_EQ(event.cycle, 3);
     EXPECT_EQ(ring.dropped(), 1U);

@@ -12,10 +12,6 @@
 namespace cortex {
 namespace {
 
-// Sequence numbers of events: begin of the cycle, tasks, end of the cycle. So their order does not
-// depend on which thread ran which task.
-constexpr std::uint32_t taskSequence = 1U << 20U, endSequence = 1U << 30U;
-
 std::uint8_t bitOf(LifeCycle command) {
     return static_cast<std::uint8_t>(1U << static_cast<unsigned>(command));
 }

@@ -96,23 +96,47 @@ EventText& EventText::operator<<(double number) {
     return *this << numberText(number, buffer);
 }
 
-EventRing::EventRing(std::uint32_t capacity)
-    : events_(std::bit_ceil(std::max<std::size_t>(capacity, 1))) {}
+// Three places for each order: before, in and after the tasks.
+EventRing::EventRing(std::uint32_t capacity, std::size_t orders)
+    : events_(std::bit_ceil(std::max<std::size_t>(capacity, 1))), lost_(3 * orders) {}
 
+std::size_t EventRing::placeOf(const Event& event) const {
+    const std::size_t phase = event.sequence < taskSequence  ? 0
+                              : event.sequence < endSequence ? 1
+                                                             : 2;
+    return std::min<std::size_t>(3 * std::size_t{event.order} + phase, lost_.size() - 1);
+}
+
+// The number that a repeatable event has among those that are lost is known here already, but for
+// what other simplexes lose in the same cycle.
 void EventRing::post(const Event& event) {
-    const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
+    const bool repeats = !comesFromTimes(event.kind);
+    std::uint32_t& lost = lost_[placeOf(event)];
     const std::size_t reserved = event.severity == Severity::Error ? 0 : events_.size() / 4;
-    if (tail - head_.load(std::memory_order_acquire) >= events_.size() - reserved) {
+    if (tail_ - head_.load(std::memory_order_acquire) >= events_.size() - reserved) {
         dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+        if (!repeats) return;
+        ++lost;
+        hasLost_ = true;
         return;
     }
-    events_[tail & (events_.size() - 1)] = event;
-    tail_.store(tail + 1, std::memory_order_release);
+    Event& place = events_[tail_++ & (events_.size() - 1)];
+    place = event;
+    place.repeatable = repeats ? 1 + lostBefore_ + lost : 0;
+}
+
+void EventRing::countLost(std::span<const std::uint32_t> before, std::uint64_t all) {
+    for (std::uint64_t i = visible_.load(std::memory_order_relaxed); i != tail_; ++i) {
+        Event& event = events_[i & (events_.size() - 1)];
+        if (event.repeatable != 0) event.repeatable += before[placeOf(event)];
+    }
+    lostBefore_ += all;
+    hasLost_ = false;
 }
 
 bool EventRing::peek(Event& event) const {
     const std::uint64_t head = head_.load(std::memory_order_relaxed);
-    if (head == tail_.load(std::memory_order_acquire)) return false;
+    if (head == visible_.load(std::memory_order_acquire)) return false;
     event = events_[head & (events_.size() - 1)];
     return true;
 }
@@ -127,9 +151,12 @@ EventLog::EventLog(std::shared_ptr<const Structure> structure, std::uint32_t rin
       fold_{std::make_unique<EventFold>([this](const Event& event) {
           for (const Sink& sink : foldedSinks_) sink(event, *structure_);
       })} {
+    // Ranks of simplexes without a task follow those of the canonical order.
+    const std::size_t orders = 2 * structure_->simplexes.size() + 1;
     for (std::uint32_t i = 0; i < rings; ++i) {
-        rings_.push_back(std::make_unique<EventRing>(capacity));
+        rings_.push_back(std::make_unique<EventRing>(capacity, orders));
     }
+    lostBefore_.resize(rings_.empty() ? 0 : rings_.front()->places());
 }
 
 EventLog::~EventLog() { stop(); }
@@ -154,6 +181,7 @@ void EventLog::stop() {
         wake_.notify_one();
         thread_.join();
     }
+    complete(complete_.load(std::memory_order_acquire));
     handOut(std::numeric_limits<std::int64_t>::max());
     const std::lock_guard lock{merging_};
     fold_->pass(std::numeric_limits<std::int64_t>::max());
@@ -170,7 +198,20 @@ void EventLog::run() {
     }
 }
 
-void EventLog::complete(std::int64_t cycle) { complete_.store(cycle, std::memory_order_release); }
+void EventLog::complete(std::int64_t cycle) {
+    if (std::ranges::any_of(rings_, [](const auto& ring) { return ring->hasLost(); })) countLost();
+    for (const auto& ring : rings_) ring->publish();
+    complete_.store(cycle, std::memory_order_release);
+}
+
+void EventLog::countLost() {
+    std::uint32_t all = 0;
+    for (std::size_t place = 0; place < lostBefore_.size(); ++place) {
+        lostBefore_[place] = all;
+        for (const auto& ring : rings_) all += ring->takeLost(place);
+    }
+    for (const auto& ring : rings_) ring->countLost(lostBefore_, all);
+}
 
 void EventLog::postOutside(Event event) {
     if (event.clock == 0) event.clock = monotonicNow();
@@ -192,7 +233,6 @@ bool EventLog::handOut(std::int64_t upTo) {
     for (const auto& ring : rings_) {
         for (; ring->peek(event) && event.cycle <= upTo; ring->pop()) {
             event.number = batch_.size();  // for now: the order of the rings decides at last
-            event.repeatable = comesFromTimes(event.kind) ? 0 : 1;
             batch_.push_back(event);
         }
     }
@@ -217,7 +257,7 @@ bool EventLog::handOut(std::int64_t upTo) {
 
 void EventLog::handOn(Event& event) {
     event.number = ++number_;
-    if (event.repeatable != 0) event.repeatable = ++repeatable_;
+    if (event.repeatable != 0) event.repeatable += repeatable_++;  // those lost before it count
     for (const Sink& sink : sinks_) sink(event, *structure_);
     if (!foldedSinks_.empty()) fold_->take(event, monotonicNow());
 }

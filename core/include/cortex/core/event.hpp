@@ -15,9 +15,11 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace cortex {
@@ -60,6 +62,10 @@ private:
     std::uint16_t length_ = 0;
 };
 
+// Sequence numbers of events: begin of the cycle, tasks, end of the cycle. So their order does not
+// depend on which thread ran which task.
+inline constexpr std::uint32_t taskSequence = 1U << 20U, endSequence = 1U << 30U;
+
 // One thing that happened in a cycle. Fixed size; the number is given when it is merged.
 struct Event {
     std::int64_t cycle = 0;
@@ -67,8 +73,8 @@ struct Event {
     std::int64_t clock = 0;      // the same by monotonicNow(); 0: not known
     std::int64_t wallClock = 0;  // the same in UTC ns; the log sets it
     std::uint64_t number = 0;    // per agent and epoch, from 1
-    // Number among the events that the same input causes again. 0: it came from measured times, or
-    // from another thread than those of the loop.
+    // Number among the events that the same input causes again, those that were lost on the way
+    // included. 0: it came from measured times, or from another thread than those of the loop.
     std::uint64_t repeatable = 0;
     std::uint32_t simplex = noSimplex;
     std::uint32_t order = 0;     // canonical order of the simplex, then `sequence` decide the merge
@@ -82,18 +88,36 @@ struct Event {
 // Holds `capacity` events, rounded up to a power of two; the last quarter is for errors alone.
 class EventRing {
 public:
-    explicit EventRing(std::uint32_t capacity);
+    // `orders`: how many canonical orders its events have.
+    explicit EventRing(std::uint32_t capacity, std::size_t orders = 1);
 
     void post(const Event& event) CORTEX_REALTIME;
     std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
     bool peek(Event& event) const;  // consumer
     void pop();
 
+    // Between cycles, by the loop's thread. What was posted can be seen from publish() on.
+    void publish() CORTEX_REALTIME { visible_.store(tail_, std::memory_order_release); }
+    // Repeatable ones that were dropped since the last publish(), by their place in the merge.
+    bool hasLost() const CORTEX_REALTIME { return hasLost_; }
+    std::uint32_t takeLost(std::size_t place) CORTEX_REALTIME {
+        return std::exchange(lost_[place], 0);
+    }
+    std::size_t places() const CORTEX_REALTIME { return lost_.size(); }
+    // Numbers what is not published yet: `before` each place so many were lost, `all` together.
+    void countLost(std::span<const std::uint32_t> before, std::uint64_t all) CORTEX_REALTIME;
+
 private:
+    std::size_t placeOf(const Event& event) const CORTEX_REALTIME;
+
     std::vector<Event> events_;
+    std::vector<std::uint32_t> lost_;  // producer
     alignas(64) std::atomic<std::uint64_t> head_{0};
-    alignas(64) std::atomic<std::uint64_t> tail_{0};
+    alignas(64) std::atomic<std::uint64_t> visible_{0};
     std::atomic<std::uint64_t> dropped_{0};
+    std::uint64_t tail_ = 0;        // producer
+    std::uint64_t lostBefore_ = 0;  // in all cycles before, of all rings
+    bool hasLost_ = false;
 };
 
 class EventFold;
@@ -127,10 +151,12 @@ private:
     bool handOut(std::int64_t upTo);  // whether there were any
     void handOn(Event& event);
     void addDrops();
+    void countLost() CORTEX_REALTIME;
 
     std::shared_ptr<const Structure> structure_;
     std::vector<std::unique_ptr<EventRing>> rings_;
     std::vector<Sink> sinks_, foldedSinks_;
+    std::vector<std::uint32_t> lostBefore_;  // loop thread
     std::atomic<std::int64_t> complete_{-1};
     std::thread thread_;
 
