@@ -100,6 +100,8 @@ TEST(ModelFiles, ChecksTheFormOfClusterAttributes) {
                                   "overflow='warn'",
                                   "catchUpCycles='-1'",
                                   "warnDuty='-1'",
+                                  "warnLateness='-1'",
+                                  "haltLateness='late'",
                                   "watchdogPeriods='0'",
                                   "triggerTimeout='0'",
                                   "stopTimeout='0'",

@@ -65,6 +65,8 @@ cs::ClusterOptions optionsOf(const Attributes& attributes, const CommandLine& li
     options.overflow = overflowOf(word(attributes, "overflow"));
     options.catchUpCycles = count(attributes, "catchUpCycles", options.catchUpCycles);
     options.warnDuty = number(attributes, "warnDuty", options.warnDuty);
+    options.warnLateness = number(attributes, "warnLateness", options.warnLateness);
+    options.haltLateness = number(attributes, "haltLateness", options.haltLateness);
     options.watchdogPeriods = number(attributes, "watchdogPeriods", options.watchdogPeriods);
     options.triggerTimeout = number(attributes, "triggerTimeout", options.triggerTimeout);
     options.stopTimeout = number(attributes, "stopTimeout", options.stopTimeout);

@@ -128,6 +128,8 @@ constexpr std::array clusterAttributes{
     ClusterAttribute{"overflow", overflow, "skip, catchUp or halt"},
     ClusterAttribute{"catchUpCycles", count, "a whole number from 0 to 1000000"},
     ClusterAttribute{"warnDuty", notNegative, "a number of % from 0"},
+    ClusterAttribute{"warnLateness", notNegative, "a number of % from 0"},
+    ClusterAttribute{"haltLateness", notNegative, "a number of % from 0"},
     ClusterAttribute{"watchdogPeriods", positive, "a number greater than 0"},
     ClusterAttribute{"triggerTimeout", positive, "a number of seconds greater than 0"},
     ClusterAttribute{"stopTimeout", positive, "a number of seconds greater than 0"},

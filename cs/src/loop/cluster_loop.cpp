@@ -39,7 +39,9 @@ ClusterLoop::ClusterLoop(AgentRuntime& agent, TriggerSource& trigger, const Clus
       runner_{agent, plan_->schedule, trigger.period()},
       group_{agent, runner_.states(), std::move(startOrder)},
       metrics_{agent, trigger.period(), plan_->schedule.threads},
-      pace_{trigger.period()} {
+      pace_{trigger.period()},
+      late_{trigger.period(), options.warnLateness, "warnLateness"},
+      tooLate_{trigger.period(), options.haltLateness, "haltLateness"} {
     agent_.registerHandler(agent_.agentSimplex(), "reschedule",
                            {this, [](void* self, Call& call) {
                                 return static_cast<ClusterLoop*>(self)->reschedule(call);
@@ -159,6 +161,7 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     reportMissed();
     warnDuty();
     judgePace(tick.nominalTime, begin);
+    judgeLateness(tick);
     if (rescheduler_) adoptPlan();
     runner_.beginCycle(tick);
     plan_->pool->cycle(trigger_.nextDeadline());
@@ -199,9 +202,9 @@ bool ClusterLoop::offerPlan(Schedule schedule) {
     return rescheduler_->offer(makePlan(std::move(schedule)));
 }
 
-// A command of /<cluster>.
+// A command of /<cluster>. A look takes half a second and would keep all others out, so that it is
+// answered at once.
 Outcome ClusterLoop::reschedule(Call& call) {
-    if (call.cancelling()) return Outcome::Cancelled;
     if (!mayReschedule_) {
         return call.fail(
             "this loop has one thread, keeps the threads that it was given, or is "
@@ -226,8 +229,25 @@ void ClusterLoop::warnDuty() {
     if (options_.warnDuty <= 0 || metrics_.lastDuty() <= options_.warnDuty) return;
     EventText text{"duty cycle "};
     text << metrics_.lastDuty() << " % is above " << options_.warnDuty << " %";
-    agent_.post(agent_.thread(0), Severity::Warning, EventKind::Overflow, agent_.agentSimplex(),
-                text);
+    tell(Severity::Warning, text);
+}
+
+void ClusterLoop::judgeLateness(const Tick& tick) {
+    const LatenessJudge::Change change = late_.add(tick);
+    if (change == LatenessJudge::Change::Begins) tell(Severity::Warning, late_.beginning());
+    if (change == LatenessJudge::Change::Ends) tell(Severity::Info, late_.ending());
+    const bool begins = tooLate_.add(tick) == LatenessJudge::Change::Begins;
+    if (begins) tell(Severity::Error, tooLate_.beginning());
+    if (tooLate_.isAbove(tick)) halt("a cycle began later than haltLateness allows");
+}
+
+void ClusterLoop::halt(const char* why) {
+    runner_.states().halt(ClusterHalted, why);
+    ended_.store(Ended::Halted, std::memory_order_release);
+}
+
+void ClusterLoop::tell(Severity severity, const EventText& text) {
+    agent_.post(agent_.thread(0), severity, EventKind::Overflow, agent_.agentSimplex(), text);
 }
 
 // A loop that is stepped by hand has only its nominal time.
@@ -240,16 +260,14 @@ void ClusterLoop::judgePace(std::int64_t nominalTime, std::int64_t begin) {
     text << std::round(pace_.rate() * 10) / 10 << " cycles a second instead of "
          << std::round(due * 10) / 10;
     if (pace_.overloaded()) nameLongest(text);
-    agent_.post(agent_.thread(0), pace_.overloaded() ? Severity::Warning : Severity::Info,
-                EventKind::Overflow, agent_.agentSimplex(), text);
+    tell(pace_.overloaded() ? Severity::Warning : Severity::Info, text);
 }
 
 void ClusterLoop::countMissed(std::int64_t missed) {
     metrics_.overflow(missed);
     unreported_ += missed;
-    if (options_.overflow != Overflow::Halt) return;
-    runner_.states().halt(ClusterHalted, "the loop overran its period and overflow is \"halt\"");
-    ended_.store(Ended::Halted, std::memory_order_release);
+    if (options_.overflow == Overflow::Halt)
+        halt("the loop overran its period and overflow is \"halt\"");
 }
 
 // By the clock of the machine: a loop that is stepped by hand writes the same at each run.
@@ -269,8 +287,7 @@ void ClusterLoop::reportMissed() {
          << " since the start";
     unreported_ = 0;
     nameLongest(text);
-    agent_.post(agent_.thread(0), Severity::Warning, EventKind::Overflow, agent_.agentSimplex(),
-                text);
+    tell(Severity::Warning, text);
 }
 
 // A job is never cut: this comes after it, and decides what becomes of the ticks it ran over.

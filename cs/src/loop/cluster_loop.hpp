@@ -6,6 +6,7 @@
 #include "cortex/cs/testing.hpp"
 
 #include "loop/group_commands.hpp"
+#include "loop/lateness_judge.hpp"
 #include "loop/metrics.hpp"
 #include "loop/pace_judge.hpp"
 #include "loop/rescheduler.hpp"
@@ -23,6 +24,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -76,6 +78,9 @@ private:
     void nameLongest(EventText& text) CORTEX_REALTIME;
     void warnDuty() CORTEX_REALTIME;
     void judgePace(std::int64_t nominalTime, std::int64_t begin) CORTEX_REALTIME;
+    void judgeLateness(const Tick& tick) CORTEX_REALTIME;
+    void halt(const char* why) CORTEX_REALTIME;
+    void tell(Severity severity, const EventText& text) CORTEX_REALTIME;
     void shutDown();
     void tell(Watchdog::Finding finding, const Tick& tick, std::int64_t since);
     void standsStill(const Tick& tick, const HungHook& where, std::string_view text);
@@ -95,6 +100,7 @@ private:
     GroupCommands group_;
     ClusterMetrics metrics_;
     PaceJudge pace_;
+    LatenessJudge late_, tooLate_;
     ScheduleMaker makeSchedule_;
     std::unique_ptr<Rescheduler> rescheduler_;  // null: one thread
     bool mayReschedule_ = false;

@@ -38,7 +38,10 @@ struct ClusterOptions {
     bool acrossCaches = false;  // several threads even where their CPUs have no common cache
     Overflow overflow = Overflow::Skip;
     std::uint32_t catchUpCycles = 10;
-    double warnDuty = 0;           // duty cycle in % above which each cycle is an event; 0: none
+    double warnDuty = 0;  // duty cycle in % above which each cycle is an event; 0: none
+    // In % of the period: how late a cycle may begin after its deadline. Above, the first of an
+    // episode is an event; or all Active simplexes go to Fault, as with Overflow::Halt. 0: none.
+    double warnLateness = 50, haltLateness = 0;
     double watchdogPeriods = 10;   // at least 100 ms
     double triggerTimeout = 1;     // s without a tick after which all that is Active faults
     double stopTimeout = 2;        // s after which the shutdown of stop() goes on by force
