@@ -75,6 +75,17 @@ TEST(CortexAgent, NamesWhoDidNotGetThroughTheShutdownInTimeAndEndsWithFour) {
         << ended.output;
 }
 
+TEST(CortexAgent, EndsWithThreeWhereACycleBeganLaterThanTheFileAllows) {
+    const TeleopFile file{{{"<cluster ", "<cluster warnLateness=\"0\" haltLateness=\"0.001\" "}}};
+
+    const Ended ended =
+        agent(file.path().string() + " --priority 0 --startup --seconds 0.5 --frequency 200");
+
+    EXPECT_EQ(ended.exitCode, 3) << ended.output;
+    EXPECT_TRUE(says(ended, "more than the haltLateness of 0.001 % allows")) << ended.output;
+    EXPECT_FALSE(says(ended, "warnLateness")) << ended.output;
+}
+
 TEST(CortexAgent, RefusesAnArmWithoutGripperWithRulePlaceAndRemedy) {
     const TeleopFile file{{{"<relate rule=\"gripper\" to=\"/arm/gripper\"/>", ""}}};
 
