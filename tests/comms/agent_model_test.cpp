@@ -61,9 +61,9 @@ TEST(AgentModel, FillsSamplesThatAreFarFromTheLargestPacket) {
     std::vector<std::size_t> sizes;
     for (const Model& each : agent.samples) sizes.push_back(encodedSize(each));
 
-    EXPECT_LE(std::ranges::max(sizes), 8'000U);
+    EXPECT_LE(std::ranges::max(sizes), 1'200U);
     const std::size_t all = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
-    EXPECT_LE(sizes.size(), all / 4'000 + 2) << "half empty at most, but for the last of each list";
+    EXPECT_LE(sizes.size(), all / 600 + 2) << "half empty at most, but for the last of each list";
 }
 
 }  // namespace

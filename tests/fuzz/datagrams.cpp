@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static std::int64_t now = 1;
     now += 1'000'000;
     std::vector<std::uint8_t> datagram{data, data + size};
-    const std::size_t left = filter().admit(datagram, 0x7f000001, now);
+    const std::size_t left = filter().admit(datagram, 0x7f000001, now).left;
     if (left > size) std::abort();
     if (left == 0) return 0;
     datagram.resize(left);

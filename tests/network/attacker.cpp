@@ -21,7 +21,10 @@
 namespace cortex::test {
 namespace {
 
+using Bytes = std::vector<std::uint8_t>;
+
 constexpr std::size_t mostHeard = 4096, header = 20;
+constexpr std::uint8_t data = 0x15;  // kind of submessage
 
 [[noreturn]] void failWith(const std::string& what) {
     throw std::runtime_error(what + ": " + std::strerror(errno));
@@ -108,17 +111,45 @@ std::vector<std::vector<std::uint8_t>> Attacker::prefixes() const {
 }
 
 std::vector<std::uint32_t> Attacker::writers() const {
-    constexpr std::uint8_t data = 0x15;
     std::set<std::uint32_t> all;
+    for (const auto& [writer, number] : newest()) all.insert(writer.second);
+    return {all.begin(), all.end()};
+}
+
+std::map<Attacker::Writer, std::int64_t> Attacker::newest() const {
+    std::map<Writer, std::int64_t> all;
     for (const Datagram& each : heard_) {
-        for (const std::size_t at : submessagesOf(each.bytes)) {
-            if (each.bytes[at] != data || at + 16 > each.bytes.size()) continue;
-            std::uint32_t id = 0;
-            std::memcpy(&id, &each.bytes[at + 12], 4);
-            all.insert(ntohl(id));
+        const Bytes& bytes = each.bytes;
+        for (const std::size_t at : submessagesOf(bytes)) {
+            if (bytes[at] != data || at + 24 > bytes.size()) continue;
+            std::array<std::uint32_t, 3> words{};  // the writer, and both halves of the number
+            std::memcpy(words.data(), &bytes[at + 12], sizeof words);
+            std::int64_t& number =
+                all[{{bytes.begin() + 8, bytes.begin() + header}, ntohl(words[0])}];
+            number = std::max(number, static_cast<std::int64_t>(words[1]) << 32 | words[2]);
         }
     }
-    return {all.begin(), all.end()};
+    return all;
+}
+
+std::vector<std::uint8_t> Attacker::announcementOf(const std::vector<std::uint8_t>& prefix) const {
+    constexpr std::array<std::uint8_t, 4> writer{0, 1, 0, 0xc2};
+    for (const Datagram& each : heard_) {
+        Bytes bytes = each.bytes;
+        for (const std::size_t at : submessagesOf(bytes)) {
+            if (bytes[at] != data || at + 16 > bytes.size() ||
+                !std::equal(writer.begin(), writer.end(), &bytes[at + 12]))
+                continue;
+            const Bytes own{bytes.begin() + 8, bytes.begin() + header};
+            for (auto place = bytes.begin(); place != bytes.end(); ++place) {
+                place = std::search(place, bytes.end(), own.begin(), own.end());
+                if (place == bytes.end()) break;
+                std::ranges::copy(prefix, place);
+            }
+            return bytes;
+        }
+    }
+    return {};
 }
 
 std::vector<std::uint8_t> Attacker::signedMessage() const {

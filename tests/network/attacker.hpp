@@ -4,8 +4,10 @@
 #include "network/host.hpp"
 
 #include <cstdint>
+#include <map>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cortex::test {
@@ -38,6 +40,11 @@ public:
     std::vector<std::vector<std::uint8_t>> prefixes() const;
     // The ids of all writers whose samples were heard.
     std::vector<std::uint32_t> writers() const;
+    // The newest sample that was heard of each writer, by the prefix of its participant and its id.
+    using Writer = std::pair<std::vector<std::uint8_t>, std::uint32_t>;
+    std::map<Writer, std::int64_t> newest() const;
+    // An announcement of a participant, heard and said again in the name of another; empty if none.
+    std::vector<std::uint8_t> announcementOf(const std::vector<std::uint8_t>& prefix) const;
     // A whole signed message that was heard, empty if none.
     std::vector<std::uint8_t> signedMessage() const;
 

@@ -18,7 +18,7 @@
 namespace cortex::comms {
 namespace {
 
-constexpr std::size_t fullSample = 8'000;  // bytes: few packets, none of which should be lost
+constexpr std::size_t fullSample = 1'200;  // bytes: one packet, so that a lost one costs no other
 
 SimplexMessage simplexMessage(const Structure& structure, std::uint32_t index, const Image& image) {
     const SimplexInfo& info = structure.simplexes[index];

@@ -3,11 +3,14 @@
 
 #include "cortex/core/clock.hpp"
 
+#include "rtps/pieces.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include <fastdds/rtps/common/LocatorList.hpp>
 #include <fastdds/rtps/network/SenderResource.h>
@@ -47,9 +50,20 @@ public:
     bool send(fastrtps::SenderResource* lower, const fastrtps::octet* octets, std::uint32_t size,
               fastrtps::LocatorsIterator* begin, fastrtps::LocatorsIterator* end,
               const std::chrono::steady_clock::time_point& timeout) override {
-        gate_->filter.noteSent({const_cast<fastrtps::octet*>(octets), size},  // only read
-                               monotonicNow());
-        return lower->send(octets, size, begin, end, timeout);
+        const rtps::Bytes datagram{const_cast<fastrtps::octet*>(octets), size};  // only read
+        gate_->filter.noteSent(datagram, monotonicNow());
+        const std::vector<rtps::Message> pieces = rtps::piecesOf(datagram);
+        if (pieces.empty()) return lower->send(octets, size, begin, end, timeout);
+        fastrtps::LocatorList to;
+        for (; *begin != *end; ++*begin) to.push_back(**begin);
+        bool sent = true;
+        for (const rtps::Message& each : pieces) {
+            fastrtps::Locators first{to.begin()}, last{to.end()};
+            sent = lower->send(each.data(), static_cast<std::uint32_t>(each.size()), &first, &last,
+                               timeout) &&
+                   sent;
+        }
+        return sent;
     }
 
     void receive(transport::TransportReceiverInterface* upper, const fastrtps::octet* octets,
@@ -58,10 +72,15 @@ public:
         // The buffer of Fast DDS, into which it writes each datagram. It only passes it on as
         // const.
         const rtps::Bytes datagram{const_cast<fastrtps::octet*>(octets), size};
-        const std::size_t left = gate_->filter.admit(datagram, ipOf(remote), monotonicNow());
-        if (left == 0) return;
+        const auto [whole, left] = gate_->filter.admit(datagram, ipOf(remote), monotonicNow());
+        if (whole.empty() && left <= rtps::headerSize) return;
         const std::unique_lock passing = gate_->pass();
-        if (passing) {
+        if (!passing) return;
+        for (const rtps::Message& each : whole) {
+            upper->OnDataReceived(each.data(), static_cast<std::uint32_t>(each.size()), local,
+                                  remote);
+        }
+        if (left > rtps::headerSize) {
             upper->OnDataReceived(octets, static_cast<std::uint32_t>(left), local, remote);
         }
     }

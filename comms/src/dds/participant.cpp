@@ -200,7 +200,10 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
     dds::DomainParticipantQos qos = participantQos(options, name);
     impl_->gate = addGate(qos);
     impl_->listener->onWriter = [gate = impl_->gate](const auto& guid, std::string_view topic) {
-        if (mayBeFragmented(topic)) gate->filter.allowFragments(writerGuid(guid), monotonicNow());
+        if (mayBeFragmented(topic)) {
+            gate->filter.allowFragments(writerGuid(guid), topic == topics::model.name,
+                                        monotonicNow());
+        }
     };
     setUpFastDds();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rtps/datagram_filter.hpp"
 
+#include "rtps/announcement.hpp"
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -11,6 +13,19 @@ namespace {
 constexpr std::int64_t interval = 1'000'000'000;  // ns, between two reports of one kind
 constexpr std::int64_t longestGap = 4096;         // Fast DDS takes memory for each number of it
 constexpr std::int64_t whileOfGap = 8'000'000;    // ns, within which a gap is said once
+
+// Of a DATA_FRAG whose content was judged.
+Fragment fragmentOf(const Submessage& submessage, const WriterGuid& writer, bool comesAgain) {
+    const bool little = submessage.little();
+    const Bytes body = submessage.body;
+    return {writer,
+            readNumber(body.subspan(12), little),
+            readU32(body.subspan(20), little),
+            readU16(body.subspan(24), little),
+            readU16(body.subspan(26), little),
+            readU32(body.subspan(28), little),
+            comesAgain};
+}
 
 Prefix prefixAt(Bytes bytes) {
     Prefix prefix;
@@ -33,6 +48,18 @@ Bytes takenOut(Bytes datagram, Bytes part) {
     return datagram.first(datagram.size() - part.size());
 }
 
+// In the open: what is signed as a whole stays as it is.
+bool hasFragments(Bytes datagram) {
+    bool has = false;
+    for (std::size_t at = headerSize; at < datagram.size();) {
+        const Submessage submessage = cutSubmessage(datagram.subspan(at)).submessage;
+        if (submessage.kind == Kind::SignedPrefix) return false;
+        has = has || submessage.kind == Kind::DataFragments;
+        at += submessage.whole.size();
+    }
+    return has;
+}
+
 bool isOfSecurity(Kind kind) { return kind >= Kind::SecureBody && kind <= Kind::SignedPostfix; }
 
 std::string textOf(std::uint32_t address) {
@@ -45,14 +72,25 @@ std::string textOf(std::uint32_t address) {
 
 }  // namespace
 
-std::size_t DatagramFilter::admit(Bytes datagram, std::uint32_t address, std::int64_t now) {
+DatagramFilter::Admitted DatagramFilter::admit(Bytes datagram, std::uint32_t address,
+                                               std::int64_t now) {
     const std::lock_guard lock{mutex_};
     const Refusal refusal = judge(datagram, address, now);
-    if (refusal == Refusal::None) return datagram.size();
+    if (refusal != Refusal::None) {
+        note(refusal, 1, address);
+        return {};
+    }
+    const std::uint64_t before = fragments_.dropped();
+    std::vector<Message> whole = takeFragments(datagram, now);
+    if (fragments_.dropped() > before)
+        note(Refusal::Unfinished, fragments_.dropped() - before, address);
+    return {std::move(whole), datagram.size()};
+}
+
+void DatagramFilter::note(Refusal refusal, std::uint64_t count, std::uint32_t address) {
     Dropped& dropped = dropped_[static_cast<std::size_t>(refusal)];
-    ++dropped.count;
+    dropped.count += count;
     dropped.address = address;
-    return 0;
 }
 
 // Framing and content of everything come first, so that nothing is noted of a datagram that is
@@ -114,8 +152,10 @@ Refusal DatagramFilter::judgeNumber(const Submessage& submessage, const Prefix& 
     const bool little = submessage.little();
     switch (submessage.kind) {
         case Kind::Data:
-            return unless(numbers_.admits(guidOf(sender, body.subspan(8)),
-                                          readNumber(body.subspan(12), little), 0, now));
+            if (!numbers_.admits(guidOf(sender, body.subspan(8)),
+                                 readNumber(body.subspan(12), little), 0, now))
+                return Refusal::Number;
+            return judgeEndpoint(submessage, now);
         case Kind::DataFragments: {
             const WriterGuid writer = guidOf(sender, body.subspan(8));
             auto* const known = fragmented_.find(writer);
@@ -136,6 +176,53 @@ Refusal DatagramFilter::judgeNumber(const Submessage& submessage, const Prefix& 
         default:
             return Refusal::None;
     }
+}
+
+// Fast DDS keeps for ever an announcement that names none, or an endpoint of its own participant.
+Refusal DatagramFilter::judgeEndpoint(const Submessage& submessage, std::int64_t now) {
+    const auto [says, endpoint] = announcementIn(submessage);
+    if (says == Announcement::Nothing) return Refusal::None;
+    if (says == Announcement::IsGone) {
+        endpoints_.remove(endpoint);
+        return Refusal::None;
+    }
+    if (says == Announcement::Unclear || std::ranges::equal(us_, std::span{endpoint}.first<12>()))
+        return Refusal::Parameters;
+    return endpoints_.admits(endpoint, participants_, now) ? Refusal::None : Refusal::Endpoints;
+}
+
+// Each fragment becomes a message of its own: a header, the time if there is one, the fragment.
+std::vector<Message> DatagramFilter::takeFragments(Bytes& datagram, std::int64_t now) {
+    std::vector<Message> whole;
+    if (!hasFragments(datagram)) return whole;
+    bool isForUs = true;
+    Message front(datagram.begin(), datagram.begin() + headerSize);
+    for (std::size_t at = headerSize; at < datagram.size();) {
+        const Submessage submessage = cutSubmessage(datagram.subspan(at)).submessage;
+        const Bytes body = submessage.body;
+        if (submessage.kind == Kind::DataFragments && isForUs) {
+            const WriterGuid writer =
+                guidOf(prefixAt(Bytes{front}.subspan(senderAt)), body.subspan(8));
+            Message message = front;
+            message.insert(message.end(), submessage.whole.begin(), submessage.whole.end());
+            for (Message& each :
+                 fragments_.add(fragmentOf(submessage, writer, fragmented_.find(writer)->value),
+                                std::move(message), now))
+                whole.push_back(std::move(each));
+            datagram = takenOut(datagram, submessage.whole);
+            continue;
+        }
+        at += submessage.whole.size();
+        if (submessage.kind == Kind::InfoSource)
+            std::copy_n(body.begin() + 8, Prefix{}.size(), front.begin() + senderAt);
+        if (submessage.kind == Kind::InfoDestination)
+            isForUs = prefixAt(body) == us_ || prefixAt(body) == Prefix{};
+        if (submessage.kind == Kind::InfoTimestamp) {
+            front.resize(headerSize);
+            front.insert(front.end(), submessage.whole.begin(), submessage.whole.end());
+        }
+    }
+    return whole;
 }
 
 bool DatagramFilter::admitsHeartbeat(const Submessage& heartbeat, const Prefix& sender,
@@ -186,9 +273,11 @@ void DatagramFilter::noteSent(Bytes datagram, std::int64_t now) {
     }
 }
 
-void DatagramFilter::allowFragments(const WriterGuid& writer, std::int64_t now) {
+void DatagramFilter::allowFragments(const WriterGuid& writer, bool comesAgain, std::int64_t now) {
     const std::lock_guard lock{mutex_};
-    if (fragmented_.find(writer) == nullptr) fragmented_.placeFor(writer) = {writer, now, true};
+    if (fragmented_.find(writer) == nullptr) {
+        fragmented_.placeFor(writer) = {writer, now, comesAgain};
+    }
 }
 
 std::uint64_t DatagramFilter::dropped(Refusal reason) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "rtps/endpoint_limits.hpp"
+#include "rtps/fragments.hpp"
 #include "rtps/participant_limits.hpp"
 #include "rtps/refusal.hpp"
 #include "rtps/submessages.hpp"
@@ -17,21 +19,26 @@ namespace cortex::comms::rtps {
 
 // Judges each datagram before Fast DDS sees it, and drops what could end, stop or mute a
 // participant. Fast DDS 2.9 trusts what it reads: docs/security.md lists what follows from that.
-// It takes no memory while it judges. Any thread.
+// It takes memory for fragments and for names of endpoints only, both within bounds. Any thread.
 class DatagramFilter {
 public:
     explicit DatagramFilter(const Prefix& us) : us_{us} {}
 
-    // What is left of a datagram from an IPv4 address: its first bytes, 0 if it is dropped. The
-    // bytes may be changed: statistics of Fast DDS are taken out, parameters that nobody needs
-    // become padding, and great steps of numbers become smaller.
-    std::size_t admit(Bytes datagram, std::uint32_t address, std::int64_t now);
+    struct Admitted {
+        // The fragments of a sample that has all of them now, to be processed before the rest.
+        std::vector<Message> whole;
+        std::size_t left = 0;  // bytes of the datagram, its first ones; 0: it is dropped
+    };
+    // What is left of a datagram from an IPv4 address. The bytes may be changed: statistics of
+    // Fast DDS are taken out, and so are fragments, which wait until their sample has all of them;
+    // parameters that nobody needs become padding, and great steps of numbers become smaller.
+    Admitted admit(Bytes datagram, std::uint32_t address, std::int64_t now);
 
     // What is sent is noted: nobody can acknowledge more than our writers have written.
     void noteSent(Bytes datagram, std::int64_t now);
 
-    // Samples of this writer may come in fragments.
-    void allowFragments(const WriterGuid& writer, std::int64_t now);
+    // Samples of this writer may come in fragments; whether it sends again what was lost.
+    void allowFragments(const WriterGuid& writer, bool comesAgain, std::int64_t now);
 
     std::uint64_t dropped(Refusal reason) const;
     std::uint64_t dropped() const;  // for any reason
@@ -43,6 +50,9 @@ private:
     Refusal judge(Bytes& datagram, std::uint32_t address, std::int64_t now);
     Refusal judgeNumbers(Bytes datagram, Prefix sender, std::int64_t now);
     Refusal judgeNumber(const Submessage& submessage, const Prefix& sender, std::int64_t now);
+    Refusal judgeEndpoint(const Submessage& submessage, std::int64_t now);
+    std::vector<Message> takeFragments(Bytes& datagram, std::int64_t now);
+    void note(Refusal refusal, std::uint64_t count, std::uint32_t address);
     bool admitsHeartbeat(const Submessage& heartbeat, const Prefix& sender, std::int64_t now);
     bool admitsGap(const Submessage& gap, const Prefix& sender, std::int64_t now);
 
@@ -51,7 +61,9 @@ private:
     ParticipantLimits participants_;
     WriterNumbers numbers_;
     RecentTable<WriterGuid, std::int64_t> sent_{256};  // the newest number of each of our writers
-    RecentTable<WriterGuid, bool> fragmented_{4096};
+    RecentTable<WriterGuid, bool> fragmented_{4096};   // whether a lost sample comes again
+    Fragments fragments_;
+    EndpointLimits endpoints_;
     struct Dropped {
         std::uint64_t count = 0, reported = 0;
         std::uint32_t address = 0;  // of the last

@@ -147,6 +147,18 @@ std::size_t parametersSize(Bytes list, bool little, Parameters in) {
     return 0;
 }
 
+Bytes parameterOf(Bytes list, bool little, std::uint16_t id) {
+    Bytes found;
+    for (std::size_t at = 0; at + 4 <= list.size();) {
+        const std::uint16_t each = readU16(list.subspan(at), little);
+        const std::size_t size = readU16(list.subspan(at + 2), little);
+        if (each == Sentinel || size > list.size() - at - 4) break;
+        if (each == id) found = list.subspan(at + 4, size);
+        at += 4 + size;
+    }
+    return found;
+}
+
 bool handshakeFits(Bytes message, bool little) {
     constexpr std::size_t identities = 96;
     constexpr std::uint32_t mostTokens = 8;

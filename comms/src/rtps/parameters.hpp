@@ -4,6 +4,7 @@
 #include "rtps/bytes.hpp"
 
 #include <cstddef>
+#include <cstdint>
 
 namespace cortex::comms::rtps {
 
@@ -20,6 +21,10 @@ enum class Parameters {
 // 2. Descriptions of types by TypeObject. CorteX needs none, and decoding one may reserve any
 //    amount of memory.
 std::size_t parametersSize(Bytes list, bool little, Parameters in);
+
+// The content of a parameter of that kind in such a list; of several, the last, as Fast DDS reads
+// them. Empty: there is none.
+Bytes parameterOf(Bytes list, bool little, std::uint16_t id);
 
 // Whether a message of the handshake of DDS-Security 1.1 (7.4.3.3), which everybody may send, has
 // as much as it says: two identities, a destination, a source, a kind, and up to 8 tokens.

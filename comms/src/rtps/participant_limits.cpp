@@ -21,4 +21,9 @@ bool ParticipantLimits::admits(const Prefix& participant, std::uint32_t address,
     return true;
 }
 
+bool ParticipantLimits::isHeard(const Prefix& participant, std::int64_t now) const {
+    const auto* const known = heard_.find(participant);
+    return known != nullptr && now - known->met <= patience;
+}
+
 }  // namespace cortex::comms::rtps

@@ -19,6 +19,7 @@ public:
     static constexpr std::int64_t patience = 15'000'000'000;  // ns
 
     bool admits(const Prefix& participant, std::uint32_t address, std::int64_t now);
+    bool isHeard(const Prefix& participant, std::int64_t now) const;  // within that time
 
 private:
     RecentTable<Prefix, std::uint32_t> heard_{4 * most};  // addresses

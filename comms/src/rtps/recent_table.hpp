@@ -34,6 +34,8 @@ public:
         return nullptr;
     }
 
+    const Entry* find(const Key& key) const { return const_cast<RecentTable*>(this)->find(key); }
+
     // The place that a new key gets, and what stands there.
     std::optional<Entry>& placeFor(const Key& key) {
         std::optional<Entry>* const begin = first(key);

@@ -15,8 +15,10 @@ enum class Refusal : std::uint8_t {
     Number,        // a sequence number that its writer cannot have reached
     Fragment,      // a fragment where none is needed, or of a sample that is too large
     Participants,  // more participants than an address or the network may have
+    Unfinished,    // fragments of a sample that was never complete, while others needed the room
+    Endpoints,  // an announcement of one endpoint more than a participant or the network may have
 };
-inline constexpr std::size_t refusals = 7;
+inline constexpr std::size_t refusals = 9;
 
 // What an event says of it, behind "N datagrams were dropped: ".
 constexpr const char* wordsOf(Refusal refusal) {
@@ -28,6 +30,8 @@ constexpr const char* wordsOf(Refusal refusal) {
         "their sequence numbers do not follow those of their writer",
         "they are fragments of what is never sent in fragments, or of too much",
         "there are too many participants",
+        "they began more samples in fragments than there is room for",
+        "they announce more endpoints than there is room for",
     };
     return words[static_cast<std::size_t>(refusal)];
 }

@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t submessageHeader = 4;
 constexpr std::uint32_t mostBits = 256;             // of a set, by RTPS 2.3, 9.4.2.6
 constexpr std::uint32_t largestSample = 16u << 20;  // bytes, of one that is sent in fragments
+constexpr std::uint32_t mostFragments = 1u << 16;
 
 struct Minimum {
     Kind kind;
@@ -123,6 +124,7 @@ Refusal judgeDataFragments(const Submessage& submessage) {
         return Refusal::Content;
     if (sample > largestSample || isOfDiscovery(readU32(body.subspan(8), false)))
         return Refusal::Fragment;
+    if ((sample + size - 1) / size > mostFragments) return Refusal::Fragment;
     const std::uint64_t begin = (first - 1) * size;
     if (begin >= sample || (first + count - 2) * size >= sample) return Refusal::Content;
     const Bytes payload = payloadOf(submessage, at, Parameters::InlineOfFragment);
@@ -159,6 +161,13 @@ Cut cutSubmessage(Bytes rest) {
     if (size > rest.size() || (size % 4 != 0 && size != rest.size())) return cut;
     return {{kind, rest[1], cut.submessage.whole, cut.submessage.whole.subspan(submessageHeader)},
             Refusal::None};
+}
+
+DataParts partsOf(const Submessage& data) {
+    const Bytes rest = data.body.subspan(inlineQosAt(data, 20));
+    if ((data.flags & 2) == 0) return {{}, rest};
+    const std::size_t size = parametersSize(rest, data.little(), Parameters::Inline);
+    return {rest.first(size), rest.subspan(size)};
 }
 
 bool isLongEnough(const Submessage& submessage) {

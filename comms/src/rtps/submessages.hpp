@@ -61,6 +61,12 @@ bool isLongEnough(const Submessage& submessage);
 // looked at, as Fast DDS skips it.
 Refusal judgeContent(const Submessage& submessage);
 
+// The in-line parameters and the payload of a DATA whose content was judged. Each may be empty.
+struct DataParts {
+    Bytes parameters, payload;
+};
+DataParts partsOf(const Submessage& data);
+
 // The order of signed and encrypted parts: a signed message begins and ends with its prefix and
 // postfix; an encrypted submessage stands between its own. It is told each submessage in order.
 class SecureOrder {

@@ -2,6 +2,8 @@
 #include "rtps/writer_numbers.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <utility>
 
 namespace cortex::comms::rtps {
 namespace {
@@ -13,6 +15,7 @@ constexpr std::int64_t farBelow = 4096;
 constexpr int timesBelow = 32;
 // A writer is not quicker than 100 numbers in a millisecond.
 constexpr std::int64_t mostAtOnce = 4096, nsEach = 10'000;
+constexpr std::int64_t second = 1'000'000'000, measuring = 50'000'000, ahead = 100'000'000;  // ns
 
 }  // namespace
 
@@ -21,7 +24,7 @@ bool WriterNumbers::admits(const WriterGuid& writer, std::int64_t number, std::u
     if (number > greatest) return false;
     auto* const known = writers_.find(writer);
     if (known == nullptr) {
-        writers_.placeFor(writer) = {writer, now, {.newest = number}};
+        writers_.placeFor(writer) = {writer, now, {.newest = number, .since = now}};
         return true;
     }
     Numbers& numbers = known->value;
@@ -29,14 +32,16 @@ bool WriterNumbers::admits(const WriterGuid& writer, std::int64_t number, std::u
     if (number <= newest) {
         // A writer that is far below again and again was forged before it was met.
         numbers.below = number < newest - farBelow ? numbers.below + 1 : 0;
-        if (numbers.below >= timesBelow) known->value = {.newest = number};
+        if (numbers.below >= timesBelow) numbers = {.newest = number, .since = now};
+        if (number < newest) count(numbers, now);
         return true;
     }
     if (number > newest + mostAtOnce + (now - known->met) / nsEach) return false;
     const std::int64_t candidate = numbers.candidate;
-    const bool goesOn = candidate != 0 && number > candidate && number <= candidate + smallStep;
+    const bool goesOn =
+        candidate != 0 && number != candidate && std::abs(number - candidate) <= window(numbers);
     const bool isSaidAgain = number == candidate && saying != numbers.saying;
-    if (number > newest + smallStep && !goesOn && !isSaidAgain) {
+    if (number > newest + window(numbers) && !goesOn && !isSaidAgain) {
         numbers.candidate = number;
         numbers.saying = saying;
         return false;
@@ -45,7 +50,21 @@ bool WriterNumbers::admits(const WriterGuid& writer, std::int64_t number, std::u
     numbers.candidate = 0;
     numbers.below = 0;
     known->met = now;
+    count(numbers, now);
     return true;
+}
+
+void WriterNumbers::count(Numbers& numbers, std::int64_t now) {
+    ++numbers.arrived;
+    const std::int64_t time = now - numbers.since;
+    if (time < measuring) return;
+    numbers.perSecond = std::clamp(std::exchange(numbers.arrived, 0) * second / time,
+                                   numbers.perSecond / 2, second / nsEach);
+    numbers.since = now;
+}
+
+std::int64_t WriterNumbers::window(const Numbers& numbers) {
+    return smallStep + numbers.perSecond * ahead / second;
 }
 
 std::int64_t WriterNumbers::stepTo(const WriterGuid& writer, std::int64_t first) {

@@ -13,10 +13,12 @@ using WriterGuid = std::array<std::uint8_t, 16>;  // prefix of the participant, 
 // Judges sequence numbers by those that the same writer had before. One number too high would make
 // a reader of Fast DDS skip all true samples up to it, and count through all numbers between.
 //
-// A number up to 4 above the newest passes. A greater one waits: it passes once the writer goes on
-// from there or says it again, and not where the writer goes on from its newest. So a true writer
-// of which much was lost loses one datagram more; a single forged one has no effect. Numbers below
-// pass, as the reader has them. One thread at a time.
+// A number within a window above the newest passes: 4 numbers, and as many as arrive in 100 ms.
+// Where datagrams are lost or overtake each other, numbers come in such steps. A greater one waits:
+// it passes once another one comes near it, or the same is said again, and not where the writer
+// goes on from its newest. So a true writer of which much was lost loses one datagram more. A
+// single forged one has no effect, or one of 0.1 s. Numbers below pass, as the reader has them. One
+// thread at a time.
 class WriterNumbers {
 public:
     // Whether a sample, or the end of a range that a writer states, may have this number. `saying`
@@ -36,7 +38,14 @@ private:
         std::uint32_t saying = 0;    // of the candidate
         std::int64_t first = 0;      // to which the reader was moved on
         int below = 0;               // numbers far below the newest, one after another
+        int arrived = 0;             // numbers other than the newest that passed
+        std::int64_t since = 0;      // monotonic time, ns
+        std::int64_t perSecond = 0;  // of them, measured before that
     };
+
+    static void count(Numbers& numbers, std::int64_t now);
+    static std::int64_t window(const Numbers& numbers);
+
     RecentTable<WriterGuid, Numbers> writers_{4096};
 };
 

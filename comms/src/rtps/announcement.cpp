@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rtps/announcement.hpp"
+
+#include "rtps/parameters.hpp"
+
+#include <algorithm>
+
+namespace cortex::comms::rtps {
+namespace {
+
+constexpr std::uint32_t writerOfWriters = 0x000003c2, writerOfReaders = 0x000004c2;
+constexpr std::uint16_t endpointGuid = 0x005a, keyHash = 0x0070, statusInfo = 0x0071;
+
+WriterGuid guidIn(Bytes bytes) {
+    WriterGuid guid{};
+    if (bytes.size() == guid.size()) std::ranges::copy(bytes, guid.begin());
+    return guid;
+}
+
+// Fast DDS takes the hash of the key for the name of the endpoint if it stands behind it.
+Announcement alive(Bytes payload) {
+    const bool little = (payload[1] & 1) != 0;
+    const WriterGuid guid = guidIn(parameterOf(payload.subspan(4), little, endpointGuid));
+    const WriterGuid hash = guidIn(parameterOf(payload.subspan(4), little, keyHash));
+    if (guid == WriterGuid{} || (hash != WriterGuid{} && hash != guid))
+        return {Announcement::Unclear, {}};
+    return {Announcement::IsThere, guid};
+}
+
+}  // namespace
+
+Announcement announcementIn(const Submessage& data) {
+    const std::uint32_t writer = readU32(data.body.subspan(8), false);
+    if (writer != writerOfWriters && writer != writerOfReaders) return {};
+    const auto [parameters, payload] = partsOf(data);
+    const Bytes status = parameterOf(parameters, data.little(), statusInfo);
+    if (status.size() == 4 && (status[3] & 3) != 0)  // disposed of, unregistered
+        return {Announcement::IsGone, guidIn(parameterOf(parameters, data.little(), keyHash))};
+    const bool hasData = (data.flags & 4) != 0;
+    return hasData ? alive(payload) : Announcement{Announcement::Unclear, {}};
+}
+
+}  // namespace cortex::comms::rtps

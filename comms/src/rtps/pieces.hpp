@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "rtps/bytes.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cortex::comms::rtps {
+
+// Bytes of a datagram that fits one packet of Ethernet. A longer one is lost with any of its
+// packets.
+inline constexpr std::size_t onePacket = 1400;
+
+// The datagrams, of one packet each as far as their submessages allow it, that say what a longer
+// one of our own says. Empty: it is to be sent as it is, because it is short, has one part, or is
+// signed.
+std::vector<std::vector<std::uint8_t>> piecesOf(Bytes datagram);
+
+}  // namespace cortex::comms::rtps
