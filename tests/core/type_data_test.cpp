@@ -284,6 +284,21 @@ TEST(Intersection, OfADiamondIsTheOneDefinition) {
     EXPECT_EQ(model.type("Bottom").data.size(), 1U);
 }
 
+TEST(AtRest, IsInheritedMayBeTakenAwayAndNeverGiven) {
+    const std::string freed = "kind='int' safe='0' atRest='writer'";
+    const XmlModel plain = item("kind='int' safe='0'"), free = item(freed);
+    ASSERT_TRUE(isValid(free));
+    EXPECT_EQ(free.data("A", "x").atRest, AtRest::Writer);
+    EXPECT_NE(typeHash(plain.type("A")), typeHash(free.type("A")));
+    EXPECT_EQ(typeHash(plain.type("A")),
+              typeHash(item("kind='int' safe='0' atRest='safe'").type("A")));
+    EXPECT_EQ(narrowed(freed, "min='0'").data("A", "x").atRest, AtRest::Writer);
+    EXPECT_EQ(narrowed(freed, "atRest='safe'").data("A", "x").atRest, AtRest::Safe);
+    EXPECT_TRUE(finds(narrowed("kind='int' safe='0'", "atRest='writer'"), "at-rest", "A", 3));
+    EXPECT_EQ(joined("kind='int' safe='0'", freed).data("A", "x").atRest, AtRest::Safe);
+    EXPECT_TRUE(finds(item("kind='int' atRest='writer'"), "at-rest", "A", 2));
+}
+
 TEST(Intersection, TakesTheTighterOfEverything) {
     const XmlModel model = joined(
         "kind='int' min='0' settable='Standby Active' labels='0:A' resolution='2' deadband='1' "

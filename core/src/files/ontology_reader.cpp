@@ -113,6 +113,7 @@ constexpr std::array dataAttributes{
     AttributeReader<D>{"safe",
                        [](D& item, std::string_view text) { return readSafe(item.safe, text); }},
     AttributeReader<D>{"onLimit", enumInto<&D::onLimit>},
+    AttributeReader<D>{"atRest", enumInto<&D::atRest>},
     AttributeReader<D>{"settable", statesInto<&D::settable>},
     AttributeReader<D>{"constant", boolInto<&D::constant>},
     AttributeReader<D>{"measured", boolInto<&D::measured>},

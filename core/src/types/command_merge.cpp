@@ -153,11 +153,11 @@ void checkNames(const Command& own, const ItemContext& context) {
             }
             const bool other = each.safe.kind != Safe::Kind::None || !each.settable.empty() ||
                                each.constant || each.measured || each.retain || each.rate ||
-                               each.onLimit != OnLimit::Clamp;
+                               each.onLimit != OnLimit::Clamp || each.atRest != AtRest::Safe;
             if (other) {
                 parameter.error(
                     finding::parameterAttribute, "has an attribute of data items",
-                    "remove safe, settable, constant, measured, retain, rate and onLimit");
+                    "remove safe, settable, constant, measured, retain, rate, onLimit and atRest");
             }
         }
     }

@@ -138,6 +138,7 @@ void intersect(DataItem& item, const FromParent<DataItem>& second, const std::st
     joinLabels(item, other, finding::intersectionEmpty, "in " + second.parent, context);
     item.onLimit = std::max(item.onLimit, other.onLimit);
     item.retain = item.retain || other.retain;
+    item.atRest = std::min(item.atRest, other.atRest);
     finer(item.resolution, other.resolution);
     finer(item.deadband, other.deadband);
     if (item.format.empty()) item.format = other.format;
@@ -221,6 +222,13 @@ void narrow(DataItem& item, const DataItem& own, const Stated& stated, const Ite
                           "loosens the inherited onLimit from fault to clamp", "leave onLimit out");
         }
         item.onLimit = std::max(item.onLimit, own.onLimit);
+    }
+    if (stated("atRest", own.atRest != AtRest::Safe)) {
+        if (own.atRest > item.atRest) {
+            context.error(finding::atRest, "frees an inherited item at rest",
+                          "leave atRest out, or take another name");
+        }
+        item.atRest = std::min(item.atRest, own.atRest);
     }
     if (item.retain && !own.retain && stated("retain", false)) {
         context.error(finding::flagChanged, "takes back the inherited retain=\"true\"",

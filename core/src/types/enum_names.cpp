@@ -18,6 +18,7 @@ const char* name(Role role) { return spelling(role); }
 const char* name(Direction direction) { return spelling(direction); }
 const char* name(OnLoss onLoss) { return spelling(onLoss); }
 const char* name(OnLimit onLimit) { return spelling(onLimit); }
+const char* name(AtRest atRest) { return spelling(atRest); }
 const char* name(OnBusy onBusy) { return spelling(onBusy); }
 const char* name(OnSenderLost onSenderLost) { return spelling(onSenderLost); }
 const char* name(OnLeaseLost onLeaseLost) { return spelling(onLeaseLost); }

@@ -30,6 +30,8 @@ inline constexpr std::array spellings<OnLoss>{"propagate", "hold", "safe", "faul
 template <>
 inline constexpr std::array spellings<OnLimit>{"clamp", "fault"};
 template <>
+inline constexpr std::array spellings<AtRest>{"safe", "writer"};
+template <>
 inline constexpr std::array spellings<OnBusy>{"reject", "replace"};
 template <>
 inline constexpr std::array spellings<OnSenderLost>{"continue", "cancel"};

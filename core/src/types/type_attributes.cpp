@@ -101,6 +101,7 @@ std::vector<TypeAttribute> attributesOf(const Type& type) {
 std::vector<TypeAttribute> attributesOf(const DataItem& item) {
     const DataItem plain;
     std::vector<TypeAttribute> result{
+        {"atRest", name(item.atRest), name(plain.atRest)},
         {"capacity", std::to_string(item.capacity), std::to_string(plain.capacity)},
         {"constant", truth(item.constant), "false"},
         {"deadband", toText(item.deadband), "0"},

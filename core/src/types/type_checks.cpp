@@ -233,6 +233,15 @@ void TypeResolver::checkBehaviour(const Type& type) {
                           std::string{"take another name; "} + use);
         }
     }
+    for (const DataItem& item : type.data) {
+        const bool demand = type.role == Role::Modification || type.role == Role::Descriptive;
+        const bool free = item.atRest == AtRest::Writer && item.definedBy == type.name;
+        if (!free || (demand && item.safe.kind != Safe::Kind::None)) continue;
+        report_.error(type.name, finding::atRest, item.place,
+                      "data " + inQuotes(item.name) + " has atRest=\"writer\", but " +
+                          (demand ? "no safe value" : "the type is no modification"),
+                      demand ? "write a safe value, or remove atRest" : "remove atRest");
+    }
     if (type.role != Role::Modification) return;
     for (const DataItem& item : type.data) {
         if (item.safe.kind != Safe::Kind::None || item.constant) continue;

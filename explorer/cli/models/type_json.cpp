@@ -79,6 +79,7 @@ Json dataJson(const DataItem& item) {
     Json json = parameterJson(item);
     json["safe"] = safeJson(item);
     json["on_limit"] = name(item.onLimit);
+    json["at_rest"] = name(item.atRest);
     json["rate"] = orNull(item.rate);
     json["settable"] = statesJson(item.settable);
     json["constant"] = item.constant;

@@ -75,6 +75,7 @@ void printData(std::ostream& stream, const Type& type) {
         if (const std::string safe = safeOf(item); !safe.empty()) more.push_back(safe);
         if (item.onLimit != OnLimit::Clamp)
             more.push_back("on limit " + std::string{name(item.onLimit)});
+        if (item.atRest != AtRest::Safe) more.emplace_back("at rest its writer's");
         if (item.rate) more.push_back("rate " + toText(*item.rate) + " per s");
         if (!item.settable.empty()) more.push_back("settable: " + item.settable.text());
         if (item.constant) more.emplace_back("constant");

@@ -24,6 +24,8 @@ enum class Role : std::uint8_t { Descriptive, Observation, Modification, Active 
 enum class Direction : std::uint8_t { Input, Output };
 enum class OnLoss : std::uint8_t { Propagate, Hold, Safe, Fault };
 enum class OnLimit : std::uint8_t { Clamp, Fault };
+// Who decides on an item of a demand at rest: the framework, which writes its safe value, or hooks.
+enum class AtRest : std::uint8_t { Safe, Writer };
 enum class OnBusy : std::uint8_t { Reject, Replace };
 enum class OnSenderLost : std::uint8_t { Continue, Cancel };
 enum class OnLeaseLost : std::uint8_t { Continue, Hold, Shutdown };
@@ -32,6 +34,7 @@ const char* name(Role role);  // each as written in XML
 const char* name(Direction direction);
 const char* name(OnLoss onLoss);
 const char* name(OnLimit onLimit);
+const char* name(AtRest atRest);
 const char* name(OnBusy onBusy);
 const char* name(OnSenderLost onSenderLost);
 const char* name(OnLeaseLost onLeaseLost);
@@ -65,6 +68,7 @@ struct DataItem {
     std::string description;
     Safe safe;
     OnLimit onLimit = OnLimit::Clamp;
+    AtRest atRest = AtRest::Safe;
     StateSet settable;
     bool constant = false;
     bool measured = false;

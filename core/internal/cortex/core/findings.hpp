@@ -70,6 +70,7 @@ inline constexpr char labelChanged[] = "label-changed";
 inline constexpr char safeMissing[] = "safe-missing";
 inline constexpr char safeKind[] = "safe-kind";
 inline constexpr char safeRange[] = "safe-range";
+inline constexpr char atRest[] = "at-rest";
 inline constexpr char settableConstant[] = "settable-constant";
 inline constexpr char settableWidened[] = "settable-widened";
 inline constexpr char retain[] = "retain";
