@@ -149,6 +149,7 @@ const char* const smallModel = R"(<ontology name="small" version="1.0">
     <data name="turn" kind="float" unit="1" safe="hold"/>
   </type>
   <type name="Mover" extends="Active"/>
+  <type name="Guard" extends="Active"/>
 </ontology>
 )";
 
@@ -202,6 +203,10 @@ const char* const smallRules = R"(<morphology name="small">
     <relationship name="seen" direction="input" target="Concept"/>
     <relationship name="moved" direction="output" target="Concept" sameCount="seen"/>
     <relationship name="other" direction="input" target="Concept"/>
+  </rules>
+  <rules type="Guard">
+    <relationship name="guarded" direction="input" target="Concept" onLoss="safe"/>
+    <relationship name="made" direction="output" target="Concept"/>
   </rules>
 </morphology>
 )";

@@ -198,6 +198,24 @@ TEST(Validation, WarnsOfNoMaxAgeThatHoldsOrIsNotStated) {
     }
 }
 
+TEST(Validation, WarnsWhereALossIsToMakeSafeWhatIsNoDemand) {
+    const auto finding =
+        only(checkSmall(simplex("/g", "Guard", relate("guarded", "/a")) + simplex("/a", "Axis")));
+
+    EXPECT_EQ(finding.severity, Severity::Warning);
+    EXPECT_EQ(finding.rule, "safe-nothing");
+    EXPECT_EQ(finding.path, "/g");
+    EXPECT_TRUE(
+        contains(finding.message, "onLoss=\"safe\", but nothing that it writes is a demand"))
+        << finding.message;
+    EXPECT_TRUE(contains(finding.remedy, "write onLoss=\"propagate\" for rule 'guarded'"));
+
+    const auto writes =
+        checkSmall(simplex("/g", "Guard", relate("guarded", "/a") + relate("made", "/d")) +
+                   simplex("/a", "Axis") + simplex("/d", "Lift"));
+    EXPECT_EQ(writes.report.text(), "");
+}
+
 TEST(Validation, WantsOneUnitForItemsOfOneNameInAPair) {
     const std::string parts = simplex("/lift", "Lift") + simplex("/slide", "Slide") +
                               simplex("/lift2", "Lift") + simplex("/slide2", "Slide");

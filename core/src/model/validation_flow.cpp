@@ -41,6 +41,7 @@ public:
     void checkDemands();
     void checkLoops();
     void checkAges();
+    void checkLoss();
 
 private:
     const Edge& edge(std::uint32_t index) const { return checked_.structure.edges[index]; }
@@ -310,6 +311,29 @@ void Flow::checkAges() {
     }
 }
 
+// Who reacts to a loss with safe values must have some.
+void Flow::checkLoss() {
+    std::vector<bool> demands(simplexes_.size(), false);
+    for (std::uint32_t index = 0; index < relations_.size(); ++index) {
+        const Edge& each = edge(index);
+        if (writes(each) && info(each.target).role == Role::Modification)
+            demands[each.owner] = true;
+    }
+    for (std::uint32_t index = 0; index < relations_.size(); ++index) {
+        const Edge& each = edge(index);
+        const bool active = info(each.owner).role == Role::Active;
+        if (each.rule->onLoss != OnLoss::Safe || !active || demands[each.owner]) continue;
+        demands[each.owner] = true;  // one relationship says it for all
+        checked_.report.warning(
+            owner(each).path(), finding::safeNothing, relations_[index]->place,
+            ruleText(owner(each), *each.rule) +
+                " has onLoss=\"safe\", but nothing that it writes is a demand: a loss would make "
+                "nothing safe, and stateActive would be left out",
+            "write onLoss=\"propagate\" for rule '" + each.rule->name + "' (" +
+                each.rule->place.text() + "), and ask inputLost() in the hooks");
+    }
+}
+
 }  // namespace
 
 void checkFlow(const Checked& checked) {
@@ -319,6 +343,7 @@ void checkFlow(const Checked& checked) {
     flow.checkDemands();
     flow.checkLoops();
     flow.checkAges();
+    flow.checkLoss();
 }
 
 }  // namespace cortex

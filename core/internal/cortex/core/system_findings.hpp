@@ -50,6 +50,7 @@ inline constexpr char outputTwice[] = "output-twice";
 inline constexpr char delayedMixed[] = "delayed-mixed";
 inline constexpr char delayedDemand[] = "delayed-demand";
 inline constexpr char safeNeeded[] = "safe-needed";
+inline constexpr char safeNothing[] = "safe-nothing";
 inline constexpr char observedCounterpart[] = "observed-counterpart";
 inline constexpr char pairUnit[] = "pair-unit";
 inline constexpr char flowUnit[] = "flow-unit";
