@@ -166,6 +166,17 @@ void* RelatedSimplex::cell(std::string_view item, const ItemAccess& access,
     return slice.at(access.kind, layout.offset);
 }
 
+const Value& RelatedSimplex::safe(std::string_view item, const ItemAccess& access) const {
+    const Structure& structure = owner_->runtime().structure();
+    const SimplexInfo& info = structure.simplexes[structure.edges[edge_].target];
+    const DataItem& found = *itemAt(*info.layout, info.path, item).item;
+    const std::string where = owner_->path() + ": " + info.path + "." + found.name;
+    checkShape(found, access, where);
+    if (found.safe.kind == Safe::Kind::Given) return found.safe.value;
+    throw Error(where + " has no safe value that its type gives as a number" + placeOf(found) +
+                ": write safe=\"…\" there, or a value of your own in the device");
+}
+
 CommandSender RelatedSimplex::sender(std::string_view command, std::uint32_t capacity) const {
     return owner_->runtime().makeSender(edge_, command, capacity);
 }

@@ -162,8 +162,13 @@ Tables::Tables(std::shared_ptr<const Structure> structure)
 void Tables::initialise() {
     const auto& simplexes = structure_->simplexes;
     for (std::uint32_t i = 0; i < simplexes.size(); ++i) {
+        // Before anybody speaks for a demand, it is safe. What a type leaves open may be one.
+        const Role role = simplexes[i].layout->type->role;
+        const bool linkedDemand = simplexes[i].remote && role != Role::Observation;
         for (const ItemLayout& layout : simplexes[i].layout->items) {
-            storeValue(*layout.item, layout.item->initial, cell(i, layout));
+            const DataItem& item = *layout.item;
+            const bool safe = linkedDemand && item.safe.kind == Safe::Kind::Given;
+            storeValue(item, safe ? item.safe.value : item.initial, cell(i, layout));
         }
         *live(i).state = SlotState{};
         if (simplexes[i].remote) {

@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace cortex {
@@ -48,6 +49,7 @@ public:
 
 protected:
     void* cell(std::string_view item, const ItemAccess& access, std::size_t& length) const;
+    const Value& safe(std::string_view item, const ItemAccess& access) const;
     CommandSender sender(std::string_view command, std::uint32_t capacity) const;
 
     Simplex* owner_;
@@ -76,6 +78,12 @@ public:
         std::size_t length = 0;
         void* first = cell(item, {kindFor<T>(), true, false, unit}, length);
         return {static_cast<typename StorageOf<const T>::type*>(first), length};
+    }
+    // Of a demand, in populate(): the number that its type gives as safe, for a device whose
+    // controller is not heard any more. Throws Error where that is hold, observed or missing.
+    template <class T>
+    T safeValue(std::string_view item, std::string_view unit = {}) const {
+        return std::get<std::vector<T>>(safe(item, {kindFor<T>(), false, false, unit})).front();
     }
     // A command along this relationship; `capacity`: how many may be on their way at once. To a
     // simplex of another agent it has a second to arrive; then, or not heard, it is Expired.
