@@ -108,12 +108,14 @@ void Behaviour::loopStart(World& world, const Tick& tick) {
     if (chance_.oneIn(25)) {
         world.event(Severity::Info, std::string{"number "} + std::to_string(chance_.below(1000)));
     }
+    if (chance_.oneIn(60)) write(world);
     mayFail(world, 700);
 }
 
 void Behaviour::standby(World& world) {
     sense(world);
     if (chance_.oneIn(12)) talk(world);
+    if (chance_.oneIn(15)) write(world);
 }
 
 bool Behaviour::startingUp(World& world) {
@@ -152,6 +154,7 @@ bool Behaviour::inFault(World& world) {
 }
 
 void Behaviour::loopEnd(World& world, const Tick&) {
+    if (chance_.oneIn(60)) write(world);
     mayFail(world, 900);
     if (chance_.oneIn(40)) world.event(Severity::Warning, "at the end");
 }
@@ -163,6 +166,7 @@ Reply Behaviour::command(World& world, const Request& request) {
     chance_.mix(request.first ? 3 : request.cancelling ? 4 : 5);
     ++*world.heard;
     *world.total += request.number;
+    if (chance_.oneIn(8)) write(world);
     if (request.command == "zap") return zap(world);
     if (request.command == "work" || request.command == "renew") return work(world, request);
     *world.result = std::fmod(*world.result + request.amount, 1000);

@@ -77,7 +77,11 @@ private:
     void latchSafe(int simplex);
     void latchSafe(Link& output);
     void writeSafe(int simplex);
-    void writeSafe(Link& output);
+    void writeSafe(Link& output, bool all = true);
+    void putSafe(int simplex);
+    void settleSafe(int simplex);
+    void tellInVain(int simplex, const Link& output, const std::string& who,
+                    const std::string& remedy);
     LimitFinding limit(RefSimplex& demand, double elapsed);
     void limitOutputs(int simplex, double elapsed);
     void checkValues(int writer, RefSimplex& checked, Record& values);

@@ -29,6 +29,18 @@ void copyItem(const Item& item, const Record& from, std::size_t first, Record& t
     }
 }
 
+// Items without a safe value are nobody's here.
+bool equalItem(const Item& item, const Record& one, const Record& other) {
+    bool equal = true;
+    for (std::size_t i = item.first; i < item.first + item.type->length; ++i) {
+        if (item.type->kind == Kind::Float) equal = equal && one.floats[i] == other.floats[i];
+        if (item.type->kind == Kind::Int) equal = equal && one.ints[i] == other.ints[i];
+        if (item.type->kind == Kind::Bool) equal = equal && one.flags[i].on == other.flags[i].on;
+        if (item.type->kind == Kind::String) equal = equal && one.texts[i] == other.texts[i];
+    }
+    return equal || item.type->safe.kind == Safe::Kind::None || item.type->atRest == AtRest::Writer;
+}
+
 void storeGiven(const Item& item, const Value& value, Record& to) {
     for (std::size_t i = 0; i < item.type->length; ++i) {
         std::visit(
@@ -98,6 +110,7 @@ void Reference::latchSafe(int simplex) {
 void Reference::latchSafe(Link& output) {
     const RefSimplex& demand = at(output.target);
     if (!demand.demand) return;
+    output.moved = false;
     for (const Item& item : demand.shape->items) {
         const Safe::Kind kind = item.type->safe.kind;
         if (kind == Safe::Kind::Given || kind == Safe::Kind::None) continue;
@@ -114,13 +127,59 @@ void Reference::writeSafe(int simplex) {
     for (Link* output : at(simplex).task->outputs) writeSafe(*output);
 }
 
-void Reference::writeSafe(Link& output) {
+// Not `all`: but for what is its writer's at rest.
+void Reference::writeSafe(Link& output, bool all) {
     const RefSimplex& demand = at(output.target);
     if (!demand.demand) return;
     for (const Item& item : demand.shape->items) {
-        if (item.type->safe.kind != Safe::Kind::None) {
+        const bool framework = all || item.type->atRest == AtRest::Safe;
+        if (framework && item.type->safe.kind != Safe::Kind::None) {
             copyItem(item, output.safe, item.first, *output.seen);
         }
+    }
+}
+
+// On the way between two states a demand is its safe value until a hook moves it.
+void Reference::putSafe(int simplex) {
+    for (Link* output : at(simplex).task->outputs) {
+        if (!output->moved) writeSafe(*output, false);
+    }
+}
+
+// After the hooks, whichever of them wrote. Only in Active, and with all that it needs, a demand is
+// what they say.
+void Reference::settleSafe(int simplex) {
+    const RefTask& task = *at(simplex).task;
+    for (Link* output : task.outputs) {
+        const RefSimplex& demand = at(output->target);
+        output->standsSafe = false;
+        if (!demand.demand) continue;
+        if (resting(task.state) || task.safeByLoss) {
+            if (resting(task.state)) tellInVain(simplex, *output, "a hook or handler", "");
+            writeSafe(*output, false);
+            output->standsSafe = true;
+        } else if (task.state != State::Active) {
+            for (const Item& item : demand.shape->items) {
+                output->moved = output->moved || !equalItem(item, *output->seen, output->safe);
+            }
+            output->standsSafe = !output->moved;
+        }
+    }
+}
+
+// Once a stay. What went out last may stand there as well, on its way to the safe value.
+void Reference::tellInVain(int simplex, const Link& output, const std::string& who,
+                           const std::string& remedy) {
+    RefTask& task = *at(simplex).task;
+    const RefSimplex& demand = at(output.target);
+    for (const Item& item : demand.shape->items) {
+        const bool wentOut =
+            demand.writers.size() == 1 && equalItem(item, *output.seen, demand.previous);
+        if (task.toldInVain || wentOut || equalItem(item, *output.seen, output.safe)) continue;
+        task.toldInVain = true;
+        post(simplex, Severity::Warning, EventKind::Message,
+             "what " + who + " wrote to " + item.type->name + " of " + demand.path +
+                 " does not go out: in " + name(task.state) + " it is its safe value" + remedy);
     }
 }
 
@@ -189,16 +248,15 @@ LimitFinding Reference::limit(RefSimplex& demand, double elapsed) {
 // no demand moves further than its rate allows, safe or not.
 void Reference::limitOutputs(int simplex, double elapsed) {
     RefTask& task = *at(simplex).task;
-    const bool reports = task.state == State::Active && !task.safeByLoss;
     bool again = false;
     for (Link* output : task.outputs) {
         RefSimplex& demand = at(output->target);
         if (!demand.demand || demand.writers.size() > 1) continue;
         const LimitFinding finding = limit(demand, elapsed);
-        if (finding.limited) ++limits_;
         output->notFinite = finding.notFinite;
         again = again || finding.notFinite;
-        if (!reports) continue;
+        if (output->standsSafe) continue;  // on its way
+        if (finding.limited) ++limits_;
         for (const std::string& text : finding.texts) {
             post(simplex, Severity::Warning, EventKind::Limit, text);
         }
@@ -208,7 +266,10 @@ void Reference::limitOutputs(int simplex, double elapsed) {
                   (finding.notFinite ? " was not a number" : " was out of range"));
     }
     again = again || task.faultPending;
-    if (task.faultPending) enterFault(simplex);
+    if (task.faultPending) {
+        enterFault(simplex);
+        settleSafe(simplex);
+    }
     for (Link* output : task.outputs) {
         RefSimplex& demand = at(output->target);
         if (!demand.demand || demand.writers.size() > 1) continue;
@@ -238,9 +299,9 @@ void Reference::arbitrate(int simplex) {
     if (!target.demand) return;
     const double elapsed = static_cast<double>(elapsed_) * 1e-9;
     const LimitFinding finding = limit(target, elapsed);
-    if (finding.limited) ++limits_;
-    const bool reports = active > 0 && !at(chosen.owner).task->safeByLoss;
+    const bool reports = !chosen.standsSafe;
     if (reports) {
+        if (finding.limited) ++limits_;
         for (const std::string& text : finding.texts) {
             post(simplex, Severity::Warning, EventKind::Limit, text);
         }
@@ -253,6 +314,8 @@ void Reference::arbitrate(int simplex) {
         latchSafe(chosen);
         writeSafe(chosen);
         target.live = *chosen.seen;
+        target.live.state = {cycle_, now_, static_cast<std::uint32_t>(chosen.owner),
+                             Quality::Stale};
         if (limit(target, elapsed).notFinite) {
             const SlotState state = target.live.state;
             target.live = target.previous;

@@ -135,6 +135,8 @@ struct Link {  // a relationship
     const DataItem* refused = nullptr;
     bool refusedNotFinite = false;
     bool notFinite = false;  // in this run
+    bool moved = false;      // by a hook, since its safe value was latched
+    bool standsSafe = true;  // in this run
 };
 
 struct RefTask {
@@ -143,6 +145,7 @@ struct RefTask {
     std::int64_t lastRun = 0, stateSince = 0, now = -1;
     State state = State::Standby;
     bool done = false, dead = false, faultPending = false, qualitySet = false, safeByLoss = false;
+    bool toldInVain = false;  // in this stay
     Quality quality = Quality::Good;
     std::int64_t measuredAt = 0, faultCode = 0;
     std::string text;
@@ -182,6 +185,9 @@ struct LimitFinding {
     const DataItem* item = nullptr;  // that faults
     std::vector<std::string> texts;  // of items newly limited
 };
+
+inline bool resting(State state) { return state == State::Standby || state == State::Fault; }
+inline bool passing(State state) { return !resting(state) && state != State::Active; }
 
 // Numbers as they stand in texts.
 std::string inText(double number);

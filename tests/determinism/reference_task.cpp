@@ -26,7 +26,12 @@ void Reference::runTask(int simplex) {
     SlotState state{cycle_, now_, noSimplex, Quality::Good};
     try {
         transition(simplex);
+        if (passing(task.state)) putSafe(simplex);
         process(simplex, task.state);
+        for (const Link* output : task.outputs) {
+            if (!resting(task.state) || !at(output->target).demand) continue;
+            tellInVain(simplex, *output, "a handler", "; atRest=\"writer\" frees it");
+        }
         state = readInputs(simplex, tick.elapsed);
         if (!task.faultPending) runHooks(simplex, tick);
     } catch (const std::exception& error) {
@@ -44,12 +49,10 @@ void Reference::runHooks(int simplex, const Tick& tick) {
     RefTask& task = *at(simplex).task;
     Behaviour& behaviour = *task.behaviour;
     const State state = task.state;
-    if (state == State::Standby || state == State::Fault) writeSafe(simplex);
     if (task.dead) return;
     behaviour.loopStart(task.world, tick);
     if (state == State::Standby) behaviour.standby(task.world);
     if (state == State::StartingUp) task.done = behaviour.startingUp(task.world);
-    if (state == State::Active && task.safeByLoss) writeSafe(simplex);
     if (state == State::Active && !task.safeByLoss) behaviour.active(task.world, tick);
     if (state == State::ShuttingDown) task.done = behaviour.shuttingDown(task.world);
     if (state == State::Fault) task.done = behaviour.inFault(task.world);
@@ -161,6 +164,7 @@ void Reference::enter(int simplex, State to) {
     task.state = to;
     task.done = false;
     task.stateSince = now_;
+    task.toldInVain = false;
     item<std::int64_t>(simplex, "state") = static_cast<std::int64_t>(to);
     if (to == State::Fault) return;
     post(simplex, Severity::Info, EventKind::StateChange,
@@ -171,7 +175,6 @@ void Reference::enterFault(int simplex) {
     RefTask& task = *at(simplex).task;
     task.faultPending = false;
     const bool faultedBefore = task.state == State::Fault;
-    if (faultedBefore) writeSafe(simplex);
     if (faultedBefore && task.faultCode != -1) return;
     if (!faultedBefore) enter(simplex, State::Fault);
     item<std::int64_t>(simplex, "faultCode") = task.faultCode;
@@ -229,8 +232,11 @@ SlotState Reference::readInputs(int simplex, std::int64_t elapsed) {
             sum.cycle = seen.cycle;
         }
     }
-    safe = safe && task.state == State::Active;
-    if (safe && !task.safeByLoss) latchSafe(simplex);
+    safe = safe && !resting(task.state);
+    if (safe && !task.safeByLoss) {
+        latchSafe(simplex);
+        writeSafe(simplex);
+    }
     task.safeByLoss = safe;
     return sum;
 }
@@ -259,6 +265,7 @@ void Reference::inputLost(int simplex, Link& link) {
 
 void Reference::finish(int simplex, SlotState state, std::int64_t elapsed) {
     RefTask& task = *at(simplex).task;
+    settleSafe(simplex);
     limitOutputs(simplex, static_cast<double>(elapsed) * 1e-9);
     const auto own = static_cast<std::uint32_t>(simplex);
     const Quality least = task.state == State::Fault    ? Quality::Bad
@@ -276,7 +283,10 @@ void Reference::finish(int simplex, SlotState state, std::int64_t elapsed) {
         state.cause = task.quality == Quality::Good ? noSimplex : own;
     }
     at(simplex).live.state = state;
-    for (Link* output : task.outputs) output->seen->state = state;
+    for (Link* output : task.outputs) {
+        const SlotState safe{cycle_, now_, own, Quality::Stale};
+        output->seen->state = output->standsSafe ? safe : state;
+    }
     for (Link* output : task.outputs) {
         if (!at(output->target).demand) checkValues(simplex, at(output->target), *output->seen);
     }

@@ -35,6 +35,33 @@ std::byte* cellOf(const Slice& slice, const ItemLayout& layout) {
     return static_cast<std::byte*>(slice.at(layout.item->kind, layout.offset));
 }
 
+bool hasSafe(const DataItem& item) { return item.safe.kind != Safe::Kind::None && !item.constant; }
+
+bool isFree(const DataItem& item) { return item.atRest == AtRest::Writer; }
+
+// By value: 0 is -0, and what stands behind the end of a text does not count.
+bool differ(const DataItem& item, const std::byte* one, const std::byte* other,
+            std::uint32_t size) {
+    if (std::memcmp(one, other, size) == 0) return false;
+    for (std::uint32_t i = 0; i < item.length; ++i) {
+        if (item.kind == Kind::Float) {
+            const auto number = [i](const std::byte* cells) {
+                return reinterpret_cast<const double*>(cells)[i];
+            };
+            if (number(one) != number(other)) return true;
+        } else if (item.kind == Kind::String) {
+            const auto text = [&](const std::byte* cells) {
+                const std::byte* cell = cells + i * StringCell::size(item.capacity);
+                return reinterpret_cast<const StringCell*>(cell)->view();
+            };
+            if (text(one) != text(other)) return true;
+        } else {
+            return true;
+        }
+    }
+    return false;
+}
+
 // Writes a given safe value over cells that have their kind and capacity already.
 void store(const DataItem& item, const Value& value, std::byte* cells) {
     const auto element = [&](const auto& list, std::size_t i) {
@@ -182,22 +209,22 @@ SafeDemands::SafeDemands(const TypeLayout& layout, const Slice& out, const Deman
                          const TypeLayout* observedLayout, const Slice& observed) {
     std::size_t size = 0;
     for (const ItemLayout& entry : layout.items) {
-        if (entry.item->safe.kind != Safe::Kind::None) size += alignedSize(*entry.item);
+        if (hasSafe(*entry.item)) size += alignedSize(*entry.item);
     }
     memory_.resize(size);
     std::byte* next = memory_.data();
     for (const ItemLayout& entry : layout.items) {
         const DataItem& item = *entry.item;
-        if (item.safe.kind == Safe::Kind::None || item.constant) continue;
+        if (!hasSafe(item)) continue;
         const bool given = item.safe.kind == Safe::Kind::Given;
         const ItemLayout* source =
             item.safe.kind == Safe::Kind::Observed && observedLayout != nullptr
                 ? observedLayout->find(item.name)
                 : nullptr;
         if (source != nullptr) observedState_ = observed.state;
-        items_.push_back({cellOf(out, entry), next, limits.previous(item),
+        items_.push_back({&item, cellOf(out, entry), next, limits.previous(item),
                           source != nullptr ? cellOf(observed, *source) : nullptr, sizeOf(item),
-                          item.kind, given});
+                          given});
         std::memcpy(next, items_.back().out, items_.back().size);
         if (given) store(item, item.safe.value, next);
         next += alignedSize(item);
@@ -210,6 +237,7 @@ SafeDemands::SafeDemands(const TypeLayout& layout, const Slice& out, const Deman
 }
 
 void SafeDemands::latch() {
+    moved_ = false;
     const bool usable = observedState_ != nullptr && observedState_->quality < Quality::Bad;
     for (const Item& item : items_) {
         if (item.given) continue;
@@ -219,7 +247,47 @@ void SafeDemands::latch() {
 }
 
 void SafeDemands::write() {
-    for (const Item& item : items_) copyCells(item.kind, item.safe, item.out, item.size);
+    for (const Item& item : items_) copyCells(item.item->kind, item.safe, item.out, item.size);
+}
+
+void SafeDemands::hold() {
+    for (const Item& item : items_) {
+        if (isFree(*item.item)) continue;
+        copyCells(item.item->kind, item.safe, item.out, item.size);
+    }
+}
+
+bool SafeDemands::moved() {
+    const auto moved = [](const Item& item) {
+        return !isFree(*item.item) && differ(*item.item, item.out, item.safe, item.size);
+    };
+    if (!moved_) moved_ = std::ranges::any_of(items_, moved);
+    return moved_;
+}
+
+const DataItem* SafeDemands::writtenInVain(bool sole) const {
+    for (const Item& item : items_) {
+        if (isFree(*item.item) || !differ(*item.item, item.out, item.safe, item.size)) continue;
+        if (sole && !differ(*item.item, item.out, item.previous, item.size)) continue;
+        return item.item;
+    }
+    return nullptr;
+}
+
+std::optional<SafeDemands::Way> SafeDemands::onTheWay() const {
+    constexpr double greatest = std::numeric_limits<double>::max();
+    for (const Item& item : items_) {
+        if (item.item->kind != Kind::Float || !item.item->rate || isFree(*item.item)) continue;
+        const double min = asDouble(item.item->min, -greatest);
+        const double max = asDouble(item.item->max, greatest);
+        for (std::uint32_t i = 0; i < item.item->length; ++i) {
+            const double value = reinterpret_cast<const double*>(item.previous)[i];
+            const double safe = reinterpret_cast<const double*>(item.safe)[i];
+            if (!std::isfinite(safe) || value == std::clamp(safe, min, max)) continue;
+            return Way{item.item, value, safe};
+        }
+    }
+    return std::nullopt;
 }
 
 bool SafeDemands::observationIsGood() const {

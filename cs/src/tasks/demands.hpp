@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -64,8 +65,9 @@ private:
     std::vector<Beginning> beginnings_;
 };
 
-// The safe values that one writer gives one modification, written by the framework whenever the
-// writer is not Active.
+// The safe values that one writer gives one modification. In Standby, in Fault and while an input
+// of onLoss="safe" is lost they stand, whatever hooks wrote; on the way between states until a hook
+// moves them.
 class SafeDemands {
 public:
     // `counterpart`: slice of the simplex that observes what is demanded, and its layout; null if
@@ -77,23 +79,42 @@ public:
     // An observation that is bad or lost cannot be taken; then the last demand stands in.
     void latch() CORTEX_REALTIME;
     void write() CORTEX_REALTIME;
+    // Again, but for the items that are their writer's at rest.
+    void hold() CORTEX_REALTIME;
+    // Before hooks on the way between states: what no hook has moved goes on to its safe value.
+    void put() CORTEX_REALTIME {
+        if (!moved_) hold();
+    }
+    // After them: whether a hook has moved it since the last latch().
+    bool moved() CORTEX_REALTIME;
+    // At rest, before write(): the first item that a hook wrote and that is not its safe value.
+    // `sole`: what went out last stands here too, perhaps on its way to the safe value.
+    const DataItem* writtenInVain(bool sole) const CORTEX_REALTIME;
+
+    // An item that went out last on its way to its safe value, as far as its rate allows.
+    struct Way {
+        const DataItem* item;
+        double value, safe;
+    };
+    std::optional<Way> onTheWay() const CORTEX_REALTIME;
     // Whether an `observed` item may be latched: its observation is good.
     bool observationIsGood() const CORTEX_REALTIME;
     bool observes() const { return observedState_ != nullptr; }
 
 private:
     struct Item {
+        const DataItem* item;
         std::byte* out;
         std::byte* safe;
         const std::byte* previous;
         const std::byte* observed;  // null: not observed
         std::uint32_t size;
-        Kind kind;
         bool given;
     };
     std::vector<Item> items_;
     std::vector<std::byte> memory_;
     const SlotState* observedState_ = nullptr;
+    bool moved_ = false;
 };
 
 }  // namespace cortex::cs

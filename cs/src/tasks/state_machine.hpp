@@ -9,6 +9,11 @@
 
 namespace cortex::cs {
 
+constexpr bool isResting(State state) { return state == State::Standby || state == State::Fault; }
+constexpr bool isPassing(State state) {
+    return state == State::StartingUp || state == State::ShuttingDown;
+}
+
 // What can move the state machine of an active simplex. Faults lead from every state to Fault.
 enum class Move : std::uint8_t { Startup, Shutdown, ClearFaults, Done };
 

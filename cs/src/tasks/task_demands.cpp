@@ -1,29 +1,85 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tasks/task_demands.hpp"
 
+#include "tasks/state_machine.hpp"
+
+#include <algorithm>
+
 namespace cortex::cs {
+
+namespace {
+
+// Calls `see` for each demand as it goes out: of several writers, that of the one taken last.
+template <class See>
+void eachThatGoesOut(const TaskSet& set, See see) {
+    for (const TaskOutput& output : set.outputs) {
+        if (output.limits != nullptr) see(output);
+    }
+    for (const auto& arbiter : set.arbiters) {
+        if (arbiter->limits != nullptr) see(*arbiter->candidates[arbiter->selected].output);
+    }
+}
+
+}  // namespace
 
 bool TaskDemands::limit(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     const double elapsed = tick.elapsedSeconds();
-    const bool demands = simplex.state_ == State::Active && !simplex.safeByLoss_;
     bool again = false;
     for (TaskOutput& output : set_.outputsOf(task)) {
         if (output.limits == nullptr) continue;
         const LimitResult result = output.limits->apply(elapsed);
         if (!result.any) continue;
-        if (result.limited) ++simplex.thread_->limits;
         if (result.notFinite) {
             output.safe->write();
             again = true;
         }
-        if (!demands) continue;
+        if (output.standsSafe) continue;  // on its way, which is no event
+        if (result.limited) ++simplex.thread_->limits;
         reportLimits(*output.limits, task.index, *simplex.thread_->loop);
         if (result.faulting == nullptr) continue;
         simplex.enterFault(result.notFinite ? DemandNotFinite : DemandOutOfRange,
                            refusal(result, output.target).view());
     }
     return again;
+}
+
+void TaskDemands::settle(Task& task, bool bound) {
+    const SimplexCS& simplex = *task.simplex;
+    const bool rests = isResting(simplex.state_);
+    task.demands = bound ? Task::Demands::Bound : Task::Demands::Free;
+    for (TaskOutput& output : set_.outputsOf(task)) {
+        if (output.safe == nullptr) continue;
+        if (rests) tellInVain(task, output, "a hook or handler");
+        if (rests || simplex.safeByLoss_) {
+            output.safe->hold();
+            output.standsSafe = true;
+        } else {
+            output.standsSafe = bound && !output.safe->moved();
+        }
+    }
+}
+
+void TaskDemands::tellHandlersInVain(Task& task) {
+    if (!isResting(task.simplex->state_)) return;
+    for (const TaskOutput& output : set_.outputsOf(task)) {
+        if (output.safe != nullptr) tellInVain(task, output, "a handler");
+    }
+}
+
+// Once a stay in the state.
+void TaskDemands::tellInVain(Task& task, const TaskOutput& output, std::string_view who) {
+    bool& told = set_.detailsOf(task).toldInVain;
+    const DataItem* item = told ? nullptr : output.safe->writtenInVain(output.limits != nullptr);
+    if (item == nullptr) return;
+    told = true;
+    EventText text{"what "};
+    text << who << " wrote to " << item->name << " of "
+         << set_.structure.simplexes[output.target].path << " does not go out: in "
+         << name(task.simplex->state_) << " it is its safe value";
+    if (who == "a handler") text << "; atRest=\"writer\" frees it";
+    set_.agent.post(*task.simplex->thread_->loop, Severity::Warning, EventKind::Message, task.index,
+                    text);
 }
 
 void TaskDemands::accept(Task& task, const Tick& tick, bool again) {
@@ -33,6 +89,23 @@ void TaskDemands::accept(Task& task, const Tick& tick, bool again) {
             output.limits->restore();
         output.limits->accept();
     }
+}
+
+bool TaskDemands::anyOnTheWay() const {
+    bool any = false;
+    eachThatGoesOut(set_, [&any](const TaskOutput& output) {
+        any = any || output.safe->onTheWay().has_value();
+    });
+    return any;
+}
+
+std::vector<TaskDemands::OnTheWay> TaskDemands::onTheWay() const {
+    std::vector<OnTheWay> all;
+    eachThatGoesOut(set_, [&all](const TaskOutput& output) {
+        if (const auto way = output.safe->onTheWay()) all.push_back({output.target, *way});
+    });
+    std::ranges::sort(all, {}, &OnTheWay::simplex);
+    return all;
 }
 
 void TaskDemands::faultForRefused(Task& task) {
@@ -88,9 +161,9 @@ void TaskDemands::arbitrate(Arbiter& arbiter, const Tick& tick, TaskThread& thre
     if (arbiter.limits == nullptr) return;
     const double elapsed = tick.elapsedSeconds();
     const LimitResult result = arbiter.limits->apply(elapsed);
-    if (result.limited) ++thread.limits;
     // Events here are the shared simplex's: its writer's own may come from another thread.
-    const bool demands = active > 0 && !chosen.writer->safeByLoss_;
+    const bool demands = !chosen.output->standsSafe;
+    if (demands && result.limited) ++thread.limits;
     if (demands) reportLimits(*arbiter.limits, arbiter.target, *thread.loop);
     const bool faults = demands && result.faulting != nullptr;
     if (faults) {
@@ -101,6 +174,7 @@ void TaskDemands::arbitrate(Arbiter& arbiter, const Tick& tick, TaskThread& thre
         chosen.output->safe->latch();
         chosen.output->safe->write();
         copySlice(arbiter.sizes, chosen.slice, arbiter.live);
+        *arbiter.live.state = ofSafeDemand(chosen.writer->index(), tick);
         if (arbiter.limits->apply(elapsed).notFinite) arbiter.limits->restore();
     }
     arbiter.limits->accept();

@@ -3,7 +3,16 @@
 
 #include "tasks/task_set.hpp"
 
+#include <string_view>
+#include <vector>
+
 namespace cortex::cs {
+
+// Where a safe value stands its writer has chosen it, in this cycle: to act on, but not to begin
+// anything new with. No loss of an input shows here.
+inline SlotState ofSafeDemand(std::uint32_t writer, const Tick& tick) {
+    return {tick.cycle, tick.nominalTime, writer, Quality::Stale};
+}
 
 // What tasks demand: limits, safe values, and the choice among several writers of one simplex.
 class TaskDemands {
@@ -20,6 +29,32 @@ public:
     // A fault of the simplex for each demand that an arbiter refused in the cycle before.
     void faultForRefused(Task& task) CORTEX_REALTIME;
 
+    // On the way between states, before commands and hooks: what no hook has moved goes on to its
+    // safe value.
+    void put(Task& task) CORTEX_REALTIME {
+        if (task.demands == Task::Demands::None) return;
+        for (const TaskOutput& output : set_.outputsOf(task)) {
+            if (output.safe != nullptr) output.safe->put();
+        }
+    }
+    // At rest, after commands: a handler may want what only its type can allow.
+    void tellHandlersInVain(Task& task) CORTEX_REALTIME;
+    // After them, before limits: whatever hooks wrote, safe values stand in Standby, in Fault and
+    // while safe by loss.
+    void settle(Task& task) CORTEX_REALTIME {
+        const SimplexCS& simplex = *task.simplex;
+        const bool bound = simplex.state_ != State::Active || simplex.safeByLoss_;
+        if (bound || task.demands == Task::Demands::Bound) settle(task, bound);
+    }
+
+    // Safe values that have not gone out yet, as their rates do not allow it. Between cycles.
+    bool anyOnTheWay() const CORTEX_REALTIME;
+    struct OnTheWay {
+        std::uint32_t simplex;
+        SafeDemands::Way way;
+    };
+    std::vector<OnTheWay> onTheWay() const;
+
     void latchSafe(Task& task) CORTEX_REALTIME {
         for (const TaskOutput& output : set_.outputsOf(task)) {
             if (output.safe != nullptr) output.safe->latch();
@@ -32,6 +67,8 @@ public:
     }
 
 private:
+    void settle(Task& task, bool bound) CORTEX_REALTIME;
+    void tellInVain(Task& task, const TaskOutput& output, std::string_view who) CORTEX_REALTIME;
     EventText refusal(const LimitResult& result, std::uint32_t target) const CORTEX_REALTIME;
     void reportLimits(const DemandLimits& limits, std::uint32_t simplex, LoopThread& thread)
         CORTEX_REALTIME;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tasks/task_inputs.hpp"
 
+#include "tasks/state_machine.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -93,8 +95,11 @@ SlotState TaskInputs::read(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     simplex.inputLost_ = anyLost;
     if (safe || simplex.safeByLoss_) {
-        safe = safe && simplex.state_ == State::Active;
-        if (safe && !simplex.safeByLoss_) demands_.latchSafe(task);
+        safe = safe && !isResting(simplex.state_);
+        if (safe && !simplex.safeByLoss_) {
+            demands_.latchSafe(task);
+            demands_.writeSafe(task);
+        }
         simplex.safeByLoss_ = safe;
     }
     return sum;

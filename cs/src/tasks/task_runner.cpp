@@ -4,6 +4,7 @@
 #include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
 
+#include "tasks/state_machine.hpp"
 #include "tasks/unbound_handle.hpp"
 
 #include <chrono>
@@ -16,10 +17,6 @@ namespace cortex::cs {
 namespace {
 
 constexpr std::size_t timedWhole = 64;  // tasks; to time one takes some 20 ns
-
-bool isTransitional(State state) {
-    return state == State::StartingUp || state == State::ShuttingDown;
-}
 
 }  // namespace
 
@@ -112,8 +109,10 @@ inline void TaskRunner::runSimplex(Task& task, const Tick& tick, TaskThread& thr
     try {
         const std::uint8_t calls = set_.agent.calls(task.index);
         if (states_.mayMove(simplex, calls)) states_.transition(task, tick);
+        if (isPassing(simplex.state_)) demands_.put(task);
         if (AgentRuntime::hasCommandWork(calls)) {
             set_.agent.processCommands(task.index, simplex.state_, *thread.loop, simplex.dead_);
+            if (task.demands != Task::Demands::None) demands_.tellHandlersInVain(task);
         }
         if (task.inputCount != 0) set_.states[task.index] = inputs_.read(task, tick);
         if (!simplex.pending_.fault) runHooks(task, simplex, tick, position);
@@ -130,25 +129,23 @@ inline void TaskRunner::runSimplex(Task& task, const Tick& tick, TaskThread& thr
         simplex.dead_ = true;
     }
     if (simplex.pending_.fault) states_.enterFault(task, tick);
-    if (task.limits) limitOutputs(task, tick);
+    if (task.demands != Task::Demands::None) finishDemands(task, tick);
     TaskInputs::settleQuality(set_.states[task.index], task, simplex, tick);
-    for (const TaskOutput& output : set_.outputsOf(task)) *output.state = set_.states[task.index];
+    for (const TaskOutput& output : set_.outputsOf(task)) {
+        *output.state =
+            output.standsSafe ? ofSafeDemand(task.index, tick) : set_.states[task.index];
+    }
     if (task.values != Task::Values::Right) values_.check(task);
 }
 
 inline void TaskRunner::runHooks(Task& task, SimplexCS& simplex, const Tick& tick,
                                  Position& position) {
-    if (simplex.state_ == State::Standby || simplex.state_ == State::Fault)
-        demands_.writeSafe(task);
     if (simplex.dead_) return;
     position.setHook(Hook::LoopStart);
     simplex.loopStart(tick);
     if (simplex.state_ == State::Active) {
         position.setHook(Hook::Active);
-        if (simplex.safeByLoss_)
-            demands_.writeSafe(task);
-        else
-            simplex.stateActive(tick);
+        if (!simplex.safeByLoss_) simplex.stateActive(tick);
     } else if (simplex.state_ == State::Standby) {
         position.setHook(Hook::Standby);
         simplex.stateStandby(tick);
@@ -157,7 +154,7 @@ inline void TaskRunner::runHooks(Task& task, SimplexCS& simplex, const Tick& tic
     }
     position.setHook(Hook::LoopEnd);
     simplex.loopEnd(tick);
-    if (isTransitional(simplex.state_)) states_.checkTimeout(task, tick);
+    if (isPassing(simplex.state_)) states_.checkTimeout(task, tick);
 }
 
 // The functions that say when they are done.
@@ -171,11 +168,14 @@ void TaskRunner::runPassing(SimplexCS& simplex, const Tick& tick, Position& posi
         simplex.pending_.done = simplex.stateFault(tick);
 }
 
-// What is not a number or faults the task becomes safe, and is limited once more.
-void TaskRunner::limitOutputs(Task& task, const Tick& tick) {
+// After all hooks, whoever of them wrote: safe values where they stand, then limits. What is not a
+// number or faults the task becomes safe, and is limited once more.
+void TaskRunner::finishDemands(Task& task, const Tick& tick) {
+    demands_.settle(task);
     bool again = demands_.limit(task, tick);
     if (task.simplex->pending_.fault) {
         states_.enterFault(task, tick);
+        demands_.settle(task);
         again = true;
     }
     demands_.accept(task, tick, again);

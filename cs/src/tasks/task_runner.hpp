@@ -39,6 +39,7 @@ public:
     void use(const Schedule& schedule) CORTEX_REALTIME { chunks_ = schedule.chunks; }
 
     TaskStates& states() { return states_; }
+    const TaskDemands& demands() const { return demands_; }
     const Position& position(std::uint32_t worker) const { return positions_[worker]; }
     RunnerCounts counts() const;
     // Of the last cycle. Small sets of tasks are timed whole, of others one chunk a cycle in turn.
@@ -56,7 +57,7 @@ private:
         CORTEX_REALTIME;
     static void runPassing(SimplexCS& simplex, const Tick& tick, Position& position)
         CORTEX_REALTIME;
-    void limitOutputs(Task& task, const Tick& tick) CORTEX_REALTIME;
+    void finishDemands(Task& task, const Tick& tick) CORTEX_REALTIME;
 
     TaskSet set_;
     TaskDemands demands_;

@@ -176,13 +176,14 @@ struct TaskBuilder {
             set.safe.push_back(std::make_unique<SafeDemands>(
                 layout(edge.target), out, *limitsOf[edge.target], observedLayout, observed));
             output.safe = set.safe.back().get();
+            output.standsSafe = true;
+            task.demands = Task::Demands::Bound;
             if (!shared) output.limits = limitsOf[edge.target];
         } else {
             output.checks = checksOf(out, edge.target);
         }
         set.outputs.push_back(output);
         if (shared) candidates[edge.target].push_back({&writer, out, &set.outputs.back()});
-        task.limits = task.limits || output.limits != nullptr;
         if (output.checks != nullptr) task.values = Task::Values::ToPass;
     }
 

@@ -54,7 +54,8 @@ struct TaskOutput {
     DemandLimits* limits = nullptr;  // null: an arbiter applies them, or not a demand
     ValueChecks* checks = nullptr;   // null: a demand, or nothing that could be wrong
     std::uint32_t target = noSimplex;
-    LimitResult refused;  // set by the arbiter: this demand faults its writer
+    bool standsSafe = false;  // in this run: its safe value, which no hook has moved
+    LimitResult refused;      // set by the arbiter: this demand faults its writer
 };
 
 // A simplex that several tasks write: takes the candidate of the one that is Active.
@@ -81,7 +82,8 @@ struct alignas(32) Task {
     std::uint32_t firstOutput = 0, outputCount = 0;
     bool everyCycle = true;
     bool measures = false;
-    bool limits = false;  // an output of its own has limits
+    // Whether it has demands, and whether they were its hooks' alone when it ran last.
+    enum class Demands : std::uint8_t { None, Free, Bound } demands = Demands::None;
     // Whether an observation or an item of its own can be wrong, or was wrong in the cycle before.
     enum class Values : std::uint8_t { Right, ToPass, Wrong } values = Values::Right;
 };
@@ -99,6 +101,7 @@ struct TaskDetails {
     std::uint32_t every = 1, phase = 0;
     std::int64_t lastRun = 0;
     std::int64_t stateSince = 0;
+    bool toldInVain = false;  // in this stay: that what its hooks write does not go out
     Data<std::int64_t> state, faultCode;
     Data<std::string_view> faultText;
     Data<double> taskTime;

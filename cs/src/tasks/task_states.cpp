@@ -38,8 +38,7 @@ void TaskStates::transition(Task& task, const Tick& tick) {
         simplex.enterFault(haltCode_, haltWhy_);
     }
     if (simplex.pending_.fault) return enterFault(task, tick);
-    const bool resting = simplex.state_ == State::Standby || simplex.state_ == State::Fault;
-    if (forced_ && !resting) return enter(task, State::Standby, tick);
+    if (forced_ && !isResting(simplex.state_)) return enter(task, State::Standby, tick);
     if (forced_) return;
     const LifeCycle command = set_.agent.takeLifeCycle(task.index, *simplex.thread_->loop);
     if (command != LifeCycle::None && lifeCycle(task, command, tick)) return;
@@ -119,6 +118,7 @@ void TaskStates::enter(Task& task, State to, const Tick& tick) {
     simplex.pending_.done = false;
     details.state = static_cast<std::int64_t>(to);
     details.stateSince = tick.nominalTime;
+    details.toldInVain = false;
     if (to == State::Active) ++simplex.thread_->startups;
     if (to == State::Fault) return;  // has an event of its own
     EventText text{name(from)};
@@ -131,7 +131,6 @@ void TaskStates::enterFault(Task& task, const Tick& tick) {
     SimplexCS& simplex = *task.simplex;
     simplex.pending_.fault = false;
     const bool faultedBefore = simplex.state_ == State::Fault;
-    if (faultedBefore) demands_.writeSafe(task);
     if (faultedBefore && simplex.thread_->faultCode != HookThrew) return;
     if (!faultedBefore) enter(task, State::Fault, tick);
     TaskDetails& details = set_.detailsOf(task);
