@@ -308,8 +308,8 @@ void ClusterLoop::checkOverflow() {
     trigger_.skipMissed(!catchUp);
 }
 
-// After the last tick: everything to Standby level by level, then by force; the last write is the
-// last cycle's.
+// After the last tick: everything to Standby level by level, then by force, until all demands are
+// safe, too; the last write is the last cycle's.
 void ClusterLoop::shutDown() {
     const std::int64_t period = trigger_.period();
     const std::int64_t stopBudget = std::llround(options_.stopTimeout * 1e9);
@@ -321,7 +321,8 @@ void ClusterLoop::shutDown() {
     RunningTime passed{std::chrono::nanoseconds{period} + 20ms};
     group_.beginStop();
     runner_.states().beginStop();
-    for (std::int64_t i = 1; cycle_ > 0 && i <= budget && !group_.allResting(); ++i) {
+    const auto goesOn = [this] { return !group_.allResting() || runner_.demands().anyOnTheWay(); };
+    for (std::int64_t i = 1; cycle_ > 0 && i <= budget && goesOn(); ++i) {
         trigger.nominalTime += period;
         if (trigger_.realTime()) {
             std::this_thread::sleep_until(std::chrono::steady_clock::time_point{
@@ -335,6 +336,7 @@ void ClusterLoop::shutDown() {
         }
         cycle(trigger);
     }
+    tellUnsafe();
     reportMissed();
 }
 

@@ -48,8 +48,8 @@ public:
     // Shuts down and joins; the hook that prevents it if there is one.
     std::optional<HungHook> stop();
 
-    // Who did not get through the shutdown, and why. After stop().
-    std::vector<std::string> notFollowed() const { return group_.notFollowed(); }
+    // Who did not get through the shutdown, and why; demands that are not safe yet. After stop().
+    std::vector<std::string> notFollowed() const;
     Ended ended() const { return ended_.load(std::memory_order_acquire); }
     const std::vector<std::string>& realtimeReport() const { return realtimeReport_; }
     std::uint32_t threads() const { return threads_.load(std::memory_order_relaxed); }
@@ -82,6 +82,7 @@ private:
     void halt(const char* why) CORTEX_REALTIME;
     void tell(Severity severity, const EventText& text) CORTEX_REALTIME;
     void shutDown();
+    void tellUnsafe();
     void tell(Watchdog::Finding finding, const Tick& tick, std::int64_t since);
     void standsStill(const Tick& tick, const HungHook& where, std::string_view text);
     void post(const Tick& tick, std::uint32_t simplex, std::string_view text);
@@ -114,6 +115,7 @@ private:
     std::atomic<Ended> ended_{Ended::NotStarted};
 
     // Loop thread only.
+    std::vector<std::string> unsafe_;  // after stop(): demands that did not become safe
     Trigger last_;
     std::int64_t cycle_ = 0;
     std::int64_t lastNominal_ = 0;

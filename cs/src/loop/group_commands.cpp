@@ -3,14 +3,14 @@
 
 #include "cortex/core/path.hpp"
 
+#include "tasks/state_machine.hpp"
+
 #include <algorithm>
 #include <utility>
 
 namespace cortex::cs {
 
 namespace {
-
-bool resting(State state) { return state == State::Standby || state == State::Fault; }
 
 constexpr std::size_t mostOfAnswer = 120;  // characters; behind them, how many more there are
 
@@ -202,11 +202,11 @@ std::vector<std::string> GroupCommands::notFollowed() const {
 
 void GroupCommands::tellOverdue(double seconds) {
     const auto stuck = std::ranges::find_if(actives_, [this](std::uint32_t node) {
-        return members_[node]->watched.asked && !resting(simplex(node).state_);
+        return members_[node]->watched.asked && !isResting(simplex(node).state_);
     });
     for (const std::uint32_t node : actives_) {
         const SimplexCS& each = simplex(node);
-        if (resting(each.state_)) continue;
+        if (isResting(each.state_)) continue;
         EventText text{"did not follow: "};
         if (members_[node]->watched.asked || stuck == actives_.end()) {
             text << name(each.state_);
@@ -224,7 +224,7 @@ void GroupCommands::tellOverdue(double seconds) {
 // Something was left to a manager that then faulted.
 bool GroupCommands::anyWorks() const {
     return std::ranges::any_of(actives_, [this](std::uint32_t node) {
-        return belongs(simplex(node)) && !resting(simplex(node).state_);
+        return belongs(simplex(node)) && !isResting(simplex(node).state_);
     });
 }
 
@@ -239,7 +239,7 @@ bool GroupCommands::belongs(const SimplexCS& simplex) const {
     if (!below || command_ == LifeCycle::ClearFaults || simplex.manager_ == noSimplex) return below;
     // A manager looks after its own while it works.
     const auto& manager = static_cast<const SimplexCS&>(agent_.simplex(simplex.manager_));
-    return command_ == LifeCycle::Shutdown && resting(manager.state_);
+    return command_ == LifeCycle::Shutdown && isResting(manager.state_);
 }
 
 bool GroupCommands::reached(std::uint32_t node) const {
@@ -285,7 +285,7 @@ std::uint32_t GroupCommands::blockerOf(std::uint32_t node) const {
 
 bool GroupCommands::allResting() const {
     return std::ranges::all_of(
-        actives_, [this](std::uint32_t node) { return resting(simplex(node).state_); });
+        actives_, [this](std::uint32_t node) { return isResting(simplex(node).state_); });
 }
 
 }  // namespace cortex::cs
