@@ -148,6 +148,29 @@ TEST_F(CortexLoss, AControllerWhoseInputIsLostShowsItsStateAndCommands) {
     }
 }
 
+TEST_F(CortexLoss, ADemandSaysWhyItIsItsSafeValue) {
+    const auto shown = [] { return liveJson({"show", "/desk/demanded"}, "show"); };
+    const auto isSafe = [](const std::string& why) {
+        return [why](const json& seen) { return seen["safe"] == why; };
+    };
+    const std::string rests = "/desk/controller is in Standby";
+    EXPECT_EQ(lookUntil(shown, isSafe(rests))["safe"], rests);
+    EXPECT_EQ(liveJson({"list", "/desk/demanded"}, "list")[0]["safe"], rests);
+    EXPECT_EQ(liveJson({"show", "/desk/controller"}, "show")["safe"], json());
+
+    loseTheDevice();
+
+    const std::string lost = "/desk/controller has lost an input";
+    const json seen = lookUntil(shown, isSafe(lost));
+    EXPECT_EQ(seen["safe"], lost);
+    EXPECT_EQ(seen["quality"], "stale");
+    EXPECT_TRUE(
+        contains(live({"show", "/desk/demanded"}).output, "stale, its safe value: " + lost));
+    EXPECT_TRUE(contains(live({"list", "/desk/demanded"}).output, "stale, safe"));
+    EXPECT_TRUE(
+        contains(live({"watch", "/desk/demanded.position", "--count", "1"}).output, "stale, safe"));
+}
+
 TEST_F(CortexLoss, IsFollowedThroughOtherAgentsToItsFirstCause) {
     const Background watcher{
         agentCommand(systemFile(folder, "watcher",
@@ -158,6 +181,7 @@ TEST_F(CortexLoss, IsFollowedThroughOtherAgentsToItsFirstCause) {
                                 "<relate rule=\"demands\" to=\"/watcher/demanded\"/></simplex>"))};
     loseTheDevice();
     const json expected{{{"path", "/desk/demanded"}, {"agent", "desk"}},
+                        {{"path", "/desk/controller"}, {"agent", "desk"}},
                         {{"path", "/cell/observed"}, {"agent", ""}}};
 
     const json shown = lookUntil([] { return liveJson({"show", "/watcher/controller"}, "show"); },
@@ -165,8 +189,9 @@ TEST_F(CortexLoss, IsFollowedThroughOtherAgentsToItsFirstCause) {
 
     EXPECT_EQ(shown["causes"], expected);
     const Outcome text = live({"show", "/watcher/controller"});
-    EXPECT_TRUE(
-        contains(text.output, "/desk/demanded of desk <- /cell/observed, which is not heard"))
+    EXPECT_TRUE(contains(text.output,
+                         "/desk/demanded of desk <- /desk/controller of desk <- "
+                         "/cell/observed, which is not heard"))
         << text.output;
     EXPECT_EQ(liveJson({"show", "/watcher"}, "show")["causes"], json::array());
 }

@@ -2,10 +2,12 @@
 #include "cortex/core/nearest_names.hpp"
 
 #include "live/live_values.hpp"
+#include "live/safe_demand.hpp"
 #include "verbs/live_verbs.hpp"
 
 #include <iostream>
 #include <map>
+#include <set>
 
 namespace cortex::explorer {
 namespace {
@@ -14,7 +16,20 @@ struct Line {
     FoundSimplex simplex;
     std::optional<State> state;
     Quality quality = Quality::Lost;
+    StaleDemand demand{};
 };
+
+// What is listed, and whoever writes a demand of it: their states tell why it is stale.
+std::vector<std::string> viewedFor(const Live& live, const std::string& prefix) {
+    std::set<std::string> paths{prefix};
+    for (const FoundSimplex& each : live.below(prefix)) {
+        if (each.info().role != Role::Modification) continue;
+        for (const std::uint32_t writer : each.info().writers) {
+            paths.insert(each.structure->simplexes[writer].path);
+        }
+    }
+    return {paths.begin(), paths.end()};
+}
 
 std::vector<Line> linesOf(Live& live, const std::vector<FoundSimplex>& simplexes) {
     std::map<std::string, comms::AgentImage> images;
@@ -24,11 +39,12 @@ std::vector<Line> linesOf(Live& live, const std::vector<FoundSimplex>& simplexes
         if (found == images.end()) {
             found = images.emplace(each.agent, live.mirror().image(each.agent)).first;
         }
-        Line line{each, {}, Quality::Lost};
+        Line line{each, {}, Quality::Lost, {}};
         const comms::AgentImage& image = found->second;
         if (image && &image->structure() == each.structure.get()) {
             line.state = stateOf(image, each.index);
             line.quality = image->state(each.index).quality;
+            line.demand = safeBecause(each, image->state(each.index), image);
         }
         lines.push_back(std::move(line));
     }
@@ -41,7 +57,8 @@ Json lineJson(const Line& line) {
             {"role", name(line.simplex.info().role)},
             {"agent", line.simplex.agent},
             {"state", line.state ? Json(name(*line.state)) : Json()},
-            {"quality", name(line.quality)}};
+            {"quality", name(line.quality)},
+            {"safe", safeJson(line.demand)}};
 }
 
 void printLines(const std::vector<Line>& lines) {
@@ -49,7 +66,7 @@ void printLines(const std::vector<Line>& lines) {
     for (const Line& each : lines) {
         columns.add({each.simplex.info().path, each.simplex.type().name,
                      name(each.simplex.info().role), each.simplex.agent,
-                     each.state ? name(*each.state) : "-", name(each.quality)});
+                     each.state ? name(*each.state) : "-", qualityText(each.quality, each.demand)});
     }
     columns.print(std::cout);
 }
@@ -62,6 +79,7 @@ Exit listSimplexes(const ListOptions& options) {
     Live live{options.network};
     live.view({options.prefix}, 100);
     live.waitForAll();
+    if (options.prefix != "/") live.view(viewedFor(live, options.prefix), 100);
     live.waitForValues();
     const std::string lacking = live.incomplete();
     if (options.json && !lacking.empty()) throw Failure{NotFound, lacking};

@@ -2,6 +2,7 @@
 #include "live/causes.hpp"
 #include "live/live_values.hpp"
 #include "live/loop_text.hpp"
+#include "live/safe_demand.hpp"
 #include "verbs/live_verbs.hpp"
 
 #include <cmath>
@@ -17,6 +18,7 @@ struct Shown {
     double age = 0;  // s
     comms::AgentStatus owner{};
     std::vector<Cause> causes{};
+    StaleDemand demand{};
 
     Value value(const ItemLayout& item) const { return image->value(simplex.index, item); }
     std::optional<State> state() const { return stateOf(image, simplex.index); }
@@ -99,6 +101,7 @@ Json shownJson(const Shown& shown) {
             {"role", name(shown.simplex.info().role)},
             {"agent", shown.simplex.agent},
             {"quality", name(shown.quality())},
+            {"safe", safeJson(shown.demand)},
             {"causes", causesJson(shown.causes)},
             {"age_ms", shown.age * 1000},
             {"overloaded", shown.owner.overloaded},
@@ -125,7 +128,11 @@ void printHead(const Shown& shown) {
     const std::string trouble = loopTrouble(shown.owner);
     columns.add({"agent", simplex.agent + (trouble.empty() ? "" : ", " + trouble)});
     if (state) columns.add({"state", name(*state)});
-    columns.add({"quality", name(shown.quality())});
+    const std::string& why = shown.demand.why;
+    columns.add({"quality", std::string{name(shown.quality())} + (shown.demand.safe
+                                                                      ? ", its safe value: " + why
+                                                                  : why.empty() ? ""
+                                                                                : ", " + why)});
     if (!shown.causes.empty()) columns.add({"because of", causesText(shown.causes)});
     columns.add({"age", toText(std::round(shown.age * 1e4) / 10) + " ms"});
     std::cout << simplex.info().path << '\n';
@@ -168,6 +175,14 @@ void printCommands(const Shown& shown, const CommandTable& table) {
     columns.print(std::cout);
 }
 
+StaleDemand demandOf(Live& live, const Shown& shown) {
+    const SlotState& state = shown.image->state(shown.simplex.index);
+    const auto writer = staleBy(shown.simplex, state);
+    if (!writer) return {};
+    const auto image = live.values({shown.simplex.agent, shown.simplex.structure, *writer});
+    return safeBecause(shown.simplex, state, image);
+}
+
 }  // namespace
 
 Exit showSimplex(const ShowOptions& options) {
@@ -178,6 +193,7 @@ Exit showSimplex(const ShowOptions& options) {
     shown.image = live.values(shown.simplex);
     shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index).value_or(0);
     shown.owner = live.statusOf(shown.simplex.agent);
+    shown.demand = demandOf(live, shown);
     shown.causes = causesOf(live, shown.simplex, shown.image);
     if (options.json) {
         print(shownJson(shown));

@@ -2,6 +2,7 @@
 #include "cortex/core/nearest_names.hpp"
 
 #include "live/live_values.hpp"
+#include "live/safe_demand.hpp"
 #include "text/interrupts.hpp"
 #include "verbs/live_verbs.hpp"
 
@@ -29,6 +30,7 @@ struct Reading {
     std::string text;
     Json value, label;  // null: it has none
     Quality quality = Quality::Lost;
+    StaleDemand demand{};
 };
 
 void addItems(Live& live, const std::string& what, std::vector<Watched>& watched) {
@@ -73,6 +75,7 @@ Reading read(const Watched& watched, const comms::AgentImage& image) {
     const bool same = image && &image->structure() == watched.simplex.structure.get();
     if (!same || !image.came(watched.simplex.index)) return reading;
     reading.quality = image->state(watched.simplex.index).quality;
+    reading.demand = safeBecause(watched.simplex, image->state(watched.simplex.index), image);
     const Value value = image->value(watched.simplex.index, *watched.item);
     reading.text = valueText(*watched.item->item, value);
     reading.value = valueJson(*watched.item->item, value);
@@ -120,6 +123,7 @@ private:
         for (std::size_t i = 0; i < readings.size(); ++i) {
             Json& value = values[watched_[i].name] = {{"value", readings[i].value},
                                                       {"quality", name(readings[i].quality)}};
+            if (readings[i].demand.safe) value["safe"] = readings[i].demand.why;
             if (!readings[i].label.is_null()) value["label"] = readings[i].label;
         }
         Json line{{"time", time}, {"values", values}};
@@ -130,7 +134,8 @@ private:
     static void text(const std::string& time, Watched& watched, const Reading& reading) {
         std::string shown = reading.text;
         if (!watched.item->item->unit.empty()) shown += " " + watched.item->item->unit;
-        if (reading.quality != Quality::Good) shown += std::string{"  "} + name(reading.quality);
+        if (reading.quality != Quality::Good)
+            shown += "  " + qualityText(reading.quality, reading.demand);
         if (shown == watched.shown) return;
         watched.shown = shown;
         std::cout << time << "  " << watched.name << "  " << printable(shown) << '\n';
@@ -195,7 +200,12 @@ Exit watchValues(const WatchOptions& options) {
     std::vector<std::string> paths;
     for (const std::string& each : options.what) {
         addItems(live, each, watched);
-        paths.push_back(watched.back().simplex.info().path);
+        const SimplexInfo& info = watched.back().simplex.info();
+        paths.push_back(info.path);
+        if (info.role != Role::Modification) continue;
+        for (const std::uint32_t writer : info.writers) {  // their states tell why it is stale
+            paths.push_back(watched.back().simplex.structure->simplexes[writer].path);
+        }
     }
     live.view(paths, options.rate);
     if (!live.waitForValues()) {
