@@ -90,6 +90,7 @@ public:
 private:
     void populate() override {
         power_ = input("heater").data<double>("power", "W");
+        safePower_ = input("heater").safeValue<double>("power", "W");
         temperature_ = output("inside").data<double>("temperature", "Cel");
         port_ = data<const std::string_view>("port").get();
         loseAfter(500ms);
@@ -98,7 +99,7 @@ private:
     // In the tick. A lost oven keeps the temperature that it had, with the quality `lost`.
     void loopEnd(const Tick&) CORTEX_REALTIME override {
         if (!isLost()) temperature_ = received().temperature;
-        give({power_});
+        give({inputLost() ? safePower_ : power_.get()});  // nobody speaks for the demand any more
     }
 
     // On a thread of its own: whatever goes wrong, it connects anew after a while.
@@ -109,7 +110,7 @@ private:
                 do {
                     line.put({serial.exchange(wished(line))});
                 } while (line.waitFor(20ms));
-                serial.exchange(wished(line));  // of the last cycle: safe
+                serial.exchange(wished(line));  // the loop has waited: it is safe
             } catch (const std::runtime_error& error) {
                 line.lose(error.what());
             }
@@ -124,6 +125,7 @@ private:
 
     Data<const double> power_;
     Data<double> temperature_;
+    double safePower_ = 0;
     std::string port_;
 };
 
