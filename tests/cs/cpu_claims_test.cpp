@@ -2,7 +2,9 @@
 #include "threads/cpu_claims.hpp"
 
 #include <csignal>
+#include <string>
 
+#include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,10 +16,61 @@ namespace {
 // CPUs that no machine has, so that loops of other tests claim none of them.
 const std::vector<int> unusedCpus{70'001, 70'002, 70'003};
 
+struct FilesOfUnusedCpus : testing::Environment {
+    void TearDown() override {
+        for (const std::string folder : {"/dev/shm", "/run"}) {
+            for (const int cpu : unusedCpus) {
+                unlink((folder + "/cortex-cpu-" + std::to_string(cpu)).c_str());
+            }
+        }
+    }
+};
+const auto* const removedAtTheEnd = testing::AddGlobalTestEnvironment(new FilesOfUnusedCpus);
+
 TEST(CpuClaims, AreFreeOnesFirst) {
     CpuClaims one, other;
     EXPECT_EQ(one.take(unusedCpus, 1), (std::vector{70'001}));
     EXPECT_EQ(other.take(unusedCpus, 2), (std::vector{70'002, 70'003}));
+}
+
+// As a process does that has a network of its own: it does not see the sockets of others.
+std::vector<int> claimedInAnotherNetwork(std::size_t count) {
+    int ready[2];
+    if (pipe(ready) != 0) return {};
+    const pid_t child = fork();
+    if (child == 0) {
+        int number = -1;
+        if (unshare(CLONE_NEWNET) == 0 || unshare(CLONE_NEWUSER | CLONE_NEWNET) == 0) {
+            CpuClaims claims;
+            number = static_cast<int>(claims.take(unusedCpus, count).size());
+        }
+        (void)!write(ready[1], &number, sizeof number);
+        _exit(0);
+    }
+    int number = -1;
+    (void)!read(ready[0], &number, sizeof number);
+    waitpid(child, nullptr, 0);
+    close(ready[0]);
+    close(ready[1]);
+    return number < 0 ? std::vector{-1} : std::vector(static_cast<std::size_t>(number), 0);
+}
+
+TEST(CpuClaims, HoldAcrossTheNetworkNamespacesOfAMachine) {
+    const std::vector<int> free = claimedInAnotherNetwork(3);
+    if (free == std::vector{-1}) GTEST_SKIP() << "no network namespace can be made here";
+    ASSERT_EQ(free.size(), 3U);
+
+    CpuClaims one;
+    one.take(unusedCpus, 2);
+
+    EXPECT_EQ(claimedInAnotherNetwork(2).size(), 0U);
+    EXPECT_EQ(claimedInAnotherNetwork(1).size(), 1U) << "the third is free";
+}
+
+TEST(CpuClaims, NeedNoFolderThatCanBeWritten) {
+    CpuClaims one{{"/nowhere"}}, other{{"/nowhere"}};
+    EXPECT_EQ(one.take(unusedCpus, 1), (std::vector{70'001}));
+    EXPECT_EQ(other.take(unusedCpus, 1), (std::vector{70'002}));
 }
 
 TEST(CpuClaims, AreAllOrNone) {

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sys/types.h>
@@ -29,6 +30,7 @@ public:
     int waitForEnd();                      // that comes by itself
 
     pid_t pid() const { return pid_; }
+    pid_t releasePid() { return std::exchange(pid_, 0); }  // somebody else waits for its end
     std::string output() const;  // of all its starts
 
 private:

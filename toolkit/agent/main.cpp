@@ -87,8 +87,12 @@ SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry, Retaine
                      "give a system file, or write one around it");
     }
     if (!report.ok()) throw ModelError(std::move(report));
-    for (const auto& plugin : line.plugins) registry.loadPlugin(plugin, model.types);
+    for (const auto& plugin : line.plugins) {
+        const cs::BoundedStep step{"loading the plug-in " + plugin.string()};
+        registry.loadPlugin(plugin, model.types);
+    }
     SimplexTree tree{std::move(model.types)};
+    const cs::BoundedStep step{"making the simplexes of " + line.system.string()};
     tree.add(model.system, &registry, report);
     if (!report.ok()) throw ModelError(std::move(report));
     tree.createRelated(&registry);
@@ -143,7 +147,6 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     ClusterSettings settings = clusterSettings(tree.description(), line);
     const bool retains = RetainedFile::hasItems(tree);
     if (retains) ++settings.options.imageReaders;
-    cs::blockStopSignals();
     const auto began = Clock::now();
     cs::ClusterCS cluster{settings.name, settings.options};
     cluster.addSimplexTree(tree);
@@ -168,7 +171,10 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
               << std::endl;
     watch(cluster, settings.name, left(line, began), startUp ? &*startUp : nullptr);
     const bool endedItself = !cluster.running();  // its trigger has ended, as an event says
-    printEnd(cluster, settings.name, network);
+    {
+        const cs::BoundedStep step{"printing the summary"};
+        printEnd(cluster, settings.name, network);
+    }
     const bool halted = cluster.ended() == cs::Ended::Halted;
     std::string notFollowed = startUp ? startUp->endText() : "";
     cluster.stop();
@@ -183,6 +189,7 @@ int run(int argc, char** argv) {
     int exitCode = Ended;
     const auto line = parseCommandLine(argc, argv, exitCode);
     if (!line) return exitCode;
+    cs::blockStopSignals();
     ClassRegistry registry;
     addClasses(registry);
     RetainedFile retained{retainFile(*line)};

@@ -80,7 +80,11 @@ ClusterCS::ClusterCS(std::string name, ClusterOptions options)
     implementation_->options = std::move(options);
 }
 
-ClusterCS::~ClusterCS() { stop(); }
+ClusterCS::~ClusterCS() {
+    stop();
+    const BoundedStep step{"the destructors of cluster " + implementation_->name};
+    implementation_.reset();
+}
 
 void ClusterCS::addSimplexTree(SimplexTree& tree) {
     if (implementation_->tree != nullptr) {
@@ -182,6 +186,8 @@ void ClusterCS::Implementation::joinSettings(SimplexCS& simplex, Report& report)
 void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) const {
     Report report;
     for (SimplexCS* simplex : simplexes) {
+        const BoundedStep step{"populate() of " + simplex->path() + " (" + simplex->type().name +
+                               ")"};
         try {
             simplex->populate();
             joinSettings(*simplex, report);
@@ -299,7 +305,10 @@ void ClusterCS::startAll() {
     self.loop->rescheduleBy([&self, threads](std::span<const double> costs) {
         return makeSchedule(self.graph(), {threads, self.test.chunkSize, costs, false});
     });
-    self.agent->start();
+    {
+        const BoundedStep step{"joining the network as /" + self.name};
+        self.agent->start();
+    }
     if (self.trigger->realTime()) {
         self.agent->refuseWriters();  // nobody knows when such a loop is between two cycles
     }
@@ -314,7 +323,10 @@ bool ClusterCS::stop() {
     refuseInHooks("stop()", "tell the program to stop, or command the simplexes: shutdown");
     if (const auto hung = self.loop->stop()) self.endProcess(hung->text());
     self.endIoThreads();
-    self.agent->stop();
+    {
+        const BoundedStep step{"leaving the network as /" + self.name};
+        self.agent->stop();
+    }
     self.notShutDown = self.loop->notFollowed();
     return self.notShutDown.empty();
 }

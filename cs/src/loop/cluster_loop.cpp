@@ -389,11 +389,12 @@ std::optional<HungHook> ClusterLoop::stop() {
         if (cycle != seen) {
             seen = cycle;
             stood.restart();
-        } else if (stood.look() >= 2s) {
+        } else if (stood.look() >= 1500ms) {
             ended_.store(Ended::Hung, std::memory_order_release);
             return findHungHook(runner_, agent_);
         }
     }
+    const BoundedStep step{"the end of the threads cortex-watchdog and " + agent_.name()};
     thread_.join();
     watchdog_.reset();
     return std::nullopt;

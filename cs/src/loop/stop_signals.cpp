@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/cs/cluster_cs.hpp"
 
+#include "loop/stop_guard.hpp"
+
 #include <chrono>
 #include <csignal>
 #include <ctime>
+#include <memory>
+#include <utility>
 
 #include <unistd.h>
 
@@ -33,25 +37,40 @@ sigset_t stopSignals() {
 void blockStopSignals() {
     const sigset_t signals = stopSignals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    StopGuard::get().begin(signals);
     if (!isLeftToDefault(SIGPIPE)) return;
     struct sigaction passOn{};
     passOn.sa_handler = [](int) { kill(getpid(), SIGTERM); };
     sigaction(SIGPIPE, &passOn, nullptr);
 }
 
+// A signal that came to this thread alone is not seen by the guard.
 bool waitForInterrupt(double seconds, const std::function<bool()>& done) {
     blockStopSignals();
+    StopGuard& guard = StopGuard::get();
+    guard.goesOn();
+    const BoundedStep waiting{"waitForInterrupt(), or what it calls", BoundedStep::Kind::Wait};
     const sigset_t signals = stopSignals();
     const auto end = std::chrono::steady_clock::now() +
                      std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                          std::chrono::duration<double>{seconds});
     constexpr timespec poll{0, 50'000'000};
     for (;;) {
-        const int signal = sigtimedwait(&signals, nullptr, &poll);
-        if (signal > 0) return true;
+        if (sigtimedwait(&signals, nullptr, &poll) > 0) guard.ask();
+        if (guard.takeSignal()) return true;
         if (done && done()) return false;
         if (seconds > 0 && std::chrono::steady_clock::now() >= end) return false;
     }
 }
+
+struct BoundedStep::Implementation {
+    StopGuard::Steps::iterator step;
+};
+
+BoundedStep::BoundedStep(std::string what, Kind kind)
+    : implementation_{std::make_unique<Implementation>(
+          Implementation{StopGuard::get().enter(std::move(what), kind == Kind::Wait)})} {}
+
+BoundedStep::~BoundedStep() { StopGuard::get().leave(implementation_->step); }
 
 }  // namespace cortex::cs

@@ -17,7 +17,7 @@ void IoThreads::begin(std::span<SimplexCS* const> simplexes) {
 }
 
 std::string IoThreads::end() {
-    constexpr std::int64_t budget = 2 * nsPerSecond;
+    constexpr std::int64_t budget = 3 * nsPerSecond / 2;
     for (ThreadedSimplex* simplex : simplexes_) simplex->beside_->askToEnd();
     const std::int64_t until = monotonicNow() + budget;
     while (!simplexes_.empty()) {

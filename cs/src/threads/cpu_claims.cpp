@@ -4,18 +4,58 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 namespace cortex::cs {
+namespace {
+
+enum class Claimed : std::uint8_t { Yes, No, Unknown };  // Unknown: nobody can claim it here
+
+// A socket whose name begins with a zero has no file, and ends with its process.
+Claimed claimSocket(const std::string& name, int& made) {
+    made = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (made < 0) return Claimed::Unknown;
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::ranges::copy(name, address.sun_path + 1);
+    const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+    const bool bound = bind(made, reinterpret_cast<const sockaddr*>(&address), size) == 0;
+    return bound ? Claimed::Yes : errno == EADDRINUSE ? Claimed::No : Claimed::Unknown;
+}
+
+// Whoever runs as another user may have made the file: it is read only, and stays there for good.
+int openShared(const std::string& path) {
+    constexpr int flags = O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+    const int found = open(path.c_str(), flags);
+    if (found >= 0) return found;
+    const int made = open(path.c_str(), flags | O_CREAT | O_EXCL, 0444);
+    return made >= 0 || errno != EEXIST ? made : open(path.c_str(), flags);
+}
+
+Claimed claimFile(const std::string& path, int& opened) {
+    opened = openShared(path);
+    if (opened < 0) return Claimed::Unknown;
+    if (flock(opened, LOCK_EX | LOCK_NB) == 0) return Claimed::Yes;
+    return errno == EWOULDBLOCK ? Claimed::No : Claimed::Unknown;
+}
+
+}  // namespace
+
+CpuClaims::CpuClaims(std::vector<std::string> folders) : folders_{std::move(folders)} {}
 
 CpuClaims::~CpuClaims() { release(); }
 
 void CpuClaims::release() {
-    for (const int socket : sockets_) close(socket);
-    sockets_.clear();
+    for (const int each : held_) close(each);
+    held_.clear();
 }
 
 std::vector<int> CpuClaims::take(const std::vector<int>& cpus, std::size_t count) {
@@ -29,21 +69,23 @@ std::vector<int> CpuClaims::take(const std::vector<int>& cpus, std::size_t count
     return {};
 }
 
-// Where there are no such sockets, nobody can have claimed anything.
+// What cannot be claimed, as where a folder cannot be written, nobody can have claimed either.
 bool CpuClaims::claim(int cpu) {
-    const int made = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    if (made < 0) return true;
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
     const std::string name = "cortex-cpu-" + std::to_string(cpu);
-    std::ranges::copy(name, address.sun_path + 1);  // the zero before it: a name without a file
-    const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
-    if (bind(made, reinterpret_cast<const sockaddr*>(&address), size) != 0 && errno == EADDRINUSE) {
-        close(made);
-        return false;
+    std::vector<int> taken(folders_.size() + 1, -1);
+    bool free = claimSocket(name, taken.back()) != Claimed::No;
+    for (std::size_t i = 0; free && i < folders_.size(); ++i) {
+        free = claimFile(folders_[i] + "/" + name, taken[i]) != Claimed::No;
     }
-    sockets_.push_back(made);
-    return true;
+    for (const int each : taken) {
+        if (each < 0) continue;
+        if (free) {
+            held_.push_back(each);
+        } else {
+            close(each);
+        }
+    }
+    return free;
 }
 
 }  // namespace cortex::cs

@@ -8,11 +8,12 @@
 namespace cortex::cs {
 
 // CPUs that no other loop of this host is to share, as far as loops ask. A claim is a socket with
-// the CPU's number for a name: it ends with this object, and with its process however that ends.
-// Setup, one thread. Network namespaces do not see each other's claims.
+// the CPU's number for a name, seen in one network namespace, and a lock on a file in each of
+// `folders`, seen wherever the folder is shared. It ends with this object, and with its process
+// however that ends. Setup, one thread.
 class CpuClaims {
 public:
-    CpuClaims() = default;
+    explicit CpuClaims(std::vector<std::string> folders = {"/dev/shm", "/run"});
     ~CpuClaims();
     CpuClaims(const CpuClaims&) = delete;
     CpuClaims& operator=(const CpuClaims&) = delete;
@@ -25,7 +26,8 @@ public:
 private:
     bool claim(int cpu);  // false: somebody else has it
 
-    std::vector<int> sockets_;
+    std::vector<std::string> folders_;
+    std::vector<int> held_;
 };
 
 }  // namespace cortex::cs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doctor/doctor.hpp"
 #include "live/loop_text.hpp"
+#include "live/pinned_cpus.hpp"
 #include "live/top_data.hpp"
 #include "text/interrupts.hpp"
 #include "text/plain_text.hpp"
@@ -113,15 +114,9 @@ void examineClock(Live& live, const comms::AgentStatus& agent, Diagnoses& found)
                      "synchronise the clocks of both hosts: sudo apt install chrony"});
 }
 
-// Where the loops of this host run, of those that are pinned.
-void examineCpus(Live& live, const comms::AgentStatus& agent, Diagnoses& found) {
-    const comms::AgentImage image = live.mirror().image(agent.name);
-    const std::uint32_t own = image ? ownSimplex(image->structure()) : noSimplex;
-    if (own == noSimplex || !image.came(own)) return;
-    const SimplexInfo& info = image->structure().simplexes[own];
-    const ItemLayout* item = info.layout->find("cpus");
-    if (item == nullptr || item->item->kind != Kind::String || item->item->length != 1) return;
-    const std::string cpus = toText(image->value(own, *item));
+// Where the loops run, of those that are pinned.
+void examineCpus(const Live& live, const comms::AgentStatus& agent, Diagnoses& found) {
+    const std::string cpus = pinnedCpus(live, agent.name);
     if (cpus.empty()) return;
     found.push_back(
         {Level::Ok, "agent", "the loop of " + agent.name + " is pinned to CPU " + cpus, ""});
@@ -138,15 +133,8 @@ void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
         complete = live.mirror().waitUntilComplete(slice);
         for (const auto& each : live.mirror().agents()) starts[each.name].insert(each.epoch);
     }
-    std::vector<std::string> own;
     const auto agents = live.mirror().agents();
-    for (const auto& each : agents) {
-        const auto structure = live.mirror().structure(each.name);
-        const std::uint32_t simplex = structure ? ownSimplex(*structure) : noSimplex;
-        if (simplex != noSimplex) own.push_back(structure->simplexes[simplex].path);
-    }
-    live.view(own, 5);
-    live.waitForValues();
+    viewOwnSimplexes(live);
     if (agents.empty()) {
         found.push_back(
             {Level::Warning, "agents",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/live_json.hpp"
 #include "live/loop_text.hpp"
+#include "live/pinned_cpus.hpp"
 #include "verbs/live_verbs.hpp"
 
 #include <iostream>
@@ -11,21 +12,25 @@ Exit listAgents(const LiveOptions& options) {
     Live live{options.network};
     live.waitForAll();
     live.printWarnings();
+    viewOwnSimplexes(live);
     const auto agents = live.mirror().agents();
     if (options.json) {
         Json list = Json::array();
-        for (const auto& each : agents) list.push_back(agentJson(each));
+        for (const auto& each : agents) {
+            list.push_back(agentJson(each));
+            list.back()["cpus"] = pinnedCpus(live, each.name);
+        }
         print(list);
         return Yes;
     }
     Columns columns{0};
-    columns.add(
-        {"agent", "host", "state", "rate", "age", "simplexes", "cycle", "loss", "security"});
+    columns.add({"agent", "host", "state", "rate", "age", "simplexes", "cycle", "loss", "cpus",
+                 "security"});
     for (const auto& each : agents) {
         columns.add({each.name, each.host, each.state, rateText(each),
                      std::to_string(milliseconds(each.age)) + " ms", std::to_string(each.simplexes),
                      std::to_string(each.cycle), std::to_string(each.loss),
-                     each.security.empty() ? "none" : each.security});
+                     pinnedCpus(live, each.name), each.security.empty() ? "none" : each.security});
         if (!each.trouble.empty()) columns.addNote(each.trouble);
     }
     columns.print(std::cout);

@@ -128,8 +128,26 @@ private:
 
 // Blocks until a signal asks for the end, or `seconds` have passed (0: no limit), or `done` returns
 // true. The signals are SIGINT, SIGTERM, SIGPIPE and SIGHUP, the last two unless the process
-// ignores or handles them. blockStopSignals() is called before start() makes threads.
+// ignores or handles them. Call blockStopSignals() before start() makes threads.
 void blockStopSignals();
 bool waitForInterrupt(double seconds = 0, const std::function<bool()>& done = {});
+
+// What a program does outside of its loop, while the object lives: clusters have such steps for
+// what they do, and a program may add its own. Once blockStopSignals() was called, standard error
+// names a step that takes longer than a second. After a signal for the end all steps together
+// have 1.5 s; then the process ends with exit code 3 and says in which step. Any thread, not in a
+// tick.
+class BoundedStep {
+public:
+    enum class Kind : std::uint8_t { Work, Wait };  // a wait may last until the end is asked for
+    explicit BoundedStep(std::string what, Kind kind = Kind::Work);
+    ~BoundedStep();
+    BoundedStep(const BoundedStep&) = delete;
+    BoundedStep& operator=(const BoundedStep&) = delete;
+
+private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
 
 }  // namespace cortex::cs

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// A signal for the end ends the process, whatever hangs in it.
+#include "processes/agent_process.hpp"
+#include "processes/station.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <sys/ptrace.h>
+#include <sys/wait.h>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+// Under a sanitizer the end has more time; there the test sees only that it comes.
+#ifdef CORTEX_AT_FULL_SPEED
+constexpr auto longestEnd = 2s;
+#else
+constexpr auto longestEnd = 60s;
+#endif
+
+class EndOfAProcess : public testing::Test {
+protected:
+    EndOfAProcess() {
+        folder.write("types.xml",
+                     "<ontology name='t' version='1.0'><include file='base.xml'/>"
+                     "<type name='NeverReturns' extends='Processor'/></ontology>");
+        folder.write("rules.xml",
+                     "<morphology name='m' version='1.0'><include file='base-morphology.xml'/>"
+                     "<include file='types.xml'/></morphology>");
+        system = folder.write("plant.xml",
+                              "<system name='s'><morphology file='rules.xml'/>"
+                              "<cluster name='plant' frequency='100'/>"
+                              "<simplex path='/output' type='DigitalIoConcept'/>"
+                              "<simplex path='/stuck' type='NeverReturns'>"
+                              "<relate rule='outputs' to='/output'/></simplex></system>");
+    }
+    ~EndOfAProcess() override { unsetenv("NEVER_RETURNS_FROM"); }
+
+    // The exit code of one that never gets to run.
+    int endOfOneThatHangsIn(const char* where) {
+        setenv("NEVER_RETURNS_FROM", where, 1);
+        AgentProcess agent{folder, system, options()};
+        while (agent.output().find("longer than a second: ") == std::string::npos &&
+               fs::exists("/proc/" + std::to_string(agent.pid()))) {
+            std::this_thread::yield();
+        }
+        const auto asked = Clock::now();
+        const int code = agent.endInOrder();
+        EXPECT_LT(Clock::now() - asked, longestEnd);
+        output = agent.output();
+        return code;
+    }
+    static std::vector<std::string> options() {
+        return {"--plugin", CORTEX_BINARY_DIR "/lib/plugins/never-returns.so"};
+    }
+
+    ModelFolder folder;
+    fs::path system;
+    std::string output;
+};
+
+TEST_F(EndOfAProcess, ComesWhilePopulateDoesNotReturn) {
+    EXPECT_EQ(endOfOneThatHangsIn("populate"), 3);
+    EXPECT_TRUE(
+        output.starts_with("it takes longer than a second: populate() of /stuck (NeverReturns)\n"))
+        << output;
+    EXPECT_NE(output.find("hangs in populate() of /stuck (NeverReturns)"), std::string::npos)
+        << output;
+}
+
+TEST_F(EndOfAProcess, ComesWhileAConstructorOfAPlugInDoesNotReturn) {
+    EXPECT_EQ(endOfOneThatHangsIn("constructor"), 3);
+    EXPECT_NE(output.find("hangs in making the simplexes of " + system.string()), std::string::npos)
+        << output;
+}
+
+// The threads of a process by number, and what each is called.
+std::vector<std::pair<pid_t, std::string>> threadsOf(pid_t process) {
+    std::vector<std::pair<pid_t, std::string>> threads;
+    for (const auto& each : fs::directory_iterator{"/proc/" + std::to_string(process) + "/task"}) {
+        std::string name;
+        std::getline(std::ifstream{each.path() / "comm"}, name);
+        threads.emplace_back(std::stoi(each.path().filename()), name);
+    }
+    std::ranges::sort(threads);
+    return threads;
+}
+
+// Stops one thread of a child for good, as a debugger does.
+bool hold(pid_t thread) {
+    return ptrace(PTRACE_SEIZE, thread, nullptr, nullptr) == 0 &&
+           ptrace(PTRACE_INTERRUPT, thread, nullptr, nullptr) == 0 &&
+           waitpid(thread, nullptr, __WALL) == thread;
+}
+
+// Its exit code, when the thread that is held has been waited for too; -1 after a signal.
+int endOf(pid_t process) {
+    int status = 0;
+    for (;;) {
+        int each = 0;
+        const pid_t ended = waitpid(-1, &each, __WALL);
+        if (ended < 0) break;
+        if (ended == process && (WIFEXITED(each) || WIFSIGNALED(each))) status = each;
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// Of an agent that runs: holds its thread number `index`, asks it to end, and waits for that.
+struct HeldEnd {
+    std::string thread;  // empty: there are not so many
+    int code = -1;
+    Clock::duration took{};
+    std::string output;
+};
+
+HeldEnd endWithAThreadHeld(const ModelFolder& folder, const fs::path& system,
+                           const std::vector<std::string>& options, std::size_t index) {
+    AgentProcess agent{folder, system, options};
+    Station station;
+    EXPECT_TRUE(station.waitFor([&] { return station.cycleOf("plant") > 5; }));
+    HeldEnd end;
+    const auto threads = threadsOf(agent.pid());
+    if (index >= threads.size()) return end;
+    end.thread = threads[index].second;
+    if (!hold(threads[index].first)) return {};
+    const auto asked = Clock::now();
+    kill(agent.pid(), SIGTERM);
+    end.code = endOf(agent.releasePid());
+    end.took = Clock::now() - asked;
+    end.output = agent.output();
+    return end;
+}
+
+TEST_F(EndOfAProcess, ComesWithAnyOneOfItsThreadsHeld) {
+    std::size_t held = 0;
+    for (std::size_t index = 0;; ++index) {
+        const HeldEnd end = endWithAThreadHeld(folder, system, options(), index);
+        if (end.thread.empty()) break;
+        ++held;
+        EXPECT_TRUE(end.code == 0 || end.code == 3) << end.thread << ": " << end.code;
+        EXPECT_LT(end.took, longestEnd) << end.thread << ": " << end.output;
+        if (end.code == 3) {
+            EXPECT_TRUE(end.output.find("hangs in ") != std::string::npos ||
+                        end.output.find("does not stop") != std::string::npos)
+                << end.thread << ": " << end.output;
+        }
+        RecordProperty(std::to_string(index) + " " + end.thread,
+                       std::to_string(std::chrono::duration<double>(end.took).count()));
+    }
+    EXPECT_GE(held, 10U);
+}
+
+}  // namespace
+}  // namespace cortex::test
