@@ -27,10 +27,11 @@ Exit listAgents(const LiveOptions& options) {
     columns.add({"agent", "host", "state", "rate", "age", "simplexes", "cycle", "loss", "cpus",
                  "security"});
     for (const auto& each : agents) {
+        const std::string cpus = pinnedCpus(live, each.name);
         columns.add({each.name, each.host, each.state, rateText(each),
                      std::to_string(milliseconds(each.age)) + " ms", std::to_string(each.simplexes),
                      std::to_string(each.cycle), std::to_string(each.loss),
-                     pinnedCpus(live, each.name), each.security.empty() ? "none" : each.security});
+                     cpus.empty() ? "-" : cpus, each.security.empty() ? "none" : each.security});
         if (!each.trouble.empty()) columns.addNote(each.trouble);
     }
     columns.print(std::cout);
