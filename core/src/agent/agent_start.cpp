@@ -235,14 +235,17 @@ std::uint32_t AgentRuntime::callsToAgents() const {
     return calls;
 }
 
-// The commands of a simplex without a task are executed at the start of the cycle.
+// The commands of a simplex without a task are executed at the start of the cycle; first those to
+// the agent itself, because they concern all others.
 void AgentRuntime::findTaskless() {
     for (std::uint32_t i = 0; i < ports_.size(); ++i) {
         if (ports_[i] == nullptr) continue;
         const bool hasTask = structure_->simplexes[i].role == Role::Active && i != agentSimplex_;
         if (!hasTask && (ports_[i]->hasLanes() || i == agentSimplex_)) taskless_.push_back(i);
     }
-    std::ranges::sort(taskless_, {}, [this](std::uint32_t i) { return present_.ranks[i]; });
+    std::ranges::sort(taskless_, {}, [this](std::uint32_t i) {
+        return std::pair{i != agentSimplex_, present_.ranks[i]};
+    });
 }
 
 void AgentRuntime::start() {

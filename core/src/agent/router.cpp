@@ -14,6 +14,11 @@ constexpr std::uint32_t knownSenders = 128;
 constexpr const char* forgotten =
     "its time was over when it came, and whether it had run before is forgotten";
 constexpr std::int64_t longestBudget = 3'600'000'000'000;  // ns: no record is kept for longer
+constexpr std::int64_t longestWait = 450'000'000;          // ns for what is missing
+
+std::int64_t periodOf(const AgentRuntime& runtime) {
+    return std::max(runtime.options().period, std::int64_t{1});
+}
 
 std::uint32_t largest(const AgentRuntime& runtime, std::uint32_t CommandTable::* size) {
     std::uint32_t result = 8;
@@ -28,7 +33,8 @@ std::uint32_t largest(const AgentRuntime& runtime, std::uint32_t CommandTable::*
 Router::Router(AgentRuntime& runtime, std::span<Lane* const> toAgents)
     : runtime_{runtime},
       structure_{runtime.structure()},
-      longestBudget_{longestBudget / std::max(runtime.options().period, std::int64_t{1})},
+      longestBudget_{longestBudget / periodOf(runtime)},
+      longestWait_{(longestWait + periodOf(runtime) - 1) / periodOf(runtime)},
       pool_(std::max(runtime.options().outsideCommands, 1U)),
       senders_{knownSenders, largest(runtime, &CommandTable::maxResponse)},
       leases_{runtime},
@@ -45,6 +51,7 @@ Router::Router(AgentRuntime& runtime, std::span<Lane* const> toAgents)
     arrivals_.reserve(pool_.size());
     active_.reserve(pool_.size());
     taskless_.reserve(pool_.size());
+    waits_.reserve(knownSenders);
     const auto answers = static_cast<std::uint32_t>(2 * pool_.size() + senderWindow);
     for (std::uint32_t i = 0; i < runtime.interfaces_.size(); ++i) {
         answers_.emplace_back(answers, response, calls_, i);
@@ -67,52 +74,63 @@ void Router::read(std::span<CommunicationInterface* const> interfaces) {
 }
 
 void Router::command(const OutsideCommand& command) {
-    Sender before;
     std::uint32_t index = 0;
-    Verdict verdict{Outcome::Rejected, Reason::Restarted, {}};
-    if (command.targetEpoch != structure_.epoch) {
-        verdict.why.emplace("it is meant for another start of this agent");
-        return refuse(command, verdict);
-    }
-    const auto found = senders_.find(interface_, command.sender, cycle(), index, before);
-    if (found == SenderTable::Found::Older) {
-        verdict.why.emplace("a later start of its sender is known");
-        return refuse(command, verdict);
-    }
-    verdict.reason = Reason::Window;
-    if (found == SenderTable::Found::NoRoom) {
-        verdict.why.emplace("too many senders");
-        return refuse(command, verdict);
-    }
-    if (found == SenderTable::Found::Restarted) senderLost(before);
+    if (!findSender(command, index)) return;
     SenderRecord& record = senders_[index];
-    record.acknowledge(command.answeredBelow);
+    acknowledge(record, command.answeredBelow);
     if (command.sequence < record.answeredBelow) return refuseAcknowledged(command, record);
     if (command.sequence - record.answeredBelow >= senderWindow) {
-        verdict.why.emplace("too many of its sender are unanswered");
-        return refuse(command, verdict);
+        return refuse(command,
+                      {Outcome::Rejected, Reason::Window, "too many of its sender are unanswered"});
     }
     KeptOutcome& kept = record.kept(command.sequence);
-    if (kept.stage != Stage::Empty) return repeat(kept, command.sender);
-    verdict = {};
+    if (kept.stage != Stage::Empty) return repeat(kept, command);
+    Verdict verdict;
     judge(command, record, verdict);
+    const bool good = verdict.outcome == Outcome::Done;
+    if (good && isTooMuch(command, record)) return;  // it comes again
+    kept.stage = good ? Stage::Waiting : Stage::Final;
     kept.sequence = command.sequence;
     kept.simplex = command.simplex;
     kept.command = command.command;
+    kept.began = false;
     kept.size = 0;
     kept.answer = {};
-    record.lastNotAfter =
-        std::max(record.lastNotAfter, std::min(command.notAfter, cycle() + longestBudget_));
-    if (verdict.outcome == Outcome::Done) {
-        kept.stage = Stage::OnItsWay;
-        ++record.onTheirWay;
-        return admit(command, index);
+    if (!command.refused) {
+        record.lastNotAfter =
+            std::max(record.lastNotAfter, std::min(command.notAfter, cycle() + longestBudget_));
     }
-    kept.stage = Stage::Final;
+    if (good) return wait(command, index);
+    record.goOn(record.next);
     kept.answer.outcome = verdict.outcome;
     kept.answer.reason = verdict.reason;
     kept.answer.why = *verdict.why;
     refuse(command, verdict);
+}
+
+// False: it is refused, because its sender does not count or this is another start of the agent.
+bool Router::findSender(const OutsideCommand& command, std::uint32_t& record) {
+    Verdict verdict{Outcome::Rejected, Reason::Restarted, {}};
+    Sender before;
+    auto found = SenderTable::Found::Older;
+    if (command.targetEpoch != structure_.epoch) {
+        verdict.why.emplace("it is meant for another start of this agent");
+    } else {
+        found = senders_.find(interface_, command.sender, cycle(), record, before);
+        if (found == SenderTable::Found::Older) {
+            senders_[record].refuse(command.sender.epoch, command.sequence);
+            verdict.why.emplace("a later start of its sender is known");
+        } else if (found == SenderTable::Found::NoRoom) {
+            verdict.reason = Reason::Window;
+            verdict.why.emplace("too many senders");
+        }
+    }
+    if (verdict.why) return refuse(command, verdict), false;
+    if (found == SenderTable::Found::Restarted) {
+        refuseWaiting(senders_[record], Outcome::Expired, "its sender has started anew");
+        senderLost(before);
+    }
+    return true;
 }
 
 // A late repeat needs no answer: its sender has it. But a number that never came was acknowledged
@@ -124,11 +142,13 @@ void Router::refuseAcknowledged(const OutsideCommand& command, SenderRecord& sen
                      "another command of its sender said that this one was answered"});
 }
 
-// Leaves Done where the command may go on its way.
+// What needs no order. Leaves Done where the command may wait for its turn.
 void Router::judge(const OutsideCommand& command, const SenderRecord& sender,
                    Verdict& verdict) const {
     const bool over = isOver(command.notAfter, command.until, began_);
-    if (over && sender.unsure) {
+    if (command.refused) {
+        verdict = {Outcome::Rejected, Reason::None, "it was refused when it first came"};
+    } else if (over && sender.unsure) {
         verdict = {Outcome::Unknown, Reason::None, forgotten};
     } else if (over) {
         verdict = {Outcome::Expired, Reason::None, "its time was over when it came"};
@@ -143,12 +163,10 @@ void Router::judge(const OutsideCommand& command, const SenderRecord& sender,
         verdict = {Outcome::Rejected, Reason::UnknownCommand, "its request has another size"};
     } else if (free_.empty()) {
         verdict = {Outcome::MailboxFull, Reason::None, "too many commands are on their way"};
-    } else {
-        authorise(command, verdict);
     }
 }
 
-void Router::admit(const OutsideCommand& command, std::uint32_t record) {
+OutsideEntry& Router::admit(const OutsideCommand& command, std::uint32_t record) {
     OutsideEntry& entry = *free_.back();
     free_.pop_back();
     entry.sender = command.sender;
@@ -165,20 +183,24 @@ void Router::admit(const OutsideCommand& command, std::uint32_t record) {
     entry.answer = {};
     entry.answer.outcome = Outcome::Running;
     entry.fresh = false;
+    entry.queued = false;
+    entry.withdrawn = false;
     entry.watched = LifeCycle::None;
     entry.moved = false;
     std::copy_n(command.request, command.size, entry.request);
-    arrivals_.push_back(&entry);
+    return entry;
 }
 
-void Router::repeat(const KeptOutcome& kept, const Sender& sender) {
-    if (kept.stage == Stage::OnItsWay) return;  // its answer will come
-    answer(interface_, {sender, kept.sequence, kept.simplex, kept.command, kept.answer.outcome,
-                        kept.answer.reason, kept.answer.why, kept.answer.latencyCycles,
-                        kept.answer.latency, kept.size, kept.response});
+void Router::repeat(const KeptOutcome& kept, const OutsideCommand& command) {
+    if (kept.stage == Stage::Waiting || kept.stage == Stage::OnItsWay) return;  // answered later
+    if (command.refused) return;
+    answer(interface_, {command.sender, kept.sequence, kept.simplex, kept.command,
+                        kept.answer.outcome, kept.answer.reason, kept.answer.why,
+                        kept.answer.latencyCycles, kept.answer.latency, kept.size, kept.response});
 }
 
 void Router::refuse(const OutsideCommand& command, const Verdict& verdict) {
+    if (command.refused) return;  // its transport has answered
     AnswerHead head;
     head.outcome = verdict.outcome;
     head.reason = verdict.reason;
@@ -191,6 +213,7 @@ void Router::refuse(const OutsideCommand& command, const Verdict& verdict) {
 
 // In canonical order: whatever the order in which interfaces handed them over.
 void Router::deliver() {
+    deliverWaiting();
     std::ranges::sort(arrivals_, [](const auto* a, const auto* b) { return a->before(*b); });
     for (OutsideEntry* entry : arrivals_) {
         active_.push_back(entry);
@@ -225,6 +248,7 @@ void Router::publish(OutsideEntry& entry) {
     entry.fresh = false;
     if (known && kept.sequence == entry.sequence && kept.stage != Stage::Empty) {
         kept.stage = entry.final() ? Stage::Final : Stage::Running;
+        kept.began = kept.began && head.outcome != Outcome::Expired;
         kept.answer = head;
         kept.size = size;
         std::copy_n(entry.response, size, kept.response);
@@ -233,12 +257,12 @@ void Router::publish(OutsideEntry& entry) {
            {entry.sender, entry.sequence, entry.simplex, entry.command, head.outcome, head.reason,
             head.why, head.latencyCycles, head.latency, size, entry.response});
     if (!entry.final()) return;
-    const std::uint32_t request =
-        runtime_.commands(entry.simplex).entries[entry.command].request.size;
-    report({entry.sender, 0, entry.sequence, 0, entry.notAfter, entry.until, entry.simplex,
-            entry.command, request, entry.request, entry.onBehalfOf},
-           head);
+    report(messageOf(entry), head);
     if (known) --record.onTheirWay;
+    release(entry);
+}
+
+void Router::release(OutsideEntry& entry) {
     entry.simplex = noSimplex;
     free_.push_back(&entry);
 }
@@ -249,9 +273,21 @@ void Router::answer(std::uint32_t interface, const OutsideAnswer& answer) {
           EventText{"an answer to "} << answer.sender.nameText() << " was dropped: too many");
 }
 
+// For report().
+OutsideCommand Router::messageOf(const OutsideEntry& entry) const {
+    OutsideCommand message;
+    message.sender = entry.sender;
+    message.onBehalfOf = entry.onBehalfOf;
+    message.simplex = entry.simplex;
+    message.command = entry.command;
+    message.size = runtime_.commands(entry.simplex).entries[entry.command].request.size;
+    message.request = entry.request;
+    return message;
+}
+
 // "operator@desk: zero(speed=0.5): Done in 2 cycles". Renewals that succeed would drown the rest.
 void Router::report(const OutsideCommand& command, const AnswerHead& answer) {
-    if (answer.outcome == Outcome::Done && isRenewal(command)) return;
+    if (answer.outcome == Outcome::Done && isRenewal(command.simplex, command.command)) return;
     EventText text{command.sender.nameText()};
     if (command.sender.host.front() != '\0') text << "@" << command.sender.host.data();
     if (command.onBehalfOf.front() != '\0') text << " for " << command.onBehalfOf.data();
@@ -289,6 +325,9 @@ void Router::write(std::span<CommunicationInterface* const> interfaces) {
 }
 
 void Router::stop() {
+    for (const std::uint32_t record : waits_) {
+        refuseWaiting(senders_[record], Outcome::Cancelled, "the agent stopped");
+    }
     for (OutsideEntry* entry : active_) {
         if (!entry->fresh) {
             entry->settle({Outcome::Cancelled, Reason::None, "the agent stopped"},

@@ -58,20 +58,42 @@ private:
     using Stage = KeptOutcome::Stage;
 
     // router.cpp: on their way in and out.
+    bool findSender(const OutsideCommand& command, std::uint32_t& record);
     void refuseAcknowledged(const OutsideCommand& command, SenderRecord& sender);
     void judge(const OutsideCommand& command, const SenderRecord& sender, Verdict& verdict) const;
-    void admit(const OutsideCommand& command, std::uint32_t record);
-    void repeat(const KeptOutcome& kept, const Sender& sender);
+    OutsideEntry& admit(const OutsideCommand& command, std::uint32_t record);
+    void repeat(const KeptOutcome& kept, const OutsideCommand& command);
     void refuse(const OutsideCommand& command, const Verdict& verdict);
     void deliver();
     void publish(OutsideEntry& entry);
+    void release(OutsideEntry& entry);
     void answer(std::uint32_t interface, const OutsideAnswer& answer);
+    OutsideCommand messageOf(const OutsideEntry& entry) const;
     void report(const OutsideCommand& command, const AnswerHead& answer);
 
+    // router_order.cpp: when they go on their way.
+    bool isUrgent(std::uint32_t simplex, std::uint32_t command) const;
+    bool isTooMuch(const OutsideCommand& command, const SenderRecord& sender) const;
+    void acknowledge(SenderRecord& sender, std::uint64_t below);
+    void wait(const OutsideCommand& command, std::uint32_t record);
+    std::int64_t patienceWith(const OutsideCommand& command) const;
+    void deliverWaiting();
+    void deliverWaitingOf(SenderRecord& sender);
+    void refuseWaiting(SenderRecord& sender, Outcome outcome, std::string_view why);
+    void judgeTurn(const OutsideEntry& entry, const SenderRecord& sender, Verdict& verdict) const;
+    void begin(OutsideEntry& entry, SenderRecord& sender);
+    bool isOvertaken(const OutsideEntry& entry, const SenderRecord& sender) const;
+    bool actsFirst(const OutsideEntry& entry) const;
+    bool wouldOvertake(const OutsideEntry& entry, const OutsideEntry& earlier) const;
+    bool mustLetGo(const OutsideEntry& entry) const;
+    void withdrawEarlier(const OutsideEntry& entry);
+    bool concernEachOther(std::uint32_t simplex, std::uint32_t other) const;
+
     // router_control.cpp: who may, and life-cycle commands.
-    void authorise(const OutsideCommand& command, Verdict& verdict) const;
+    void authorise(const OutsideEntry& entry, Verdict& verdict) const;
     void setControlHandlers();
-    bool isRenewal(const OutsideCommand& command) const;
+    bool isRenewal(std::uint32_t simplex, std::uint32_t command) const;
+    bool isControl(std::uint32_t simplex, std::uint32_t command) const;
     template <Outcome (Router::*Method)(Call&)>
     void setControlHandler(std::string_view command);
     std::string_view argument(Call& call, std::string_view command, std::string_view name) const;
@@ -90,15 +112,18 @@ private:
     const Structure& structure_;
     std::uint32_t interface_ = 0;  // that is being read
     std::int64_t longestBudget_;   // cycles
+    std::int64_t longestWait_;     // cycles for what is missing
+    std::size_t waiting_ = 0;      // for what is missing, about
+    bool takesControl_ = false;    // a command about control goes to its queue in this cycle
     ChunkClock began_;             // the loop thread's clock when the cycle began
     std::vector<OutsideEntry> pool_;
     std::vector<std::byte> records_;
     std::vector<OutsideEntry*> free_, arrivals_, active_;
-    std::vector<std::uint32_t> taskless_;
-    std::vector<const std::int64_t*> states_;     // the item `state` of each simplex, or null
-    std::uint32_t renewal_ = CommandTable::none;  // the agent's command renewControl
-    std::vector<std::uint32_t> leaseMinded_;      // simplexes whose type minds losing control
-    std::vector<AnswerQueue> answers_;            // by interface
+    std::vector<std::uint32_t> taskless_, waits_;  // simplexes; records of senders
+    std::vector<const std::int64_t*> states_;      // the item `state` of each simplex, or null
+    std::uint32_t renewal_ = CommandTable::none;   // the agent's command renewControl
+    std::vector<std::uint32_t> leaseMinded_;       // simplexes whose type minds losing control
+    std::vector<AnswerQueue> answers_;             // by interface
     SenderTable senders_;
     LeaseTable leases_;
     LinkTable links_;

@@ -30,23 +30,19 @@ void settle(OutsideEntry& entry, const Verdict& verdict, const ChunkClock& clock
 
 }  // namespace
 
-// `shutdown`, `cancel` and the commands about control itself are free; a command with a prefix to
-// the agent goes to everything below it.
-void Router::authorise(const OutsideCommand& command, Verdict& verdict) const {
-    const auto& entry = runtime_.commands(command.simplex).entries[command.command];
-    if (entry.name == "shutdown" || entry.name == "cancel") return;
-    std::string_view path = structure_.simplexes[command.simplex].path;
-    bool wide = false;
-    if (command.simplex == runtime_.agentSimplex()) {
-        if (std::ranges::find(controlCommands, entry.name) != controlCommands.end()) return;
-        wide = takesText(entry.request, "prefix");
-        if (wide) path = textIn(entry.request, "prefix", command.request);
-    }
-    if (const Lease* lease = leases_.other(path, wide, command.sender)) {
+// What is urgent and the commands about control itself are free; a command with a prefix to the
+// agent goes to everything below it.
+void Router::authorise(const OutsideEntry& entry, Verdict& verdict) const {
+    if (isUrgent(entry.simplex, entry.command) || isControl(entry.simplex, entry.command)) return;
+    const RecordLayout& request = runtime_.commands(entry.simplex).entries[entry.command].request;
+    std::string_view path = structure_.simplexes[entry.simplex].path;
+    const bool wide = entry.simplex == runtime_.agentSimplex() && takesText(request, "prefix");
+    if (wide) path = textIn(request, "prefix", entry.request);
+    if (const Lease* lease = leases_.other(path, wide, entry.sender)) {
         EventText why{lease->prefix.view()};
         verdict = {Outcome::Rejected, Reason::Authority,
                    why << " is held by " << lease->holder.nameText()};
-    } else if (runtime_.options().controlRequired && !leases_.covered(path, command.sender)) {
+    } else if (runtime_.options().controlRequired && !leases_.covered(path, entry.sender)) {
         verdict = {Outcome::Rejected, Reason::Authority, "control is required: take it first"};
     }
 }
@@ -75,9 +71,15 @@ void Router::setControlHandlers() {
     }
 }
 
-bool Router::isRenewal(const OutsideCommand& command) const {
-    return command.simplex == runtime_.agentSimplex() && command.command == renewal_ &&
+bool Router::isRenewal(std::uint32_t simplex, std::uint32_t command) const {
+    return simplex == runtime_.agentSimplex() && command == renewal_ &&
            renewal_ != CommandTable::none;
+}
+
+bool Router::isControl(std::uint32_t simplex, std::uint32_t command) const {
+    if (simplex != runtime_.agentSimplex()) return false;
+    const auto& name = runtime_.commands(simplex).entries[command].name;
+    return std::ranges::find(controlCommands, name) != controlCommands.end();
 }
 
 std::string_view Router::argument(Call& call, std::string_view command,
@@ -105,6 +107,8 @@ Outcome Router::releaseControl(Call& call) {
 }
 
 void Router::senderLost(const Sender& sender) {
+    SenderRecord* known = senders_.known(interface_, sender);
+    if (known != nullptr) refuseWaiting(*known, Outcome::Expired, "its sender is gone");
     for (const OutsideEntry* entry : active_) {
         if (entry->sender != sender || isLifeCycle(*entry)) continue;
         const Command* command = runtime_.commands(entry->simplex).entries[entry->command].command;

@@ -192,8 +192,11 @@ void CommandPort::drainOutside() {
     while (outside_ != nullptr) {
         OutsideEntry& entry = *outside_;
         outside_ = entry.next;
+        entry.queued = false;
         Verdict verdict;
-        if (isOver(entry.notAfter, entry.until, thread_->clock)) {
+        if (entry.withdrawn) {
+            verdict = {Outcome::Expired, Reason::None, "a later command of its sender went first"};
+        } else if (isOver(entry.notAfter, entry.until, thread_->clock)) {
             verdict = {Outcome::Expired, Reason::None, "its time was over before its turn"};
         } else {
             try {

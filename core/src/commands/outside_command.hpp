@@ -30,7 +30,11 @@ struct OutsideEntry {
     std::int64_t readCycle = 0, readTime = 0;
     std::byte* request = nullptr;
     std::byte* response = nullptr;
-    OutsideEntry* next = nullptr;  // in the queue of the simplex
+    // In the list of its sender while it waits, then in the queue of the simplex.
+    OutsideEntry* next = nullptr;
+    std::int64_t waitUntil = 0;  // cycle; then it goes on without what is missing below it
+    bool queued = false;         // on its way to a queue or in one, not begun
+    bool withdrawn = false;      // a later command of its sender went first: it does not run
 
     AnswerHead answer;
     bool fresh = false;  // the router has not seen this answer
@@ -51,6 +55,12 @@ struct OutsideEntry {
         answer.latencyCycles = clock.cycle - readCycle;
         answer.latency = clock.nanoseconds > readTime ? clock.nanoseconds - readTime : 0;
         fresh = true;
+    }
+    // Of the same sender: `other` was sent later, maybe by a later start.
+    bool earlier(const OutsideEntry& other) const CORTEX_REALTIME {
+        if (senderRecord != other.senderRecord || sender.name != other.sender.name) return false;
+        if (sender.epoch != other.sender.epoch) return sender.epoch < other.sender.epoch;
+        return sequence < other.sequence;
     }
     // Canonical order of commands from outside.
     bool before(const OutsideEntry& other) const CORTEX_REALTIME {

@@ -39,6 +39,9 @@ struct OutsideCommand {
     std::uint32_t size = 0;
     const std::byte* request = nullptr;    // valid during the call only
     std::array<char, 32> onBehalfOf = {};  // who is behind it, as its sender says; often empty
+    // The transport has answered it. Its number is used, so later ones do not wait for it; of the
+    // rest only sender, targetEpoch, sequence and answeredBelow count.
+    bool refused = false;
 };
 
 struct OutsideAnswer {
