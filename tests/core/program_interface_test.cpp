@@ -289,21 +289,28 @@ TEST_F(PreparedCommands, AreAnsweredByNames) {
 TEST_F(PreparedCommands, AreNotToBeSentWhenTooManyAreOnTheirWay) {
     for (std::uint32_t i = 0; i < senderWindow; ++i) ASSERT_TRUE(prepare().open);
 
-    EXPECT_FALSE(prepare().open);
-    ASSERT_TRUE(client.poll(senderWindow + 1, result));
+    const PreparedCommand refused = prepare();
+    EXPECT_FALSE(refused.open);
+    ASSERT_TRUE(client.poll(refused.message.sequence, result));
     EXPECT_EQ(result.outcome, Outcome::MailboxFull);
     client.take(1, Outcome::Done, Reason::None, "", 1, {});
+    EXPECT_TRUE(prepare().open);
     EXPECT_FALSE(prepare().open);
     client.take(2, Outcome::Done, Reason::None, "", 1, {});
-    client.take(3, Outcome::Done, Reason::None, "", 1, {});
     EXPECT_TRUE(prepare().open);
 }
 
-TEST_F(PreparedCommands, ThatCouldNotBeSentAreAnswered) {
-    client.refuse(prepare().message.sequence);
+TEST_F(PreparedCommands, ThatAreNotSentAreAnsweredAndUseNoNumber) {
+    const auto refused = client.takeBack(prepare(), Outcome::Expired, "it is not heard");
 
-    ASSERT_TRUE(client.poll(1, result));
-    EXPECT_EQ(result.outcome, Outcome::MailboxFull);
+    ASSERT_TRUE(client.poll(refused, result));
+    EXPECT_EQ(result.text(), "Expired: it is not heard");
+    for (std::uint32_t i = 0; i < senderWindow; ++i) {
+        EXPECT_EQ(prepare().message.sequence, i + 1U);
+    }
+    EXPECT_FALSE(prepare().open);
+    client.take(1, Outcome::Done, Reason::None, "", 1, {});
+    EXPECT_EQ(prepare().message.sequence, senderWindow + 1U) << "nothing was left out";
 }
 
 TEST(CommandClient, KeepsTheLastThousandResultsThatNobodyFetched) {

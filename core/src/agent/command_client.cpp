@@ -13,6 +13,7 @@ namespace cortex {
 namespace {
 
 constexpr std::size_t keptResults = 1000;
+constexpr const char* tooMany = "too many commands of this sender are on their way";
 
 }  // namespace
 
@@ -20,9 +21,8 @@ std::uint64_t CommandClient::post(CommandPipe& pipe, std::string_view path,
                                   std::string_view command, const Arguments& arguments,
                                   Validity validity) {
     const PreparedCommand prepared = prepare(pipe.tables(), path, command, arguments, validity);
-    const std::uint64_t sequence = prepared.message.sequence;
-    if (prepared.open && !pipe.push(prepared.message, prepared.request())) refuse(sequence);
-    return sequence;
+    const bool sent = !prepared.open || pipe.push(prepared.message, prepared.request());
+    return sent ? prepared.message.sequence : takeBack(prepared, Outcome::MailboxFull, tooMany);
 }
 
 PreparedCommand CommandClient::prepare(const CommandTables& tables, std::string_view path,
@@ -38,18 +38,28 @@ PreparedCommand CommandClient::prepare(const CommandTables& tables, std::string_
     message.sender = sender_;
     message.targetEpoch = tables.structure().epoch;
     message.answeredBelow = answeredBelow();
-    message.sequence = next_++;
     message.notAfter = validity.notAfter;
     message.until = validity.until;
-    unanswered_[message.sequence] = {};
-    prepared.open = message.sequence - message.answeredBelow < senderWindow;
-    if (!prepared.open) refuse(message.sequence);
+    prepared.open = next_ - message.answeredBelow < senderWindow;
+    message.sequence = prepared.open ? next_++ : refuse(Outcome::MailboxFull, tooMany);
+    if (prepared.open) unanswered_[message.sequence] = {};
     return prepared;
 }
 
-void CommandClient::refuse(std::uint64_t sequence) {
-    take(sequence, Outcome::MailboxFull, Reason::None,
-         "too many commands of this sender are on their way", 0, {});
+std::uint64_t CommandClient::takeBack(const PreparedCommand& prepared, Outcome outcome,
+                                      std::string why) {
+    if (!prepared.open) return prepared.message.sequence;
+    next_ = prepared.message.sequence;
+    unanswered_.erase(next_);
+    return refuse(outcome, std::move(why));
+}
+
+std::uint64_t CommandClient::refuse(Outcome outcome, std::string why) {
+    CallResult result;
+    result.outcome = outcome;
+    result.why = std::move(why);
+    keep(nextTicket_, std::move(result));
+    return nextTicket_++;
 }
 
 // A long one that runs holds up nothing: Running was its answer, the last one follows by itself.
@@ -81,7 +91,10 @@ void CommandClient::take(std::uint64_t sequence, Outcome outcome, Reason reason,
 void CommandClient::finish(std::uint64_t sequence, CallResult result) {
     const bool abandoned = unanswered_[sequence].abandoned;
     unanswered_.erase(sequence);
-    if (abandoned) return;
+    if (!abandoned) keep(sequence, std::move(result));
+}
+
+void CommandClient::keep(std::uint64_t sequence, CallResult result) {
     results_[sequence] = std::move(result);
     if (results_.size() > keptResults) results_.erase(results_.begin());
 }

@@ -67,6 +67,16 @@ bool CommandPipe::push(const OutsideCommand& command, const std::byte* record) {
     return true;
 }
 
+bool CommandPipe::skip(const OutsideCommand& command) {
+    OutsideCommand number;
+    number.sender = command.sender;
+    number.targetEpoch = command.targetEpoch;
+    number.sequence = command.sequence;
+    number.answeredBelow = command.answeredBelow;
+    number.refused = true;
+    return push(number, nullptr);
+}
+
 void CommandPipe::read(Inbox& inbox) {
     for (std::size_t i = 0; i < commands_.size(); ++i) {
         const OutsideCommand* command = commands_.front();

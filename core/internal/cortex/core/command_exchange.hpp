@@ -52,6 +52,9 @@ public:
 
     // False: full. `record` is copied.
     bool push(const OutsideCommand& command, const std::byte* record);
+    // A command that is answered without the loop: later ones do not wait for its number. Of
+    // `command` sender, targetEpoch, sequence and answeredBelow count. False: full.
+    bool skip(const OutsideCommand& command);
     // The next answer, valid until popAnswer(); null: none.
     const OutsideAnswer* answer() { return answers_.front(); }
     void popAnswer() { answers_.pop(); }
@@ -98,7 +101,7 @@ private:
 };
 
 // A command that is numbered and encoded. Not open: its sender has too many on their way; it is
-// answered MailboxFull already and not to be sent.
+// answered MailboxFull already and not to be sent. Then its number is a ticket (see CommandClient).
 struct PreparedCommand {
     OutsideCommand message;             // without `request`
     std::vector<std::uint64_t> record;  // message.size bytes
@@ -108,10 +111,13 @@ struct PreparedCommand {
 };
 
 // One sender's side of its commands to one agent: sequence numbers, what is unanswered, and answers
-// until they are fetched (the last thousand). Used under its owner's mutex.
+// until they are fetched (the last thousand). Used under its owner's mutex. The agent waits for a
+// number that it misses, so what is not sent has none, but a ticket from `firstTicket` on.
 class CommandClient {
 public:
     using Arguments = ProgramInterface::Arguments;
+
+    static constexpr std::uint64_t firstTicket = std::uint64_t{1} << 63U;
 
     explicit CommandClient(Sender sender) : sender_{sender} {}
 
@@ -119,11 +125,13 @@ public:
     // Throws Error as ProgramInterface::post(). Full pipes and windows answer MailboxFull.
     std::uint64_t post(CommandPipe& pipe, std::string_view path, std::string_view command,
                        const Arguments& arguments, Validity validity);
-    // The first half of post(), for another transport; refuse() where that could not send it.
+    // The first half of post(), for another transport; takeBack() where that cannot send it.
     PreparedCommand prepare(const CommandTables& tables, std::string_view path,
                             std::string_view command, const Arguments& arguments,
                             Validity validity);
-    void refuse(std::uint64_t sequence);  // MailboxFull
+    // The command that was prepared last is not sent: its number is free again, and the ticket
+    // that this returns has the answer.
+    std::uint64_t takeBack(const PreparedCommand& prepared, Outcome outcome, std::string why);
 
     void take(const OutsideAnswer& answer, const CommandPipe& pipe);
     void take(std::uint64_t sequence, Outcome outcome, Reason reason, std::string why,
@@ -139,10 +147,12 @@ private:
         bool abandoned = false;  // its answer will not be fetched
     };
     std::uint64_t answeredBelow() const;
+    std::uint64_t refuse(Outcome outcome, std::string why);
     void finish(std::uint64_t sequence, CallResult result);
+    void keep(std::uint64_t sequence, CallResult result);
 
     Sender sender_;
-    std::uint64_t next_ = 1;
+    std::uint64_t next_ = 1, nextTicket_ = firstTicket;
     std::map<std::uint64_t, Asked> unanswered_;
     std::map<std::uint64_t, CallResult> results_;
 };
