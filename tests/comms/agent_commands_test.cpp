@@ -4,6 +4,8 @@
 
 #include "cortex/core/clock.hpp"
 
+#include "comms/secured_plant.hpp"
+#include "security/security_identity.hpp"
 #include "support/agent_rig.hpp"
 #include "wire/ids.hpp"
 #include "wire/presence_extras.hpp"
@@ -22,22 +24,24 @@ constexpr int room = 256;  // of the pipe into the loop
 
 class CommandsOnly final : public CommunicationInterface {
 public:
+    explicit CommandsOnly(SecurityIdentity* known = nullptr) : identity{known} {}
     void announce(const AgentAccess& agent) override {
         self = std::make_unique<AgentSelf>(agent);
         commands = std::make_unique<AgentCommands>(
-            *self, [this](const Answer& answer) { answers.push_back(answer); });
+            *self, [this](const Answer& answer) { answers.push_back(answer); }, identity);
     }
     void read(Inbox& inbox) override { commands->read(inbox); }
     void write(std::int64_t, Outbox& outbox) override { commands->write(outbox); }
     void close() override {}
 
+    SecurityIdentity* identity;
     std::unique_ptr<AgentSelf> self;
     std::unique_ptr<AgentCommands> commands;
     std::vector<Answer> answers;
 };
 
 struct AgentCommandsTest : testing::Test {
-    AgentCommandsTest() {
+    explicit AgentCommandsTest(SecurityIdentity* known = nullptr) : network{known} {
         rig.add(network);
         rig.make();
         worker.on("poke", [this](Call&) {
@@ -93,6 +97,29 @@ TEST_F(AgentCommandsTest, ThatTheLoopCannotTakeAreAnswered) {
     step();
     EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"MailboxFull", 20}, {"Done", room}}));
     EXPECT_EQ(pokes, room);
+}
+
+// Those of tool0 have the numbers 1, 2, 3, …
+TEST_F(AgentCommandsTest, ThatTheLoopCannotTakeHoldUpNoLaterOnes) {
+    for (int i = 0; i < room + 1; ++i) send(i);
+    step();
+    send(room + 4);
+    step();
+
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"MailboxFull", 1}, {"Done", room + 1}}));
+}
+
+TEST_F(AgentCommandsTest, ThatAreRefusedBesideTheLoopHoldUpNoLaterOnes) {
+    Command unknown = commandOf(0);
+    unknown.command = "dance";
+    network.commands->take(unknown, monotonicNow());
+    send(4);
+    step();
+
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Rejected", 1}, {"Done", 1}}));
+    send(0);  // its sender may have read the answer
+    step();
+    EXPECT_EQ(pokes, 1);
 }
 
 // Its sender may have read the answer: it must stay true.
@@ -156,6 +183,37 @@ TEST_F(AgentCommandsTest, CommandWhoseTimeIsOverByTheClockOfItsTargetIsExpired) 
 
     EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Done", 1}, {"Expired", 1}}));
     EXPECT_EQ(pokes, 1);
+}
+
+struct Secured {
+    SecuredPlant plant;
+    SecurityIdentity robot{plant.make("rig"), "rig", 0};
+    SecurityIdentity tool{plant.make("tool0", {"/worker"}), "tool0", 0};
+};
+
+struct SecuredAgentCommands : Secured, AgentCommandsTest {
+    SecuredAgentCommands() : AgentCommandsTest{&robot} {}
+
+    // Number n of tool0.
+    void take(int number, const char* name, bool isSigned) {
+        Command command = commandOf(4 * (number - 1));
+        command.command = name;
+        if (isSigned) tool.sign(command);
+        network.commands->take(command, monotonicNow());
+    }
+};
+
+// Otherwise anybody could let a command of somebody else overtake an earlier one.
+TEST_F(SecuredAgentCommands, OnlyTheirSenderLetsANumberCountAsCome) {
+    take(2, "poke", true);
+    take(1, "dance", false);
+    step();
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Rejected", 1}}));
+    EXPECT_EQ(pokes, 0);
+    take(1, "dance", true);
+    step();
+
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Rejected", 2}, {"Done", 1}}));
 }
 
 }  // namespace

@@ -368,6 +368,39 @@ TEST_F(MirrorCommandsTest, AreRepeatedAsTheyAreUntilTheyAreAnswered) {
     EXPECT_EQ(sent.size(), 2U);
 }
 
+// The agent lets all later ones wait for it.
+TEST_F(MirrorCommandsTest, OldestWithoutAnAnswerIsSentMostOften) {
+    send("poke");
+    send("poke");
+    for (int i = 0; i < 1000; ++i) tick(begin + i * 1ms);
+    const auto sentOf = [&](std::uint64_t number) {
+        return std::ranges::count(sent, number, &Command::sequenceNumber);
+    };
+    EXPECT_EQ(sentOf(1), 28) << "at 0, 5, 15, 35, 75, 115, … ms";
+    EXPECT_EQ(sentOf(2), 10) << "at 0, 5, 15, 35, 75, 155, 315, 515, … ms";
+    Answer message = answer("Done");
+    message.sequenceNumber = 1;
+    commands.take(message);
+    sent.clear();
+    for (int i = 1000; i < 1041; ++i) tick(begin + i * 1ms);
+
+    EXPECT_EQ(sentOf(2), 4) << "at once, as it waited longer than 5 ms, and 5, 15, 35 ms later";
+}
+
+TEST_F(MirrorCommandsTest, UseNoNumberForWhatIsNotSent) {
+    send("poke");
+    auto target = agents.find("rig")->target();
+    target.lost = true;
+    const std::uint64_t number = commands.send(target, "/work/one", "poke", {}, 100ms, begin);
+    send("poke");
+    tick(begin);
+
+    ASSERT_TRUE(commands.poll(number, result));
+    EXPECT_EQ(result.outcome, Outcome::Expired);
+    ASSERT_EQ(sent.size(), 2U);
+    EXPECT_EQ(sent[1].sequenceNumber, 2U);
+}
+
 TEST_F(MirrorCommandsTest, AreUnknownWithoutAnAnswerInTheirTime) {
     const std::uint64_t number = send("poke");
     tick(begin + 1s);

@@ -91,18 +91,21 @@ void AgentCommands::take(const Command& command, std::int64_t now) {
         return refuse(command, {Outcome::Rejected, Reason::Restarted,
                                 "it is meant for another start of this agent"});
     }
+    HeardSender& from = senders_[command.sender];
     OutsideCommand message;
     std::vector<std::uint64_t> record;
     Refusal refusal{};
-    if (!encode(command, message, record, refusal)) return refuse(command, refusal);
-    if (!permitted(command, message, record, refusal)) return refuse(command, refusal);
+    const bool known = encode(command, message, record, refusal);
     message.sender = sender;
     message.targetEpoch = command.targetEpoch;
     message.sequence = command.sequenceNumber;
     message.answeredBelow = command.answeredBelow;
+    if (!known || !permitted(command, message, record, refusal)) {
+        if (isProven(command)) skip(message, from);
+        return refuse(command, refusal);
+    }
     message.notAfter = command.notAfter;
     message.until = static_cast<std::int64_t>(numberIn(command, validUntil));
-    HeardSender& from = senders_[command.sender];
     std::vector<Extra> origin = originOf(command);
     for (const Extra& each : origin) {
         if (each.name == onBehalfOf) put(each.value, message.onBehalfOf);
@@ -112,17 +115,39 @@ void AgentCommands::take(const Command& command, std::int64_t now) {
     if (!origin.empty() && origins.size() < 2 * senderWindow) {
         origins[message.sequence] = std::move(origin);
     }
-    if (from.turnedAway.contains(message.sequence)) return turnAway(command, from);
-    if (pipe_.push(message, reinterpret_cast<const std::byte*>(record.data()))) {
+    if (from.turnedAway.contains(message.sequence)) return turnAway(command, message, from);
+    if (passSkips(from) && pipe_.push(message, reinterpret_cast<const std::byte*>(record.data()))) {
         from.newest = std::max(from.newest, message.sequence);
     } else {
-        turnAway(command, from);
+        turnAway(command, message, from);
     }
+}
+
+// With security only who proves to be the sender may let one of its numbers count as come.
+bool AgentCommands::isProven(const Command& command) {
+    std::string why;
+    return identity_ == nullptr || identity_->rightsOf(command, why) != nullptr;
+}
+
+// The loop does not wait for the number of a command that is answered here. Without room in the
+// pipe it is told with the next command.
+void AgentCommands::skip(const OutsideCommand& message, HeardSender& from) {
+    if (from.sender.epoch != message.sender.epoch) return;
+    if (from.skips.size() < 2 * senderWindow) from.skips[message.sequence] = message;
+    passSkips(from);
+}
+
+bool AgentCommands::passSkips(HeardSender& from) {
+    while (!from.skips.empty() && pipe_.skip(from.skips.begin()->second)) {
+        from.skips.erase(from.skips.begin());
+    }
+    return from.skips.empty();
 }
 
 // The loop accepts no more commands. If it has this one already, the answer comes from the loop. A
 // command that was refused once stays refused: its sender may have read the answer.
-void AgentCommands::turnAway(const Command& command, HeardSender& from) {
+void AgentCommands::turnAway(const Command& command, const OutsideCommand& message,
+                             HeardSender& from) {
     self_.rejections.add("a command of " + command.sender + ": too many are on their way");
     auto& known = from.turnedAway;
     known.erase(known.begin(), known.lower_bound(command.answeredBelow));
@@ -130,6 +155,7 @@ void AgentCommands::turnAway(const Command& command, HeardSender& from) {
     if (!repeated) {
         if (command.sequenceNumber <= from.newest || known.size() >= 2 * senderWindow) return;
         known.insert(command.sequenceNumber);
+        skip(message, from);
     }
     refuse(command, {Outcome::MailboxFull, Reason::None, "too many commands are on their way"});
 }

@@ -49,6 +49,7 @@ private:
         std::uint64_t newest = 0;              // sequence number of the newest command in the loop
         std::set<std::uint64_t> turnedAway{};  // refused numbers that are not acknowledged
         std::map<std::uint64_t, std::vector<Extra>> origins{};  // of commands that say one
+        std::map<std::uint64_t, OutsideCommand> skips{};        // refused; the loop is to be told
     };
     struct Refusal {
         Outcome outcome;
@@ -59,7 +60,11 @@ private:
     bool remember(const Sender& sender, std::int64_t now);  // false: there are too many senders
     bool reportLost(const Sender& sender);                  // false: the loop has no room for it
     void refuse(const Command& command, const Refusal& refusal);
-    void turnAway(const Command& command, HeardSender& from);  // the loop accepts no more
+    // The loop accepts no more.
+    void turnAway(const Command& command, const OutsideCommand& message, HeardSender& from);
+    bool isProven(const Command& command);
+    void skip(const OutsideCommand& message, HeardSender& from);
+    bool passSkips(HeardSender& from);  // false: the pipe is full
     bool permitted(const Command& command, const OutsideCommand& message,
                    const std::vector<std::uint64_t>& record, Refusal& refusal);
     bool encode(const Command& command, OutsideCommand& message, std::vector<std::uint64_t>& record,

@@ -17,7 +17,8 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::size_t keptNumbers = 1000;
-constexpr std::chrono::milliseconds longestPause{200};
+constexpr std::chrono::milliseconds firstPause{5}, longestPause{200};
+constexpr std::chrono::milliseconds longestPauseOfOldest{40};
 // After this time no answer can come any more: the agent has let the command expire, and its answer
 // was lost.
 constexpr std::chrono::seconds grace{1};
@@ -56,13 +57,13 @@ std::uint64_t SentCommands::send(const CommandTarget& agent, std::string_view pa
         tables, path, command, arguments,
         {agent.cycle + unheardOf(agent, now) / period + cycles, untilOf(agent, budget, now)});
     const OutsideCommand& head = prepared.message;
-    numbers_[next_] = {name, head.sequence};
+    const bool sent = prepared.open && !agent.lost;
+    numbers_[next_] = {
+        name, sent ? head.sequence
+                   : target.client.takeBack(prepared, Outcome::Expired,
+                                            "agent " + name + " is not heard: it was not sent")};
     if (numbers_.size() > keptNumbers) numbers_.erase(numbers_.begin());
-    if (prepared.open && agent.lost) {
-        target.client.take(head.sequence, Outcome::Expired, Reason::None,
-                           "agent " + name + " is not heard: it was not sent", 0, {});
-    }
-    if (!prepared.open || agent.lost) return next_++;
+    if (!sent) return next_++;
 
     Pending pending;
     Command& message = pending.message;
@@ -140,25 +141,36 @@ void SentCommands::take(const Answer& answer) {
 }
 
 void SentCommands::tick(Moment now, const Write& write) {
-    for (auto& [name, target] : targets_) {
-        for (auto each = target.pending.begin(); each != target.pending.end();) {
-            Pending& pending = each->second;
-            if (pending.running || now < pending.next) {
-                ++each;
-                continue;
-            }
-            if (now >= pending.end) {
-                target.client.take(each->first, Outcome::Unknown, Reason::None,
-                                   "no answer within the time that the command had", 0, {});
-                each = target.pending.erase(each);
-                continue;
-            }
-            write(pending.message);
-            pending.next = std::min(now + pending.pause, pending.end);
-            pending.pause = std::min(2 * pending.pause, longestPause);
-            ++each;
+    for (auto& [name, target] : targets_) tick(target, now, write);
+}
+
+void SentCommands::tick(Target& target, Moment now, const Write& write) {
+    bool first = true;
+    for (auto each = target.pending.begin(); each != target.pending.end();) {
+        Pending& pending = each->second;
+        if (!pending.running && now >= pending.end) {
+            target.client.take(each->first, Outcome::Unknown, Reason::None,
+                               "no answer within the time that the command had", 0, {});
+            each = target.pending.erase(each);
+            continue;
         }
+        ++each;
+        if (pending.running) continue;
+        if (std::exchange(first, false)) pending.becomeOldest();
+        if (now < pending.next) continue;
+        write(pending.message);
+        pending.written = now;
+        pending.next = std::min(now + pending.pause, pending.end);
+        pending.pause =
+            std::min(2 * pending.pause, pending.oldest ? longestPauseOfOldest : longestPause);
     }
+}
+
+// All later ones may wait for it: its pauses begin anew and stay short.
+void SentCommands::Pending::becomeOldest() {
+    if (std::exchange(oldest, true)) return;
+    next = std::min(next, written + firstPause);
+    pause = firstPause;
 }
 
 void SentCommands::lose(const std::string& agent, const std::string& why) {

@@ -29,8 +29,9 @@ struct CommandTarget {
 };
 
 // The commands of one sender, a tool or an agent, and their answers. A command is sent again,
-// unchanged, until it is answered: agents recognise its number and execute it once. One thread at
-// a time.
+// unchanged, until it is answered: agents recognise its number and execute it once. The oldest one
+// without an answer is sent most often, because agents let later ones wait for it. One thread at a
+// time.
 class SentCommands {
 public:
     using Write = std::function<bool(const Command&)>;
@@ -58,9 +59,12 @@ public:
 private:
     struct Pending {
         Command message;
-        Moment next, end;
+        Moment next, end, written;
         std::chrono::milliseconds pause{5};
         bool running = false;
+        bool oldest = false;  // of those without an answer
+
+        void becomeOldest();
     };
     struct Target {
         explicit Target(const Sender& sender) : client{sender} {}
@@ -72,6 +76,8 @@ private:
         std::string agent;
         std::uint64_t sequence;
     };
+
+    static void tick(Target& target, Moment now, const Write& write);
 
     Sender sender_;
     std::string onBehalfOf_;
