@@ -54,11 +54,11 @@ public:
         gate_->filter.noteSent(datagram, monotonicNow());
         const std::vector<rtps::Message> pieces = rtps::piecesOf(datagram);
         if (pieces.empty()) return lower->send(octets, size, begin, end, timeout);
-        fastrtps::LocatorList to;
+        transport::LocatorList to;
         for (; *begin != *end; ++*begin) to.push_back(**begin);
         bool sent = true;
         for (const rtps::Message& each : pieces) {
-            fastrtps::Locators first{to.begin()}, last{to.end()};
+            transport::Locators first{to.begin()}, last{to.end()};
             sent = lower->send(each.data(), static_cast<std::uint32_t>(each.size()), &first, &last,
                                timeout) &&
                    sent;

@@ -60,8 +60,6 @@ bool hasFragments(Bytes datagram) {
     return has;
 }
 
-bool isOfSecurity(Kind kind) { return kind >= Kind::SecureBody && kind <= Kind::SignedPostfix; }
-
 std::string textOf(std::uint32_t address) {
     std::string text;
     for (int shift = 24; shift >= 0; shift -= 8) {

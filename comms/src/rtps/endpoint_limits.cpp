@@ -6,7 +6,7 @@
 namespace cortex::comms::rtps {
 namespace {
 
-constexpr std::int64_t interval = 1'000'000'000;  // ns, between two looks
+constexpr std::int64_t betweenLooks = 1'000'000'000;  // ns
 
 Prefix prefixOf(const WriterGuid& endpoint) {
     Prefix prefix;
@@ -46,7 +46,7 @@ void EndpointLimits::remove(const WriterGuid& endpoint) {
 }
 
 void EndpointLimits::forgetSilent(const ParticipantLimits& heard, std::int64_t now) {
-    if (now - lookedAt_ < interval) return;
+    if (now - lookedAt_ < betweenLooks) return;
     lookedAt_ = now;
     std::erase_if(announced_, [&](const auto& each) {
         if (heard.isHeard(each.first, now)) return false;

@@ -6,8 +6,6 @@
 namespace cortex::comms::rtps {
 namespace {
 
-bool isOfSecurity(Kind kind) { return kind >= Kind::SecureBody && kind <= Kind::SignedPostfix; }
-
 // A gap counts with what its writer sends behind it, see DatagramFilter.
 bool goesWithNext(Kind kind) {
     return kind == Kind::InfoTimestamp || kind == Kind::InfoDestination || kind == Kind::Gap;

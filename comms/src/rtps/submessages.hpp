@@ -33,6 +33,10 @@ enum class Kind : std::uint8_t {
     FirstOfVendors = 0x80,
 };
 
+inline bool isOfSecurity(Kind kind) {
+    return kind >= Kind::SecureBody && kind <= Kind::SignedPostfix;
+}
+
 struct Submessage {
     Kind kind;
     std::uint8_t flags;
