@@ -78,13 +78,19 @@ TEST_F(HostilePeer, BlocksThatLieDoNothingButCount) {
             writer->write(block);
         };
     };
-    const char* fits = "do not fit";
-    EXPECT_TRUE(rejects(fits, say([](Block&, SimplexData& values) { values.floats.clear(); })));
-    EXPECT_TRUE(rejects(fits, say([](Block&, SimplexData& values) { values.ints.push_back(1); })));
-    EXPECT_TRUE(rejects(fits, say([](Block&, SimplexData& values) { values.quality = 4; })));
-    EXPECT_TRUE(rejects(fits, say([](Block&, SimplexData& values) { values.time = -1; })));
-    EXPECT_TRUE(rejects(
-        fits, say([](Block&, SimplexData& values) { values.strings = {std::string(17, 'x')}; })));
+    const std::string of = "values of away for /far: ";
+    EXPECT_TRUE(rejects(of + "0 floats instead of 2",
+                        say([](Block&, SimplexData& values) { values.floats.clear(); })));
+    EXPECT_TRUE(rejects(of + "2 ints instead of 1",
+                        say([](Block&, SimplexData& values) { values.ints.push_back(1); })));
+    EXPECT_TRUE(rejects(of + "a quality that cannot be",
+                        say([](Block&, SimplexData& values) { values.quality = 4; })));
+    EXPECT_TRUE(rejects(of + "a stamp that cannot be", say([](Block&, SimplexData& values) {
+                            values.time = -(std::int64_t{1} << 60U);
+                        })));
+    EXPECT_TRUE(
+        rejects(of + "a string of 17 octets instead of 16 at most",
+                say([](Block&, SimplexData& values) { values.strings = {std::string(17, 'x')}; })));
     EXPECT_TRUE(rejects("of no simplex",
                         say([](Block&, SimplexData& values) { values.index = 0xffffffffU; })));
     EXPECT_TRUE(rejects("another structure",
@@ -98,6 +104,12 @@ TEST_F(HostilePeer, BlocksThatLieDoNothingButCount) {
                         })));
 
     EXPECT_EQ(near.rig.get<double>("/far", "a"), 7.0);
+    const auto events = near.rig.events();
+    const auto told = [&](const std::string& words) {
+        return std::ranges::count(events, "/far: values of away are refused: " + words);
+    };
+    EXPECT_EQ(told("0 floats instead of 2"), 1) << "once for each reason, on the simplex";
+    EXPECT_EQ(told("a stamp that cannot be"), 1);
 }
 
 // As a corrupt or spoofed one has it: all that follow look overtaken.

@@ -90,6 +90,26 @@ TEST(DdsLink, CarriesEveryKindOfItem) {
     EXPECT_TRUE(near.rig.get<bool>("/far", "on"));
 }
 
+// What was measured before its owner started: by a device, or by an agent that runs on.
+TEST(DdsLink, AStampBeforeTheStartComesThroughWithItsAge) {
+    NearAgent near;
+    AwayAgent away;
+    near.rig.start();
+    away.rig.start();
+    const std::uint32_t far = near.structure().find("/far");
+    const auto age = [&] {
+        return near.rig.tick.nominalTime - near.rig.agent->tables().live(far).state->time;
+    };
+    double value = 2;
+    for (const std::int64_t stamp :
+         {std::int64_t{-1}, std::int64_t{-3'600'000'000'000}, -(std::int64_t{1} << 59U)}) {
+        away.far.slot().time = stamp;
+        ASSERT_TRUE(linked(near, away, ++value)) << stamp << ": " << near.dds.lastRejection();
+        EXPECT_GE(age(), std::min(-stamp, std::int64_t{1} << 56U)) << stamp;
+        EXPECT_EQ(near.dds.rejected(), 0U) << near.dds.lastRejection();
+    }
+}
+
 TEST(DdsLink, CarriesTextUpToItsFirstNulAndOctetsThatAreNoText) {
     NearAgent near;
     AwayAgent away;

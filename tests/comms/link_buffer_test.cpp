@@ -3,6 +3,8 @@
 #include "support/small_structure.hpp"
 
 #include <atomic>
+#include <limits>
+#include <string>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -29,7 +31,7 @@ TEST_F(Values, OfASimplexTravelByKind) {
     EXPECT_EQ(data.strings, (std::vector<std::string>{"axis", "a", "b"}));
     data.strings = {"arm", "", "wxyz"};
 
-    ASSERT_TRUE(fits(data, layout));
+    ASSERT_EQ(misfit(data, layout), "");
     SliceMemory to{layout};
     storeValues(data, layout, to.slice());
     SimplexData again;
@@ -41,18 +43,37 @@ TEST_F(Values, ThatAreTooManyTooFewOrTooLongDoNotFit) {
     SliceMemory memory{layout};
     SimplexData good;
     readValues(0, layout, memory.slice(), good);
-    ASSERT_TRUE(fits(good, layout));
+    ASSERT_EQ(misfit(good, layout), "");
     const auto changed = [&](auto change) {
         SimplexData data = good;
         change(data);
-        return fits(data, layout);
+        return misfit(data, layout);
     };
-    EXPECT_FALSE(changed([](SimplexData& data) { data.ints.clear(); }));
-    EXPECT_FALSE(changed([](SimplexData& data) { data.floats.push_back(0); }));
-    EXPECT_FALSE(changed([](SimplexData& data) { data.bools.clear(); }));
-    EXPECT_FALSE(changed([](SimplexData& data) { data.strings.pop_back(); }));
-    EXPECT_FALSE(changed([](SimplexData& data) { data.strings[1] = "longer"; }));
-    EXPECT_FALSE(changed([](SimplexData& data) { data.quality = 4; }));
+    const std::string ints = std::to_string(good.ints.size());
+    EXPECT_EQ(changed([](SimplexData& data) { data.ints.clear(); }), "0 ints instead of " + ints);
+    EXPECT_NE(changed([](SimplexData& data) { data.floats.push_back(0); }), "");
+    EXPECT_NE(changed([](SimplexData& data) { data.bools.clear(); }), "");
+    EXPECT_EQ(changed([](SimplexData& data) { data.strings.pop_back(); }),
+              "2 strings instead of 3");
+    EXPECT_EQ(changed([](SimplexData& data) { data.strings[1] = "longer"; }),
+              "a string of 6 octets instead of 4 at most");
+    EXPECT_EQ(changed([](SimplexData& data) { data.quality = 4; }), "a quality that cannot be");
+}
+
+TEST_F(Values, AreNeverTooOldToFitButTheirStampIsANumberThatCanBe) {
+    SliceMemory memory{layout};
+    SimplexData data;
+    readValues(0, layout, memory.slice(), data);
+    constexpr std::int64_t farthest = std::int64_t{1} << 60U;
+    for (const std::int64_t time : {std::int64_t{-1}, 1 - farthest, farthest - 1}) {
+        data.time = time;
+        EXPECT_EQ(misfit(data, layout), "") << time;
+    }
+    for (const std::int64_t time :
+         {-farthest, farthest, std::numeric_limits<std::int64_t>::min()}) {
+        data.time = time;
+        EXPECT_EQ(misfit(data, layout), "a stamp that cannot be") << time;
+    }
 }
 
 TEST_F(Values, OfConstantItemsStandInMemoryOfTheirOwn) {

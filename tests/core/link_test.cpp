@@ -6,7 +6,9 @@
 #include "support/agent_rig.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -143,8 +145,22 @@ TEST_F(Link, SampleIsCopiedWithItsQualityAndStampOnOurClock) {
     EXPECT_TRUE(rig.get<bool>("/far", "on"));
     EXPECT_EQ(rig.get<std::string_view>("/far", "label"), "far away");
     EXPECT_EQ(rig.agent->tables().live(simplex).state->time, 8'000'000);
-    EXPECT_EQ(rig.agent->tables().live(simplex).state->cycle, 40);
+    EXPECT_EQ(rig.agent->tables().live(simplex).state->cycle, 0) << "no cycle of ours";
     EXPECT_TRUE(rig.hasEvent("/far: linked"));
+}
+
+// A measurement from before our start, and one that many agents have passed on.
+TEST_F(Link, AnAgeIsKeptHoweverLongUpToWhatNoChainOfAgentsCanOverflow) {
+    constexpr std::int64_t year = std::int64_t{365} * 86'400 * 1'000'000'000;
+    constexpr std::int64_t oldest = std::int64_t{1} << 56U;
+    rig.step(9);
+    for (const auto& [age, seen] : {std::pair{year, year},
+                                    {oldest + 1, oldest},
+                                    {std::numeric_limits<std::int64_t>::max(), oldest}}) {
+        sample(age);
+        EXPECT_EQ(rig.tick.nominalTime - rig.agent->tables().live(simplex).state->time, seen);
+        EXPECT_EQ(quality(), Quality::Good) << "age alone makes no sample worse";
+    }
 }
 
 TEST_F(Link, BadSampleIsBadHere) {
@@ -211,6 +227,14 @@ TEST_F(Link, WhatHasNeverBeenThereIsWaitedForAfterASecondAndOnce) {
     rig.step(5'000);
     const std::string line = "/rig: waits for /far, which no other agent has offered yet";
     EXPECT_EQ(std::ranges::count(rig.events(), line), 1);
+}
+
+TEST_F(Link, WhatIsLinkedWithoutAValueIsNotSaidToBeMissing) {
+    rig.outside.atRead([this](Inbox& inbox) { inbox.linkOffered(simplex); });
+    rig.step(1'001);
+
+    EXPECT_TRUE(rig.hasEvent("/rig: waits for /far: linked, but no value has come"));
+    EXPECT_FALSE(rig.hasEvent("offered"));
 }
 
 TEST_F(Link, WhatIsThereWithinASecondIsNotWaitedFor) {

@@ -130,9 +130,9 @@ void Behaviour::active(World& world, const Tick& tick) {
     talk(world);
     if (chance_.oneIn(25)) {
         const auto age = static_cast<std::int64_t>(chance_.below(12)) * period;
-        const bool old = chance_.oneIn(2) && tick.nominalTime > age;
+        const bool old = chance_.oneIn(2);  // perhaps from before the start
         world.setQuality(static_cast<Quality>(chance_.below(wild_ ? 4 : 2)),
-                         old ? tick.nominalTime - age : -1);
+                         old ? tick.nominalTime - age : std::numeric_limits<std::int64_t>::min());
     }
     mayFail(world, 250);
     *world.total += static_cast<std::int64_t>(chance_.below(1'000'000));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cortex::determinism {
 
@@ -44,7 +45,8 @@ void Reference::fillWorld(int simplex) {
     world.setQuality = [this, &task](Quality quality, std::int64_t measuredAt) {
         task.qualitySet = true;
         task.quality = quality;
-        task.measuredAt = measuredAt < 0 ? now_ : measuredAt;
+        const bool isNow = measuredAt == std::numeric_limits<std::int64_t>::min();
+        task.measuredAt = isNow ? now_ : measuredAt;
     };
     world.event = [this, simplex](Severity severity, std::string_view text) {
         post(simplex, severity, EventKind::Message, std::string{text});

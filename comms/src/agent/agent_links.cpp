@@ -16,6 +16,7 @@ constexpr std::int64_t longestTime = std::int64_t{1} << 60U;  // ns: sums do not
 constexpr std::int64_t longestDetour = 100'000'000;           // ns that the network may add
 constexpr std::int64_t longestStarving = 2 * nsPerSecond;     // or two of its patiences
 constexpr std::size_t mostDelays = 1'000;
+constexpr std::size_t mostTold = 8;  // reasons for which values of one link are refused
 
 bool isTime(std::int64_t time) { return time >= 0 && time < longestTime; }
 bool isWallClock(std::int64_t time) { return time >= 0 && time < std::int64_t{1} << 62U; }
@@ -37,8 +38,10 @@ void storeConstants(const Structure& structure, std::uint32_t simplex, const Sli
 
 }  // namespace
 
-AgentLinks::Bound::Bound(std::uint64_t number, const std::string& owner, const Claim& claimed)
+AgentLinks::Bound::Bound(std::uint64_t number, std::uint32_t ours, const std::string& owner,
+                         const Claim& claimed)
     : serial{number},
+      simplex{ours},
       agent{owner},
       claim{claimed},
       layout{*claimed.structure->simplexes[claimed.theirs].layout},
@@ -174,7 +177,7 @@ void AgentLinks::bind(Link& link, const std::string* agent) {
     if (same) return;
     link.current = nullptr;
     if (claim != nullptr) {
-        link.kept.push_back(std::make_unique<Bound>(++serial_, *agent, *claim));
+        link.kept.push_back(std::make_unique<Bound>(++serial_, link.simplex, *agent, *claim));
         link.current = link.kept.back().get();
         self_.event(Severity::Info, link.simplex, "linked to agent " + *agent);
     }
@@ -312,14 +315,23 @@ void AgentLinks::take(const Block& block, const SimplexData& data, const Owner& 
     const auto found = owner.bounds.find(data.index);
     if (found == owner.bounds.end()) return;
     Bound& bound = *found->second;
-    if (!isTime(data.time) || !fits(data, bound.layout)) {
-        return self_.rejections.add("values of " + bound.agent + " that do not fit their simplex");
-    }
+    const std::string wrong = misfit(data, bound.layout);
+    if (!wrong.empty()) return refuse(bound, wrong);
     LinkBuffer::Sample& sample = bound.buffer.writable();
     storeValues(data, bound.layout, sample.values.slice());
     sample.age = std::max(block.nominalTime - data.time, std::int64_t{0}) + delay;
     sample.came = came;
     bound.buffer.publish();
+}
+
+// Counted each time, and told on the simplex once for each reason.
+void AgentLinks::refuse(Bound& bound, const std::string& wrong) {
+    const std::string of = "values of " + bound.agent;
+    const std::uint32_t simplex = bound.simplex;
+    const std::string& path = self_.structure().simplexes[simplex].path;
+    self_.rejections.add(of + " for " + path + ": " + wrong);
+    if (bound.told.size() >= mostTold || !bound.told.insert(wrong).second) return;
+    self_.event(Severity::Warning, simplex, of + " are refused: " + wrong);
 }
 
 void AgentLinks::read(Inbox& inbox) {
@@ -336,6 +348,7 @@ void AgentLinks::readLink(Link& link, Inbox& inbox, std::int64_t now) {
     const std::uint64_t serial = bound != nullptr ? bound->serial : 0;
     const bool other = std::exchange(link.seen, serial) != serial;
     if (other && std::exchange(link.live, false)) inbox.linkLost(link.simplex);
+    if (other && bound != nullptr) inbox.linkOffered(link.simplex);
     const LinkBuffer::Sample* sample = bound != nullptr ? bound->buffer.take() : nullptr;
     if (sample == nullptr) return;
     const LinkBinding& binding = bound->claim.binding;

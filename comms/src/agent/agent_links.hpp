@@ -34,7 +34,7 @@ namespace cortex::comms {
 // 5. bind() keeps the Bound that is offered and the one in use. It destroys all others: the loop
 //    cannot reach them any more.
 // 6. A Bound never changes after it is offered, except for its LinkBuffer, which has one writer
-//    (under `mutex_`) and one reader (the loop).
+//    (under `mutex_`) and one reader (the loop), and for `told`, which take() alone uses.
 // 7. `serial` grows with each Bound. The loop compares it with `seen`, so it notices a new Bound
 //    even at the address of an old one. It then reports the link as lost before it takes values of
 //    the new one.
@@ -81,14 +81,17 @@ private:
     };
     // One link as the loop uses it.
     struct Bound {
-        Bound(std::uint64_t number, const std::string& owner, const Claim& claim);
+        Bound(std::uint64_t number, std::uint32_t ours, const std::string& owner,
+              const Claim& claim);
 
         const std::uint64_t serial;
+        const std::uint32_t simplex;  // of ours
         const std::string agent;
         const Claim claim;
         const TypeLayout& layout;
         SliceMemory constants;
         LinkBuffer buffer;
+        std::set<std::string> told;  // why values were refused; bounded
     };
     struct Link {
         std::uint32_t simplex = noSimplex;
@@ -124,6 +127,7 @@ private:
     bool believable(const Block& block, const Owner& owner);
     void take(const Block& block, const SimplexData& data, const Owner& owner, std::int64_t came,
               std::int64_t delay);
+    void refuse(Bound& bound, const std::string& wrong);
     void readLink(Link& link, Inbox& inbox, std::int64_t now) CORTEX_REALTIME;
 
     AgentSelf& self_;

@@ -45,7 +45,7 @@ bool MirrorTables::apply(const Block& block, Moment now) {
 bool MirrorTables::applySimplex(const SimplexData& data, const Block& block, Moment now) {
     if (data.index >= simplexes_.size()) return false;
     const SimplexInfo& info = structure_->simplexes[data.index];
-    if (info.remote || !fits(data, *info.layout)) return false;
+    if (info.remote || !misfit(data, *info.layout).empty()) return false;
     const Slice slice = tables_.live(data.index);
     // A cycle that is sent again does not become newer.
     const bool known = simplexes_[data.index].received && slice.state->quality != Quality::Lost;

@@ -2,6 +2,7 @@
 #include "wire/simplex_values.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace cortex::comms {
 namespace {
@@ -26,6 +27,11 @@ std::size_t stringCount(const TypeLayout& layout) {
     return count;
 }
 
+struct ListSize {
+    const char* name;
+    std::size_t came, wanted;
+};
+
 StringCell* cellAt(const Slice& slice, std::uint32_t offset) {
     return static_cast<StringCell*>(slice.at(Kind::String, offset));
 }
@@ -49,18 +55,28 @@ void readValues(std::uint32_t simplex, const TypeLayout& layout, const Slice& fr
     });
 }
 
-bool fits(const SimplexData& data, const TypeLayout& layout) {
+std::string misfit(const SimplexData& data, const TypeLayout& layout) {
+    constexpr std::int64_t farthest = std::int64_t{1} << 60U;  // ns: sums do not overflow
+    if (data.quality > static_cast<std::uint8_t>(Quality::Lost)) return "a quality that cannot be";
+    if (data.time <= -farthest || data.time >= farthest) return "a stamp that cannot be";
     const BlockSizes& sizes = layout.cyclic;
-    if (data.quality > static_cast<std::uint8_t>(Quality::Lost)) return false;
-    if (data.ints.size() != sizes.ints || data.floats.size() != sizes.floats ||
-        data.bools.size() != sizes.bools || data.strings.size() != stringCount(layout)) {
-        return false;
+    const std::array lists{ListSize{"ints", data.ints.size(), sizes.ints},
+                           ListSize{"floats", data.floats.size(), sizes.floats},
+                           ListSize{"bools", data.bools.size(), sizes.bools},
+                           ListSize{"strings", data.strings.size(), stringCount(layout)}};
+    for (const ListSize& each : lists) {
+        if (each.came == each.wanted) continue;
+        return std::to_string(each.came) + " " + each.name + " instead of " +
+               std::to_string(each.wanted);
     }
-    bool good = true;
+    std::string wrong;
     forStrings(layout, [&](std::size_t element, std::uint32_t capacity, std::uint32_t) {
-        good = good && data.strings[element].size() <= capacity;
+        const std::size_t octets = data.strings[element].size();
+        if (octets <= capacity) return;
+        wrong = "a string of " + std::to_string(octets) + " octets instead of " +
+                std::to_string(capacity) + " at most";
     });
-    return good;
+    return wrong;
 }
 
 void storeValues(const SimplexData& data, const TypeLayout& layout, const Slice& to) {

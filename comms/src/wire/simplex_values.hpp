@@ -6,6 +6,7 @@
 #include "wire/messages.hpp"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 // The cyclic values of one simplex in tables and on the wire: by kind, then in the order of its
@@ -16,8 +17,9 @@ namespace cortex::comms {
 void readValues(std::uint32_t simplex, const TypeLayout& layout, const Slice& from,
                 SimplexData& to);
 
-// Whether the data has exactly the values of a simplex with this layout.
-bool fits(const SimplexData& data, const TypeLayout& layout);
+// In which way the data cannot be of a simplex with this layout: "3 floats instead of 2". "": it
+// can. How old it is does not matter.
+std::string misfit(const SimplexData& data, const TypeLayout& layout);
 // Stores the values. The strings of the slice have their capacities (SliceMemory).
 void storeValues(const SimplexData& data, const TypeLayout& layout, const Slice& to);
 

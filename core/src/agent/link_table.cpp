@@ -11,6 +11,8 @@ namespace {
 constexpr std::int64_t patience = nsPerSecond;  // after the start, before it says what is missing
 constexpr std::int64_t stalePeriods = 3;        // missed ones
 constexpr std::int64_t reportedPeriods = 20;  // fewer happen often where nothing runs in real time
+// ns, 2.3 years. What is older is as old as this, so ages add up along any number of agents.
+constexpr std::int64_t oldest = std::int64_t{1} << 56U;
 
 std::size_t octetsOf(const LinkBinding::Copy& copy) {
     const bool octets = copy.kind == Kind::Bool || copy.kind == Kind::String;
@@ -39,6 +41,10 @@ LinkTable::Link* LinkTable::find(std::uint32_t simplex) {
                                                                  : nullptr;
 }
 
+void LinkTable::offered(std::uint32_t simplex) {
+    if (find(simplex) != nullptr) runtime_.everOffered_[simplex - first_] = true;
+}
+
 void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
                      std::int64_t age, std::uint32_t interface) {
     Link* link = find(simplex);
@@ -46,13 +52,15 @@ void LinkTable::link(std::uint32_t simplex, const LinkBinding& binding, const Sl
     apply(binding.copies, from, link->slice);
     SlotState& state = *link->slice.state;
     state = *from.state;
-    state.time = runtime_.wokenAt() - age;
+    state.cycle = 0;  // its owner counts cycles of its own
+    state.time = runtime_.wokenAt() - std::min(age, oldest);
     state.cause = state.quality == Quality::Good ? noSimplex : simplex;
     link->freshTime = runtime_.nominalTime();
     link->period = std::max(binding.period, runtime_.options().period);
     runtime_.ownerPeriods_[simplex - runtime_.firstRemote_] = link->period;
     if (!link->bound) post(Severity::Info, simplex, "linked");
     link->bound = true;
+    runtime_.everOffered_[simplex - first_] = true;
     runtime_.everLinked_[simplex - first_] = true;
     link->interface = interface;
     link->silent = 0;
@@ -75,7 +83,11 @@ void LinkTable::lost(std::uint32_t simplex) {
 }
 
 void LinkTable::age() {
-    if (!toldMissing_ && runtime_.nominalTime() >= patience) tellMissing();
+    if (!toldMissing_ && runtime_.nominalTime() >= patience) {
+        toldMissing_ = true;
+        tellMissing(false, ", which no other agent has offered yet");
+        tellMissing(true, ": linked, but no value has come");
+    }
     for (Link& link : links_) {
         ++link.silent;
         const std::int64_t age = runtime_.nominalTime() - link.freshTime;
@@ -94,12 +106,12 @@ void LinkTable::age() {
 }
 
 // Once: whatever else follows from it is no news.
-void LinkTable::tellMissing() {
-    toldMissing_ = true;
+void LinkTable::tellMissing(bool offered, const char* what) {
     const Link* first = nullptr;
     std::int64_t others = -1;
     for (const Link& link : links_) {
         if (!runtime_.neverLinked(link.simplex)) continue;
+        if (runtime_.everOffered(link.simplex) != offered) continue;
         if (first == nullptr) first = &link;
         ++others;
     }
@@ -107,7 +119,7 @@ void LinkTable::tellMissing() {
     EventText text{"waits for "};
     text << runtime_.structure().simplexes[first->simplex].path;
     if (others > 0) text << " and " << others << " more";
-    text << ", which no other agent has offered yet";
+    text << what;
     runtime_.post(runtime_.thread(0), Severity::Warning, EventKind::Agent, runtime_.agentSimplex(),
                   text);
 }

@@ -17,6 +17,7 @@ public:
 
     static constexpr std::uint32_t none = 0xffffffffU;
 
+    void offered(std::uint32_t simplex) CORTEX_REALTIME;
     void link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
               std::int64_t age, std::uint32_t interface) CORTEX_REALTIME;
     void constants(std::uint32_t simplex, const LinkBinding& binding, const Slice& from)
@@ -39,7 +40,7 @@ private:
         bool bound = false, reported = false;
     };
     Link* find(std::uint32_t simplex) CORTEX_REALTIME;
-    void tellMissing() CORTEX_REALTIME;
+    void tellMissing(bool offered, const char* what) CORTEX_REALTIME;
     void post(Severity severity, std::uint32_t simplex, const char* text) CORTEX_REALTIME;
 
     AgentRuntime& runtime_;

@@ -37,6 +37,7 @@ public:
                          LoopThread& thread) CORTEX_REALTIME;
 
     std::int64_t cycle() const override { return runtime_.cycle(); }
+    void linkOffered(std::uint32_t simplex) override { links_.offered(simplex); }
     void link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
               std::int64_t age) override {
         links_.link(simplex, binding, from, age, interface_);

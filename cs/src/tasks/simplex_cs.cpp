@@ -34,7 +34,7 @@ void SimplexCS::setQuality(Quality quality, std::int64_t measuredAt) {
     if (thread_ == nullptr) return;  // not in a tick
     pending_.quality = true;
     quality_ = quality;
-    thread_->measuredAt = measuredAt < 0 ? thread_->loop->nominalTime : measuredAt;
+    thread_->measuredAt = measuredAt == thisCycle ? thread_->loop->nominalTime : measuredAt;
 }
 
 void SimplexCS::event(Severity severity, const EventText& text) {

@@ -77,8 +77,11 @@ bool TaskStates::mayStart(Task& task) {
     for (const TaskInput& input : set_.inputsOf(task)) {
         const SimplexInfo& target = set_.structure.simplexes[input.target];
         if (target.remote && input.rule->min > 0 && input.state->quality == Quality::Lost) {
+            const bool silent =
+                set_.agent.everOffered(input.target) && set_.agent.neverLinked(input.target);
             simplex.thread_->text << "startup needs " << input.rule->name << ", but " << target.path
-                                  << " of another agent is not there";
+                                  << " of another agent "
+                                  << (silent ? "has sent no value yet" : "is not there");
             return false;
         }
     }

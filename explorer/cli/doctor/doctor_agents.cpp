@@ -27,6 +27,13 @@ std::string hostName() {
     return name.data();
 }
 
+// A message of another shape comes from another ontology; otherwise from who knows where.
+const char* remedyFor(const std::string& refused) {
+    return refused.find(" instead of ") != std::string::npos
+               ? "give both agents the same ontology, and start both anew"
+               : "look for programs of another version, and for strangers on the network";
+}
+
 void examineState(const comms::AgentStatus& agent, Diagnoses& found) {
     const std::string who = agent.name + " on " + agent.host;
     const auto add = [&](Level level, const std::string& message, const std::string& remedy) {
@@ -60,7 +67,7 @@ void examineState(const comms::AgentStatus& agent, Diagnoses& found) {
     if (!agent.refused.empty()) {
         add(Level::Warning,
             who + " refused messages: " + printable(agent.refused) + " (the last reason)",
-            "look for programs of another version, and for strangers on the network");
+            remedyFor(agent.refused));
     }
     if (agent.loss > 0) {
         add(Level::Warning, plural(agent.loss, "message") + " of " + agent.name + " did not come",

@@ -96,8 +96,10 @@ class Inbox {
 public:
     virtual ~Inbox() = default;
     virtual std::int64_t cycle() const CORTEX_REALTIME = 0;
+    // An agent has this remote simplex of our structure; no value of it needs to have come.
+    virtual void linkOffered(std::uint32_t simplex) CORTEX_REALTIME { (void)simplex; }
     // `simplex` is the index of a remote simplex of our structure. `age`: ns since it was measured,
-    // on the receiver's clock.
+    // on the receiver's clock; may be longer than the owner has run.
     virtual void link(std::uint32_t simplex, const LinkBinding& binding, const Slice& from,
                       std::int64_t age) CORTEX_REALTIME = 0;
     // Once, before the first link(): the constant items.

@@ -90,10 +90,13 @@ public:
     const std::int64_t& ownerPeriod(std::uint32_t simplex) const {
         return ownerPeriods_[simplex - firstRemote_];
     }
-    // A simplex of another agent that has not been there since the start.
+    // A simplex of another agent that has not been there since the start; one whose agent was
+    // heard, whether or not a value of it has come.
     bool neverLinked(std::uint32_t simplex) const CORTEX_REALTIME {
-        return simplex >= firstRemote_ && simplex - firstRemote_ < everLinked_.size() &&
-               !everLinked_[simplex - firstRemote_];
+        return isRemote(simplex) && !everLinked_[simplex - firstRemote_];
+    }
+    bool everOffered(std::uint32_t simplex) const CORTEX_REALTIME {
+        return isRemote(simplex) && everOffered_[simplex - firstRemote_];
     }
 
     // Step (1) of a task: answers to what it sent, commands of its lanes in canonical order, then
@@ -155,6 +158,9 @@ private:
     void checkModel();
     void bindSimplexes();
     CommandPort& portOf(std::uint32_t simplex);
+    bool isRemote(std::uint32_t simplex) const CORTEX_REALTIME {
+        return simplex >= firstRemote_ && simplex - firstRemote_ < everLinked_.size();
+    }
     void makeLanes();
     std::uint32_t callsToAgents() const;
     void findTaskless();
@@ -183,8 +189,8 @@ private:
     std::vector<CommunicationInterface*> interfaces_;
     std::vector<LoopThread> threads_;
     PresentCycle present_;
-    std::vector<std::int64_t> ownerPeriods_;  // of remote simplexes, which are the last
-    std::vector<bool> everLinked_;            // the same
+    std::vector<std::int64_t> ownerPeriods_;      // of remote simplexes, which are the last
+    std::vector<bool> everOffered_, everLinked_;  // the same
     std::uint32_t firstRemote_ = 0;
     // Per simplex, bits: pending life-cycle commands, and whether its port has work.
     std::unique_ptr<std::atomic<std::uint8_t>[]> calls_, callsLater_;

@@ -12,6 +12,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -77,8 +78,9 @@ protected:
     // above 0. Throws Error before the first tick, and for other codes, which are the framework's.
     void fault(std::int64_t code, std::string_view text) CORTEX_REALTIME;
     // In a hook: own quality and that of the outputs in this cycle, instead of what follows from
-    // the inputs; `measuredAt`: nominal time of the measurement, default this cycle.
-    void setQuality(Quality quality, std::int64_t measuredAt = -1) CORTEX_REALTIME;
+    // the inputs; `measuredAt`: nominal time of the measurement, below 0 before the start.
+    void setQuality(Quality quality, std::int64_t measuredAt = thisCycle) CORTEX_REALTIME;
+    static constexpr std::int64_t thisCycle = std::numeric_limits<std::int64_t>::min();
     // In a hook: an event of this simplex.
     void event(Severity severity, const EventText& text) CORTEX_REALTIME;
     // In a hook: the life-cycle commands of a related simplex. Along an output relationship they
