@@ -68,6 +68,72 @@ TEST(ClusterCS, TellsEveryFailureOfPopulateWithItsPath) {
     EXPECT_NE(text.find("/b: "), std::string::npos) << text;
 }
 
+// A probe that writes its `executed` and the `value` of its output in populate().
+struct Overwriting {
+    ProbeCluster cluster;
+    Simplex& signal = cluster.tree.add("/s", "Signal");
+    Probe& probe = cluster.probe("/probe");
+
+    Overwriting() {
+        cluster.tree.relate(probe, "out", signal);
+        probe.onPopulate = [](Probe& self) {
+            self.data<std::int64_t>("executed") = 55;
+            self.output("out").data<double>("value") = 2.5;
+        };
+    }
+};
+
+TEST(ClusterCS, RefusesAStartValueThatPopulateReplaces) {
+    Overwriting test;
+    test.probe.set("executed", 33, {"--set", 0});
+    test.signal.set("value", 7.0, {"plant.xml", 12});
+
+    const std::string text = refusal(test.cluster);
+
+    EXPECT_NE(text.find("/probe: populate() writes 55 over executed, which is given as 33 [--set]; "
+                        "read it, or write only where hasValue(\"executed\") is false"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("/probe: populate() writes 2.5 over value of /s, which is given as 7 "
+                        "[plant.xml:12]"),
+              std::string::npos)
+        << text;
+}
+
+TEST(ClusterCS, RefusesItAlsoWhereSeveralWriteTheSameSimplex) {
+    ProbeCluster cluster;
+    Simplex& shared = cluster.tree.add("/s", "SharedSignal");
+    shared.set("value", 7.0);
+    for (const char* path : {"/w1", "/w2"}) {
+        Probe& writer = cluster.probe(path);
+        cluster.tree.relate(writer, "out", shared);
+        if (writer.path() == "/w1") continue;
+        writer.onPopulate = [](Probe& self) { self.output("out").data<double>("value") = 2.5; };
+    }
+    const std::string text = refusal(cluster);
+
+    EXPECT_NE(text.find("/w2: populate() writes 2.5 over value of /s"), std::string::npos) << text;
+    EXPECT_EQ(text.find("/w1"), std::string::npos) << text;
+}
+
+TEST(ClusterCS, TakesWhatPopulateWritesWhereNothingElseWasGiven) {
+    Overwriting equal;
+    equal.probe.set("executed", 55);
+    EXPECT_EQ(refusal(equal.cluster), "") << "the same value replaces nothing";
+
+    Overwriting asks;
+    asks.signal.set("value", 7.0);
+    asks.probe.onPopulate = [](Probe& self) {
+        if (!self.hasValue("executed")) self.data<std::int64_t>("executed") = 55;
+        const OutputSimplex out = self.output("out");
+        if (!out.hasValue("value")) out.data<double>("value") = 2.5;
+        EXPECT_THROW(self.hasValue("execute"), Error);
+    };
+    EXPECT_EQ(refusal(asks.cluster), "");
+    EXPECT_EQ(asks.cluster.integer("/probe", "executed"), 55);
+    EXPECT_EQ(asks.cluster.number("/s", "value"), 7);
+}
+
 TEST(ClusterCS, RefusesALoopWithoutDelayAndPrintsItWhole) {
     ProbeCluster cluster;
     Probe& a = cluster.probe("/a");

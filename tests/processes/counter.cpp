@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 namespace {
 
@@ -17,6 +18,8 @@ private:
         count_ = data<std::int64_t>("count");
         gain_ = data<const double>("gain");
         share_ = data<double>("share");
+        // As a class would that does not ask hasValue().
+        if (data<const std::string_view>("title").get() == "reset") count_ = 55;
     }
     // A gain above 5 makes the share no number, as a mistake in a real class would.
     void loopEnd(const cortex::Tick&) override {

@@ -141,6 +141,22 @@ TEST_F(RetainedValues, KeepTheirLastGoodValueWhereTheNewOneIsNoNumber) {
     EXPECT_TRUE(contains(retainedText(), good)) << "it was good before the restart";
 }
 
+TEST_F(RetainedValues, AreKeptWhereAClassWouldReplaceThemAsTheStartIsRefused) {
+    std::filesystem::rename(
+        write("values.xml", "<set data='count' value='77'/>\n<set data='title' value='reset'/>\n"),
+        retained());
+    const std::string before = retainedText();
+
+    AgentProcess agent{folder, system, options({"--seconds", "0.3"})};
+    EXPECT_NE(agent.waitForEnd(), 0);
+
+    EXPECT_TRUE(contains(agent.output(),
+                         "/counter: populate() writes 55 over count, which is "
+                         "given as 77 ["))
+        << agent.output();
+    EXPECT_EQ(retainedText(), before);
+}
+
 TEST_F(RetainedValues, StartWithoutABrokenFileWhichIsToldAndSetAside) {
     folder.write("plant.retained.xml", "<system name='retained'>\n<simplex path='/coun");
 

@@ -22,6 +22,27 @@ void place(Rig& rig, const SerialChain::JointVector& joints) {
     }
 }
 
+TEST(ForwardKinematics, RefusesAxesOfAnotherAgentAsTheirGeometryComesLater) {
+    Rig rig;
+    rig.add("/forward", "ForwardKinematics");
+    rig.system.simplexes.back().relates.push_back({"axes", "/arm/1", false, true, {}});
+    Report report;
+    rig.tree.add(rig.system, &rig.registry, report);
+    ASSERT_TRUE(report.ok()) << report.text();
+    rig.cluster.addSimplexTree(rig.tree);
+    rig.cluster.useClasses(rig.registry);
+    rig.cluster.setTriggerSource<cs::ManualTrigger>(std::chrono::milliseconds{1});
+    try {
+        rig.cluster.start();
+        FAIL();
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        EXPECT_NE(text.find("/forward: /arm/1 belongs to another agent, and its geometry comes"),
+                  std::string::npos)
+            << text;
+    }
+}
+
 // The geometry in the ontology is that of the data sheet.
 TEST(ForwardKinematics, FindsTheTipOfTheLbr) {
     Rig rig;

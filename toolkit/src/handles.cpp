@@ -135,6 +135,11 @@ SerialChain chainOf(const Simplex& owner, const std::vector<InputSimplex>& axes,
                     std::span<const double> tipPosition, std::span<const double> tipRotation) {
     std::vector<ChainJoint> joints;
     for (const InputSimplex& axis : axes) {
+        if (axis.isRemote()) {
+            throw Error(owner.path() + ": " + axis.path() +
+                        " belongs to another agent, and its geometry comes when that is linked: "
+                        "let the agent that has the axes compute their chain");
+        }
         const AxisLimits limits{axis.type()};
         joints.push_back(
             {vector(axis.array<double>("originPosition")),

@@ -95,7 +95,7 @@ struct AxisLimits {
 void requireSameCount(const Simplex& owner, std::size_t axes, std::size_t others,
                       const char* otherRule);
 
-// Geometry and limits of a chain as its axes state them.
+// Geometry and limits of a chain as its axes state them. Throws Error where another agent has one.
 SerialChain chainOf(const Simplex& owner, const std::vector<InputSimplex>& axes,
                     std::span<const double> tipPosition, std::span<const double> tipRotation);
 

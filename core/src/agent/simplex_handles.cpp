@@ -181,6 +181,10 @@ CommandSender RelatedSimplex::sender(std::string_view command, std::uint32_t cap
     return owner_->runtime().makeSender(edge_, command, capacity);
 }
 
+bool OutputSimplex::hasValue(std::string_view item) const {
+    return !isRemote() && simplex().hasValue(item);
+}
+
 AgentRuntime& Simplex::startedRuntime() const {
     if (runtime_ != nullptr) return *runtime_;
     throw Error(path() + ": data and relationships exist from populate() on");
@@ -207,6 +211,12 @@ void* Simplex::cell(std::string_view item, const ItemAccess& access, std::size_t
     length = layout.item->length;
     const Slice slice = layout.constant ? tables.constants(index_) : tables.live(index_);
     return slice.at(access.kind, layout.offset);
+}
+
+bool Simplex::hasValue(std::string_view item) const {
+    const Structure& structure = startedRuntime().structure();
+    const DataItem& known = *itemAt(*structure.simplexes[index_].layout, path(), item).item;
+    return std::ranges::find(settings(), known.name, &Setting::item) != settings().end();
 }
 
 SlotState& Simplex::slot() { return *startedRuntime().tables().live(index_).state; }

@@ -8,6 +8,7 @@
 #include "cortex/cs/testing.hpp"
 
 #include "loop/cluster_loop.hpp"
+#include "loop/given_values.hpp"
 #include "loop/start_order.hpp"
 #include "tasks/crash_report.hpp"
 #include "tasks/io_threads.hpp"
@@ -185,11 +186,13 @@ void ClusterCS::Implementation::joinSettings(SimplexCS& simplex, Report& report)
 
 void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) const {
     Report report;
+    const GivenValues given{*agent};
     for (SimplexCS* simplex : simplexes) {
         const BoundedStep step{"populate() of " + simplex->path() + " (" + simplex->type().name +
                                ")"};
         try {
             simplex->populate();
+            given.check(simplex->index(), report);
             joinSettings(*simplex, report);
         } catch (const UnboundHandle& unbound) {
             report.error(

@@ -108,6 +108,8 @@ public:
         void* first = cell(item, {kindFor<T>(), true, !std::is_const_v<T>, unit}, length);
         return {static_cast<typename StorageOf<T>::type*>(first), length};
     }
+    // Whether a start value was given for the item; see Simplex::hasValue().
+    bool hasValue(std::string_view item) const;
     CommandSender command(std::string_view name, std::uint32_t capacity = 16) const {
         return sender(name, capacity);
     }
@@ -201,6 +203,9 @@ public:
         void* first = cell(item, {kindFor<T>(), true, !std::is_const_v<T>, unit}, length);
         return {static_cast<typename StorageOf<T>::type*>(first), length};
     }
+    // Whether the item starts with a value that a system file, another file, the command line or
+    // the program gave. populate() must not replace that one. Throws Error for an unknown item.
+    bool hasValue(std::string_view item) const;
     // Own quality and stamp, of a simplex without a task; of others the framework writes them, and
     // a hook says setQuality().
     SlotState& slot();
