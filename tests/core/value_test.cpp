@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/value.hpp"
 
+#include "cortex/core/labelled_value.hpp"
+
 #include <clocale>
 #include <cmath>
 #include <cstdio>
@@ -149,6 +151,29 @@ TEST(Value, RefusesStringArraysWithMisplacedQuotes) {
     }
     EXPECT_FALSE(parseValue(Kind::String, 2, "one", why));
     EXPECT_EQ(why, "expected 2 values, found 1");
+}
+
+TEST(OutsideText, SaysHowAValueIsOutOfTheRangeOfItsItem) {
+    DataItem ranged;
+    ranged.min = -1.0;
+    ranged.max = 2.0;
+    const auto floats = [](std::vector<double> list) { return Value{std::move(list)}; };
+    EXPECT_EQ(outsideText(ranged, floats({-1, 2})), "");
+    EXPECT_EQ(outsideText(ranged, floats({0, 2.5})), "above 2");
+    EXPECT_EQ(outsideText(ranged, floats({-1.5})), "below -1");
+    EXPECT_EQ(outsideText(ranged, floats({std::numeric_limits<double>::quiet_NaN()})), "");
+
+    DataItem labelled;
+    labelled.kind = Kind::Int;
+    labelled.labels = {{0, "Off"}, {5, "On"}};
+    const auto ints = [](std::int64_t number) { return Value{std::vector{number}}; };
+    EXPECT_TRUE(isClosed(labelled));
+    EXPECT_EQ(outsideText(labelled, ints(5)), "");
+    EXPECT_EQ(outsideText(labelled, ints(1)), "none of its labels");
+    labelled.max = std::int64_t{9};
+    EXPECT_FALSE(isClosed(labelled));
+    EXPECT_EQ(outsideText(labelled, ints(1)), "");
+    EXPECT_EQ(outsideText(labelled, ints(10)), "above 9");
 }
 
 }  // namespace

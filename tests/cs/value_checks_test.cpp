@@ -150,6 +150,111 @@ TEST_F(WrittenValues, AreLookedAtInEveryState) {
     EXPECT_EQ(cluster.quality("/seen"), Quality::Bad);
 }
 
+// /a observes /switches, whose labels are its range but for `open`.
+struct WrittenLabels : testing::Test {
+    WrittenLabels() {
+        cluster.tree.relate(probe, "out", cluster.tree.add("/switches", "Switches"));
+        probe.onPopulate = [this](Probe& self) {
+            const OutputSimplex out = self.output("out");
+            mode = out.data<std::int64_t>("mode");
+            step = out.data<std::int64_t>("step");
+            open = out.data<std::int64_t>("open");
+        };
+        cluster.start();
+        cluster.startup(probe);
+    }
+    void write(std::int64_t newMode, std::int64_t newStep, std::int64_t newOpen = 0) {
+        probe.onActive = [=, this](Probe&, const Tick&) {
+            mode = newMode;
+            step = newStep;
+            open = newOpen;
+        };
+        cluster.step();
+    }
+    std::int64_t told(const std::string& text) {
+        const std::vector<std::string> events = cluster.events();
+        return std::ranges::count(events, text);
+    }
+
+    ProbeCluster cluster;
+    Probe& probe = cluster.probe("/a");
+    Data<std::int64_t> mode, step, open;
+};
+
+TEST_F(WrittenLabels, ThatExistAreRightWhetherOrNotTheyLeaveGaps) {
+    for (const std::int64_t each : {0, 5, 900}) write(1, each, 77);
+    cluster.step();
+
+    EXPECT_EQ(cluster.integer("/test", "limitCount"), 0);
+    EXPECT_FALSE(cluster.hasEvent("labels"));
+}
+
+TEST_F(WrittenLabels, ThatDoNotExistAreOutOfRangeToldOnceAndCountedButStand) {
+    write(7, 1);
+    cluster.step(2);
+    write(-1, 899);
+    cluster.step();
+
+    EXPECT_EQ(cluster.integer("/switches", "mode"), -1);
+    EXPECT_EQ(cluster.quality("/switches"), Quality::Good);
+    EXPECT_EQ(cluster.integer("/test", "limitCount"), 4);
+    EXPECT_EQ(told("/a: mode of /switches is 7, none of its labels 0:Off 1:On"), 1);
+    EXPECT_EQ(told("/a: step of /switches is 1, none of its labels 0:Rest 5:Go 900:Done"), 1);
+    write(0, 0);
+    write(0, 901);
+    EXPECT_EQ(told("/a: step of /switches is 901, none of its labels 0:Rest 5:Go 900:Done"), 1);
+}
+
+// /a demands modes of /order.
+struct DemandedLabels : testing::Test {
+    DemandedLabels() {
+        cluster.tree.relate(probe, "out", cluster.tree.add("/order", "SwitchOrder"));
+        probe.onPopulate = [this](Probe& self) {
+            mode = self.output("out").data<std::int64_t>("mode");
+            step = self.output("out").array<std::int64_t>("step");
+        };
+        cluster.start();
+        cluster.startup(probe);
+    }
+    void write(std::int64_t newMode, std::int64_t newStep = 0) {
+        probe.onActive = [=, this](Probe&, const Tick&) {
+            mode = newMode;
+            step[1] = newStep;
+        };
+        cluster.step();
+    }
+
+    ProbeCluster cluster;
+    Probe& probe = cluster.probe("/a");
+    Data<std::int64_t> mode;
+    std::span<std::int64_t> step;
+};
+
+TEST_F(DemandedLabels, ThatDoNotExistLeaveTheValueThatWentOutLast) {
+    write(4);
+    EXPECT_EQ(cluster.integer("/order", "mode"), 4);
+    for (const std::int64_t wrong : {2, 5, -1}) {
+        write(wrong);
+        EXPECT_EQ(cluster.integer("/order", "mode"), 4) << "nothing lies between labels";
+    }
+    EXPECT_EQ(cluster.state("/a"), State::Active);
+    EXPECT_TRUE(cluster.hasEvent("/a: mode of /order was 2, none of its labels; 4 stays"));
+    EXPECT_FALSE(cluster.hasEvent("was 5")) << "one episode";
+    write(1);
+
+    EXPECT_EQ(cluster.integer("/order", "mode"), 1);
+}
+
+TEST_F(DemandedLabels, ThatDoNotExistFaultTheWriterWhereTheTypeSaysSo) {
+    write(1, 5);
+    ASSERT_EQ(cluster.state("/a"), State::Active);
+    write(1, 3);
+
+    EXPECT_EQ(cluster.state("/a"), State::Fault);
+    EXPECT_EQ(cluster.integer("/a", "faultCode"), -4);
+    EXPECT_TRUE(cluster.hasEvent("step of /order was out of range"));
+}
+
 }  // namespace
 
 }  // namespace cortex::test

@@ -77,8 +77,7 @@ std::string elementError(const DataItem& item, const T& element) {
         const Number number{element};
         if constexpr (std::is_same_v<T, double>) {
             if (!std::isfinite(element)) return "is not finite";
-        } else if (!item.labels.empty() && !item.min && !item.max &&
-                   !item.labels.contains(element)) {
+        } else if (isClosed(item) && !item.labels.contains(element)) {
             return "is none of the labelled numbers";
         }
         const bool out = (item.min && number < *item.min) || (item.max && *item.max < number);
@@ -95,8 +94,7 @@ T implicitNumber(const DataItem& item) {
     if (item.min) number = std::max(number, std::get<T>(*item.min));
     if (item.max) number = std::min(number, std::get<T>(*item.max));
     if constexpr (std::is_same_v<T, std::int64_t>) {
-        const bool closed = !item.labels.empty() && !item.min && !item.max;
-        if (closed && !item.labels.contains(0)) number = item.labels.begin()->first;
+        if (isClosed(item) && !item.labels.contains(0)) number = item.labels.begin()->first;
     }
     return number;
 }

@@ -2,6 +2,7 @@
 #include "cortex/core/labelled_value.hpp"
 
 #include <sstream>
+#include <type_traits>
 
 namespace cortex {
 namespace {
@@ -20,7 +21,35 @@ std::string withNumbers(const DataItem& item, std::string_view text) {
     return result;
 }
 
+template <class T>
+std::string elementOutside(const DataItem& item, const T& element) {
+    if constexpr (std::is_same_v<T, std::int64_t> || std::is_same_v<T, double>) {
+        const Number number{element};
+        if (item.min && number < *item.min) return "below " + toText(*item.min);
+        if (item.max && *item.max < number) return "above " + toText(*item.max);
+        if constexpr (std::is_same_v<T, std::int64_t>) {
+            if (isClosed(item) && !item.labels.contains(element)) return "none of its labels";
+        }
+    }
+    return {};
+}
+
 }  // namespace
+
+bool isClosed(const DataItem& item) { return !item.labels.empty() && !item.min && !item.max; }
+
+std::string outsideText(const DataItem& item, const Value& value) {
+    return std::visit(
+        [&item](const auto& elements) {
+            using Element = typename std::decay_t<decltype(elements)>::value_type;
+            for (const auto& element : elements) {
+                std::string text = elementOutside<Element>(item, element);
+                if (!text.empty()) return text;
+            }
+            return std::string{};
+        },
+        value);
+}
 
 std::optional<Value> parseItemValue(const DataItem& item, std::string_view text, std::string& why) {
     if (item.labels.empty()) return parseValue(item.kind, item.length, text, why);

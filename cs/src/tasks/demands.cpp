@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tasks/demands.hpp"
 
+#include "cortex/core/labelled_value.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -101,12 +103,13 @@ DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, std::uin
     for (const ItemLayout& entry : layout.items) {
         const DataItem& item = *entry.item;
         if (item.constant) continue;
-        const bool limited =
-            item.kind == Kind::Float || (item.kind == Kind::Int && (item.min || item.max));
+        const bool closed = item.kind == Kind::Int && isClosed(item);
+        const bool limited = item.kind == Kind::Float || closed ||
+                             (item.kind == Kind::Int && (item.min || item.max));
         items_.push_back({&item, cellOf(live, entry), next, sizeOf(item),
                           asDouble(item.min, -greatest), asDouble(item.max, greatest),
                           item.rate.value_or(infinity), limited, false,
-                          item.kind == Kind::Float && item.length == 1 && !item.rate});
+                          item.kind == Kind::Float && item.length == 1 && !item.rate, closed});
         next += alignedSize(item);
     }
     beginnings_.reserve(items_.size() + 1);  // an array may begin two: a limit, then not finite
@@ -152,7 +155,8 @@ LimitResult DemandLimits::apply(double elapsedSeconds) {
 void DemandLimits::found(const Item& item, bool first, double value, double limit, bool byRate,
                          LimitResult& result) {
     result.any = result.limited = true;
-    if (first && !item.inEpisode) beginnings_.push_back({item.item, value, limit, false, byRate});
+    if (!first || item.inEpisode) return;
+    beginnings_.push_back({item.item, value, limit, false, byRate, item.closed});
 }
 
 bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
@@ -167,7 +171,7 @@ bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
         if (!rated && written >= item.min && written <= item.max) continue;
         if (!std::isfinite(written)) {
             result = {true, true, item.item, result.limited};
-            beginnings_.push_back({item.item, written, previous[i], true, false});
+            beginnings_.push_back({item.item, written, previous[i], true, false, false});
             return true;
         }
         const double inRange = std::clamp(written, item.min, item.max);
@@ -185,6 +189,7 @@ bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
 
 bool DemandLimits::applyInt(Item& item, LimitResult& result) {
     auto* values = reinterpret_cast<std::int64_t*>(item.live);
+    const auto* previous = reinterpret_cast<const std::int64_t*>(item.previous);
     const auto bound = [](const std::optional<Number>& number, std::int64_t otherwise) {
         const auto* value = number ? std::get_if<std::int64_t>(&*number) : nullptr;
         return value != nullptr ? *value : otherwise;
@@ -194,7 +199,10 @@ bool DemandLimits::applyInt(Item& item, LimitResult& result) {
     bool any = false;
     for (std::uint32_t i = 0; i < item.item->length; ++i) {
         const std::int64_t written = values[i];
-        values[i] = std::clamp(written, min, max);
+        if (item.closed)  // nothing lies between labels
+            values[i] = item.item->labels.contains(written) ? written : previous[i];
+        else
+            values[i] = std::clamp(written, min, max);
         if (values[i] == written) continue;
         found(item, !any, static_cast<double>(written), static_cast<double>(values[i]), false,
               result);

@@ -29,7 +29,8 @@ public:
         const DataItem* item;
         double value, limit;  // what was written, what it became
         bool notFinite;
-        bool byRate;  // in range, but too far from the value before
+        bool byRate;   // in range, but too far from the value before
+        bool noLabel;  // of a closed enumeration: it became the value before
     };
 
     DemandLimits(const TypeLayout& layout, const Slice& live, std::uint32_t simplex);
@@ -52,7 +53,8 @@ private:
         std::uint32_t size;  // octets
         double min, max, rate;
         bool limited, inEpisode;
-        bool plain;  // one number without a rate
+        bool plain;   // one number without a rate
+        bool closed;  // a closed enumeration: its labels are its range
     };
     bool applyFloat(Item& item, double elapsed, LimitResult& result) CORTEX_REALTIME;
     bool applyInt(Item& item, LimitResult& result) CORTEX_REALTIME;

@@ -131,6 +131,8 @@ void TaskDemands::reportLimits(const DemandLimits& limits, std::uint32_t simplex
         text << " of " << set_.structure.simplexes[limits.simplex()].path;
         if (each.notFinite) {
             text << " was not a number";
+        } else if (each.noLabel) {
+            text << " was " << each.value << ", none of its labels; " << each.limit << " stays";
         } else {
             text << " limited from " << each.value << " to " << each.limit;
             if (!each.item->unit.empty()) text << " " << each.item->unit;

@@ -24,7 +24,7 @@ struct TaskBuilder {
     std::vector<DemandLimits*> limitsOf;  // per simplex
     std::vector<std::vector<Arbiter::Candidate>> candidates;
     struct RunEnds {
-        std::size_t floats = 0, ints = 0;
+        std::size_t floats = 0, ints = 0, labels = 0;
     };
     std::vector<RunEnds> runEnds;  // per task
 
@@ -90,10 +90,11 @@ struct TaskBuilder {
         RunEnds before;
         for (std::size_t t = 0; t < set.tasks.size(); ++t) {
             if (set.tasks[t].simplex == nullptr) continue;
-            const auto [floats, ints] = runEnds[t];
+            const auto [floats, ints, labels] = runEnds[t];
             set.runsOf[t] = {
                 std::span{set.runs.floats}.subspan(before.floats, floats - before.floats),
-                std::span{set.runs.ints}.subspan(before.ints, ints - before.ints)};
+                std::span{set.runs.ints}.subspan(before.ints, ints - before.ints),
+                std::span{set.runs.labels}.subspan(before.labels, labels - before.labels)};
             before = runEnds[t];
         }
     }
@@ -126,8 +127,8 @@ struct TaskBuilder {
         }
         details.checks = checksOf(agent.tables().live(index), index);
         if (details.checks != nullptr) task.values = Task::Values::ToPass;
-        runEnds[static_cast<std::size_t>(&task - set.tasks.data())] = {set.runs.floats.size(),
-                                                                       set.runs.ints.size()};
+        runEnds[static_cast<std::size_t>(&task - set.tasks.data())] = {
+            set.runs.floats.size(), set.runs.ints.size(), set.runs.labels.size()};
         task.inputCount = static_cast<std::uint32_t>(set.inputs.size()) - task.firstInput;
         task.outputCount = static_cast<std::uint32_t>(set.outputs.size()) - task.firstOutput;
     }

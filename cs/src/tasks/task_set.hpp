@@ -92,6 +92,7 @@ struct alignas(32) Task {
 struct TaskRuns {
     std::span<const ValueRun<double>> floats;
     std::span<const ValueRun<std::int64_t>> ints;
+    std::span<const LabelRun> labels;
 };
 
 // What it looks at when something happens, or where a task does not run in every cycle.

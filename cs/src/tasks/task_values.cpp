@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tasks/task_values.hpp"
 
+#include "cortex/core/labelled_value.hpp"
+
 namespace cortex::cs {
 
 namespace {
@@ -8,6 +10,19 @@ namespace {
 EventText& operator<<(EventText& text, const Number& number) {
     if (const auto* whole = std::get_if<std::int64_t>(&number)) return text << *whole;
     return text << std::get<double>(number);
+}
+
+// The labels are the range of an item that has no other.
+void describeRange(const DataItem& item, EventText& text) {
+    if (isClosed(item)) {
+        text << ", none of its labels";
+        for (const auto& [number, label] : item.labels) text << " " << number << ":" << label;
+        return;
+    }
+    text << ", out of its range ";
+    if (item.min) text << *item.min;
+    text << " .. ";
+    if (item.max) text << *item.max;
 }
 
 }  // namespace
@@ -45,10 +60,7 @@ void TaskValues::report(const ValueChecks& checks, const ValueChecks::Beginning&
     } else {
         text << " is " << each.value;
         if (!item.unit.empty()) text << " " << item.unit;
-        text << ", out of its range ";
-        if (item.min) text << *item.min;
-        text << " .. ";
-        if (item.max) text << *item.max;
+        describeRange(item, text);
     }
     set_.agent.post(*task.simplex->thread_->loop, Severity::Warning, EventKind::Limit, task.index,
                     text);

@@ -28,6 +28,9 @@ private:
         for (const auto& run : runs.ints) {
             if (!run.passes()) return false;
         }
+        for (const auto& run : runs.labels) {
+            if (!run.passes()) return false;
+        }
         return true;
     }
     // True: a value is wrong.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tasks/value_checks.hpp"
 
+#include "cortex/core/labelled_value.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,25 +59,42 @@ ValueChecks::ValueChecks(const TypeModel& types, const TypeLayout& layout, const
     }
     join(std::move(found.floats), runs.floats);
     join(std::move(found.ints), runs.ints);
+    runs.labels.insert(runs.labels.end(), found.labels.begin(), found.labels.end());
     beginnings_.reserve(items_.size());
 }
 
 void ValueChecks::add(const DataItem& item, const void* cells, ValueRuns& runs) {
     constexpr double greatest = std::numeric_limits<double>::max();
-    using Int = std::numeric_limits<std::int64_t>;
-    const bool ranged = item.min || item.max;
+    const bool ranged = item.min || item.max || isClosed(item);
     if (item.kind != Kind::Float && !(item.kind == Kind::Int && ranged)) return;
     Item added{&item, cells, boundOf(item.min, -greatest), boundOf(item.max, greatest), 0, 0};
     if (item.kind == Kind::Int) {
-        added.minInt = boundOf(item.min, Int::min());
-        added.maxInt = boundOf(item.max, Int::max());
-        const auto* first = static_cast<const std::int64_t*>(cells);
-        runs.ints.push_back({first, first + item.length, added.minInt, added.maxInt});
+        addInts(added, runs);
     } else {
         const auto* first = static_cast<const double*>(cells);
         runs.floats.push_back({first, first + item.length, added.min, added.max});
     }
     items_.push_back(added);
+}
+
+// Labels without gaps are a range like any other.
+void ValueChecks::addInts(Item& item, ValueRuns& runs) {
+    using Int = std::numeric_limits<std::int64_t>;
+    const DataItem& type = *item.item;
+    const auto* first = static_cast<const std::int64_t*>(item.cells);
+    item.minInt = boundOf(type.min, Int::min());
+    item.maxInt = boundOf(type.max, Int::max());
+    if (isClosed(type)) {
+        item.minInt = type.labels.begin()->first;
+        item.maxInt = type.labels.rbegin()->first;
+        item.gaps =
+            static_cast<std::uint64_t>(item.maxInt) - static_cast<std::uint64_t>(item.minInt) >=
+            type.labels.size();
+    }
+    if (item.gaps)
+        runs.labels.push_back({first, first + type.length, &type.labels});
+    else
+        runs.ints.push_back({first, first + type.length, item.minInt, item.maxInt});
 }
 
 // True: one of its values is wrong; the first of them, or the first that is not finite, is found.
@@ -84,7 +103,8 @@ bool ValueChecks::judge(const Item& item, Beginning& found) {
     for (std::uint32_t i = 0; i < item.item->length; ++i) {
         if (item.item->kind == Kind::Int) {
             const std::int64_t value = static_cast<const std::int64_t*>(item.cells)[i];
-            if (value >= item.minInt && value <= item.maxInt) continue;
+            const bool inRange = value >= item.minInt && value <= item.maxInt;
+            if (inRange && (!item.gaps || item.item->labels.contains(value))) continue;
             found = {item.item, static_cast<double>(value), false};
             return true;
         }

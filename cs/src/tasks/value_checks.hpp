@@ -3,8 +3,11 @@
 
 #include "cortex/core/structure.hpp"
 
+#include <algorithm>
 #include <cstdint>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace cortex::cs {
@@ -23,14 +26,25 @@ struct ValueRun {
         return true;
     }
 };
+// An item whose labels are its range, and leave gaps.
+struct LabelRun {
+    const std::int64_t *first, *end;
+    const std::map<std::int64_t, std::string>* labels;
+
+    bool passes() const CORTEX_REALTIME {
+        return std::all_of(first, end,
+                           [this](std::int64_t each) { return labels->contains(each); });
+    }
+};
 struct ValueRuns {
     std::vector<ValueRun<double>> floats;
     std::vector<ValueRun<std::int64_t>> ints;
+    std::vector<LabelRun> labels;
 };
 
 // Looks at what a task has written where nothing limits it: an observation, or its own items. Not
-// finite, or out of the range of the type. Built by start(); used by the task that writes, where
-// the runs that it gave the task do not pass.
+// finite, or out of the range of the type, which labels are where there is no other. Built by
+// start(); used by the task that writes, where the runs that it gave the task do not pass.
 class ValueChecks {
 public:
     // The first cycle of an episode of one item.
@@ -63,8 +77,10 @@ private:
         double min, max;
         std::int64_t minInt, maxInt;
         bool inEpisode = false;
+        bool gaps = false;  // only labelled numbers are right, and some between them have none
     };
     void add(const DataItem& item, const void* cells, ValueRuns& runs);
+    void addInts(Item& item, ValueRuns& runs);
     static bool judge(const Item& item, Beginning& found) CORTEX_REALTIME;
 
     std::uint32_t simplex_;

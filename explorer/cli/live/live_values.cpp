@@ -66,6 +66,11 @@ std::string valueText(const DataItem& item, const Value& value) {
     return joined(words, " ");
 }
 
+std::string wrongText(const DataItem& item, const Value& value) {
+    const std::string wrong = outsideText(item, value);
+    return wrong.empty() ? "" : "  <- " + wrong;
+}
+
 std::optional<State> stateOf(const comms::AgentImage& image, std::uint32_t simplex) {
     if (!image.came(simplex)) return {};
     const SimplexInfo& info = image->structure().simplexes[simplex];

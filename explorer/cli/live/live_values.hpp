@@ -18,6 +18,8 @@ Json valueJson(const DataItem& item, const Value& value);  // a scalar, or a lis
 Json labelJson(const DataItem& item, const Value& value);  // label or list; null without labels
 Json numberJson(const std::optional<Number>& number);      // null without one
 std::string valueText(const DataItem& item, const Value& value);  // labels, format of the item
+// What is behind a value that is out of its range: "  <- above 2", "  <- none of its labels".
+std::string wrongText(const DataItem& item, const Value& value);
 
 // The state of an active simplex in an image; none for others, and while it has not come.
 std::optional<State> stateOf(const comms::AgentImage& image, std::uint32_t simplex);

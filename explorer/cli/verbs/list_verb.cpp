@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/labelled_value.hpp"
 #include "cortex/core/nearest_names.hpp"
 
 #include "live/live_values.hpp"
 #include "live/safe_demand.hpp"
 #include "verbs/live_verbs.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <set>
@@ -17,6 +19,7 @@ struct Line {
     std::optional<State> state;
     Quality quality = Quality::Lost;
     StaleDemand demand{};
+    std::int64_t wrong = 0;  // values that are out of their range
 };
 
 // What is listed, and whoever writes a demand of it: their states tell why it is stale.
@@ -31,6 +34,13 @@ std::vector<std::string> viewedFor(const Live& live, const std::string& prefix) 
     return {paths.begin(), paths.end()};
 }
 
+std::int64_t wrongValues(const comms::AgentImage& image, const FoundSimplex& simplex) {
+    if (!image.came(simplex.index)) return 0;
+    return std::ranges::count_if(simplex.info().layout->items, [&](const ItemLayout& each) {
+        return !outsideText(*each.item, image->value(simplex.index, each)).empty();
+    });
+}
+
 std::vector<Line> linesOf(Live& live, const std::vector<FoundSimplex>& simplexes) {
     std::map<std::string, comms::AgentImage> images;
     std::vector<Line> lines;
@@ -39,12 +49,13 @@ std::vector<Line> linesOf(Live& live, const std::vector<FoundSimplex>& simplexes
         if (found == images.end()) {
             found = images.emplace(each.agent, live.mirror().image(each.agent)).first;
         }
-        Line line{each, {}, Quality::Lost, {}};
+        Line line{each, {}, Quality::Lost, {}, 0};
         const comms::AgentImage& image = found->second;
         if (image && &image->structure() == each.structure.get()) {
             line.state = stateOf(image, each.index);
             line.quality = image->state(each.index).quality;
             line.demand = safeBecause(each, image->state(each.index), image);
+            line.wrong = wrongValues(image, each);
         }
         lines.push_back(std::move(line));
     }
@@ -58,7 +69,17 @@ Json lineJson(const Line& line) {
             {"agent", line.simplex.agent},
             {"state", line.state ? Json(name(*line.state)) : Json()},
             {"quality", name(line.quality)},
-            {"safe", safeJson(line.demand)}};
+            {"safe", safeJson(line.demand)},
+            {"wrong", line.wrong}};
+}
+
+std::string qualityOf(const Line& line) {
+    std::string text = qualityText(line.quality, line.demand);
+    if (line.wrong > 0) {
+        text += ", " + std::to_string(line.wrong) + (line.wrong == 1 ? " value" : " values") +
+                " out of range";
+    }
+    return text;
 }
 
 void printLines(const std::vector<Line>& lines) {
@@ -66,7 +87,7 @@ void printLines(const std::vector<Line>& lines) {
     for (const Line& each : lines) {
         columns.add({each.simplex.info().path, each.simplex.type().name,
                      name(each.simplex.info().role), each.simplex.agent,
-                     each.state ? name(*each.state) : "-", qualityText(each.quality, each.demand)});
+                     each.state ? name(*each.state) : "-", qualityOf(each)});
     }
     columns.print(std::cout);
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/labelled_value.hpp"
+
 #include "live/causes.hpp"
 #include "live/live_values.hpp"
 #include "live/loop_text.hpp"
@@ -58,6 +60,8 @@ Json dataJson(const Shown& shown) {
             {"max", numberJson(item.max)}, {"description", item.description}};
         const Json label = labelJson(item, shown.value(each));
         if (!label.is_null()) data[item.name]["label"] = label;
+        const std::string wrong = outsideText(item, shown.value(each));
+        if (!wrong.empty()) data[item.name]["wrong"] = wrong;
     }
     return data;
 }
@@ -143,8 +147,9 @@ void printData(const Shown& shown) {
     Columns columns{2};
     for (const ItemLayout& each : shown.simplex.info().layout->items) {
         const DataItem& item = *each.item;
-        columns.add({item.name, valueText(item, shown.value(each)), item.unit, rangeText(item),
-                     item.description});
+        const Value value = shown.value(each);
+        columns.add({item.name, valueText(item, value) + wrongText(item, value), item.unit,
+                     rangeText(item), item.description});
     }
     std::cout << "\ndata\n";
     columns.print(std::cout);

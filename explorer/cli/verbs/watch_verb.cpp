@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/labelled_value.hpp"
 #include "cortex/core/nearest_names.hpp"
 
 #include "live/live_values.hpp"
@@ -29,6 +30,7 @@ struct Watched {
 struct Reading {
     std::string text;
     Json value, label;  // null: it has none
+    std::string wrong;  // how it is out of its range
     Quality quality = Quality::Lost;
     StaleDemand demand{};
 };
@@ -80,6 +82,7 @@ Reading read(const Watched& watched, const comms::AgentImage& image) {
     reading.text = valueText(*watched.item->item, value);
     reading.value = valueJson(*watched.item->item, value);
     reading.label = labelJson(*watched.item->item, value);
+    reading.wrong = outsideText(*watched.item->item, value);
     return reading;
 }
 
@@ -125,6 +128,7 @@ private:
                                                       {"quality", name(readings[i].quality)}};
             if (readings[i].demand.safe) value["safe"] = readings[i].demand.why;
             if (!readings[i].label.is_null()) value["label"] = readings[i].label;
+            if (!readings[i].wrong.empty()) value["wrong"] = readings[i].wrong;
         }
         Json line{{"time", time}, {"values", values}};
         if (!restarted.empty()) line["restarted"] = restarted;
@@ -136,6 +140,7 @@ private:
         if (!watched.item->item->unit.empty()) shown += " " + watched.item->item->unit;
         if (reading.quality != Quality::Good)
             shown += "  " + qualityText(reading.quality, reading.demand);
+        if (!reading.wrong.empty()) shown += "  <- " + reading.wrong;
         if (shown == watched.shown) return;
         watched.shown = shown;
         std::cout << time << "  " << watched.name << "  " << printable(shown) << '\n';

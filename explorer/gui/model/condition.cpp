@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/condition.hpp"
 
+#include "cortex/core/labelled_value.hpp"
+
 #include "model/value_text.hpp"
 
 #include <QCoreApplication>
 #include <QRegularExpression>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -109,15 +110,7 @@ bool isOutside(const AgentFrame& agent, std::uint32_t simplex) {
     if (!agent.came(simplex)) return false;
     const TypeLayout& layout = *agent.structure->simplexes[simplex].layout;
     return std::ranges::any_of(layout.items, [&](const ItemLayout& each) {
-        const auto min = numberOf(each.item->min), max = numberOf(each.item->max);
-        if (!min && !max) return false;
-        const Value value = (*agent.image)->value(simplex, each);
-        for (std::size_t i = 0; i < elements(value); ++i) {
-            const auto number = numberOf(value, i);
-            if (!number || !std::isfinite(*number)) continue;
-            if ((min && *number < *min) || (max && *number > *max)) return true;
-        }
-        return false;
+        return !outsideText(*each.item, (*agent.image)->value(simplex, each)).empty();
     });
 }
 

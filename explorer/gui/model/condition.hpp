@@ -25,7 +25,8 @@ std::optional<Condition> conditionFrom(const QString& text, QString& trouble);
 // Of an array: whether it holds for an element. A value that never came fulfils nothing.
 bool holds(const Condition& condition, const AgentFrame& agent, std::uint32_t simplex);
 
-// Whether a number of the simplex is beyond the limits of its item.
+// Whether a number of the simplex is beyond the limits of its item, or has no label where only
+// labelled numbers are values.
 bool isOutside(const AgentFrame& agent, std::uint32_t simplex);
 
 }  // namespace cortex::explorer

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/item_model.hpp"
 
+#include "cortex/core/labelled_value.hpp"
+
 #include "model/value_text.hpp"
 
 #include <algorithm>
@@ -44,11 +46,24 @@ bool isOfFramework(const std::string& type) {
     return types.contains(type);
 }
 
-std::optional<Shape> outsideOf(const ItemModel::Row& row) {
+std::optional<Shape> outsideOf(const ItemModel::Row& row, const Value& value) {
+    const auto* ints = std::get_if<std::vector<std::int64_t>>(&value);
+    if (isClosed(*row.item) && ints != nullptr && row.element < ints->size()) {
+        const bool known = row.item->labels.contains((*ints)[row.element]);
+        return known ? std::nullopt : std::optional{Shape::NoLabel};
+    }
     if (!row.number || !std::isfinite(*row.number)) return std::nullopt;
     if (row.max && *row.number > *row.max) return Shape::AboveLimit;
     if (row.min && *row.number < *row.min) return Shape::BelowLimit;
     return std::nullopt;
+}
+
+QString labelsText(const DataItem& item) {
+    QStringList labels;
+    for (const auto& [number, label] : item.labels) {
+        labels << QString::number(number) + ':' + QString::fromStdString(label);
+    }
+    return ItemModel::tr("labels: %1").arg(labels.join(' ')).toHtmlEscaped();
 }
 
 }  // namespace
@@ -206,7 +221,7 @@ void ItemModel::refresh(Node& node) {
             row.value = array ? tr("%n values", nullptr, static_cast<int>(row.item->length))
                               : elementText(*row.item, value, row.element);
             if (!array) row.number = numberOf(value, row.element);
-            row.mark = outsideOf(row);
+            if (!array) row.mark = outsideOf(row, value);
             const Quality quality = qualityOf(agent, *child);
             if (quality != Quality::Good && !row.item->constant) {
                 row.mark = shapeOf(quality);
@@ -320,6 +335,7 @@ QVariant ItemModel::data(const QModelIndex& index, int role) const {
             lines << QString::fromStdString(row.item->description).toHtmlEscaped();
         }
         if (row.mark) lines << word(*row.mark);
+        if (row.mark == Shape::NoLabel) lines << labelsText(*row.item);
         return lines.join(QStringLiteral("\n"));
     }
     if (role != Qt::DisplayRole && role != Qt::AccessibleTextRole) return {};

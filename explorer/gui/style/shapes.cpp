@@ -120,6 +120,12 @@ void paintTrouble(Unit& unit, Shape shape, const Tokens& c) {
             unit.fill(c.warnEdge);
             unit->drawPolygon(triangle(shape == Shape::AboveLimit ? 1 : -1));
             break;
+        case Shape::NoLabel:  // "is not equal to any"
+            unit.line(c.warnEdge);
+            unit->drawLine(QLineF{-0.8, -0.3, 0.8, -0.3});
+            unit->drawLine(QLineF{-0.8, 0.3, 0.8, 0.3});
+            unit->drawLine(QLineF{-0.4, 0.85, 0.4, -0.85});
+            break;
         case Shape::Contradiction:
             unit.line(c.warnEdge);
             unit->drawRect(QRectF{-0.8, -0.8, 1.05, 1.05});
@@ -154,11 +160,11 @@ void paintTrouble(Unit& unit, Shape shape, const Tokens& c) {
 }  // namespace
 
 QString word(Shape shape) {
-    static constexpr std::array words{"Standby",     "StartingUp",  "Active",        "ShuttingDown",
-                                      "Fault",       "unknown",     "data",          "path",
-                                      "agent",       "stale",       "bad",           "lost",
-                                      "above limit", "below limit", "contradiction", "incomplete",
-                                      "info",        "warning",     "error"};
+    static constexpr std::array words{"Standby",     "StartingUp",  "Active",   "ShuttingDown",
+                                      "Fault",       "unknown",     "data",     "path",
+                                      "agent",       "stale",       "bad",      "lost",
+                                      "above limit", "below limit", "no label", "contradiction",
+                                      "incomplete",  "info",        "warning",  "error"};
     static_assert(words.size() == allShapes.size());
     return QCoreApplication::translate("Shape", words[static_cast<std::size_t>(shape)]);
 }
@@ -229,6 +235,7 @@ QColor textColour(Shape shape, const Tokens& colours) {
             return colours.dataText;
         case Shape::AboveLimit:
         case Shape::BelowLimit:
+        case Shape::NoLabel:
         case Shape::Contradiction:
         case Shape::Warning:
             return colours.warnText;

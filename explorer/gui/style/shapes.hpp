@@ -31,6 +31,7 @@ enum class Shape {
     Lost,
     AboveLimit,
     BelowLimit,
+    NoLabel,  // of a closed enumeration, whose labels are its limits
     Contradiction,
     Incomplete,
     Info,
@@ -39,13 +40,17 @@ enum class Shape {
 };
 
 inline constexpr std::array allShapes{
-    Shape::Standby,    Shape::StartingUp, Shape::Active,        Shape::ShuttingDown,
-    Shape::Fault,      Shape::Unknown,    Shape::Data,          Shape::Path,
-    Shape::Agent,      Shape::Stale,      Shape::Bad,           Shape::Lost,
-    Shape::AboveLimit, Shape::BelowLimit, Shape::Contradiction, Shape::Incomplete,
-    Shape::Info,       Shape::Warning,    Shape::Error};
+    Shape::Standby,       Shape::StartingUp, Shape::Active,     Shape::ShuttingDown, Shape::Fault,
+    Shape::Unknown,       Shape::Data,       Shape::Path,       Shape::Agent,        Shape::Stale,
+    Shape::Bad,           Shape::Lost,       Shape::AboveLimit, Shape::BelowLimit,   Shape::NoLabel,
+    Shape::Contradiction, Shape::Incomplete, Shape::Info,       Shape::Warning,      Shape::Error};
 
 QString word(Shape shape);  // "StartingUp", "above limit"
+
+// Whether it marks a value that is beyond its limits.
+constexpr bool isBeyondLimits(std::optional<Shape> shape) {
+    return shape == Shape::AboveLimit || shape == Shape::BelowLimit || shape == Shape::NoLabel;
+}
 
 Shape shapeOf(State state);
 std::optional<Shape> shapeOf(Quality quality);  // none: good has no mark

@@ -36,7 +36,7 @@ public:
         if (row.item == nullptr) return;  // a group is painted as a whole
         const Tokens& c = Look::colours();
         const QRect box = option.rect.adjusted(Look::units(2), 0, -Look::units(2), 0);
-        const bool outside = row.mark == Shape::AboveLimit || row.mark == Shape::BelowLimit;
+        const bool outside = isBeyondLimits(row.mark);
         const QColor ink = rowInk(option, row.mark ? textColour(*row.mark, c) : c.ink);
         switch (index.column()) {
             case ItemModel::Name:
@@ -211,8 +211,7 @@ void ItemTable::drawRow(QPainter* painter, const QStyleOptionViewItem& option,
     if (selectionModel()->isRowSelected(index.row(), index.parent())) {
         whole.state |= QStyle::State_Selected;
     }
-    const bool outside =
-        row.mark == explorer::Shape::AboveLimit || row.mark == explorer::Shape::BelowLimit;
+    const bool outside = isBeyondLimits(row.mark);
     paintRow(*painter, whole, row.item == nullptr ? c.hover : outside ? c.warnBg : QColor{});
     QTreeView::drawRow(painter, option, index);
     if (row.item != nullptr) return;
