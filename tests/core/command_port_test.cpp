@@ -3,6 +3,7 @@
 
 #include "support/agent_rig.hpp"
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -260,6 +261,42 @@ TEST_F(CommandPort, HandlerFailsInItsOwnWordsWhichTheNextAnswerForgets) {
     fail = false;
     EXPECT_EQ(exchange().outcome, Outcome::Done);
     EXPECT_EQ(sender.answer().why.view(), "");
+}
+
+TEST_F(CommandPort, AResponseThatIsNoNumberIsAFailureInWordsAndNotSent) {
+    prepare("add");
+    sender.argument<double>("amount") = 1.0;
+    const auto result = sender.response<double>("sum");
+    const auto out = worker.result<double>("add", "sum");
+    rig.start();
+    for (const double wrong :
+         {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
+        worker.on("add", [&](Call& call) {
+            call[out] = wrong;
+            return Outcome::Done;
+        });
+        EXPECT_EQ(exchange().outcome, Outcome::Failed);
+        EXPECT_EQ(sender.answer().why.view(), "its response 'sum' is not a number");
+        EXPECT_EQ(result, 0.0);
+    }
+    EXPECT_TRUE(
+        rig.hasEvent("/worker: add from /boss: Failed, its response 'sum' is not a number"));
+}
+
+TEST_F(CommandPort, AnElementOfAResponseFromOutsideThatIsNoNumberIsAFailureAsWell) {
+    rig.make();
+    const auto list = worker.arrayResult<double>("mix", "list");
+    worker.on("mix", [&](Call& call) {
+        call[list][1] = std::numeric_limits<double>::infinity();
+        return Outcome::Done;
+    });
+    rig.start();
+    rig.outside.send({.path = "/worker", .command = "mix"});
+    rig.step();
+
+    EXPECT_EQ(rig.outside.last().outcome, Outcome::Failed);
+    EXPECT_EQ(rig.outside.last().why, "its response 'list' is not a number");
+    EXPECT_TRUE(rig.outside.last().response.empty());
 }
 
 TEST_F(CommandPort, ShortCommandThatGoesOnRunningHasFailed) {

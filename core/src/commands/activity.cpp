@@ -38,7 +38,7 @@ void Activity::start(const CommandTable::Entry& entry, const Handler& handler,
     if (name_.bound()) name_ = entry.name;
     if (requester_.bound()) requester_ = requesterName();
     if (outcome_.bound()) outcome_ = static_cast<std::int64_t>(Outcome::Failed);
-    verdict = call(true, false);  // if it throws: Failed, and not running
+    verdict = call(entry, true, false);  // if it throws: Failed, and not running
     if (verdict.outcome == Outcome::Running) entry_ = &entry;
     if (outcome_.bound()) outcome_ = static_cast<std::int64_t>(verdict.outcome);
 }
@@ -54,7 +54,7 @@ void Activity::step(const ChunkClock& clock) {
     }
     Verdict verdict{Outcome::Failed, Reason::None, "its handler threw"};
     try {
-        verdict = call(false, false);
+        verdict = call(*entry_, false, false);
     } catch (...) {
         finish(verdict, clock);
         throw;
@@ -68,7 +68,7 @@ void Activity::cancel(const ChunkClock& clock, bool callHandler, std::string_vie
 
 void Activity::stop(const ChunkClock& clock, bool callHandler, const Verdict& verdict) {
     try {
-        if (callHandler) call(false, true);
+        if (callHandler) call(*entry_, false, true);
     } catch (...) {
         finish(verdict, clock);
         throw;
@@ -76,14 +76,15 @@ void Activity::stop(const ChunkClock& clock, bool callHandler, const Verdict& ve
     finish(verdict, clock);
 }
 
-Verdict Activity::call(bool first, bool cancelling) {
-    Call call{reinterpret_cast<const std::byte*>(request_.get()),
-              reinterpret_cast<std::byte*>(response_.get())};
+Verdict Activity::call(const CommandTable::Entry& entry, bool first, bool cancelling) {
+    auto* response = reinterpret_cast<std::byte*>(response_.get());
+    Call call{reinterpret_cast<const std::byte*>(request_.get()), response};
     call.setTime(agent_.present.nominalTime, startedTime_);
     call.setFirst(first);
     call.setCancelling(cancelling);
     if (origin_.outside != nullptr) call.setSender(&origin_.outside->sender);
-    return verdictOf(handler_(call), call);
+    const Outcome outcome = handler_(call);
+    return outcome == Outcome::Done ? doneVerdict(entry, response) : verdictOf(outcome, call);
 }
 
 void Activity::finish(const Verdict& verdict, const ChunkClock& clock) {

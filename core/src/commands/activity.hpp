@@ -44,7 +44,7 @@ public:
     void cancel(const ChunkClock& clock, bool callHandler, std::string_view why);
 
 private:
-    Verdict call(bool first, bool cancelling);
+    Verdict call(const CommandTable::Entry& entry, bool first, bool cancelling);
     void finish(const Verdict& verdict, const ChunkClock& clock) CORTEX_REALTIME;
     void stop(const ChunkClock& clock, bool callHandler, const Verdict& verdict);
     std::string_view requesterName() const CORTEX_REALTIME;

@@ -2,6 +2,7 @@
 #include "cortex/core/command.hpp"
 
 #include "cortex/core/argument_checks.hpp"
+#include "cortex/core/labelled_value.hpp"
 #include "cortex/core/tables.hpp"
 
 #include "types/enum_names.hpp"
@@ -69,7 +70,7 @@ ArgumentCheck compileCheck(const ItemLayout& layout) {
     check.offset = layout.offset;
     check.length = item.length;
     check.kind = item.kind;
-    check.closed = !item.labels.empty() && !item.min && !item.max;
+    check.closed = isClosed(item);
     check.minInt = item.min ? lowest(*item.min) : std::numeric_limits<std::int64_t>::min();
     check.maxInt = item.max ? highest(*item.max) : std::numeric_limits<std::int64_t>::max();
     check.minFloat = item.min ? asFloat(*item.min) : -std::numeric_limits<double>::max();
@@ -166,21 +167,24 @@ CommandTable commandTable(const Type& type) {
                                  command.available,
                                  !command.isLong,
                                  {},
+                                 {},
                                  {}});
         table.hasLong = table.hasLong || command.isLong;
     }
     if (table.hasLong) {
-        table.entries.push_back({nullptr, "cancel", {}, {}, StateSet::always(), false, {}, {}});
+        table.entries.push_back({nullptr, "cancel", {}, {}, StateSet::always(), false, {}, {}, {}});
     }
     for (const DataItem& item : type.data) {
         if (!item.settable.empty()) table.settable.push_back(&item);
     }
     if (!table.settable.empty()) {
         table.entries.push_back(
-            {nullptr, "set", setLayout(table.settable), {}, StateSet::always(), false, {}, {}});
+            {nullptr, "set", setLayout(table.settable), {}, StateSet::always(), false, {}, {}, {}});
     }
     for (CommandTable::Entry& entry : table.entries) {
         entry.checks = compileChecks(entry.request);
+        entry.floats = compileChecks(entry.response);
+        std::erase_if(entry.floats, [](const auto& each) { return each.kind != Kind::Float; });
         entry.emptyResponse.resize(entry.response.size);
         initialiseRecord(entry.response, entry.emptyResponse.data());
         table.maxRequest = std::max(table.maxRequest, entry.request.size);
@@ -201,6 +205,16 @@ bool checkElements(const ArgumentCheck& check, const std::byte* record, Words& w
         if (!checkElement(check, record + check.offset, i, why)) return false;
     }
     return true;
+}
+
+const DataItem* notFinite(std::span<const ArgumentCheck> floats, const std::byte* record) {
+    for (const ArgumentCheck& each : floats) {
+        const auto* first = reinterpret_cast<const double*>(record + each.offset);
+        if (!std::all_of(first, first + each.length, [](double x) { return std::isfinite(x); })) {
+            return each.item;
+        }
+    }
+    return nullptr;
 }
 
 EventText checkArguments(const RecordLayout& layout, const std::byte* record) {

@@ -16,8 +16,9 @@ Origin originOf(Lane* lane, OutsideEntry* outside) {
     return {lane, lane->number(), head.handle, nullptr, head.cycles, head.time};
 }
 
-Verdict shortVerdict(Outcome outcome, const Call& call) {
-    if (outcome == Outcome::Done) return {};
+Verdict shortVerdict(Outcome outcome, const Call& call, const CommandTable::Entry& entry,
+                     std::byte* response) {
+    if (outcome == Outcome::Done) return doneVerdict(entry, response);
     if (outcome == Outcome::Running) {
         return {Outcome::Failed, Reason::None, "only a long command may go on running"};
     }
@@ -106,11 +107,13 @@ bool CommandPort::hasPassingWork() const {
     Call call{request, response};
     call.setTime(thread_->nominalTime, thread_->nominalTime);
     const Outcome outcome = handler(call);
-    if (outcome == Outcome::Done) [[likely]] {
+    const bool isDone = outcome == Outcome::Done &&
+                        (entry.floats.empty() || notFinite(entry.floats, response) == nullptr);
+    if (isDone) [[likely]] {
         lane.answerDone(head, thread_->clock);
         countExecuted(head.time);
     } else {
-        answer(lane, head, shortVerdict(outcome, call));
+        answer(lane, head, shortVerdict(outcome, call, entry, response));
     }
     return true;
 }
@@ -237,7 +240,7 @@ void CommandPort::execute(std::uint32_t command, const std::byte* request, std::
     Call call{request, response};
     call.setTime(thread_->nominalTime, thread_->nominalTime);
     if (outside != nullptr) call.setSender(&outside->sender);
-    verdict = shortVerdict(handler(call), call);
+    verdict = shortVerdict(handler(call), call, entry, response);
 }
 
 bool CommandPort::accepted(const CommandTable::Entry& entry, const std::byte* request,

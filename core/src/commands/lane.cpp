@@ -36,6 +36,14 @@ Verdict verdictOf(Outcome outcome, const Call& call) {
     return verdict;
 }
 
+Verdict doneVerdict(const CommandTable::Entry& entry, std::byte* response) {
+    const DataItem* wrong = entry.floats.empty() ? nullptr : notFinite(entry.floats, response);
+    if (wrong == nullptr) return {};
+    copyRecord(response, entry.emptyResponse.data(), entry.response.size);
+    return {Outcome::Failed, Reason::None,
+            EventText{"its response '"} << wrong->name << "' is not a number"};
+}
+
 Lane::Lane(const Shape& shape, std::vector<CommandSender::State*> handles)
     : capacity_{shape.capacity},
       onlyHandle_{handles.size() == 1 ? handles.front() : nullptr},

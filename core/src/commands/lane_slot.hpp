@@ -21,6 +21,9 @@ struct Verdict {
 
 // Of what a handler returned and said; what only the framework may answer counts as Failed.
 Verdict verdictOf(Outcome outcome, const Call& call) CORTEX_REALTIME;
+// Of a handler that said Done. A response that is no number is not sent: that is Failed, and the
+// response is empty.
+Verdict doneVerdict(const CommandTable::Entry& entry, std::byte* response) CORTEX_REALTIME;
 
 // Head of a command in a lane; its request, then its response follow. Answered in place, so that
 // a command of few parameters and its answer share one cache line.

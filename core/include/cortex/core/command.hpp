@@ -176,6 +176,7 @@ struct CommandTable {
         bool isShort = false;                  // executed by its handler in one call
         std::vector<ArgumentCheck> checks;     // of the request
         std::vector<std::byte> emptyResponse;  // initialised
+        std::vector<ArgumentCheck> floats;     // of the response
     };
     std::vector<Entry> entries;
     std::vector<const DataItem*> settable;  // in the order of the flags

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cortex {
@@ -15,6 +16,9 @@ std::vector<ArgumentCheck> compileChecks(const RecordLayout& layout);
 // Otherwise `why` says in words what is wrong.
 bool checkElements(const ArgumentCheck& check, const std::byte* record,
                    std::optional<EventText>& why) CORTEX_REALTIME;
+// The first of these float items with an element that is not finite; null: all are numbers.
+const DataItem* notFinite(std::span<const ArgumentCheck> floats, const std::byte* record)
+    CORTEX_REALTIME;
 // Whether this is one number in its range, as most are. If it is not, ask checkElements().
 inline bool isOneNumberInRange(const ArgumentCheck& check, const std::byte* record)
     CORTEX_REALTIME {
