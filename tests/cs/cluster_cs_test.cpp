@@ -122,16 +122,16 @@ TEST(ClusterCS, TakesWhatPopulateWritesWhereNothingElseWasGiven) {
     EXPECT_EQ(refusal(equal.cluster), "") << "the same value replaces nothing";
 
     Overwriting asks;
-    asks.signal.set("value", 7.0);
+    asks.signal.set("level", 7.0);
     asks.probe.onPopulate = [](Probe& self) {
         if (!self.hasValue("executed")) self.data<std::int64_t>("executed") = 55;
         const OutputSimplex out = self.output("out");
-        if (!out.hasValue("value")) out.data<double>("value") = 2.5;
+        if (!out.hasValue("level")) out.data<double>("level") = 2.5;
         EXPECT_THROW(self.hasValue("execute"), Error);
     };
     EXPECT_EQ(refusal(asks.cluster), "");
     EXPECT_EQ(asks.cluster.integer("/probe", "executed"), 55);
-    EXPECT_EQ(asks.cluster.number("/s", "value"), 7);
+    EXPECT_EQ(asks.cluster.number("/s", "level"), 7);
 }
 
 TEST(ClusterCS, RefusesALoopWithoutDelayAndPrintsItWhole) {

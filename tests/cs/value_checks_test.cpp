@@ -197,7 +197,7 @@ TEST_F(WrittenLabels, ThatDoNotExistAreOutOfRangeToldOnceAndCountedButStand) {
 
     EXPECT_EQ(cluster.integer("/switches", "mode"), -1);
     EXPECT_EQ(cluster.quality("/switches"), Quality::Good);
-    EXPECT_EQ(cluster.integer("/test", "limitCount"), 4);
+    EXPECT_EQ(cluster.integer("/test", "limitCount"), 5);
     EXPECT_EQ(told("/a: mode of /switches is 7, none of its labels 0:Off 1:On"), 1);
     EXPECT_EQ(told("/a: step of /switches is 1, none of its labels 0:Rest 5:Go 900:Done"), 1);
     write(0, 0);
