@@ -89,6 +89,38 @@ TEST_F(MirrorTablesTest, CallsStaleAfterAGapWhatHasNotComeAgain) {
     EXPECT_EQ(tables->loss(), 3U);
 }
 
+TEST_F(MirrorTablesTest, CountsTheCyclesOfAViewOfEveryCycleThatNobodySent) {
+    tables->restart({{"/"}, 0});
+    tables->apply(agent.block(1), begin);
+    agent.rig.step(4);
+
+    tables->apply(agent.block(2), begin);  // the agent itself left three out
+    EXPECT_EQ(tables->loss(), 3U);
+    tables->apply(agent.block(3), begin);  // the same cycle, with other simplexes
+    agent.rig.step(2);
+    tables->apply(agent.block(6), begin);  // two blocks were lost, but one cycle
+    EXPECT_EQ(tables->loss(), 4U);
+
+    tables->restart({{"/"}, 30});
+    tables->apply(agent.block(1), begin);
+    agent.rig.step(33);
+    tables->apply(agent.block(2), begin);
+    EXPECT_EQ(tables->loss(), 4U) << "a slower view leaves cycles out";
+}
+
+TEST_F(MirrorTablesTest, ToleratesCyclesOfAViewOfEveryCycleThatCannotBe) {
+    tables->restart({{"/"}, 0});
+    Block block = agent.block(1);
+    block.cycle = std::numeric_limits<std::int64_t>::min();
+    tables->apply(block, begin);
+    block.cycle = std::numeric_limits<std::int64_t>::max();
+
+    tables->apply(block, begin);
+
+    EXPECT_EQ(tables->loss(), std::numeric_limits<std::uint64_t>::max() - 1);
+    EXPECT_TRUE(tables->apply(agent.block(2), begin));
+}
+
 TEST_F(MirrorTablesTest, CallsStaleWhatDoesNotComeInTime) {
     tables->apply(agent.block(1), begin);
     const auto patience = everything.patience(1'000'000);

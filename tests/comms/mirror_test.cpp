@@ -146,6 +146,38 @@ TEST(Mirror, ReportsEveryImageInOrderToWhoAskedForEveryCycle) {
     EXPECT_GE(meanwhile, 10) << "of 100, some of which a busy agent may leave out";
 }
 
+// Many cycles pass before the communication thread can run.
+TEST(Mirror, GetsEveryCycleAlsoWhereTheLoopIsFasterThanTheThreadThatSends) {
+    const auto agent = robot();
+    agent->rig.start();
+    std::mutex mutex;
+    std::vector<std::int64_t> cycles;
+    Mirror mirror{"test", loopback()};
+    mirror.onImage([&](const std::string&, const AgentImage& image) {
+        const std::lock_guard lock{mutex};
+        cycles.push_back(image->cycle());
+    });
+    const auto newest = [&] {
+        const std::lock_guard lock{mutex};
+        return cycles.empty() ? 0 : cycles.back();
+    };
+    mirror.view({"/arm"}, 0);
+    ASSERT_TRUE(comesTrue([&] {
+        agent->rig.step();
+        return newest() > 0;
+    }));
+    for (int burst = 0; burst < 20; ++burst) {
+        agent->rig.step(30);
+        ASSERT_TRUE(comesTrue([&] { return newest() == agent->rig.tick.cycle; }));
+    }
+
+    const std::lock_guard lock{mutex};
+    const auto gap = std::ranges::adjacent_find(
+        cycles, [](std::int64_t one, std::int64_t next) { return next > one + 1; });
+    EXPECT_EQ(gap, cycles.end()) << "after cycle " << *gap;
+    EXPECT_EQ(statusOf(mirror, "robot").loss, 0U);
+}
+
 TEST(Mirror, TellsTheAgesOfAllSimplexesOfAnAgentAtOnce) {
     const auto agent = robot();
     agent->run();

@@ -100,6 +100,7 @@ AgentRig::~AgentRig() {
 }
 
 void AgentRig::make() {
+    options_.imageKeepers = static_cast<std::uint32_t>(interfaces_.size());
     agent = std::make_unique<AgentRuntime>(name_, tree, options_);
     agent->events().addSink([this](const Event& event, const Structure& structure) {
         const std::string path =

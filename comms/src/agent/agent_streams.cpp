@@ -22,6 +22,7 @@ AgentStreams::AgentStreams(AgentSelf& self, const Id& structureHash, Participant
     : self_{self},
       participant_{participant},
       structureHash_{structureHash},
+      kept_{*self.access.images},
       streams_{Stream{topics::linkOf(self.name), 0}, Stream{topics::view5, 5},
                Stream{topics::view30, 30}, Stream{topics::view100, 100},
                Stream{topics::viewEvery, 0}} {
@@ -50,6 +51,7 @@ void AgentStreams::update(const Peers& peers) {
         for (const View& view : peer.current->interest.views) addView(view);
     }
     for (std::size_t i = 0; i < streams_.size(); ++i) open(streams_[i], wanted_[i]);
+    kept_.want(streams_.back().isWanted());
 }
 
 void AgentStreams::addLinks(const Interest& interest, std::vector<bool>& wanted) {
@@ -108,21 +110,32 @@ void AgentStreams::step(std::int64_t now) {
     const std::int64_t cycle = self_.access.newestCycle();
     Image image;
     for (Stream& stream : streams_) {
+        if (&stream == &streams_.back() && !sendKept(now)) return;
         const bool due = stream.rate == 0 || now >= stream.due;
         if (!stream.isWanted() || !due) continue;
-        if (stream.block.cycle == cycle) {
+        if (stream.block.cycle >= cycle) {
             sayAgain(stream, now);
             continue;
         }
         if (!image) image = self_.access.newestImage();
         if (!image || image.cycle() == 0) return;
-        write(stream, image);
-        stream.againDue = now + again;
+        write(stream, image, now);
         if (stream.rate == 0) continue;
         // The stream keeps to a grid of its own, which begins anew after a missed time.
         const std::int64_t interval = nsPerSecond / stream.rate;
         stream.due = std::max(stream.due + interval, now + interval / 2);
     }
+}
+
+// The newest image may have been sent already, without having been kept.
+bool AgentStreams::sendKept(std::int64_t now) {
+    Stream& every = streams_.back();
+    for (std::size_t i = 0; i <= kept_.room(); ++i) {
+        const Image image = kept_.next();
+        if (!image) return true;
+        if (every.isWanted() && image.cycle() > every.block.cycle) write(every, image, now);
+    }
+    return false;
 }
 
 // A view sends the last block again while the loop stands still or is slow. So a tool that begins
@@ -134,7 +147,7 @@ void AgentStreams::sayAgain(Stream& stream, std::int64_t now) {
     stream.againDue = now + again;
 }
 
-void AgentStreams::write(Stream& stream, const Image& image) {
+void AgentStreams::write(Stream& stream, const Image& image, std::int64_t now) {
     Block& block = stream.block;
     ++block.sequenceNumber;
     block.cycle = image.cycle();
@@ -147,6 +160,7 @@ void AgentStreams::write(Stream& stream, const Image& image) {
                    block.simplexes[i]);
     }
     stream.writer->write(block);
+    stream.againDue = now + again;
 }
 
 }  // namespace cortex::comms

@@ -99,6 +99,7 @@ void AgentThread::read(Inbox& inbox) {
 
 // A communication thread that waits for this write comes by itself, unless it is much too early.
 void AgentThread::write(Outbox& outbox) {
+    streams_.keep();
     const bool answers = commands_.write(outbox);
     const bool calls = calls_.write(outbox);
     const bool everyCycle = everyCycle_.load(std::memory_order_relaxed);

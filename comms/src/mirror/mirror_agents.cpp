@@ -277,7 +277,7 @@ void MirrorAgents::tick(const MirrorView& view, Moment now) {
         }
         if (agent.structure && !agent.tables && showsAny(*agent.structure, view)) {
             const Id& hash = agent.model.presence()->structureHash;
-            agent.tables = std::make_shared<MirrorTables>(agent.structure, hash);
+            agent.tables = std::make_shared<MirrorTables>(agent.structure, hash, view.rate == 0);
         }
         if (agent.tables && !view.prefixes.empty()) {
             agent.tables->markStale(now, view.patience(agent.model.presence()->period));

@@ -12,12 +12,14 @@ constexpr std::uint32_t imageReaders = 16;
 
 }  // namespace
 
-MirrorTables::MirrorTables(std::shared_ptr<const Structure> structure, const Id& structureHash)
+MirrorTables::MirrorTables(std::shared_ptr<const Structure> structure, const Id& structureHash,
+                           bool everyCycle)
     : structure_{std::move(structure)},
       structureHash_{structureHash},
       tables_{structure_},
       images_{tables_, imageReaders},
-      simplexes_(structure_->simplexes.size()) {
+      simplexes_(structure_->simplexes.size()),
+      everyCycle_{everyCycle} {
     for (std::uint32_t i = 0; i < simplexes_.size(); ++i) degrade(i, Quality::Lost);
     images_.publish(0, 0, 0);
 }
@@ -27,8 +29,8 @@ bool MirrorTables::apply(const Block& block, Moment now) {
         ++refused_;
         return false;
     }
-    if (last_ != 0 && block.sequenceNumber > last_ + 1) {
-        loss_ += block.sequenceNumber - last_ - 1;
+    if (const std::uint64_t missing = missingBefore(block); missing != 0) {
+        loss_ += missing;
         markStale(Moment::max(), {});
     }
     last_ = block.sequenceNumber;
@@ -40,6 +42,16 @@ bool MirrorTables::apply(const Block& block, Moment now) {
     wallClock_ = block.wallClock;
     publish();
     return true;
+}
+
+// A cycle may be sent again, with another choice of simplexes.
+std::uint64_t MirrorTables::missingBefore(const Block& block) const {
+    if (last_ == 0) return 0;
+    if (everyCycle_) {
+        if (block.cycle <= cycle_) return 0;
+        return static_cast<std::uint64_t>(block.cycle) - static_cast<std::uint64_t>(cycle_) - 1;
+    }
+    return block.sequenceNumber > last_ ? block.sequenceNumber - last_ - 1 : 0;
 }
 
 bool MirrorTables::applySimplex(const SimplexData& data, const Block& block, Moment now) {
@@ -85,6 +97,7 @@ void MirrorTables::lose() {
 
 void MirrorTables::restart(const MirrorView& view) {
     last_ = 0;
+    everyCycle_ = view.rate == 0;
     for (std::uint32_t i = 0; i < simplexes_.size(); ++i) {
         if (view.shows(structure_->simplexes[i].path)) continue;
         simplexes_[i].received = false;

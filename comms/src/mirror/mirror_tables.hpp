@@ -20,7 +20,8 @@ namespace cortex::comms {
 // writes, and any thread takes images.
 class MirrorTables {
 public:
-    MirrorTables(std::shared_ptr<const Structure> structure, const Id& structureHash);
+    MirrorTables(std::shared_ptr<const Structure> structure, const Id& structureHash,
+                 bool everyCycle = false);
 
     const Structure& structure() const { return *structure_; }
     // False: the block was refused, because it is not of this structure. Otherwise each simplex in
@@ -37,7 +38,8 @@ public:
     std::vector<bool> received() const;                                  // by simplex
     std::optional<double> age(std::uint32_t simplex, Moment now) const;  // s
     std::uint64_t published() const { return published_; }
-    std::uint64_t loss() const { return loss_; }        // blocks that did not come
+    // Blocks that did not come; of a stream of every cycle, cycles.
+    std::uint64_t loss() const { return loss_; }
     std::uint64_t refused() const { return refused_; }  // blocks and simplexes in them
 
 private:
@@ -46,6 +48,7 @@ private:
         Moment when;
         double before = 0;  // s from the measurement to the block
     };
+    std::uint64_t missingBefore(const Block& block) const;
     bool applySimplex(const SimplexData& data, const Block& block, Moment now);
     bool degrade(std::uint32_t simplex, Quality quality);
     void publish();
@@ -55,6 +58,7 @@ private:
     Tables tables_;
     ImagePool images_;
     std::vector<Arrival> simplexes_;
+    bool everyCycle_;         // so a gap in the cycles is loss, whoever left them out
     std::uint64_t last_ = 0;  // sequence number; 0: none
     std::int64_t cycle_ = 0, nominalTime_ = 0, wallClock_ = 0;
     std::uint64_t published_ = 0, loss_ = 0, refused_ = 0;

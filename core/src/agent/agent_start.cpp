@@ -54,7 +54,9 @@ AgentRuntime::AgentRuntime(std::string name, SimplexTree& tree, AgentOptions opt
     structure_ = makeStructure(name_, tree_);
     structure_->epoch = options_.epoch > 0 ? options_.epoch : utcMicroseconds();
     tables_ = std::make_unique<Tables>(structure_);
-    images_ = std::make_unique<ImagePool>(*tables_, options_.imageReaders);
+    // And the one that an interface has taken out to send it.
+    const std::uint32_t kept = options_.imageKeepers * (imagesToKeep(tables_->arena().size()) + 1);
+    images_ = std::make_unique<ImagePool>(*tables_, options_.imageReaders + kept);
     threads_.resize(std::max(options_.loopThreads, 1U));
     events_ = std::make_unique<EventLog>(structure_, threadCount(), options_.eventCapacity);
     for (std::uint32_t i = 0; i < threadCount(); ++i) {

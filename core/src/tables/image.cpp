@@ -4,6 +4,8 @@
 
 #include "tables/lookup.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -86,6 +88,12 @@ Value Image::value(std::uint32_t simplex, const ItemLayout& item) const {
 Value Image::value(std::string_view path, std::string_view item) const {
     const std::uint32_t simplex = simplexAt(structure(), path);
     return value(simplex, itemAt(*structure().simplexes[simplex].layout, path, item));
+}
+
+std::uint32_t imagesToKeep(std::size_t octets) {
+    constexpr std::size_t memory = std::size_t{4} << 20U, fewest = 4, most = 32;
+    const std::size_t fitting = memory / std::max<std::size_t>(octets, 1);
+    return static_cast<std::uint32_t>(std::bit_floor(std::clamp(fitting, fewest, most)));
 }
 
 ImagePool::ImagePool(Tables& tables, std::uint32_t readers) : tables_{tables}, readers_{readers} {

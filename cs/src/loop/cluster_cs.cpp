@@ -284,6 +284,7 @@ void ClusterCS::startAll() {
         self.test.forceThreads ? self.options.threads : threadsFor(self.options, realtimeReport);
     AgentOptions options;
     options.imageReaders = self.options.imageReaders + 1;  // one for the look at task times
+    options.imageKeepers = static_cast<std::uint32_t>(self.interfaces.size());
     options.loopThreads = threads;
     options.controlRequired = self.options.controlRequired;
     options.period = self.trigger->period();

@@ -29,7 +29,8 @@ struct AgentStatus {
     std::uint32_t missing = 0;               // those that have not come yet
     std::int64_t cycle = 0;                  // newest
     std::int64_t period = 0;                 // ns
-    std::uint64_t loss = 0;                  // blocks and events that did not come
+    // Blocks and events that did not come; of a view of every cycle, cycles and events.
+    std::uint64_t loss = 0;
     std::string security;
     std::string trouble;      // the contradiction in its model that keeps it incomplete
     std::string standstill;   // of its loop: "hangs in /ctl.stateActive for 8.5 s"
@@ -127,7 +128,8 @@ public:
     AgentImage image(const std::string& agent) const;
     // Reports each image that an agent sends, in order and before the next is taken in. The
     // listener runs on the mirror's thread: it copies what it needs, does not throw, and returns.
-    // Images that were lost on the way are counted in AgentStatus::loss.
+    // Images that were lost on the way are counted in AgentStatus::loss; of a view of every cycle
+    // they show as a gap in the cycles.
     void onImage(std::function<void(const std::string& agent, const AgentImage&)> listener);
     // Seconds since the measurement. None: no values have come.
     std::optional<double> age(const std::string& agent, std::uint32_t simplex) const;

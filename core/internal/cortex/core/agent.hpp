@@ -31,6 +31,7 @@ class LaneBlock;
 
 struct AgentOptions {
     std::uint32_t imageReaders = 8;
+    std::uint32_t imageKeepers = 0;       // interfaces that keep images of their own
     std::uint32_t loopThreads = 1;        // threads that post events: workers and the loop
     std::uint32_t eventCapacity = 4096;   // per loop thread
     std::uint32_t outsideCommands = 256;  // on their way at once, of all senders

@@ -12,6 +12,10 @@
 
 namespace cortex {
 
+// How many images of so many octets an interface keeps for those who ask for every cycle: 32, or
+// fewer where they are large, so that they take 4 MiB, but at least 4. A power of two.
+std::uint32_t imagesToKeep(std::size_t octets);
+
 // Fixed pool of images: the tables as they were at the end of cycles.
 //
 // **Invariants**
@@ -40,6 +44,7 @@ public:
     // Pins the newest image. Empty if `readers` images are already pinned.
     Image newest() CORTEX_REALTIME;
     std::int64_t newestCycle() const { return cycle_.load(std::memory_order_acquire); }
+    std::size_t octetsOfImage() const { return tables_.arena().size(); }
 
     // Setup, once, before the loop runs and while no image is held: from now on every image is
     // queued for one reader, up to `depth` of them. Throws Error.
