@@ -28,6 +28,12 @@ void emptyTasks(benchmark::State& state) {
     measure(state, emptySimplexes(count, chain), static_cast<std::uint32_t>(state.range(1)), count);
 }
 
+// The same number of tasks in one chain, or in chains of 64: a chain is one chunk.
+void chainedTasks(benchmark::State& state) {
+    constexpr int count = 1024;
+    measure(state, emptySimplexes(count, static_cast<int>(state.range(0))), 1, count);
+}
+
 // 10 simplexes with many commands each, as the paper's Fig. 27: time per command.
 void manyCommands(benchmark::State& state) {
     Partner::commandsPerCycle = static_cast<std::uint32_t>(state.range(0));
@@ -36,6 +42,7 @@ void manyCommands(benchmark::State& state) {
 }
 
 BENCHMARK(emptyTasks)->ArgsProduct({{100, 1000, 10000}, {1, 2}})->UseManualTime();
+BENCHMARK(chainedTasks)->Arg(64)->Arg(1024)->UseManualTime();
 BENCHMARK(manyCommands)->Arg(1)->Arg(10)->Arg(1000)->Arg(2000)->UseManualTime();
 
 }  // namespace

@@ -39,7 +39,7 @@ SchedulerBench::SchedulerBench(const TaskEdges& edges, std::uint32_t threads)
         graph.edges.emplace_back(edge.target, edge.owner);
     }
     agent_.setCanonicalOrder(cs::canonicalOrder(graph));
-    schedule_ = cs::makeSchedule(graph, {.threads = threads});
+    schedule_ = cs::makeSchedule(graph, {});
     runner_ = std::make_unique<cs::TaskRunner>(agent_, schedule_, 1'000'000);
     std::map<std::uint32_t, std::uint32_t> slotOf;
     for (std::uint32_t i = 0; i < schedule_.tasks.size(); ++i) slotOf[schedule_.tasks[i]] = i;
@@ -47,12 +47,24 @@ SchedulerBench::SchedulerBench(const TaskEdges& edges, std::uint32_t threads)
         slots_.push_back(slotOf.at(agent_.structure().find(taskPath(i))));
     }
     agent_.start();
+    if (threads > 1) {  // as a cluster does once it knows what its tasks cost
+        const std::vector<double> costs(graph.nodes.size(), microsecondsOfTask());
+        schedule_ = cs::makeSchedule(graph, {.threads = threads, .costMicroseconds = costs});
+        runner_->use(schedule_);
+    }
     pool_ = std::make_unique<cs::ThreadPool>(
         schedule_,
         [](void* runner, std::uint32_t chunk, std::uint32_t worker) {
             static_cast<cs::TaskRunner*>(runner)->run(chunk, worker);
         },
         runner_.get(), cs::PoolOptions{});
+}
+
+double SchedulerBench::microsecondsOfTask() {
+    constexpr std::int64_t cycles = 100;
+    plainly(cycles);  // whatever has not been touched yet
+    const std::chrono::duration<double, std::micro> time = plainly(cycles);
+    return time.count() / static_cast<double>(cycles * static_cast<std::int64_t>(slots_.size()));
 }
 
 SchedulerBench::~SchedulerBench() {

@@ -38,6 +38,8 @@ public:
     void beginCycle();
 
 private:
+    double microsecondsOfTask();
+
     SimplexTree tree_;
     AgentRuntime agent_;
     cs::Schedule schedule_;

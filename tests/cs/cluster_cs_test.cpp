@@ -372,6 +372,71 @@ INSTANTIATE_TEST_SUITE_P(Either, CostlyTasks, testing::Bool(), [](const auto& te
     return test.param ? "WhenAsked" : "AfterTheStartup";
 });
 
+// Nobody has asked for a look, and the loop has only the time that it is given.
+TEST(ClusterCS, SharesCostlyTasksAmongThreadsUnderAManualTriggerToo) {
+    if (cs::usableCpus().size() < 2) GTEST_SKIP() << "one CPU";
+    ProbeCluster cluster{{.threads = 2, .acrossCaches = true}};
+    for (const char* path : {"/a", "/b", "/c", "/d"}) {
+        cluster.probe(path).onLoopStart = [](Probe&, const Tick&) {
+            const auto end = std::chrono::steady_clock::now() + 500us;
+            while (std::chrono::steady_clock::now() < end) {
+            }
+        };
+    }
+    cluster.start();
+    EXPECT_EQ(cluster.cluster->threadsInUse(), 1U);
+
+    const auto limit = std::chrono::steady_clock::now() + 60s;
+    while (cluster.cluster->threadsInUse() == 1 && std::chrono::steady_clock::now() < limit) {
+        cluster.step(10);
+        // A look while others use the CPUs may find nothing better.
+        if (cluster.cluster->image().cycle() % 10'000 == 0) {
+            cluster.cluster->send("/test", "reschedule");
+        }
+    }
+
+    EXPECT_EQ(cluster.cluster->threadsInUse(), 2U);
+    EXPECT_EQ(cluster.integer("/test", "threads"), 2);
+    EXPECT_NE(cluster.cluster->image().get<std::string_view>("/test", "cpus"), "");
+}
+
+TEST(ClusterCS, UsesOneThreadForManyTasksThatCostNothing) {
+    ProbeCluster cluster{{.threads = 2, .acrossCaches = true}};
+    for (int i = 0; i < 2000; ++i) cluster.probe("/p" + std::to_string(1000 + i));
+
+    cluster.start();
+
+    EXPECT_EQ(cluster.cluster->threadsInUse(), 1U);
+}
+
+// Each relates to the one before it, so that the schedule makes one chunk of all.
+TEST(ClusterCS, TimesAFewTasksInACycleHoweverTheyAreChained) {
+    constexpr int count = 200;
+    ProbeCluster cluster;
+    for (int i = 0; i < count; ++i) {
+        Probe& probe = cluster.probe("/p" + std::to_string(1000 + i));
+        if (i == 0) continue;
+        cluster.tree.relate(probe, "before", cluster.tree.at("/p" + std::to_string(1000 + i - 1)));
+    }
+    cluster.start();
+    const auto timed = [&] {
+        int sum = 0;
+        for (int i = 0; i < count; ++i) {
+            sum += cluster.number("/p" + std::to_string(1000 + i), "taskTime") > 0 ? 1 : 0;
+        }
+        return sum;
+    };
+    int before = 0;
+    for (int cycle = 1; before < count && cycle <= count; ++cycle) {
+        cluster.step();
+        const int now = timed();
+        EXPECT_GT(now, before) << "each comes in turn";
+        EXPECT_LE(now - before, 64) << cycle;
+        before = now;
+    }
+    EXPECT_EQ(before, count);
+}
+
 TEST(ClusterCS, RefusesToRescheduleWhereThereIsNothingToShareAnew) {
     ProbeCluster cluster;
     cluster.probe("/a");

@@ -2,6 +2,7 @@
 #include "loop/rescheduler.hpp"
 
 #include "cortex/core/agent.hpp"
+#include "cortex/core/clock.hpp"
 
 #include "cs/graphs.hpp"
 #include "support/probe.hpp"
@@ -31,13 +32,20 @@ TEST(Rescheduler, ExpectsEachThreadToRunItsShareAfterWhatItWaitsFor) {
     EXPECT_NEAR(expectedMicroseconds(two, costs), 250, 30);  // and the wake of a thread
 }
 
-// Two thousand tasks on one thread, and what a look at them offers. None has run, so each counts
-// with the time that is assumed: two threads are better, whatever the machine does.
+// Two hundred tasks of a few microseconds each on one thread, and what a look at them offers: two
+// threads are better, whatever the machine does.
 class ReschedulerTest : public testing::Test {
 protected:
     ReschedulerTest() {
-        for (int i = 0; i < 2000; ++i) cluster_.probe("/p" + std::to_string(1000 + i));
+        for (int i = 0; i < 200; ++i) {
+            cluster_.probe("/p" + std::to_string(1000 + i)).onLoopStart = [](auto&, const Tick&) {
+                const std::int64_t end = monotonicNow() + 5'000;
+                while (monotonicNow() < end) {
+                }
+            };
+        }
         cluster_.start();
+        cluster_.step(10);  // each was timed
         for (const SimplexInfo& info : agent().structure().simplexes) {
             graph_.nodes.push_back({info.path, info.path.starts_with("/p"), 1, 0});
         }
@@ -92,19 +100,42 @@ TEST_F(ReschedulerTest, OffersNothingWhereNoPlanIsBetter) {
 
 TEST_F(ReschedulerTest, LooksOnceSomeTimeAfterTheLastStartup) {
     constexpr std::int64_t settling = Rescheduler::settlingTime;
-    rescheduler->follow(0, 0);
-    rescheduler->follow(0, 10 * settling);  // nothing has started up yet
-    rescheduler->follow(1, 11 * settling);
-    rescheduler->follow(2, 12 * settling - 1);
-    rescheduler->follow(2, 13 * settling - 2);
+    rescheduler->follow(0, 0, false);
+    rescheduler->follow(0, 10 * settling, false);  // nothing has started up yet
+    rescheduler->follow(1, 11 * settling, false);
+    rescheduler->follow(2, 12 * settling - 1, false);
+    rescheduler->follow(2, 13 * settling - 2, false);
     EXPECT_FALSE(rescheduler->isLooking());
-    rescheduler->follow(2, 13 * settling - 1);
+    rescheduler->follow(2, 13 * settling - 1, false);
     EXPECT_TRUE(rescheduler->isLooking());
     EXPECT_TRUE(exchanged());
 
-    rescheduler->follow(3, 14 * settling);
-    rescheduler->follow(3, 20 * settling);
+    rescheduler->follow(3, 14 * settling, false);
+    rescheduler->follow(3, 20 * settling, false);
     EXPECT_FALSE(rescheduler->isLooking());
+}
+
+TEST_F(ReschedulerTest, LooksOnceAsSoonAsEveryTaskWasTimed) {
+    rescheduler->follow(0, 1, false);
+    EXPECT_FALSE(rescheduler->isLooking());
+    rescheduler->follow(0, 2, true);
+    EXPECT_TRUE(rescheduler->isLooking());
+    EXPECT_TRUE(exchanged());
+
+    rescheduler->follow(0, 3, true);
+    EXPECT_FALSE(rescheduler->isLooking());
+}
+
+// It comes while the first one lasts.
+TEST_F(ReschedulerTest, DoesNotForgetTheLookAfterTheLastStartup) {
+    constexpr std::int64_t settling = Rescheduler::settlingTime;
+    rescheduler->follow(1, 0, true);
+    rescheduler->follow(1, settling, true);
+    exchanged();
+
+    rescheduler->follow(1, settling, true);
+
+    EXPECT_TRUE(rescheduler->isLooking());
 }
 
 TEST_F(ReschedulerTest, LooksAgainWheneverItIsAsked) {

@@ -168,7 +168,7 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     const RunnerCounts counts = runner_.counts();
     if (watchdog_->reported() == tick.cycle - 1) metrics_.hung(true);
     metrics_.write(counts, tick.nominalTime);
-    if (mayReschedule_) rescheduler_->follow(counts.startups, tick.nominalTime);
+    if (mayReschedule_) rescheduler_->follow(counts.startups, tick.nominalTime, runner_.timedAll());
     agent_.endCycle(tick, wallClockNow() - (monotonicNow() - begin) - trigger.lateness);
     metrics_.cycleEnded(lastWakeUp_ == 0 ? 0 : begin - lastWakeUp_, trigger.lateness,
                         monotonicNow() - begin);
@@ -181,7 +181,7 @@ void ClusterLoop::cycle(const Trigger& trigger) {
 // On the program's thread, so that its own has neither the loop's priority nor its CPU.
 void ClusterLoop::startRescheduler() {
     if (agent_.threadCount() < 2 || !makeSchedule_) return;
-    mayReschedule_ = trigger_.realTime() && !test_.forceThreads;
+    mayReschedule_ = !test_.forceThreads;
     const ServiceThreads named{"cortex-schedule"};
     rescheduler_ = std::make_unique<Rescheduler>(
         agent_, plan_->schedule, Rescheduler::Maker{makeSchedule_, [this](Schedule schedule) {
@@ -207,8 +207,8 @@ bool ClusterLoop::offerPlan(Schedule schedule) {
 Outcome ClusterLoop::reschedule(Call& call) {
     if (!mayReschedule_) {
         return call.fail(
-            "this loop has one thread, keeps the threads that it was given, or is "
-            "stepped by hand: there is nothing to share anew");
+            "this loop has one thread, or keeps the threads that it was given: there is nothing "
+            "to share anew");
     }
     if (rescheduler_->isLooking()) {
         return call.reject(Reason::Busy, "it looks at what the tasks cost already");
@@ -221,6 +221,7 @@ void ClusterLoop::adoptPlan() {
     if (!rescheduler_->exchange(plan_)) return;
     runner_.use(plan_->schedule);
     metrics_.threads(plan_->pool->threads());
+    metrics_.cpus(plan_->cpus);
     threads_.store(plan_->pool->threads(), std::memory_order_relaxed);
 }
 

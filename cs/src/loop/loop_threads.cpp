@@ -27,6 +27,9 @@ void ClusterLoop::addThreads(Plan& plan) {
             static_cast<ClusterLoop*>(loop)->runner_.run(chunk, worker);
         },
         this, pool);
+    for (const int cpu : plan.pool->pinnedTo()) {
+        plan.cpus += (plan.cpus.empty() ? "" : " ") + std::to_string(cpu);
+    }
 }
 
 // The loops of a host do not share a CPU by accident. Where none is left, the system places the
@@ -51,7 +54,7 @@ void ClusterLoop::prepareThread() {
     };
     claimCpus();
     addThreads(*plan_);
-    metrics_.cpus(plan_->pool->pinnedTo());
+    metrics_.cpus(plan_->cpus);
     threads_.store(plan_->pool->threads(), std::memory_order_relaxed);
     append(plan_->pool->report());
     append(plan_->pool->configureLoopThread());

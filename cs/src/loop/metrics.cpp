@@ -98,13 +98,8 @@ ClusterMetrics::ClusterMetrics(AgentRuntime& agent, std::int64_t period, std::ui
     limitItem_ = clusterItem<std::int64_t>(agent, "limitCount");
     droppedItem_ = clusterItem<std::int64_t>(agent, "eventsDropped");
     threadsItem_ = clusterItem<std::int64_t>(agent, "threads");
+    cpusItem_ = clusterItem<std::string_view>(agent, "cpus");
     aliveItem_ = clusterItem<bool>(agent, "alive");
-}
-
-void ClusterMetrics::cpus(const std::vector<int>& cpus) {
-    std::string text;
-    for (const int cpu : cpus) text += (text.empty() ? "" : " ") + std::to_string(cpu);
-    clusterItem<std::string_view>(agent_, "cpus") = text;
 }
 
 // All arguments in ns. The duty cycle is shown in % of the period, all else in µs. Jitter is that

@@ -52,7 +52,7 @@ public:
     void hung(bool hung) CORTEX_REALTIME { hung_ = hung; }
     // Writes all into the tables; before the image is taken.
     void write(const RunnerCounts& counts, std::int64_t nominalTime) CORTEX_REALTIME;
-    void cpus(const std::vector<int>& cpus);  // setup
+    void cpus(std::string_view cpus) CORTEX_REALTIME { cpusItem_ = cpus; }
     void threads(std::uint32_t threads) CORTEX_REALTIME { threads_ = threads; }
     double lastDuty() const { return lastDuty_; }
     std::int64_t overflows() const { return overflows_; }
@@ -67,6 +67,7 @@ private:
     std::array<Data<double>, 6> latency_;  // last, mean, p50, p99, p999, max
     Data<std::int64_t> overflowItem_, commandItem_, rejectedItem_, conflictItem_, limitItem_,
         droppedItem_, threadsItem_;
+    Data<std::string_view> cpusItem_;
     Data<bool> aliveItem_;
     std::vector<std::uint64_t> latencySum_;
     std::int64_t overflows_ = 0;

@@ -5,6 +5,7 @@
 #include "threads/thread_pool.hpp"
 
 #include <memory>
+#include <string>
 
 namespace cortex::cs {
 
@@ -12,6 +13,7 @@ namespace cortex::cs {
 struct Plan {
     Schedule schedule;
     std::unique_ptr<ThreadPool> pool;
+    std::string cpus{};  // that its threads are pinned to, for people
 };
 
 }  // namespace cortex::cs

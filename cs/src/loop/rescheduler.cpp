@@ -35,8 +35,7 @@ double expectedMicroseconds(const Schedule& schedule, std::span<const double> co
             thread = std::max(thread, finished[schedule.predecessors[chunk.firstPredecessor + i]]);
         }
         for (std::uint32_t i = chunk.first; i < chunk.first + chunk.count; ++i) {
-            const double cost = costMicroseconds[schedule.tasks[i]];
-            thread += cost > 0 ? cost : assumedTaskMicroseconds;
+            thread += std::max(costMicroseconds[schedule.tasks[i]], leastTaskMicroseconds);
         }
         finished.push_back(thread);
     }
@@ -55,11 +54,14 @@ Rescheduler::~Rescheduler() {
     thread_.join();
 }
 
-void Rescheduler::follow(std::uint64_t startups, std::int64_t now) {
+void Rescheduler::follow(std::uint64_t startups, std::int64_t now, bool timedAll) {
     if (hasLooked_) return;
     if (std::exchange(startups_, startups) != startups) due_ = now + settlingTime;
-    if (due_ == 0 || now < due_) return;
-    hasLooked_ = true;
+    const bool isSettled = due_ != 0 && now >= due_;
+    const bool isFirst = timedAll && !hasLookedFirst_;
+    if ((!isSettled && !isFirst) || isLooking()) return;
+    hasLookedFirst_ = true;
+    hasLooked_ = isSettled;
     look();
 }
 
@@ -169,8 +171,8 @@ bool Rescheduler::addSample(std::vector<std::vector<double>>& samples) const {
     for (const std::uint32_t simplex : tasks_) {
         const ItemLayout* item = agent_.structure().simplexes[simplex].layout->find("taskTime");
         if (item == nullptr) continue;
-        const double time = image.slice(simplex).floats[item->offset] - timing;
-        if (time > 0) samples[simplex].push_back(time);
+        const double time = image.slice(simplex).floats[item->offset];
+        if (time > 0) samples[simplex].push_back(std::max(time - timing, leastTaskMicroseconds));
     }
     return true;
 }

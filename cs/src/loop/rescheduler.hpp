@@ -25,8 +25,9 @@ double expectedMicroseconds(const Schedule& schedule, std::span<const double> co
 using ScheduleMaker = std::function<Schedule(std::span<const double> costs)>;
 
 // Looks at what tasks cost, and offers the loop a plan made for these costs where it is better by
-// more than a fifth: once, some time after the last startup, and whenever it is asked to. Its
-// thread sleeps otherwise. The order of tasks, and so every result, stays as it is.
+// more than a fifth: once every task was timed, once more some time after the last startup, and
+// whenever it is asked to. Its thread sleeps otherwise. The order of tasks, and so every result,
+// stays as it is.
 class Rescheduler {
 public:
     struct Maker {
@@ -37,8 +38,9 @@ public:
     Rescheduler(AgentRuntime& agent, const Schedule& inUse, Maker maker);
     ~Rescheduler();
 
-    // Loop thread, between cycles. `startups` of simplexes since the start; `now`: nominal time.
-    void follow(std::uint64_t startups, std::int64_t now) CORTEX_REALTIME;
+    // Loop thread, between cycles. `startups` of simplexes since the start; `now`: nominal time;
+    // `timedAll`: whether every task was timed.
+    void follow(std::uint64_t startups, std::int64_t now, bool timedAll) CORTEX_REALTIME;
     void look() CORTEX_REALTIME;
     void lookAndTell() CORTEX_REALTIME;  // what came of it is an event
     bool isLooking() const CORTEX_REALTIME { return stage() != Stage::Idle; }
@@ -79,7 +81,7 @@ private:
     // Loop thread only.
     std::uint64_t startups_ = 0;
     std::int64_t due_ = 0;  // nominal time of the look after the last startup; 0: none
-    bool hasLooked_ = false;
+    bool hasLookedFirst_ = false, hasLooked_ = false;
 
     std::thread thread_;
 };

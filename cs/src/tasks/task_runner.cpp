@@ -16,7 +16,9 @@ namespace cortex::cs {
 
 namespace {
 
-constexpr std::size_t timedWhole = 64;  // tasks; to time one takes some 20 ns
+// Tasks that are timed in a cycle: to time one takes some 20 ns.
+constexpr std::uint32_t timedWhole = 64;  // of so few all, while time is that of the machine
+constexpr std::uint32_t timedInTurn = 32;
 
 }  // namespace
 
@@ -28,16 +30,20 @@ TaskRunner::TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64
       values_{set_},
       chunks_{schedule.chunks},
       positions_{std::make_unique<Position[]>(agent.threadCount())},
-      timesAll_{agent.options().realTime && set_.tasks.size() <= timedWhole} {}
+      timed_{agent.options().realTime && set_.tasks.size() <= timedWhole ? timedWhole
+                                                                         : timedInTurn} {}
 
 void TaskRunner::beginCycle(const Tick& tick) {
     states_.beginCycle();
     tick_ = tick;
     noteStandstill(tick);
-    const bool slow = longest().time > set_.period / 2;  // its chunk is timed again
+    const bool slow = longest().time > set_.period / 2;
     for (TaskThread& thread : set_.threads) thread.longest = {};
-    if (!chunks_.empty() && !slow)
-        timedChunk_ = (timedChunk_ + 1) % static_cast<std::uint32_t>(chunks_.size());
+    if (tick.cycle == 1 || (slow && timedAll_)) return;  // a slow one is timed again
+    firstTimed_ += timed_;
+    if (firstTimed_ < set_.tasks.size()) return;
+    firstTimed_ = 0;
+    timedAll_ = true;
 }
 
 // By the clock of the machine, because nominal time may stand still as well. A loop that is stepped
@@ -57,12 +63,12 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
     TaskThread& thread = set_.threads[worker];
     Position& position = positions_[worker];
     thread.loop->clock = {tick_.cycle, monotonicNow()};
-    const std::span tasks{set_.tasks.data() + chunks_[chunk].first, chunks_[chunk].count};
-    for (Task& task : tasks) {
-        if (timesAll_ || chunk == timedChunk_)
-            runTimed(task, thread, position);
+    const std::uint32_t end = chunks_[chunk].first + chunks_[chunk].count;
+    for (std::uint32_t i = chunks_[chunk].first; i < end; ++i) {
+        if (i - firstTimed_ < timed_)  // for those before it this is a large number
+            runTimed(set_.tasks[i], thread, position);
         else
-            runTask(task, thread, position);
+            runTask(set_.tasks[i], thread, position);
     }
     position.simplex.store(noSimplex, std::memory_order_relaxed);
     position.setHook(Hook::None);

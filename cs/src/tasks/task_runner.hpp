@@ -42,8 +42,11 @@ public:
     const TaskDemands& demands() const { return demands_; }
     const Position& position(std::uint32_t worker) const { return positions_[worker]; }
     RunnerCounts counts() const;
-    // Of the last cycle. Small sets of tasks are timed whole, of others one chunk a cycle in turn.
+    // Of the last cycle. Small sets of tasks are timed whole, of others a few a cycle in turn,
+    // however they are cut into chunks.
     LongestTask longest() const CORTEX_REALTIME;
+    // Whether it was each task's turn to be timed at least once.
+    bool timedAll() const { return timedAll_; }
 
 private:
     void noteStandstill(const Tick& tick) CORTEX_REALTIME;
@@ -67,8 +70,9 @@ private:
     std::span<const Chunk> chunks_;
     std::unique_ptr<Position[]> positions_;
     Tick tick_;
-    bool timesAll_;
-    std::uint32_t timedChunk_ = 0;
+    const std::uint32_t timed_;     // so many tasks in a cycle
+    std::uint32_t firstTimed_ = 0;  // in the order of execution
+    bool timedAll_ = false;
     std::int64_t lastBegin_ = 0;  // of a cycle, ns; 0: there was none
 };
 

@@ -14,7 +14,6 @@ namespace {
 
 constexpr Index none = std::numeric_limits<Index>::max();
 
-constexpr double leastTaskMicroseconds = 0.01;
 constexpr double chunkMicroseconds = 4.0;  // a ticket costs 0.05 to 0.2
 constexpr double levelMicroseconds = 0.5;  // waiting for the chunks of the level before
 constexpr std::size_t mostInlinedEdges = 64;
@@ -72,8 +71,8 @@ private:
 // In microseconds.
 double Builder::cost(Index node) const {
     if (!graph_.nodes[node].hasTask) return 0;
-    const double known = options_.costMicroseconds.empty() ? 0 : options_.costMicroseconds[node];
-    const double full = known > 0 ? known : assumedTaskMicroseconds;
+    const double full = options_.costMicroseconds.empty() ? assumedTaskMicroseconds
+                                                          : options_.costMicroseconds[node];
     return std::max(full / std::max(1U, graph_.nodes[node].every), leastTaskMicroseconds);
 }
 
@@ -271,7 +270,8 @@ Schedule Builder::finish() {
     const Index threads =
         options_.force ? options_.threads : std::min(options_.threads, widestLevel_);
     schedule_.threads = std::max<Index>(1, threads);
-    const bool isWorthwhile = parallelCost_ + wakeMicroseconds < serialCost_;
+    const bool isMeasured = !options_.costMicroseconds.empty();
+    const bool isWorthwhile = isMeasured && parallelCost_ + wakeMicroseconds < serialCost_;
     if (!isWorthwhile && !options_.force) schedule_.threads = 1;
     return std::move(schedule_);
 }

@@ -35,14 +35,16 @@ struct Schedule {
     std::uint32_t threads = 1;
 };
 
-inline constexpr double assumedTaskMicroseconds = 0.05;  // of a task whose cost is not known
+inline constexpr double assumedTaskMicroseconds = 0.05;  // where no cost is known yet
+inline constexpr double leastTaskMicroseconds = 0.01;    // of a task, also of one not measured
 inline constexpr double wakeMicroseconds = 20.0;  // what a sleeping worker costs before it helps
 
 struct ScheduleOptions {
-    std::uint32_t threads = 1;                   // at most
-    std::uint32_t chunkSize = 0;                 // tasks in a chunk; 0: by cost
-    std::span<const double> costMicroseconds{};  // one per node, 0: unknown; empty: all are
-    bool force = false;                          // use all threads even where one is faster
+    std::uint32_t threads = 1;    // at most
+    std::uint32_t chunkSize = 0;  // tasks in a chunk; 0: by cost
+    // Measured, one per node, 0: not yet. Empty: none is, and then one thread runs all.
+    std::span<const double> costMicroseconds{};
+    bool force = false;  // use all threads even where one is faster
 };
 
 // Linear in nodes and edges (but for sorting the paths). Throws LoopError.
