@@ -18,7 +18,7 @@ constexpr std::uint32_t taskCount = 2000;
 // Of what the tasks of a cycle wrote, on however many threads they ran.
 class ImageOfCycle : public ::testing::TestWithParam<std::uint32_t> {};
 
-// Every third one also writes a signal that both its neighbours read, so that there are two levels;
+// Every third one also writes a tally that both its neighbours read, so that there are two levels;
 // some take long, so that threads help each other.
 TEST_P(ImageOfCycle, ShowsWhatEveryTaskWroteInItsCycle) {
     std::atomic<std::int64_t> slow{0};
@@ -31,7 +31,7 @@ TEST_P(ImageOfCycle, ShowsWhatEveryTaskWroteInItsCycle) {
         test::Probe& probe = cluster.probe("/p" + std::to_string(1000 + i));
         probes.push_back(&probe);
         if (i % 3 == 1) {
-            signal = &cluster.tree.add("/s" + std::to_string(1000 + i), "Signal");
+            signal = &cluster.tree.add("/s" + std::to_string(1000 + i), "Tally");
             cluster.tree.relate(probe, "out", *signal);
             cluster.tree.relate(*probes[i - 1], "in", *signal);
         } else if (i % 3 == 2) {

@@ -155,7 +155,12 @@ void Planner::readSomething(std::size_t reader) {
         return;
     }
     const bool delayed = lastWriter_[target] >= reader || chance_.oneIn(4);
-    relate(reader, rules[chance_.below(rules.size())], target, delayed);
+    std::string rule = rules[chance_.below(rules.size())];
+    const bool demands = std::ranges::any_of(at(reader).relations, [](const auto& each) {
+        return each.rule == "out" || each.rule == "demand";
+    });
+    if (rule == "guarded" && !demands) rule = "in";  // it would make nothing safe
+    relate(reader, rule.c_str(), target, delayed);
 }
 
 void Planner::addReaders() {
