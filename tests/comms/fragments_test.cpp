@@ -209,6 +209,16 @@ TEST(PiecesTest, ALongDatagramIsCutBetweenItsSubmessages) {
               (std::vector{header() + sample(1, 3'000), header() + heartbeat(1, 1)}));
 }
 
+TEST(PiecesTest, KnowsWhatIsSaidOfEndpoints) {
+    const auto is = [](Datagram datagram) { return rtps::isAboutEndpoints(datagram); };
+    EXPECT_TRUE(is(header() + data(1) + data(1, ofWriters)));
+    EXPECT_TRUE(is(header() + heartbeat(1, 2, 1, ofReaders)));
+    EXPECT_TRUE(is(header() + ackNack(1, 0, 0, ofWriters)));
+    EXPECT_FALSE(is(header() + data(1) + heartbeat(1, 2) + ackNack(1)));
+    EXPECT_FALSE(is(header() + announcement(endOfList)));
+    EXPECT_FALSE(is(header() + submessage(0x15, 0, Datagram(4))));
+}
+
 TEST(PiecesTest, WhatIsShortOneOrSignedStaysAsItIs) {
     const Datagram time = submessage(0x09, 0, Datagram(8));
     const Datagram longOne = data(1, anyWriter, 4, Datagram(3'000));

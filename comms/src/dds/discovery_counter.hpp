@@ -19,6 +19,9 @@ public:
     // Of each writer of others; to be set before the participant is made.
     std::function<void(const Guid&, std::string_view topic)> onWriter;
 
+    // With the number of participants that are known; to be set before as well.
+    std::function<void(std::uint32_t)> onKnown;
+
     std::uint32_t known() const { return known_; }
     std::uint32_t secured() const { return secured_; }  // those of them that ask for security
 
@@ -45,6 +48,7 @@ protected:
             --known_;
             secured_ -= secured;
         }
+        if (onKnown) onKnown(known_);
     }
 
 private:

@@ -49,6 +49,8 @@ public:
     std::unique_lock<std::mutex> hold() { return std::unique_lock{passing_}; }
 
     rtps::DatagramFilter filter;  // every datagram passes it first
+    // Whether what is said of endpoints is sent twice. Fast DDS repeats it only once a second.
+    std::atomic<bool> repeatsEndpoints{true};
 
 private:
     std::atomic<bool> isOpen_{false}, isClosed_{false};

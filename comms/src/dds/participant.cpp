@@ -37,6 +37,9 @@ namespace {
 namespace dds = eprosima::fastdds::dds;
 using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 
+// Participants, up to which what is said of endpoints is sent twice.
+constexpr std::uint32_t mostForRepeats = 16;
+
 template <class Entity>
 Entity* created(Entity* entity, const std::string& what) {
     if (!entity) {
@@ -204,6 +207,9 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
             gate->filter.allowFragments(writerGuid(guid), topic == topics::model.name,
                                         monotonicNow());
         }
+    };
+    impl_->listener->onKnown = [gate = impl_->gate](std::uint32_t known) {
+        gate->repeatsEndpoints = known <= mostForRepeats;
     };
     setUpFastDds();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);

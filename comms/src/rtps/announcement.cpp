@@ -8,7 +8,6 @@
 namespace cortex::comms::rtps {
 namespace {
 
-constexpr std::uint32_t writerOfWriters = 0x000003c2, writerOfReaders = 0x000004c2;
 constexpr std::uint16_t endpointGuid = 0x005a, keyHash = 0x0070, statusInfo = 0x0071;
 
 WriterGuid guidIn(Bytes bytes) {
@@ -31,7 +30,7 @@ Announcement alive(Bytes payload) {
 
 Announcement announcementIn(const Submessage& data) {
     const std::uint32_t writer = readU32(data.body.subspan(8), false);
-    if (writer != writerOfWriters && writer != writerOfReaders) return {};
+    if (writer != announcesWriters && writer != announcesReaders) return {};
     const auto [parameters, payload] = partsOf(data);
     const Bytes status = parameterOf(parameters, data.little(), statusInfo);
     if (status.size() == 4 && (status[3] & 3) != 0)  // disposed of, unregistered

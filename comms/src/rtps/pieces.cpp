@@ -64,4 +64,19 @@ std::vector<std::vector<std::uint8_t>> piecesOf(Bytes datagram) {
     return pieces;
 }
 
+bool isAboutEndpoints(Bytes datagram) {
+    if (!hasHeader(datagram)) return false;
+    for (std::size_t at = headerSize; at < datagram.size();) {
+        const auto [submessage, refusal] = cutSubmessage(datagram.subspan(at));
+        if (refusal != Refusal::None || !isLongEnough(submessage)) return false;
+        const bool isData = submessage.kind == Kind::Data;
+        if (isData || submessage.kind == Kind::Heartbeat || submessage.kind == Kind::AckNack) {
+            const std::uint32_t writer = readU32(submessage.body.subspan(isData ? 8 : 4), false);
+            if (writer == announcesWriters || writer == announcesReaders) return true;
+        }
+        at += submessage.whole.size();
+    }
+    return false;
+}
+
 }  // namespace cortex::comms::rtps

@@ -18,4 +18,7 @@ inline constexpr std::size_t onePacket = 1400;
 // signed.
 std::vector<std::vector<std::uint8_t>> piecesOf(Bytes datagram);
 
+// Whether a datagram of our own speaks of endpoints, unless it is encrypted.
+bool isAboutEndpoints(Bytes datagram);
+
 }  // namespace cortex::comms::rtps

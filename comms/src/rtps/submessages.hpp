@@ -33,6 +33,9 @@ enum class Kind : std::uint8_t {
     FirstOfVendors = 0x80,
 };
 
+// The built-in writers that announce endpoints (RTPS 2.3, 8.5.4.2), unless they are encrypted.
+inline constexpr std::uint32_t announcesWriters = 0x000003c2, announcesReaders = 0x000004c2;
+
 inline bool isOfSecurity(Kind kind) {
     return kind >= Kind::SecureBody && kind <= Kind::SignedPostfix;
 }
