@@ -272,8 +272,9 @@ void Reference::cycle() {
     for (RefSimplex& simplex : all_) simplex.latch = simplex.live;
     latchLines();
     readOutside();
+    process(agent_, State::Active);
     for (const int simplex : order_) {
-        if (!isActive(simplex)) process(simplex, State::Active);
+        if (!isActive(simplex) && simplex != agent_) process(simplex, State::Active);
     }
     phase_ = 1;
     for (const int simplex : execution_) {

@@ -110,6 +110,9 @@ private:
 
     // reference_outside.cpp
     void readOutside();
+    void release(std::vector<Visitor*>& waiting, std::vector<Visitor*>& arrivals);
+    bool isLifeCycle(const Visitor& visitor);
+    bool wouldOvertake(const Visitor& visitor, const Visitor& earlier);
     void deliverLifeCycle(Visitor& visitor);
     void settle(Visitor& visitor, Ending ending);
     void refuseLifeCycle(int simplex, LifeCycle command, const std::string& why);
@@ -164,6 +167,7 @@ private:
     std::size_t nextOutside_ = 0;
     std::map<std::string, std::uint64_t> sequences_;
     std::deque<Visitor> visitors_;
+    std::map<std::string, std::vector<Visitor*>> waiting_;  // by sender
     std::vector<Visitor*> active_;
 
     struct {

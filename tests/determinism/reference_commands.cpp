@@ -187,8 +187,11 @@ void Reference::drainVisitors(int simplex, State state) {
     while (!visitors.empty()) {
         Visitor& visitor = *visitors.front();
         visitors.erase(visitors.begin());
+        visitor.queued = false;
         Ending ending{Outcome::Expired, Reason::None, "its time was over before its turn"};
-        if (cycle_ <= visitor.cycle + visitor.plan->budget) {
+        if (visitor.withdrawn) {
+            ending.why = "a later command of its sender went first";
+        } else if (cycle_ <= visitor.cycle + visitor.plan->budget) {
             const Caller caller{nullptr, &visitor, 0, visitor.cycle};
             double sum = 0;
             try {

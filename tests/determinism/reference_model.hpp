@@ -91,6 +91,8 @@ struct Visitor {
     std::uint64_t sequence = 0;
     std::int64_t cycle = 0;  // in which it came
     int simplex = 0;
+    std::int64_t waitUntil = 0;  // for earlier ones in queues
+    bool queued = false, withdrawn = false;
     std::optional<Ending> ending;  // or Running, not yet told
     std::int64_t latency = 0;
     bool over = false;

@@ -42,7 +42,6 @@ std::string describe(const OutsideCommandPlan& plan) {
 
 // By sender, then sequence, however they were handed over.
 void Reference::readOutside() {
-    std::vector<Visitor*> arrivals;
     for (; nextOutside_ < plan_.script.size(); ++nextOutside_) {
         const OutsideCommandPlan& plan = plan_.script[nextOutside_];
         if (plan.tick > cycle_) break;
@@ -51,19 +50,60 @@ void Reference::readOutside() {
         visitor.sequence = ++sequences_[plan.sender];
         visitor.cycle = cycle_;
         visitor.simplex = find(plan.path);
-        arrivals.push_back(&visitor);
+        const bool urgent = plan.command == "shutdown" || plan.command == "cancel";
+        visitor.waitUntil = cycle_ + (urgent ? 0 : plan.budget / 2);
+        waiting_[plan.sender].push_back(&visitor);
     }
+    std::vector<Visitor*> arrivals;
+    for (auto& [sender, waiting] : waiting_) release(waiting, arrivals);
     std::ranges::sort(arrivals, comesBefore);
     for (Visitor* visitor : arrivals) {
         active_.push_back(visitor);
-        RefSimplex& target = at(visitor->simplex);
-        if (target.task != nullptr && lifeCycleOf(visitor->plan->command) != LifeCycle::None) {
+        if (isLifeCycle(*visitor)) {
             deliverLifeCycle(*visitor);
             continue;
         }
+        RefSimplex& target = at(visitor->simplex);
         target.visitors.push_back(visitor);
         std::ranges::sort(target.visitors, comesBefore);
     }
+}
+
+// What acts before the tasks waits for earlier commands of its sender in queues. Once it may wait
+// no longer, or a later one may not, they are withdrawn.
+void Reference::release(std::vector<Visitor*>& waiting, std::vector<Visitor*>& arrivals) {
+    std::uint64_t due = 0;
+    for (const Visitor* each : waiting) {
+        if (cycle_ >= each->waitUntil) due = each->sequence;
+    }
+    const auto allOf = [&](auto&& function) {
+        for (Visitor* each : arrivals) function(*each);
+        for (Visitor* each : active_) function(*each);
+    };
+    while (!waiting.empty()) {
+        Visitor& first = *waiting.front();
+        bool holdsUp = false;
+        allOf([&](Visitor& each) { holdsUp = holdsUp || wouldOvertake(first, each); });
+        if (holdsUp && first.sequence > due) break;
+        allOf(
+            [&](Visitor& each) { each.withdrawn = each.withdrawn || wouldOvertake(first, each); });
+        first.queued = !isLifeCycle(first);
+        arrivals.push_back(&first);
+        waiting.erase(waiting.begin());
+    }
+}
+
+bool Reference::isLifeCycle(const Visitor& visitor) {
+    return at(visitor.simplex).task != nullptr &&
+           lifeCycleOf(visitor.plan->command) != LifeCycle::None;
+}
+
+bool Reference::wouldOvertake(const Visitor& visitor, const Visitor& earlier) {
+    const bool atOnce = isLifeCycle(visitor);
+    if (!earlier.queued || earlier.plan->sender != visitor.plan->sender) return false;
+    if (!atOnce && (visitor.simplex != agent_ || earlier.simplex == agent_)) return false;
+    return visitor.simplex == earlier.simplex || visitor.simplex == agent_ ||
+           earlier.simplex == agent_;
 }
 
 void Reference::settle(Visitor& visitor, Ending ending) {
