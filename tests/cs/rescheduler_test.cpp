@@ -66,6 +66,8 @@ protected:
         return exchanged;
     }
 
+    bool told(const std::string& event) { return cluster_.hasEvent(event); }
+
     std::atomic<std::uint32_t> threads{2};  // of the schedule that it is made; 2 are better
     std::unique_ptr<Plan> plan;
     std::unique_ptr<Rescheduler> rescheduler;
@@ -143,6 +145,18 @@ TEST_F(ReschedulerTest, LooksAgainWheneverItIsAsked) {
     EXPECT_TRUE(exchanged());
     rescheduler->look();
     EXPECT_FALSE(exchanged());  // the plan in use is as good
+}
+
+TEST_F(ReschedulerTest, TellsWhatCameOfALookAlsoOfOneThatIsUnderWay) {
+    rescheduler->look();
+    rescheduler->lookAndTell();
+    EXPECT_TRUE(exchanged());
+    while (!told("/test: reschedule: takes a better plan with 2 threads")) {
+    }
+    rescheduler->lookAndTell();
+    EXPECT_FALSE(exchanged());
+    while (!told("/test: reschedule: stays with 2 threads, no other plan is better")) {
+    }
 }
 
 TEST_F(ReschedulerTest, EndsWhileItLooksOrOffers) {

@@ -210,9 +210,6 @@ Outcome ClusterLoop::reschedule(Call& call) {
             "this loop has one thread, or keeps the threads that it was given: there is nothing "
             "to share anew");
     }
-    if (rescheduler_->isLooking()) {
-        return call.reject(Reason::Busy, "it looks at what the tasks cost already");
-    }
     rescheduler_->lookAndTell();
     return Outcome::Done;
 }

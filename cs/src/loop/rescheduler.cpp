@@ -70,8 +70,7 @@ void Rescheduler::look() {
 }
 
 void Rescheduler::lookAndTell() {
-    if (isLooking()) return;
-    tells_ = true;
+    tells_.store(true);
     look();
 }
 
@@ -95,22 +94,25 @@ void Rescheduler::run() {
         const std::uint32_t seen = signals_.value();
         if (stage() == Stage::Asked) {
             plan_ = betterPlanIfPossible();
-            if (std::exchange(tells_, false)) tellResult();
-            hand(plan_ != nullptr ? Stage::Offered : Stage::Idle);
+            last_ = {plan_ != nullptr, inUse_.threads};
+            hand(last_.isBetter ? Stage::Offered : Stage::Idle);
+            tellIfAsked();
         } else if (stage() == Stage::Returned) {
             plan_.reset();
             hand(Stage::Idle);
+            tellIfAsked();
         } else if (!stopping_.load()) {
             signals_.sleepWhile(seen);
         }
     }
 }
 
-void Rescheduler::tellResult() const {
+void Rescheduler::tellIfAsked() {
+    if (!tells_.exchange(false)) return;
     EventText text{"reschedule: "};
-    text << (plan_ != nullptr ? "takes a better plan with " : "stays with ") << inUse_.threads
-         << (inUse_.threads == 1 ? " thread" : " threads")
-         << (plan_ != nullptr ? "" : ", no other plan is better");
+    text << (last_.isBetter ? "takes a better plan with " : "stays with ") << last_.threads
+         << (last_.threads == 1 ? " thread" : " threads")
+         << (last_.isBetter ? "" : ", no other plan is better");
     Event event;
     event.simplex = agent_.agentSimplex();
     event.text = text;

@@ -42,7 +42,7 @@ public:
     // `timedAll`: whether every task was timed.
     void follow(std::uint64_t startups, std::int64_t now, bool timedAll) CORTEX_REALTIME;
     void look() CORTEX_REALTIME;
-    void lookAndTell() CORTEX_REALTIME;  // what came of it is an event
+    void lookAndTell() CORTEX_REALTIME;  // what came of it, or of the present look, is an event
     bool isLooking() const CORTEX_REALTIME { return stage() != Stage::Idle; }
     // Where a better plan is offered it takes the place of `plan`.
     bool exchange(std::unique_ptr<Plan>& plan) CORTEX_REALTIME;
@@ -65,7 +65,7 @@ private:
     std::unique_ptr<Plan> betterPlan();
     std::unique_ptr<Plan> betterPlanIfPossible();
     std::vector<double> measuredCosts();
-    void tellResult() const;
+    void tellIfAsked();
     bool addSample(std::vector<std::vector<double>>& samples) const;
 
     AgentRuntime& agent_;
@@ -74,7 +74,11 @@ private:
     std::atomic<Stage> stage_{Stage::Idle};
     std::unique_ptr<Plan> plan_;  // offered to the loop, or returned by it
     Schedule inUse_;
-    bool tells_ = false;  // of the present look; who has the word
+    std::atomic<bool> tells_{false};  // what came of the present look, when it ends
+    struct Result {
+        bool isBetter = false;
+        std::uint32_t threads = 1;
+    } last_;  // of the last look; its thread
     EventCount signals_;
     std::atomic<bool> stopping_{false};
 
