@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cortex::comms {
+namespace cortex::comms::bounds {
 namespace {
 
 using namespace datagrams;
@@ -65,7 +65,7 @@ TEST_F(BoundsTest, FragmentsThatAreNotForThisParticipantStay) {
 TEST_F(BoundsTest, BegunSamplesOfAWriterAreBoundedAndTold) {
     filter.allowFragments(writer, true, now);
     ASSERT_EQ(admit(header() + data(1)).whole.size(), 0U);
-    for (int number = 1; number <= 40; ++number) {
+    for (int number = 1; number <= 100; ++number) {
         const auto admitted =
             admit(header() +
                   dataFragment(
@@ -73,14 +73,14 @@ TEST_F(BoundsTest, BegunSamplesOfAWriterAreBoundedAndTold) {
         EXPECT_TRUE(admitted.whole.empty());
         EXPECT_EQ(admitted.left, rtps::headerSize) << "nothing of it reaches Fast DDS";
     }
-    EXPECT_EQ(unfinished(), 40 - rtps::Fragments::mostOfWriter);
+    EXPECT_EQ(unfinished(), 100 - rtps::Fragments::mostOfWriter);
     EXPECT_EQ(filter.takeReports(now + second),
-              std::vector<std::string>{"32 datagrams were dropped: they began more samples in "
+              std::vector<std::string>{"36 datagrams were dropped: they began more samples in "
                                        "fragments than there is room for; the last came from "
                                        "10.0.0.7"});
     // What is begun now goes on.
-    EXPECT_EQ(completed({.number = 41}), 0U);
-    EXPECT_EQ(completed({.number = 41, .first = 2}), 2U);
+    EXPECT_EQ(completed({.number = 101}), 0U);
+    EXPECT_EQ(completed({.number = 101, .first = 2}), 2U);
 }
 
 TEST_F(BoundsTest, AWriterThatFloodsDropsNothingOfAnother) {
@@ -219,6 +219,35 @@ TEST(PiecesTest, KnowsWhatIsSaidOfEndpoints) {
     EXPECT_FALSE(is(header() + submessage(0x15, 0, Datagram(4))));
 }
 
+TEST(PiecesTest, ASampleThatIsCutArrivesAsItWas) {
+    const Datagram to = submessage(0x0e, 0, Datagram(12, 9)),
+                   time = submessage(0x09, 0, Datagram(8));
+    Datagram payload(3'000);
+    for (std::size_t i = 0; i < payload.size(); ++i) payload[i] = static_cast<std::uint8_t>(i / 7);
+    const Datagram key = parameter(0x70, Datagram(16, 5)) + endOfList;
+    Datagram all = header() + to + time + data(4, anyWriter, 6, key + payload) + heartbeat(1, 4);
+    const auto pieces = rtps::piecesOf(all, anyWriter);
+    ASSERT_EQ(pieces.size(), 3U);
+    const Datagram last = heartbeat(1, 4);
+    EXPECT_TRUE(std::equal(last.rbegin(), last.rend(), pieces.back().rbegin()));
+
+    DatagramFilter filter{rtps::Prefix{9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9}};
+    filter.allowFragments(guidOf(1, anyWriter), true, second);
+    std::vector<rtps::Message> whole;
+    for (Datagram piece : {pieces[2], pieces[0], pieces[0], pieces[1]}) {
+        EXPECT_LE(piece.size(), rtps::onePacket);
+        for (auto& each : filter.admit(piece, address, second).whole) whole.push_back(each);
+    }
+    ASSERT_EQ(whole.size(), 3U);
+    // Header, time, and 36 bytes in front of the parameters.
+    const auto contentOf = [&](const Datagram& message) {
+        return Datagram{message.begin() + 20 + 12 + 36 + static_cast<std::ptrdiff_t>(key.size()),
+                        message.end()};
+    };
+    EXPECT_EQ(contentOf(whole[1]) + contentOf(whole[2]) + contentOf(whole[0]), payload);
+    EXPECT_EQ(rtps::piecesOf(all, 0x203).size(), 2U) << "of another writer";
+}
+
 TEST(PiecesTest, WhatIsShortOneOrSignedStaysAsItIs) {
     const Datagram time = submessage(0x09, 0, Datagram(8));
     const Datagram longOne = data(1, anyWriter, 4, Datagram(3'000));
@@ -233,4 +262,4 @@ TEST(PiecesTest, WhatIsShortOneOrSignedStaysAsItIs) {
 }
 
 }  // namespace
-}  // namespace cortex::comms
+}  // namespace cortex::comms::bounds

@@ -206,7 +206,7 @@ TEST_F(AttackedPlant, HoldsItsMemoryWhileSamplesBeginThatNeverEnd) {
     const auto writers = attacker->newest();
     ASSERT_GT(writers.size(), 5U);
     memory = heldBy(robot->pid()).memory;
-    for (int i = 1; i <= 40; ++i) {
+    for (int i = 1; i <= 100; ++i) {
         for (const auto& [writer, newest] : writers) {
             Bytes datagram = header() + dataFragment({.number = newest + i,
                                                       .size = 1'000,

@@ -52,7 +52,7 @@ public:
               const std::chrono::steady_clock::time_point& timeout) override {
         const rtps::Bytes datagram{const_cast<fastrtps::octet*>(octets), size};  // only read
         gate_->filter.noteSent(datagram, monotonicNow());
-        std::vector<rtps::Message> pieces = rtps::piecesOf(datagram);
+        std::vector<rtps::Message> pieces = rtps::piecesOf(datagram, gate_->cutWriter);
         if (gate_->repeatsEndpoints && rtps::isAboutEndpoints(datagram)) {
             if (pieces.empty()) pieces.emplace_back(octets, octets + size);
             for (std::size_t i = pieces.size(); i > 0; --i) pieces.push_back(pieces[i - 1]);

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 
@@ -49,6 +50,8 @@ public:
     std::unique_lock<std::mutex> hold() { return std::unique_lock{passing_}; }
 
     rtps::DatagramFilter filter;  // every datagram passes it first
+    // The id of the writer whose samples are sent in fragments of one packet; 0: none.
+    std::atomic<std::uint32_t> cutWriter{0};
     // Whether what is said of endpoints is sent twice. Fast DDS repeats it only once a second.
     std::atomic<bool> repeatsEndpoints{true};
 

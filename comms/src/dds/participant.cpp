@@ -248,6 +248,11 @@ std::unique_ptr<Writer<M>> Participant::writer(const Topic& topic) {
                     impl_->topic<M>(topic.name),
                     writerQos(topic.qos, impl_->othersOnHost, impl_->guard != nullptr)),
                 "a writer of topic '" + topic.name + "' of '" + impl_->name + "'");
+    if (topic.name == topics::model.name) {
+        const auto& id = made->guid().entityId.value;
+        impl_->gate->cutWriter =
+            static_cast<std::uint32_t>(id[0] << 24 | id[1] << 16 | id[2] << 8 | id[3]);
+    }
     const auto release = [self = impl_.get()](auto* used) { self->release(used); };
     std::unique_ptr<Writer<M>> writer{new Writer<M>{std::unique_ptr<Entity>{
         new Entity{impl_->gate, release, impl_->publisher, made, nullptr}}}};

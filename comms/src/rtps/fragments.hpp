@@ -27,9 +27,9 @@ struct Fragment {
 // others, else of any. One thread at a time.
 class Fragments {
 public:
-    static constexpr std::size_t mostOfWriter = 8, most = 256;  // samples that have begun
-    static constexpr std::size_t mostBytes = 17u << 20;         // of all that is kept
-    static constexpr std::int64_t patience = 10'000'000'000;    // ns, then one is forgotten
+    static constexpr std::size_t mostOfWriter = 64, most = 512;  // samples that have begun
+    static constexpr std::size_t mostBytes = 17u << 20;          // of all that is kept
+    static constexpr std::int64_t patience = 10'000'000'000;     // ns, then one is forgotten
 
     // All messages of the sample that `message` completes, in the order of their arrival; empty
     // while some are missing.

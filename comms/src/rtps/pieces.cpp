@@ -3,6 +3,8 @@
 
 #include "rtps/submessages.hpp"
 
+#include <algorithm>
+
 namespace cortex::comms::rtps {
 namespace {
 
@@ -42,24 +44,75 @@ void append(std::vector<std::uint8_t>& to, Bytes bytes) {
     to.insert(to.end(), bytes.begin(), bytes.end());
 }
 
+void put(std::vector<std::uint8_t>& to, std::uint32_t value, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; ++i) to.push_back(static_cast<std::uint8_t>(value >> 8 * i));
+}
+
+// The DATA at the end of a part, if it is a sample of a writer that is to be cut.
+Bytes toCut(Bytes part, std::uint32_t writer) {
+    for (std::size_t at = 0; at < part.size() && part.size() > onePacket;) {
+        const Submessage submessage = cutSubmessage(part.subspan(at)).submessage;
+        const Bytes body = submessage.body;
+        const bool hasData = submessage.little() && (submessage.flags & 4) != 0;
+        if (submessage.kind == Kind::Data && hasData && readU32(body.subspan(8), false) == writer)
+            return submessage.whole;
+        at += submessage.whole.size();
+    }
+    return {};
+}
+
+// The fragments that a sample becomes, each behind `front`: RTPS 2.3, 9.4.5.4.
+void appendFragments(std::vector<std::vector<std::uint8_t>>& pieces, Bytes front, Bytes data) {
+    constexpr std::size_t fragment = 1'200;
+    const Submessage submessage = cutSubmessage(data).submessage;
+    const auto [parameters, payload] = partsOf(submessage);
+    std::uint32_t number = 0;
+    for (Bytes rest = payload; !rest.empty();) {
+        const Bytes content = rest.first(std::min(fragment, rest.size()));
+        std::vector<std::uint8_t>& piece = pieces.emplace_back(front.begin(), front.end());
+        piece.push_back(static_cast<std::uint8_t>(Kind::DataFragments));
+        piece.push_back(submessage.flags & 3);  // the byte order, and whether parameters are there
+        put(piece, static_cast<std::uint32_t>(32 + parameters.size() + content.size()), 2);
+        put(piece, 0, 2);
+        put(piece, 28, 2);                              // from here to the parameters
+        append(piece, submessage.body.subspan(4, 16));  // reader, writer, number
+        put(piece, ++number, 4);
+        put(piece, 1, 2);
+        put(piece, fragment, 2);
+        put(piece, static_cast<std::uint32_t>(payload.size()), 4);
+        append(piece, parameters);
+        append(piece, content);
+        rest = rest.subspan(content.size());
+    }
+}
+
 }  // namespace
 
-std::vector<std::vector<std::uint8_t>> piecesOf(Bytes datagram) {
+std::vector<std::vector<std::uint8_t>> piecesOf(Bytes datagram, std::uint32_t cut) {
     std::vector<std::vector<std::uint8_t>> pieces;
     if (datagram.size() <= onePacket || !hasHeader(datagram)) return pieces;
     Context context;
     for (Bytes rest = datagram.subspan(headerSize); !rest.empty();) {
         const Bytes part = firstPart(rest);
         if (part.empty()) return {};
-        if (part.size() == datagram.size() - headerSize) return {};
+        const Context before = context;
+        context.take(part);
+        const Bytes sample = cut != 0 ? toCut(part, cut) : Bytes{};
+        if (sample.empty() && part.size() == datagram.size() - headerSize) return {};
+        rest = rest.subspan(part.size());
+        if (!sample.empty()) {
+            std::vector<std::uint8_t> front{datagram.begin(), datagram.begin() + headerSize};
+            append(front, context.destination);
+            append(front, context.time);
+            appendFragments(pieces, front, sample);
+            continue;
+        }
         if (pieces.empty() || pieces.back().size() + part.size() > onePacket) {
             append(pieces.emplace_back(), datagram.first(headerSize));
-            append(pieces.back(), context.destination);
-            append(pieces.back(), context.time);
+            append(pieces.back(), before.destination);
+            append(pieces.back(), before.time);
         }
         append(pieces.back(), part);
-        context.take(part);
-        rest = rest.subspan(part.size());
     }
     return pieces;
 }
