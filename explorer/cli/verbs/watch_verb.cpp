@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/clock.hpp"
 #include "cortex/core/labelled_value.hpp"
 #include "cortex/core/nearest_names.hpp"
 
@@ -8,11 +9,15 @@
 #include "verbs/live_verbs.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <condition_variable>
+#include <deque>
 #include <iostream>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <set>
 #include <thread>
+#include <utility>
 
 namespace cortex::explorer {
 namespace {
@@ -86,7 +91,16 @@ Reading read(const Watched& watched, const comms::AgentImage& image) {
     return reading;
 }
 
-// Prints what was watched, once for every image.
+// What all agents that are watched have at one moment.
+struct Sighting {
+    std::int64_t moment = 0;
+    std::vector<Reading> readings;
+    std::set<std::string> restarted;  // their values are from now on those of another start
+    std::string agent;                // whose image it was at every cycle
+    std::int64_t cycle = 0;           // of that image
+};
+
+// Prints what was watched, once for every line.
 class ImagePrinter {
 public:
     ImagePrinter(const WatchOptions& options, std::vector<Watched>& watched)
@@ -99,12 +113,15 @@ public:
         for (const Watched& each : watched_) std::cout << ',' << each.name << ":quality";
         std::cout << ",restarted" << std::endl;
     }
-    // `restarted`: agents whose values are from now on those of another start.
-    void line(const std::string& time, const std::vector<Reading>& readings,
-              const std::set<std::string>& restarted) {
-        if (options_.csv) return csv(time, readings, restarted);
-        if (options_.json) return json(time, readings, restarted);
-        for (const std::string& each : restarted) {
+    void line(const Sighting& line) {
+        const std::string time = timeText(line.moment);
+        const std::vector<Reading>& readings = line.readings;
+        if (options_.csv) return csv(time, readings, line.restarted);
+        if (options_.json) return json(time, readings, line.restarted);
+        for (const std::string& each : line.restarted) {
+            for (Watched& shown : watched_) {
+                if (shown.simplex.agent == each) shown.shown.clear();
+            }
             std::cout << time << "  values now come from a new start of agent " << printable(each)
                       << '\n';
         }
@@ -155,45 +172,133 @@ std::int64_t now() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
 }
 
-// Waits for the next moment and returns its time: a multiple of 1/rate s of the wall clock, or
-// without a rate that of the next image.
-std::int64_t nextMoment(const WatchOptions& options, Live& live, std::uint64_t& images) {
-    if (options.rate > 0) {
-        const std::int64_t step = 1'000'000'000 / options.rate;
-        const std::int64_t moment = (now() / step + 1) * step;
-        for (std::int64_t left = moment - now(); left > 0; left = moment - now()) {
-            throwIfInterrupted();
-            std::this_thread::sleep_for(
-                std::min<std::chrono::nanoseconds>(std::chrono::nanoseconds{left}, interruptSlice));
-        }
-        return moment;
+Sighting readAll(Live& live, std::vector<Watched>& watched, std::int64_t moment) {
+    Sighting line;
+    line.moment = moment;
+    std::map<std::string, comms::AgentImage> pinned;
+    for (Watched& each : watched) {
+        if (follow(live, each)) line.restarted.insert(each.simplex.agent);
+        const auto [place, added] = pinned.try_emplace(each.simplex.agent);
+        if (added) place->second = live.mirror().image(each.simplex.agent);
+        line.readings.push_back(read(each, place->second));
     }
-    const std::uint64_t before = images;
-    while (images == before && std::cout) {
-        throwIfInterrupted();
-        images = live.mirror().waitForImage(before, interruptSlice);
-    }
-    return now();
+    return line;
 }
 
-// What all agents that are watched have at each moment.
-void run(const WatchOptions& options, Live& live, std::vector<Watched>& watched) {
-    ImagePrinter printer{options, watched};
-    printer.head();
-    std::uint64_t images = 0;
-    for (std::uint64_t lines = 0; options.count == 0 || lines < options.count; ++lines) {
-        const std::int64_t moment = nextMoment(options, live, images);
-        if (!std::cout) return;  // nobody reads on
-        std::map<std::string, comms::AgentImage> pinned;
-        std::vector<Reading> readings;
-        std::set<std::string> restarted;
-        for (Watched& each : watched) {
-            if (follow(live, each)) restarted.insert(each.simplex.agent);
-            const auto [place, added] = pinned.try_emplace(each.simplex.agent);
-            if (added) place->second = live.mirror().image(each.simplex.agent);
-            readings.push_back(read(each, place->second));
+// The next multiple of 1/rate s of the wall clock.
+std::int64_t nextMoment(std::int64_t rate) {
+    const std::int64_t step = nsPerSecond / rate;
+    const std::int64_t moment = (now() / step + 1) * step;
+    for (std::int64_t left = moment - now(); left > 0; left = moment - now()) {
+        throwIfInterrupted();
+        std::this_thread::sleep_for(
+            std::min<std::chrono::nanoseconds>(std::chrono::nanoseconds{left}, interruptSlice));
+    }
+    return moment;
+}
+
+// The lines of every cycle, from the mirror's thread, which has each image for a moment only, to
+// the one that prints. It lives for as long as the mirror does, and does nothing once it is closed.
+class EveryCycle {
+public:
+    EveryCycle(Live& live, std::vector<Watched> watched)
+        : live_{&live}, watched_{std::move(watched)} {}
+
+    void add(const std::string& agent, std::int64_t cycle) {
+        const std::lock_guard lock{mutex_};
+        if (live_ == nullptr || lines_.size() >= most) return;
+        lines_.push_back(readAll(*live_, watched_, now()));
+        lines_.back().agent = agent;
+        lines_.back().cycle = cycle;
+        images_ = images();
+        changed_.notify_one();
+    }
+    // The next line. Where none comes for a while it shows what is lost meanwhile.
+    Sighting next() {
+        std::unique_lock lock{mutex_};
+        while (!changed_.wait_for(lock, interruptSlice, [&] { return !lines_.empty(); })) {
+            throwIfInterrupted();
+            if (std::exchange(images_, images()) != images_)
+                return readAll(*live_, watched_, now());
         }
-        printer.line(timeText(moment), readings, restarted);
+        throwIfInterrupted();
+        Sighting line = std::move(lines_.front());
+        lines_.pop_front();
+        return line;
+    }
+    void close() {
+        const std::lock_guard lock{mutex_};
+        live_ = nullptr;
+    }
+
+private:
+    static constexpr std::size_t most = 10'000;
+
+    // So many were published; one that comes from no block says that values are stale or lost.
+    std::uint64_t images() { return live_->mirror().waitForImage(0, std::chrono::milliseconds{}); }
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    Live* live_;
+    std::vector<Watched> watched_;
+    std::deque<Sighting> lines_;
+    std::uint64_t images_ = 0;
+};
+
+// Says on standard error how many cycles did not come, at most once a second and at the end.
+class Gaps {
+public:
+    ~Gaps() { tell(); }
+    void add(const Sighting& line) {
+        if (line.agent.empty()) return;
+        std::int64_t& last = last_[line.agent];
+        const bool goesOn = last != 0 && !line.restarted.contains(line.agent);
+        if (goesOn && line.cycle > last + 1) missing_[line.agent] += line.cycle - last - 1;
+        last = line.cycle;
+        if (missing_.empty() || line.moment - told_ < nsPerSecond) return;
+        tell();
+        told_ = line.moment;
+    }
+
+private:
+    void tell() {
+        for (const auto& [agent, cycles] : missing_) {
+            std::cerr << "cortex: " << plural(static_cast<std::uint64_t>(cycles), "cycle") << " of "
+                      << printable(agent) << " did not come\n";
+        }
+        missing_.clear();
+    }
+
+    std::map<std::string, std::int64_t> last_, missing_;
+    std::int64_t told_ = 0;
+};
+
+void runAtRate(const WatchOptions& options, Live& live, std::vector<Watched>& watched,
+               ImagePrinter& printer) {
+    for (std::uint64_t lines = 0; options.count == 0 || lines < options.count; ++lines) {
+        const std::int64_t moment = nextMoment(options.rate);
+        if (!std::cout) return;  // nobody reads on
+        printer.line(readAll(live, watched, moment));
+    }
+}
+
+void runAtEveryCycle(const WatchOptions& options, Live& live, const std::vector<Watched>& watched,
+                     ImagePrinter& printer) {
+    struct Closing {
+        ~Closing() { every->close(); }
+        std::shared_ptr<EveryCycle> every;
+    };
+    const auto every = std::make_shared<EveryCycle>(live, watched);
+    const Closing closing{every};
+    live.mirror().onImage([every](const std::string& agent, const comms::AgentImage& image) {
+        every->add(agent, image->cycle());
+    });
+    Gaps gaps;
+    for (std::uint64_t lines = 0; options.count == 0 || lines < options.count; ++lines) {
+        const Sighting line = every->next();
+        if (!std::cout) return;
+        gaps.add(line);
+        printer.line(line);
     }
 }
 
@@ -217,7 +322,12 @@ Exit watchValues(const WatchOptions& options) {
         throw Failure{NotFound, "not all of the values came within " +
                                     toText(options.network.timeout) + " s"};
     }
-    run(options, live, watched);
+    ImagePrinter printer{options, watched};
+    printer.head();
+    if (options.rate == 0)
+        runAtEveryCycle(options, live, watched, printer);
+    else
+        runAtRate(options, live, watched, printer);
     return Yes;
 }
 
