@@ -223,7 +223,8 @@ TEST_F(FilterTest, FollowsAWriterWhoseDatagramsAreLostAndOvertakeEachOther) {
     std::vector<std::pair<std::int64_t, std::int64_t>> arrivals;  // time and number
     for (std::int64_t number = 1; number <= 5'000; ++number) {
         if (chance() % 5 == 0) continue;
-        arrivals.emplace_back(now + number * 1'000'000 + chance() % 20'000'000, number);
+        const auto late = static_cast<std::int64_t>(chance() % 20'000'000);
+        arrivals.emplace_back(now + number * 1'000'000 + late, number);
     }
     std::ranges::sort(arrivals);
     int dropped = 0, droppedAtFirst = 0;
