@@ -359,6 +359,21 @@ TEST(DataFlow, AStampIsTheOldestOfTheInputs) {
     EXPECT_EQ(state.time, image.nominalTime() - 3'000'000);
 }
 
+// As where an input was measured before this agent started.
+TEST(DataFlow, AStampBeforeTheStartIsPassedOnAsOldAsItIs) {
+    constexpr std::int64_t hour = 3'600'000'000'000;
+    Chain chain;
+    chain.writer.onActive = [](Probe& self, const Tick&) { self.setQuality(Quality::Good, -hour); };
+    chain.cluster.start();
+    chain.cluster.startup(chain.writer);
+    chain.cluster.step();
+
+    const Image image = chain.cluster.cluster->image();
+    EXPECT_EQ(image.state(image.structure().find("/s")).time, -hour);
+    EXPECT_TRUE(chain.reader.inputLost());
+    EXPECT_EQ(image.quality("/s"), Quality::Good);
+}
+
 // Two writers of one simplex.
 struct Shared {
     ProbeCluster cluster;
