@@ -43,7 +43,8 @@ protected:
         rig.add(thread);
         rig.start();
     }
-    void send() { thread.streams->step(0); }
+    // A second later each time, so that every stream is due.
+    void send() { thread.streams->step(now_ += 1'000'000'000); }
     // Somebody views everything at this rate, and has met the writer.
     void view(std::uint32_t rate, const Topic& topic) {
         reader = tool.reader<Block>(topic, blocks.push());
@@ -71,6 +72,9 @@ protected:
     test::AgentRig rig;
     Inbox<Block> blocks;
     std::unique_ptr<Reader<Block>> reader;
+
+private:
+    std::int64_t now_ = 0;
 };
 
 TEST_F(AgentStreamsTest, SendEveryCycleInOrderToWhoAsksForEveryCycle) {
@@ -109,7 +113,7 @@ TEST_F(AgentStreamsTest, SendTheNewestCycleAloneToSlowerViews) {
     const std::size_t before = blocks.elements().size();
     rig.step(20);
 
-    thread.streams->step(1'000'000'000);
+    send();
 
     ASSERT_EQ(blocksFrom(before, rig.tick.cycle).size(), 1U);
 }
