@@ -258,7 +258,9 @@ void Simulation::poll(Station& self) {
         const bool surelyNot = result.outcome == Outcome::Expired ||
                                result.outcome == Outcome::MailboxFull ||
                                (result.outcome == Outcome::Rejected && !truth.lifeCycle);
-        if ((ran && !truth.begun) || (surelyNot && truth.begun)) ++counts_.lies;
+        if ((ran && !truth.begun) || (surelyNot && truth.begun)) {
+            lie(truth, std::string{"answered "} + result.text());
+        }
         if (result.outcome == Outcome::Expired) ++counts_.expired;
         return true;
     });
@@ -335,6 +337,14 @@ void Simulation::takeAnswer(const Answer& answer) {
     put(std::move(packet));
 }
 
+void Simulation::lie(const Truth& truth, const std::string& how) {
+    ++counts_.lies;
+    counts_.lie = "command " + std::to_string(truth.sequence) + " of start " +
+                  std::to_string(truth.start) + " of sender " + std::to_string(truth.sender) +
+                  " at " + std::to_string(now_) + " ms, outcome " + name(truth.outcome) + ": " +
+                  how;
+}
+
 void Simulation::begin(std::size_t id) {
     Truth& truth = truths_[id];
     const std::int64_t cycle = plant_->rig.tick.cycle;
@@ -343,7 +353,7 @@ void Simulation::begin(std::size_t id) {
     if (cycle > truth.notAfter) ++counts_.late;
     const bool settled = truth.outcome != Outcome::None && truth.outcome != Outcome::Unknown &&
                          truth.outcome != Outcome::Done;
-    if (settled && !truth.lifeCycle) ++counts_.lies;
+    if (settled && !truth.lifeCycle) lie(truth, "begins although it was answered");
     const std::int64_t waited = cycle - truth.came - (truth.simplex == slowOne ? slow : 0);
     if (waited > 0) ++counts_.waits;
     if (waited > std::min(longestWait, (truth.notAfter - truth.came) / 2)) ++counts_.longWaits;

@@ -47,6 +47,7 @@ struct Truth {
 struct Counts {
     int twice = 0, disorder = 0, late = 0, lies = 0, gaps = 0, unanswered = 0, longWaits = 0;
     int sent = 0, begun = 0, expired = 0, waits = 0;
+    std::string lie;  // the last
 
     int wrong() const { return twice + disorder + late + lies + gaps + unanswered + longWaits; }
     std::string text() const {
@@ -56,7 +57,7 @@ struct Counts {
         return put("twice", twice) + put("out of order", disorder) + put("late", late) +
                put("lies", lies) + put("gaps", gaps) + put("unanswered", unanswered) +
                put("waits too long", longWaits) + put("sent", sent) + put("begun", begun) +
-               put("expired", expired) + put("waits", waits);
+               put("expired", expired) + put("waits", waits) + lie;
     }
 };
 
@@ -101,6 +102,7 @@ private:
     void deliver(const Packet& packet);
     void takeAnswer(const Answer& answer);
     void begin(std::size_t id);
+    void lie(const Truth& truth, const std::string& how);
 
     std::mt19937_64 random_;
     Faults faults_;

@@ -204,6 +204,19 @@ TEST_F(RouterOrder, LifeCycleCommandWaitsForTheTurnOfASlowSimplex) {
     EXPECT_EQ(network.answers, (Answers{{1, Outcome::Done}, {2, Outcome::Running}}));
 }
 
+TEST_F(RouterOrder, WhatExpiredInAQueueHasOvertakenNothing) {
+    rig.order = {"/other"};
+    send({.number = 2, .budget = 4});
+    step(6);
+    rig.order = {"/worker"};
+    step();
+    EXPECT_EQ(outcomeOf(2), Outcome::Expired);
+    send({1});
+    step();
+
+    EXPECT_EQ(begun, (Numbers{1}));
+}
+
 TEST_F(RouterOrder, ShutdownOfALaterStartWithdrawsWhatStandsInAQueue) {
     rig.order = {"/other"};
     send({1});
@@ -299,8 +312,10 @@ TEST_F(RouterOrder, WhatWasRefusedOfAnEarlierStartStaysRefusedWhenThatStartCount
     step();
     EXPECT_EQ(outcomeOf(7), Outcome::Rejected);
     step(5);
-    send({.number = 8, .below = 8});
-    send({.number = 7});
+    send({7});
+    step(longestWait + 1);
+    EXPECT_EQ(begun, (Numbers{1}));
+    send({8});
     step();
 
     EXPECT_EQ(begun, (Numbers{1, 8}));
