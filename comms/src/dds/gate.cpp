@@ -55,7 +55,8 @@ public:
         std::vector<rtps::Message> pieces = rtps::piecesOf(datagram, gate_->cutWriter);
         if (gate_->repeatsEndpoints && rtps::isAboutEndpoints(datagram)) {
             if (pieces.empty()) pieces.emplace_back(octets, octets + size);
-            for (std::size_t i = pieces.size(); i > 0; --i) pieces.push_back(pieces[i - 1]);
+            const std::size_t once = pieces.size();
+            while (pieces.size() < 3 * once) pieces.push_back(pieces[pieces.size() - once]);
         }
         if (pieces.empty()) return lower->send(octets, size, begin, end, timeout);
         transport::LocatorList to;

@@ -52,7 +52,7 @@ public:
     rtps::DatagramFilter filter;  // every datagram passes it first
     // The id of the writer whose samples are sent in fragments of one packet; 0: none.
     std::atomic<std::uint32_t> cutWriter{0};
-    // Whether what is said of endpoints is sent twice. Fast DDS repeats it only once a second.
+    // Whether what is said of endpoints is sent three times. Fast DDS repeats it once a second.
     std::atomic<bool> repeatsEndpoints{true};
 
 private:

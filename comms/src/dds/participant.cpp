@@ -37,7 +37,7 @@ namespace {
 namespace dds = eprosima::fastdds::dds;
 using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 
-// Participants, up to which what is said of endpoints is sent twice.
+// Participants, up to which what is said of endpoints is sent three times.
 constexpr std::uint32_t mostForRepeats = 16;
 
 template <class Entity>
