@@ -235,16 +235,19 @@ TEST_F(AttackedPlant, HoldsItsMemoryWhileAStrangerAnnouncesEndpoints) {
     ASSERT_FALSE(announced.empty());
     attacker->sendToAll(announced);
     std::this_thread::sleep_for(100ms);
-    for (std::uint32_t i = 1; i <= 20'000; ++i) {
-        Bytes guid = stranger;
-        putEntity(guid, i << 8 | 3);
-        Bytes datagram = header() + data(i, 0x000003c2, 4,
-                                         Bytes{0, 3, 0, 0} + parameter(0x5a, guid) +
-                                             parameter(0x05, text("cortex/" + std::to_string(i))) +
-                                             parameter(0x07, text("stranger")) + endOfList);
+    for (std::uint32_t i = 0; i < 20'000;) {
+        Bytes datagram = header();
         std::ranges::copy(stranger, datagram.begin() + 8);
+        for (int each = 0; each < 50; ++each) {
+            Bytes guid = stranger;
+            putEntity(guid, ++i << 8 | 3);
+            datagram = datagram + data(i, 0x000003c2, 4,
+                                       Bytes{0, 3, 0, 0} + parameter(0x5a, guid) +
+                                           parameter(0x05, text("cortex/" + std::to_string(i))) +
+                                           parameter(0x07, text("stranger")) + endOfList);
+        }
         attacker->sendToAll(datagram);
-        if (i % 20 == 0) std::this_thread::sleep_for(2ms);
+        std::this_thread::sleep_for(2ms);
     }
     EXPECT_TRUE(isWholeAfter("20,000 endpoints"));
     checkThatNothingIsLeft(2048);
