@@ -208,8 +208,10 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
                                         monotonicNow());
         }
     };
-    impl_->listener->onKnown = [gate = impl_->gate](std::uint32_t known) {
-        gate->repeatsEndpoints = known <= mostForRepeats;
+    const bool isOpen = impl_->guard == nullptr;  // what is signed is sent once
+    impl_->gate->repeatsEndpoints = isOpen;
+    impl_->listener->onKnown = [gate = impl_->gate, isOpen](std::uint32_t known) {
+        gate->repeatsEndpoints = isOpen && known <= mostForRepeats;
     };
     setUpFastDds();
     const std::string where = " of '" + name + "' in domain " + std::to_string(options.domain);
