@@ -129,10 +129,9 @@ bool AgentCommands::isProven(const Command& command) {
     return identity_ == nullptr || identity_->rightsOf(command, why) != nullptr;
 }
 
-// The loop does not wait for the number of a command that is answered here. Without room in the
-// pipe it is told with the next command.
+// The loop does not wait for the number of a command that is answered here, and keeps it refused.
+// Without room in the pipe it is told later.
 void AgentCommands::skip(const OutsideCommand& message, HeardSender& from) {
-    if (from.sender.epoch != message.sender.epoch) return;
     if (from.skips.size() < 2 * senderWindow) from.skips[message.sequence] = message;
     passSkips(from);
 }
@@ -274,7 +273,9 @@ void AgentCommands::step(std::int64_t now) {
     for (; const OutsideAnswer* answer = pipe_.answer(); pipe_.popAnswer()) {
         send_(answerFor(*answer));
     }
+    for (auto& [name, sender] : senders_) passSkips(sender);
     std::erase_if(senders_, [&](const auto& each) {
+        if (!each.second.skips.empty()) return false;  // forgotten here, they could still run
         return now - each.second.lastHeard > each.second.patience && reportLost(each.second.sender);
     });
 }
