@@ -144,10 +144,12 @@ bool AgentCommands::passSkips(HeardSender& from) {
 }
 
 // The loop accepts no more commands. If it has this one already, the answer comes from the loop. A
-// command that was refused once stays refused: its sender may have read the answer.
+// command that was refused once stays refused: its sender may have read the answer. Where it is not
+// known what came before of a start there is no answer, so the sender tries again.
 void AgentCommands::turnAway(const Command& command, const OutsideCommand& message,
                              HeardSender& from) {
     self_.rejections.add("a command of " + command.sender + ": too many are on their way");
+    if (from.sender.epoch != message.sender.epoch || !from.isWholeStart) return;
     auto& known = from.turnedAway;
     known.erase(known.begin(), known.lower_bound(command.answeredBelow));
     const bool repeated = known.contains(command.sequenceNumber);
@@ -233,23 +235,40 @@ bool AgentCommands::remember(const Sender& sender, std::int64_t now) {
     const std::string name{sender.nameText()};
     const auto known = senders_.find(name);
     if (known == senders_.end()) {
-        if (senders_.size() >= mostSenders) return false;
+        if (senders_.size() >= mostSenders && !forgetOneLost()) return false;
         senders_[name] = {.sender = sender, .lastHeard = now};
         return true;
     }
     HeardSender& before = known->second;
+    const bool isLater = before.sender.epoch < sender.epoch;
     if (before.sender.epoch == sender.epoch) {
         before.lastHeard = now;
-    } else if (before.sender.epoch < sender.epoch) {
+        before.isLost = false;
+    } else if (isLater || before.isLost) {
         // The loop itself drops an earlier start when a later one commands.
-        before = {.sender = sender, .lastHeard = now};
+        before = {.sender = sender, .lastHeard = now, .isWholeStart = isLater};
     }
+    return true;
+}
+
+// The one that was lost first: where there is room all are kept, as they may be heard again.
+bool AgentCommands::forgetOneLost() {
+    auto first = senders_.end();
+    for (auto each = senders_.begin(); each != senders_.end(); ++each) {
+        if (!each->second.isLost) continue;
+        if (first == senders_.end() || each->second.lastHeard < first->second.lastHeard) {
+            first = each;
+        }
+    }
+    if (first == senders_.end()) return false;
+    senders_.erase(first);
     return true;
 }
 
 void AgentCommands::heard(const Presence& presence, std::int64_t now) {
     const auto known = senders_.find(presence.name);
-    if (known == senders_.end() || known->second.sender.epoch != presence.epoch) return;
+    if (known == senders_.end() || known->second.isLost) return;
+    if (known->second.sender.epoch != presence.epoch) return;
     known->second.lastHeard = now;
     known->second.patience = patienceWith(presence);
 }
@@ -273,11 +292,11 @@ void AgentCommands::step(std::int64_t now) {
     for (; const OutsideAnswer* answer = pipe_.answer(); pipe_.popAnswer()) {
         send_(answerFor(*answer));
     }
-    for (auto& [name, sender] : senders_) passSkips(sender);
-    std::erase_if(senders_, [&](const auto& each) {
-        if (!each.second.skips.empty()) return false;  // forgotten here, they could still run
-        return now - each.second.lastHeard > each.second.patience && reportLost(each.second.sender);
-    });
+    for (auto& [name, each] : senders_) {
+        passSkips(each);
+        if (each.isLost || now - each.lastHeard <= each.patience) continue;
+        each.isLost = reportLost(each.sender);
+    }
 }
 
 Answer AgentCommands::answerFor(const OutsideAnswer& answer) const {

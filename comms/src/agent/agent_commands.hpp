@@ -50,6 +50,8 @@ private:
         std::set<std::uint64_t> turnedAway{};  // refused numbers that are not acknowledged
         std::map<std::uint64_t, std::vector<Extra>> origins{};  // of commands that say one
         std::map<std::uint64_t, OutsideCommand> skips{};        // refused; the loop is to be told
+        bool isLost = false;
+        bool isWholeStart = true;  // false: commands of it may have come before this was kept
     };
     struct Refusal {
         Outcome outcome;
@@ -58,6 +60,7 @@ private:
     };
     bool believable(const Command& command);                // its names and numbers fit together
     bool remember(const Sender& sender, std::int64_t now);  // false: there are too many senders
+    bool forgetOneLost();                                   // false: none is lost
     bool reportLost(const Sender& sender);                  // false: the loop has no room for it
     void refuse(const Command& command, const Refusal& refusal);
     // The loop accepts no more.
