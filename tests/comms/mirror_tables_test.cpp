@@ -220,7 +220,7 @@ TEST_F(MirrorTablesTest, RefusesBlocksOfAnotherStartOrStructure) {
 TEST_F(MirrorTablesTest, ToleratesNumbersThatCannotBe) {
     Block block = agent.block(1);
     block.nominalTime = std::numeric_limits<std::int64_t>::max();
-    block.simplexes[worker].time = std::numeric_limits<std::int64_t>::min();
+    block.simplexes[worker].time = -(std::int64_t{1} << 60) + 1;  // beyond it refused
     block.simplexes[worker].cause = 4'000'000;
 
     EXPECT_TRUE(tables->apply(block, begin));

@@ -17,7 +17,7 @@ int fromEnvironment(const char* name, int otherwise) {
 class OrderOfCommands : public testing::TestWithParam<int> {
 protected:
     std::uint64_t seed() const { return static_cast<std::uint64_t>(GetParam()); }
-    std::int64_t steps() const { return fromEnvironment("CORTEX_ORDER_STEPS", 30'000); }
+    std::int64_t steps() const { return fromEnvironment("CORTEX_ORDER_STEPS", 6'000); }
 };
 
 TEST_P(OrderOfCommands, HoldsWhateverTheNetworkLosesOrRepeatsAndWhoeverIsKilled) {
