@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/lane.hpp"
 
+#include "cortex/core/argument_checks.hpp"
+
 #include "commands/lane_block.hpp"
 
 #include <algorithm>
