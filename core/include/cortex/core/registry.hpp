@@ -13,7 +13,7 @@
 
 namespace cortex {
 
-inline constexpr int pluginAbi = 1;
+inline constexpr int pluginAbi = 2;
 
 // C++ classes of active types, by type name; also from shared-object plug-ins. Setup phase.
 class ClassRegistry {
