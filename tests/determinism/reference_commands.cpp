@@ -164,7 +164,7 @@ void Reference::executeNext(int simplex, State state, Line& line) {
         const bool refusing = !isGood(ending);
         if (std::exchange(line.refusing, refusing) || !refusing) return;
         post(simplex, Severity::Warning, EventKind::Refusal,
-             command + " from " + at(line.link->owner).path + ": " + name(ending.outcome) +
+             command + " from " + at(line.link->owner).path + ": " + cortex::name(ending.outcome) +
                  (ending.why.empty() ? "" : ", " + ending.why));
     };
     const Caller caller{sent.handle, nullptr, sent.number, sent.cycle};
@@ -256,6 +256,9 @@ Ending Reference::call(int simplex, const std::string& name, const Arguments& ar
     sum = reply.sum;
     Ending ending{reply.outcome, reply.reason, std::string{reply.why}};
     if (ending.outcome == Outcome::None || ending.outcome >= Outcome::MailboxFull) {
+        ending.why = std::string{"its handler returned "} + cortex::name(ending.outcome) +
+                     ", which is no answer of a handler: Done, Running, Cancelled, call.fail() "
+                     "and call.reject() are";
         ending.outcome = Outcome::Failed;
     }
     return ending;
