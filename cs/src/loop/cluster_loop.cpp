@@ -206,9 +206,7 @@ bool ClusterLoop::offerPlan(Schedule schedule) {
 // answered at once.
 Outcome ClusterLoop::reschedule(Call& call) {
     if (!mayReschedule_) {
-        return call.fail(
-            "this loop has one thread, or keeps the threads that it was given: there is nothing "
-            "to share anew");
+        return call.fail("it has one thread, or keeps those given: there is nothing to share anew");
     }
     rescheduler_->lookAndTell();
     return Outcome::Done;
