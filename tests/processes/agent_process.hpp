@@ -31,7 +31,7 @@ public:
 
     pid_t pid() const { return pid_; }
     pid_t releasePid() { return std::exchange(pid_, 0); }  // somebody else waits for its end
-    std::string output() const;  // of all its starts
+    std::string output() const;                            // of all its starts
 
 private:
     std::vector<std::string> command_;
