@@ -188,11 +188,12 @@ TEST_F(CortexLoss, IsFollowedThroughOtherAgentsToItsFirstCause) {
                                  [&](const json& seen) { return seen["causes"] == expected; });
 
     EXPECT_EQ(shown["causes"], expected);
-    const Outcome text = live({"show", "/watcher/controller"});
-    EXPECT_TRUE(contains(text.output,
-                         "/desk/demanded of desk <- /desk/controller of desk <- "
-                         "/cell/observed, which is not heard"))
-        << text.output;
+    const std::string chain =
+        "/desk/demanded of desk <- /desk/controller of desk <- /cell/observed, which is not heard";
+    const Outcome text =
+        lookUntil([] { return live({"show", "/watcher/controller"}); },
+                  [&](const Outcome& seen) { return contains(seen.output, chain); });
+    EXPECT_TRUE(contains(text.output, chain)) << text.output;
     EXPECT_EQ(liveJson({"show", "/watcher"}, "show")["causes"], json::array());
 }
 
