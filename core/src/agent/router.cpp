@@ -244,7 +244,8 @@ void Router::publish(OutsideEntry& entry) {
     const std::uint32_t size = head.outcome == Outcome::Done ? layout.size : 0;
     SenderRecord& record = senders_[entry.senderRecord];
     KeptOutcome& kept = record.kept(entry.sequence);
-    const bool known = record.sender == entry.sender;
+    const bool known =
+        record.sender.name == entry.sender.name && record.sender.epoch == entry.sender.epoch;
     entry.fresh = false;
     if (known && kept.sequence == entry.sequence && kept.stage != Stage::Empty) {
         kept.stage = entry.final() ? Stage::Final : Stage::Running;

@@ -58,7 +58,10 @@ SenderTable::Found SenderTable::find(std::uint32_t interface, const Sender& send
     for (record = 0; record < records_.size(); ++record) {
         SenderRecord& each = records_[record];
         if (each.used && each.interface == interface && each.sender.name == sender.name) {
-            if (each.sender.epoch == sender.epoch) return Found::Known;
+            if (each.sender.epoch == sender.epoch) {
+                each.sender.host = sender.host;  // which names nobody
+                return Found::Known;
+            }
             const bool isOlder = each.sender.epoch > sender.epoch;
             if (isOlder && !each.isOver(cycle)) return Found::Older;
             before = each.sender;
