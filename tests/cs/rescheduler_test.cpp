@@ -52,6 +52,7 @@ protected:
         plan = std::make_unique<Plan>(Plan{schedule(1), nullptr});
         rescheduler = std::make_unique<Rescheduler>(agent(), plan->schedule, maker());
     }
+    ~ReschedulerTest() override { rescheduler.reset(); }  // it may still look at the agent
     AgentRuntime& agent() { return cluster_.cluster->agent(); }
     Schedule schedule(std::uint32_t count) const {
         return makeSchedule(graph_, {.threads = count, .chunkSize = 10, .force = true});
