@@ -255,9 +255,11 @@ void Simulation::poll(Station& self) {
         Truth& truth = truths_[each.second];
         truth.outcome = result.outcome;
         const bool ran = result.outcome == Outcome::Done && !truth.lifeCycle;
+        // Where a clock went back, a copy of a later start can refuse a repeat of what has run.
+        const bool refused = result.outcome == Outcome::Rejected && !truth.lifeCycle &&
+                             result.reason != Reason::Restarted;
         const bool surelyNot = result.outcome == Outcome::Expired ||
-                               result.outcome == Outcome::MailboxFull ||
-                               (result.outcome == Outcome::Rejected && !truth.lifeCycle);
+                               result.outcome == Outcome::MailboxFull || refused;
         if ((ran && !truth.begun) || (surelyNot && truth.begun)) {
             lie(truth, std::string{"answered "} + result.text());
         }

@@ -40,11 +40,18 @@ int openShared(const std::string& path) {
     return made >= 0 || errno != EEXIST ? made : open(path.c_str(), flags);
 }
 
+// Whoever released it between our open and our lock has removed the file: then it is made anew.
 Claimed claimFile(const std::string& path, int& opened) {
-    opened = openShared(path);
-    if (opened < 0) return Claimed::Unknown;
-    if (flock(opened, LOCK_EX | LOCK_NB) == 0) return Claimed::Yes;
-    return errno == EWOULDBLOCK ? Claimed::No : Claimed::Unknown;
+    for (;;) {
+        opened = openShared(path);
+        if (opened < 0) return Claimed::Unknown;
+        if (flock(opened, LOCK_EX | LOCK_NB) != 0) {
+            return errno == EWOULDBLOCK ? Claimed::No : Claimed::Unknown;
+        }
+        struct stat file{};
+        if (fstat(opened, &file) != 0 || file.st_nlink > 0) return Claimed::Yes;
+        close(opened);
+    }
 }
 
 }  // namespace
@@ -54,8 +61,15 @@ CpuClaims::CpuClaims(std::vector<std::string> folders) : folders_{std::move(fold
 CpuClaims::~CpuClaims() { release(); }
 
 void CpuClaims::release() {
-    for (const int each : held_) close(each);
+    for (const Held& each : held_) letGo(each);
     held_.clear();
+}
+
+// The file goes before its lock ends, so that nobody locks one that is about to go.
+void CpuClaims::letGo(const Held& held) {
+    if (held.opened < 0) return;
+    if (!held.path.empty()) unlink(held.path.c_str());
+    close(held.opened);
 }
 
 std::vector<int> CpuClaims::take(const std::vector<int>& cpus, std::size_t count) {
@@ -72,17 +86,20 @@ std::vector<int> CpuClaims::take(const std::vector<int>& cpus, std::size_t count
 // What cannot be claimed, as where a folder cannot be written, nobody can have claimed either.
 bool CpuClaims::claim(int cpu) {
     const std::string name = "cortex-cpu-" + std::to_string(cpu);
-    std::vector<int> taken(folders_.size() + 1, -1);
-    bool free = claimSocket(name, taken.back()) != Claimed::No;
+    std::vector<Held> taken(1);
+    bool free = claimSocket(name, taken.front().opened) != Claimed::No;
     for (std::size_t i = 0; free && i < folders_.size(); ++i) {
-        free = claimFile(folders_[i] + "/" + name, taken[i]) != Claimed::No;
+        const std::string path = folders_[i] + "/" + name;
+        int opened = -1;
+        const Claimed claimed = claimFile(path, opened);
+        free = claimed != Claimed::No;
+        taken.push_back({opened, claimed == Claimed::Yes ? path : ""});
     }
-    for (const int each : taken) {
-        if (each < 0) continue;
+    for (const Held& each : taken) {
         if (free) {
             held_.push_back(each);
         } else {
-            close(each);
+            letGo(each);
         }
     }
     return free;

@@ -24,10 +24,15 @@ public:
     void release();
 
 private:
+    struct Held {
+        int opened = -1;     // a socket or a file
+        std::string path{};  // of a file that we have locked
+    };
+    static void letGo(const Held& held);
     bool claim(int cpu);  // false: somebody else has it
 
     std::vector<std::string> folders_;
-    std::vector<int> held_;
+    std::vector<Held> held_;
 };
 
 }  // namespace cortex::cs
