@@ -258,8 +258,8 @@ void Simulation::poll(Station& self) {
         // Where a clock went back, a copy of a later start can refuse a repeat of what has run.
         const bool refused = result.outcome == Outcome::Rejected && !truth.lifeCycle &&
                              result.reason != Reason::Restarted;
-        const bool surelyNot = result.outcome == Outcome::Expired ||
-                               result.outcome == Outcome::MailboxFull || refused;
+        const bool surelyNot =
+            result.outcome == Outcome::Expired || result.outcome == Outcome::MailboxFull || refused;
         if ((ran && !truth.begun) || (surelyNot && truth.begun)) {
             lie(truth, std::string{"answered "} + result.text());
         }
