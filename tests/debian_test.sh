@@ -42,7 +42,8 @@ for page in cortex{,-agent,-explorer} $verbs; do
 done
 
 echo 'an agent, seen by the command line and in a picture of the window'
-inside "ip link set lo up; $prepare"'
+# /run is in memory, as on every Debian: the agent is killed at the end and leaves files there.
+inside "ip link set lo up; $prepare mount -t tmpfs run \"\$1/run\";"'
     examples=/usr/share/cortex/examples
     run "$1" cortex-agent $examples/lbr_teleop/operator.xml --interface lo --log /tmp/agent.log &
     run "$1" cortex list --interface lo --timeout 10
