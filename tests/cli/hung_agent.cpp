@@ -16,6 +16,7 @@ namespace cortex::test {
 struct HungAgent::Implementation {
     ProbeCluster cluster{{}, "robot"};
     std::atomic<bool> hangs{false}, slow{false};
+    std::atomic<int> hooks{0};  // begun
 
     bool standsStill() { return cluster.cluster->agent().standstill().get().has_value(); }
 };
@@ -29,6 +30,7 @@ HungAgent::HungAgent(int domain) : implementation_{std::make_unique<Implementati
     options.interfaces = {"127.0.0.1"};
     self.cluster.cluster->addInterface<comms::DdsInterface>(options);
     self.cluster.probe("/ctl").onStandby = [&self](Probe&, const Tick&) {
+        ++self.hooks;
         const std::int64_t end = monotonicNow() + (self.slow.load() ? 15'000'000 : 0);
         while (self.hangs.load() || monotonicNow() < end) std::this_thread::yield();
     };
@@ -41,7 +43,9 @@ HungAgent::~HungAgent() {
     implementation_->cluster.cluster->stop();
 }
 
+// The second cycle has begun, so that the tools have the values of the first.
 void HungAgent::hang() {
+    while (implementation_->hooks.load() < 2) std::this_thread::yield();
     implementation_->hangs.store(true);
     while (!implementation_->standsStill()) std::this_thread::yield();
 }

@@ -312,7 +312,7 @@ TEST_F(IoExchangeDeathTest, NamesTheThreadThatDoesNotReturnAndEndsTheProcess) {
     EXPECT_EXIT(
         {
             start([](Line&) { pause(); });
-            cluster.step();
+            stepUntil([&] { return drive.talks == 1; });
             cluster.cluster->stop();
         },
         testing::ExitedWithCode(3),

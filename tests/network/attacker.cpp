@@ -23,8 +23,8 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::size_t mostHeard = 4096, header = 20;
-constexpr std::uint8_t data = 0x15;  // kind of submessage
+constexpr std::size_t mostHeard = 16'384, header = 20;
+constexpr std::uint8_t data = 0x15, dataFragments = 0x16;  // kinds of submessage
 
 [[noreturn]] void failWith(const std::string& what) {
     throw std::runtime_error(what + ": " + std::strerror(errno));
@@ -121,7 +121,8 @@ std::map<Attacker::Writer, std::int64_t> Attacker::newest() const {
     for (const Datagram& each : heard_) {
         const Bytes& bytes = each.bytes;
         for (const std::size_t at : submessagesOf(bytes)) {
-            if (bytes[at] != data || at + 24 > bytes.size()) continue;
+            const bool isSample = bytes[at] == data || bytes[at] == dataFragments;
+            if (!isSample || at + 24 > bytes.size()) continue;
             std::array<std::uint32_t, 3> words{};  // the writer, and both halves of the number
             std::memcpy(words.data(), &bytes[at + 12], sizeof words);
             std::int64_t& number =
