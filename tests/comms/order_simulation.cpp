@@ -214,7 +214,7 @@ void Simulation::stepSender(std::size_t index, bool faulty) {
         write(index, message);
         return true;
     });
-    poll(self);
+    poll(index);
 }
 
 void Simulation::send(std::size_t index) {
@@ -248,16 +248,23 @@ void Simulation::send(std::size_t index) {
     ++counts_.sent;
 }
 
-void Simulation::poll(Station& self) {
+// Whether this start's clock lies behind that of an earlier start of the same sender.
+bool Simulation::clockWentBack(std::size_t index) const {
+    const auto later = epochs_.upper_bound({index, senders_[index].epoch});
+    return later != epochs_.end() && later->first == index;
+}
+
+void Simulation::poll(std::size_t index) {
+    Station& self = senders_[index];
     std::erase_if(self.open, [&](const auto& each) {
         CallResult result;
         if (!self.commands->poll(each.first, result)) return false;
         Truth& truth = truths_[each.second];
         truth.outcome = result.outcome;
         const bool ran = result.outcome == Outcome::Done && !truth.lifeCycle;
-        // Where a clock went back, a copy of a later start can refuse a repeat of what has run.
-        const bool refused = result.outcome == Outcome::Rejected && !truth.lifeCycle &&
-                             result.reason != Reason::Restarted;
+        // Where a clock went back, a copy of the earlier start can refuse a repeat of what has run.
+        const bool excused = result.reason == Reason::Restarted && clockWentBack(index);
+        const bool refused = result.outcome == Outcome::Rejected && !truth.lifeCycle && !excused;
         const bool surelyNot =
             result.outcome == Outcome::Expired || result.outcome == Outcome::MailboxFull || refused;
         if ((ran && !truth.begun) || (surelyNot && truth.begun)) {

@@ -96,7 +96,8 @@ private:
     void stepSender(std::size_t index, bool faulty);
     void stepAgent(bool faulty);
     void send(std::size_t index);
-    void poll(Station& self);
+    bool clockWentBack(std::size_t index) const;
+    void poll(std::size_t index);
     void write(std::size_t index, const Command& message);
     void put(Packet packet);
     void deliver(const Packet& packet);

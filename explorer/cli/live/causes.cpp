@@ -23,7 +23,7 @@ std::vector<Cause> causesOf(Live& live, const FoundSimplex& simplex,
     std::vector<Cause> causes;
     std::string path = causeOf(simplex, image);
     while (!path.empty() && std::ranges::find(causes, path, &Cause::path) == causes.end()) {
-        const auto owner = live.ownerOf(path);
+        const auto owner = live.waitForOwner(path);
         causes.push_back({path, owner.value_or("")});
         if (!owner || path == simplex.info().path) break;
         try {

@@ -75,6 +75,8 @@ public:
     std::optional<std::string> ownerOf(const std::string& path) const {
         return mirror().ownerOf(path);
     }
+    // Waits until its agent is heard, or nobody is left who may be it.
+    std::optional<std::string> waitForOwner(const std::string& path);
     std::vector<FoundSimplex> below(const std::string& prefix) const;  // by path
     // Its newest values; waits for them. Throws Failure if they do not come.
     comms::AgentImage values(const FoundSimplex& simplex);
@@ -88,7 +90,6 @@ public:
 private:
     template <class Wait>
     bool waitInSlices(Wait wait);
-    std::optional<std::string> waitForOwner(const std::string& path);
     std::vector<std::string> paths() const;
     std::string limitText() const;  // "3 s"
     std::string heard() const;
