@@ -15,7 +15,7 @@ import tempfile
 # A room may include itself and the rooms before it.
 ROOMS = {
     "core": ["base", "types", "files", "tables", "commands", "model", "agent"],
-    "comms": ["wire", "security", "peers", "rtps", "dds", "agent", "mirror"],
+    "comms": ["wire", "security", "peers", "rtps", "dds", "agent", "mirror", "leases"],
     "cs": ["threads", "clocks", "tasks", "loop"],
     "explorer/cli": ["text", "models", "live", "doctor", "verbs"],
     "explorer/gui": ["style", "session", "model", "plugin", "widgets", "views", "window", "program"],
@@ -49,6 +49,7 @@ PUBLIC = {
         "security": "security",
         "agent": "dds_interface",
         "mirror": "mirror",
+        "leases": "lease_client",
     },
     "explorer/gui": {"plugin": "view"},
     "cs": {

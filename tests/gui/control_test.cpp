@@ -120,7 +120,7 @@ TEST_F(Controlling, AWindowThatHangsHoldsNothing) {
     // No event is handled from here on, as in a window that hangs.
     EXPECT_TRUE(comesWithoutEvents([] { return leases().find("explorer@") == std::string::npos; }));
     EXPECT_TRUE(comes([this] { return !window.control().holds(); }));
-    EXPECT_TRUE(window.control().noticeText().startsWith("Control of / of mixer was lost: "))
+    EXPECT_TRUE(window.control().noticeText().startsWith("Control of / of agent mixer was lost: "))
         << window.control().noticeText().toStdString();
 }
 

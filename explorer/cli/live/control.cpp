@@ -3,19 +3,17 @@
 
 #include "cortex/core/path.hpp"
 
-#include "live/lease_table.hpp"
+#include "live/lease_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 namespace cortex::explorer {
 namespace {
 
-constexpr std::chrono::milliseconds toTell{1000}, toRelease{1000}, toTake{3000};
-// Those of docs/protocol.md that need no lease.
-constexpr std::array<std::string_view, 6> freeCommands{
-    "shutdown", "cancel", "takeControl", "renewControl", "handOverControl", "releaseControl"};
+using Lease = comms::LeaseClient::Lease;
+
+constexpr std::chrono::milliseconds toTell{1000};
 
 std::string withoutEnd(const std::string& prefix) {
     const std::string_view trimmed = withoutEndSlashes(prefix);
@@ -23,13 +21,14 @@ std::string withoutEnd(const std::string& prefix) {
 }
 
 // Who holds what an agent refused us; "" if the agent does not show it in time.
-std::string holdersText(Live& live, const Leases::Key& key) {
+std::string holdersText(Live& live, const Lease& key) {
     live.view({"/" + key.agent}, 100);
     live.mirror().waitForValues(std::max(live.left(), toTell));
     std::string text;
     for (const comms::AgentStatus& agent : live.mirror().agents()) {
         if (agent.name != key.agent) continue;
-        for (const ShownLease& each : leasesOf(live.mirror(), agent)) {
+        for (const comms::ShownLease& each :
+             comms::leasesOf(agent, live.mirror().image(agent.name))) {
             const bool common =
                 isAtOrBelow(each.prefix, key.prefix) || isAtOrBelow(key.prefix, each.prefix);
             if (!common || each.holder == live.mirror().name()) continue;
@@ -39,8 +38,7 @@ std::string holdersText(Live& live, const Leases::Key& key) {
     return text;
 }
 
-[[noreturn]] void failToTake(Live& live, const Leases::Key& key,
-                             const comms::CommandAnswer& answer) {
+[[noreturn]] void failToTake(Live& live, const Lease& key, const comms::CommandAnswer& answer) {
     const std::string start = "no control of " + key.prefix + " of agent " + key.agent + ": ";
     if (answer.outcome == Outcome::Unknown) throw Failure{NotFound, start + answer.text()};
     const std::string holders = answer.reason == Reason::Authority ? holdersText(live, key) : "";
@@ -64,15 +62,25 @@ std::set<std::string> agentsBelow(Live& live, const std::string& prefix) {
     return agents;
 }
 
-// What we hold with exactly this prefix.
-std::vector<Leases::Key> heldAs(Live& live, const std::string& prefix) {
-    std::vector<Leases::Key> keys = live.leases().held();
+// Throws Failure unless we hold exactly this prefix.
+void checkHeld(Live& live, const std::string& prefix) {
     std::vector<std::string> prefixes;
-    for (const Leases::Key& each : keys) prefixes.push_back(each.prefix);
-    std::erase_if(keys, [&](const Leases::Key& each) { return each.prefix != prefix; });
-    if (!keys.empty()) return keys;
+    for (const Lease& each : live.leases().held()) {
+        if (each.prefix == prefix) return;
+        prefixes.push_back(each.prefix);
+    }
     throw Failure{No, "you do not hold " + prefix + "; you hold " +
                           (prefixes.empty() ? "nothing" : joined(prefixes))};
+}
+
+// Throws Failure at the first agent that did not do it.
+void checkAnswers(const comms::LeaseClient::Answers& answers, const std::string& prefix,
+                  const std::string& then) {
+    for (const auto& [agent, answer] : answers) {
+        if (answer.done()) continue;
+        throw Failure{answer.outcome == Outcome::Unknown ? NotFound : No,
+                      prefix + " of agent " + agent + ": " + answer.text() + then};
+    }
 }
 
 }  // namespace
@@ -80,44 +88,33 @@ std::vector<Leases::Key> heldAs(Live& live, const std::string& prefix) {
 void takeControl(Live& live, const std::string& prefix) {
     checkPrefix(prefix);
     live.waitForAll();
-    const std::vector<Leases::Key> before = live.leases().held();
-    std::vector<Leases::Key> taken;
-    for (const std::string& agent : agentsBelow(live, prefix)) {
-        const Leases::Key key{agent, withoutEnd(prefix)};
-        if (std::ranges::find(before, key) != before.end()) continue;
-        const comms::CommandAnswer answer = live.leases().take(key, std::min(live.left(), toTake));
-        if (answer.done()) {
-            taken.push_back(key);
-            continue;
-        }
-        for (const Leases::Key& each : taken) live.leases().release(each, toRelease);
-        failToTake(live, key, answer);
+    const std::string wanted = withoutEnd(prefix);
+    std::set<std::string> agents = agentsBelow(live, prefix);
+    for (const Lease& each : live.leases().held()) {
+        if (each.prefix == wanted) agents.erase(each.agent);
+    }
+    comms::LeaseClient& leases = live.leases();
+    for (const auto& [agent, answer] :
+         leases.wait(leases.take(wanted, {agents.begin(), agents.end()}))) {
+        if (!answer.done()) failToTake(live, {agent, wanted}, answer);
     }
 }
 
 void releaseControl(Live& live, const std::string& prefix) {
-    for (const Leases::Key& each : heldAs(live, withoutEnd(prefix))) {
-        const comms::CommandAnswer answer = live.leases().release(each, live.left());
-        if (answer.done()) continue;
-        throw Failure{answer.outcome == Outcome::Unknown ? NotFound : No,
-                      prefix + " of agent " + each.agent + ": " + answer.text() +
-                          "; it is not renewed any more and ends within 2 s"};
-    }
+    checkHeld(live, withoutEnd(prefix));
+    checkAnswers(live.leases().wait(live.leases().release(withoutEnd(prefix))), prefix,
+                 "; it is not renewed any more and ends within 2 s");
 }
 
 void handOverControl(Live& live, const std::string& prefix, const std::string& to) {
-    for (const Leases::Key& each : heldAs(live, withoutEnd(prefix))) {
-        const comms::CommandAnswer answer = live.leases().handOver(each, to, live.left());
-        if (answer.done()) continue;
-        throw Failure{answer.outcome == Outcome::Unknown ? NotFound : No,
-                      prefix + " of agent " + each.agent + ": " + answer.text()};
-    }
+    checkHeld(live, withoutEnd(prefix));
+    checkAnswers(live.leases().wait(live.leases().handOver(withoutEnd(prefix), to)), prefix, "");
 }
 
 std::optional<std::string> controlledBy(const FoundSimplex& simplex,
                                         const CommandTable::Entry& command,
                                         const comms::Mirror::Arguments& arguments) {
-    if (std::ranges::find(freeCommands, command.name) != freeCommands.end()) return {};
+    if (comms::isFreeCommand(command.name)) return {};
     const ItemLayout* prefix = command.request.find("prefix");
     const bool toAgent = simplex.info().path == "/" + simplex.agent;
     if (!toAgent || prefix == nullptr) return simplex.info().path;
@@ -128,16 +125,16 @@ std::optional<std::string> controlledBy(const FoundSimplex& simplex,
 }
 
 BriefControl::BriefControl(Live& live, const std::string& agent, const std::string& prefix)
-    : leases_{live.leases()} {
+    : leases_{live.leases()}, agent_{agent}, prefix_{prefix} {
     if (leases_.covers(agent, prefix)) return;
-    const Leases::Key key{agent, prefix};
-    const comms::CommandAnswer answer = leases_.take(key, std::min(live.left(), toTake));
-    if (!answer.done()) failToTake(live, key, answer);
-    taken_ = key;
+    for (const auto& [name, answer] : leases_.wait(leases_.take(prefix, {agent}))) {
+        if (!answer.done()) failToTake(live, {name, prefix}, answer);
+    }
+    taken_ = true;
 }
 
 BriefControl::~BriefControl() {
-    if (taken_) leases_.release(*taken_, toRelease);
+    if (taken_) leases_.wait(leases_.release(prefix_, {agent_}));
 }
 
 }  // namespace cortex::explorer

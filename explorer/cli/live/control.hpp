@@ -31,8 +31,9 @@ public:
     BriefControl& operator=(const BriefControl&) = delete;
 
 private:
-    Leases& leases_;
-    std::optional<Leases::Key> taken_;
+    comms::LeaseClient& leases_;
+    std::string agent_, prefix_;
+    bool taken_ = false;
 };
 
 }  // namespace cortex::explorer

@@ -49,7 +49,7 @@ public:
 
     comms::Mirror& mirror() { return session_->mirror(); }
     const comms::Mirror& mirror() const { return session_->mirror(); }
-    Leases& leases() { return session_->leases(); }
+    comms::LeaseClient& leases() { return session_->leases(); }
     void view(std::vector<std::string> prefixes, std::uint32_t rate) {
         session_->view(std::move(prefixes), rate);
     }

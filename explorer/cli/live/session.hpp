@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/comms/mirror.hpp"
-
-#include "live/leases.hpp"
+#include "cortex/comms/lease_client.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -26,7 +24,7 @@ public:
     explicit Session(const comms::NetworkOptions& options);
 
     comms::Mirror& mirror() { return mirror_; }
-    Leases& leases() { return leases_; }
+    comms::LeaseClient& leases() { return leases_; }
     int domain() const { return domain_; }
     // As the mirror does, but an interrupt ends it; `meanwhile` is called ten times a second.
     comms::CommandAnswer call(const std::string& path, const std::string& command,
@@ -53,8 +51,8 @@ private:
     bool listens_ = false;
     std::map<std::string, std::vector<comms::AgentEvent>> events_;
     Listener listener_;
-    comms::Mirror mirror_;  // its thread calls take()
-    Leases leases_;         // ends first, and releases what it holds
+    comms::Mirror mirror_;       // its thread calls take()
+    comms::LeaseClient leases_;  // ends first, and releases what it holds
 };
 
 }  // namespace cortex::explorer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "live/lease_table.hpp"
+#include "live/lease_text.hpp"
 #include "live/live_values.hpp"
 #include "verbs/live_verbs.hpp"
 
@@ -9,16 +9,16 @@
 namespace cortex::explorer {
 namespace {
 
-std::vector<ShownLease> allLeases(const Live& live) {
-    std::vector<ShownLease> leases;
+std::vector<comms::ShownLease> allLeases(const Live& live) {
+    std::vector<comms::ShownLease> leases;
     for (const comms::AgentStatus& agent : live.mirror().agents()) {
-        const auto more = leasesOf(live.mirror(), agent);
+        const auto more = comms::leasesOf(agent, live.mirror().image(agent.name));
         leases.insert(leases.end(), more.begin(), more.end());
     }
     return leases;
 }
 
-Json leaseJson(const Live& live, const ShownLease& lease) {
+Json leaseJson(const Live& live, const comms::ShownLease& lease) {
     return {{"agent", lease.agent},
             {"prefix", lease.prefix},
             {"holder", lease.holder},
@@ -28,14 +28,14 @@ Json leaseJson(const Live& live, const ShownLease& lease) {
             {"mine", lease.holder == live.mirror().name()}};
 }
 
-void printLeases(const Live& live, const std::vector<ShownLease>& leases) {
+void printLeases(const Live& live, const std::vector<comms::ShownLease>& leases) {
     if (leases.empty()) {
         std::cout << "nobody holds control of anything\n";
         return;
     }
     Columns columns{0};
     columns.add({"prefix", "agent", "holder", "host", "since", ""});
-    for (const ShownLease& each : leases) {
+    for (const comms::ShownLease& each : leases) {
         columns.add({each.prefix, each.agent, each.holder, hostOf(live.mirror(), each.holder),
                      timeText(each.since), each.holder == live.mirror().name() ? "you" : ""});
     }
@@ -60,7 +60,7 @@ Exit listLeases(const LiveOptions& options) {
     const auto leases = allLeases(live);
     if (options.json) {
         Json list = Json::array();
-        for (const ShownLease& each : leases) list.push_back(leaseJson(live, each));
+        for (const comms::ShownLease& each : leases) list.push_back(leaseJson(live, each));
         print(list);
     } else {
         printLeases(live, leases);

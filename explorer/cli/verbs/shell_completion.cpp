@@ -3,8 +3,6 @@
 
 #include "cortex/core/command.hpp"
 
-#include "live/lease_table.hpp"
-
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -134,7 +132,7 @@ Texts typesOf(const Known& known) {
 
 Texts mineOf(const Known& known) {
     Texts prefixes;
-    for (const Leases::Key& each : known.session.leases().held()) prefixes.push_back(each.prefix);
+    for (const auto& each : known.session.leases().held()) prefixes.push_back(each.prefix);
     return prefixes;
 }
 
@@ -143,7 +141,7 @@ Texts namesOf(const Known& known) {
     Texts names;
     for (const comms::AgentStatus& agent : known.session.mirror().agents()) {
         names.push_back(agent.name);
-        for (const ShownLease& each : leasesOf(known.session.mirror(), agent)) {
+        for (const auto& each : comms::leasesOf(agent, known.session.mirror().image(agent.name))) {
             names.push_back(each.holder);
         }
     }

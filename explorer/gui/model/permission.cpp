@@ -52,7 +52,7 @@ QString whyNotNow(const Frame& frame, Place place, StateSet available) {
     const bool ours = ofAgent ? frame.control.covers(agent.status.name, frame.control.prefix)
                               : frame.control.covers(agent.status.name, path);
     if (ours) return {};
-    for (const Lease& lease : leasesOf(agent)) {
+    for (const comms::ShownLease& lease : leasesOf(agent)) {
         if (lease.holder == frame.control.self || !isAtOrBelow(path, lease.prefix)) continue;
         return say("held by %1 since %2 (%3)")
             .arg(QString::fromStdString(lease.holder), clockText(lease.since),

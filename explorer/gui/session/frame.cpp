@@ -32,9 +32,20 @@ std::optional<float> AgentFrame::age(std::uint32_t simplex) const {
     return ages[simplex];
 }
 
+std::vector<std::string> Control::prefixes() const {
+    std::vector<std::string> prefixes;
+    for (const comms::LeaseClient::Lease& each : held) {
+        if (std::ranges::find(prefixes, each.prefix) == prefixes.end()) {
+            prefixes.push_back(each.prefix);
+        }
+    }
+    return prefixes;
+}
+
 bool Control::covers(const std::string& agent, std::string_view path) const {
-    return !prefix.empty() && isAtOrBelow(path, prefix) &&
-           std::ranges::find(agents, agent) != agents.end();
+    return std::ranges::any_of(held, [&](const comms::LeaseClient::Lease& each) {
+        return each.agent == agent && isAtOrBelow(path, each.prefix);
+    });
 }
 
 std::optional<Place> Frame::find(std::string_view path) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/comms/mirror.hpp"
+#include "cortex/comms/lease_client.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -37,11 +37,14 @@ struct Place {
 
 // What this session may command. Without a prefix it is read-only.
 struct Control {
-    std::string self;                 // how agents know this session
-    std::string prefix, asks;         // what it holds; what it is taking just now
-    std::vector<std::string> agents;  // that have granted it
-    std::int64_t since = 0;           // UTC ns
-    std::string notice;               // why it was lost or refused last; empty again when taken
+    std::string self;          // how agents know this session
+    std::string prefix, asks;  // what it holds first; what it is taking just now
+    std::string last;          // the prefix that it held last
+    std::int64_t since = 0;    // UTC ns
+    std::string notice;        // what became of it last; empty again when it is taken
+    std::vector<comms::LeaseClient::Lease> held;  // all, those handed over to it included
+
+    std::vector<std::string> prefixes() const;  // that are held, each once
 
     bool covers(const std::string& agent, std::string_view path) const;
 };

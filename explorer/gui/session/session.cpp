@@ -106,6 +106,14 @@ void Session::takeControl(std::string prefix) {
 
 void Session::releaseControl() { takeControl({}); }
 
+void Session::handOver(std::string to) {
+    {
+        const std::lock_guard lock{mutex_};
+        handOverTo_ = std::move(to);
+    }
+    changed_.notify_all();
+}
+
 void Session::isAlive() { alive_ = Clock::now().time_since_epoch().count(); }
 
 void Session::joinAgain() {
@@ -127,10 +135,7 @@ void Session::run() {
             wanted = wanted_;
         }
         if (again && !mirror_) join();
-        if (mirror_ && wanted != applied_) {
-            applied_ = wanted;
-            mirror_->view(std::move(wanted), valueRate);
-        }
+        if (mirror_) applyView(std::move(wanted));
         sendRequests();
         takeAnswers();
         keepControl();
@@ -138,6 +143,14 @@ void Session::run() {
     } while (pause());
     leases_.reset();
     mirror_.reset();
+}
+
+// The agents' own simplexes are always viewed: they say who holds control of what.
+void Session::applyView(std::vector<std::string> wanted) {
+    for (const AgentFrame& each : frame()->agents) wanted.push_back("/" + each.status.name);
+    if (wanted == applied_) return;
+    applied_ = wanted;
+    mirror_->view(std::move(wanted), valueRate);
 }
 
 void Session::join() {
@@ -212,14 +225,17 @@ bool Session::isGone(const Request& request) const {
 
 void Session::keepControl() {
     std::optional<std::string> wanted;
+    std::string to;
     {
         const std::lock_guard lock{mutex_};
         wanted = std::exchange(control_, std::nullopt);
+        to = std::exchange(handOverTo_, {});
     }
     if (!leases_) return;
     const auto last = this->frame();
     if (wanted && wanted->empty()) leases_->release();
     if (wanted && !wanted->empty()) leases_->take(*wanted, *last);
+    if (!to.empty()) leases_->handOver(leases_->now().prefix, to);
     const auto now = Clock::now().time_since_epoch().count();
     leases_->step(*last, Clock::duration{now - alive_} < deaf);
 }
@@ -248,8 +264,9 @@ void Session::publish() {
 
 bool Session::pause() {
     std::unique_lock lock{mutex_};
-    changed_.wait_for(lock, framePeriod,
-                      [this] { return ends_ || again_ || control_ || !requests_.empty(); });
+    changed_.wait_for(lock, framePeriod, [this] {
+        return ends_ || again_ || control_ || !handOverTo_.empty() || !requests_.empty();
+    });
     return !ends_;
 }
 

@@ -55,6 +55,7 @@ public:
     // it. It is renewed only while isAlive() is called at least once a second.
     void takeControl(std::string prefix);
     void releaseControl();
+    void handOver(std::string to);  // what is held first
     void isAlive();
 
 private:
@@ -64,6 +65,7 @@ private:
     void sendRequests();
     void takeAnswers();
     void keepControl();
+    void applyView(std::vector<std::string> wanted);
     bool pause();  // until the next frame is due; false: the session ends
 
     comms::NetworkOptions options_;
@@ -96,6 +98,7 @@ private:
     std::vector<Request> requests_;
     std::vector<CommandOutcome> outcomes_;
     std::optional<std::string> control_;  // wanted; empty: released; none: as it is
+    std::string handOverTo_;              // empty: nobody
     std::uint64_t lastNumber_ = 0;
     bool ends_ = false, again_ = false;
 

@@ -28,10 +28,6 @@ using namespace std::chrono_literals;
 
 constexpr std::chrono::milliseconds shortLimit = 5s, longLimit = std::chrono::hours{24};
 
-// The window itself keeps the leases.
-constexpr std::array<std::string_view, 4> ofControl{"takeControl", "renewControl",
-                                                    "handOverControl", "releaseControl"};
-
 QString boundText(const DataItem& item, const std::optional<Number>& bound, const char* none) {
     return bound ? numberText(item, *numberOf(bound)) : QString::fromUtf8(none);
 }
@@ -141,9 +137,8 @@ void CommandCard::addParameter(QGridLayout& grid, const DataItem& item) {
 }
 
 void CommandCard::refresh(const Frame& frame, Place place) {
-    whyNot_ = std::ranges::find(ofControl, command_.name) != ofControl.end()
-                  ? tr("the window does this itself: Ctrl+T")
-                  : whyNotNow(frame, place, command_.available);
+    whyNot_ = comms::isControlCommand(command_.name) ? tr("the window does this itself: Ctrl+T")
+                                                     : whyNotNow(frame, place, command_.available);
     decide();
     if (!command_.isLong) return;
     const auto activity = activityOf(frame.agents[place.agent], place.simplex);

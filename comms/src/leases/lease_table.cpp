@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "live/lease_table.hpp"
-
-#include "live/live_values.hpp"
+#include "cortex/comms/lease_client.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-namespace cortex::explorer {
+namespace cortex::comms {
 namespace {
+
+constexpr std::array<std::string_view, 4> ofControl{"takeControl", "renewControl",
+                                                    "handOverControl", "releaseControl"};
+constexpr std::array<std::string_view, 2> urgent{"shutdown", "cancel"};
 
 // An item of the agent's own simplex; empty if its type has it differently.
 template <class T>
-std::vector<T> itemOf(const comms::AgentImage& image, std::uint32_t simplex, const char* name) {
+std::vector<T> itemOf(const AgentImage& image, std::uint32_t simplex, const char* name) {
     const ItemLayout* item = image->structure().simplexes[simplex].layout->find(name);
     if (item == nullptr) return {};
     const Value value = image->value(simplex, *item);
@@ -19,17 +22,17 @@ std::vector<T> itemOf(const comms::AgentImage& image, std::uint32_t simplex, con
     return found != nullptr ? *found : std::vector<T>{};
 }
 
-std::string durationText(double seconds) {
-    const auto whole = std::llround(seconds);
-    if (whole < 120) return std::to_string(whole) + " s";
-    if (whole < 7200) return std::to_string(whole / 60) + " min";
-    return std::to_string(whole / 3600) + " h";
-}
-
 }  // namespace
 
-std::vector<ShownLease> leasesOf(const comms::Mirror& mirror, const comms::AgentStatus& agent) {
-    const comms::AgentImage image = mirror.image(agent.name);
+bool isControlCommand(std::string_view command) {
+    return std::ranges::find(ofControl, command) != ofControl.end();
+}
+
+bool isFreeCommand(std::string_view command) {
+    return isControlCommand(command) || std::ranges::find(urgent, command) != urgent.end();
+}
+
+std::vector<ShownLease> leasesOf(const AgentStatus& agent, const AgentImage& image) {
     if (!image) return {};
     const std::uint32_t own = image->structure().find("/" + agent.name);
     if (own == noSimplex || !image.came(own)) return {};
@@ -50,21 +53,4 @@ std::vector<ShownLease> leasesOf(const comms::Mirror& mirror, const comms::Agent
     return leases;
 }
 
-// A tool has its host in its name, tool@host.process; an agent says its own.
-std::string hostOf(const comms::Mirror& mirror, const std::string& holder) {
-    for (const comms::AgentStatus& each : mirror.agents()) {
-        if (each.name == holder) return each.host;
-    }
-    const std::size_t at = holder.find('@'), dot = holder.rfind('.');
-    if (at == std::string::npos || dot == std::string::npos || dot < at) return "";
-    return holder.substr(at + 1, dot - at - 1);
-}
-
-std::string holderText(const comms::Mirror& mirror, const ShownLease& lease) {
-    const std::string host = hostOf(mirror, lease.holder);
-    return lease.holder + (host.empty() ? "" : " on host " + host) + " holds " + lease.prefix +
-           " of agent " + lease.agent + " since " + timeText(lease.since) + " (" +
-           durationText(lease.seconds) + ")";
-}
-
-}  // namespace cortex::explorer
+}  // namespace cortex::comms
