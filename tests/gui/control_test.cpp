@@ -9,6 +9,7 @@
 #include "window/stop_button.hpp"
 
 #include <QLabel>
+#include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
 
@@ -112,6 +113,69 @@ TEST_F(Controlling, SaysWhoHoldsItAndTakesItWhenTheyAreGone) {
     EXPECT_TRUE(comes([this] { return says("read-only"); })) << "its end releases";
     EXPECT_TRUE(takes("/"));
     EXPECT_TRUE(window.control().noticeText().isEmpty());
+}
+
+// Another window of the same person or of a colleague, without a screen.
+struct Colleague {
+    bool sees(const char* path) const { return session.frame()->find(path).has_value(); }
+    const Control& control() {
+        session.isAlive();
+        now = session.frame()->control;
+        return now;
+    }
+    Session session{ownNetwork()};
+    Control now;
+};
+
+TEST_F(Controlling, HandsControlOverAndTakesItAgain) {
+    ASSERT_TRUE(everythingComes());
+    Colleague other;
+    ASSERT_TRUE(comes([&] { return other.sees("/drive"); }));
+    window.open("/drive");
+    ASSERT_TRUE(takes("/drive"));
+    window.control().chooseHandOver();
+    auto* panel = window.control().handOverPanel();
+    ASSERT_NE(panel, nullptr);
+    EXPECT_FALSE(panel->handOverButton().isEnabled()) << "nobody is named";
+    const QString name = QString::fromStdString(other.control().self);
+    panel->nameField().setText(name);
+    panel->handOverButton().click();
+    ASSERT_TRUE(comes([&] { return other.control().prefix == "/drive"; }));
+    ASSERT_TRUE(comes([&] { return !window.control().holds(); }));
+    EXPECT_EQ(window.control().noticeText(), "Control of /drive was handed over to " + name + ".");
+    EXPECT_TRUE(comes([&] { return other.control().held.size() == 1 && says("held by " + name); }));
+    other.session.releaseControl();
+    ASSERT_TRUE(comes([&] { return other.control().prefix.empty() && says("read-only"); }));
+    EXPECT_EQ(window.control().takeAgainButton().text(), "Take /drive again");
+    window.control().takeAgainButton().click();
+    EXPECT_TRUE(comes([&] { return window.control().prefix() == "/drive"; }));
+}
+
+TEST_F(Controlling, KeepsWhatIsHandedOverToIt) {
+    ASSERT_TRUE(everythingComes());
+    Colleague other;
+    ASSERT_TRUE(comes([&] { return other.sees("/drive"); }));
+    other.control();
+    other.session.takeControl("/drive");
+    ASSERT_TRUE(comes([&] { return other.control().prefix == "/drive"; }));
+    other.session.handOver(session.frame()->control.self);
+    ASSERT_TRUE(comes([&] { return window.control().prefix() == "/drive"; }));
+    EXPECT_EQ(window.control().noticeText(), "Control of /drive of agent mixer is yours now.");
+    // An agent ends a lease 2 s after its last renewal: 3,000 cycles of 1 ms are longer.
+    const auto cycle = [this] { return session.frame()->agents.front().status.cycle; };
+    const std::int64_t then = cycle();
+    EXPECT_TRUE(comes([&] { return cycle() > then + 3000; }));
+    EXPECT_EQ(window.control().prefix(), "/drive");
+    EXPECT_NE(leases().find("/drive"), std::string::npos);
+}
+
+TEST_F(Controlling, ANameThatNobodyHasEndsControlAndIsTold) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    ASSERT_TRUE(takes("/drive"));
+    session.handOver("nobody@nowhere.1-000000");
+    EXPECT_TRUE(comes([&] { return !window.control().noticeText().isEmpty(); }));
+    EXPECT_TRUE(comes([] { return leases().find("nobody@") == std::string::npos; }));
 }
 
 TEST_F(Controlling, AWindowThatHangsHoldsNothing) {

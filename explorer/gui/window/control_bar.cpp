@@ -5,6 +5,7 @@
 #include "widgets/text_label.hpp"
 
 #include <QHBoxLayout>
+#include <QLineEdit>
 #include <QPainter>
 #include <QPushButton>
 
@@ -27,18 +28,24 @@ ControlBar::ControlBar(Session& session, QWidget* parent)
       session_{session},
       frame_{session.frame()},
       label_{new TextLabel{TextSize::Text}},
+      handOver_{new QPushButton{tr("Hand over…")}},
       button_{new QPushButton},
       notice_{new NoticeRow},
-      noticeText_{new TextLabel{TextSize::Text, true, &Tokens::warnText}} {
+      noticeText_{new TextLabel{TextSize::Text, true, &Tokens::warnText}},
+      again_{new QPushButton} {
     auto* row = new QHBoxLayout{this};
     row->setContentsMargins(Look::units(2), 0, 0, 0);
     row->setSpacing(Look::units(4));
     row->addWidget(label_);
+    row->addWidget(handOver_);
     row->addWidget(button_);
+    handOver_->hide();
     label_->show(text());
     button_->setText(tr("Take control…"));
     button_->setToolTip(tr("Ctrl+T; releasing is Ctrl+Shift+T"));
     connect(button_, &QPushButton::clicked, this, [this] { holds() ? release() : choose(); });
+    connect(handOver_, &QPushButton::clicked, this, &ControlBar::chooseHandOver);
+    connect(again_, &QPushButton::clicked, this, &ControlBar::takeAgain);
     makeNotice();
 }
 
@@ -48,6 +55,7 @@ void ControlBar::makeNotice() {
     noticeText_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     auto* close = new QPushButton{tr("Close")};
     row->addWidget(noticeText_);
+    row->addWidget(again_);
     row->addWidget(close);
     notice_->hide();
     connect(close, &QPushButton::clicked, this, [this] {
@@ -60,7 +68,9 @@ QString ControlBar::text() const {
     const Control& control = frame_->control;
     if (!control.asks.empty()) return tr("Asking for %1").arg(scopeText(control.asks));
     if (control.prefix.empty()) return tr("Read-only");
-    return tr("You control %1 since %2").arg(scopeText(control.prefix), clockText(control.since));
+    QStringList parts;
+    for (const std::string& each : control.prefixes()) parts << scopeText(each);
+    return tr("You control %1 since %2").arg(parts.join(tr(" and ")), clockText(control.since));
 }
 
 QString ControlBar::noticeText() const {
@@ -75,6 +85,7 @@ void ControlBar::refresh(const std::shared_ptr<const Frame>& frame, const std::s
     if (control.prefix != prefix_) {
         prefix_ = control.prefix;
         button_->setText(holds() ? tr("Release") : tr("Take control…"));
+        handOver_->setVisible(holds());
         update();
         Q_EMIT changed();
     }
@@ -82,7 +93,10 @@ void ControlBar::refresh(const std::shared_ptr<const Frame>& frame, const std::s
     if (said.isEmpty()) told_.clear();
     noticeText_->show(said);
     notice_->setVisible(!said.isEmpty() && said != told_);
+    again_->setVisible(!control.last.empty() && !holds() && control.asks.empty());
+    again_->setText(tr("Take %1 again").arg(scopeText(control.last)));
     if (panel_) panel_->refresh(frame);
+    if (handOverPanel_) handOverPanel_->refresh(frame);
 }
 
 void ControlBar::choose() {
@@ -92,11 +106,31 @@ void ControlBar::choose() {
         told_.clear();
         session_.takeControl(prefix);
     });
-    panel_->adjustSize();
-    const QPoint corner = mapToGlobal(rect().bottomRight());
-    panel_->move(corner - QPoint{panel_->width(), -Look::units(1)});
-    panel_->show();
+    showBelow(*panel_);
     panel_->takeButton().setFocus();
+}
+
+void ControlBar::showBelow(QWidget& popover) {
+    popover.adjustSize();
+    const QPoint corner = mapToGlobal(rect().bottomRight());
+    popover.move(corner - QPoint{popover.width(), -Look::units(1)});
+    popover.show();
+}
+
+void ControlBar::chooseHandOver() {
+    if (handOverPanel_ || !holds()) return;
+    handOverPanel_ = new HandOverPanel{frame_, this};
+    connect(handOverPanel_, &HandOverPanel::chosen, this, [this](const std::string& name) {
+        told_.clear();
+        session_.handOver(name);
+    });
+    showBelow(*handOverPanel_);
+    handOverPanel_->nameField().setFocus();
+}
+
+void ControlBar::takeAgain() {
+    told_.clear();
+    session_.takeControl(frame_->control.last);
 }
 
 void ControlBar::release() { session_.releaseControl(); }

@@ -3,6 +3,7 @@
 
 #include "session/session.hpp"
 #include "window/control_panel.hpp"
+#include "window/hand_over_panel.hpp"
 
 #include <QPointer>
 #include <QWidget>
@@ -14,7 +15,8 @@ namespace cortex::explorer {
 class TextLabel;
 
 // Whether this window may command, and what: "Read-only" with "Take control…", or "You control /arm
-// since 12:05" with "Release". Why control was refused or lost stands in a row of its own.
+// since 12:05" with "Hand over…" and "Release". What became of control stands in a row of its own,
+// with "Take again" where it was handed over or lost.
 class ControlBar : public QWidget {
     Q_OBJECT
 public:
@@ -24,12 +26,16 @@ public:
     void refresh(const std::shared_ptr<const Frame>& frame, const std::string& path);
     void choose();  // opens the popover
     void release();
+    void chooseHandOver();  // opens the popover
+    void takeAgain();       // what was held last
     bool holds() const { return !prefix_.empty(); }
     const std::string& prefix() const { return prefix_; }
     QString text() const;
     QWidget* notice() { return notice_; }  // the row; its place is the window's matter
     QString noticeText() const;
     ControlPanel* panel() { return panel_; }
+    HandOverPanel* handOverPanel() { return handOverPanel_; }
+    QPushButton& takeAgainButton() { return *again_; }
 
 Q_SIGNALS:
     void changed();  // what is held
@@ -39,16 +45,19 @@ protected:
 
 private:
     void makeNotice();
+    void showBelow(QWidget& popover);
 
     Session& session_;
     std::shared_ptr<const Frame> frame_;
     std::string path_, prefix_;
     QString told_;  // the notice that was closed
     TextLabel* label_;
-    QPushButton* button_;
+    QPushButton *handOver_, *button_;
     QWidget* notice_;
     TextLabel* noticeText_;
+    QPushButton* again_;
     QPointer<ControlPanel> panel_;
+    QPointer<HandOverPanel> handOverPanel_;
 };
 
 }  // namespace cortex::explorer

@@ -107,18 +107,24 @@ void ControlPanel::refresh(std::shared_ptr<const Frame> frame) {
     take_->setText(tr("Take %1").arg(scopeText(chosen())));
 }
 
+QString ControlPanel::leaseText(const QString& agent, const comms::ShownLease& lease) const {
+    const QString prefix = scopeText(lease.prefix);
+    const QString since = clockText(lease.since), age = ageText(lease.seconds);
+    if (lease.holder == frame_->control.self)
+        return tr("%1: you hold %2 since %3 (%4)").arg(agent, prefix, since, age);
+    return tr("%1: %2 holds %3 since %4 (%5)")
+        .arg(agent, QString::fromStdString(lease.holder), prefix, since, age);
+}
+
 QString ControlPanel::describe() const {
     QStringList lines;
     for (const AgentFrame& agent : frame_->agents) {
         if (agent.lost() || !hasBelow(agent, chosen())) continue;
         const QString name = QString::fromStdString(agent.status.name);
-        const auto other = leaseOfOthers(agent, chosen(), frame_->control.self);
-        lines << (other ? tr("%1: %2 holds %3 since %4 (%5)")
-                              .arg(name, QString::fromStdString(other->holder),
-                                   QString::fromStdString(other->prefix), clockText(other->since),
-                                   ageText(other->seconds))
-                        : tr("%1: nobody else holds a part of it").arg(name));
-        if (other) lines << tr("    They must release it or hand it over; nobody can take it.");
+        const auto others = leaseOfOthers(agent, chosen(), frame_->control.self);
+        for (const comms::ShownLease& each : leasesOf(agent)) lines << leaseText(name, each);
+        if (!others) lines << tr("%1: nobody else holds a part of it").arg(name);
+        if (others) lines << tr("    They must release it or hand it over; nobody can take it.");
         lines << QStringLiteral("    ") + onLossText(agent, chosen());
     }
     return lines.isEmpty() ? tr("Nobody who is heard has anything there.") : lines.join('\n');

@@ -34,6 +34,7 @@ protected:
 private:
     const std::string& chosen() const;
     QString describe() const;
+    QString leaseText(const QString& agent, const comms::ShownLease& lease) const;
 
     std::shared_ptr<const Frame> frame_;
     std::vector<std::string> scopes_;  // as the buttons
