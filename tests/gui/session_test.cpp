@@ -2,6 +2,8 @@
 // The session alone: what its thread shares with that of the window.
 #include "session/session.hpp"
 
+#include "cortex/comms/dds_interface.hpp"
+
 #include "comms/network_agent.hpp"
 #include "support/probe.hpp"
 
@@ -68,6 +70,29 @@ TEST(Session, IsUsedWhileAgentsComeAndGoAndCommandsAreAnswered) {
     EXPECT_TRUE(comesTrue([&] { return events > 0 && frames > 0; }));
     ends = true;
     window.join();
+}
+
+TEST(Session, TakesValuesAsOftenAsIsAsked) {
+    ProbeCluster agent{{}, "quick"};
+    agent.trigger = nullptr;
+    agent.cluster->setTriggerSource<cs::InternalClock>(std::chrono::milliseconds{1});
+    agent.cluster->addInterface<DdsInterface>(loopback());
+    agent.probe("/ctl");
+    agent.start();
+    Session session{loopback()};
+    session.setRate(5);
+    session.view({"/"});
+    std::vector<std::int64_t> cycles;
+    EXPECT_TRUE(comesTrue([&] {
+        const auto frame = session.frame();
+        if (frame->agents.empty() || !frame->agents.front().came(0)) return false;
+        EXPECT_EQ(frame->rate, 5U);
+        const std::int64_t cycle = (*frame->agents.front().image)->cycle();
+        if (cycles.empty() || cycle != cycles.back()) cycles.push_back(cycle);
+        return cycles.size() == 6;
+    }));
+    agent.cluster->stop();
+    EXPECT_GT(cycles.back() - cycles[1], 400) << "four times some 200 cycles of 1 ms";
 }
 
 TEST(Session, SaysWhyACommandCannotBeSent) {

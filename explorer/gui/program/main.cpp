@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
     }
 
     Session session{options->network};
+    session.setRate(options->rate);
     MainWindow window{session};
     window.resize(options->size);
     if (!options->filter.empty()) window.tree().filter(QString::fromStdString(options->filter));

@@ -58,6 +58,10 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exit) {
         ->check(CLI::IsMember(
             {"simplex", "data", "relationships", "commands", "type", "system", "agents"}));
     app.add_option("--filter", options.filter, "Filter of the tree")->type_name("TEXT");
+    app.add_option("--rate", options.rate,
+                   "How often values are taken, in Hz; 0: in every cycle of their agent")
+        ->check(CLI::IsMember({5, 30, 100, 0}))
+        ->capture_default_str();
     app.add_option("--theme", theme, "Colours")
         ->check(CLI::IsMember({"light", "dark", "high-contrast"}))
         ->capture_default_str();

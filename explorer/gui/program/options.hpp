@@ -18,6 +18,7 @@ struct Options {
     std::vector<std::string> paths;  // simplexes to open, each in a tab
     std::string view;                // as --view lists them
     std::string filter;
+    std::uint32_t rate = 30;  // Hz, of values; 0: every cycle
     Theme theme = Theme::Light;
     double scale = 1;
     QSize size{1280, 800};

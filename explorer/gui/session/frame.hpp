@@ -57,6 +57,7 @@ struct Frame {
     double seconds = 0;   // since it began to join
     std::string problem;  // why the domain cannot be joined, with the remedy
     std::string security;
+    std::uint32_t rate = 0;    // Hz, at which values are taken; 0: every cycle
     std::uint32_t closed = 0;  // participants with security, which cannot be seen without
     Control control;
     std::vector<AgentFrame> agents;

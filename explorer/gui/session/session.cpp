@@ -16,7 +16,6 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto framePeriod = 33ms;
-constexpr std::uint32_t valueRate = 30;  // Hz
 constexpr std::size_t mostEvents = 100'000;
 constexpr auto deaf = 1s;  // a window that does not answer for so long must not hold a plant
 
@@ -71,6 +70,11 @@ std::shared_ptr<const Frame> Session::frame() const {
 void Session::view(std::vector<std::string> prefixes) {
     const std::lock_guard lock{mutex_};
     wanted_ = std::move(prefixes);
+}
+
+void Session::setRate(std::uint32_t rate) {
+    const std::lock_guard lock{mutex_};
+    rate_ = rate;
 }
 
 std::vector<comms::AgentEvent> Session::takeEvents() {
@@ -129,13 +133,15 @@ void Session::run() {
     do {
         bool again = false;
         std::vector<std::string> wanted;
+        std::uint32_t rate = 0;
         {
             const std::lock_guard lock{mutex_};
             again = std::exchange(again_, false);
             wanted = wanted_;
+            rate = rate_;
         }
         if (again && !mirror_) join();
-        if (mirror_) applyView(std::move(wanted));
+        if (mirror_) applyView(std::move(wanted), rate);
         sendRequests();
         takeAnswers();
         keepControl();
@@ -146,11 +152,12 @@ void Session::run() {
 }
 
 // The agents' own simplexes are always viewed: they say who holds control of what.
-void Session::applyView(std::vector<std::string> wanted) {
+void Session::applyView(std::vector<std::string> wanted, std::uint32_t rate) {
     for (const AgentFrame& each : frame()->agents) wanted.push_back("/" + each.status.name);
-    if (wanted == applied_) return;
+    if (wanted == applied_ && rate == appliedRate_) return;
     applied_ = wanted;
-    mirror_->view(std::move(wanted), valueRate);
+    appliedRate_ = rate;
+    mirror_->view(std::move(wanted), rate);
 }
 
 void Session::join() {
@@ -249,6 +256,7 @@ void Session::publish() {
     frame->seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     frame->problem = problem_;
     frame->security = options_.security;
+    frame->rate = appliedRate_;
     if (mirror_) {
         frame->closed = mirror_->closed();
         frame->control = leases_->now();

@@ -6,6 +6,7 @@
 #include "session/frame.hpp"
 #include "session/lease_keeper.hpp"
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -40,6 +41,9 @@ public:
     std::shared_ptr<const Frame> frame() const;
     // From now on the values of all simplexes at and below these paths, besides all states.
     void view(std::vector<std::string> prefixes);
+    // How often values are taken, in Hz: one of `rates`; 0: in every cycle of their agent.
+    static constexpr std::array<std::uint32_t, 4> rates{5, 30, 100, 0};
+    void setRate(std::uint32_t rate);
     // The events that came since the last call, the last 1,000 of each agent first.
     std::vector<comms::AgentEvent> takeEvents();
     void joinAgain();  // after it could not join
@@ -65,13 +69,14 @@ private:
     void sendRequests();
     void takeAnswers();
     void keepControl();
-    void applyView(std::vector<std::string> wanted);
+    void applyView(std::vector<std::string> wanted, std::uint32_t rate);
     bool pause();  // until the next frame is due; false: the session ends
 
     comms::NetworkOptions options_;
     std::unique_ptr<comms::Mirror> mirror_;  // thread_ alone, once it runs
     std::unique_ptr<LeaseKeeper> leases_;    // ends before the mirror; thread_ alone
     std::vector<std::string> applied_;       // the view that the mirror has; thread_ alone
+    std::uint32_t appliedRate_ = 0;          // the same
     std::uint64_t number_ = 0, structures_ = 0;
     std::chrono::steady_clock::time_point begin_;
     std::string problem_;
@@ -94,6 +99,7 @@ private:
     mutable std::mutex mutex_;  // of what follows, held for a swap only
     std::condition_variable changed_;
     std::vector<std::string> wanted_;
+    std::uint32_t rate_ = 30;
     std::vector<comms::AgentEvent> events_;
     std::vector<Request> requests_;
     std::vector<CommandOutcome> outcomes_;

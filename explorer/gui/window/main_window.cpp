@@ -15,6 +15,7 @@
 #include "window/stop_button.hpp"
 
 #include <QAction>
+#include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QHBoxLayout>
@@ -118,6 +119,7 @@ QWidget* MainWindow::makeBar() {
         entries->addAction(tr("Text %1 %").arg(scale * 100), this,
                            [this, scale] { setScale(scale); });
     }
+    addRates(*entries->addMenu(tr("Values")));
     entries->addSeparator();
     entries->addAction(tr("Join again"), this, [this] { session_.joinAgain(); });
     entries->addAction(tr("Quit"), this, &QWidget::close);
@@ -135,6 +137,20 @@ QWidget* MainWindow::makeBar() {
     row->addSpacing(Look::units(4));
     row->addWidget(stop_);
     return bar;
+}
+
+// How often values are taken; the tick follows the session, which the command line may have set.
+void MainWindow::addRates(QMenu& menu) {
+    auto* choices = new QActionGroup{&menu};
+    for (const std::uint32_t rate : Session::rates) {
+        QAction* choice =
+            menu.addAction(rate == 0 ? tr("In every cycle") : tr("%1 times a second").arg(rate));
+        choice->setCheckable(true);
+        choices->addAction(choice);
+        connect(choice, &QAction::triggered, this, [this, rate] { session_.setRate(rate); });
+        connect(&menu, &QMenu::aboutToShow, choice,
+                [this, choice, rate] { choice->setChecked(session_.frame()->rate == rate); });
+    }
 }
 
 void MainWindow::addKeys() {

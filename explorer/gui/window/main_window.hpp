@@ -8,6 +8,7 @@
 #include <QWidget>
 #include <string>
 
+class QMenu;
 class QSplitter;
 class QStackedWidget;
 class QTabBar;
@@ -49,6 +50,7 @@ protected:
 
 private:
     QWidget* makeBar();
+    void addRates(QMenu& menu);
     void addKeys();
     BaseView* addView(const std::string& path, bool closable);
     void closeTab(int tab);
