@@ -205,6 +205,9 @@ stage_profiler() {
 
 stage_docs() {
     [[ -d build/package ]] || stage_package
+    say "taking the pictures of docs/explorer.md"
+    build release -- cortex-agent cortex-cli cortex-explorer
+    tools/pictures.sh build/pictures/docs
     say "cutting the tutorials out of docs/, building and running them"
     /usr/bin/python3 tests/docs/tutorials.py docs build/tutorials build/package
     if [[ -f docs/Doxyfile ]]; then reference; fi
@@ -274,6 +277,13 @@ command_coverage() {
     gcovr --add-tracefile build/coverage/coverage.json --html-details \
         build/coverage/report/index.html 2>/dev/null || die "the report could not be written"
     say "see build/coverage/report/index.html"
+}
+
+command_pictures() {
+    ensure "${buildPackages[@]}"
+    build release -- cortex-agent cortex-cli cortex-explorer
+    say "taking the pictures of docs/explorer.md"
+    tools/pictures.sh "$@"
 }
 
 command_reference() {

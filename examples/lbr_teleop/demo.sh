@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The demonstration, `./run demo [--seconds N] [--secure] [ARG…]`: the two agents of this example,
-# and `cortex top` to look at them. They use the loopback interface and a domain of their own, so
+# and `cortex top` to look at them; where there is a display, the window too. They use the loopback interface and a domain of their own, so
 # that they meet nothing else. Other ARGs go to both agents. The programs are in build/release/bin.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -11,7 +11,7 @@ die() { printf 'error: %s\n' "$*" >&2; exit 1; }
 
 demo() {
     local seconds=20 secure="" names=(robot operator) folder=build/demo bin=build/release/bin
-    local name look="" pids ended=""
+    local name look="" pids ended="" window=""
     while (($#)); do
         case $1 in
             --seconds) seconds=${2:?--seconds needs a number}; shift 2 ;;
@@ -43,7 +43,13 @@ demo() {
     "$bin/cortex" top --interface lo ${secure:+--security "$folder/station"} \
         --seconds "$seconds" <&0 &
     pids+=($!)
+    if [[ ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
+        "$bin/cortex-explorer" --interface lo ${secure:+--security "$folder/station"} /tracking \
+            >"$folder/window.txt" 2>&1 &
+        window=$!
+    fi
     if [[ -z $ended ]]; then wait -n -p ended "${pids[@]}" || true; fi
+    if [[ $window ]]; then kill "$window" 2>/dev/null || true; fi
     demoEnd "${ended:-signal}"
 }
 

@@ -100,6 +100,9 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     connect(graph_, &GraphView::opened, this, &MainWindow::open);
     connect(control_, &ControlBar::changed, this, qOverload<>(&QWidget::update));
     addKeys();
+    ManualView::helpOf(*tree_, tr("Finding something"));
+    ManualView::helpOf(*control_, tr("Control and commands"));
+    ManualView::helpOf(*stop_, tr("Stop"));
 
     setMinimumSize(800, 600);
     resize(1280, 800);
@@ -121,6 +124,7 @@ QWidget* MainWindow::makeBar() {
     }
     addRates(*entries->addMenu(tr("Values")));
     entries->addSeparator();
+    entries->addAction(tr("Manual"), this, &MainWindow::openManual);
     entries->addAction(tr("Join again"), this, [this] { session_.joinAgain(); });
     entries->addAction(tr("Quit"), this, &QWidget::close);
     menu->setMenu(entries);
@@ -168,6 +172,7 @@ void MainWindow::addKeys() {
     key("Ctrl+-", [this] { setScale(std::max(Look::scale() - 0.25, 1.0)); });
     key("Ctrl+T", [this] { control_->choose(); });
     key("Ctrl+Shift+T", [this] { control_->release(); });
+    key("F1", [this] { openManual(); });
     key("F11", [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
     for (int i = 1; i <= 9; ++i) {
         const std::string keys = "Ctrl+" + std::to_string(i);
@@ -206,6 +211,19 @@ void MainWindow::openTab(const std::string& path) {
 }
 
 void MainWindow::openAgents() { tabs_->setCurrentIndex(tabs_->count() - 1); }
+
+void MainWindow::openManual() {
+    const QString section = ManualView::sectionOf(QApplication::focusWidget());
+    if (!manual_) {
+        manual_ = new ManualView;
+        const int at = tabs_->count() - fixedTabs;
+        views_->insertWidget(at, manual_);
+        tabs_->insertTab(at, tr("Manual"));
+    }
+    tabs_->setCurrentIndex(views_->indexOf(manual_));
+    manual_->openAt(section.isEmpty() ? tr("What it shows") : section);
+    manual_->setFocus();
+}
 
 void MainWindow::openGraph() { tabs_->setCurrentIndex(tabs_->count() - fixedTabs); }
 
@@ -260,6 +278,7 @@ void MainWindow::setScale(double scale) {
 
 void MainWindow::restyle() {
     for (QWidget* each : findChildren<QWidget*>()) each->updateGeometry();
+    if (manual_) manual_->restyle();
     update();
 }
 

@@ -3,7 +3,9 @@
 
 #include "model/event_model.hpp"
 #include "session/commands.hpp"
+#include "views/manual_view.hpp"
 
+#include <QPointer>
 #include <QTimer>
 #include <QWidget>
 #include <string>
@@ -34,6 +36,8 @@ public:
     void open(const std::string& path);     // in the current tab, or in one of its own
     void openTab(const std::string& path);  // in one of its own
     void openAgents();
+    void openManual();  // at what is said about what has the keyboard
+    ManualView* manual() { return manual_; }
     void openGraph();
     void openPart(const std::string& name);  // of the simplex that is shown
     StopButton& stopButton() { return *stop_; }
@@ -66,6 +70,7 @@ private:
     QStackedWidget* views_;
     GraphView* graph_;
     AgentTable* agents_;
+    QPointer<ManualView> manual_;
     EventList* eventList_;
     QSplitter *across_, *down_;
     StatusBar* status_;
