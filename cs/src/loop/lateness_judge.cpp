@@ -11,7 +11,7 @@ namespace cortex::cs {
 namespace {
 
 double milliseconds(std::int64_t nanoseconds) {
-    return std::round(static_cast<double>(nanoseconds) * 1e-3) * 1e-3;
+    return std::round(static_cast<double>(nanoseconds) / 1e3) / 1e3;  // the nearest to three digits
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ QSize TextLabel::sizeHint() const {
 
 QSize TextLabel::minimumSizeHint() const {
     if (wordWrap()) return QLabel::minimumSizeHint();
+    if (whole_) return sizeHint();
     const QFontMetrics metrics{font()};
     return {std::min(metrics.horizontalAdvance(text()) + 2, Look::units(8)), metrics.height()};
 }

@@ -18,6 +18,7 @@ public:
     void show(const QString& text);
     void show(const QString& text, QColor Tokens::* colour);
 
+    void keepWhole() { whole_ = true; }  // it is never cut: others give way
     QSize sizeHint() const override;
     QSize minimumSizeHint() const override;
 
@@ -31,7 +32,7 @@ private:
     TextSize size_;
     bool strong_;
     QColor Tokens::* colour_;
-    bool dressing_ = false;
+    bool whole_ = false, dressing_ = false;
 };
 
 }  // namespace cortex::explorer

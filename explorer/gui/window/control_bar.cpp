@@ -40,6 +40,7 @@ ControlBar::ControlBar(Session& session, QWidget* parent)
     row->addWidget(handOver_);
     row->addWidget(button_);
     handOver_->hide();
+    label_->keepWhole();
     label_->show(text());
     button_->setText(tr("Take control…"));
     button_->setToolTip(tr("Ctrl+T; releasing is Ctrl+Shift+T"));
@@ -70,6 +71,7 @@ QString ControlBar::text() const {
     if (control.prefix.empty()) return tr("Read-only");
     QStringList parts;
     for (const std::string& each : control.prefixes()) parts << scopeText(each);
+    if (narrow_) return tr("You control %1").arg(parts.join(tr(" and ")));
     return tr("You control %1 since %2").arg(parts.join(tr(" and ")), clockText(control.since));
 }
 
@@ -85,7 +87,7 @@ void ControlBar::refresh(const std::shared_ptr<const Frame>& frame, const std::s
     if (control.prefix != prefix_) {
         prefix_ = control.prefix;
         button_->setText(holds() ? tr("Release") : tr("Take control…"));
-        handOver_->setVisible(holds());
+        handOver_->setVisible(holds() && !narrow_);
         update();
         Q_EMIT changed();
     }
@@ -97,6 +99,13 @@ void ControlBar::refresh(const std::shared_ptr<const Frame>& frame, const std::s
     again_->setText(tr("Take %1 again").arg(scopeText(control.last)));
     if (panel_) panel_->refresh(frame);
     if (handOverPanel_) handOverPanel_->refresh(frame);
+}
+
+// The time and *Hand over…* give way; that stands in the menu, too.
+void ControlBar::setNarrow(bool narrow) {
+    narrow_ = narrow;
+    handOver_->setVisible(holds() && !narrow);
+    label_->show(text());
 }
 
 void ControlBar::choose() {

@@ -24,6 +24,7 @@ public:
 
     // `path`: the simplex that is shown, which the scopes are made from.
     void refresh(const std::shared_ptr<const Frame>& frame, const std::string& path);
+    void setNarrow(bool narrow);
     void choose();  // opens the popover
     void release();
     void chooseHandOver();  // opens the popover
@@ -50,6 +51,7 @@ private:
     Session& session_;
     std::shared_ptr<const Frame> frame_;
     std::string path_, prefix_;
+    bool narrow_ = false;
     QString told_;  // the notice that was closed
     TextLabel* label_;
     QPushButton *handOver_, *button_;

@@ -57,18 +57,25 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       down_{new QSplitter{Qt::Vertical}},
       status_{new StatusBar},
       stop_{new StopButton{session}},
-      control_{new ControlBar{session}} {
+      control_{new ControlBar{session}},
+      arrangement_{*across_, *down_} {
     setWindowTitle(tr("CorteX Explorer"));
     tabs_->setExpanding(false);
     tabs_->setDrawBase(false);
     tabs_->setTabsClosable(false);
+    tabs_->setElideMode(Qt::ElideNone);
+    tabs_->setUsesScrollButtons(true);
     tabs_->setAccessibleName(tr("Views"));
 
     auto* workspace = new QWidget;
     auto* column = new QVBoxLayout{workspace};
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
-    column->addWidget(tabs_);
+    auto* top = new QHBoxLayout;
+    top->setSpacing(Look::units(2));
+    top->addWidget(&arrangement_.treeButton());
+    top->addWidget(tabs_, 1);
+    column->addLayout(top);
     column->addWidget(views_, 1);
 
     down_->addWidget(workspace);
@@ -96,6 +103,8 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     connect(tabs_, &QTabBar::currentChanged, views_, &QStackedWidget::setCurrentIndex);
     connect(tree_, &SystemTree::chosen, this, &MainWindow::open);
     connect(tree_, &SystemTree::pinned, this, &MainWindow::openTab);
+    connect(tree_, &SystemTree::chosen, this, [this] { arrangement_.leaveTree(); });
+    connect(tree_, &SystemTree::pinned, this, [this] { arrangement_.leaveTree(); });
     connect(eventList_, &EventList::opened, this, &MainWindow::open);
     connect(graph_, &GraphView::opened, this, &MainWindow::open);
     connect(control_, &ControlBar::changed, this, qOverload<>(&QWidget::update));
@@ -124,14 +133,15 @@ QWidget* MainWindow::makeBar() {
     }
     addRates(*entries->addMenu(tr("Values")));
     entries->addSeparator();
+    entries->addAction(tr("Hand over control…"), this, [this] { control_->chooseHandOver(); });
     entries->addAction(tr("Manual"), this, &MainWindow::openManual);
     entries->addAction(tr("Join again"), this, [this] { session_.joinAgain(); });
     entries->addAction(tr("Quit"), this, &QWidget::close);
     menu->setMenu(entries);
     row->addWidget(menu);
-    auto* title = new TextLabel{TextSize::Value, true};
-    title->show(tr("CorteX Explorer"));
-    row->addWidget(title);
+    title_ = new TextLabel{TextSize::Value, true};
+    title_->show(tr("CorteX Explorer"));
+    row->addWidget(title_);
     row->addStretch(1);
     auto* stopped = new TextLabel{TextSize::Text};
     connect(stop_, &StopButton::told, stopped, qOverload<const QString&>(&TextLabel::show));
@@ -162,9 +172,12 @@ void MainWindow::addKeys() {
         connect(new QShortcut{QKeySequence{QLatin1String{keys}}, this}, &QShortcut::activated, this,
                 action);
     };
-    key("Ctrl+F", [this] { tree_->focusFilter(); });
-    key("Ctrl+B", [this] { tree_->setVisible(!tree_->isVisible()); });
-    key("Ctrl+E", [this] { eventList_->setVisible(!eventList_->isVisible()); });
+    key("Ctrl+F", [this] {
+        arrangement_.showTree();
+        tree_->focusFilter();
+    });
+    key("Ctrl+B", [this] { arrangement_.toggleTree(); });
+    key("Ctrl+E", [this] { arrangement_.toggleEvents(); });
     key("Ctrl+W", [this] { closeTab(tabs_->currentIndex()); });
     key("Ctrl+Shift+L", [this] { setTheme(1); });
     key("Ctrl+0", [this] { setScale(1); });
@@ -310,9 +323,21 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
-    if (event->oldSize().isValid()) return;
-    across_->setSizes({Look::units(76), width() - Look::units(76)});
-    down_->setSizes({height() - Look::units(42), Look::units(25)});
+    arrange();
+}
+
+void MainWindow::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    const bool sized = event->type() == QEvent::ApplicationFontChange ||
+                       event->type() == QEvent::StyleChange || event->type() == QEvent::FontChange;
+    if (sized && title_ != nullptr) arrange();
+}
+
+// The bar gives way before the lease or Stop would be cut.
+void MainWindow::arrange() {
+    arrangement_.fit(size());
+    title_->setVisible(!arrangement_.isNarrow());
+    control_->setNarrow(arrangement_.isNarrow());
 }
 
 }  // namespace cortex::explorer

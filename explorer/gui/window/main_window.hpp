@@ -4,6 +4,7 @@
 #include "model/event_model.hpp"
 #include "session/commands.hpp"
 #include "views/manual_view.hpp"
+#include "window/arrangement.hpp"
 
 #include <QPointer>
 #include <QTimer>
@@ -25,6 +26,7 @@ class GraphView;
 class StatusBar;
 class StopButton;
 class SystemTree;
+class TextLabel;
 
 // The window: the tree of simplexes, tabs with views, events, status. It takes the newest frame of
 // the session 30 times a second and waits for nothing.
@@ -46,11 +48,13 @@ public:
     void refresh();      // with the newest frame
     SystemTree& tree() { return *tree_; }
     QWidget* current() const;
+    Arrangement& arrangement() { return arrangement_; }
 
 protected:
     void paintEvent(QPaintEvent* event) override;
     void closeEvent(QCloseEvent* event) override;  // asks first while it is in control
     void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;  // another size of text
 
 private:
     QWidget* makeBar();
@@ -61,6 +65,7 @@ private:
     void setTheme(int step);
     void setScale(double scale);
     void restyle();
+    void arrange();
 
     Session& session_;
     Commands commands_;
@@ -77,6 +82,8 @@ private:
     StopButton* stop_;
     bool leaves_ = false;  // the user said so
     ControlBar* control_;
+    Arrangement arrangement_;
+    TextLabel* title_ = nullptr;
     QTimer timer_;
 };
 
