@@ -60,9 +60,7 @@ void AgentTable::refresh(const Frame& frame) {
                                 QString::fromStdString(s.security),
                                 troubleOf(agent)};
         for (int column = 0; column < texts.size(); ++column) {
-            if (topLevelItem(i)->text(column) != texts[column]) {
-                topLevelItem(i)->setText(column, texts[column]);
-            }
+            setCell(*topLevelItem(i), column, texts[column]);
         }
     }
 }

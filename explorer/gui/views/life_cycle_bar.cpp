@@ -31,10 +31,8 @@ LifeCycleBar::LifeCycleBar(Commands& commands, QWidget* parent)
         Button& each = buttons_[static_cast<std::size_t>(i)];
         each = {command, new QPushButton{title},
                 new TextLabel{TextSize::Note, false, &Tokens::ink2}};
-        each.button->setFixedWidth(Look::units(32));
         each.reason->setWordWrap(true);  // two lines, whether they are needed or not
         each.reason->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-        each.reason->setFixedSize(Look::units(32), 2 * each.reason->fontMetrics().height());
         grid->addWidget(each.button, 0, i);
         grid->addWidget(each.reason, 1, i);
         connect(each.button, &QPushButton::clicked, this,
@@ -44,11 +42,24 @@ LifeCycleBar::LifeCycleBar(Commands& commands, QWidget* parent)
 
 void LifeCycleBar::show(const std::string& path) { path_ = path; }
 
+// All are as wide as the longest title, so that none is cut in any language or size of text.
+void LifeCycleBar::fit() {
+    int width = Look::units(32);
+    for (const Button& each : buttons_) width = std::max(width, each.button->sizeHint().width());
+    if (width == width_) return;
+    width_ = width;
+    for (Button& each : buttons_) {
+        each.button->setFixedWidth(width);
+        each.reason->setFixedSize(width, 2 * each.reason->fontMetrics().height());
+    }
+}
+
 void LifeCycleBar::refresh(const Frame& frame, Place place) {
     const Type& type = frame.type(place);
     const bool shown = type.active() && !type.isA("Agent");  // an agent's own have a prefix: forms
     setVisible(shown);
     if (!shown) return;
+    fit();
     for (Button& each : buttons_) {
         const auto command = std::ranges::find(type.commands, each.command, &Command::name);
         const QString why = command == type.commands.end()

@@ -25,6 +25,7 @@ Q_SIGNALS:
     void told(const QString& outcome);  // of the last one
 
 private:
+    void fit();
     struct Button {
         std::string command;
         QPushButton* button;
@@ -35,6 +36,7 @@ private:
     Commands& commands_;
     std::string path_;
     std::array<Button, 3> buttons_;
+    int width_ = 0;  // of each button, px
 };
 
 }  // namespace cortex::explorer

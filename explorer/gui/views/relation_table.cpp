@@ -68,6 +68,7 @@ void RelationTable::show(const Frame& frame, Place place) {
         if (others == nullptr) others = addGroup(*this, tr("From others"));
         add(others, edge, edge.owner);
     }
+    tellWhole(*this);
     expandAll();
     setWidths(*this, {36.0, 20.0, 56.0, 44.0, 28.0});
 }
@@ -87,7 +88,7 @@ void RelationTable::refresh(const Frame& frame, Place place) {
                 text += (text.isEmpty() ? QString{} : QStringLiteral(", ")) +
                         QLatin1String{name(quality)};
             }
-            if (item->text(StateColumn) != text) item->setText(StateColumn, text);
+            setCell(*item, StateColumn, text);
         }
     }
 }

@@ -53,6 +53,7 @@ void TypePage::show(const Type& type, const TypeModel& types) {
     for (const Rule& rule : type.rules) {
         add(rules, rule.name, multiplicity(rule), rule.definedBy, rule.description);
     }
+    tellWhole(*this);
     expandAll();
     setWidths(*this, {56.0, 72.0, 44.0});
 }

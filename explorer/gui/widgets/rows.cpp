@@ -61,4 +61,19 @@ QTreeWidgetItem* addGroup(QTreeWidget& tree, const QString& title) {
     return item;
 }
 
+void setCell(QTreeWidgetItem& row, int column, const QString& text) {
+    if (row.text(column) == text) return;
+    row.setText(column, text);
+    row.setToolTip(column, text.toHtmlEscaped());
+}
+
+void tellWhole(QTreeWidget& tree) {
+    for (QTreeWidgetItemIterator each{&tree}; *each != nullptr; ++each) {
+        for (int column = 0; column < tree.columnCount(); ++column) {
+            if (!(*each)->toolTip(column).isEmpty()) continue;
+            (*each)->setToolTip(column, (*each)->text(column).toHtmlEscaped());
+        }
+    }
+}
+
 }  // namespace cortex::explorer

@@ -31,6 +31,11 @@ void setWidths(QTreeView& view, std::initializer_list<double> units);
 // A strong row under which others stand.
 QTreeWidgetItem* addGroup(QTreeWidget& tree, const QString& title);
 
+// Sets the text of a cell, and its tooltip to the whole of it, where it has changed.
+void setCell(QTreeWidgetItem& row, int column, const QString& text);
+// Gives each cell that has no tooltip the whole of its text.
+void tellWhole(QTreeWidget& tree);
+
 inline int rowHeight() { return Look::units(6); }
 // Where a mark stands in a row.
 inline QRectF markBox(int left, const QRect& row, int size) {

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every view of the window can be read: in three themes, three sizes, two fonts, and in a language
+// that is 40 % longer.
+#include "gui/audit.hpp"
+
+#include "gui/window_fixture.hpp"
+#include "style/look.hpp"
+#include "views/manual_view.hpp"
+#include "window/control_bar.hpp"
+
+#include <QPushButton>
+#include <QTranslator>
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using namespace cortex::explorer;
+
+struct Size {
+    int width, height;
+    double scale;
+};
+constexpr std::array sizes{Size{1280, 800, 1}, Size{1024, 768, 1.25}, Size{800, 600, 1.5}};
+
+// Texts of the program with accents and 40 % more letters; those of agents stay as they are.
+class LongLanguage : public QTranslator {
+public:
+    LongLanguage() { QCoreApplication::installTranslator(this); }
+    ~LongLanguage() override { QCoreApplication::removeTranslator(this); }
+    bool isEmpty() const override { return false; }
+    QString translate(const char* /*context*/, const char* source, const char* /*comment*/,
+                      int /*n*/) const override {
+        QString text = QString::fromUtf8(source);
+        text.replace('a', QChar{0xe1}).replace('e', QChar{0xe9}).replace('o', QChar{0xf6});
+        return text + QString{text.size() * 2 / 5, '~'};
+    }
+};
+
+// Opens each view and gives its name.
+struct View {
+    const char* name;
+    void (*open)(MainWindow& window);
+};
+const std::array views{
+    View{"data",
+         [](MainWindow& window) {
+             window.open("/drive");
+             window.openPart("data");
+         }},
+    View{"relationships", [](MainWindow& window) { window.openPart("relationships"); }},
+    View{"commands", [](MainWindow& window) { window.openPart("commands"); }},
+    View{"type", [](MainWindow& window) { window.openPart("type"); }},
+    View{"system", [](MainWindow& window) { window.openGraph(); }},
+    View{"agents", [](MainWindow& window) { window.openAgents(); }},
+    View{"manual", [](MainWindow& window) { window.openManual(); }},
+};
+
+std::string findingsOf(MainWindow& window, const Size& size) {
+    window.resize(size.width, size.height);
+    std::string findings;
+    for (const View& view : views) {
+        view.open(window);
+        window.refresh();
+        for (int i = 0; i < 3; ++i)
+            QApplication::processEvents();  // what is laid out lays out more
+        for (const QString& each : unreadableIn(window)) {
+            findings += std::string{view.name} + " at " + std::to_string(size.width) + ": " +
+                        each.toStdString() + '\n';
+        }
+    }
+    return findings;
+}
+
+struct Audited : Window {
+    ~Audited() override { Look::apply(Theme::Light, 1, QStringLiteral("Open Sans")); }
+};
+
+TEST_F(Audited, EveryViewCanBeReadInEveryThemeSizeAndFont) {
+    ASSERT_TRUE(everythingComes());
+    for (const Theme theme : allThemes) {
+        for (const Size& size : sizes) {
+            for (const char* family : {"Open Sans", "DejaVu Sans"}) {
+                Look::apply(theme, size.scale, QLatin1String{family});
+                EXPECT_EQ(findingsOf(window, size), "")
+                    << family << ", " << themeName(theme).toStdString();
+            }
+        }
+    }
+}
+
+struct AuditedInALongLanguage : LongLanguage, Audited {};
+
+TEST_F(AuditedInALongLanguage, EveryViewCanBeRead) {
+    ASSERT_TRUE(everythingComes());
+    for (const Size& size : sizes) {
+        Look::apply(Theme::Light, size.scale, QStringLiteral("Open Sans"));
+        EXPECT_EQ(findingsOf(window, size), "");
+    }
+}
+
+TEST(Audit, FindsWhatCannotBeRead) {
+    QWidget window;
+    window.resize(200, 100);
+    auto* cut = new QPushButton{QStringLiteral("A text that is too long for it"), &window};
+    cut->setGeometry(0, 0, 40, 30);
+    auto* over = new QPushButton{QStringLiteral("B"), &window};
+    over->setGeometry(20, 10, 40, 30);
+    window.show();
+    const QString found = unreadableIn(window).join('\n');
+    EXPECT_TRUE(found.contains("\"A text that is too long for it\" is cut")) << found.toStdString();
+    EXPECT_TRUE(found.contains("lies over \"B\"")) << found.toStdString();
+}
+
+}  // namespace
+}  // namespace cortex::test
