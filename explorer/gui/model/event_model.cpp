@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/event_model.hpp"
 
+#include "model/plain_text.hpp"
+
 #include <QDateTime>
 #include <QTimeZone>
 #include <algorithm>
@@ -76,7 +78,7 @@ QVariant EventModel::data(const QModelIndex& index, int role) const {
     const Row& row = rows_[static_cast<std::size_t>(index.row())];
     const comms::AgentEvent& event = row.event;
     const QString times = row.times > 1 ? QStringLiteral("×%1  ").arg(row.times) : QString{};
-    if (role == Qt::ToolTipRole) return plain(event.text).toHtmlEscaped();
+    if (role == Qt::ToolTipRole) return tipText(plain(event.text));
     switch (index.column()) {
         case Time:
             return timeText(event.wallClock);

@@ -3,6 +3,7 @@
 
 #include "cortex/core/labelled_value.hpp"
 
+#include "model/plain_text.hpp"
 #include "model/value_text.hpp"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ QString labelsText(const DataItem& item) {
     for (const auto& [number, label] : item.labels) {
         labels << QString::number(number) + ':' + QString::fromStdString(label);
     }
-    return ItemModel::tr("labels: %1").arg(labels.join(' ')).toHtmlEscaped();
+    return ItemModel::tr("labels: %1").arg(labels.join(' '));
 }
 
 }  // namespace
@@ -332,11 +333,11 @@ QVariant ItemModel::data(const QModelIndex& index, int role) const {
     if (role == Qt::ToolTipRole && row.item != nullptr) {
         QStringList lines{QString::fromStdString(row.path + '.' + row.item->name)};
         if (!row.item->description.empty()) {
-            lines << QString::fromStdString(row.item->description).toHtmlEscaped();
+            lines << QString::fromStdString(row.item->description);
         }
         if (row.mark) lines << word(*row.mark);
         if (row.mark == Shape::NoLabel) lines << labelsText(*row.item);
-        return lines.join(QStringLiteral("\n"));
+        return tipText(lines.join('\n'));
     }
     if (role != Qt::DisplayRole && role != Qt::AccessibleTextRole) return {};
     switch (index.column()) {

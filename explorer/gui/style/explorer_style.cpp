@@ -3,6 +3,7 @@
 
 #include "style/look.hpp"
 
+#include <QLabel>
 #include <QPainter>
 #include <QStyleOption>
 #include <QWidget>
@@ -153,6 +154,14 @@ const std::map<QStyle::ContentsType, double>& leastHeights() {
 }  // namespace
 
 ExplorerStyle::ExplorerStyle() : QProxyStyle{QStringLiteral("Fusion")} {}
+
+void ExplorerStyle::polish(QWidget* widget) {
+    QProxyStyle::polish(widget);
+    auto* label = qobject_cast<QLabel*>(widget);
+    if (label != nullptr && label->textFormat() == Qt::AutoText) {
+        label->setTextFormat(Qt::PlainText);
+    }
+}
 
 void ExplorerStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option,
                                   QPainter* painter, const QWidget* widget) const {

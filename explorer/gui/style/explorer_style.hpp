@@ -10,7 +10,11 @@ namespace cortex::explorer {
 class ExplorerStyle : public QProxyStyle {
 public:
     ExplorerStyle();
+    using QProxyStyle::polish;
 
+    // Labels show texts as they are: no markup that an agent sends is rendered, tool tips and
+    // questions too.
+    void polish(QWidget* widget) override;
     void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                        const QWidget* widget) const override;
     void drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,

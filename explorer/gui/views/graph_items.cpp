@@ -50,7 +50,7 @@ GraphNodeItem::GraphNodeItem(std::uint32_t index, const GraphNode& node)
       name_{lastName(node)},
       type_{QString::fromStdString(node.type)},
       members_{static_cast<int>(node.paths.size())} {
-    setToolTip(QString::fromStdString(node.key).toHtmlEscaped());
+    setToolTip(QString::fromStdString(node.key));
     setZValue(1);
 }
 

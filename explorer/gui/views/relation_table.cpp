@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/relation_table.hpp"
 
+#include "model/plain_text.hpp"
 #include "widgets/rows.hpp"
 
 namespace cortex::explorer {
@@ -51,8 +52,7 @@ void RelationTable::show(const Frame& frame, Place place) {
                                           {},
                                           details(edge, structure.simplexes[edge.target])}};
         item->setData(StateColumn, indexRole, other);
-        item->setToolTip(RuleColumn,
-                         QString::fromStdString(edge.rule->description).toHtmlEscaped());
+        item->setToolTip(RuleColumn, tipText(QString::fromStdString(edge.rule->description)));
     };
     if (info.edgeCount > 0) {
         auto* own = addGroup(*this, tr("To others"));

@@ -2,6 +2,7 @@
 #include "widgets/item_table.hpp"
 
 #include "model/item_model.hpp"
+#include "model/plain_text.hpp"
 #include "model/value_text.hpp"
 #include "style/explorer_style.hpp"
 #include "widgets/range_bar.hpp"
@@ -72,7 +73,7 @@ public:
         connect(field, &QLineEdit::textChanged, field, [field, item] {
             QString why;
             field->setProperty(wrongInput, !enteredValue(item, field->text(), why));
-            field->setToolTip(why.toHtmlEscaped());
+            field->setToolTip(tipText(why));
             field->update();
         });
         return field;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "widgets/text_label.hpp"
 
+#include "model/plain_text.hpp"
+
 #include <QEvent>
 #include <QFontMetrics>
 #include <QPainter>
@@ -50,7 +52,7 @@ void TextLabel::paintEvent(QPaintEvent* /*event*/) {
         return;
     }
     const QString shown = fontMetrics().elidedText(text(), Qt::ElideRight, width());
-    setToolTip(shown == text() ? QString{} : text().toHtmlEscaped());
+    setToolTip(shown == text() ? QString{} : tipText(text()));
     painter.drawText(rect(), static_cast<int>(alignment()) | Qt::TextSingleLine, shown);
 }
 

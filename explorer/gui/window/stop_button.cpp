@@ -3,6 +3,7 @@
 
 #include "cortex/core/path.hpp"
 
+#include "model/plain_text.hpp"
 #include "session/lease.hpp"
 #include "style/look.hpp"
 
@@ -31,9 +32,9 @@ bool isStoppable(const SimplexInfo& info, const std::string& prefix) {
 StopButton::StopButton(Session& session, QWidget* parent)
     : QAbstractButton{parent}, session_{session} {
     showScope();
-    setToolTip(
+    setToolTip(tipText(
         tr("Shuts down every simplex below the path that stands on it, of every agent that is "
-           "heard. It is no emergency stop: the network, and the agents, must work."));
+           "heard. It is no emergency stop: the network, and the agents, must work.")));
     setFocusPolicy(Qt::StrongFocus);
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
     connect(this, &QAbstractButton::clicked, this, &StopButton::stop);
