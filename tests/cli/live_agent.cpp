@@ -64,17 +64,25 @@ Background::~Background() { end(SIGTERM); }
 void Background::end(int signal) {
     if (child_ == 0) return;
     kill(child_, signal);
+    kill(child_, SIGCONT);  // what was stopped ends, too
     waitpid(child_, nullptr, 0);
     child_ = 0;
+}
+
+void Background::send(int signal) {
+    if (child_ != 0) kill(child_, signal);
 }
 
 std::vector<std::string> agentCommand(const std::string& file) {
     return std::vector<std::string>{CORTEX_BINARY_DIR "/bin/cortex-agent", file} + network;
 }
 
-CortexLive::CortexLive() {
-    EXPECT_EQ(cortex({"new-system", "mixer", "-o", (folder.path() / "mixer.xml").string()}).exit,
-              0);
+CortexLive::CortexLive(const std::string& controller) {
+    const std::string usual = "HoldAxisController";
+    std::string system = cortex({"new-system", "mixer"}).output;
+    const std::size_t place = system.find(usual);
+    if (place == std::string::npos) throw std::runtime_error("no " + usual + " in the system");
+    folder.write("mixer.xml", system.replace(place, usual.size(), controller));
     start();
 }
 

@@ -38,7 +38,8 @@ public:
     Background(const Background&) = delete;
     Background& operator=(const Background&) = delete;
 
-    void end(int signal);
+    void end(int signal);   // and waits for its end
+    void send(int signal);  // such as SIGSTOP and SIGCONT
 
 private:
     pid_t child_;
@@ -47,10 +48,11 @@ private:
 // An agent with a system file, on that network.
 std::vector<std::string> agentCommand(const std::string& file);
 
-// The system that `cortex new-system` makes: one simulated axis that is held where it is.
+// The system that `cortex new-system` makes: one simulated axis that a controller of this type
+// moves or holds.
 class CortexLive : public testing::Test {
 protected:
-    CortexLive();
+    explicit CortexLive(const std::string& controller = "HoldAxisController");
     void start();
 
     const ModelFolder folder;

@@ -47,11 +47,12 @@ inline bool comesWithoutEvents(const std::function<bool()>& condition) {
     return true;
 }
 
-// The system of `cortex new-system`: one simulated axis that is held where it is.
+// The system of `cortex new-system` in a window.
 class Window : public CortexLive {
 protected:
-    Window()
-        : session{ownNetwork()},
+    explicit Window(const std::string& controller = "HoldAxisController")
+        : CortexLive{controller},
+          session{ownNetwork()},
           window{session},
           tester{const_cast<SystemModel*>(&window.tree().model()),
                  QAbstractItemModelTester::FailureReportingMode::Fatal} {

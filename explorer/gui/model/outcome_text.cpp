@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/outcome_text.hpp"
 
+#include "model/plain_text.hpp"
 #include "model/value_text.hpp"
 
 #include <QCoreApplication>
-#include <QDateTime>
 #include <cmath>
 
 namespace cortex::explorer {
@@ -13,14 +13,17 @@ namespace {
 
 QString tell(const char* text) { return QCoreApplication::translate("Outcome", text); }
 
+// When the window had the outcome.
+QString timeOf(const CommandOutcome& outcome) {
+    if (outcome.came == 0) return {};
+    return QStringLiteral("  ") + utcText(outcome.came, "HH:mm:ss.zzz");
+}
+
 QString doneText(const CommandOutcome& outcome, const Command* command) {
     const double seconds = std::chrono::duration<double>(outcome.answer.latency).count();
     const QString cycles = QCoreApplication::translate(
         "Outcome", "%n cycles", nullptr, static_cast<int>(outcome.answer.latencyCycles));
-    QString text =
-        tell("Done  %1, %2  %3")
-            .arg(ageText(seconds), cycles,
-                 QDateTime::currentDateTimeUtc().toString(QStringLiteral("HH:mm:ss.zzz")));
+    QString text = tell("Done  %1, %2").arg(ageText(seconds), cycles) + timeOf(outcome);
     for (const auto& [name, value] : outcome.answer.response) {
         QString shown = QString::fromStdString(toText(value));
         if (command != nullptr) {
@@ -31,6 +34,25 @@ QString doneText(const CommandOutcome& outcome, const Command* command) {
         text += QStringLiteral("\n%1 = %2").arg(QString::fromStdString(name), shown.trimmed());
     }
     return text;
+}
+
+QString failureText(const CommandOutcome& outcome) {
+    if (!outcome.problem.empty()) {
+        return tell("Not sent: %1").arg(QString::fromStdString(outcome.problem));
+    }
+    const CallResult& answer = outcome.answer;
+    if (answer.outcome == Outcome::Unknown) {
+        return tell(
+            "No answer came. The command may have been executed. Look at the state before "
+            "you send it again.");
+    }
+    if (answer.reason == Reason::Restarted) {
+        return tell("Not executed: the agent had started anew.");
+    }
+    if (answer.outcome == Outcome::Expired) {
+        return tell("Not executed: it reached the agent too late.");
+    }
+    return QString::fromStdString(answer.text());
 }
 
 template <class T>
@@ -45,23 +67,9 @@ std::optional<T> firstOf(const AgentFrame& agent, std::uint32_t simplex, const c
 }  // namespace
 
 QString outcomeText(const CommandOutcome& outcome, const Command* command) {
-    if (!outcome.problem.empty()) {
-        return tell("Not sent: %1").arg(QString::fromStdString(outcome.problem));
-    }
     const CallResult& answer = outcome.answer;
-    if (answer.done()) return doneText(outcome, command);
-    if (answer.outcome == Outcome::Unknown) {
-        return tell(
-            "No answer came. The command may have been executed. Look at the state before "
-            "you send it again.");
-    }
-    if (answer.reason == Reason::Restarted) {
-        return tell("Not executed: the agent had started anew.");
-    }
-    if (answer.outcome == Outcome::Expired) {
-        return tell("Not executed: it reached the agent too late.");
-    }
-    return QString::fromStdString(answer.text());
+    if (outcome.problem.empty() && answer.done()) return doneText(outcome, command);
+    return failureText(outcome) + timeOf(outcome);
 }
 
 std::optional<ActivityNow> activityOf(const AgentFrame& agent, std::uint32_t simplex) {

@@ -7,7 +7,7 @@
 
 namespace cortex::explorer {
 
-// What became of a command, what that means, and what to do: "Done  1.9 ms, 2 cycles
+// What became of a command, what that means, what to do, and when it came: "Done  1.9 ms, 2 cycles
 // 12:04:07.123", "Rejected (range): …", "No answer. The command may have been executed. …".
 QString outcomeText(const CommandOutcome& outcome, const Command* command = nullptr);
 

@@ -7,30 +7,43 @@
 #include <QPointer>
 #include <functional>
 #include <map>
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace cortex::explorer {
 
-// The commands of the window: whoever sends one is called with its outcome. GUI thread.
+// The commands of the window: whoever sends one is called with its outcome. What became of the last
+// one of each name stays with its simplex, whatever is shown by then. GUI thread.
 class Commands {
 public:
     using Done = std::function<void(const CommandOutcome&)>;
+    struct Last {
+        std::uint64_t number = 0;
+        std::optional<CommandOutcome> outcome;  // none: it is on its way
+    };
 
     explicit Commands(Session& session) : session_{session} {}
     const comms::NetworkOptions& network() const { return session_.options(); }
 
-    // `done` is called once, unless `asker` is gone by then.
+    // `done` is called once, unless `asker` is gone by then. `keptAs`: the name under which last()
+    // has it; the command's, if it is empty.
     void send(const std::string& path, const std::string& command,
               comms::Mirror::Arguments arguments, std::chrono::milliseconds limit, QObject* asker,
-              Done done);
+              Done done, const std::string& keptAs = {});
     void deliver(const std::vector<CommandOutcome>& outcomes);
+    const Last* last(const std::string& path, const std::string& name) const;  // null: none
 
 private:
+    using Key = std::pair<std::string, std::string>;  // path and name
     struct Asked {
         QPointer<QObject> asker;
         Done done;
+        Key key;
     };
     Session& session_;
     std::map<std::uint64_t, Asked> asked_;
+    std::map<Key, Last> last_;
 };
 
 }  // namespace cortex::explorer

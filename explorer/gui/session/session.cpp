@@ -201,14 +201,14 @@ void Session::sendRequests() {
             }
         }
         const std::lock_guard lock{mutex_};
-        outcomes_.push_back({each.number, each.path, each.command, {}, std::move(problem)});
+        outcomes_.push_back({each.number, each.path, each.command, {}, std::move(problem), 0});
     }
 }
 
 void Session::takeAnswers() {
     const auto now = Clock::now();
     std::erase_if(unanswered_, [&](Request& each) {
-        CommandOutcome outcome{each.number, each.path, each.command, {}, {}};
+        CommandOutcome outcome{each.number, each.path, each.command, {}, {}, 0};
         const bool answered = mirror_->poll(each.sent, outcome.answer);
         if (!answered && now - each.since < each.limit && !isGone(each)) return false;
         if (!answered) {

@@ -25,6 +25,7 @@ struct CommandOutcome {
     std::string path, command;
     comms::CommandAnswer answer;
     std::string problem;  // why it was never sent; otherwise empty
+    std::int64_t came{};  // UTC ns, when the window took it; 0: not yet
 };
 
 // One domain, looked at by a thread of its own: it alone joins, asks and leaves, so that nothing

@@ -155,7 +155,6 @@ void BaseView::show(const std::string& path) {
     items_.show(path);
     lifeCycle_->show(path);
     edits_->show(path);
-    outcome_->hide();
 }
 
 void BaseView::openPart(const std::string& name) {

@@ -66,8 +66,10 @@ CommandCard::CommandCard(Commands& commands, std::string path, const Command& co
       cancel_{new QPushButton{tr("Cancel")}},
       reason_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
       progressText_{new TextLabel{TextSize::Text}},
+      whyNotCancel_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
       progress_{new QProgressBar},
-      outcome_{wrapped()} {
+      outcome_{wrapped()},
+      cancelled_{wrapped()} {
     const QString name = QString::fromStdString(command_.name);
     auto* rows = new QVBoxLayout{this};
     rows->setContentsMargins(Look::units(4), Look::units(2), Look::units(4), Look::units(3));
@@ -95,17 +97,17 @@ CommandCard::CommandCard(Commands& commands, std::string path, const Command& co
     last->addWidget(progress_);
     last->addWidget(progressText_);
     last->addWidget(cancel_);
+    last->addWidget(whyNotCancel_);
     last->addStretch(1);
     rows->addLayout(last);
     rows->addWidget(outcome_);
-    for (QWidget* each :
-         std::initializer_list<QWidget*>{outcome_, progress_, progressText_, cancel_}) {
+    rows->addWidget(cancelled_);
+    for (QWidget* each : std::initializer_list<QWidget*>{outcome_, cancelled_, progress_,
+                                                         progressText_, cancel_, whyNotCancel_}) {
         each->hide();
     }
     connect(run_, &QPushButton::clicked, this, &CommandCard::run);
-    connect(cancel_, &QPushButton::clicked, this, [this] {
-        commands_.send(path_, "cancel", {}, shortLimit, this, [](const CommandOutcome&) {});
-    });
+    connect(cancel_, &QPushButton::clicked, this, &CommandCard::cancel);
     auto* copy = new QAction{tr("Copy as cortex command"), this};
     connect(copy, &QAction::triggered, this, [this] {
         QApplication::clipboard()->setText(
@@ -114,6 +116,7 @@ CommandCard::CommandCard(Commands& commands, std::string path, const Command& co
     addAction(copy);
     setContextMenuPolicy(Qt::ActionsContextMenu);
     setAccessibleName(name);
+    showOutcomes();
     decide();
 }
 
@@ -139,19 +142,33 @@ void CommandCard::addParameter(QGridLayout& grid, const DataItem& item) {
 void CommandCard::refresh(const Frame& frame, Place place) {
     whyNot_ = comms::isControlCommand(command_.name) ? tr("the window does this itself: Ctrl+T")
                                                      : whyNotNow(frame, place, command_.available);
+    showOutcomes();
     decide();
-    if (!command_.isLong) return;
-    const auto activity = activityOf(frame.agents[place.agent], place.simplex);
-    const bool runs =
-        activity && activity->runs && activity->command == QString::fromStdString(command_.name);
-    progress_->setVisible(runs);
-    progressText_->setVisible(runs);
-    cancel_->setVisible(runs);
-    if (!runs) return;
+    if (command_.isLong) refreshProgress(frame.agents[place.agent], place.simplex);
+}
+
+// Agents let everybody cancel, as they let everybody stop. Of a lost one the last that was heard.
+void CommandCard::refreshProgress(const AgentFrame& agent, std::uint32_t simplex) {
+    const auto activity = activityOf(agent, simplex);
+    const bool known = activity && !agent.lost();
+    if (known) {
+        runs_ = activity->runs && activity->command == QString::fromStdString(command_.name);
+    }
+    for (QWidget* each : std::initializer_list<QWidget*>{progress_, progressText_, cancel_}) {
+        each->setVisible(runs_);
+    }
+    const Commands::Last* sent = commands_.last(path_, cancelName());
+    const bool waits = sent != nullptr && !sent->outcome;
+    whyNotCancel_->show(agent.lost()
+                            ? tr("%1 is not heard").arg(QString::fromStdString(agent.status.name))
+                        : waits ? tr("sending")
+                                : QString{});
+    whyNotCancel_->setVisible(runs_ && !whyNotCancel_->text().isEmpty());
+    cancel_->setEnabled(whyNotCancel_->text().isEmpty());
+    if (!runs_ || !known) return;
     const int percent = static_cast<int>(std::lround(activity->progress * 100));
     progress_->setValue(percent);
     progressText_->show(tr("%1 %, asked for by %2").arg(percent).arg(activity->requester));
-    cancel_->setEnabled(frame.control.covers(frame.agents[place.agent].status.name, path_));
 }
 
 QString CommandCard::whyNotRun() const {
@@ -214,16 +231,38 @@ void CommandCard::ask() {
 }
 
 void CommandCard::send() {
-    isSending_ = !command_.isLong;
-    decide();
-    outcome_->hide();
     commands_.send(path_, command_.name, arguments(), command_.isLong ? longLimit : shortLimit,
-                   this, [this](const CommandOutcome& outcome) {
-                       isSending_ = false;
-                       outcome_->setText(outcomeText(outcome, &command_));
-                       outcome_->show();
-                       decide();
-                   });
+                   this, [this](const CommandOutcome&) { showOutcomes(); });
+    showOutcomes();
+}
+
+void CommandCard::cancel() {
+    cancel_->setEnabled(false);
+    commands_.send(
+        path_, "cancel", {}, shortLimit, this, [this](const CommandOutcome&) { showOutcomes(); },
+        cancelName());
+    showOutcomes();
+}
+
+// What became of the last command, and of the last that cancelled it.
+void CommandCard::showOutcomes() {
+    const Commands::Last* last = commands_.last(path_, command_.name);
+    const Commands::Last* cancelled = commands_.last(path_, cancelName());
+    const auto which = [](const Commands::Last* one) {
+        return one == nullptr ? std::string{}
+                              : std::to_string(one->number) + (one->outcome ? "+" : "-");
+    };
+    std::string all = which(last) + which(cancelled);
+    if (all == shown_) return;
+    shown_ = std::move(all);
+    isSending_ = last != nullptr && !last->outcome && !command_.isLong;
+    outcome_->setVisible(last != nullptr && last->outcome);
+    if (last != nullptr && last->outcome) outcome_->setText(outcomeText(*last->outcome, &command_));
+    cancelled_->setVisible(cancelled != nullptr && cancelled->outcome);
+    if (cancelled != nullptr && cancelled->outcome) {
+        cancelled_->setText(tr("Cancel: %1").arg(outcomeText(*cancelled->outcome)));
+    }
+    decide();
 }
 
 void CommandCard::keyPressEvent(QKeyEvent* event) {

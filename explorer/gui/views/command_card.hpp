@@ -17,7 +17,8 @@ class TextLabel;
 class ValueField;
 
 // One command of a simplex as a form: what it does, a field for each parameter, Run with the reason
-// why not, progress and Cancel of a long one, what became of the last.
+// why not, progress and Cancel of a long one, what became of the last: also of one that was sent
+// before this form was made.
 class CommandCard : public QWidget {
     Q_OBJECT
 public:
@@ -38,17 +39,22 @@ private:
     void decide();
     void ask();
     void send();
+    void cancel();
+    void refreshProgress(const AgentFrame& agent, std::uint32_t simplex);
+    void showOutcomes();
+    std::string cancelName() const { return "cancel " + command_.name; }
 
     Commands& commands_;
     std::string path_;
     Command command_;  // a copy: the agent's types may go
     QString whyNot_;   // from outside of the form
-    bool isSending_ = false;
+    bool isSending_ = false, runs_ = false;
+    std::string shown_;  // which outcomes are shown
     std::vector<ValueField*> fields_;
     QPushButton *run_, *cancel_;
-    TextLabel *reason_, *progressText_;
+    TextLabel *reason_, *progressText_, *whyNotCancel_;
     QProgressBar* progress_;
-    QLabel* outcome_;
+    QLabel *outcome_, *cancelled_;
 };
 
 }  // namespace cortex::explorer

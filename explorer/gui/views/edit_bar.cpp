@@ -3,10 +3,13 @@
 
 #include "model/outcome_text.hpp"
 #include "model/permission.hpp"
+#include "model/plain_text.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QHBoxLayout>
 #include <QPushButton>
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace cortex::explorer {
@@ -53,15 +56,29 @@ EditBar::EditBar(Commands& commands, ItemModel& items, QWidget* parent)
 void EditBar::show(const std::string& path) {
     if (path == path_) return;
     path_ = path;
+    frame_ = nullptr;
     items_.clearEdits();
+    sayLast();
+}
+
+// What became of the last set here, also of one that another view has sent.
+void EditBar::sayLast() {
+    if (const auto found = outcomes_.find(path_); found != outcomes_.end()) {
+        say(found->second.text, found->second.colour);
+        return;
+    }
+    const Commands::Last* last = commands_.last(path_, "set");
+    const bool failed = last != nullptr && last->outcome && !last->outcome->answer.done();
     told_->show({});
+    if (failed) say(tr("Not set: %1").arg(outcomeText(*last->outcome)), &Tokens::warnText);
 }
 
 void EditBar::refresh(const std::shared_ptr<const Frame>& frame, Place place) {
     frame_ = frame;
     place_ = place;
-    const int count = static_cast<int>(items_.edits().size());
-    const QString why = whyNot();
+    const auto edits = items_.edits();
+    const int count = static_cast<int>(edits.size());
+    const QString why = whyNot(edits);
     if (count > 0 && (!why.isEmpty() || told_->text().isEmpty())) {
         say(why.isEmpty() ? tr("Not sent yet.") : tr("Not sent: %1").arg(why), &Tokens::ink);
     }
@@ -69,14 +86,15 @@ void EditBar::refresh(const std::shared_ptr<const Frame>& frame, Place place) {
     set_->setVisible(count > 0);
     set_->setEnabled(why.isEmpty());
     discard_->setVisible(count > 0);
-    undo_->setVisible(!done_.empty() && done_.back().path == path_ && count == 0);
-    if (!done_.empty()) undo_->setToolTip(textOf(done_.back()).toHtmlEscaped());
+    const auto last = lastDone();
+    undo_->setVisible(last != done_.end() && count == 0);
+    if (last != done_.end()) undo_->setToolTip(tipText(textOf(*last)));
     setVisible(count > 0 || !told_->text().isEmpty());
 }
 
-QString EditBar::whyNot() const {
-    if (isSending_) return tr("sending");
-    for (const auto& [name, value] : items_.edits()) {
+QString EditBar::whyNot(const comms::Mirror::Arguments& items) const {
+    if (sending_.contains(path_)) return tr("sending");
+    for (const auto& [name, value] : items) {
         const DataItem* item = frame_->type(place_).findData(name);
         if (item == nullptr) return tr("%1 is gone").arg(QString::fromStdString(name));
         const QString why = whyNotNow(*frame_, place_, item->settable);
@@ -86,9 +104,11 @@ QString EditBar::whyNot() const {
 }
 
 void EditBar::submit() {
-    if (items_.edits().empty() || frame_ == nullptr || !whyNot().isEmpty()) return;
+    if (frame_ == nullptr) return;
+    const auto edits = items_.edits();
+    if (edits.empty() || !whyNot(edits).isEmpty()) return;
     Done change{path_, {}, {}};
-    for (const auto& [name, value] : items_.edits()) {
+    for (const auto& [name, value] : edits) {
         const auto before = valueNow(*frame_, path_, name);
         if (before) change.before[name] = *before;
         change.after[name] = value;
@@ -98,26 +118,40 @@ void EditBar::submit() {
 
 void EditBar::discard() {
     items_.clearEdits();
+    outcomes_.erase(path_);
     told_->show({});
 }
 
+EditBar::Changes::iterator EditBar::lastDone() {
+    const auto found = std::ranges::find_if(
+        done_.rbegin(), done_.rend(), [this](const Done& each) { return each.path == path_; });
+    return found == done_.rend() ? done_.end() : std::prev(found.base());
+}
+
 void EditBar::undo() {
-    if (done_.empty() || isSending_ || frame_ == nullptr) return;
-    Done change = std::move(done_.back());
-    done_.pop_back();
-    for (const auto& [name, value] : change.after) {
-        if (valueNow(*frame_, change.path, name) == value) continue;
-        say(tr("Not undone: somebody else has set %1 since.").arg(QString::fromStdString(name)),
-            &Tokens::warnText);
+    const auto found = lastDone();
+    if (found == done_.end() || frame_ == nullptr) return;
+    for (const auto& [name, value] : found->after) {
+        if (valueNow(*frame_, path_, name) == value) continue;
+        tell(path_,
+             tr("Not undone: somebody else has set %1 since.").arg(QString::fromStdString(name)),
+             &Tokens::warnText);
+        done_.erase(found);
         return;
     }
+    if (const QString why = whyNot(found->after); !why.isEmpty()) {
+        say(tr("Not undone: %1").arg(why), &Tokens::warnText);
+        return;
+    }
+    Done change = std::move(*found);
+    done_.erase(found);
     std::swap(change.before, change.after);
     send(std::move(change), true);
 }
 
 void EditBar::send(Done change, bool undoes) {
-    isSending_ = true;
-    say(tr("sending"), &Tokens::ink);
+    sending_.insert(change.path);
+    tell(change.path, tr("sending"), &Tokens::ink);
     auto arguments = change.after;
     const std::string path = change.path;
     commands_.send(path, "set", std::move(arguments), setLimit, this,
@@ -127,9 +161,10 @@ void EditBar::send(Done change, bool undoes) {
 }
 
 void EditBar::answered(const Done& change, bool undoes, const CommandOutcome& outcome) {
-    isSending_ = false;
+    sending_.erase(change.path);
     if (!outcome.answer.done()) {
-        say(tr("Not set: %1").arg(outcomeText(outcome)), &Tokens::warnText);
+        tell(change.path, tr("Not set: %1").arg(outcomeText(outcome)), &Tokens::warnText);
+        if (undoes) done_.push_back({change.path, change.after, change.before});
         return;
     }
     if (!undoes) {
@@ -137,7 +172,8 @@ void EditBar::answered(const Done& change, bool undoes, const CommandOutcome& ou
         if (change.before.size() == change.after.size()) done_.push_back(change);
         if (done_.size() > mostUndone) done_.erase(done_.begin());
     }
-    say((undoes ? tr("Undone: %1") : tr("Set: %1")).arg(textOf(change)), &Tokens::ink);
+    tell(change.path, (undoes ? tr("Undone: %1") : tr("Set: %1")).arg(textOf(change)),
+         &Tokens::ink);
 }
 
 QString EditBar::textOf(const Done& change) {
@@ -148,6 +184,11 @@ QString EditBar::textOf(const Done& change) {
         parts << QString::fromStdString(name + " " + was + " → " + toText(value));
     }
     return parts.join(QStringLiteral(", "));
+}
+
+void EditBar::tell(const std::string& path, const QString& text, QColor Tokens::* colour) {
+    outcomes_[path] = {text, colour};
+    if (path == path_) say(text, colour);
 }
 
 void EditBar::say(const QString& text, QColor Tokens::* colour) {

@@ -5,6 +5,9 @@
 #include "session/commands.hpp"
 
 #include <QWidget>
+#include <map>
+#include <set>
+#include <string>
 #include <vector>
 
 class QPushButton;
@@ -24,7 +27,8 @@ public:
     void refresh(const std::shared_ptr<const Frame>& frame, Place place);
     void submit();
     void discard();
-    // Sets what it was before, unless somebody else has set it since.
+    // Sets what was set last here as it was before, unless somebody else has set it since. It needs
+    // what setting needs; without it, it can be undone later.
     void undo();
 
 private:
@@ -33,10 +37,20 @@ private:
         std::string path;
         comms::Mirror::Arguments before, after;
     };
-    QString whyNot() const;
+    struct Told {
+        QString text;
+        QColor Tokens::* colour;
+    };
+    using Changes = std::vector<Done>;
+
+    QString whyNot(const comms::Mirror::Arguments& items) const;
+    Changes::iterator lastDone();  // of what is shown
     void send(Done change, bool undoes);
     void answered(const Done& change, bool undoes, const CommandOutcome& outcome);
+    // What became of a set stays with its simplex.
+    void tell(const std::string& path, const QString& text, QColor Tokens::* colour);
     void say(const QString& text, QColor Tokens::* colour);
+    void sayLast();
     static QString textOf(const Done& change);
 
     Commands& commands_;
@@ -44,8 +58,9 @@ private:
     std::shared_ptr<const Frame> frame_;
     Place place_;
     std::string path_;
-    bool isSending_ = false;
-    std::vector<Done> done_;  // newest last
+    std::set<std::string> sending_;  // paths
+    std::map<std::string, Told> outcomes_;
+    Changes done_;  // newest last
     TextLabel* told_;
     QPushButton *set_, *discard_, *undo_;
 };

@@ -3,6 +3,7 @@
 
 #include "model/outcome_text.hpp"
 #include "model/permission.hpp"
+#include "model/plain_text.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QGridLayout>
@@ -35,12 +36,18 @@ LifeCycleBar::LifeCycleBar(Commands& commands, QWidget* parent)
         each.reason->setAlignment(Qt::AlignLeft | Qt::AlignTop);
         grid->addWidget(each.button, 0, i);
         grid->addWidget(each.reason, 1, i);
-        connect(each.button, &QPushButton::clicked, this,
-                [this, &each] { send(each.command, each.button->text()); });
+        connect(each.button, &QPushButton::clicked, this, [this, &each] {
+            commands_.send(path_, each.command, {}, transitionLimit, this,
+                           [this](const CommandOutcome&) { tell(); });
+            tell();
+        });
     }
 }
 
-void LifeCycleBar::show(const std::string& path) { path_ = path; }
+void LifeCycleBar::show(const std::string& path) {
+    path_ = path;
+    tell();
+}
 
 // All are as wide as the longest title, so that none is cut in any language or size of text.
 void LifeCycleBar::fit() {
@@ -60,6 +67,7 @@ void LifeCycleBar::refresh(const Frame& frame, Place place) {
     setVisible(shown);
     if (!shown) return;
     fit();
+    tell();
     for (Button& each : buttons_) {
         const auto command = std::ranges::find(type.commands, each.command, &Command::name);
         const QString why = command == type.commands.end()
@@ -67,17 +75,28 @@ void LifeCycleBar::refresh(const Frame& frame, Place place) {
                                 : whyNotNow(frame, place, command->available);
         each.button->setEnabled(why.isEmpty());
         each.reason->show(why);
-        each.reason->setToolTip(why.toHtmlEscaped());
+        each.reason->setToolTip(tipText(why));
     }
 }
 
-void LifeCycleBar::send(const std::string& command, const QString& title) {
-    Q_EMIT told(tr("%1: sending").arg(title));
-    commands_.send(path_, command, {}, transitionLimit, this,
-                   [this, title, path = path_](const CommandOutcome& outcome) {
-                       if (path != path_) return;  // another simplex is shown by now
-                       Q_EMIT told(tr("%1: %2").arg(title, outcomeText(outcome)));
-                   });
+// What became of the last one stays with its simplex, whoever sent it from this window.
+void LifeCycleBar::tell() {
+    const Commands::Last* newest = nullptr;
+    QString title;
+    for (const Button& each : buttons_) {
+        const Commands::Last* last = commands_.last(path_, each.command);
+        if (last == nullptr || (newest != nullptr && newest->number > last->number)) continue;
+        newest = last;
+        title = each.button->text();
+    }
+    QString text;
+    if (newest != nullptr) {
+        text = newest->outcome ? tr("%1: %2").arg(title, outcomeText(*newest->outcome))
+                               : tr("%1: sending").arg(title);
+    }
+    if (text == told_) return;
+    told_ = text;
+    Q_EMIT told(text);
 }
 
 }  // namespace cortex::explorer

@@ -22,7 +22,7 @@ public:
     void refresh(const Frame& frame, Place place);
 
 Q_SIGNALS:
-    void told(const QString& outcome);  // of the last one
+    void told(const QString& outcome);  // of the last one to what is shown; empty: none was sent
 
 private:
     void fit();
@@ -31,10 +31,11 @@ private:
         QPushButton* button;
         TextLabel* reason;
     };
-    void send(const std::string& command, const QString& title);
+    void tell();
 
     Commands& commands_;
     std::string path_;
+    QString told_;
     std::array<Button, 3> buttons_;
     int width_ = 0;  // of each button, px
 };

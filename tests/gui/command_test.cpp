@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// What became of a command stays with its simplex, with a real agent over DDS.
+#include "gui/window_fixture.hpp"
+#include "views/command_card.hpp"
+#include "views/edit_bar.hpp"
+#include "views/life_cycle_bar.hpp"
+#include "widgets/text_label.hpp"
+#include "window/control_bar.hpp"
+
+#include <QLabel>
+#include <QPushButton>
+
+namespace cortex::test {
+namespace {
+
+// A move of minutes.
+const std::string longWay = "pose=1e5 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0";
+
+class Commanding : public Window {
+protected:
+    Commanding() : Window{"AxisPoseController"} {}
+
+    bool takes(const std::string& prefix) {
+        session.takeControl(prefix);
+        return comes([&] { return window.control().prefix() == prefix; });
+    }
+    void shows(const std::string& path, const char* part) {
+        window.open(path);
+        window.openPart(part);
+        window.refresh();
+    }
+    CommandCard& card(const std::string& command) {
+        for (auto* each : window.current()->findChildren<CommandCard*>()) {
+            if (each->command().name == command) return *each;
+        }
+        throw std::runtime_error{"no such command"};
+    }
+    static QPushButton& button(const QWidget& below, const QString& text) {
+        for (auto* each : below.findChildren<QPushButton*>()) {
+            if (each->text() == text) return *each;
+        }
+        throw std::runtime_error{"no such button"};
+    }
+    static bool says(const QWidget& widget, const QString& text) {
+        const auto labels = widget.findChildren<QLabel*>();
+        return std::ranges::any_of(labels, [&](const auto* each) {
+            return !each->isHidden() && each->text().contains(text);
+        });
+    }
+    bool movesForLong() {
+        EXPECT_EQ(live({"call", "/mixer", "startup"}).exit, 0);
+        EXPECT_EQ(live({"set", "/controller", longWay}).exit, 0);
+        other.emplace(std::vector<std::string>{CORTEX_BINARY_DIR "/bin/cortex", "call",
+                                               "/controller", "moveTo", "speedShare=0.01",
+                                               "--timeout", "100"} +
+                      network);
+        shows("/controller", "commands");
+        return comes([this] { return button(card("moveTo"), "Cancel").isVisible(); });
+    }
+    // Some frames after this one.
+    bool goesOn() {
+        const std::uint64_t now = session.frame()->number;
+        return comes([&] {
+            window.refresh();
+            return session.frame()->number > now + 5;
+        });
+    }
+
+    std::optional<Background> other;
+};
+
+TEST_F(Commanding, AFormThatComesBackShowsWhatBecameOfItsCommand) {
+    ASSERT_TRUE(everythingComes());
+    shows("/drive", "commands");
+    ASSERT_TRUE(takes("/drive"));
+    window.refresh();
+    card("startup").run();
+    ASSERT_TRUE(comes([this] { return says(card("startup"), "Done  "); }));
+    shows("/controller", "commands");
+    EXPECT_FALSE(says(card("startup"), "Done  ")) << "that was another simplex";
+    shows("/drive", "commands");
+    EXPECT_TRUE(says(card("startup"), "Done  "));
+}
+
+TEST_F(Commanding, ThatACommandMayHaveBeenExecutedIsNotLostByLookingAtSomethingElse) {
+    ASSERT_TRUE(everythingComes());
+    shows("/drive", "commands");
+    ASSERT_TRUE(takes("/drive"));
+    window.refresh();
+    agent->send(SIGSTOP);
+    button(*window.current()->findChild<LifeCycleBar*>(), "Startup").click();
+    shows("/controller", "commands");
+    ASSERT_TRUE(comes([this] { return session.frame()->agents.front().lost(); }));
+    ASSERT_TRUE(goesOn());
+    EXPECT_FALSE(says(*window.current(), "may have been executed"));
+    shows("/drive", "commands");
+    EXPECT_TRUE(says(*window.current(), "Startup: No answer came."));
+    EXPECT_TRUE(says(card("startup"), "The command may have been executed."));
+}
+
+TEST_F(Commanding, CancelNeedsNoControlAndItsAnswerIsShown) {
+    ASSERT_TRUE(everythingComes());
+    ASSERT_TRUE(movesForLong());
+    ASSERT_FALSE(window.control().holds());
+    QPushButton& cancel = button(card("moveTo"), "Cancel");
+    ASSERT_TRUE(cancel.isEnabled()) << "agents let everybody cancel, as they let everybody stop";
+    cancel.click();
+    EXPECT_TRUE(comes([this] { return says(card("moveTo"), "Cancel: Done  "); }));
+    EXPECT_TRUE(comes([&] { return !cancel.isVisible(); }));
+}
+
+class Undoing : public Commanding {
+protected:
+    bool sets() {
+        shows("/drive", "data");
+        if (!takes("/drive")) return false;
+        if (!comes([this] { return valueOf("dampingRatio") == "0.9"; })) return false;
+        auto& items = *window.current()->findChild<ItemTable*>()->model();
+        for (int group = 0; group < items.rowCount(); ++group) {
+            const QModelIndex above = items.index(group, 0);
+            for (int row = 0; row < items.rowCount(above); ++row) {
+                if (items.index(row, ItemModel::Name, above).data() != "dampingRatio") continue;
+                items.setData(items.index(row, ItemModel::Value, above), "0.75");
+            }
+        }
+        window.refresh();
+        bar().submit();
+        return comes([this] { return says(bar(), "Set: dampingRatio 0.9 → 0.75"); }) &&
+               comes([this] { return valueOf("dampingRatio") == "0.75"; });
+    }
+    EditBar& bar() { return *window.current()->findChild<EditBar*>(); }
+    static std::string ofTheAgent() { return live({"show", "/drive"}).output; }
+};
+
+TEST_F(Undoing, SendsNothingWithoutControlAndCanStillBeDoneWithIt) {
+    ASSERT_TRUE(everythingComes());
+    ASSERT_TRUE(sets());
+    session.releaseControl();
+    ASSERT_TRUE(comes([this] { return !window.control().holds(); }));
+    window.refresh();
+    bar().undo();
+    EXPECT_TRUE(says(bar(), "Not undone: read-only: take control of /drive"));
+    ASSERT_TRUE(goesOn());
+    EXPECT_NE(ofTheAgent().find("0.75"), std::string::npos);
+    ASSERT_TRUE(takes("/drive"));
+    window.refresh();
+    bar().undo();
+    EXPECT_TRUE(comes([this] { return says(bar(), "Undone: dampingRatio 0.75 → 0.9"); }));
+}
+
+TEST_F(Undoing, SetsNothingThatIsNotShown) {
+    ASSERT_TRUE(everythingComes());
+    ASSERT_TRUE(sets());
+    shows("/controller", "data");
+    EXPECT_FALSE(says(*window.current(), "Set: dampingRatio"));
+    bar().undo();
+    ASSERT_TRUE(goesOn());
+    EXPECT_NE(ofTheAgent().find("0.75"), std::string::npos);
+    shows("/drive", "data");
+    EXPECT_TRUE(says(bar(), "Set: dampingRatio 0.9 → 0.75"));
+    bar().undo();
+    EXPECT_TRUE(comes([this] { return says(bar(), "Undone: dampingRatio 0.75 → 0.9"); }));
+}
+
+TEST_F(Undoing, AnAnswerThatComesWhileSomethingElseIsShownStaysWithItsSimplex) {
+    ASSERT_TRUE(everythingComes());
+    ASSERT_TRUE(sets());
+    agent->send(SIGSTOP);
+    bar().undo();
+    shows("/controller", "data");
+    ASSERT_TRUE(comes([this] { return session.frame()->agents.front().lost(); }));
+    ASSERT_TRUE(goesOn());
+    EXPECT_FALSE(says(*window.current(), "may have been executed"));
+    shows("/drive", "data");
+    EXPECT_TRUE(says(bar(), "The command may have been executed."));
+}
+
+}  // namespace
+}  // namespace cortex::test
