@@ -7,6 +7,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
+#include <QRegularExpression>
 
 #include <QtTest/QTest>
 
@@ -78,13 +79,36 @@ TEST_F(Stopping, AKeyThatIsHeldDownIsOnePress) {
     EXPECT_TRUE(window.stopButton().progress().isEmpty());
 }
 
-TEST_F(Stopping, NamesWhoIsNotHeard) {
+TEST_F(Stopping, IsSentAgainUntilAnAgentThatWasNotHeardHasIt) {
+    ASSERT_TRUE(everythingRuns());
+    agent->send(SIGSTOP);
+    ASSERT_TRUE(comes([this] { return session.frame()->agents.front().lost(); }));
+    window.stopButton().click();
+    EXPECT_TRUE(says("Stopping all: 0 of 2 in Standby; not heard: mixer"))
+        << window.stopButton().progress().toStdString();
+    agent->send(SIGCONT);
+    EXPECT_TRUE(everythingStops());
+    EXPECT_TRUE(says("All 2 in Standby, ")) << window.stopButton().progress().toStdString();
+}
+
+TEST_F(Stopping, NamesWhoWasNotReached) {
     ASSERT_TRUE(everythingRuns());
     agent->end(SIGKILL);
     ASSERT_TRUE(comes([this] { return session.frame()->agents.front().lost(); }));
     window.stopButton().click();
-    EXPECT_TRUE(says("Nothing was stopped: mixer is not heard."))
+    EXPECT_TRUE(says("Not reached: mixer")) << window.stopButton().progress().toStdString();
+}
+
+TEST_F(Stopping, ItsResultNamesWhenAndGoesWhenStatesNoLongerAgree) {
+    ASSERT_TRUE(everythingRuns());
+    window.stopButton().click();
+    ASSERT_TRUE(says("All 2 in Standby, "));
+    EXPECT_TRUE(QRegularExpression{R"( s, \d\d:\d\d:\d\d$)"}
+                    .match(window.stopButton().progress())
+                    .hasMatch())
         << window.stopButton().progress().toStdString();
+    ASSERT_EQ(live({"call", "/mixer", "startup"}).exit, 0);
+    EXPECT_TRUE(comes([this] { return window.stopButton().progress().isEmpty(); }));
 }
 
 TEST(StoppingAlone, SaysThatNobodyIsHeard) {

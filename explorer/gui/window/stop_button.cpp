@@ -1,40 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window/stop_button.hpp"
 
-#include "cortex/core/path.hpp"
-
 #include "model/plain_text.hpp"
-#include "session/lease.hpp"
 #include "style/look.hpp"
 
 #include <QApplication>
 #include <QKeyEvent>
 #include <QPainter>
 #include <QTimer>
-#include <algorithm>
 
 namespace cortex::explorer {
 
 namespace {
 
 constexpr int secondPress = 1000;  // ms
-constexpr int lastValues = 1000;   // ms after the last answer, until states are told too
-constexpr int mostNamed = 3;
 const std::string everything{"/"};
-
-bool isStoppable(const SimplexInfo& info, const std::string& prefix) {
-    const Type& type = *info.layout->type;
-    return !info.remote && type.active() && !type.isA("Agent") && isAtOrBelow(info.path, prefix);
-}
 
 }  // namespace
 
 StopButton::StopButton(Session& session, QWidget* parent)
-    : QAbstractButton{parent}, session_{session} {
+    : QAbstractButton{parent}, order_{session} {
     showScope();
-    setToolTip(tipText(
-        tr("Shuts down every simplex below the path that stands on it, of every agent that is "
-           "heard. It is no emergency stop: the network, and the agents, must work.")));
+    setToolTip(
+        tipText(tr("Shuts down every simplex below the path that stands on it, of every agent that "
+                   "is known. It is no emergency stop: the network, and the agents, must work.")));
     setFocusPolicy(Qt::StrongFocus);
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
     connect(this, &QAbstractButton::clicked, this, &StopButton::stop);
@@ -79,34 +68,8 @@ void StopButton::showScope() {
 void StopButton::stop() {
     armed_.invalidate();
     showScope();
-    const auto frame = session_.frame();
-    stopped_ = scopeWord();
-    stopping_.clear();
-    unanswered_.clear();
-    refusals_.clear();
-    since_.start();
-    answered_.start();
-    for (const AgentFrame& agent : frame->agents) {
-        if (agent.structure && !hasBelow(agent, prefix_)) continue;
-        if (agent.lost()) {
-            refusals_ << tr("%1 is not heard").arg(QString::fromStdString(agent.status.name));
-            continue;
-        }
-        unanswered_.push_back(
-            session_.send("/" + agent.status.name, "shutdown", {{"prefix", prefix_}}));
-        if (!agent.structure) continue;
-        for (const SimplexInfo& info : agent.structure->simplexes) {
-            if (isStoppable(info, prefix_)) stopping_.push_back(info.path);
-        }
-    }
-    active_ = true;
-    if (unanswered_.empty()) {
-        active_ = false;
-        say(refusals_.isEmpty() ? tr("Nobody is heard: nothing was stopped.")
-                                : tr("Nothing was stopped: %1.").arg(refusals_.join(", ")));
-        return;
-    }
-    countStates(*frame);
+    order_.begin(prefix_, scopeWord());
+    tell();
 }
 
 void StopButton::refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes) {
@@ -118,50 +81,14 @@ void StopButton::refresh(const Frame& frame, const std::vector<CommandOutcome>& 
         armed_.invalidate();
         showScope();
     }
-    for (const CommandOutcome& each : outcomes) {
-        if (std::erase(unanswered_, each.number) == 0 || each.answer.done()) continue;
-        const std::string why = each.problem.empty() ? each.answer.text() : each.problem;
-        refusals_ << tr("%1: %2").arg(QString::fromStdString(each.path.substr(1)),
-                                      QString::fromStdString(why));
-    }
-    if (!unanswered_.empty()) answered_.restart();
-    if (active_) countStates(frame);
+    order_.refresh(frame, outcomes);
+    tell();
 }
 
-// What is in Standby, and in the end what is not and why.
-void StopButton::countStates(const Frame& frame) {
-    QStringList others;
-    int left = 0;
-    for (const std::string& path : stopping_) {
-        const auto place = frame.find(path);
-        const auto state = place ? frame.agents[place->agent].state(place->simplex) : std::nullopt;
-        if (state == State::Standby) continue;
-        ++left;
-        if (others.size() < mostNamed) {
-            others << tr("%1 (%2)").arg(
-                QString::fromStdString(path),
-                state ? QString{QLatin1String{name(*state)}} : tr("not heard"));
-        }
-    }
-    const auto all = static_cast<int>(stopping_.size());
-    const QString seconds = QString::number(static_cast<double>(since_.elapsed()) / 1000, 'f', 1);
-    if (!unanswered_.empty() || (left > 0 && !answered_.hasExpired(lastValues))) {
-        say(tr("Stopping %1: %2 of %3 in Standby").arg(stopped_).arg(all - left).arg(all));
-        return;
-    }
-    active_ = false;
-    if (left > 0) {
-        if (left > mostNamed) others << QStringLiteral("…");
-        refusals_.prepend(tr("%1 did not follow: %2").arg(left).arg(others.join(", ")));
-    }
-    say(refusals_.isEmpty() ? tr("All %1 in Standby, %2 s").arg(all).arg(seconds)
-                            : refusals_.join(QStringLiteral("; ")));
-}
-
-void StopButton::say(const QString& progress) {
-    if (progress == progress_) return;
-    progress_ = progress;
-    Q_EMIT told(progress);
+void StopButton::tell() {
+    if (told_ == order_.text()) return;
+    told_ = order_.text();
+    Q_EMIT told(told_);
 }
 
 void StopButton::paintEvent(QPaintEvent* /*event*/) {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/session.hpp"
+
+#include <QElapsedTimer>
+#include <QString>
+#include <QStringList>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cortex::explorer {
+
+// One stop of everything at and below a path. Every agent that has something there is told, also
+// one that is not heard just now: again until it answers, for at most ten seconds.
+class StopOrder {
+public:
+    explicit StopOrder(Session& session) : session_{session} {}
+
+    void begin(const std::string& prefix, const QString& scope);  // `scope`: the path in words
+    void refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes);
+    // "Stopping all: 9 of 14 in Standby", "All 14 in Standby, 0.4 s, 12:05:07", "2 did not follow:
+    // …", "Not reached: robot". Empty before the first, and once states no longer agree with it.
+    const QString& text() const { return text_; }
+
+private:
+    struct Told {
+        std::string agent;
+        std::uint64_t number = 0;  // of the command that is on its way; 0: none
+        bool answered = false;
+        QElapsedTimer sent{};
+    };
+    using State = std::optional<cortex::State>;  // none: it is not known now
+
+    void send(Told& told);
+    void take(const CommandOutcome& outcome);
+    void count(const Frame& frame);
+    void finish(const Frame& frame);
+    QString notFollowed(const Frame& frame) const;
+    QStringList unanswered(const Frame& frame, bool lostOnly) const;
+    State stateOf(const Frame& frame, const std::string& path) const;
+    bool wasReached(const Frame& frame, const std::string& path) const;
+    bool agrees(const Frame& frame) const;
+
+    Session& session_;
+    std::string prefix_;
+    QString scope_, text_;
+    bool active_ = false;             // until it is known what followed
+    QElapsedTimer since_, answered_;  // since it began, since the last answer
+    std::vector<Told> told_;
+    std::vector<std::string> paths_;      // that are to reach Standby
+    QStringList refusals_;                // "robot: …"
+    std::map<std::string, State> ended_;  // the states that its result is about
+};
+
+}  // namespace cortex::explorer
