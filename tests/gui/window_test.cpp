@@ -4,6 +4,8 @@
 #include "model/item_model.hpp"
 #include "style/look.hpp"
 #include "views/base_view.hpp"
+#include "views/event_list.hpp"
+#include "views/event_table.hpp"
 #include "views/graph_canvas.hpp"
 #include "views/graph_view.hpp"
 #include "views/system_tree.hpp"
@@ -16,6 +18,7 @@
 #include <QElapsedTimer>
 #include <QImage>
 #include <QKeyEvent>
+#include <QLineEdit>
 #include <csignal>
 #include <functional>
 
@@ -114,6 +117,25 @@ TEST_F(Window, FiltersByTheValuesThatAreThere) {
     EXPECT_FALSE(finds("state<1furlong", path)) << "a unit that the item does not have";
     EXPECT_FALSE(finds("outside", path));
     window.tree().filter({});
+}
+
+TEST_F(Window, ShowsEventsInATabInPlaceOfTheStripWithTheSameFilter) {
+    ASSERT_TRUE(everythingComes());
+    ASSERT_EQ(live({"call", "/mixer", "startup"}).exit, 0);
+    const auto* strip = window.findChild<EventList*>();
+    EXPECT_TRUE(strip->isVisible());
+    window.openEvents();
+    EXPECT_FALSE(strip->isVisible());
+    const auto& rows = *window.current()->findChild<EventTable*>()->model();
+    EXPECT_TRUE(comes([&] { return rows.rowCount() > 4; }));
+    window.current()->findChild<QLineEdit*>()->setText("in:/drive kind:\"state change\"");
+    ASSERT_GT(rows.rowCount(), 0);
+    for (int row = 0; row < rows.rowCount(); ++row) {
+        EXPECT_EQ(rows.index(row, EventModel::Path).data(), "/drive");
+    }
+    window.open("/drive");
+    EXPECT_TRUE(strip->isVisible());
+    EXPECT_EQ(strip->findChild<EventTable*>()->model()->rowCount(), rows.rowCount());
 }
 
 // Labels end with … only where their text is whole in the tooltip.

@@ -3,67 +3,117 @@
 
 #include "model/plain_text.hpp"
 
-#include <QDateTime>
-#include <QTimeZone>
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 namespace cortex::explorer {
 
 namespace {
 
-bool sameBut(const comms::AgentEvent& a, const comms::AgentEvent& b) {
-    return a.text == b.text && a.path == b.path && a.kind == b.kind && a.agent == b.agent &&
-           a.severity == b.severity;
-}
+constexpr std::size_t mostOpen = 10'000, mostKinds = 64, mostStarts = 10'000;
 
-QString timeText(std::int64_t wallClock) {
-    return QDateTime::fromMSecsSinceEpoch(wallClock / 1'000'000, QTimeZone::utc())
-        .toString(QStringLiteral("HH:mm:ss.zzz"));
-}
-
-// What comes from outside is text: no line breaks, no control characters.
-QString plain(const std::string& text) {
-    QString result = QString::fromStdString(text);
-    for (QChar& c : result) {
-        if (!c.isPrint()) c = ' ';
-    }
-    return result;
-}
+std::size_t heldBy(const EventRow& row) { return 1 + row.others.size(); }
 
 }  // namespace
 
 void EventModel::add(std::vector<comms::AgentEvent> events) {
     if (events.empty()) return;
     count_ += events.size();
-    std::ranges::sort(events, {}, [](const comms::AgentEvent& each) {
-        return std::tie(each.wallClock, each.agent, each.number);
-    });
-    std::vector<Row> fresh;
+    std::vector<EventRow> fresh;
+    std::set<std::size_t> changed;
+    for (EventRow& row : withGaps(std::move(events))) place(std::move(row), fresh, changed);
+    for (const std::size_t each : changed) {
+        const auto row = static_cast<int>(each);
+        Q_EMIT dataChanged(index(row, 0), index(row, ColumnCount - 1));
+    }
+    append(std::move(fresh));
+    drop();
+}
+
+// As they came, an agent's numbers rise by one; the rows are by time.
+std::vector<EventRow> EventModel::withGaps(std::vector<comms::AgentEvent> events) {
+    std::vector<EventRow> rows;
+    rows.reserve(events.size());
     for (comms::AgentEvent& event : events) {
-        Row* last = !fresh.empty() ? &fresh.back() : !rows_.empty() ? &rows_.back() : nullptr;
-        if (last != nullptr && sameBut(last->event, event)) {
-            ++last->times;
-            last->event.wallClock = event.wallClock;
-        } else {
-            fresh.push_back({std::move(event), 1});
+        if (last_.size() > mostStarts) last_.clear();
+        const auto [last, isFirst] = last_.try_emplace(Start{event.agent, event.epoch});
+        comms::AgentEvent& before = last->second;
+        if (!isFirst && event.number > before.number + 1) {
+            rows.push_back(EventRow::gap(before, event.number - before.number - 1));
         }
+        if (isFirst || event.number > before.number) {
+            before = event;
+            before.text.clear();
+        }
+        rows.emplace_back(std::move(event));
     }
-    if (!rows_.empty()) {
-        const auto last = static_cast<int>(rows_.size()) - 1;
-        Q_EMIT dataChanged(index(last, 0), index(last, ColumnCount - 1));
+    std::ranges::stable_sort(rows, {}, [](const EventRow& each) {
+        return std::tie(each.event.wallClock, each.event.agent, each.event.number);
+    });
+    return rows;
+}
+
+void EventModel::place(EventRow row, std::vector<EventRow>& fresh, std::set<std::size_t>& changed) {
+    if (row.mayFold()) {
+        const std::uint64_t next = first_ + rows_.size() + fresh.size();
+        const auto [open, isNew] = open_.try_emplace(row.key(), next);
+        if (!isNew && open->second >= first_) {
+            const std::size_t at = open->second - first_;
+            EventRow& other = at < rows_.size() ? rows_[at] : fresh[at - rows_.size()];
+            if (other.takes(row.event)) {
+                const std::size_t held = heldBy(other);
+                other.take(std::move(row.event));
+                if (at < rows_.size()) {
+                    held_ += heldBy(other) - held;
+                    changed.insert(at);
+                }
+                return;
+            }
+        }
+        open->second = next;
     }
+    row.matches = query_.matches(row.event);
+    row.kind = kindOf(row.event.kind);
+    fresh.push_back(std::move(row));
+}
+
+void EventModel::append(std::vector<EventRow> fresh) {
+    if (open_.size() > mostOpen) open_.clear();
     if (fresh.empty()) return;
+    for (const EventRow& each : fresh) held_ += heldBy(each);
     const auto first = static_cast<int>(rows_.size());
     beginInsertRows({}, first, first + static_cast<int>(fresh.size()) - 1);
     rows_.insert(rows_.end(), std::make_move_iterator(fresh.begin()),
                  std::make_move_iterator(fresh.end()));
     endInsertRows();
-    if (rows_.size() <= kept) return;
-    const auto gone = static_cast<int>(rows_.size() - kept);
-    beginRemoveRows({}, 0, gone - 1);
-    rows_.erase(rows_.begin(), rows_.begin() + gone);
+}
+
+void EventModel::drop() {
+    std::size_t gone = 0;
+    while (held_ > kept && gone + 1 < rows_.size()) {
+        const EventRow& row = rows_[gone++];
+        held_ -= heldBy(row);
+        dropped_ += row.isGap() ? 0 : row.times;
+    }
+    if (gone == 0) return;
+    beginRemoveRows({}, 0, static_cast<int>(gone) - 1);
+    rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(gone));
+    first_ += gone;
     endRemoveRows();
+}
+
+void EventModel::search(EventQuery query) {
+    query_ = std::move(query);
+    for (EventRow& each : rows_) each.matches = query_.matches(each.event);
+}
+
+// What agents call a kind is theirs; beyond a number that no agent has, all are one kind.
+std::size_t EventModel::kindOf(const std::string& kind) {
+    const auto found = std::ranges::find(kinds_, kind);
+    if (found != kinds_.end()) return static_cast<std::size_t>(found - kinds_.begin());
+    if (kinds_.size() < mostKinds) kinds_.push_back(kind);
+    return kinds_.size() - 1;
 }
 
 int EventModel::rowCount(const QModelIndex& parent) const {
@@ -75,38 +125,38 @@ int EventModel::columnCount(const QModelIndex& /*parent*/) const { return Column
 QVariant EventModel::data(const QModelIndex& index, int role) const {
     const bool texts = role == Qt::DisplayRole || role == Qt::AccessibleTextRole;
     if (!index.isValid() || (!texts && role != Qt::ToolTipRole)) return {};
-    const Row& row = rows_[static_cast<std::size_t>(index.row())];
+    const EventRow& row = at(index.row());
     const comms::AgentEvent& event = row.event;
-    const QString times = row.times > 1 ? QStringLiteral("×%1  ").arg(row.times) : QString{};
-    if (role == Qt::ToolTipRole) return tipText(plain(event.text));
+    if (role == Qt::ToolTipRole) return tipText(row.text());
     switch (index.column()) {
         case Time:
-            return timeText(event.wallClock);
+            return utcText(event.wallClock, "HH:mm:ss.zzz");
         case SeverityColumn:
-            return QLatin1String{name(event.severity)};
+            return row.isGap() ? tr("missing") : QString{QLatin1String{name(event.severity)}};
+        case Kind:
+            return row.isGap() ? QString{} : plainText(event.kind);
         case Path:
-            return plain(event.path);
+            return plainText(event.path);
         case Text:
-            return times + plain(event.text);
+            return row.text();
+        case Times:
+            if (row.isGap()) return countText(row.missing);
+            return row.times > 1 ? QChar{0xD7} + countText(row.times) : QString{};
         default:
-            return plain(event.agent);
+            return plainText(event.agent);
     }
 }
 
 QVariant EventModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
-    switch (section) {
-        case Time:
-            return tr("Time (UTC)");
-        case SeverityColumn:
-            return tr("Severity");
-        case Path:
-            return tr("Simplex");
-        case Text:
-            return tr("Text");
-        default:
-            return tr("Agent");
+    if (orientation != Qt::Horizontal) return {};
+    if (role == Qt::TextAlignmentRole) {
+        const Qt::Alignment side = section == Times ? Qt::AlignRight : Qt::AlignLeft;
+        return QVariant::fromValue(side | Qt::AlignVCenter);
     }
+    if (role != Qt::DisplayRole) return {};
+    const std::array titles{tr("Time (UTC)"), tr("Severity"), tr("Kind"), tr("Path"),
+                            tr("Agent"),      tr("What"),     tr("Times")};
+    return titles[static_cast<std::size_t>(section)];
 }
 
 }  // namespace cortex::explorer

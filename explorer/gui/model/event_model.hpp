@@ -1,26 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/comms/mirror.hpp"
+#include "model/event_query.hpp"
+#include "model/event_row.hpp"
 
 #include <QAbstractTableModel>
 #include <deque>
+#include <map>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace cortex::explorer {
 
-// The events of all agents, the newest last; the same event again counts up in its row.
+// The events of all agents, the newest last. The same event again counts up in its row; where
+// numbers of an agent are missing, a row says how many.
 class EventModel : public QAbstractTableModel {
     Q_OBJECT
 public:
-    enum Column { Time, SeverityColumn, Path, Agent, Text, ColumnCount };
-    static constexpr std::size_t kept = 100'000;
+    enum Column { Time, SeverityColumn, Kind, Path, Agent, Text, Times, ColumnCount };
+    static constexpr std::size_t kept = 100'000;  // events
 
     using QAbstractTableModel::QAbstractTableModel;
 
     void add(std::vector<comms::AgentEvent> events);
-    Severity severity(int row) const { return rows_[static_cast<std::size_t>(row)].event.severity; }
-    std::uint64_t count() const { return count_; }  // of all that came
+    void search(EventQuery query);  // sets EventRow::matches; says nothing
+    const EventQuery& query() const { return query_; }
+
+    const EventRow& at(int row) const { return rows_[static_cast<std::size_t>(row)]; }
+    std::uint64_t first() const { return first_; }  // serial number of the first row; others follow
+    const std::vector<std::string>& kinds() const { return kinds_; }
+    std::uint64_t count() const { return count_; }      // of all that came
+    std::uint64_t dropped() const { return dropped_; }  // of those, no longer kept
 
     int rowCount(const QModelIndex& parent = {}) const override;
     int columnCount(const QModelIndex& parent = {}) const override;
@@ -28,12 +41,22 @@ public:
     QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
 private:
-    struct Row {
-        comms::AgentEvent event;
-        int times = 1;
-    };
-    std::deque<Row> rows_;
-    std::uint64_t count_ = 0;
+    using Start = std::pair<std::string, std::int64_t>;  // an agent's, by its epoch
+
+    std::vector<EventRow> withGaps(std::vector<comms::AgentEvent> events);
+    void place(EventRow row, std::vector<EventRow>& fresh, std::set<std::size_t>& changed);
+    void append(std::vector<EventRow> fresh);
+    void drop();
+    std::size_t kindOf(const std::string& kind);
+
+    EventQuery query_;
+    std::deque<EventRow> rows_;
+    std::uint64_t first_ = 0;                              // serial number of the first row
+    std::unordered_map<std::string, std::uint64_t> open_;  // serial number of the row of a key
+    std::map<Start, comms::AgentEvent> last_;              // events without their texts
+    std::vector<std::string> kinds_;
+    std::uint64_t count_ = 0, dropped_ = 0;
+    std::size_t held_ = 0;  // events in all rows
 };
 
 }  // namespace cortex::explorer

@@ -24,8 +24,19 @@ bool equal(std::string_view text, const QString& value) {
                .compare(value, Qt::CaseInsensitive) == 0;
 }
 
-// The words of a text; blanks between quotes do not part them.
-QStringList words(const QString& text) {
+bool isA(const Type& type, const QString& name) {
+    return equal(type.name, name) ||
+           std::ranges::any_of(type.ancestors, [&](const auto& each) { return equal(each, name); });
+}
+
+bool has(const Type& type, const QString& name) {
+    const auto named = [&](const auto& each) { return equal(each.name, name); };
+    return std::ranges::any_of(type.data, named) || std::ranges::any_of(type.commands, named);
+}
+
+}  // namespace
+
+QStringList queryWords(const QString& text) {
     QStringList result;
     QString word;
     bool quoted = false;
@@ -43,21 +54,9 @@ QStringList words(const QString& text) {
     return result;
 }
 
-bool isA(const Type& type, const QString& name) {
-    return equal(type.name, name) ||
-           std::ranges::any_of(type.ancestors, [&](const auto& each) { return equal(each, name); });
-}
-
-bool has(const Type& type, const QString& name) {
-    const auto named = [&](const auto& each) { return equal(each.name, name); };
-    return std::ranges::any_of(type.data, named) || std::ranges::any_of(type.commands, named);
-}
-
-}  // namespace
-
 Query::Query(const QString& text) {
     std::vector<Term> terms;
-    for (const QString& each : words(text)) {
+    for (const QString& each : queryWords(text)) {
         if (each == QLatin1String{"or"}) {
             if (!terms.empty()) alternatives_.push_back(std::exchange(terms, {}));
         } else {

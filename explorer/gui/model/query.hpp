@@ -5,11 +5,15 @@
 #include "session/frame.hpp"
 
 #include <QString>
+#include <QStringList>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace cortex::explorer {
+
+// The words of a text; blanks between quotes do not part them.
+QStringList queryWords(const QString& text);
 
 // What is typed into a filter: words, "texts", field:value, conditions on values, flags; blank is
 // `and`, `or` binds weaker, - is not. `is:Axis state:Active`, `position>1.5 in:/arm`,

@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
     window.openPart(options->view);
     if (options->view == "agents") window.openAgents();
     if (options->view == "system") window.openGraph();
+    if (options->view == "events") window.openEvents();
     window.show();
     return picture ? writeScreenshot(window, options->screenshot, options->timeout)
                    : QApplication::exec();

@@ -55,8 +55,8 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exit) {
                    "Folder made by `cortex security create-agent`; otherwise CORTEX_SECURITY")
         ->type_name("FOLDER");
     app.add_option("--view", options.view, "What to show at first")
-        ->check(CLI::IsMember(
-            {"simplex", "data", "relationships", "commands", "type", "system", "agents"}));
+        ->check(CLI::IsMember({"simplex", "data", "relationships", "commands", "type", "system",
+                               "agents", "events"}));
     app.add_option("--filter", options.filter, "Filter of the tree")->type_name("TEXT");
     app.add_option("--rate", options.rate,
                    "How often values are taken, in Hz; 0: in every cycle of their agent")

@@ -1,36 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "model/event_model.hpp"
+#include "model/event_filter.hpp"
 
 #include <QWidget>
 
-class QTreeView;
-
 namespace cortex::explorer {
 
+class EventTable;
 class TextLabel;
 
-// The events of all agents; it follows the newest unless the user has scrolled up.
+// The strip below the workspace: the newest events, as the filter of the window leaves them.
 class EventList : public QWidget {
     Q_OBJECT
 public:
-    explicit EventList(EventModel& events, QWidget* parent = nullptr);
+    explicit EventList(EventFilter& events, QWidget* parent = nullptr);
+
+    static QString countOf(const EventFilter& events);  // "441 of 1,652 shown; the oldest 10 are …"
 
 Q_SIGNALS:
     void opened(const std::string& path);
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
-    void follow();
     void tellCount();
 
-    EventModel& events_;
-    QTreeView* rows_;
-    TextLabel* count_;
-    bool follows_ = true;
+    EventFilter& events_;
+    EventTable* rows_;
+    TextLabel *filter_, *count_;
 };
 
 }  // namespace cortex::explorer

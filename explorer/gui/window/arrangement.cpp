@@ -29,18 +29,16 @@ Arrangement::Arrangement(QSplitter& across, QSplitter& down)
 
 QWidget& Arrangement::tree() const { return *across_.widget(0); }
 
-QWidget& Arrangement::events() const { return *down_.widget(1); }
-
-void Arrangement::fit(QSize window) {
+bool Arrangement::fit(QSize window) {
     const bool narrow = isTooSmall(window);
-    if (fitted_ && narrow == narrow_) return;
+    if (fitted_ && narrow == narrow_) return false;
     narrow_ = narrow;
     fitted_ = true;
     treeButton_->setVisible(narrow);
     tree().setVisible(!narrow);
-    events().setVisible(!narrow);
     down_.show();
     if (!narrow) share(window);
+    return true;
 }
 
 void Arrangement::share(QSize window) {
@@ -61,7 +59,5 @@ void Arrangement::showTree() {
 void Arrangement::leaveTree() {
     if (narrow_ && !tree().isHidden()) toggleTree();
 }
-
-void Arrangement::toggleEvents() { events().setVisible(events().isHidden()); }
 
 }  // namespace cortex::explorer

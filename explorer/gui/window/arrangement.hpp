@@ -10,23 +10,21 @@ class QWidget;
 namespace cortex::explorer {
 
 // How the tree, the views and the events share the window. Where it is narrow, the views have all
-// of it: the tree is a button before the tabs and takes their place, and the events are hidden.
+// of it: the tree is a button before the tabs, and takes their place.
 class Arrangement {
 public:
     // `across` holds the tree and `down`; `down` holds the views and the events.
     Arrangement(QSplitter& across, QSplitter& down);
 
     QPushButton& treeButton() { return *treeButton_; }  // shown while narrow
-    void fit(QSize window);                             // after it was resized or scaled
+    bool fit(QSize window);  // after it was resized or scaled; true: it is narrow now, or was
     bool isNarrow() const { return narrow_; }
     void toggleTree();
     void showTree();
     void leaveTree();  // something was chosen in it: the views have the place again
-    void toggleEvents();
 
 private:
     QWidget& tree() const;
-    QWidget& events() const;
     void share(QSize window);
 
     QSplitter& across_;

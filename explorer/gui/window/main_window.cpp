@@ -7,6 +7,7 @@
 #include "views/agent_table.hpp"
 #include "views/base_view.hpp"
 #include "views/event_list.hpp"
+#include "views/event_view.hpp"
 #include "views/graph_view.hpp"
 #include "views/system_tree.hpp"
 #include "widgets/text_label.hpp"
@@ -39,7 +40,7 @@ namespace {
 constexpr int framePeriod = 33;  // ms
 constexpr std::array scales{1.0, 1.25, 1.5};
 constexpr int controlLine = 3;  // px, along the top edge
-constexpr int fixedTabs = 2;    // at the end: graph and agents
+constexpr int fixedTabs = 3;    // at the end: graph, agents and events
 
 }  // namespace
 
@@ -52,7 +53,8 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       views_{new QStackedWidget},
       graph_{new GraphView},
       agents_{new AgentTable},
-      eventList_{new EventList{events_}},
+      eventView_{new EventView{eventFilter_}},
+      eventList_{new EventList{eventFilter_}},
       across_{new QSplitter{Qt::Horizontal}},
       down_{new QSplitter{Qt::Vertical}},
       status_{new StatusBar},
@@ -100,12 +102,16 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     tabs_->addTab(tr("System"));
     views_->addWidget(agents_);
     tabs_->addTab(tr("Agents"));
+    views_->addWidget(eventView_);
+    tabs_->addTab(tr("Events"));
     connect(tabs_, &QTabBar::currentChanged, views_, &QStackedWidget::setCurrentIndex);
+    connect(tabs_, &QTabBar::currentChanged, this, &MainWindow::showStrip);
     connect(tree_, &SystemTree::chosen, this, &MainWindow::open);
     connect(tree_, &SystemTree::pinned, this, &MainWindow::openTab);
     connect(tree_, &SystemTree::chosen, this, [this] { arrangement_.leaveTree(); });
     connect(tree_, &SystemTree::pinned, this, [this] { arrangement_.leaveTree(); });
     connect(eventList_, &EventList::opened, this, &MainWindow::open);
+    connect(eventView_, &EventView::opened, this, &MainWindow::open);
     connect(graph_, &GraphView::opened, this, &MainWindow::open);
     connect(control_, &ControlBar::changed, this, qOverload<>(&QWidget::update));
     addKeys();
@@ -173,11 +179,15 @@ void MainWindow::addKeys() {
                 action);
     };
     key("Ctrl+F", [this] {
+        if (current() == eventView_) return eventView_->focusFilter();
         arrangement_.showTree();
         tree_->focusFilter();
     });
     key("Ctrl+B", [this] { arrangement_.toggleTree(); });
-    key("Ctrl+E", [this] { arrangement_.toggleEvents(); });
+    key("Ctrl+E", [this] {
+        strip_ = !strip_;
+        showStrip();
+    });
     key("Ctrl+W", [this] { closeTab(tabs_->currentIndex()); });
     key("Ctrl+Shift+L", [this] { setTheme(1); });
     key("Ctrl+0", [this] { setScale(1); });
@@ -199,7 +209,7 @@ BaseView* MainWindow::addView(const std::string& path, bool closable) {
     auto* view = new BaseView{commands_};
     view->show(path);
     connect(view, &BaseView::opened, this, &MainWindow::open);
-    // Views stand before the graph and the table of agents.
+    // Views stand before the graph, the agents and the events.
     const int at = closable ? tabs_->count() - fixedTabs : 0;
     views_->insertWidget(at, view);
     tabs_->insertTab(at, path.empty() ? tr("Simplex") : QString::fromStdString(path));
@@ -223,7 +233,11 @@ void MainWindow::openTab(const std::string& path) {
     refresh();
 }
 
-void MainWindow::openAgents() { tabs_->setCurrentIndex(tabs_->count() - 1); }
+void MainWindow::openAgents() { tabs_->setCurrentIndex(tabs_->count() - fixedTabs + 1); }
+
+void MainWindow::openEvents() { tabs_->setCurrentIndex(tabs_->count() - 1); }
+
+void MainWindow::showStrip() { eventList_->setVisible(strip_ && current() != eventView_); }
 
 void MainWindow::openManual() {
     const QString section = ManualView::sectionOf(QApplication::focusWidget());
@@ -267,6 +281,7 @@ void MainWindow::refresh() {
     if (auto* view = qobject_cast<BaseView*>(current())) view->refresh(frame);
     if (current() == graph_) graph_->refresh(frame);
     if (current() == agents_) agents_->refresh(*frame);
+    if (current() == eventView_) eventView_->refresh();
 }
 
 bool MainWindow::ready() const {
@@ -335,7 +350,8 @@ void MainWindow::changeEvent(QEvent* event) {
 
 // The bar gives way before the lease or Stop would be cut.
 void MainWindow::arrange() {
-    arrangement_.fit(size());
+    if (arrangement_.fit(size())) strip_ = !arrangement_.isNarrow();
+    showStrip();
     title_->setVisible(!arrangement_.isNarrow());
     control_->setNarrow(arrangement_.isNarrow());
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "model/event_model.hpp"
+#include "model/event_filter.hpp"
 #include "session/commands.hpp"
 #include "views/manual_view.hpp"
 #include "window/arrangement.hpp"
@@ -22,6 +22,7 @@ class AgentTable;
 class BaseView;
 class ControlBar;
 class EventList;
+class EventView;
 class GraphView;
 class StatusBar;
 class StopButton;
@@ -41,6 +42,7 @@ public:
     void openManual();  // at what is said about what has the keyboard
     ManualView* manual() { return manual_; }
     void openGraph();
+    void openEvents();
     void openPart(const std::string& name);  // of the simplex that is shown
     StopButton& stopButton() { return *stop_; }
     ControlBar& control() { return *control_; }
@@ -66,20 +68,24 @@ private:
     void setScale(double scale);
     void restyle();
     void arrange();
+    void showStrip();  // unless the tab of events is in front
 
     Session& session_;
     Commands commands_;
     EventModel events_;
+    EventFilter eventFilter_{events_};  // one for all that show events
     SystemTree* tree_;
     QTabBar* tabs_;
     QStackedWidget* views_;
     GraphView* graph_;
     AgentTable* agents_;
     QPointer<ManualView> manual_;
+    EventView* eventView_;
     EventList* eventList_;
     QSplitter *across_, *down_;
     StatusBar* status_;
     StopButton* stop_;
+    bool strip_ = true;    // wanted
     bool leaves_ = false;  // the user said so
     ControlBar* control_;
     Arrangement arrangement_;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/event_csv.hpp"
+
+#include "model/plain_text.hpp"
+
+#include <QSaveFile>
+
+namespace cortex::explorer {
+
+namespace {
+
+QString csvField(const std::string& text) {
+    QString field = plainText(text);
+    if (!field.contains(',') && !field.contains('"') && !field.contains(' ')) return field;
+    return '"' + field.replace('"', QStringLiteral("\"\"")) + '"';
+}
+
+QString csvLine(const comms::AgentEvent& event) {
+    return QStringList{utcText(event.wallClock, "yyyy-MM-dd'T'HH:mm:ss.zzz'Z'"),
+                       csvField(event.agent),
+                       QString::number(event.number),
+                       QString::number(event.cycle),
+                       QString::fromLatin1(name(event.severity)),
+                       csvField(event.kind),
+                       csvField(event.path),
+                       csvField(event.text)}
+               .join(',') +
+           '\n';
+}
+
+}  // namespace
+
+QString eventsCsv(const EventFilter& events) {
+    QString text = QStringLiteral("time,agent,number,cycle,severity,kind,path,text\n");
+    for (int i = 0; i < events.rowCount(); ++i) {
+        const EventRow& row = events.at(i);
+        text += csvLine(row.event);
+        for (const comms::AgentEvent& each : row.others) text += csvLine(each);
+    }
+    return text;
+}
+
+QString writeEvents(const EventFilter& events, const QString& file) {
+    QSaveFile target{file};
+    const QByteArray bytes = eventsCsv(events).toUtf8();
+    const bool written =
+        target.open(QIODevice::WriteOnly) && target.write(bytes) == bytes.size() && target.commit();
+    return written ? QString{} : target.errorString();
+}
+
+}  // namespace cortex::explorer

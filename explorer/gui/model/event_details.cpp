@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/event_details.hpp"
+
+#include "model/plain_text.hpp"
+
+#include <QCoreApplication>
+#include <QRegularExpression>
+
+namespace cortex::explorer {
+
+namespace {
+
+QString detail(const char* text) { return QCoreApplication::translate("EventDetails", text); }
+
+// "1,688 … 1,901"; one alone where both are the same.
+QString fromTo(const QString& first, const QString& last) {
+    return first == last ? first : QStringLiteral("%1 … %2").arg(first, last);
+}
+
+QString number(std::int64_t value) { return countText(static_cast<std::uint64_t>(value)); }
+
+// "cortex@desk.4711: moveTo(speedShare=0.25): Done in 3,912 cycles".
+void addCommand(EventDetails& details, const QString& text) {
+    static const QRegularExpression form{
+        QStringLiteral(R"(^(.+?): (\w+\(.*\)): (.+?)(?: in (the same cycle|\d+ cycles?))?$)")};
+    const auto match = form.match(text);
+    if (!match.hasMatch()) return;
+    details.emplace_back(detail("sender"), match.captured(1));
+    details.emplace_back(detail("command"), match.captured(2));
+    details.emplace_back(detail("outcome"), match.captured(3));
+    if (!match.captured(4).isEmpty()) details.emplace_back(detail("latency"), match.captured(4));
+}
+
+void addTimes(EventDetails& details, const EventRow& row) {
+    const comms::AgentEvent &first = row.event, &last = row.newest();
+    const QString time = utcText(first.wallClock, "yyyy-MM-dd HH:mm:ss.zzz");
+    details.emplace_back(row.times == 1 ? detail("time") : detail("first"), time);
+    if (row.times == 1) return;
+    details.emplace_back(detail("last"), utcText(last.wallClock, "yyyy-MM-dd HH:mm:ss.zzz"));
+    const double seconds = static_cast<double>(last.wallClock - first.wallClock) * 1e-9;
+    QString times = detail("%1 in %2 s").arg(countText(row.times)).arg(seconds, 0, 'f', 1);
+    if (seconds >= 0.1) {
+        times += detail(", %1 a second").arg(static_cast<double>(row.times) / seconds, 0, 'f', 1);
+    }
+    details.emplace_back(detail("times"), times);
+}
+
+}  // namespace
+
+EventDetails detailsOf(const EventRow& row) {
+    const comms::AgentEvent &first = row.event, &last = row.newest();
+    EventDetails details;
+    if (!first.path.empty()) details.emplace_back(detail("path"), plainText(first.path));
+    details.emplace_back(detail("agent"), plainText(first.agent));
+    if (row.isGap()) {
+        details.emplace_back(detail("number"), fromTo(countText(first.number + 1),
+                                                      countText(first.number + row.missing)));
+        details.emplace_back(detail("after"), utcText(first.wallClock, "yyyy-MM-dd HH:mm:ss.zzz"));
+        return details;
+    }
+    details.emplace_back(detail("kind"), plainText(first.kind));
+    details.emplace_back(detail("cycle"), fromTo(number(first.cycle), number(last.cycle)));
+    details.emplace_back(detail("number"), fromTo(countText(first.number), countText(last.number)));
+    addTimes(details, row);
+    for (const NumberRange& each : row.numbers) {
+        if (each.least == each.greatest) continue;
+        details.emplace_back(detail("value"),
+                             detail("%1, last %2").arg(each.text(), plainText(each.last)));
+    }
+    addCommand(details, plainText(first.text));
+    return details;
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/event_row.hpp"
+
+#include "cortex/core/event.hpp"
+
+#include "model/plain_text.hpp"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr std::int64_t foldsFor = 10'000'000'000;  // ns without another one
+
+constexpr std::array unfoldedKinds{EventKind::Fault, EventKind::StateChange, EventKind::Command};
+
+}  // namespace
+
+EventRow::EventRow(comms::AgentEvent first) : event{std::move(first)} {
+    if (!mayFold()) return;
+    NumberedText text = numberedText(event.text);
+    words = std::move(text.words);
+    for (const std::string& each : text.numbers) numbers.emplace_back(each);
+}
+
+EventRow EventRow::gap(const comms::AgentEvent& last, std::uint64_t missing) {
+    comms::AgentEvent event;
+    event.agent = last.agent;
+    event.epoch = last.epoch;
+    event.number = last.number;
+    event.cycle = last.cycle;
+    event.wallClock = last.wallClock;
+    event.severity = Severity::Warning;
+    event.kind = missingKind;
+    event.text = QCoreApplication::translate("EventRow", "%n events of %1 did not come", nullptr,
+                                             static_cast<int>(missing))
+                     .arg(plainText(last.agent))
+                     .toStdString();
+    EventRow row{std::move(event)};
+    row.missing = missing;
+    return row;
+}
+
+bool EventRow::mayFold() const {
+    return !isGap() && event.severity != Severity::Error &&
+           std::ranges::none_of(unfoldedKinds,
+                                [&](EventKind each) { return event.kind == name(each); });
+}
+
+bool EventRow::isRoutine() const {
+    return event.kind == name(EventKind::Command) && event.severity == Severity::Info &&
+           event.text.find(": jog(") != std::string::npos;
+}
+
+std::string EventRow::key() const {
+    return event.agent + '\n' + event.path + '\n' + event.kind + '\n' + name(event.severity) +
+           '\n' + words;
+}
+
+bool EventRow::takes(const comms::AgentEvent& next) const {
+    return next.epoch == event.epoch && next.wallClock - newest().wallClock <= foldsFor;
+}
+
+void EventRow::take(comms::AgentEvent next) {
+    ++times;
+    const NumberedText text = numberedText(next.text);
+    for (std::size_t i = 0; i < std::min(numbers.size(), text.numbers.size()); ++i) {
+        numbers[i].take(text.numbers[i]);
+    }
+    others.push_back(std::move(next));
+    if (others.size() > mostOthers) others.pop_front();
+}
+
+QString EventRow::text() const {
+    return times == 1 ? plainText(event.text) : foldedText(words, numbers);
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/event_text.hpp"
+
+#include "model/plain_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <string_view>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr char numberSign = '\x01';  // stands for a number; control characters are never shown
+constexpr int digitsOfRange = 6;
+
+bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+bool belongsToName(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/' || c == ':';
+}
+
+// Where the digits with point and exponent end that begin here.
+std::size_t endOfNumber(std::string_view text, std::size_t begin) {
+    std::size_t end = begin;
+    const auto digits = [&] {
+        while (end < text.size() && isDigit(text[end])) ++end;
+    };
+    digits();
+    if (end + 1 < text.size() && text[end] == '.' && isDigit(text[end + 1])) {
+        ++end;
+        digits();
+    }
+    if (end < text.size() && text[end] == 'e') {
+        std::size_t next = end + 1;
+        if (next < text.size() && (text[next] == '-' || text[next] == '+')) ++next;
+        if (next < text.size() && isDigit(text[next])) {
+            end = next;
+            digits();
+        }
+    }
+    return end;
+}
+
+// The end of the number that begins here; `begin`: none does.
+std::size_t numberAt(std::string_view text, std::size_t begin) {
+    const std::size_t first = text[begin] == '-' ? begin + 1 : begin;
+    if (first >= text.size() || !isDigit(text[first])) return begin;
+    const char before = begin > 0 ? text[begin - 1] : ' ';
+    if (belongsToName(before) || before == '.' || before == '-') return begin;
+    const std::size_t end = endOfNumber(text, first);
+    return end < text.size() && belongsToName(text[end]) ? begin : end;
+}
+
+QString shown(double number) {
+    QString text = QString::number(number, 'g', digitsOfRange);
+    return text.startsWith('-') ? QChar{0x2212} + text.mid(1) : text;
+}
+
+}  // namespace
+
+NumberedText numberedText(const std::string& text) {
+    NumberedText result;
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t end = numberAt(text, i);
+        if (end > i) {
+            result.numbers.push_back(text.substr(i, end - i));
+            result.words += numberSign;
+            i = end;
+            continue;
+        }
+        // A whole name or number that belongs to one, so that no part of it is taken for a number.
+        do {
+            if (text[i] != numberSign) result.words += text[i];
+            ++i;
+        } while (i < text.size() && belongsToName(text[i - 1]) && belongsToName(text[i]));
+    }
+    return result;
+}
+
+NumberRange::NumberRange(const std::string& number)
+    : first{number}, last{number}, least{std::strtod(number.c_str(), nullptr)}, greatest{least} {}
+
+void NumberRange::take(const std::string& number) {
+    const double value = std::strtod(number.c_str(), nullptr);
+    last = number;
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
+}
+
+QString NumberRange::text() const {
+    if (least == greatest) return QString::fromStdString(first);
+    return QStringLiteral("%1 … %2").arg(shown(least), shown(greatest));
+}
+
+QString foldedText(const std::string& words, const std::vector<NumberRange>& ranges) {
+    QString text;
+    std::size_t next = 0, begin = 0;
+    for (std::size_t at; (at = words.find(numberSign, begin)) != std::string::npos;) {
+        text += plainText(words.substr(begin, at - begin));
+        if (next < ranges.size()) text += ranges[next++].text();
+        begin = at + 1;
+    }
+    return text + plainText(words.substr(begin));
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QString>
+#include <string>
+#include <vector>
+
+// Texts of events with their numbers taken out: two that differ only in numbers are one row.
+namespace cortex::explorer {
+
+// "position limited from # to # rad", and the numbers as they were written. What belongs to a name
+// (/drives/4, A4, 0x8611, 12:04) is no number.
+struct NumberedText {
+    std::string words;
+    std::vector<std::string> numbers;
+};
+NumberedText numberedText(const std::string& text);
+
+// What the numbers at one place of a text were.
+struct NumberRange {
+    std::string first, last;
+    double least = 0, greatest = 0;
+
+    explicit NumberRange(const std::string& number);
+    void take(const std::string& number);
+    QString text() const;  // "−2.1187 … −2.0951"; one that never changed as it was written
+};
+
+// The words with those ranges in their places.
+QString foldedText(const std::string& words, const std::vector<NumberRange>& ranges);
+
+}  // namespace cortex::explorer

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "views/event_panel.hpp"
+
+#include "model/event_details.hpp"
+#include "widgets/state_mark.hpp"
+#include "widgets/text_label.hpp"
+
+#include <QGridLayout>
+#include <QPainter>
+#include <QPushButton>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr int pairsInColumn = 6;
+
+// The same for a shell.
+QString shellCommand(const EventRow& row) {
+    QString text = QStringLiteral("cortex events");
+    if (!row.event.path.empty()) text += ' ' + QString::fromStdString(row.event.path);
+    if (row.event.severity != Severity::Info) {
+        text += QStringLiteral(" --severity ") + QLatin1String{name(row.event.severity)};
+    }
+    return text;
+}
+
+}  // namespace
+
+EventPanel::EventPanel(QWidget* parent)
+    : QWidget{parent},
+      mark_{new StateMark{4}},
+      title_{new TextLabel{TextSize::Text, true}},
+      dropped_{new TextLabel{TextSize::Text, true, &Tokens::dataText}},
+      command_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
+      open_{new QPushButton{tr("Show in tree")}},
+      more_{new QWidget} {
+    setAutoFillBackground(true);
+    setAccessibleName(tr("Details"));
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+    auto* head = new QHBoxLayout;
+    head->setSpacing(Look::units(2));
+    title_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    head->addWidget(mark_);
+    head->addWidget(title_, 1);
+    head->addWidget(dropped_);
+    head->addWidget(open_);
+    auto* rows = new QVBoxLayout{this};
+    rows->setContentsMargins(Look::units(4), Look::units(2), Look::units(4), Look::units(2));
+    rows->setSpacing(Look::units(1));
+    rows->addLayout(head);
+    rows->addWidget(more_);
+    addPairs();
+    connect(open_, &QPushButton::clicked, this, [this] { Q_EMIT opened(path_); });
+    hide();  // until there is a row
+}
+
+void EventPanel::addPairs() {
+    auto* grid = new QGridLayout{more_};
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setHorizontalSpacing(Look::units(4));
+    grid->setVerticalSpacing(Look::units(0.5));
+    grid->setColumnStretch(1, 1);
+    grid->setColumnStretch(3, 1);
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        auto& [name, text] = pairs_[i];
+        name = new TextLabel{TextSize::Note, false, &Tokens::ink2};
+        text = new TextLabel{TextSize::Note};
+        text->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+        const int number = static_cast<int>(i), column = 2 * (number / pairsInColumn);
+        grid->addWidget(name, number % pairsInColumn, column);
+        grid->addWidget(text, number % pairsInColumn, column + 1);
+    }
+    grid->addWidget(command_, pairsInColumn, 0, 1, 4);
+}
+
+void EventPanel::setCompact(bool compact) { more_->setVisible(!compact); }
+
+void EventPanel::show(const EventRow& row) {
+    const comms::AgentEvent& event = row.event;
+    dropped_->show({});
+    setVisible(true);
+    if (number_ == event.number && agent_ == event.agent && times_ == row.times) return;
+    number_ = event.number;
+    agent_ = event.agent;
+    times_ = row.times;
+    path_ = event.path;
+    mark_->show(row.isGap() ? Shape::Bad : shapeOf(event.severity));
+    title_->show(row.text(), row.isGap() ? &Tokens::dataText : &Tokens::ink);
+    open_->setVisible(!path_.empty());
+    command_->show(tr("As a command: %1").arg(shellCommand(row)));
+    fill(row);
+}
+
+void EventPanel::fill(const EventRow& row) {
+    const EventDetails details = detailsOf(row);
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        const bool used = i < details.size();
+        pairs_[i].first->show(used ? details[i].first : QString{});
+        pairs_[i].second->show(used ? details[i].second : QString{});
+    }
+}
+
+void EventPanel::sayDropped() { dropped_->show(tr("no longer kept")); }
+
+void EventPanel::paintEvent(QPaintEvent* /*event*/) {
+    QPainter{this}.fillRect(QRect{0, 0, width(), 1}, Look::colours().line);
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "model/event_row.hpp"
+
+#include <QWidget>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+class QPushButton;
+
+namespace cortex::explorer {
+
+class StateMark;
+class TextLabel;
+
+// The details of the row that is selected. A row that drops out leaves them, with the words `no
+// longer kept`.
+class EventPanel : public QWidget {
+    Q_OBJECT
+public:
+    explicit EventPanel(QWidget* parent = nullptr);
+
+    void show(const EventRow& row);
+    void sayDropped();
+    void setCompact(bool compact);  // the text alone, where there is little room
+
+Q_SIGNALS:
+    void opened(const std::string& path);
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    void addPairs();
+    void fill(const EventRow& row);
+
+    std::string path_;
+    std::uint64_t times_ = 0, number_ = 0;  // of what is shown
+    std::string agent_;
+    StateMark* mark_;
+    TextLabel *title_, *dropped_, *command_;
+    QPushButton* open_;
+    QWidget* more_;                                              // all but the text
+    std::array<std::pair<TextLabel*, TextLabel*>, 12> pairs_{};  // name and text
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "views/event_table.hpp"
+
+#include "widgets/rows.hpp"
+#include "widgets/text_label.hpp"
+
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QScrollBar>
+#include <QStyledItemDelegate>
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace cortex::explorer {
+
+namespace {
+
+// In units; the text takes the rest.
+constexpr std::array<double, EventModel::ColumnCount> eventWidths{25, 23, 26, 38, 19, 0, 13};
+constexpr double leastTextWidth = 60, leastPathWidth = 24;
+
+class EventDelegate : public QStyledItemDelegate {
+public:
+    EventDelegate(const EventFilter& events, QObject* parent)
+        : QStyledItemDelegate{parent}, events_{events} {}
+
+    QSize sizeHint(const QStyleOptionViewItem& /*option*/,
+                   const QModelIndex& /*index*/) const override {
+        return {Look::units(10), rowHeight()};
+    }
+
+    void paint(QPainter* painter, const QStyleOptionViewItem& option,
+               const QModelIndex& index) const override {
+        const Tokens& c = Look::colours();
+        const EventRow& row = events_.at(index.row());
+        paintRow(*painter, option, row.isGap() ? c.dataBg : QColor{});
+        QRect box = option.rect.adjusted(Look::units(2), 0, -Look::units(1), 0);
+        const Shape shape = row.isGap() ? Shape::Bad : shapeOf(row.event.severity);
+        if (index.column() == EventModel::SeverityColumn) {
+            const int size = Look::units(3);
+            explorer::paint(*painter, markBox(box.left(), box, size), shape, c);
+            box.setLeft(box.left() + size + Look::units(1.5));
+        }
+        const bool times = index.column() == EventModel::Times;
+        paintText(*painter, box, index.data().toString(),
+                  rowInk(option, inkOf(index.column(), row, shape)),
+                  times ? Qt::AlignRight : Qt::AlignLeft, times || row.isGap());
+    }
+
+private:
+    static QColor inkOf(int column, const EventRow& row, Shape shape) {
+        const Tokens& c = Look::colours();
+        if (row.isGap()) return c.dataText;
+        switch (column) {
+            case EventModel::SeverityColumn:
+                return shape == Shape::Info ? c.ink2 : textColour(shape, c);
+            case EventModel::Path:
+                return c.accent;
+            case EventModel::Text:
+            case EventModel::Times:
+                return c.ink;
+            default:
+                return c.ink2;
+        }
+    }
+
+    const EventFilter& events_;
+};
+
+}  // namespace
+
+EventTable::EventTable(EventFilter& events, QWidget* parent) : QTreeView{parent}, events_{events} {
+    setModel(&events);
+    setItemDelegate(new EventDelegate{events, this});
+    setUpRows(*this);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    setRootIsDecorated(false);
+    setVerticalScrollMode(ScrollPerItem);
+    setAccessibleName(tr("Events"));
+    header()->setStretchLastSection(false);
+    connect(&events, &QAbstractItemModel::rowsInserted, this,
+            [this](const QModelIndex&, int first, int last) { inserted(first, last); });
+    connect(&events, &QAbstractItemModel::rowsRemoved, this,
+            [this](const QModelIndex&, int, int last) { removed(last + 1); });
+    connect(&events, &QAbstractItemModel::modelAboutToBeReset, this,
+            [this] { before_ = selected(); });
+    connect(&events, &QAbstractItemModel::modelReset, this, &EventTable::keepSelection);
+    connect(verticalScrollBar(), &QScrollBar::actionTriggered, this, [this] {
+        const QScrollBar& bar = *verticalScrollBar();
+        follows_ = bar.sliderPosition() == bar.maximum();
+        if (follows_) newBelow_ = 0;
+        Q_EMIT moved();
+    });
+    connect(this, &QTreeView::activated, this, [this](const QModelIndex& index) {
+        const std::string& path = events_.at(index.row()).event.path;
+        if (!path.empty()) Q_EMIT opened(path);
+    });
+}
+
+std::optional<std::uint64_t> EventTable::selected() const {
+    if (!currentIndex().isValid()) return std::nullopt;
+    return events_.serial(currentIndex().row());
+}
+
+bool EventTable::isAtEnd() const {
+    return verticalScrollBar()->value() == verticalScrollBar()->maximum();
+}
+
+void EventTable::follow() {
+    follows_ = true;
+    newBelow_ = 0;
+    scrollToBottom();
+    Q_EMIT moved();
+}
+
+void EventTable::look() {
+    follows_ = isAtEnd();
+    if (follows_) newBelow_ = 0;
+    Q_EMIT moved();
+}
+
+void EventTable::inserted(int first, int last) {
+    if (follows_) {
+        scrollToBottom();
+        return;
+    }
+    for (int row = first; row <= last; ++row) newBelow_ += events_.at(row).times;
+    Q_EMIT moved();
+}
+
+// What is looked at stays where it is.
+void EventTable::removed(int count) {
+    if (follows_)
+        scrollToBottom();
+    else
+        verticalScrollBar()->setValue(verticalScrollBar()->value() - count);
+}
+
+void EventTable::rowsAboutToBeRemoved(const QModelIndex& parent, int first, int last) {
+    const int row = currentIndex().row();
+    if (currentIndex().isValid() && row >= first && row <= last) {
+        keeps_ = true;
+        setCurrentIndex({});
+        keeps_ = false;
+        Q_EMIT selectionDropped();
+    }
+    QTreeView::rowsAboutToBeRemoved(parent, first, last);
+}
+
+void EventTable::keepSelection() {
+    const auto row = before_ ? events_.rowOf(*before_) : std::nullopt;
+    keeps_ = true;
+    setCurrentIndex(row ? events_.index(*row, 0) : QModelIndex{});
+    keeps_ = false;
+    if (before_ && !row) Q_EMIT selectionDropped();
+    before_.reset();
+    if (follows_) scrollToBottom();
+    Q_EMIT moved();
+}
+
+void EventTable::currentChanged(const QModelIndex& current, const QModelIndex& previous) {
+    QTreeView::currentChanged(current, previous);
+    if (!keeps_ && current.isValid()) Q_EMIT selectionSet();
+}
+
+void EventTable::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_F || event->key() == Qt::Key_End) {
+        follow();
+        return;
+    }
+    QTreeView::keyPressEvent(event);
+    look();
+}
+
+void EventTable::resizeEvent(QResizeEvent* event) {
+    QTreeView::resizeEvent(event);
+    fitColumns();
+    if (follows_) scrollToBottom();
+}
+
+// When it is narrow the agent goes first, then the kind, then the path is cut.
+void EventTable::fitColumns() {
+    auto widths = eventWidths;
+    double left = viewport()->width() / static_cast<double>(Look::units(1)) - leastTextWidth;
+    for (const double each : widths) left -= each;
+    for (const int column : {EventModel::Agent, EventModel::Kind}) {
+        setColumnHidden(column, left < 0);
+        if (left < 0) left += widths[static_cast<std::size_t>(column)];
+    }
+    if (left < 0) {
+        left += widths[EventModel::Path] - leastPathWidth;
+        widths[EventModel::Path] = leastPathWidth;
+    }
+    widths[EventModel::Text] = std::max(left + leastTextWidth, leastPathWidth);
+    for (int i = 0; i < EventModel::ColumnCount; ++i) {
+        header()->resizeSection(i, Look::units(widths[static_cast<std::size_t>(i)]));
+    }
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "model/event_filter.hpp"
+
+#include <QTreeView>
+#include <optional>
+#include <string>
+
+namespace cortex::explorer {
+
+// The events that are shown, as rows. It follows the newest unless somebody has scrolled up; F and
+// End follow again. Which row is selected changes only by an act of the person.
+class EventTable : public QTreeView {
+    Q_OBJECT
+public:
+    explicit EventTable(EventFilter& events, QWidget* parent = nullptr);
+
+    bool follows() const { return follows_; }
+    void follow();
+    std::uint64_t newBelow() const { return newBelow_; }  // events since it does not follow
+    // The row that is selected, by its serial number.
+    std::optional<std::uint64_t> selected() const;
+
+Q_SIGNALS:
+    void opened(const std::string& path);
+    void moved();             // it follows, or does not, or there is more below
+    void selectionSet();      // by the person
+    void selectionDropped();  // it is no longer kept, or hidden
+
+protected:
+    void keyPressEvent(QKeyEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    void rowsAboutToBeRemoved(const QModelIndex& parent, int first, int last) override;
+    void currentChanged(const QModelIndex& current, const QModelIndex& previous) override;
+
+private:
+    bool isAtEnd() const;
+    void look();  // whether it is at its end after it was scrolled
+    void inserted(int first, int last);
+    void removed(int count);
+    void keepSelection();
+    void fitColumns();
+
+    EventFilter& events_;
+    bool follows_ = true, keeps_ = false;
+    std::uint64_t newBelow_ = 0;
+    std::optional<std::uint64_t> before_;  // selected, while the model is reset
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "views/event_view.hpp"
+
+#include "model/event_csv.hpp"
+#include "model/plain_text.hpp"
+#include "style/explorer_style.hpp"
+#include "views/event_chips.hpp"
+#include "views/event_list.hpp"
+#include "views/event_panel.hpp"
+#include "views/event_table.hpp"
+#include "widgets/text_label.hpp"
+
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr double leastHeight = 120;  // units, from which on there is room for all details
+
+}  // namespace
+
+EventView::EventView(EventFilter& events, QWidget* parent)
+    : QWidget{parent},
+      events_{events},
+      field_{new QLineEdit},
+      count_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
+      trouble_{new TextLabel{TextSize::Text, false, &Tokens::warnText}},
+      exported_{new TextLabel{TextSize::Text}},
+      follow_{new QPushButton{tr("Follow")}},
+      below_{new QPushButton{this}},
+      chips_{new EventChips{events}},
+      rows_{new EventTable{events}},
+      panel_{new EventPanel} {
+    setAutoFillBackground(true);
+    auto* all = new QVBoxLayout{this};
+    all->setContentsMargins(0, 0, 0, 0);
+    all->setSpacing(0);
+    all->addWidget(makeBar());
+    all->addWidget(rows_, 1);
+    all->addWidget(panel_);
+    // Its check marks that it follows; pressed again it goes to the end again.
+    follow_->setCheckable(true);
+    follow_->setToolTip(tr("F or End in the rows"));
+    below_->setCheckable(true);
+    below_->setChecked(true);
+    below_->hide();
+    connect(field_, &QLineEdit::textChanged, this, &EventView::search);
+    connect(follow_, &QPushButton::clicked, rows_, &EventTable::follow);
+    connect(below_, &QPushButton::clicked, rows_, &EventTable::follow);
+    connect(rows_, &EventTable::moved, this, &EventView::placeButton);
+    connect(rows_, &EventTable::opened, this, &EventView::opened);
+    connect(rows_, &EventTable::selectionSet, this, [this] {
+        shown_ = rows_->selected();
+        showDetails();
+    });
+    connect(panel_, &EventPanel::opened, this, &EventView::opened);
+    refresh();
+}
+
+QWidget* EventView::makeBar() {
+    field_->setPlaceholderText(tr("Filter: words, in:/arm, severity:warning, kind:limit"));
+    field_->setAccessibleName(tr("Filter of events"));
+    field_->setTextMargins(Look::units(1), 0, Look::units(1), 0);
+    field_->setMaximumWidth(Look::units(120));
+    auto* save = new QPushButton{tr("CSV…")};
+    save->setToolTip(tr("Writes the events that are shown to a file"));
+    connect(save, &QPushButton::clicked, this, &EventView::askForFile);
+    auto* first = new QHBoxLayout;
+    first->setSpacing(Look::units(3));
+    first->addWidget(field_, 3);
+    first->addWidget(count_);
+    first->addWidget(exported_);
+    first->addStretch(1);
+    first->addWidget(follow_);
+    first->addWidget(save);
+    auto* bar = new QWidget;
+    auto* rows = new QVBoxLayout{bar};
+    rows->setContentsMargins(Look::units(4), Look::units(2), Look::units(4), Look::units(2));
+    rows->addLayout(first);
+    rows->addWidget(trouble_);
+    rows->addWidget(chips_);
+    trouble_->hide();
+    return bar;
+}
+
+void EventView::search() {
+    events_.search(field_->text());
+    const QString& trouble = events_.events().query().trouble();
+    field_->setProperty(wrongInput, !trouble.isEmpty());
+    field_->update();
+    trouble_->show(trouble);
+    trouble_->setVisible(!trouble.isEmpty());
+    refresh();
+}
+
+void EventView::refresh() {
+    count_->show(EventList::countOf(events_));
+    chips_->refresh();
+    placeButton();
+    showDetails();
+}
+
+// The details stay as they are when their row is hidden, and say so when it is no longer kept.
+void EventView::showDetails() {
+    if (!shown_) return;
+    const EventModel& all = events_.events();
+    if (*shown_ < all.first())
+        panel_->sayDropped();
+    else
+        panel_->show(all.at(static_cast<int>(*shown_ - all.first())));
+}
+
+void EventView::placeButton() {
+    follow_->setChecked(rows_->follows());
+    below_->setText(tr("%1 new below").arg(countText(rows_->newBelow())));
+    below_->setVisible(!rows_->follows() && rows_->newBelow() > 0);
+    below_->setChecked(true);
+    below_->adjustSize();
+    const QRect table = rows_->geometry();
+    below_->move(table.right() - below_->width() - Look::units(6),
+                 table.bottom() - below_->height() - Look::units(2));
+    below_->raise();
+}
+
+void EventView::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    panel_->setCompact(height() < Look::units(leastHeight));
+    placeButton();
+}
+
+void EventView::focusFilter() {
+    field_->setFocus();
+    field_->selectAll();
+}
+
+void EventView::askForFile() {
+    auto* dialog = new QFileDialog{
+        this, tr("Write the events that are shown"), {}, tr("Comma-separated values (*.csv)")};
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setAcceptMode(QFileDialog::AcceptSave);
+    dialog->setDefaultSuffix(QStringLiteral("csv"));
+    dialog->selectFile(QStringLiteral("events.csv"));
+    connect(dialog, &QFileDialog::fileSelected, this, &EventView::exportTo);
+    dialog->open();
+}
+
+void EventView::exportTo(const QString& file) {
+    const QString why = writeEvents(events_, file);
+    exported_->show(why.isEmpty() ? tr("Written: %1").arg(file) : tr("Not written: %1").arg(why),
+                    why.isEmpty() ? &Tokens::ink2 : &Tokens::warnText);
+}
+
+}  // namespace cortex::explorer

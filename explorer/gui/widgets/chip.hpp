@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "style/shapes.hpp"
+
+#include <QAbstractButton>
+#include <optional>
+
+namespace cortex::explorer {
+
+// A kind of rows with their number: on while they are shown. Off, its word is struck through and
+// says so.
+class Chip : public QAbstractButton {
+    Q_OBJECT
+public:
+    explicit Chip(const QString& word, std::optional<Shape> mark = std::nullopt,
+                  QWidget* parent = nullptr);
+
+    void show(std::uint64_t count);  // of rows of its kind, shown or not
+    QSize sizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    void tell();
+    QString rest() const;  // after the word
+
+    QString word_, count_;
+    std::optional<Shape> mark_;
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// The views of events follow the newest, and say what they no longer have.
+#include "views/event_list.hpp"
+
+#include "gui/events_fixture.hpp"
+#include "views/event_panel.hpp"
+#include "views/event_table.hpp"
+#include "views/event_view.hpp"
+#include "widgets/chip.hpp"
+#include "widgets/text_label.hpp"
+
+#include <QApplication>
+#include <QFile>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QScrollBar>
+#include <QTemporaryDir>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using namespace explorer;
+
+bool says(const QWidget& widget, const QString& text) {
+    const auto labels = widget.findChildren<TextLabel*>();
+    return std::ranges::any_of(
+        labels, [&](const auto* each) { return !each->isHidden() && each->text().contains(text); });
+}
+
+bool isAtTheEnd(const EventTable& rows) {
+    QApplication::processEvents();
+    return rows.verticalScrollBar()->value() == rows.verticalScrollBar()->maximum();
+}
+
+class Events : public testing::Test {
+protected:
+    Events() {
+        list.resize(800, 200);
+        list.show();
+    }
+    EventTable& rows() { return *list.findChild<EventTable*>(); }
+
+    EventModel events;
+    EventFilter shown{events};
+    EventList list{shown};
+};
+
+TEST_F(Events, FollowAgainAfterTheSelectedRowDroppedOut) {
+    events.add(changes(1, EventModel::kept));
+    rows().setCurrentIndex(rows().model()->index(0, 0));
+    rows().scrollToBottom();
+    ASSERT_TRUE(isAtTheEnd(rows()));
+    events.add(changes(EventModel::kept + 1, 10));
+    EXPECT_TRUE(isAtTheEnd(rows()));
+    EXPECT_FALSE(rows().currentIndex().isValid()) << "nothing else is selected by itself";
+}
+
+TEST_F(Events, SayHowManyAreNoLongerKept) {
+    events.add(changes(1, EventModel::kept));
+    EXPECT_FALSE(says(list, "no longer kept"));
+    events.add(changes(EventModel::kept + 1, 1'010));
+    EXPECT_TRUE(says(list, "the oldest 1,010 are no longer kept"));
+}
+
+class EventTab : public Events {
+protected:
+    EventTab() {
+        view.resize(1000, 600);
+        view.show();
+        QApplication::processEvents();
+    }
+    EventTable& table() { return *view.findChild<EventTable*>(); }
+    QPushButton* button(const QString& text) {
+        for (auto* each : view.findChildren<QPushButton*>()) {
+            if (each->text().contains(text) && !each->isHidden()) return each;
+        }
+        return nullptr;
+    }
+    Chip* chip(const QString& name) {
+        for (auto* each : view.findChildren<Chip*>()) {
+            if (each->accessibleName() == name && !each->isHidden()) return each;
+        }
+        return nullptr;
+    }
+    void type(const QString& text) {
+        view.findChild<QLineEdit*>()->setText(text);
+        view.refresh();
+    }
+
+    EventView view{shown};
+};
+
+TEST_F(EventTab, SaysHowManyAreNewBelowWhileSomebodyLooksFurtherUp) {
+    events.add(changes(1, 200));
+    ASSERT_TRUE(isAtTheEnd(table()));
+    EXPECT_EQ(button("new below"), nullptr);
+    table().verticalScrollBar()->triggerAction(QScrollBar::SliderToMinimum);
+    table().setCurrentIndex(table().model()->index(2, 0));
+    const auto selected = table().selected();
+    events.add(changes(201, 12));
+    view.refresh();
+    ASSERT_NE(button("12 new below"), nullptr);
+    EXPECT_EQ(table().verticalScrollBar()->value(), 0) << "what is looked at stays";
+    EXPECT_EQ(table().selected(), selected);
+    QKeyEvent end{QEvent::KeyPress, Qt::Key_End, Qt::NoModifier};
+    QApplication::sendEvent(&table(), &end);
+    EXPECT_TRUE(isAtTheEnd(table()));
+    EXPECT_EQ(table().selected(), selected);
+    EXPECT_EQ(button("new below"), nullptr);
+    events.add(changes(213, 5));
+    EXPECT_TRUE(isAtTheEnd(table())) << "it follows again";
+}
+
+TEST_F(EventTab, HasTheFilterOfTheStripAndSaysHowMuchItShows) {
+    events.add(changes(1, 10));
+    events.add({limit(11, "position limited"),
+                eventOf(12, "fault", "/drives/1", "Fault 0x8611", Severity::Error)});
+    type("in:/drives");
+    EXPECT_EQ(table().model()->rowCount(), 11);
+    EXPECT_EQ(rows().model()->rowCount(), 11);
+    EXPECT_TRUE(says(view, "11 of 12 shown"));
+    EXPECT_TRUE(says(list, "in:/drives"));
+    ASSERT_NE(chip("state change 10"), nullptr);
+    EXPECT_EQ(chip("limit 1"), nullptr) << "chips count what matches";
+    chip("state change 10")->click();
+    view.refresh();
+    EXPECT_NE(chip("state change 10 hidden"), nullptr) << "its number stays";
+    EXPECT_TRUE(says(view, "1 of 12 shown"));
+    EXPECT_TRUE(says(list, "in:/drives, without state change"));
+    ASSERT_NE(chip("error 1"), nullptr);
+    chip("error 1")->click();
+    EXPECT_EQ(table().model()->rowCount(), 0);
+    type("nonsense:1");
+    EXPECT_TRUE(says(view, "\"nonsense:\" is no field."));
+}
+
+TEST_F(EventTab, ShowsTheDetailsOfTheSelectedRowAlsoWhenItDropsOut) {
+    events.add({limit(1, "position limited from -2.5 to -2 rad"),
+                limit(2, "position limited from -2.25 to -2 rad")});
+    table().setCurrentIndex(table().model()->index(0, 0));
+    EXPECT_TRUE(says(view, "/arm/demands/4"));
+    EXPECT_TRUE(says(view, QString::fromUtf8("−2.5 … −2.25, last -2.25")));
+    EXPECT_TRUE(says(view, "2 in 0.0 s"));
+    events.add({limit(3, "position limited from -2.75 to -2 rad")});
+    view.refresh();
+    EXPECT_TRUE(says(view, "3 in 0.0 s")) << "they go on";
+    events.add(changes(4, EventModel::kept));
+    view.refresh();
+    EXPECT_TRUE(says(view, "no longer kept"));
+    EXPECT_TRUE(says(view, "/arm/demands/4"));
+}
+
+TEST_F(EventTab, WritesWhatIsShownToAFileOrSaysWhyNot) {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("events.csv");
+    events.add({limit(1, "from 1 to 2"), limit(2, "from 3 to 2"),
+                eventOf(5, "message", "/a", "he said \"no\", twice")});
+    view.exportTo(path);
+    QFile file{path};
+    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+    EXPECT_EQ(QString::fromUtf8(file.readAll()),
+              "time,agent,number,cycle,severity,kind,path,text\n"
+              "1970-01-01T00:00:00.001Z,robot,1,1,warning,limit,/arm/demands/4,\"from 1 to 2\"\n"
+              "1970-01-01T00:00:00.002Z,robot,2,2,warning,limit,/arm/demands/4,\"from 3 to 2\"\n"
+              "1970-01-01T00:00:00.002Z,robot,2,2,warning,missing,,"
+              "\"2 events of robot did not come\"\n"
+              "1970-01-01T00:00:00.005Z,robot,5,5,info,message,/a,"
+              "\"he said \"\"no\"\", twice\"\n");
+    EXPECT_TRUE(says(view, "Written: "));
+    view.exportTo("/no/such/folder/events.csv");
+    EXPECT_TRUE(says(view, "Not written: "));
+}
+
+}  // namespace
+}  // namespace cortex::test
