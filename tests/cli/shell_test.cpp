@@ -231,6 +231,19 @@ TEST_F(CortexShell, TellsAtThePromptThatALeaseWasLost) {
     shell.run("take /drive --timeout 20", "cortex [/drive]");
 }
 
+TEST_F(CortexShell, ShowsTheLastValuesOfALostAgentInBrackets) {
+    TypedShell shell{folder};
+    shell.run("show /drive", "Standby");
+    shell.run("take /drive", "cortex [/drive]");
+    shell.mark();
+    agent->end(SIGKILL);
+    ASSERT_TRUE(shell.shows("control of /drive of agent mixer was lost")) << shell.output();
+
+    shell.run("show /drive", "[Standby]");
+    EXPECT_TRUE(contains(shell.output(), "[12")) << shell.output();
+    EXPECT_TRUE(contains(shell.output(), "startPosition     0.5 ")) << "a constant as it is";
+}
+
 TEST_F(CortexShell, HandsControlOverToAnotherShellThatKeepsIt) {
     TypedShell one{folder}, other{folder};
     one.run("take /drive", "cortex [/drive]");

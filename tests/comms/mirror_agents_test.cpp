@@ -84,6 +84,40 @@ TEST_F(MirrorAgentsTest, AreLostAfterASecondAndForgottenAfterAMinute) {
     EXPECT_EQ(agents.find("rig"), nullptr);
 }
 
+TEST_F(MirrorAgentsTest, KeepTheirLastValuesWhenTheyAreLost) {
+    tellAll();
+    agents.tick(everything, begin);
+    agent.worker->data<double>("gain") = 7.0;
+    agent.rig.step();
+    agents.take(agent.block(1), everything, begin);
+    const std::uint32_t worker = agents.find("rig")->structure->find("/work/one");
+    EXPECT_FALSE(agents.find("rig")->image().lost());
+
+    agents.tick(everything, begin + 2s);
+
+    const AgentImage last = agents.find("rig")->image();
+    EXPECT_TRUE(last.lost());
+    EXPECT_TRUE(last.came(worker));
+    EXPECT_EQ(last->get<double>("/work/one", "gain"), 7.0);
+    EXPECT_EQ(last->state(worker).quality, Quality::Lost);
+    EXPECT_TRUE(agents.find("rig")->tables->age(worker, begin + 2s));
+}
+
+TEST_F(MirrorAgentsTest, KeepTheirLastValuesAlsoWhenTheyWereNotViewedAnyLonger) {
+    tellAll();
+    agents.tick(everything, begin);
+    agents.take(agent.block(1), everything, begin);
+    const std::uint32_t worker = agents.find("rig")->structure->find("/work/one");
+
+    agents.view(nothing);
+    EXPECT_FALSE(agents.find("rig")->image()) << "nothing of it is viewed";
+    EXPECT_FALSE(agents.find("rig")->tables->age(worker, begin));
+    agents.tick(nothing, begin + 2s);
+
+    EXPECT_TRUE(agents.find("rig")->image().came(worker));
+    EXPECT_TRUE(agents.find("rig")->tables->age(worker, begin + 2s));
+}
+
 TEST_F(MirrorAgentsTest, AreBackWhenTheyAreHeardAgain) {
     tellAll();
     agents.tick(nothing, begin + 2s);

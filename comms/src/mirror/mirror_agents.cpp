@@ -51,8 +51,8 @@ std::chrono::nanoseconds MirrorAgent::patience() const {
 }
 
 AgentImage MirrorAgent::image() const {
-    if (!tables) return {};
-    return {tables, tables->newest(), lost ? std::vector<bool>{} : tables->received()};
+    if (!tables || (!viewed && !lost)) return {};
+    return {tables, tables->newest(), tables->received(), lost};
 }
 
 CommandTarget MirrorAgent::target() {
@@ -75,6 +75,8 @@ AgentStatus MirrorAgent::status(Moment now) const {
     AgentStatus status;
     status.name = model.agent();
     status.epoch = model.epoch();
+    status.ended = lost && !missed;
+    status.since = since.time_since_epoch().count();
     status.age = std::chrono::duration<double>(now - moved).count();
     status.missing = model.missing();
     status.cycle = cycle;
@@ -178,6 +180,7 @@ void MirrorAgents::take(const Presence& presence, Moment now) {
     if (presence.state == "stopping") return lose(*agent, "the agent has ended");
     if (presence.state == "silent") return lose(*agent, "another start of it was there first");
     if (agent->lost) agent->since = sinceAt(now);
+    if (agent->tables) agent->tables->find();
     agent->heard = now;
     agent->lost = agent->missed = false;
     agent->cycle = std::max(agent->cycle, presence.cycle);
@@ -275,7 +278,8 @@ void MirrorAgents::tick(const MirrorView& view, Moment now) {
             each = agents_.erase(each);
             continue;
         }
-        if (agent.structure && !agent.tables && showsAny(*agent.structure, view)) {
+        agent.viewed = agent.structure && showsAny(*agent.structure, view);
+        if (agent.viewed && !agent.tables) {
             const Id& hash = agent.model.presence()->structureHash;
             agent.tables = std::make_shared<MirrorTables>(agent.structure, hash, view.rate == 0);
         }
@@ -289,12 +293,8 @@ void MirrorAgents::tick(const MirrorView& view, Moment now) {
 void MirrorAgents::view(const MirrorView& view) {
     for (auto& [name, agent] : agents_) {
         if (!agent.tables) continue;
-        if (showsAny(*agent.structure, view)) {
-            agent.tables->restart(view);
-        } else {
-            forgottenImages_ += agent.tables->published();
-            agent.tables.reset();
-        }
+        agent.viewed = showsAny(*agent.structure, view);
+        agent.tables->restart(view);  // what came stays, in case the agent is lost
     }
 }
 

@@ -32,7 +32,8 @@ struct MirrorAgent {
     Moment moved{};                                 // when its newest cycle ended
     std::shared_ptr<const Structure> structure;     // once it is complete
     std::shared_ptr<const CommandTables> commands;  // once one was sent
-    std::shared_ptr<MirrorTables> tables;           // once it is viewed
+    std::shared_ptr<MirrorTables> tables;           // once it is viewed, and from then on
+    bool viewed = false;                            // at present
     std::uint64_t lastEvent = 0, eventLoss = 0;
 
     bool present() const { return model.presence().has_value(); }

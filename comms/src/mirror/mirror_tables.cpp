@@ -34,6 +34,7 @@ bool MirrorTables::apply(const Block& block, Moment now) {
         markStale(Moment::max(), {});
     }
     last_ = block.sequenceNumber;
+    lost_ = false;
     for (const SimplexData& each : block.simplexes) {
         if (!applySimplex(each, block, now)) ++refused_;
     }
@@ -65,7 +66,7 @@ bool MirrorTables::applySimplex(const SimplexData& data, const Block& block, Mom
     storeValues(data, *info.layout, slice);
     if (data.cause >= simplexes_.size()) slice.state->cause = noSimplex;
     const double before = static_cast<double>(block.nominalTime) - static_cast<double>(data.time);
-    simplexes_[data.index] = {true, now, before * 1e-9};
+    simplexes_[data.index] = {true, true, now, before * 1e-9};
     return true;
 }
 
@@ -88,6 +89,7 @@ void MirrorTables::markStale(Moment now, std::chrono::nanoseconds patience) {
 }
 
 void MirrorTables::lose() {
+    lost_ = true;
     bool changed = false;
     for (std::uint32_t i = 0; i < simplexes_.size(); ++i) {
         changed = degrade(i, Quality::Lost) || changed;
@@ -109,12 +111,12 @@ void MirrorTables::restart(const MirrorView& view) {
 std::vector<bool> MirrorTables::received() const {
     std::vector<bool> received;
     received.reserve(simplexes_.size());
-    for (const Arrival& each : simplexes_) received.push_back(each.received);
+    for (std::uint32_t i = 0; i < simplexes_.size(); ++i) received.push_back(this->received(i));
     return received;
 }
 
 std::optional<double> MirrorTables::age(std::uint32_t simplex, Moment now) const {
-    if (simplex >= simplexes_.size() || !simplexes_[simplex].received) return {};
+    if (simplex >= simplexes_.size() || !received(simplex)) return {};
     const Arrival& arrival = simplexes_[simplex];
     const std::chrono::duration<double> since = now - arrival.when;
     return since.count() + arrival.before;

@@ -28,13 +28,17 @@ public:
     // it is applied whole, or not at all where it does not fit its layout.
     bool apply(const Block& block, Moment now);
     void markStale(Moment now, std::chrono::nanoseconds patience);
-    void lose();  // to be called when the agent is lost
+    void lose();                    // to be called when the agent is lost
+    void find() { lost_ = false; }  // and when it is heard again
     // To be called for another stream: sequence numbers begin anew, and what it does not show is
     // lost.
     void restart(const MirrorView& view);
 
     Image newest() { return images_.newest(); }
-    bool received(std::uint32_t simplex) const { return simplexes_[simplex].received; }
+    // Of this stream; of a lost agent, of any: what it sent last is all that is known of it.
+    bool received(std::uint32_t simplex) const {
+        return simplexes_[simplex].received || (lost_ && simplexes_[simplex].ever);
+    }
     std::vector<bool> received() const;                                  // by simplex
     std::optional<double> age(std::uint32_t simplex, Moment now) const;  // s
     std::uint64_t published() const { return published_; }
@@ -44,7 +48,7 @@ public:
 
 private:
     struct Arrival {
-        bool received = false;
+        bool received = false, ever = false;
         Moment when;
         double before = 0;  // s from the measurement to the block
     };
@@ -58,6 +62,7 @@ private:
     Tables tables_;
     ImagePool images_;
     std::vector<Arrival> simplexes_;
+    bool lost_ = false;       // the agent
     bool everyCycle_;         // so a gap in the cycles is loss, whoever left them out
     std::uint64_t last_ = 0;  // sequence number; 0: none
     std::int64_t cycle_ = 0, nominalTime_ = 0, wallClock_ = 0;

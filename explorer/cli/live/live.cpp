@@ -262,15 +262,21 @@ std::vector<FoundSimplex> Live::below(const std::string& prefix) const {
 
 comms::AgentImage Live::values(const FoundSimplex& simplex) {
     view({simplex.info().path}, 100);
+    // Of a lost agent nothing comes any more: what is known of it is all.
+    const auto there = [&] {
+        if (mirror().age(simplex.agent, simplex.index)) return true;
+        const comms::AgentImage image = mirror().image(simplex.agent);
+        return image && image.lost();
+    };
     std::uint64_t images = 0;
     waitInSlices([&](Milliseconds limit) {
-        if (mirror().age(simplex.agent, simplex.index)) return true;
+        if (there()) return true;
         images = mirror().waitForImage(images, limit);
         return false;
     });
     auto image = mirror().image(simplex.agent);
     const bool newer = image && &image->structure() != simplex.structure.get();
-    if (image && !newer && mirror().age(simplex.agent, simplex.index)) return image;
+    if (image && !newer && there()) return image;
     throw Failure{NotFound, "the values of " + simplex.info().path + " did not come from agent " +
                                 simplex.agent};
 }

@@ -71,6 +71,10 @@ std::string wrongText(const DataItem& item, const Value& value) {
     return wrong.empty() ? "" : "  <- " + wrong;
 }
 
+bool isLive(const comms::AgentImage& image, std::uint32_t simplex) {
+    return image.came(simplex) && !image.lost();
+}
+
 std::optional<State> stateOf(const comms::AgentImage& image, std::uint32_t simplex) {
     if (!image.came(simplex)) return {};
     const SimplexInfo& info = image->structure().simplexes[simplex];

@@ -21,6 +21,8 @@ std::string valueText(const DataItem& item, const Value& value);  // labels, for
 // What is behind a value that is out of its range: "  <- above 2", "  <- none of its labels".
 std::string wrongText(const DataItem& item, const Value& value);
 
+// Whether its values came from an agent that is still heard; otherwise they are the last ones.
+bool isLive(const comms::AgentImage& image, std::uint32_t simplex);
 // The state of an active simplex in an image; none for others, and while it has not come.
 std::optional<State> stateOf(const comms::AgentImage& image, std::uint32_t simplex);
 

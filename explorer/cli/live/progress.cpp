@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/progress.hpp"
 
+#include "live/live_values.hpp"
+
 #include <cmath>
 #include <iostream>
 
@@ -42,7 +44,7 @@ std::optional<long> Progress::percent() const {
     if (!follows_) return std::nullopt;
     const comms::AgentImage image = live_.mirror().image(simplex_.agent);
     const bool same = image && &image->structure() == simplex_.structure.get();
-    if (!same || !image.came(simplex_.index)) return std::nullopt;
+    if (!same || !isLive(image, simplex_.index)) return std::nullopt;
     const auto value = [&](const char* item) {
         return image->value(simplex_.index, *simplex_.info().layout->find(item));
     };

@@ -18,7 +18,7 @@ StaleDemand safeBecause(const FoundSimplex& demand, const SlotState& state,
                         const comms::AgentImage& image) {
     const auto writer = staleBy(demand, state);
     const bool known = image && &image->structure() == demand.structure.get();
-    if (!writer || !known || !image.came(*writer)) return {};
+    if (!writer || !known || !isLive(image, *writer)) return {};
     const auto writersState = stateOf(image, *writer);
     if (!writersState) return {};
     const std::string& path = demand.structure->simplexes[*writer].path;

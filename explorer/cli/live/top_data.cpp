@@ -122,7 +122,7 @@ void TopView::add(TopFrame& frame, const comms::AgentStatus& status) const {
         const SimplexInfo& info = structure.simplexes[i];
         if (info.remote || !shows(info.path)) continue;
         ++agent.qualities[static_cast<std::size_t>(image->state(i).quality)];
-        const auto state = stateOf(image, i);
+        const auto state = isLive(image, i) ? stateOf(image, i) : std::nullopt;
         if (!state) continue;
         ++agent.states[static_cast<std::size_t>(*state)];
         if (const auto time = taskTimeOf(*image, i)) {
@@ -131,7 +131,7 @@ void TopView::add(TopFrame& frame, const comms::AgentStatus& status) const {
         if (*state == State::Fault) frame.faults.push_back(faultOf(*image, i, status.name));
     }
     const std::uint32_t own = ownSimplex(structure);
-    if (own != noSimplex && image.came(own)) {
+    if (own != noSimplex && isLive(image, own)) {
         agent.loop = itemsOf(*image, own);
     }
 }

@@ -35,7 +35,7 @@ std::vector<std::string> viewedFor(const Live& live, const std::string& prefix) 
 }
 
 std::int64_t wrongValues(const comms::AgentImage& image, const FoundSimplex& simplex) {
-    if (!image.came(simplex.index)) return 0;
+    if (!isLive(image, simplex.index)) return 0;
     return std::ranges::count_if(simplex.info().layout->items, [&](const ItemLayout& each) {
         return !outsideText(*each.item, image->value(simplex.index, each)).empty();
     });
@@ -52,7 +52,7 @@ std::vector<Line> linesOf(Live& live, const std::vector<FoundSimplex>& simplexes
         Line line{each, {}, Quality::Lost, {}, 0};
         const comms::AgentImage& image = found->second;
         if (image && &image->structure() == each.structure.get()) {
-            line.state = stateOf(image, each.index);
+            if (isLive(image, each.index)) line.state = stateOf(image, each.index);
             line.quality = image->state(each.index).quality;
             line.demand = safeBecause(each, image->state(each.index), image);
             line.wrong = wrongValues(image, each);

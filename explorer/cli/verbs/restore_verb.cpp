@@ -74,7 +74,7 @@ public:
         if (!found) return;
         const comms::AgentImage image = live_.mirror().image(found->agent);
         const bool same = image && &image->structure() == found->structure.get();
-        if (!same || !image.came(found->index)) {
+        if (!same || !isLive(image, found->index)) {
             plan_.report.error(saved.path, "no-value", saved.place,
                                "its values did not come from agent " + found->agent,
                                "look whether it runs: cortex agents");

@@ -62,7 +62,7 @@ Exit saveItems(const SaveOptions& options) {
         if (!hasSettable(each)) continue;
         const comms::AgentImage image = live.mirror().image(each.agent);
         const bool same = image && &image->structure() == each.structure.get();
-        if (!same || !image.came(each.index)) {
+        if (!same || !isLive(image, each.index)) {
             missing.push_back(each.info().path);
             continue;
         }

@@ -17,13 +17,17 @@ namespace {
 struct Shown {
     FoundSimplex simplex;
     comms::AgentImage image;
-    double age = 0;  // s
+    std::optional<double> age;  // s; none: no values ever came
     comms::AgentStatus owner{};
     std::vector<Cause> causes{};
     StaleDemand demand{};
 
     Value value(const ItemLayout& item) const { return image->value(simplex.index, item); }
-    std::optional<State> state() const { return stateOf(image, simplex.index); }
+    bool knows(const DataItem& item) const { return item.constant || image.came(simplex.index); }
+    // None also of a lost agent: its last state may be over.
+    std::optional<State> state() const {
+        return image.lost() ? std::nullopt : stateOf(image, simplex.index);
+    }
     Quality quality() const { return image->state(simplex.index).quality; }
 };
 
@@ -54,10 +58,14 @@ Json dataJson(const Shown& shown) {
     Json data = Json::object();
     for (const ItemLayout& each : shown.simplex.info().layout->items) {
         const DataItem& item = *each.item;
-        data[item.name] = {
-            {"kind", name(item.kind)},     {"value", valueJson(item, shown.value(each))},
-            {"unit", item.unit},           {"min", numberJson(item.min)},
-            {"max", numberJson(item.max)}, {"description", item.description}};
+        const bool known = shown.knows(item);
+        data[item.name] = {{"kind", name(item.kind)},
+                           {"value", known ? valueJson(item, shown.value(each)) : Json()},
+                           {"unit", item.unit},
+                           {"min", numberJson(item.min)},
+                           {"max", numberJson(item.max)},
+                           {"description", item.description}};
+        if (!known) continue;
         const Json label = labelJson(item, shown.value(each));
         if (!label.is_null()) data[item.name]["label"] = label;
         const std::string wrong = outsideText(item, shown.value(each));
@@ -107,7 +115,7 @@ Json shownJson(const Shown& shown) {
             {"quality", name(shown.quality())},
             {"safe", safeJson(shown.demand)},
             {"causes", causesJson(shown.causes)},
-            {"age_ms", shown.age * 1000},
+            {"age_ms", shown.age.value_or(0) * 1000},
             {"overloaded", shown.owner.overloaded},
             {"standstill", shown.owner.standstill},
             {"state", state ? Json(name(*state)) : Json()},
@@ -121,6 +129,8 @@ std::string rangeText(const DataItem& item) {
     return (item.min ? toText(*item.min) : "") + " .. " + (item.max ? toText(*item.max) : "");
 }
 
+std::string bracketed(const std::string& text) { return '[' + text + ']'; }
+
 void printHead(const Shown& shown) {
     const FoundSimplex& simplex = shown.simplex;
     const auto state = shown.state();
@@ -131,25 +141,34 @@ void printHead(const Shown& shown) {
     columns.add({"role", name(simplex.info().role)});
     const std::string trouble = loopTrouble(shown.owner);
     columns.add({"agent", simplex.agent + (trouble.empty() ? "" : ", " + trouble)});
-    if (state) columns.add({"state", name(*state)});
+    const auto last = stateOf(shown.image, simplex.index);
+    if (last) columns.add({"state", state ? name(*state) : bracketed(name(*last))});
     const std::string& why = shown.demand.why;
     columns.add({"quality", std::string{name(shown.quality())} + (shown.demand.safe
                                                                       ? ", its safe value: " + why
                                                                   : why.empty() ? ""
                                                                                 : ", " + why)});
     if (!shown.causes.empty()) columns.add({"because of", causesText(shown.causes)});
-    columns.add({"age", toText(std::round(shown.age * 1e4) / 10) + " ms"});
+    if (shown.age) columns.add({"age", toText(std::round(*shown.age * 1e4) / 10) + " ms"});
     std::cout << simplex.info().path << '\n';
     columns.print(std::cout);
+}
+
+// What is not live stands in brackets; what never came is not shown as if it had.
+std::string shownText(const Shown& shown, const ItemLayout& each) {
+    const DataItem& item = *each.item;
+    if (!shown.knows(item)) return "-";
+    const Value value = shown.value(each);
+    const std::string text = valueText(item, value) + wrongText(item, value);
+    return shown.image.lost() && !item.constant ? bracketed(text) : text;
 }
 
 void printData(const Shown& shown) {
     Columns columns{2};
     for (const ItemLayout& each : shown.simplex.info().layout->items) {
         const DataItem& item = *each.item;
-        const Value value = shown.value(each);
-        columns.add({item.name, valueText(item, value) + wrongText(item, value), item.unit,
-                     rangeText(item), item.description});
+        columns.add(
+            {item.name, shownText(shown, each), item.unit, rangeText(item), item.description});
     }
     std::cout << "\ndata\n";
     columns.print(std::cout);
@@ -194,9 +213,9 @@ Exit showSimplex(const ShowOptions& options) {
     checkPath(options.path);
     Live live{options.network};
     live.view({options.path}, 100);
-    Shown shown{live.find(options.path), {}, 0};
+    Shown shown{live.find(options.path), {}, {}};
     shown.image = live.values(shown.simplex);
-    shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index).value_or(0);
+    shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index);
     shown.owner = live.statusOf(shown.simplex.agent);
     shown.demand = demandOf(live, shown);
     shown.causes = causesOf(live, shown.simplex, shown.image);

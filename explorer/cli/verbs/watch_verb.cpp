@@ -80,7 +80,7 @@ bool follow(Live& live, Watched& watched) {
 Reading read(const Watched& watched, const comms::AgentImage& image) {
     Reading reading;
     const bool same = image && &image->structure() == watched.simplex.structure.get();
-    if (!same || !image.came(watched.simplex.index)) return reading;
+    if (!same || !isLive(image, watched.simplex.index)) return reading;
     reading.quality = image->state(watched.simplex.index).quality;
     reading.demand = safeBecause(watched.simplex, image->state(watched.simplex.index), image);
     const Value value = image->value(watched.simplex.index, *watched.item);

@@ -24,7 +24,11 @@ struct AgentStatus {
     std::string name, host;
     std::int64_t epoch = 0;  // UTC microseconds
     std::string state;       // "running", "overloaded", "standstill", "incomplete", "lost"
-    double age = 0;          // s since its newest cycle
+    bool ended = false;      // lost, as it said itself or as another start of it took its place
+    // When it was heard first, by a clock that only grows; 0: it was there before this mirror. Of
+    // several that claim a path, one that is heard owns it, then the least `since`, then `epoch`.
+    std::int64_t since = 0;
+    double age = 0;                          // s since its newest cycle
     std::uint32_t types = 0, simplexes = 0;  // as it announces them
     std::uint32_t missing = 0;               // those that have not come yet
     std::int64_t cycle = 0;                  // newest
@@ -63,27 +67,32 @@ struct CommandAnswer : CallResult {
 class AgentImage {
 public:
     AgentImage() = default;
-    AgentImage(std::shared_ptr<const void> keeps, Image image, std::vector<bool> came)
-        : keeps_{std::move(keeps)}, image_{std::move(image)}, came_{std::move(came)} {}
+    AgentImage(std::shared_ptr<const void> keeps, Image image, std::vector<bool> came,
+               bool lost = false)
+        : keeps_{std::move(keeps)}, image_{std::move(image)}, came_{std::move(came)}, lost_{lost} {}
     AgentImage(AgentImage&&) noexcept = default;
     AgentImage& operator=(AgentImage&& other) noexcept {
         image_ = std::move(other.image_);  // releases the image before the memory that it lies in
         keeps_ = std::move(other.keeps_);
         came_ = std::move(other.came_);
+        lost_ = other.lost_;
         return *this;
     }
 
     explicit operator bool() const { return static_cast<bool>(image_); }
     const Image& operator*() const { return image_; }
     const Image* operator->() const { return &image_; }
-    // Whether the agent sent this simplex and is still heard. Such a simplex may be `lost` because
-    // an input of it is; without it, `lost` means that nothing is known.
+    // Whether the agent ever sent this simplex. Such a simplex may be `lost` because an input of it
+    // is, or its agent; without it, `lost` means that only its constants are known.
     bool came(std::uint32_t simplex) const { return simplex < came_.size() && came_[simplex]; }
+    // Whether the agent was not heard any longer. Then its values are the last ones that came.
+    bool lost() const { return lost_; }
 
 private:
     std::shared_ptr<const void> keeps_;
     Image image_;  // ends first
     std::vector<bool> came_;
+    bool lost_ = false;
 };
 
 // All agents of a domain for tools: their models, values, events and commands, without any prior
