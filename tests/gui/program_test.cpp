@@ -8,7 +8,8 @@ namespace cortex::test {
 namespace {
 
 Outcome explorerWith(std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"--domain", domain, "--interface", "127.0.0.1"});
+    // A path may stand behind an interface.
+    arguments.insert(arguments.begin(), {"--domain", domain, "--interface", "127.0.0.1"});
     // Qt's offscreen platform leaves parts of its screen behind when it ends.
     return runProgram(CORTEX_BINARY_DIR "/bin/cortex-explorer", arguments,
                       {{"ASAN_OPTIONS", "detect_leaks=0:new_delete_type_mismatch=0"}});
@@ -34,11 +35,19 @@ TEST_F(Program, SaysThatAPictureCannotBeWritten) {
     EXPECT_TRUE(contains(made.errors, "is its folder there")) << made.errors;
 }
 
-TEST_F(Program, SaysThatNotEverythingCame) {
-    agent.reset();
-    const Outcome made = explorerWith({"--timeout", "0.2", "--screenshot", file()});
-    EXPECT_EQ(made.exit, 0);
-    EXPECT_TRUE(contains(made.errors, "not everything had come within 0.2 s")) << made.errors;
+TEST_F(Program, SaysThatASimplexIsUnknownInTheWordsOfCortex) {
+    const Outcome made = explorerWith({"/drvie", "--screenshot", file()});
+    EXPECT_EQ(made.exit, 3);
+    EXPECT_TRUE(contains(made.errors, "no agent has a simplex /drvie")) << made.errors;
+    EXPECT_TRUE(contains(made.errors, "/drive")) << "the nearest: " << made.errors;
+}
+
+TEST(ProgramAlone, SaysThatADomainIsEmptyInTheWordsOfCortex) {
+    const ModelFolder folder;
+    const Outcome made = explorerWith(
+        {"--timeout", "0.2", "--screenshot", (folder.path() / "picture.png").string()});
+    EXPECT_EQ(made.exit, 3);
+    EXPECT_TRUE(contains(made.errors, "no agent on domain " + domain)) << made.errors;
 }
 
 TEST(ProgramAlone, RefusesOptionsThatItDoesNotKnowWithTheValidOnes) {

@@ -60,7 +60,9 @@ protected:
     }
 
     bool everythingComes() {
-        return comes([this] { return window.ready(); });
+        const bool ready = comes([this] { return window.ready(); });
+        window.refresh();  // what has come is shown, too
+        return ready;
     }
     const SystemModel& tree() { return window.tree().model(); }
     // What the table of data shows of an item.

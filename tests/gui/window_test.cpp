@@ -19,8 +19,11 @@
 #include <QImage>
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QTreeView>
 #include <csignal>
 #include <functional>
+
+#include <QtTest/QTest>
 
 namespace cortex::test {
 namespace {
@@ -56,9 +59,16 @@ TEST_F(Window, SaysThatAnAgentIsLostAndPutsItsLastValuesInBrackets) {
     ASSERT_TRUE(comes([this] { return valueOf("state") == "Standby (0)"; }));
     agent->end(SIGKILL);
     EXPECT_TRUE(comes([&] { return wordOf(path).contains("lost"); })) << wordOf(path).toStdString();
-    EXPECT_TRUE(comes([this] { return !valueOf("state").startsWith("Standby"); }))
-        << "an old value never looks live: " << valueOf("state").toStdString();
-    EXPECT_TRUE(comes([this] { return tree().total().lost > 0; }));
+    EXPECT_TRUE(comes([this] { return valueOf("state") == "[Standby (0)]"; }))
+        << "the last value stays, and never looks live: " << valueOf("state").toStdString();
+    const auto says = [this](const QString& text) {
+        const auto labels = window.current()->findChildren<TextLabel*>();
+        return std::ranges::any_of(labels, [&](const auto* each) {
+            return each->isVisible() && each->text().contains(text);
+        });
+    };
+    EXPECT_TRUE(says("Values are the last ones, in brackets."));
+    EXPECT_TRUE(says(" old")) << "with their age";
 }
 
 TEST_F(Window, FillsItselfAgainWhenTheAgentComesBack) {
@@ -159,6 +169,60 @@ TEST_F(Window, CutsNoTextWithoutATooltipInAnyThemeOrSize) {
         }
     }
     Look::apply(Theme::Light, 1, QStringLiteral("Open Sans"));
+}
+
+// Whether all of it can be seen, and nothing of its text is cut.
+void expectWhole(const MainWindow& window, const QWidget& widget, const QString& what) {
+    ASSERT_TRUE(widget.isVisibleTo(&window)) << what.toStdString();
+    EXPECT_GE(widget.width(), widget.sizeHint().width()) << what.toStdString();
+    const QRect place{widget.mapTo(&window, QPoint{}), widget.size()};
+    EXPECT_TRUE(window.rect().contains(place))
+        << what.toStdString() << " ends at " << place.right();
+}
+
+TEST_F(Window, NeverCutsStateQualityStopAndControl) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    for (const char* family : {"Open Sans", "DejaVu Sans"}) {
+        for (const double scale : {1.0, 1.25, 1.5}) {
+            for (const QSize size : {QSize{800, 600}, QSize{1280, 800}}) {
+                Look::apply(Theme::Light, scale, QString::fromLatin1(family));
+                window.resize(size);
+                window.refresh();
+                QApplication::processEvents();
+                window.grab();
+                const QString what =
+                    QStringLiteral("%1 %2 %3 ").arg(family).arg(scale).arg(size.width());
+                expectWhole(window, window.stopButton(), what + "Stop");
+                for (const auto* label : window.findChildren<TextLabel*>()) {
+                    const QString text = label->text();
+                    const bool never =
+                        text == "Standby" || text.startsWith("quality ") || text == "Read-only";
+                    if (never) expectWhole(window, *label, what + text);
+                }
+            }
+        }
+    }
+    Look::apply(Theme::Light, 1, QStringLiteral("Open Sans"));
+}
+
+TEST_F(Window, ShowsTheTreeInPlaceOfTheViewsWhereItIsNarrow) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    EXPECT_TRUE(window.tree().isVisible());
+    window.resize(800, 600);
+    QApplication::processEvents();
+    EXPECT_FALSE(window.tree().isVisible());
+    EXPECT_TRUE(window.current()->isVisible());
+    QTest::keyClick(&window, Qt::Key_B, Qt::ControlModifier);
+    EXPECT_TRUE(window.tree().isVisible());
+    EXPECT_FALSE(window.current()->isVisible());
+    QTest::keyClick(window.tree().findChild<QTreeView*>(), Qt::Key_Down);
+    EXPECT_FALSE(window.tree().isVisible()) << "something was chosen";
+    EXPECT_TRUE(window.current()->isVisible());
+    window.resize(1280, 800);
+    QApplication::processEvents();
+    EXPECT_TRUE(window.tree().isVisible());
 }
 
 TEST(WindowAlone, SaysThatNobodyIsHeard) {

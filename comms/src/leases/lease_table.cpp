@@ -33,9 +33,9 @@ bool isFreeCommand(std::string_view command) {
 }
 
 std::vector<ShownLease> leasesOf(const AgentStatus& agent, const AgentImage& image) {
-    if (!image) return {};
+    if (!image || agent.state == "lost") return {};  // its last ones say nothing about now
     const std::uint32_t own = image->structure().find("/" + agent.name);
-    if (own == noSimplex || !isLive(image, own)) return {};
+    if (own == noSimplex || !image.came(own)) return {};
     const auto prefixes = itemOf<std::string>(image, own, "leasePrefix");
     const auto holders = itemOf<std::string>(image, own, "leaseHolder");
     const auto cycles = itemOf<std::int64_t>(image, own, "leaseSince");

@@ -86,7 +86,7 @@ std::optional<Condition> conditionFrom(const QString& text, QString& trouble) {
 }
 
 bool holds(const Condition& condition, const AgentFrame& agent, std::uint32_t simplex) {
-    if (!agent.came(simplex)) return false;
+    if (agent.lost() || !agent.came(simplex)) return false;
     const TypeLayout& layout = *agent.structure->simplexes[simplex].layout;
     const ItemLayout* found = layout.find(condition.item.toStdString());
     if (found == nullptr) return false;
@@ -106,8 +106,9 @@ bool holds(const Condition& condition, const AgentFrame& agent, std::uint32_t si
     return false;
 }
 
+// Only of what is live: an old value may be within its limits by now.
 bool isOutside(const AgentFrame& agent, std::uint32_t simplex) {
-    if (!agent.came(simplex)) return false;
+    if (agent.lost() || agent.quality(simplex) != Quality::Good) return false;
     const TypeLayout& layout = *agent.structure->simplexes[simplex].layout;
     return std::ranges::any_of(layout.items, [&](const ItemLayout& each) {
         return !outsideText(*each.item, (*agent.image)->value(simplex, each)).empty();

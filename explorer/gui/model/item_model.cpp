@@ -41,6 +41,21 @@ QString remarkOf(const DataItem& item) {
     return {};
 }
 
+// What a demand is set to while nobody that is Active writes it.
+QString safeRemark(const DataItem& item) {
+    switch (item.safe.kind) {
+        case Safe::Kind::Given:
+            return ItemModel::tr("safe %1").arg(valueText(item, item.safe.value));
+        case Safe::Kind::Hold:
+            return ItemModel::tr("safe: holds");
+        case Safe::Kind::Observed:
+            return ItemModel::tr("safe: as observed");
+        case Safe::Kind::None:
+            break;
+    }
+    return {};
+}
+
 // The types whose items only the framework writes.
 bool isOfFramework(const std::string& type) {
     static const std::set<std::string> types{"Simplex", "Active", "Activity", "Agent", "Cluster"};
@@ -173,6 +188,7 @@ void ItemModel::addItem(Node& group, const DataItem& item, Place place, bool fra
     row.name = QString::fromStdString(item.name);
     row.unit = unitText(item.unit);
     row.remark = remarkOf(item);
+    if (row.remark.isEmpty() && info.role == Role::Modification) row.remark = safeRemark(item);
     row.note = QString::fromStdString(item.description);
     row.min = numberOf(item.min);
     row.max = numberOf(item.max);
@@ -214,10 +230,11 @@ void ItemModel::refresh(Node& node) {
         const auto mark = row.mark;
         row.mark.reset();
         row.number.reset();
-        if (!agent.came(child->simplex)) {
+        const auto known = agent.value(child->simplex, *child->layout);
+        if (!known) {
             row.value = agent.lost() ? QStringLiteral("—") : QStringLiteral("…");
         } else {
-            const cortex::Value value = (*agent.image)->value(child->simplex, *child->layout);
+            const cortex::Value& value = *known;
             const bool array = row.whole && row.item->length > 1;
             row.value = array ? tr("%n values", nullptr, static_cast<int>(row.item->length))
                               : elementText(*row.item, value, row.element);
@@ -225,7 +242,7 @@ void ItemModel::refresh(Node& node) {
             if (!array) row.mark = outsideOf(row, value);
             const Quality quality = qualityOf(agent, *child);
             if (quality != Quality::Good && !row.item->constant) {
-                row.mark = shapeOf(quality);
+                row.mark = agent.rests(child->simplex) ? Shape::Standby : shapeOf(quality);
                 row.value = bracketed(row.value);
             }
         }

@@ -73,7 +73,7 @@ QString outcomeText(const CommandOutcome& outcome, const Command* command) {
 }
 
 std::optional<ActivityNow> activityOf(const AgentFrame& agent, std::uint32_t simplex) {
-    if (!agent.came(simplex)) return std::nullopt;
+    if (agent.lost() || !agent.came(simplex)) return std::nullopt;
     const auto command = firstOf<std::string>(agent, simplex, "activity");
     const auto requester = firstOf<std::string>(agent, simplex, "requester");
     const auto progress = firstOf<double>(agent, simplex, "progress");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/system_model.hpp"
 
+#include "model/natural_order.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -9,19 +11,6 @@ namespace cortex::explorer {
 namespace {
 
 constexpr int framesBetweenFilters = 15;  // conditions on states are looked at twice a second
-
-// By number where a name is one, so that 10 stands behind 9; otherwise by letters.
-struct Natural {
-    bool operator()(std::string_view a, std::string_view b) const {
-        const bool numbers = isNumber(a) && isNumber(b);
-        if (numbers && a.size() != b.size()) return a.size() < b.size();
-        return a < b;
-    }
-    static bool isNumber(std::string_view text) {
-        return !text.empty() &&
-               std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
-    }
-};
 
 int weight(const std::optional<Shape>& shape) {
     if (!shape) return 0;
@@ -60,22 +49,25 @@ Marks ownMarks(const Frame& frame, std::optional<Place> place, bool twice) {
     else
         marks.shape = type.active() ? Shape::Unknown : Shape::Data;
     if (agent.lost())
-        marks.own = Shape::Lost;
-    else if (agent.came(place->simplex))
+        marks.own = agent.status.ended ? Shape::Ended : Shape::Lost;
+    else if (agent.came(place->simplex) && !agent.rests(place->simplex))
         marks.own = shapeOf(agent.quality(place->simplex));
     if (twice) marks.own = worse(marks.own, Shape::Contradiction);
-    marks.faults = state == State::Fault ? 1 : 0;
-    marks.lost = marks.own == Shape::Lost ? 1 : 0;
     return marks;
 }
 
 }  // namespace
 
 struct SystemModel::Wanted {
-    std::map<std::string, Wanted, Natural> children;
+    std::map<std::string, Wanted, NaturalOrder> children;
     std::optional<Place> place;
+    QString type;
     bool twice = false;  // two agents claim it
 
+    void name(const Frame& frame) {
+        if (place) type = QString::fromStdString(frame.type(*place).name);
+        for (auto& [below, each] : children) each.name(frame);
+    }
     void add(std::string_view path, Place where, const Frame& frame) {
         Wanted* node = this;
         while (!path.empty()) {
@@ -88,9 +80,10 @@ struct SystemModel::Wanted {
             node->place = where;
             return;
         }
-        node->twice = true;
-        const auto epoch = [&](Place each) { return frame.agents[each.agent].status.epoch; };
-        if (epoch(where) < epoch(*node->place)) node->place = where;
+        const AgentFrame &first = frame.agents[node->place->agent],
+                         &other = frame.agents[where.agent];
+        if (!first.lost() && !other.lost()) node->twice = true;
+        if (other.owns(first)) node->place = where;
     }
 };
 
@@ -100,6 +93,7 @@ struct SystemModel::Node {
     int row = 0;
     std::vector<std::unique_ptr<Node>> children;
     std::optional<Place> place;
+    QString type;  // a place is of the newest frame, which has no row that is just going
     bool twice = false;
     Marks marks;
 
@@ -112,6 +106,7 @@ struct SystemModel::Node {
         node->path = parent.path + '/' + name;
         node->parent = &parent;
         node->place = wanted.place;
+        node->type = wanted.type;
         node->twice = wanted.twice;
         for (const auto& [below, each] : wanted.children) {
             node->children.push_back(make(*node, below, each));
@@ -155,6 +150,7 @@ SystemModel::Wanted SystemModel::wanted() {
             if (query_.matches(*frame_, {a, i})) all.add(info.path, {a, i}, *frame_);
         }
     }
+    all.name(*frame_);
     return all;
 }
 
@@ -165,6 +161,7 @@ void SystemModel::change(Node& node, const Wanted& wanted) {
     for (const auto& child : node.children) {
         const Wanted& each = wanted.children.find(child->name)->second;
         child->place = each.place;
+        child->type = each.type;
         child->twice = each.twice;
         change(*child, each);
     }
@@ -221,8 +218,6 @@ void SystemModel::refresh(Node& node) {
             if (first < 0) first = child->row;
             last = child->row;
         }
-        marks.faults += child->marks.faults;
-        marks.lost += child->marks.lost;
         marks.worst = worse(marks.worst, child->marks.worst);
         marks.worst = worse(marks.worst, child->marks.own);
         if (child->marks.shape == Shape::Fault) marks.worst = worse(marks.worst, Shape::Fault);
@@ -257,7 +252,6 @@ QModelIndex SystemModel::indexOf(const std::string& path) const {
 }
 
 const Marks& SystemModel::marks(const QModelIndex& index) const { return nodeOf(index)->marks; }
-const Marks& SystemModel::total() const { return root_->marks; }
 std::string SystemModel::path(const QModelIndex& index) const { return nodeOf(index)->path; }
 std::optional<Place> SystemModel::place(const QModelIndex& index) const {
     return nodeOf(index)->place;
@@ -286,7 +280,7 @@ QString SystemModel::word(const Node& node) const {
     const bool ordinary = shape == Shape::Active || shape == Shape::Standby ||
                           shape == Shape::Data || shape == Shape::Agent;
     if (!ordinary) return explorer::word(shape);
-    return QString::fromStdString(frame_->type(*node.place).name);
+    return node.type;
 }
 
 QVariant SystemModel::data(const QModelIndex& index, int role) const {
@@ -300,11 +294,11 @@ QVariant SystemModel::data(const QModelIndex& index, int role) const {
         case WordRole:
             return word(node);
         case TypeRole:
-            return node.place ? QString::fromStdString(frame_->type(*node.place).name) : QString{};
+            return node.type;
         case Qt::ToolTipRole:
         case Qt::AccessibleTextRole: {
             QStringList parts{QString::fromStdString(node.path)};
-            if (node.place) parts << QString::fromStdString(frame_->type(*node.place).name);
+            if (node.place) parts << node.type;
             if (node.marks.shape <= Shape::Unknown) parts << explorer::word(node.marks.shape);
             if (node.marks.own) parts << explorer::word(*node.marks.own);
             if (node.marks.worst) parts << tr("below: %1").arg(explorer::word(*node.marks.worst));

@@ -19,7 +19,6 @@ struct Marks {
     Shape shape = Shape::Path;
     std::optional<Shape> own;    // of its quality, or that two agents claim it
     std::optional<Shape> worst;  // of what lies below
-    int faults = 0, lost = 0;    // it and below
     bool operator==(const Marks&) const = default;
 };
 
@@ -38,7 +37,6 @@ public:
 
     const Frame& frame() const { return *frame_; }
     const Marks& marks(const QModelIndex& index) const;
-    const Marks& total() const;
     std::string path(const QModelIndex& index) const;
     std::optional<Place> place(const QModelIndex& index) const;
     QModelIndex indexOf(const std::string& path) const;  // invalid: not shown

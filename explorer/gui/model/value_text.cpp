@@ -136,6 +136,10 @@ std::optional<Value> enteredValue(const DataItem& item, const QString& text, QSt
     return value;
 }
 
+QString counted(int count, const QString& one, const QString& many) {
+    return QStringLiteral("%1 %2").arg(count).arg(count == 1 ? one : many);
+}
+
 QString unitText(const std::string& ucum) {
     static constexpr std::array<std::array<const char*, 2>, 6> names{
         {{"Cel", "°C"}, {"deg", "°"}, {"Ohm", "Ω"}, {"um", "µm"}, {"us", "µs"}, {"uA", "µA"}}};
@@ -178,6 +182,10 @@ QString ageText(double seconds) {
     const auto minutes = static_cast<int>(seconds / 60);
     if (minutes < 100) return tr("%1 min").arg(minutes);
     return tr("%1 h %2 min").arg(minutes / 60).arg(minutes % 60, 2, 10, QLatin1Char{'0'});
+}
+
+QString wholeAgeText(double seconds) {
+    return seconds < 100 ? tr("%1 s").arg(static_cast<int>(seconds)) : ageText(seconds);
 }
 
 std::optional<double> numberOf(const Value& value, std::size_t element) {

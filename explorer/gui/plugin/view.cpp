@@ -42,8 +42,8 @@ std::optional<double> SimplexNow::number(std::string_view item, std::size_t elem
     if (!present()) return std::nullopt;
     const AgentFrame& agent = frame_->agents[agent_];
     const ItemLayout* layout = agent.structure->simplexes[simplex_].layout->find(item);
-    if (layout == nullptr || !agent.came(simplex_)) return std::nullopt;
-    return numberOf((*agent.image)->value(simplex_, *layout), element);
+    const auto value = layout != nullptr ? agent.value(simplex_, *layout) : std::nullopt;
+    return value ? numberOf(*value, element) : std::nullopt;
 }
 
 QString SimplexNow::text(std::string_view item, std::size_t element) const {
@@ -51,9 +51,9 @@ QString SimplexNow::text(std::string_view item, std::size_t element) const {
     if (!present()) return nothing;
     const AgentFrame& agent = frame_->agents[agent_];
     const ItemLayout* layout = agent.structure->simplexes[simplex_].layout->find(item);
-    if (layout == nullptr || !agent.came(simplex_)) return nothing;
-    const QString text =
-        elementText(*layout->item, (*agent.image)->value(simplex_, *layout), element);
+    const auto value = layout != nullptr ? agent.value(simplex_, *layout) : std::nullopt;
+    if (!value) return nothing;
+    const QString text = elementText(*layout->item, *value, element);
     if (text.isEmpty()) return nothing;
     return live() || layout->item->constant ? text : bracketed(text);
 }

@@ -41,6 +41,5 @@ int main(int argc, char** argv) {
     if (options->view == "system") window.openGraph();
     if (options->view == "events") window.openEvents();
     window.show();
-    return picture ? writeScreenshot(window, options->screenshot, options->timeout)
-                   : QApplication::exec();
+    return picture ? writeScreenshot(window, session, *options) : QApplication::exec();
 }

@@ -45,8 +45,10 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exit) {
     app.add_option("--interface", options.network.interfaces,
                    "Network interface or its address; may be given again; otherwise "
                    "CORTEX_INTERFACE, or all")
+        ->allow_extra_args(false)  // what follows is a path
         ->type_name("NAME");
     app.add_option("--peer", options.network.peers, "Host that multicast does not reach")
+        ->allow_extra_args(false)
         ->type_name("HOST[:PORT]");
     app.add_option("--discovery-server", options.network.discoveryServer,
                    "Fast DDS Discovery Server; otherwise CORTEX_DISCOVERY_SERVER")

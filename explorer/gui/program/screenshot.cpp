@@ -1,23 +1,76 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/screenshot.hpp"
 
-#include "views/system_tree.hpp"
+#include "cortex/core/nearest_names.hpp"
+
+#include "session/session.hpp"
 #include "window/main_window.hpp"
 
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QPixmap>
+#include <algorithm>
 #include <iostream>
+#include <sstream>
 
 namespace cortex::explorer {
 
-int writeScreenshot(MainWindow& window, const std::string& file, double limit) {
+namespace {
+
+// In the words of `cortex`, which ends with the same exit code.
+constexpr int notFound = 3;
+
+int fail(const std::string& why) {
+    std::cerr << "error: " << why << '\n';
+    return notFound;
+}
+
+bool haveAll(const Frame& frame, const std::vector<std::string>& paths) {
+    return std::ranges::all_of(paths,
+                               [&](const auto& each) { return frame.find(each).has_value(); });
+}
+
+std::string nobodyOn(int number) {
+    const std::string domain = std::to_string(number);
+    return "no agent on domain " + domain + "; start one (cortex-agent FILE --domain " + domain +
+           "), look at another domain (--domain N or CORTEX_DOMAIN), or name the interface that "
+           "the agents are kept to (--interface lo or CORTEX_INTERFACE)";
+}
+
+std::string unknown(const Frame& frame, const std::string& path, double limit) {
+    if (!frame.complete) {
+        std::ostringstream text;
+        text << path << " was not found within " << limit
+             << " s, which does not mean that it is not there; wait longer (--timeout)";
+        return text.str();
+    }
+    std::vector<std::string> paths;
+    for (const AgentFrame& agent : frame.agents) {
+        if (!agent.structure) continue;
+        for (const SimplexInfo& info : agent.structure->simplexes) paths.push_back(info.path);
+    }
+    const std::string nearest = nearestNames(path, paths);
+    return "no agent has a simplex " + path + (nearest.empty() ? "" : "; " + nearest);
+}
+
+}  // namespace
+
+int writeScreenshot(MainWindow& window, const Session& session, const Options& options) {
+    const std::string& file = options.screenshot;
+    const double limit = options.timeout;
     QElapsedTimer timer;
     timer.start();
     bool ready = false;
     while (!ready && static_cast<double>(timer.elapsed()) < limit * 1000) {
         QApplication::processEvents(QEventLoop::WaitForMoreEvents);
-        ready = window.ready();
+        const auto now = session.frame();
+        ready = window.ready() && (now->complete || haveAll(*now, options.paths));
+    }
+    const auto frame = session.frame();
+    if (!frame->problem.empty()) return fail(frame->problem);
+    if (frame->agents.empty()) return fail(nobodyOn(frame->domain));
+    for (const std::string& path : options.paths) {
+        if (!frame->find(path)) return fail(unknown(*frame, path, limit));
     }
     window.refresh();
     QApplication::processEvents();

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
+#include "program/options.hpp"
 
 namespace cortex::explorer {
 
 class MainWindow;
+class Session;
 
-// Writes a picture of the window once everything has come, or after `limit` seconds, and says which
-// of the two it was. Returns the exit code of the program: 1 where the file cannot be written.
-int writeScreenshot(MainWindow& window, const std::string& file, double limit);
+// Writes a picture of the window once everything has come, or after the timeout, and says which of
+// the two it was. Returns the exit code of the program: 1 where the file cannot be written, 3 where
+// nobody is heard, or nobody has a path that was named.
+int writeScreenshot(MainWindow& window, const Session& session, const Options& options);
 
 }  // namespace cortex::explorer

@@ -4,16 +4,37 @@
 #include "cortex/core/path.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace cortex::explorer {
 
 bool AgentFrame::beats() const { return !lost() && status.standstill.empty() && status.age < 1; }
 
+bool AgentFrame::owns(const AgentFrame& other) const {
+    const auto order = [](const AgentFrame& each) {
+        return std::make_tuple(each.lost(), each.status.since, each.status.epoch);
+    };
+    return order(*this) < order(other);
+}
+
 Quality AgentFrame::quality(std::uint32_t simplex) const {
     return came(simplex) ? (*image)->state(simplex).quality : Quality::Lost;
 }
 
+std::optional<Value> AgentFrame::value(std::uint32_t simplex, const ItemLayout& item) const {
+    if (came(simplex)) return (*image)->value(simplex, item);
+    if (!item.item->constant || !structure) return std::nullopt;
+    const auto set = std::ranges::find_if(structure->initial, [&](const InitialValue& each) {
+        return each.simplex == simplex && each.item->item->name == item.item->name;
+    });
+    return set != structure->initial.end() ? set->value : item.item->initial;
+}
+
 std::optional<State> AgentFrame::state(std::uint32_t simplex) const {
+    return lost() ? std::nullopt : lastState(simplex);
+}
+
+std::optional<State> AgentFrame::lastState(std::uint32_t simplex) const {
     if (!came(simplex)) return std::nullopt;
     const TypeLayout& layout = *structure->simplexes[simplex].layout;
     if (!layout.type->active()) return std::nullopt;
@@ -25,6 +46,13 @@ std::optional<State> AgentFrame::state(std::uint32_t simplex) const {
     const std::int64_t state = numbers->front();
     if (state < 0 || state >= stateCount) return std::nullopt;
     return static_cast<State>(state);
+}
+
+bool AgentFrame::rests(std::uint32_t simplex) const {
+    if (quality(simplex) != Quality::Stale) return false;
+    const std::uint32_t cause = (*image)->state(simplex).cause;
+    return state(simplex) == State::Standby ||
+           (cause < structure->simplexes.size() && state(cause) == State::Standby);
 }
 
 std::optional<float> AgentFrame::age(std::uint32_t simplex) const {
@@ -55,9 +83,7 @@ std::optional<Place> Frame::find(std::string_view path) const {
         if (!structure) continue;
         const std::uint32_t simplex = structure->find(path);
         if (simplex == noSimplex || structure->simplexes[simplex].remote) continue;
-        const bool earlier =
-            !found || agents[agent].status.epoch < agents[found->agent].status.epoch;
-        if (earlier) found = Place{agent, simplex};
+        if (!found || agents[agent].owns(agents[found->agent])) found = Place{agent, simplex};
     }
     return found;
 }

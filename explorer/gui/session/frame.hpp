@@ -21,11 +21,19 @@ struct AgentFrame {
     std::shared_ptr<const comms::AgentImage> image;  // null: nothing of it is viewed
     std::vector<float> ages;                         // s, by simplex; negative: never came
 
-    bool lost() const { return status.state == "lost"; }
+    bool lost() const { return status.state == "lost"; }  // or ended
+    // Whether it owns, and is sent commands for, a path that the other one claims as well.
+    bool owns(const AgentFrame& other) const;
     bool beats() const;  // its loop runs, as far as was heard within a second
     bool came(std::uint32_t simplex) const { return image && *image && image->came(simplex); }
     Quality quality(std::uint32_t simplex) const;  // lost where nothing is known
+    // None also of a lost agent, whose last state may be over.
     std::optional<State> state(std::uint32_t simplex) const;
+    std::optional<State> lastState(std::uint32_t simplex) const;
+    // The last one that came; a constant also where nothing did.
+    std::optional<Value> value(std::uint32_t simplex, const ItemLayout& item) const;
+    // It is stale only because it, or who writes it, is in Standby: nothing is amiss.
+    bool rests(std::uint32_t simplex) const;
     std::optional<float> age(std::uint32_t simplex) const;
 };
 
@@ -54,8 +62,9 @@ struct Frame {
     std::uint64_t structures = 0;  // changes whenever an agent or its structure came or went
     int domain = 0;
     bool joined = false;
-    double seconds = 0;   // since it began to join
-    std::string problem;  // why the domain cannot be joined, with the remedy
+    bool complete = false;  // everything of all has come, and no new one appears
+    double seconds = 0;     // since it began to join
+    std::string problem;    // why the domain cannot be joined, with the remedy
     std::string security;
     std::uint32_t rate = 0;    // Hz, at which values are taken; 0: every cycle
     std::uint32_t closed = 0;  // participants with security, which cannot be seen without

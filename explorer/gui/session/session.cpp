@@ -100,6 +100,11 @@ std::vector<CommandOutcome> Session::takeOutcomes() {
     return std::exchange(outcomes_, {});
 }
 
+void Session::dismiss(std::string agent) {
+    const std::lock_guard lock{mutex_};
+    dismissed_.push_back(std::move(agent));
+}
+
 void Session::takeControl(std::string prefix) {
     {
         const std::lock_guard lock{mutex_};
@@ -259,15 +264,29 @@ void Session::publish() {
     frame->rate = appliedRate_;
     if (mirror_) {
         frame->closed = mirror_->closed();
+        frame->complete = mirror_->waitUntilComplete(0ms);
         frame->control = leases_->now();
         for (const comms::AgentStatus& status : mirror_->agents()) {
             frame->agents.push_back(agentFrame(*mirror_, status));
         }
+        keepLost(frame->agents);
     }
     if (!sameStructures(*last, *frame)) ++structures_;
     frame->structures = structures_;
     const std::lock_guard lock{mutex_};
     frame_ = std::move(frame);
+}
+
+void Session::keepLost(std::vector<AgentFrame>& agents) {
+    std::vector<std::string> dismissed;
+    {
+        const std::lock_guard lock{mutex_};
+        dismissed = std::exchange(dismissed_, {});
+    }
+    for (const std::string& each : dismissed) lost_.dismiss(each);
+    const auto events = lost_.update(agents, Clock::now());
+    const std::lock_guard lock{mutex_};
+    events_.insert(events_.end(), events.begin(), events.end());
 }
 
 bool Session::pause() {

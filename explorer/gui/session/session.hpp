@@ -5,6 +5,7 @@
 
 #include "session/frame.hpp"
 #include "session/lease_keeper.hpp"
+#include "session/lost_agents.hpp"
 
 #include <array>
 #include <atomic>
@@ -48,6 +49,8 @@ public:
     // The events that came since the last call, the last 1,000 of each agent first.
     std::vector<comms::AgentEvent> takeEvents();
     void joinAgain();  // after it could not join
+    // A lost agent stays in all frames until a person dismisses it, or it is heard again.
+    void dismiss(std::string agent);
     // Sends a command at once, and gives its number. Whoever has not answered within the limit, or
     // is not heard any longer, is Unknown.
     std::uint64_t send(std::string path, std::string command,
@@ -71,6 +74,7 @@ private:
     void takeAnswers();
     void keepControl();
     void applyView(std::vector<std::string> wanted, std::uint32_t rate);
+    void keepLost(std::vector<AgentFrame>& agents);
     bool pause();  // until the next frame is due; false: the session ends
 
     comms::NetworkOptions options_;
@@ -78,6 +82,7 @@ private:
     std::unique_ptr<LeaseKeeper> leases_;    // ends before the mirror; thread_ alone
     std::vector<std::string> applied_;       // the view that the mirror has; thread_ alone
     std::uint32_t appliedRate_ = 0;          // the same
+    LostAgents lost_;                        // thread_ alone
     std::uint64_t number_ = 0, structures_ = 0;
     std::chrono::steady_clock::time_point begin_;
     std::string problem_;
@@ -104,6 +109,7 @@ private:
     std::vector<comms::AgentEvent> events_;
     std::vector<Request> requests_;
     std::vector<CommandOutcome> outcomes_;
+    std::vector<std::string> dismissed_;
     std::optional<std::string> control_;  // wanted; empty: released; none: as it is
     std::string handOverTo_;              // empty: nobody
     std::uint64_t lastNumber_ = 0;

@@ -88,6 +88,11 @@ void paintState(Unit& unit, Shape shape, const Tokens& c) {
 
 void paintKind(Unit& unit, Shape shape, const Tokens& c) {
     unit.line(c.ink2);
+    if (shape == Shape::Ended) {
+        ring(unit);
+        unit.fill(c.ink2);
+        unit->drawRect(QRectF{-0.34, -0.34, 0.68, 0.68});
+    }
     if (shape == Shape::Data) unit->drawPolygon(rhombus);
     if (shape == Shape::Path) unit->drawRoundedRect(QRectF{-0.62, -0.62, 1.24, 1.24}, 0.25, 0.25);
     if (shape == Shape::Agent) {
@@ -160,11 +165,11 @@ void paintTrouble(Unit& unit, Shape shape, const Tokens& c) {
 }  // namespace
 
 QString word(Shape shape) {
-    static constexpr std::array words{"Standby",     "StartingUp",  "Active",   "ShuttingDown",
-                                      "Fault",       "unknown",     "data",     "path",
-                                      "agent",       "stale",       "bad",      "lost",
-                                      "above limit", "below limit", "no label", "contradiction",
-                                      "incomplete",  "info",        "warning",  "error"};
+    static constexpr std::array words{
+        "Standby",     "StartingUp",  "Active",   "ShuttingDown",  "Fault",      "unknown",
+        "data",        "path",        "agent",    "stale",         "bad",        "lost",
+        "above limit", "below limit", "no label", "contradiction", "incomplete", "info",
+        "warning",     "error",       "ended"};
     static_assert(words.size() == allShapes.size());
     return QCoreApplication::translate("Shape", words[static_cast<std::size_t>(shape)]);
 }
@@ -215,7 +220,8 @@ void paint(QPainter& painter, const QRectF& box, Shape shape, const Tokens& colo
     Unit unit{painter, box};
     if (shape < Shape::Fault || shape == Shape::Unknown) {
         paintState(unit, shape, colours);
-    } else if (shape == Shape::Data || shape == Shape::Path || shape == Shape::Agent) {
+    } else if (shape == Shape::Data || shape == Shape::Path || shape == Shape::Agent ||
+               shape == Shape::Ended) {
         paintKind(unit, shape, colours);
     } else if (shape == Shape::Stale || shape == Shape::Bad || shape == Shape::Lost) {
         paintQuality(unit, shape, colours);

@@ -37,13 +37,15 @@ enum class Shape {
     Info,
     Warning,
     Error,
+    Ended,  // an agent that has said so
 };
 
 inline constexpr std::array allShapes{
     Shape::Standby,       Shape::StartingUp, Shape::Active,     Shape::ShuttingDown, Shape::Fault,
     Shape::Unknown,       Shape::Data,       Shape::Path,       Shape::Agent,        Shape::Stale,
     Shape::Bad,           Shape::Lost,       Shape::AboveLimit, Shape::BelowLimit,   Shape::NoLabel,
-    Shape::Contradiction, Shape::Incomplete, Shape::Info,       Shape::Warning,      Shape::Error};
+    Shape::Contradiction, Shape::Incomplete, Shape::Info,       Shape::Warning,      Shape::Error,
+    Shape::Ended};
 
 QString word(Shape shape);  // "StartingUp", "above limit"
 

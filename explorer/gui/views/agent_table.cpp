@@ -23,9 +23,12 @@ QString troubleOf(const AgentFrame& agent) {
     return {};
 }
 
-QString hertz(std::int64_t period) {
-    return period > 0 ? AgentTable::tr("%1 Hz").arg(1e9 / static_cast<double>(period), 0, 'g', 6)
-                      : QString{};
+// Of its period, and what it reaches where that is less.
+QString rateOf(const comms::AgentStatus& s) {
+    if (s.period <= 0) return {};
+    const double wanted = 1e9 / static_cast<double>(s.period);
+    if (!s.overloaded || s.rate <= 0) return AgentTable::tr("%1 Hz").arg(wanted, 0, 'g', 6);
+    return AgentTable::tr("%1 of %2 Hz").arg(s.rate, 0, 'g', 4).arg(wanted, 0, 'g', 6);
 }
 
 }  // namespace
@@ -49,10 +52,10 @@ void AgentTable::refresh(const Frame& frame) {
         const auto started = QDateTime::fromMSecsSinceEpoch(s.epoch / 1000, QTimeZone::utc());
         const QStringList texts{QString::fromStdString(s.name),
                                 QString::fromStdString(s.host),
-                                QString::fromStdString(s.state),
+                                s.ended ? tr("ended") : QString::fromStdString(s.state),
                                 ageText(s.age),
                                 started.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")),
-                                hertz(s.period),
+                                rateOf(s),
                                 QString::number(s.cycle),
                                 QString::number(s.simplexes),
                                 QString::number(s.types),

@@ -9,12 +9,11 @@
 #include "views/life_cycle_bar.hpp"
 #include "views/own_view.hpp"
 #include "views/relation_table.hpp"
+#include "views/simplex_header.hpp"
 #include "views/type_page.hpp"
 #include "widgets/item_table.hpp"
-#include "widgets/state_mark.hpp"
 #include "widgets/text_label.hpp"
 
-#include <QHBoxLayout>
 #include <QShortcut>
 #include <QStackedWidget>
 #include <QVBoxLayout>
@@ -30,33 +29,16 @@ enum Tab { OwnTab, DataTab, RelationsTab, CommandsTab, TypeTab, TabCount };
 constexpr std::array<std::string_view, TabCount> partNames{"own", "data", "relationships",
                                                            "commands", "type"};
 
-// "SimulatedAxis ‹ AxisDevice ‹ Device ‹ Active ‹ Simplex", the first parents.
-QString chainOf(const Type& type, const TypeModel& types) {
-    QStringList names{QString::fromStdString(type.name)};
-    for (const Type* each = &type; each != nullptr && !each->parents.empty();) {
-        names << QString::fromStdString(each->parents.front());
-        each = types.find(each->parents.front());
-    }
-    return names.join(QStringLiteral("  ‹  "));
-}
-
 }  // namespace
 
-BaseView::BaseView(Commands& commands, QWidget* parent)
+BaseView::BaseView(Commands& commands, const StateTimes& times, QWidget* parent)
     : QWidget{parent},
       whole_{new QStackedWidget},
       emptyTitle_{new TextLabel{TextSize::Empty}},
       emptyText_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
-      mark_{new StateMark{8}},
-      state_{new TextLabel{TextSize::Title, true}},
-      quality_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
-      agent_{new TextLabel{TextSize::Text}},
-      name_{new TextLabel{TextSize::Title, true}},
-      chain_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
-      description_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
-      notice_{new TextLabel{TextSize::Text, true, &Tokens::dataText}},
       outcome_{new TextLabel{TextSize::Text}},
       lifeCycle_{new LifeCycleBar{commands}},
+      header_{new SimplexHeader{lifeCycle_, times}},
       tabs_{new QTabBar},
       pages_{new QStackedWidget},
       own_{new OwnView},
@@ -69,30 +51,7 @@ BaseView::BaseView(Commands& commands, QWidget* parent)
     header->setContentsMargins(Look::units(4), Look::units(3), Look::units(4), Look::units(2));
     header->setSpacing(Look::units(2));
 
-    auto* first = new QHBoxLayout;
-    auto* states = new QVBoxLayout;
-    states->setSpacing(0);
-    states->addWidget(state_, 0, Qt::AlignLeft);  // each as wide as its own text
-    states->addWidget(quality_, 0, Qt::AlignLeft);
-    first->addWidget(mark_);
-    first->addSpacing(Look::units(1));
-    first->addLayout(states, 1);
-    agent_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    first->addStretch(1);
-    first->addWidget(lifeCycle_, 0, Qt::AlignTop);
-    header->addLayout(first);
-
-    auto* second = new QHBoxLayout;
-    second->setSpacing(Look::units(4));
-    name_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);  // the chain gives way first
-    second->addWidget(name_);
-    second->addWidget(chain_);
-    second->addStretch(1);
-    second->addWidget(agent_);
-    header->addLayout(second);
-    header->addWidget(description_);
-    header->addWidget(notice_);
-    notice_->hide();
+    header->addWidget(header_);
     header->addWidget(outcome_);
     outcome_->hide();
     connect(lifeCycle_, &LifeCycleBar::told, this, [this](const QString& text) {
@@ -100,6 +59,7 @@ BaseView::BaseView(Commands& commands, QWidget* parent)
         outcome_->setVisible(!text.isEmpty());
     });
 
+    pages_->setMinimumHeight(1);  // what is above them is never cut
     for (int i = 0; i < TabCount; ++i) tabs_->addTab({});
     tabs_->setExpanding(false);
     tabs_->setDrawBase(false);
@@ -122,6 +82,8 @@ BaseView::BaseView(Commands& commands, QWidget* parent)
     connect(tabs_, &QTabBar::tabBarClicked, this, [this](int tab) { wanted_ = tab; });
     connect(relations_, &RelationTable::opened, this, &BaseView::opened);
     connect(own_, &OwnView::opened, this, &BaseView::opened);
+    connect(header_, &SimplexHeader::dismissed, this, &BaseView::dismissed);
+    connect(header_, &SimplexHeader::typeWanted, this, &BaseView::openType);
 
     auto* content = new QWidget;
     auto* rows = new QVBoxLayout{content};
@@ -173,12 +135,13 @@ void BaseView::refresh(const std::shared_ptr<const Frame>& frame) {
         fresh_ = true;
         return;
     }
-    refreshHeader(*frame, place);
+    types_ = frame->agents[place->agent].structure;
     if (fresh_ || structures_ != frame->structures) refreshTabs(*frame, place);
+    header_->refresh(*frame, *place);
     lifeCycle_->refresh(*frame, *place);
     edits_->refresh(frame, *place);
     commands_->refresh(*frame, *place);
-    relations_->refresh(*frame, *place);
+    relations_->refresh(*frame);
     own_->refresh(*frame);
     fresh_ = false;
     structures_ = frame->structures;
@@ -213,48 +176,19 @@ void BaseView::showNothing(const Frame& frame) {
     }
 }
 
-void BaseView::refreshHeader(const Frame& frame, std::optional<Place> place) {
-    const AgentFrame& agent = frame.agents[place->agent];
-    const Type& type = frame.type(*place);
-    const auto state = agent.state(place->simplex);
-    const QString agentName = QString::fromStdString(agent.status.name);
-    if (type.isA("Agent")) {  // it has commands, but no state of its own
-        mark_->show(agent.lost() ? Shape::Lost : Shape::Agent);
-        state_->show(QString::fromStdString(agent.status.state), &Tokens::ink);
-    } else if (type.active()) {
-        const Shape shape = state && !agent.lost() ? shapeOf(*state) : Shape::Unknown;
-        mark_->show(shape);
-        state_->show(word(shape), shape == Shape::Fault ? &Tokens::faultText : &Tokens::ink);
-    } else {
-        mark_->show(Shape::Data);
-        state_->show(QLatin1String{name(frame.info(*place).role)}, &Tokens::ink);
-    }
-    const auto age = agent.age(place->simplex);
-    agent_->show(age ? tr("agent %1, %2 old").arg(agentName, ageText(*age))
-                     : tr("agent %1, no values yet").arg(agentName));
-    const bool came = agent.came(place->simplex);
-    const Quality quality = agent.lost() ? Quality::Lost : agent.quality(place->simplex);
-    quality_->show(came ? tr("quality %1").arg(QLatin1String{name(quality)})
-                        : tr("waiting for the first values"),
-                   came && quality != Quality::Good ? &Tokens::dataText : &Tokens::ink2);
-    QString notice;
-    if (agent.lost()) {
-        notice = tr("%1 is not heard for %2. Values are the last ones, in brackets.")
-                     .arg(agentName, ageText(agent.status.age));
-    } else if (!agent.status.standstill.empty()) {
-        notice = tr("%1 %2. Values are the last ones, in brackets.")
-                     .arg(agentName, QString::fromStdString(agent.status.standstill));
-    }
-    notice_->show(notice);
-    notice_->setVisible(!notice.isEmpty());
+// An ancestor, in the tab of the type.
+void BaseView::openType(const std::string& name) {
+    const Type* type = types_ ? types_->types->find(name) : nullptr;
+    if (type == nullptr) return;
+    type_->show(*type, *types_->types);
+    wanted_ = TypeTab;
+    tabs_->setCurrentIndex(TypeTab);
 }
 
 void BaseView::refreshTabs(const Frame& frame, std::optional<Place> place) {
     const Type& type = frame.type(*place);
     const AgentFrame& agent = frame.agents[place->agent];
-    name_->show(QString::fromStdString(path_));
-    chain_->show(chainOf(type, *agent.structure->types));
-    description_->show(QString::fromStdString(type.description));
+    header_->show(frame, *place);
     commands_->show(frame, *place);
     relations_->show(frame, *place);
     type_->show(type, *agent.structure->types);

@@ -21,14 +21,15 @@ class CommandList;
 class EditBar;
 class LifeCycleBar;
 class TypePage;
-class StateMark;
+class SimplexHeader;
+class StateTimes;
 class TextLabel;
 
 // What can be said of every simplex, whatever its type: state, data, relationships, commands, type.
 class BaseView : public QWidget {
     Q_OBJECT
 public:
-    explicit BaseView(Commands& commands, QWidget* parent = nullptr);
+    BaseView(Commands& commands, const StateTimes& times, QWidget* parent = nullptr);
 
     void show(const std::string& path);
     const std::string& path() const { return path_; }
@@ -36,10 +37,11 @@ public:
     void openPart(const std::string& name);  // "data", "relationships", "commands", "type"
 
 Q_SIGNALS:
-    void opened(const std::string& path);  // the user followed a link
+    void opened(const std::string& path);      // the user followed a link
+    void dismissed(const std::string& agent);  // a lost agent may go
 
 private:
-    void refreshHeader(const Frame& frame, std::optional<Place> place);
+    void openType(const std::string& name);
     void refreshTabs(const Frame& frame, std::optional<Place> place);
     void showOwnView(const Type& type, const TypeModel& types);
     void showNothing(const Frame& frame);
@@ -50,9 +52,10 @@ private:
     ItemModel items_;
     QStackedWidget* whole_;
     TextLabel *emptyTitle_, *emptyText_;
-    StateMark* mark_;
-    TextLabel *state_, *quality_, *agent_, *name_, *chain_, *description_, *notice_, *outcome_;
+    TextLabel* outcome_;
     LifeCycleBar* lifeCycle_;
+    SimplexHeader* header_;
+    std::shared_ptr<const Structure> types_;  // of what is shown
     QTabBar* tabs_;
     int wanted_ = 0;  // tab that the user chose
     QStackedWidget* pages_;

@@ -2,6 +2,7 @@
 #include "views/relation_table.hpp"
 
 #include "model/plain_text.hpp"
+#include "model/value_text.hpp"
 #include "widgets/rows.hpp"
 
 namespace cortex::explorer {
@@ -9,7 +10,7 @@ namespace cortex::explorer {
 namespace {
 
 enum Column { RuleColumn, DirectionColumn, TargetColumn, TypeColumn, StateColumn, DetailsColumn };
-constexpr int indexRole = Qt::UserRole;
+constexpr int simplexRole = Qt::UserRole, agentRole = Qt::UserRole + 1;
 
 QString details(const Edge& edge, const SimplexInfo& target) {
     const Rule& rule = *edge.rule;
@@ -37,51 +38,72 @@ RelationTable::RelationTable(QWidget* parent) : QTreeWidget{parent} {
     });
 }
 
+// `other` is the simplex at the other end.
+void RelationTable::add(QTreeWidgetItem* group, const Frame& frame, const Edge& edge, Place other) {
+    const SimplexInfo& info = frame.info(other);
+    const Structure& structure = *frame.agents[other.agent].structure;
+    auto* item = new QTreeWidgetItem{group,
+                                     {QString::fromStdString(edge.rule->name),
+                                      QLatin1String{name(edge.rule->direction)},
+                                      QString::fromStdString(info.path),
+                                      QString::fromStdString(info.layout->type->name),
+                                      {},
+                                      details(edge, structure.simplexes[edge.target])}};
+    item->setData(StateColumn, simplexRole, other.simplex);
+    item->setData(StateColumn, agentRole, other.agent);
+    item->setToolTip(RuleColumn, QString::fromStdString(edge.rule->description).toHtmlEscaped());
+    ++count_;
+}
+
 void RelationTable::show(const Frame& frame, Place place) {
     clear();
     const Structure& structure = *frame.agents[place.agent].structure;
     const SimplexInfo& info = structure.simplexes[place.simplex];
     count_ = 0;
-    const auto add = [&](QTreeWidgetItem* parent, const Edge& edge, std::uint32_t other) {
-        const SimplexInfo& target = structure.simplexes[other];
-        auto* item = new QTreeWidgetItem{parent,
-                                         {QString::fromStdString(edge.rule->name),
-                                          QLatin1String{name(edge.rule->direction)},
-                                          QString::fromStdString(target.path),
-                                          QString::fromStdString(target.layout->type->name),
-                                          {},
-                                          details(edge, structure.simplexes[edge.target])}};
-        item->setData(StateColumn, indexRole, other);
-        item->setToolTip(RuleColumn, tipText(QString::fromStdString(edge.rule->description)));
-    };
     if (info.edgeCount > 0) {
         auto* own = addGroup(*this, tr("To others"));
         for (std::uint32_t i = info.firstEdge; i < info.firstEdge + info.edgeCount; ++i) {
             if (structure.edges[i].target == noSimplex) continue;
-            add(own, structure.edges[i], structure.edges[i].target);
-            ++count_;
+            add(own, frame, structure.edges[i], {place.agent, structure.edges[i].target});
         }
     }
-    QTreeWidgetItem* others = nullptr;
-    for (const Edge& edge : structure.edges) {
-        if (edge.target != place.simplex) continue;
-        if (others == nullptr) others = addGroup(*this, tr("From others"));
-        add(others, edge, edge.owner);
-    }
+    showOthers(frame, place);
     tellWhole(*this);
     expandAll();
     setWidths(*this, {36.0, 20.0, 56.0, 44.0, 28.0});
 }
 
-void RelationTable::refresh(const Frame& frame, Place place) {
-    const AgentFrame& agent = frame.agents[place.agent];
+// Those of its own agent, and those of other agents that read it.
+void RelationTable::showOthers(const Frame& frame, Place place) {
+    const std::string& path = frame.info(place).path;
+    QTreeWidgetItem* others = nullptr;
+    for (std::uint32_t a = 0; a < frame.agents.size(); ++a) {
+        const auto& structure = frame.agents[a].structure;
+        if (!structure) continue;
+        for (const Edge& edge : structure->edges) {
+            if (edge.target == noSimplex) continue;
+            const SimplexInfo& target = structure->simplexes[edge.target];
+            const bool own = a == place.agent && edge.target == place.simplex;
+            const bool remote = a != place.agent && target.remote && target.path == path;
+            if (!own && !remote) continue;
+            if (others == nullptr) others = addGroup(*this, tr("From others"));
+            add(others, frame, edge, {a, edge.owner});
+        }
+    }
+}
+
+void RelationTable::refresh(const Frame& frame) {
     for (int g = 0; g < topLevelItemCount(); ++g) {
         for (int i = 0; i < topLevelItem(g)->childCount(); ++i) {
             QTreeWidgetItem* item = topLevelItem(g)->child(i);
-            const auto simplex = item->data(StateColumn, indexRole).toUInt();
-            const auto state = agent.state(simplex);
+            const auto simplex = item->data(StateColumn, simplexRole).toUInt();
+            const auto a = item->data(StateColumn, agentRole).toUInt();
+            if (a >= frame.agents.size()) continue;
+            const AgentFrame& agent = frame.agents[a];
+            const auto state = agent.lastState(simplex);
             const Quality quality = agent.lost() ? Quality::Lost : agent.quality(simplex);
             QString text = state ? QString{QLatin1String{name(*state)}} : QString{};
+            if (state && agent.lost()) text = bracketed(text);
             if (!agent.came(simplex))
                 text = QStringLiteral("…");
             else if (quality != Quality::Good) {

@@ -8,20 +8,23 @@
 
 namespace cortex::explorer {
 
-// The relationships of a simplex, and those of others to it.
+// The relationships of a simplex, and those of others to it, also of simplexes of other agents.
 class RelationTable : public QTreeWidget {
     Q_OBJECT
 public:
     explicit RelationTable(QWidget* parent = nullptr);
 
     void show(const Frame& frame, Place place);
-    void refresh(const Frame& frame, Place place);  // states and qualities of the targets
-    int count() const { return count_; }            // of its own
+    void refresh(const Frame& frame);     // states and qualities at the other ends
+    int count() const { return count_; }  // of all
 
 Q_SIGNALS:
     void opened(const std::string& path);
 
 private:
+    void add(QTreeWidgetItem* group, const Frame& frame, const Edge& edge, Place other);
+    void showOthers(const Frame& frame, Place place);
+
     int count_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/system_tree.hpp"
 
+#include "model/value_text.hpp"
 #include "style/glyphs.hpp"
 #include "widgets/rows.hpp"
 #include "widgets/text_label.hpp"
@@ -9,6 +10,7 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLineEdit>
+#include <QScopedValueRollback>
 #include <QStyledItemDelegate>
 #include <QVBoxLayout>
 #include <utility>
@@ -80,11 +82,21 @@ private:
     const SystemModel& model_;
 };
 
+// Knows whether a person is acting just now: rows that come and go move the current row, too.
 class TreeRows : public QTreeView {
 public:
     using QTreeView::QTreeView;
+    bool acts() const { return acts_; }
 
 protected:
+    void keyPressEvent(QKeyEvent* event) override {
+        const QScopedValueRollback act{acts_, true};
+        QTreeView::keyPressEvent(event);
+    }
+    void mousePressEvent(QMouseEvent* event) override {
+        const QScopedValueRollback act{acts_, true};
+        QTreeView::mousePressEvent(event);
+    }
     void drawRow(QPainter* painter, const QStyleOptionViewItem& option,
                  const QModelIndex& index) const override {
         QStyleOptionViewItem whole = option;
@@ -97,13 +109,16 @@ protected:
         }
         QTreeView::drawRow(painter, option, index);
     }
+
+private:
+    bool acts_ = false;
 };
 
 }  // namespace
 
 SystemTree::SystemTree(QWidget* parent)
     : QWidget{parent},
-      tree_{new TreeRows},
+      tree_{makeRows()},
       filter_{new QLineEdit},
       count_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
       trouble_{new TextLabel{TextSize::Note, false, &Tokens::warnText}} {
@@ -127,7 +142,6 @@ SystemTree::SystemTree(QWidget* parent)
     box->addWidget(trouble_);
     trouble_->hide();
 
-    tree_->setModel(&model_);
     tree_->setItemDelegate(new TreeDelegate{model_, tree_});
     setUpRows(*tree_);
     tree_->setHeaderHidden(true);
@@ -142,21 +156,43 @@ SystemTree::SystemTree(QWidget* parent)
     rows->addWidget(tree_, 1);
 
     connect(filter_, &QLineEdit::textChanged, this, &SystemTree::useFilter);
-    connect(tree_->selectionModel(), &QItemSelectionModel::currentChanged, this,
-            [this](const QModelIndex& now) {
-                if (now.isValid() && model_.place(now)) Q_EMIT chosen(model_.path(now));
-            });
     connect(tree_, &QTreeView::activated, this, [this](const QModelIndex& index) {
         if (model_.place(index)) Q_EMIT pinned(model_.path(index));
     });
 }
 
+QTreeView* SystemTree::makeRows() {
+    auto* rows = new TreeRows;
+    rows->setModel(&model_);
+    connect(rows->selectionModel(), &QItemSelectionModel::currentChanged, this,
+            [this, rows](const QModelIndex& now) {
+                if (!rows->acts() || !now.isValid()) return;
+                current_ = model_.path(now);
+                if (model_.place(now)) Q_EMIT chosen(std::string{current_});
+            });
+    return rows;
+}
+
 void SystemTree::refresh(std::shared_ptr<const Frame> frame) {
     model_.update(std::move(frame));
-    count_->show(tr("%1 of %n agents", nullptr, static_cast<int>(model_.frame().agents.size()))
-                     .arg(model_.simplexes()));
+    if (!current_.empty()) keepCurrent();
+    tellTrouble();
+    const auto agents = static_cast<int>(model_.frame().agents.size());
+    count_->show(
+        tr("%1 of %2").arg(model_.simplexes()).arg(counted(agents, tr("agent"), tr("agents"))));
     if (!opened_ && model_.rowCount() > 0) openFirstLevels();
     if (!wanted_.empty()) choose(std::exchange(wanted_, {}));
+}
+
+// What a person made the current row stays it, and no other becomes it, while rows come and go.
+void SystemTree::keepCurrent() {
+    const QModelIndex index = model_.indexOf(current_);
+    if (index == tree_->currentIndex()) return;
+    if (index.isValid()) {
+        tree_->setCurrentIndex(index);
+    } else {
+        tree_->selectionModel()->clear();
+    }
 }
 
 // Depth 2 at first; later what the user opens and closes stays as it is.
@@ -177,6 +213,7 @@ void SystemTree::choose(const std::string& path) {
     for (QModelIndex above = index.parent(); above.isValid(); above = above.parent()) {
         tree_->expand(above);
     }
+    current_ = path;
     tree_->setCurrentIndex(index);
     tree_->scrollTo(index);
 }
@@ -190,15 +227,22 @@ void SystemTree::focusFilter() {
 
 void SystemTree::useFilter() {
     Query query{filter_->text()};
-    QString trouble = query.trouble();
-    const bool empty = query.empty();
+    wrong_ = query.trouble();
+    filtered_ = !query.empty();
     model_.setFilter(std::move(query));
-    if (trouble.isEmpty() && !empty && model_.rowCount() == 0) {
+    if (filtered_) tree_->expandAll();
+    if (!current_.empty()) keepCurrent();
+    tellTrouble();
+}
+
+// What is wrong with the filter, or that it finds nothing, for as long as that is true.
+void SystemTree::tellTrouble() {
+    QString trouble = wrong_;
+    if (trouble.isEmpty() && filtered_ && model_.simplexes() > 0 && model_.rowCount() == 0) {
         trouble = tr("Nothing matches \"%1\".").arg(filter_->text());
     }
     trouble_->show(trouble);
     trouble_->setVisible(!trouble.isEmpty());
-    if (!empty) tree_->expandAll();
 }
 
 }  // namespace cortex::explorer

@@ -31,15 +31,21 @@ Q_SIGNALS:
     void pinned(const std::string& path);  // in a tab of its own
 
 private:
+    QTreeView* makeRows();
     void openFirstLevels();
     void useFilter();
+    void keepCurrent();
+    void tellTrouble();
 
     SystemModel model_;
     QTreeView* tree_;
     QLineEdit* filter_;
     TextLabel *count_, *trouble_;
     bool opened_ = false;
-    std::string wanted_;  // to be chosen as soon as it is there
+    std::string wanted_;   // to be chosen as soon as it is there
+    std::string current_;  // row that a person went to, or that was chosen, also while it is gone
+    QString wrong_;        // with the filter
+    bool filtered_ = false;
 };
 
 }  // namespace cortex::explorer

@@ -50,6 +50,7 @@ public:
                 }
                 paintText(*painter, option.rect.adjusted(0, 0, -Look::units(2), 0), row.value, ink,
                           Qt::AlignRight, outside);
+                paintLineOf(*painter, option, row);
                 break;
             case ItemModel::Unit:
                 paintText(*painter, box, row.unit, rowInk(option, c.ink2));
@@ -99,6 +100,18 @@ private:
                   Qt::AlignRight, true);
     }
 
+    // Where the column of ranges has given way.
+    void paintLineOf(QPainter& painter, const QStyleOptionViewItem& option,
+                     const ItemModel::Row& row) const {
+        const auto* view = qobject_cast<const QTreeView*>(parent());
+        if (view == nullptr || !view->isColumnHidden(ItemModel::Range)) return;
+        if (!row.min || !row.max) return;
+        paintRangeLine(painter, option.rect.adjusted(Look::units(2), 0, -Look::units(2), 0),
+                       {*row.min, *row.max, row.number, isLive(row)});
+    }
+
+    static bool isLive(const ItemModel::Row& row) { return !row.mark || isBeyondLimits(row.mark); }
+
     static void paintRangeOf(QPainter& painter, const QStyleOptionViewItem& option, QRect box,
                              const ItemModel::Row& row) {
         if (!row.min && !row.max) return;
@@ -112,10 +125,8 @@ private:
         paintText(painter, {box.right() - side, box.top(), side, box.height()}, bound(row.max),
                   ink);
         if (!row.min || !row.max) return;
-        const bool live =
-            row.mark != Shape::Stale && row.mark != Shape::Bad && row.mark != Shape::Lost;
         paintRange(painter, box.adjusted(side, 0, -side, 0),
-                   {*row.min, *row.max, row.number, live});
+                   {*row.min, *row.max, row.number, isLive(row)});
     }
 
     static void paintRemark(QPainter& painter, const QStyleOptionViewItem& option, QRect box,

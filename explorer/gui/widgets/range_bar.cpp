@@ -22,6 +22,27 @@ void paintArrow(QPainter& painter, QPointF tip, double direction) {
 
 }  // namespace
 
+void paintRangeLine(QPainter& painter, const QRect& box, const RangeShown& range) {
+    const Tokens& c = Look::colours();
+    const int thick = Look::units(0.5), needle = Look::units(0.75);
+    const QRect track{box.left(), box.bottom() - thick, box.width(), thick};
+    painter.fillRect(track, c.band);
+    const double width = range.max - range.min;
+    if (!range.number || !std::isfinite(*range.number) || !(width > 0) || !std::isfinite(width)) {
+        return;
+    }
+    const double share = std::clamp((*range.number - range.min) / width, 0.0, 1.0);
+    const bool within = *range.number >= range.min && *range.number <= range.max;
+    const int at = track.left() + static_cast<int>(share * (track.width() - needle));
+    const QRect mark{at, track.top() - thick, needle, 2 * thick};
+    if (range.live) {
+        painter.fillRect(mark, within ? c.ink : c.warnEdge);
+    } else {
+        painter.setPen(QPen{c.ink2, 1});
+        painter.drawRect(mark.adjusted(0, 0, -1, -1));
+    }
+}
+
 void paintRange(QPainter& painter, const QRect& box, const RangeShown& range) {
     const Tokens& c = Look::colours();
     painter.save();

@@ -15,5 +15,7 @@ struct RangeShown {
 };
 
 void paintRange(QPainter& painter, const QRect& box, const RangeShown& range);
+// The same where there is no room: a thin line with its needle along the lower edge.
+void paintRangeLine(QPainter& painter, const QRect& box, const RangeShown& range);
 
 }  // namespace cortex::explorer

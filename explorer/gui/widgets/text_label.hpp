@@ -18,7 +18,8 @@ public:
     void show(const QString& text);
     void show(const QString& text, QColor Tokens::* colour);
 
-    void keepWhole() { whole_ = true; }  // it is never cut: others give way
+    void keepWhole() { whole_ = true; }  // never cut: what is beside it gives way
+
     QSize sizeHint() const override;
     QSize minimumSizeHint() const override;
 
@@ -32,7 +33,7 @@ private:
     TextSize size_;
     bool strong_;
     QColor Tokens::* colour_;
-    bool whole_ = false, dressing_ = false;
+    bool dressing_ = false, whole_ = false;
 };
 
 }  // namespace cortex::explorer

@@ -25,6 +25,7 @@
 #include <QPainter>
 #include <QPushButton>
 #include <QResizeEvent>
+#include <QScopedValueRollback>
 #include <QShortcut>
 #include <QSplitter>
 #include <QStackedWidget>
@@ -58,6 +59,8 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       across_{new QSplitter{Qt::Horizontal}},
       down_{new QSplitter{Qt::Vertical}},
       status_{new StatusBar},
+      menu_{new QPushButton{tr("Menu")}},
+      title_{new TextLabel{TextSize::Value, true}},
       stop_{new StopButton{session}},
       control_{new ControlBar{session}},
       arrangement_{*across_, *down_} {
@@ -113,6 +116,8 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     connect(eventList_, &EventList::opened, this, &MainWindow::open);
     connect(eventView_, &EventView::opened, this, &MainWindow::open);
     connect(graph_, &GraphView::opened, this, &MainWindow::open);
+    connect(status_, &StatusBar::nextWanted, this,
+            [this](Abnormal::Kind kind) { openAbnormal(false, kind); });
     connect(control_, &ControlBar::changed, this, qOverload<>(&QWidget::update));
     addKeys();
     ManualView::helpOf(*tree_, tr("Finding something"));
@@ -129,9 +134,9 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
 QWidget* MainWindow::makeBar() {
     auto* bar = new QWidget;
     auto* row = new QHBoxLayout{bar};
-    row->setContentsMargins(Look::units(3), Look::units(2), Look::units(3), Look::units(2));
-    auto* menu = new QPushButton{tr("Menu")};
-    auto* entries = new QMenu{menu};
+    barRow_ = row;
+    menu_->setAccessibleName(tr("Menu"));
+    auto* entries = new QMenu{menu_};
     entries->addAction(tr("Next theme"), this, [this] { setTheme(1); });
     for (const double scale : scales) {
         entries->addAction(tr("Text %1 %").arg(scale * 100), this,
@@ -143,18 +148,15 @@ QWidget* MainWindow::makeBar() {
     entries->addAction(tr("Manual"), this, &MainWindow::openManual);
     entries->addAction(tr("Join again"), this, [this] { session_.joinAgain(); });
     entries->addAction(tr("Quit"), this, &QWidget::close);
-    menu->setMenu(entries);
-    row->addWidget(menu);
-    title_ = new TextLabel{TextSize::Value, true};
+    menu_->setMenu(entries);
+    row->addWidget(menu_);
     title_->show(tr("CorteX Explorer"));
     row->addWidget(title_);
     row->addStretch(1);
     auto* stopped = new TextLabel{TextSize::Text};
     connect(stop_, &StopButton::told, stopped, qOverload<const QString&>(&TextLabel::show));
     row->addWidget(stopped);
-    row->addSpacing(Look::units(4));
     row->addWidget(control_);
-    row->addSpacing(Look::units(4));
     row->addWidget(stop_);
     return bar;
 }
@@ -196,6 +198,8 @@ void MainWindow::addKeys() {
     key("Ctrl+T", [this] { control_->choose(); });
     key("Ctrl+Shift+T", [this] { control_->release(); });
     key("F1", [this] { openManual(); });
+    key("F8", [this] { openAbnormal(false); });
+    key("Shift+F8", [this] { openAbnormal(true); });
     key("F11", [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
     for (int i = 1; i <= 9; ++i) {
         const std::string keys = "Ctrl+" + std::to_string(i);
@@ -206,9 +210,11 @@ void MainWindow::addKeys() {
 }
 
 BaseView* MainWindow::addView(const std::string& path, bool closable) {
-    auto* view = new BaseView{commands_};
+    auto* view = new BaseView{commands_, times_};
     view->show(path);
     connect(view, &BaseView::opened, this, &MainWindow::open);
+    connect(view, &BaseView::dismissed, this,
+            [this](const std::string& agent) { session_.dismiss(agent); });
     // Views stand before the graph, the agents and the events.
     const int at = closable ? tabs_->count() - fixedTabs : 0;
     views_->insertWidget(at, view);
@@ -252,6 +258,14 @@ void MainWindow::openManual() {
     manual_->setFocus();
 }
 
+// The next one that is in Fault, outside of its limits or lost, or the one before.
+void MainWindow::openAbnormal(bool back, std::optional<Abnormal::Kind> kind) {
+    const auto* shown = qobject_cast<BaseView*>(current());
+    const std::string next =
+        abnormal_.next(shown != nullptr ? shown->path() : std::string{}, back, kind);
+    if (!next.empty()) open(next);
+}
+
 void MainWindow::openGraph() { tabs_->setCurrentIndex(tabs_->count() - fixedTabs); }
 
 void MainWindow::openPart(const std::string& name) {
@@ -267,12 +281,18 @@ void MainWindow::closeTab(int tab) {
     view->deleteLater();
 }
 
+// A view may open another one while it is refreshed; that is seen in the next frame.
 void MainWindow::refresh() {
+    if (refreshing_) return;
+    const QScopedValueRollback refreshing{refreshing_, true};
     session_.isAlive();
     const auto frame = session_.frame();
-    events_.add(session_.takeEvents());
+    auto events = session_.takeEvents();
+    times_.add(events);
+    events_.add(std::move(events));
     tree_->refresh(frame);
-    status_->refresh(*frame, tree_->model().total());
+    abnormal_.update(*frame);
+    status_->refresh(*frame, abnormal_);
     const auto outcomes = session_.takeOutcomes();
     commands_.deliver(outcomes);
     stop_->refresh(*frame, outcomes);
@@ -288,7 +308,7 @@ bool MainWindow::ready() const {
     const auto frame = session_.frame();
     if (!frame->joined || frame->agents.empty()) return false;
     return std::ranges::all_of(frame->agents, [](const AgentFrame& agent) {
-        return agent.structure && agent.status.missing == 0 && agent.image && agent.came(0);
+        return agent.lost() || (agent.structure && agent.status.missing == 0 && agent.came(0));
     });
 }
 
@@ -336,6 +356,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     question->open();
 }
 
+// Where it is narrow, the tree takes the place of the views until something is chosen in it.
 void MainWindow::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     arrange();
@@ -345,15 +366,22 @@ void MainWindow::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
     const bool sized = event->type() == QEvent::ApplicationFontChange ||
                        event->type() == QEvent::StyleChange || event->type() == QEvent::FontChange;
-    if (sized && title_ != nullptr) arrange();
+    if (sized && barRow_ != nullptr) arrange();
 }
 
 // The bar gives way before the lease or Stop would be cut.
 void MainWindow::arrange() {
     if (arrangement_.fit(size())) strip_ = !arrangement_.isNarrow();
     showStrip();
-    title_->setVisible(!arrangement_.isNarrow());
-    control_->setNarrow(arrangement_.isNarrow());
+    const bool narrow = arrangement_.isNarrow();
+    const int side = Look::units(narrow ? 1.5 : 3), size = Look::units(4);
+    barRow_->setContentsMargins(side, Look::units(2), side, Look::units(2));
+    barRow_->setSpacing(side);
+    title_->setVisible(!narrow);
+    menu_->setText(narrow ? QString{} : tr("Menu"));
+    menu_->setIconSize({size, size});
+    menu_->setIcon(narrow ? icon(Glyph::Menu, Look::colours().ink, size) : QIcon{});
+    control_->setNarrow(narrow);
 }
 
 }  // namespace cortex::explorer

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "model/abnormal.hpp"
 #include "model/event_filter.hpp"
+#include "model/state_times.hpp"
 #include "session/commands.hpp"
 #include "views/manual_view.hpp"
 #include "window/arrangement.hpp"
@@ -9,9 +11,12 @@
 #include <QPointer>
 #include <QTimer>
 #include <QWidget>
+#include <optional>
 #include <string>
 
+class QBoxLayout;
 class QMenu;
+class QPushButton;
 class QSplitter;
 class QStackedWidget;
 class QTabBar;
@@ -64,6 +69,7 @@ private:
     void addKeys();
     BaseView* addView(const std::string& path, bool closable);
     void closeTab(int tab);
+    void openAbnormal(bool back, std::optional<Abnormal::Kind> kind = {});
     void setTheme(int step);
     void setScale(double scale);
     void restyle();
@@ -74,6 +80,8 @@ private:
     Commands commands_;
     EventModel events_;
     EventFilter eventFilter_{events_};  // one for all that show events
+    StateTimes times_;
+    Abnormal abnormal_;
     SystemTree* tree_;
     QTabBar* tabs_;
     QStackedWidget* views_;
@@ -84,12 +92,15 @@ private:
     EventList* eventList_;
     QSplitter *across_, *down_;
     StatusBar* status_;
+    QPushButton* menu_;
+    QBoxLayout* barRow_ = nullptr;
+    TextLabel* title_;
     StopButton* stop_;
-    bool strip_ = true;    // wanted
-    bool leaves_ = false;  // the user said so
+    bool strip_ = true;        // wanted
+    bool leaves_ = false;      // the user said so
+    bool refreshing_ = false;  // just now
     ControlBar* control_;
     Arrangement arrangement_;
-    TextLabel* title_ = nullptr;
     QTimer timer_;
 };
 

@@ -4,6 +4,7 @@
 #include "model/value_text.hpp"
 #include "widgets/text_label.hpp"
 
+#include <QAbstractButton>
 #include <QHBoxLayout>
 #include <QPainter>
 #include <algorithm>
@@ -14,10 +15,13 @@ namespace {
 
 constexpr int agentsShown = 3;
 
+QString hertz(double rate) { return QString::number(rate, 'g', 4); }
+
 // One agent in few words: the worst that can be said of it.
 QString shortText(const AgentFrame& agent) {
     const comms::AgentStatus& s = agent.status;
     const QString name = QString::fromStdString(s.name);
+    if (s.ended) return StatusBar::tr("%1 ended").arg(name);
     if (agent.lost()) return StatusBar::tr("%1 lost for %2").arg(name, ageText(s.age));
     if (!s.standstill.empty()) return name + ' ' + QString::fromStdString(s.standstill);
     if (s.missing > 0) {
@@ -27,73 +31,88 @@ QString shortText(const AgentFrame& agent) {
             .arg(s.simplexes);
     }
     const double rate = s.period > 0 ? 1e9 / static_cast<double>(s.period) : 0;
-    return StatusBar::tr("%1 %2 Hz").arg(name).arg(rate, 0, 'g', 4);
+    if (s.overloaded && s.rate > 0) {
+        return StatusBar::tr("%1 overloaded: %2 of %3 Hz").arg(name, hertz(s.rate), hertz(rate));
+    }
+    return StatusBar::tr("%1 %2 Hz").arg(name, hertz(rate));
 }
 
+// Where it stands in the order of the worst first.
 int trouble(const AgentFrame& agent) {
-    return agent.lost()                       ? 0
-           : !agent.status.standstill.empty() ? 1
-           : agent.status.missing > 0         ? 2
-                                              : 3;
+    const comms::AgentStatus& s = agent.status;
+    if (s.ended) return 4;
+    if (agent.lost()) return 0;
+    if (!s.standstill.empty()) return 1;
+    if (s.overloaded) return 2;
+    return s.missing > 0 ? 3 : 5;
 }
 
 }  // namespace
 
-// A count with its mark and its word; filled when it is a number of faults above zero.
-class StatusBar::Counter : public QWidget {
+// A count with its mark and its word, in a hue from one on. Pressed, it goes to the next one.
+class StatusBar::Counter : public QAbstractButton {
 public:
-    Counter(Shape shape, QColor Tokens::* back, QColor Tokens::* ink, QColor Tokens::* edge)
-        : shape_{shape}, back_{back}, ink_{ink}, edge_{edge} {
+    struct Dress {
+        Shape shape;
+        QColor Tokens::* back;
+        QColor Tokens::* ink;
+        QColor Tokens::* edge;
+    };
+    explicit Counter(const Dress& dress) : dress_{dress} {
         setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+        setToolTip(tr("Goes to the next one (F8)"));
+        setFocusPolicy(Qt::TabFocus);
     }
 
     void show(int count, const QString& text) {
-        if (text == text_) return;
+        if (text == this->text()) return;
         count_ = count;
-        text_ = text;
+        setText(text);
         setAccessibleName(text);
         updateGeometry();
-        update();
     }
 
     QSize sizeHint() const override {
         const QFontMetrics metrics{Look::font(TextSize::Note, true)};
-        return {metrics.horizontalAdvance(text_) + Look::units(8), Look::units(5)};
+        return {metrics.horizontalAdvance(text()) + Look::units(8),
+                std::max(Look::units(5), metrics.height())};
     }
 
 protected:
     void paintEvent(QPaintEvent* /*event*/) override {
         const Tokens& c = Look::colours();
+        const bool any = count_ > 0;
         QPainter painter{this};
         painter.setRenderHint(QPainter::Antialiasing);
-        painter.setPen(QPen{count_ > 0 ? c.*edge_ : c.border, 1});
-        painter.setBrush(count_ > 0 ? c.*back_ : c.window);
+        painter.setPen(hasFocus() ? QPen{c.accent, 2} : QPen{any ? c.*dress_.edge : c.border, 1});
+        painter.setBrush(any ? c.*dress_.back : c.window);
         painter.drawRoundedRect(QRectF{rect()}.adjusted(0.5, 0.5, -0.5, -0.5), Look::units(1),
                                 Look::units(1));
         const int size = Look::units(3);
         Tokens marks = c;
-        if (count_ > 0) marks.fault = marks.onFault, marks.onFault = c.fault;
-        if (count_ == 0) marks.fault = marks.data = c.border, marks.onFault = c.window;
+        if (any) marks.fault = marks.onFault, marks.onFault = c.fault;
+        if (!any) {
+            marks.fault = marks.data = marks.warnEdge = c.border;
+            marks.onFault = c.window;
+        }
         explorer::paint(painter, QRectF(Look::units(1.5), (height() - size) / 2.0, size, size),
-                        shape_, marks);
-        painter.setFont(Look::font(TextSize::Note, count_ > 0));
-        painter.setPen(count_ > 0 ? c.*ink_ : c.ink2);
-        painter.drawText(rect().adjusted(Look::units(6), 0, 0, 0), Qt::AlignVCenter, text_);
+                        dress_.shape, marks);
+        painter.setFont(Look::font(TextSize::Note, any));
+        painter.setPen(any ? c.*dress_.ink : c.ink2);
+        painter.drawText(rect().adjusted(Look::units(6), 0, 0, 0), Qt::AlignVCenter, text());
     }
 
 private:
-    Shape shape_;
-    QColor Tokens::* back_;
-    QColor Tokens::* ink_;
-    QColor Tokens::* edge_;
+    Dress dress_;
     int count_ = 0;
-    QString text_;
 };
 
 StatusBar::StatusBar(QWidget* parent)
     : QWidget{parent},
-      faults_{new Counter{Shape::Fault, &Tokens::fault, &Tokens::onFault, &Tokens::fault}},
-      lost_{new Counter{Shape::Lost, &Tokens::dataBg, &Tokens::dataText, &Tokens::data}},
+      counters_{
+          new Counter{{Shape::Fault, &Tokens::fault, &Tokens::onFault, &Tokens::fault}},
+          new Counter{{Shape::AboveLimit, &Tokens::warnBg, &Tokens::warnText, &Tokens::warnEdge}},
+          new Counter{{Shape::Lost, &Tokens::dataBg, &Tokens::dataText, &Tokens::data}}},
       domain_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
       agents_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
       security_{new TextLabel{TextSize::Note, false, &Tokens::ink2}} {
@@ -101,17 +120,23 @@ StatusBar::StatusBar(QWidget* parent)
     auto* row = new QHBoxLayout{this};
     row->setContentsMargins(Look::units(3), Look::units(0.75), Look::units(3), Look::units(0.75));
     row->setSpacing(Look::units(4));
-    row->addWidget(faults_);
-    row->addWidget(lost_);
+    for (const auto kind : {Abnormal::Fault, Abnormal::Outside, Abnormal::Lost}) {
+        row->addWidget(counters_[kind]);
+        connect(counters_[kind], &QAbstractButton::clicked, this,
+                [this, kind] { Q_EMIT nextWanted(kind); });
+    }
     row->addWidget(domain_);
     row->addWidget(agents_);
     row->addWidget(security_);
     row->addStretch(1);
 }
 
-void StatusBar::refresh(const Frame& frame, const Marks& total) {
-    faults_->show(total.faults, tr("%n faults", nullptr, total.faults));
-    lost_->show(total.lost, tr("%n lost", nullptr, total.lost));
+void StatusBar::refresh(const Frame& frame, const Abnormal& abnormal) {
+    const int faults = abnormal.count(Abnormal::Fault), outside = abnormal.count(Abnormal::Outside),
+              lost = abnormal.count(Abnormal::Lost);
+    counters_[Abnormal::Fault]->show(faults, counted(faults, tr("fault"), tr("faults")));
+    counters_[Abnormal::Outside]->show(outside, tr("%1 outside").arg(outside));
+    counters_[Abnormal::Lost]->show(lost, tr("%1 lost").arg(lost));
     domain_->show(tr("Domain %1").arg(frame.domain));
     security_->show(frame.security.empty() ? tr("Security: none") : tr("Security: on"));
     std::vector<const AgentFrame*> agents;

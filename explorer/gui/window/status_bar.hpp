@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "model/system_model.hpp"
+#include "model/abnormal.hpp"
 
 #include <QWidget>
 
@@ -9,20 +9,23 @@ namespace cortex::explorer {
 
 class TextLabel;
 
-// The line at the bottom of every window: faults and losses of everything that is heard, domain,
-// the agents that are worst off, security.
+// The line at the bottom of every window: how much is in Fault, beyond its limits and lost of
+// everything that is heard, domain, the agents that are worst off, security.
 class StatusBar : public QWidget {
     Q_OBJECT
 public:
     explicit StatusBar(QWidget* parent = nullptr);
-    void refresh(const Frame& frame, const Marks& total);
+    void refresh(const Frame& frame, const Abnormal& abnormal);
+
+Q_SIGNALS:
+    void nextWanted(Abnormal::Kind kind);  // a counter was pressed
 
 protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
     class Counter;
-    Counter *faults_, *lost_;
+    std::array<Counter*, Abnormal::KindCount> counters_;
     TextLabel *domain_, *agents_, *security_;
 };
 

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/abnormal.hpp"
+
+#include "model/condition.hpp"
+
+#include <algorithm>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr std::uint64_t framesBetweenLimits = 15;  // limits are looked at twice a second
+
+template <class Visit>
+void forOwnSimplexes(const AgentFrame& agent, Visit visit) {
+    if (!agent.structure) return;
+    const auto& simplexes = agent.structure->simplexes;
+    for (std::uint32_t i = 0; i < simplexes.size(); ++i) {
+        if (!simplexes[i].remote) visit(i);
+    }
+}
+
+// The simplex that stands for a lost agent: its own, otherwise its first.
+std::uint32_t standsFor(const AgentFrame& agent) {
+    const std::uint32_t own = agent.structure->find('/' + agent.status.name);
+    return own == noSimplex ? 0 : own;
+}
+
+}  // namespace
+
+void Abnormal::add(Kind kind, const AgentFrame& agent, std::uint32_t simplex) {
+    ++counts_[kind];
+    if (kind == Lost && agent.lost() && simplex != standsFor(agent)) return;
+    paths_[kind].push_back(agent.structure->simplexes[simplex].path);
+}
+
+void Abnormal::findOutside(const AgentFrame& agent) {
+    forOwnSimplexes(agent, [&](std::uint32_t simplex) {
+        if (isOutside(agent, simplex)) add(Outside, agent, simplex);
+    });
+}
+
+void Abnormal::update(const Frame& frame) {
+    const bool limits = frame.number % framesBetweenLimits == 0 || frame.structures != structures_;
+    structures_ = frame.structures;
+    for (const Kind kind : {Fault, Outside, Lost}) {
+        if (kind == Outside && !limits) continue;
+        counts_[kind] = 0;
+        paths_[kind].clear();
+    }
+    for (const AgentFrame& agent : frame.agents) {
+        if (agent.status.ended) continue;
+        forOwnSimplexes(agent, [&](std::uint32_t simplex) {
+            if (agent.state(simplex) == State::Fault) add(Fault, agent, simplex);
+            const bool lost = agent.came(simplex) && agent.quality(simplex) == Quality::Lost;
+            if (agent.lost() || lost) add(Lost, agent, simplex);
+        });
+        if (limits) findOutside(agent);
+    }
+}
+
+std::string Abnormal::next(const std::string& path, bool back, std::optional<Kind> kind) const {
+    std::vector<std::string> all;
+    for (const Kind each : {Fault, Outside, Lost}) {
+        if (kind && each != *kind) continue;
+        for (const std::string& found : paths_[each]) {
+            if (std::ranges::find(all, found) == all.end()) all.push_back(found);
+        }
+    }
+    if (all.empty()) return {};
+    if (back) std::ranges::reverse(all);
+    const auto here = std::ranges::find(all, path);
+    const bool last = here == all.end() || here + 1 == all.end();
+    return last ? all.front() : *(here + 1);
+}
+
+}  // namespace cortex::explorer

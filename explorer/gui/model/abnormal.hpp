@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/frame.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cortex::explorer {
+
+// What is in Fault, beyond its limits or lost, of everything that is heard, whatever is shown.
+class Abnormal {
+public:
+    enum Kind { Fault, Outside, Lost, KindCount };
+
+    void update(const Frame& frame);
+
+    int count(Kind kind) const { return counts_[kind]; }
+    // The path of the next one, or of the one before; after the last comes the first. Of a lost
+    // agent one path stands for all. Empty: there is none.
+    std::string next(const std::string& path, bool back = false,
+                     std::optional<Kind> kind = {}) const;
+
+private:
+    void add(Kind kind, const AgentFrame& agent, std::uint32_t simplex);
+    void findOutside(const AgentFrame& agent);
+
+    std::array<int, KindCount> counts_{};
+    std::array<std::vector<std::string>, KindCount> paths_;
+    std::uint64_t structures_ = 0;
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/frame.hpp"
+
+#include <QString>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cortex::explorer {
+
+// Since when simplexes are in their states, from the events of state changes.
+class StateTimes {
+public:
+    StateTimes();
+
+    void add(const std::vector<comms::AgentEvent>& events);
+    // "since 12:03:22, 12 min", in UTC; "since before 12:03" where no event told.
+    QString text(const Frame& frame, Place place) const;
+
+private:
+    struct Change {
+        std::int64_t epoch = 0, when = 0;  // start of the agent; UTC ns
+    };
+    std::map<std::pair<std::string, std::string>, Change> changes_;  // agent and path
+    std::int64_t begin_;                                             // UTC ns
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/why_text.hpp"
+
+#include <QCoreApplication>
+#include <QStringList>
+#include <algorithm>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr int mostCauses = 4;
+
+QString sayWhy(const char* text) { return QCoreApplication::translate("Why", text); }
+
+QString pathOf(const Frame& frame, Place place) {
+    return QString::fromStdString(frame.info(place).path);
+}
+
+// "/control/hold (Active, lost)".
+QString named(const Frame& frame, Place place) {
+    const AgentFrame& agent = frame.agents[place.agent];
+    QStringList how;
+    if (const auto state = agent.state(place.simplex)) how << QLatin1String{name(*state)};
+    const Quality quality = agent.lost() ? Quality::Lost : agent.quality(place.simplex);
+    if (quality != Quality::Good && !agent.rests(place.simplex)) {
+        how << QLatin1String{name(quality)};
+    }
+    const QString path = pathOf(frame, place);
+    return how.isEmpty() ? path : QStringLiteral("%1 (%2)").arg(path, how.join(", "));
+}
+
+// What made it not good; none: itself, or it is good. One of another agent is looked for there.
+std::optional<Place> causeOf(const Frame& frame, Place place) {
+    const AgentFrame& agent = frame.agents[place.agent];
+    if (!agent.came(place.simplex) || agent.quality(place.simplex) == Quality::Good) return {};
+    const std::uint32_t cause = (*agent.image)->state(place.simplex).cause;
+    const auto& all = agent.structure->simplexes;
+    if (cause >= all.size() || cause == place.simplex) return {};
+    if (!all[cause].remote) return Place{place.agent, cause};
+    return frame.find(all[cause].path);
+}
+
+QString causesOf(const Frame& frame, Place place) {
+    QStringList causes;
+    auto next = causeOf(frame, place);
+    while (next && causes.size() < mostCauses && !causes.contains(named(frame, *next))) {
+        causes << named(frame, *next);
+        next = causeOf(frame, *next);
+    }
+    return causes.join(QStringLiteral(" ← "));
+}
+
+QString writersOf(const Frame& frame, Place place) {
+    QStringList writers;
+    for (const std::uint32_t each : frame.info(place).writers) {
+        writers << named(frame, {place.agent, each});
+    }
+    return writers.join(sayWhy(", "));
+}
+
+// A demand whose writer is at rest, or has lost an input, has its safe values.
+QString safeBecause(const Frame& frame, Place place) {
+    const AgentFrame& agent = frame.agents[place.agent];
+    const SimplexInfo& info = frame.info(place);
+    const bool stale =
+        info.role == Role::Modification && agent.quality(place.simplex) == Quality::Stale;
+    if (!stale || agent.lost()) return {};
+    const std::uint32_t writer = (*agent.image)->state(place.simplex).cause;
+    if (std::ranges::find(info.writers, writer) == info.writers.end()) return {};
+    const auto state = agent.state(writer);
+    const QString path = pathOf(frame, {place.agent, writer});
+    if (state == State::Standby || state == State::Fault) {
+        return sayWhy("Safe values, as %1 is in %2.").arg(path, QLatin1String{name(*state)});
+    }
+    return agent.quality(writer) == Quality::Good
+               ? QString{}
+               : sayWhy("Safe values, as %1 has lost an input.").arg(path);
+}
+
+}  // namespace
+
+QString whyText(const Frame& frame, Place place) {
+    QStringList sentences;
+    const QString writers = writersOf(frame, place);
+    if (!writers.isEmpty()) sentences << sayWhy("Written by %1.").arg(writers);
+    const QString safe = safeBecause(frame, place);
+    if (!safe.isEmpty()) sentences << safe;
+    const QString causes = safe.isEmpty() ? causesOf(frame, place) : QString{};
+    if (!causes.isEmpty()) {
+        sentences << sayWhy("Quality %1 because of %2.")
+                         .arg(QLatin1String{name(frame.agents[place.agent].quality(place.simplex))},
+                              causes);
+    }
+    return sentences.join(' ');
+}
+
+QString claimsText(const Frame& frame, Place place) {
+    const QString owner = QString::fromStdString(frame.agents[place.agent].status.name);
+    QStringList others;
+    for (std::uint32_t i = 0; i < frame.agents.size(); ++i) {
+        const AgentFrame& agent = frame.agents[i];
+        if (i == place.agent || agent.lost() || !agent.structure) continue;
+        const std::uint32_t simplex = agent.structure->find(frame.info(place).path);
+        if (simplex == noSimplex || agent.structure->simplexes[simplex].remote) continue;
+        others << QString::fromStdString(agent.status.name);
+    }
+    if (others.isEmpty() || frame.agents[place.agent].lost()) return {};
+    return sayWhy("%1 is claimed by %2 and by %3. The values of %2 are shown. Commands go to %2.")
+        .arg(pathOf(frame, place), owner, others.join(sayWhy(" and by ")));
+}
+
+}  // namespace cortex::explorer

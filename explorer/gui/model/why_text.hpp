@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/frame.hpp"
+
+#include <QString>
+
+namespace cortex::explorer {
+
+// Who writes the simplex and how it is, and why its values are safe ones or not good, as far as
+// that is known: "Written by /control/hold (Standby). Safe values, as /control/hold is in Standby."
+QString whyText(const Frame& frame, Place place);
+
+// Who else claims the path, whose values are shown and who gets commands; empty: nobody else.
+QString claimsText(const Frame& frame, Place place);
+
+}  // namespace cortex::explorer

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/lost_agents.hpp"
+
+#include <algorithm>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr std::size_t mostKept = 1'000;
+
+comms::AgentEvent eventOf(const AgentFrame& agent, Severity severity, std::string text) {
+    comms::AgentEvent event;
+    event.agent = agent.status.name;
+    event.epoch = agent.status.epoch;
+    event.cycle = agent.status.cycle;
+    event.wallClock = std::chrono::duration_cast<std::chrono::nanoseconds>(
+                          std::chrono::system_clock::now().time_since_epoch())
+                          .count();
+    event.severity = severity;
+    event.kind = name(EventKind::Agent);
+    event.path = '/' + agent.status.name;
+    event.text = std::move(text);
+    return event;
+}
+
+// The same agent, so much later.
+AgentFrame later(const AgentFrame& agent, double seconds) {
+    AgentFrame result = agent;
+    result.status.age += seconds;
+    for (float& age : result.ages) {
+        if (age >= 0) age += static_cast<float>(seconds);
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<comms::AgentEvent> LostAgents::update(std::vector<AgentFrame>& agents, Moment now) {
+    std::vector<comms::AgentEvent> events;
+    for (const AgentFrame& agent : agents) {
+        if (!agent.lost())
+            std::erase_if(dismissed_,
+                          [&](const auto& each) { return each.first == agent.status.name; });
+        tell(agent, events);
+    }
+    keep(agents, now);
+    std::erase_if(agents, [&](const AgentFrame& agent) {
+        return agent.lost() && dismissed_.contains({agent.status.name, agent.status.epoch});
+    });
+    return events;
+}
+
+void LostAgents::tell(const AgentFrame& agent, std::vector<comms::AgentEvent>& events) const {
+    const auto found = known_.find(agent.status.name);
+    if (found == known_.end()) return;
+    const AgentFrame& before = found->second.frame;
+    if (before.status.epoch != agent.status.epoch) {
+        events.push_back(eventOf(agent, Severity::Warning,
+                                 "agent restarted: values now come from its new start"));
+    } else if (before.lost() && !agent.lost()) {
+        events.push_back(eventOf(agent, Severity::Info, "agent heard again"));
+    }
+    const bool fresh =
+        agent.lost() && (!before.lost() || before.status.epoch != agent.status.epoch);
+    if (!fresh) return;
+    events.push_back(agent.status.ended ? eventOf(agent, Severity::Info, "agent ended: it said so")
+                                        : eventOf(agent, Severity::Warning,
+                                                  "agent lost: its values are the last ones"));
+}
+
+// Those that the mirror has forgotten, with ages that go on.
+void LostAgents::keep(std::vector<AgentFrame>& agents, Moment now) {
+    std::map<std::string, Known> known;
+    for (const AgentFrame& agent : agents) known.try_emplace(agent.status.name, agent, now);
+    for (auto& [name, each] : known_) {
+        if (known.contains(name) || !each.frame.lost() || each.frame.status.ended) continue;
+        const bool dismissed = dismissed_.erase({name, each.frame.status.epoch}) > 0;
+        if (dismissed || known.size() >= mostKept) continue;
+        agents.push_back(later(each.frame, std::chrono::duration<double>(now - each.when).count()));
+        known.emplace(name, std::move(each));
+    }
+    known_ = std::move(known);
+    std::ranges::sort(agents, {}, [](const AgentFrame& each) { return each.status.name; });
+}
+
+void LostAgents::dismiss(const std::string& agent) {
+    const auto found = known_.find(agent);
+    if (found == known_.end() || !found->second.frame.lost()) return;
+    dismissed_.insert({agent, found->second.frame.status.epoch});
+}
+
+}  // namespace cortex::explorer

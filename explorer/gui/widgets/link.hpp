@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QAbstractButton>
+
+namespace cortex::explorer {
+
+// A text in the colour of links that is pressed, by pointer or by key.
+class Link : public QAbstractButton {
+    Q_OBJECT
+public:
+    explicit Link(const QString& text, QWidget* parent = nullptr);
+    QSize sizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;  // Enter, besides the blank
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is counted as abnormal, and what is kept of lost agents, of agents made by hand.
+#include "gui/made_agent.hpp"
+#include "model/abnormal.hpp"
+#include "session/lost_agents.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using namespace explorer;
+using namespace std::chrono_literals;
+
+const LostAgents::Moment begin{1h};
+
+class Troubles : public testing::Test {
+protected:
+    Troubles() {
+        robot.put("/b", "state", std::int64_t{4});
+        robot.put("/seen", "level", 3.0);
+        robot.put("/old", "level", 3.0);
+        robot.degrade("/old", Quality::Stale);
+    }
+    std::vector<std::string> textsOf(std::vector<AgentFrame> agents, LostAgents::Moment now) {
+        std::vector<std::string> texts;
+        for (const auto& event : lost.update(agents, now)) texts.push_back(event.text);
+        names.clear();
+        for (const auto& agent : agents) names.push_back(agent.status.name);
+        last = agents;
+        return texts;
+    }
+
+    MadeAgent robot{"robot", [](SimplexTree& tree) {
+                        tree.add("/a", "Probe");
+                        tree.add("/b", "Probe");
+                        tree.add("/old", "Seen");
+                        tree.add("/seen", "Seen");
+                    }};
+    MadeAgent other{"other", [](SimplexTree& tree) {
+                        tree.add("/x", "Probe");
+                        tree.add("/y", "Probe");
+                    }};
+    LostAgents lost;
+    std::vector<std::string> names;
+    std::vector<AgentFrame> last;
+};
+
+TEST_F(Troubles, AreFaultsWhatIsOutsideOfItsLimitsNowAndWhatIsLost) {
+    Abnormal abnormal;
+    abnormal.update(*frameOf({robot.now(), other.now("lost")}));
+    EXPECT_EQ(abnormal.count(Abnormal::Fault), 1);
+    EXPECT_EQ(abnormal.count(Abnormal::Outside), 1) << "a stale value may be within by now";
+    EXPECT_EQ(abnormal.count(Abnormal::Lost), 2);
+}
+
+TEST_F(Troubles, AreGoneThroughInTurnForwardAndBack) {
+    Abnormal abnormal;
+    abnormal.update(*frameOf({robot.now(), other.now("lost")}));
+    EXPECT_EQ(abnormal.next(""), "/b");
+    EXPECT_EQ(abnormal.next("/b"), "/seen");
+    EXPECT_EQ(abnormal.next("/seen"), "/x") << "one of a lost agent stands for all";
+    EXPECT_EQ(abnormal.next("/x"), "/b");
+    EXPECT_EQ(abnormal.next("/b", true), "/x");
+    EXPECT_EQ(abnormal.next("/b", false, Abnormal::Lost), "/x");
+    EXPECT_EQ(Abnormal{}.next("/b"), "");
+}
+
+TEST_F(Troubles, AreNotWhatEndedInAnOrderlyWay) {
+    AgentFrame ended = robot.now("lost");
+    ended.status.ended = true;
+    Abnormal abnormal;
+    abnormal.update(*frameOf({ended}));
+    EXPECT_EQ(abnormal.count(Abnormal::Lost), 0);
+    EXPECT_EQ(abnormal.next(""), "");
+}
+
+TEST_F(Troubles, OfALostAgentStayWhenTheMirrorHasForgottenIt) {
+    EXPECT_TRUE(textsOf({robot.now(), other.now()}, begin).empty());
+    const auto told = textsOf({robot.now(), other.now("lost")}, begin + 1s);
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_TRUE(told.front().starts_with("agent lost"));
+    EXPECT_TRUE(textsOf({robot.now()}, begin + 100s).empty()) << "it was told";
+    ASSERT_EQ(names, (std::vector<std::string>{"other", "robot"}));
+    EXPECT_GE(last.front().status.age, 99);
+    EXPECT_GE(last.front().age(0), 99);
+    lost.dismiss("other");
+    (void)textsOf({robot.now()}, begin + 101s);
+    EXPECT_EQ(names, std::vector<std::string>{"robot"});
+}
+
+TEST_F(Troubles, OfADismissedAgentStayAwayUntilItIsHeardAgain) {
+    (void)textsOf({other.now()}, begin);
+    (void)textsOf({other.now("lost")}, begin + 1s);
+    lost.dismiss("other");
+    (void)textsOf({other.now("lost")}, begin + 2s);
+    EXPECT_TRUE(names.empty());
+    const auto told = textsOf({other.now()}, begin + 3s);
+    EXPECT_EQ(names, std::vector<std::string>{"other"});
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_EQ(told.front(), "agent heard again");
+    (void)textsOf({other.now("lost")}, begin + 4s);
+    EXPECT_EQ(names, std::vector<std::string>{"other"}) << "that is another loss";
+}
+
+TEST_F(Troubles, AreToldOfAnEndAndOfANewStart) {
+    (void)textsOf({other.now()}, begin);
+    AgentFrame ended = other.now("lost");
+    ended.status.ended = true;
+    EXPECT_TRUE(textsOf({ended}, begin + 1s).front().starts_with("agent ended"));
+    AgentFrame again = other.now();
+    ++again.status.epoch;
+    EXPECT_TRUE(textsOf({again}, begin + 2s).front().starts_with("agent restarted"));
+    (void)textsOf({}, begin + 3s);
+    EXPECT_TRUE(names.empty()) << "only what was lost stays";
+}
+
+}  // namespace
+}  // namespace cortex::test

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands above the tabs of a simplex, and in the line at the bottom, of agents made by hand.
+#include "gui/made_agent.hpp"
+#include "gui/window_fixture.hpp"
+#include "views/agent_table.hpp"
+#include "views/relation_table.hpp"
+#include "views/simplex_header.hpp"
+#include "widgets/link.hpp"
+#include "widgets/text_label.hpp"
+#include "window/status_bar.hpp"
+
+#include <QtTest/QTest>
+
+namespace cortex::test {
+namespace {
+
+class Header : public testing::Test {
+protected:
+    Header() {
+        header.resize(1000, 200);
+        QObject::connect(&header, &SimplexHeader::typeWanted,
+                         [this](const std::string& type) { wanted = type; });
+    }
+    void show(const std::string& path, std::vector<AgentFrame> agents) {
+        const auto frame = frameOf(std::move(agents));
+        header.show(*frame, *frame->find(path));
+    }
+    bool says(const QString& text) {
+        for (const auto* label : header.findChildren<TextLabel*>()) {
+            if (!label->isHidden() && label->text().contains(text)) return true;
+        }
+        return false;
+    }
+
+    MadeAgent robot{"robot", [](SimplexTree& tree) {
+                        Simplex& probe = tree.add("/probe", "Probe");
+                        Simplex& order = tree.add("/order", "Order");
+                        tree.relate(probe, "out", order);
+                        tree.add("/signal", "Signal");
+                    }};
+    StateTimes times;
+    SimplexHeader header{new QWidget, times};
+    std::string wanted;
+};
+
+TEST_F(Header, HasCodeAndWholeTextOfAFault) {
+    robot.put("/probe", "state", std::int64_t{4});
+    robot.put("/probe", "faultCode", std::int64_t{-8});
+    robot.put("/probe", "faultText",
+              std::string{"<b>axis</b> 4 does not follow: 0.052 rad, 0.050"});
+    for (const int width : {1000, 500, 320}) {
+        header.resize(width, 200);
+        show("/probe", {robot.now()});
+        EXPECT_TRUE(says("Fault −8"));
+        EXPECT_TRUE(says("<b>axis</b> 4 does not follow: 0.052 rad, 0.050"));
+    }
+    for (const auto* label : header.findChildren<TextLabel*>()) {
+        const bool isFault = label->text().contains("does not follow");
+        EXPECT_TRUE(!isFault || label->wordWrap());
+    }
+    robot.put("/probe", "state", std::int64_t{2});
+    show("/probe", {robot.now()});
+    EXPECT_FALSE(says("does not follow"));
+}
+
+TEST_F(Header, SaysWhoseValuesAreShownWhereTwoAgentsClaimThePath) {
+    MadeAgent spare{"spare", [](SimplexTree& tree) { tree.add("/probe", "Probe"); }};
+    AgentFrame first = robot.now(), second = spare.now();
+    first.status.since = 2;
+    second.status.since = 1;
+    show("/probe", {first, second});
+    EXPECT_TRUE(says("/probe is claimed by spare and by robot."));
+    EXPECT_TRUE(says("The values of spare are shown. Commands go to spare."));
+    second.status.state = "lost";
+    show("/probe", {first, second});
+    EXPECT_FALSE(says("claimed"));
+    EXPECT_TRUE(says("agent robot")) << "who is heard owns it";
+}
+
+TEST_F(Header, HasLinksToTheAncestorsOfTheType) {
+    show("/order", {robot.now()});
+    std::vector<QString> texts;
+    for (auto* each : header.findChildren<Link*>()) texts.push_back(each->text());
+    EXPECT_EQ(texts, (std::vector<QString>{"Signal", "Concept", "Simplex"}));
+    QTest::mouseClick(header.findChildren<Link*>().front(), Qt::LeftButton);
+    EXPECT_EQ(wanted, "Signal");
+    QTest::keyClick(header.findChildren<Link*>()[1], Qt::Key_Return);
+    EXPECT_EQ(wanted, "Concept");
+}
+
+TEST_F(Header, SaysSinceWhenItIsInItsState) {
+    show("/probe", {robot.now()});
+    EXPECT_TRUE(says("since before "));
+    comms::AgentEvent event;
+    event.agent = "robot";
+    event.epoch = robot.structure->epoch;
+    event.path = "/probe";
+    event.kind = "state change";
+    event.wallClock = 3'600'000'000'000;
+    times.add({event});
+    show("/probe", {robot.now()});
+    EXPECT_TRUE(says("since 01:00:00, "));
+}
+
+TEST_F(Header, SaysWhoWritesADemandAndWhyItIsSafe) {
+    robot.put("/probe", "state", std::int64_t{0});
+    robot.degrade("/order", Quality::Stale);
+    robot.tables->live(robot.at("/order")).state->cause = robot.at("/probe");
+    show("/order", {robot.now()});
+    EXPECT_TRUE(says("Written by /probe (Standby)."));
+    EXPECT_TRUE(says("Safe values, as /probe is in Standby."));
+    EXPECT_TRUE(says("quality stale, at rest"));
+}
+
+TEST_F(Header, SaysWhatPartOfThePeriodItsTaskTakes) {
+    robot.put("/probe", "taskTime", 2.34);
+    show("/probe", {robot.now()});
+    EXPECT_TRUE(says("task 2.3 µs of 1 ms"));
+}
+
+TEST_F(Header, HasNoAgeWhereNothingChangesByItself) {
+    show("/signal", {robot.now()});
+    EXPECT_FALSE(says(" old"));
+    show("/probe", {robot.now()});
+    EXPECT_TRUE(says("100 ms old"));
+}
+
+TEST_F(Header, OfALostAgentHasItsLastStateInBrackets) {
+    robot.put("/probe", "state", std::int64_t{2});
+    show("/probe", {robot.now("lost")});
+    EXPECT_TRUE(says("[Active]"));
+    EXPECT_TRUE(says("quality lost"));
+    EXPECT_TRUE(says("Values are the last ones, in brackets."));
+}
+
+TEST_F(Header, RelationshipsCountReadersInOtherAgents) {
+    MadeAgent other{"other", [](SimplexTree& tree) {
+                        Simplex& reader = tree.add("/reader", "Probe");
+                        tree.relateRemote(reader, "in", "/order", "Order", false);
+                    }};
+    const auto frame = frameOf({other.now(), robot.now()});
+    RelationTable table;
+    table.show(*frame, *frame->find("/order"));
+    table.refresh(*frame);
+    EXPECT_EQ(table.count(), 2) << "/probe writes it, /reader of another agent reads it";
+    QStringList paths;
+    for (int i = 0; i < table.topLevelItem(0)->childCount(); ++i) {
+        paths << table.topLevelItem(0)->child(i)->text(2) + ' ' +
+                     table.topLevelItem(0)->child(i)->text(4);
+    }
+    EXPECT_EQ(paths.join(", "), "/reader Standby, /probe Standby");
+}
+
+TEST_F(Header, AnOverloadedLoopShowsTheRateItReaches) {
+    AgentFrame slow = robot.now("overloaded");
+    slow.status.overloaded = true;
+    slow.status.rate = 734;
+    const auto frame = frameOf({slow});
+    StatusBar bar;
+    bar.refresh(*frame, Abnormal{});
+    AgentTable table;
+    table.refresh(*frame);
+    const auto labels = bar.findChildren<TextLabel*>();
+    EXPECT_TRUE(std::ranges::any_of(labels, [](const auto* each) {
+        return each->text().contains("robot overloaded: 734 of 1000 Hz");
+    }));
+    bool inTable = false;
+    for (int i = 0; i < table.columnCount(); ++i) {
+        inTable = inTable || table.topLevelItem(0)->text(i) == "734 of 1000 Hz";
+    }
+    EXPECT_TRUE(inTable);
+}
+
+}  // namespace
+}  // namespace cortex::test

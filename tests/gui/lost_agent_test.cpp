@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the window knows of agents that are not heard any longer, or not yet.
+#include "cortex/explorer/view.hpp"
+
+#include "gui/made_agent.hpp"
+#include "model/item_model.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using namespace explorer;
+
+MadeAgent readingAgent() {
+    return {"robot",
+            [](SimplexTree& tree) {
+                Simplex& reading = tree.add("/reading", "Reading");
+                reading.set("a", 1.5);
+                reading.set("origin", Value{std::vector<double>{1, 2, 3}});
+            },
+            "command-types.xml"};
+}
+
+TEST(LostAgent, AViewOfOnesOwnKnowsConstantsBeforeAnyValueCame) {
+    MadeAgent robot = readingAgent();
+    AgentFrame silent = robot.now();
+    silent.image = nullptr;
+    const auto frame = frameOf({silent});
+    const SimplexNow now{*frame, "/reading"};
+    EXPECT_EQ(now.number("origin", 1), 2.0);
+    EXPECT_EQ(now.text("origin", 2), "3");
+    EXPECT_FALSE(now.number("a"));
+    EXPECT_EQ(now.text("a"), "—");
+}
+
+TEST(LostAgent, AViewOfOnesOwnHasItsLastValuesInBracketsAndItsConstantsAsTheyAre) {
+    MadeAgent robot = readingAgent();
+    const auto frame = frameOf({robot.now("lost")});
+    const SimplexNow now{*frame, "/reading"};
+    EXPECT_EQ(now.number("a"), 1.5);
+    EXPECT_EQ(now.text("a"), "[1.5]");
+    EXPECT_EQ(now.text("origin", 0), "1");
+    EXPECT_TRUE(now.age());
+}
+
+TEST(LostAgent, TheTableOfDataHasConstantsOfWhatNeverCame) {
+    MadeAgent robot = readingAgent();
+    AgentFrame silent = robot.now("lost");
+    silent.image = nullptr;
+    ItemModel items;
+    items.show("/reading");
+    items.update(frameOf({silent}));
+    const QModelIndex group = items.index(0, 0);
+    for (int row = 0; row < items.rowCount(group); ++row) {
+        const QString name = items.index(row, ItemModel::Name, group).data().toString();
+        const QString value = items.index(row, ItemModel::Value, group).data().toString();
+        EXPECT_EQ(value, name == "origin" ? "3 values" : "—") << name.toStdString();
+    }
+}
+
+// The row of an item of /order: its value and its remark.
+std::pair<QString, QString> orderRow(const AgentFrame& agent, const QString& item) {
+    ItemModel items;
+    items.show("/order");
+    items.update(frameOf({agent}));
+    for (int group = 0; group < items.rowCount(); ++group) {
+        const QModelIndex above = items.index(group, 0);
+        for (int row = 0; row < items.rowCount(above); ++row) {
+            if (items.index(row, ItemModel::Name, above).data() != item) continue;
+            return {items.index(row, ItemModel::Value, above).data().toString(),
+                    items.index(row, ItemModel::Remark, above).data().toString()};
+        }
+    }
+    return {};
+}
+
+TEST(Resting, AValueIsInBracketsAndItsMarkIsThatOfStandby) {
+    MadeAgent robot{"robot", [](SimplexTree& tree) {
+                        Simplex& probe = tree.add("/probe", "Probe");
+                        tree.relate(probe, "out", tree.add("/order", "Order"));
+                    }};
+    const std::pair<QString, QString> good{"0", "safe 0"}, rests{"[0]", "Standby"},
+        stale{"[0]", "stale"};
+    EXPECT_EQ(orderRow(robot.now(), "value"), good) << "a demand says what its safe value is";
+    robot.degrade("/order", Quality::Stale);
+    robot.tables->live(robot.at("/order")).state->cause = robot.at("/probe");
+    robot.put("/probe", "state", std::int64_t{0});
+    EXPECT_EQ(orderRow(robot.now(), "value"), rests);
+    robot.put("/probe", "state", std::int64_t{2});
+    EXPECT_EQ(orderRow(robot.now(), "value"), stale) << "it should be live and is not";
+}
+
+}  // namespace
+}  // namespace cortex::test

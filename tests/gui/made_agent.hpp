@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/image_pool.hpp"
+#include "cortex/core/make_structure.hpp"
+#include "cortex/core/simplex_tree.hpp"
+#include "cortex/core/tables.hpp"
+
+#include "session/frame.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cortex::test {
+
+// An agent made by hand with types of the control system's tests, as a frame of the window has it.
+class MadeAgent {
+public:
+    using Fill = std::function<void(SimplexTree&)>;
+
+    MadeAgent(std::string agent, const Fill& fill, const std::string& types = "cs-rules.xml")
+        : agent_{std::move(agent)},
+          tree_{TypeModel::load(CORTEX_SOURCE_DIR "/tests/data/" + types)} {
+        fill(tree_);
+        structure = makeStructure(agent_, tree_);
+        tables = std::make_shared<Tables>(structure);
+        images_ = std::make_shared<ImagePool>(*tables, 8);
+    }
+
+    std::uint32_t at(std::string_view path) const { return structure->find(path); }
+    void put(std::string_view path, std::string_view item, std::int64_t value) {
+        *static_cast<std::int64_t*>(cell(path, item, Kind::Int)) = value;
+    }
+    void put(std::string_view path, std::string_view item, double value) {
+        *static_cast<double*>(cell(path, item, Kind::Float)) = value;
+    }
+    void put(std::string_view path, std::string_view item, const std::string& text) {
+        const std::uint32_t simplex = at(path);
+        const ItemLayout* layout = structure->simplexes[simplex].layout->find(item);
+        storeValue(*layout->item, Value{std::vector<std::string>{text}},
+                   tables->live(simplex).at(Kind::String, layout->offset));
+    }
+    void degrade(std::string_view path, Quality quality) {
+        tables->live(at(path)).state->quality = quality;
+    }
+    // "running" or "lost", with all values as they are now.
+    explorer::AgentFrame now(const std::string& state = "running") {
+        explorer::AgentFrame frame;
+        frame.status.name = agent_;
+        frame.status.state = state;
+        frame.status.simplexes = static_cast<std::uint32_t>(structure->simplexes.size());
+        frame.status.period = 1'000'000;
+        frame.status.epoch = structure->epoch;
+        frame.structure = structure;
+        images_->publish(++cycle_, 0, 0);
+        frame.image = std::make_shared<comms::AgentImage>(
+            images_, images_->newest(), std::vector<bool>(structure->simplexes.size(), true),
+            state == "lost");
+        frame.ages.assign(structure->simplexes.size(), 0.1F);
+        return frame;
+    }
+
+    std::shared_ptr<const Structure> structure;
+    std::shared_ptr<Tables> tables;
+
+private:
+    void* cell(std::string_view path, std::string_view item, Kind kind) {
+        const std::uint32_t simplex = at(path);
+        const ItemLayout* layout = structure->simplexes[simplex].layout->find(item);
+        return tables->live(simplex).at(kind, layout->offset);
+    }
+
+    std::string agent_;
+    SimplexTree tree_;
+    std::shared_ptr<ImagePool> images_;
+    std::int64_t cycle_ = 0;
+};
+
+// A frame of these agents, with a number and structures of its own.
+inline std::shared_ptr<explorer::Frame> frameOf(std::vector<explorer::AgentFrame> agents) {
+    static std::uint64_t count = 0;
+    auto frame = std::make_shared<explorer::Frame>();
+    frame->joined = true;
+    frame->number = ++count * 15;  // filters look at conditions anew
+    frame->structures = count;
+    frame->agents = std::move(agents);
+    return frame;
+}
+
+}  // namespace cortex::test

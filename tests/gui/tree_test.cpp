@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tree of simplexes: what is shown changes only by an act of a person.
+#include "gui/made_agent.hpp"
+#include "views/system_tree.hpp"
+#include "widgets/text_label.hpp"
+
+#include <QAbstractItemModelTester>
+#include <QApplication>
+#include <QKeyEvent>
+#include <QTreeView>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using namespace explorer;
+
+MadeAgent agentWith(const std::string& name, const std::vector<std::string>& paths) {
+    return {name, [&](SimplexTree& tree) {
+                for (const std::string& path : paths) tree.add(path, "Probe");
+            }};
+}
+
+class Tree : public testing::Test {
+protected:
+    Tree() {
+        QObject::connect(&tree, &SystemTree::chosen,
+                         [this](const std::string& path) { chosen.push_back(path); });
+        tree.resize(400, 400);
+        tree.show();
+    }
+    QTreeView& rows() { return *tree.findChild<QTreeView*>(); }
+    std::string current() { return tree.model().path(rows().currentIndex()); }
+    void key(Qt::Key key) {
+        QKeyEvent press{QEvent::KeyPress, key, Qt::NoModifier};
+        QApplication::sendEvent(&rows(), &press);
+    }
+    QString trouble() {
+        for (const auto* label : tree.findChildren<TextLabel*>()) {
+            if (!label->isHidden() && label->text().startsWith("Nothing matches")) {
+                return label->text();
+            }
+        }
+        return {};
+    }
+
+    SystemTree tree;
+    QAbstractItemModelTester tester{const_cast<SystemModel*>(&tree.model()),
+                                    QAbstractItemModelTester::FailureReportingMode::Fatal};
+    std::vector<std::string> chosen;
+    MadeAgent robot = agentWith("robot", {"/control/clutch", "/control/hold", "/drive"});
+    MadeAgent operators = agentWith("operator", {"/hand", "/playback"});
+};
+
+TEST_F(Tree, RowsThatGoOpenNoOtherSimplex) {
+    tree.refresh(frameOf({robot.now(), operators.now()}));
+    tree.choose("/playback");
+    chosen.clear();
+    tree.refresh(frameOf({robot.now()}));
+    EXPECT_TRUE(chosen.empty()) << "nobody chose " << chosen.front();
+    EXPECT_EQ(current(), "") << "nothing is marked as chosen that nobody chose";
+    tree.refresh(frameOf({robot.now(), operators.now()}));
+    EXPECT_EQ(current(), "/playback") << "it is chosen still";
+    EXPECT_TRUE(chosen.empty());
+}
+
+TEST_F(Tree, TypingInTheFilterOpensNoOtherSimplex) {
+    tree.refresh(frameOf({robot.now()}));
+    tree.choose("/control/hold");
+    chosen.clear();
+    for (const char* typed : {"c", "cl", "clu", "clutch", "clut", "c", "drive", ""}) {
+        tree.filter(QString::fromUtf8(typed));
+    }
+    EXPECT_TRUE(chosen.empty()) << "nobody chose " << chosen.front();
+    EXPECT_EQ(current(), "/control/hold");
+}
+
+TEST_F(Tree, AKeyOpensWhatItGoesTo) {
+    tree.refresh(frameOf({robot.now()}));
+    tree.choose("/control/clutch");
+    chosen.clear();
+    key(Qt::Key_Down);
+    EXPECT_EQ(chosen, std::vector<std::string>{"/control/hold"});
+    key(Qt::Key_Up);
+    key(Qt::Key_Up);  // the row of a path without a simplex stays current
+    tree.refresh(frameOf({robot.now()}));
+    EXPECT_EQ(current(), "/control");
+    EXPECT_EQ(chosen.back(), "/control/clutch");
+}
+
+TEST_F(Tree, SaysThatNothingMatchesOnlyWhileItIsTrue) {
+    tree.filter("playback");
+    tree.refresh(frameOf({robot.now()}));
+    EXPECT_TRUE(trouble().contains("playback"));
+    tree.refresh(frameOf({robot.now(), operators.now()}));
+    EXPECT_EQ(trouble(), "");
+    tree.refresh(frameOf({robot.now()}));
+    EXPECT_TRUE(trouble().contains("playback"));
+}
+
+TEST_F(Tree, SaysNothingOfAFilterWhileNobodyIsHeard) {
+    tree.filter("playback");
+    EXPECT_EQ(trouble(), "") << "there is nothing yet that could match";
+}
+
+TEST_F(Tree, SortsNumbersInNamesAsNumbers) {
+    MadeAgent wheels = agentWith("robot", {"/w10", "/w2", "/w1a", "/w1", "/x"});
+    tree.refresh(frameOf({wheels.now()}));
+    std::vector<std::string> names;
+    for (int i = 0; i < tree.model().rowCount(); ++i) {
+        names.push_back(tree.model().path(tree.model().index(i, 0)));
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"/w1", "/w1a", "/w2", "/w10", "/x"}));
+}
+
+TEST_F(Tree, WhatIsInStandbyIsNotMarkedAsUntrusted) {
+    robot.put("/drive", "state", std::int64_t{0});
+    robot.degrade("/drive", Quality::Stale);
+    robot.put("/control/hold", "state", std::int64_t{2});
+    robot.degrade("/control/hold", Quality::Stale);
+    tree.refresh(frameOf({robot.now()}));
+    EXPECT_EQ(tree.model().marks(tree.model().indexOf("/drive")).own, std::nullopt)
+        << "it writes nothing, as it should";
+    EXPECT_EQ(tree.model().marks(tree.model().indexOf("/control/hold")).own, Shape::Stale);
+    EXPECT_EQ(tree.model().marks(tree.model().indexOf("/control")).worst, Shape::Stale);
+}
+
+}  // namespace
+}  // namespace cortex::test
