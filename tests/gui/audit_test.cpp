@@ -55,6 +55,7 @@ const std::array views{
     View{"type", [](MainWindow& window) { window.openPart("type"); }},
     View{"system", [](MainWindow& window) { window.openGraph(); }},
     View{"agents", [](MainWindow& window) { window.openAgents(); }},
+    View{"events", [](MainWindow& window) { window.openEvents(); }},
     View{"manual", [](MainWindow& window) { window.openManual(); }},
 };
 
