@@ -15,6 +15,7 @@ pictures=(
     "commands 1280x800 /playback --view commands"
     "system 1280x800 /tracking --view system"
     "agents 1280x800 /tracking --view agents"
+    "events 1280x800 /tracking --view events"
     "small 800x600 /arm/lbr --font-scale 1.5"
 )
 
