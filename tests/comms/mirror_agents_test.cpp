@@ -254,7 +254,7 @@ TEST_F(MirrorAgentsTest, ValuesOfALoopThatStandsStillAreAsOldAsItsLastCycle) {
     EXPECT_EQ(tables.newest().state(worker).quality, Quality::Stale) << "at the first look";
 }
 
-TEST_F(MirrorAgentsTest, HaveTablesWhileTheyAreViewed) {
+TEST_F(MirrorAgentsTest, HaveTablesOnceTheyAreViewedAndImagesWhileTheyAre) {
     tellAll();
     agents.tick(nothing, begin);
     EXPECT_FALSE(agents.find("rig")->tables);
@@ -267,9 +267,13 @@ TEST_F(MirrorAgentsTest, HaveTablesWhileTheyAreViewed) {
     agents.take(agent.block(1), everything, begin);
     EXPECT_TRUE(agents.valuesComplete(everything));
 
-    const std::weak_ptr<MirrorTables> tables = agents.find("rig")->tables;
+    EXPECT_TRUE(agents.find("rig")->image());
+
     agents.view(nothing);
-    EXPECT_TRUE(tables.expired());
+    EXPECT_FALSE(agents.find("rig")->image());
+    agents.view(everything);
+    EXPECT_TRUE(agents.find("rig")->image());
+    EXPECT_FALSE(agents.valuesComplete(everything)) << "what came before is not taken for new";
 }
 
 TEST_F(MirrorAgentsTest, CountEventsThatDidNotCome) {

@@ -108,7 +108,10 @@ void SimplexHeader::layOut() {
     rows_->setSpacing(Look::units(2));
     auto* states = new QVBoxLayout;
     states->setSpacing(0);
-    for (QWidget* each : {state_, since_}) states->addWidget(each, 0, Qt::AlignLeft);
+    title_ = new QVBoxLayout;
+    title_->setSpacing(0);
+    for (QWidget* each : {state_, since_}) title_->addWidget(each, 0, Qt::AlignLeft);
+    states->addLayout(title_);
     states->addWidget(fault_);
     states->addStretch(1);
     auto* state = new QHBoxLayout;
@@ -153,6 +156,8 @@ void SimplexHeader::fit() {
     const int state = wide(*mark_) + std::max(wide(*state_), wide(*since_));
     const bool one = state + wide(*lifeCycle_) <= width();
     first_->setDirection(one ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+    title_->setDirection(one ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+    title_->setAlignment(since_, one ? Qt::AlignLeft : Qt::AlignRight | Qt::AlignVCenter);
     first_->setAlignment(lifeCycle_, one ? Qt::AlignTop : Qt::AlignTop | Qt::AlignLeft);
     const int names = wide(*path_) + wide(*type_);
     const int facts = wide(*agent_) + wide(*quality_) + wide(*task_);

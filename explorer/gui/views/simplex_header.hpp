@@ -48,7 +48,7 @@ private:
     TextLabel *agent_, *quality_, *task_;
     TextLabel *description_, *why_, *notice_;
     QPushButton* dismiss_;
-    QBoxLayout *first_ = nullptr, *second_ = nullptr, *rows_ = nullptr;
+    QBoxLayout *title_ = nullptr, *first_ = nullptr, *second_ = nullptr, *rows_ = nullptr;
     std::string agentName_;
 };
 
