@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests of the graphical program, with a real window that no display shows.
 #include "style/look.hpp"
+#include "style/plurals.hpp"
 
 #include <QApplication>
 
@@ -11,6 +12,8 @@ int main(int count, char** words) {
     qputenv("CORTEX_EXPLORER_PLUGINS", CORTEX_BINARY_DIR "/lib/views");
     // Not destroyed: Qt's offscreen platform leaves parts of its screen behind when it ends.
     static auto* const application = new QApplication{count, words};
+    static cortex::explorer::Plurals plurals;
+    QCoreApplication::installTranslator(&plurals);
     application->setQuitOnLastWindowClosed(false);
     cortex::explorer::Look::apply(cortex::explorer::Theme::Light, 1, QStringLiteral("Open Sans"));
     testing::InitGoogleTest(&count, words);

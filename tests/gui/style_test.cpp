@@ -2,10 +2,15 @@
 #include "gui/colour_vision.hpp"
 #include "style/glyphs.hpp"
 #include "style/look.hpp"
+#include "style/plurals.hpp"
 #include "style/shapes.hpp"
 #include "style/tokens.hpp"
 
+#include <QDirIterator>
+#include <QFile>
 #include <QImage>
+#include <QRegularExpression>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -109,6 +114,29 @@ TEST(Shapes, HaveAWordEach) {
     EXPECT_EQ(word(shapeOf(State::ShuttingDown)), "ShuttingDown");
     EXPECT_EQ(word(*shapeOf(Quality::Lost)), "lost");
     EXPECT_FALSE(shapeOf(Quality::Good));
+}
+
+TEST(Texts, OfCountsHaveASingular) {
+    EXPECT_EQ(QObject::tr("%n faults", nullptr, 0), "0 faults");
+    EXPECT_EQ(QObject::tr("%n faults", nullptr, 1), "1 fault");
+    EXPECT_EQ(QObject::tr("Set %n items", nullptr, 1), "Set 1 item");
+    const QRegularExpression literal{QStringLiteral(R"re("([^"]*%n[^"]*)")re")};
+    QDirIterator files{QStringLiteral(CORTEX_SOURCE_DIR "/explorer/gui"),
+                       {"*.cpp"},
+                       QDir::Files,
+                       QDirIterator::Subdirectories};
+    while (files.hasNext()) {
+        QFile file{files.next()};
+        ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+        const QString text = QString::fromUtf8(file.readAll());
+        for (auto each = literal.globalMatch(text); each.hasNext();) {
+            const QString written = each.next().captured(1);
+            const bool known = std::ranges::any_of(plurals, [&](const auto& pair) {
+                return QString::fromUtf8(pair.second).startsWith(written);
+            });
+            EXPECT_TRUE(known) << file.fileName().toStdString() << ": " << written.toStdString();
+        }
+    }
 }
 
 TEST(Glyphs, AreAllDrawn) {

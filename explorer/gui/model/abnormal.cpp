@@ -9,7 +9,8 @@ namespace cortex::explorer {
 
 namespace {
 
-constexpr std::uint64_t framesBetweenLimits = 15;  // limits are looked at twice a second
+constexpr int framesBetweenLooks = 5;  // states and qualities six times a second
+constexpr int looksBetweenLimits = 3;  // limits, of which there are many more, twice
 
 template <class Visit>
 void forOwnSimplexes(const AgentFrame& agent, Visit visit) {
@@ -41,7 +42,9 @@ void Abnormal::findOutside(const AgentFrame& agent) {
 }
 
 void Abnormal::update(const Frame& frame) {
-    const bool limits = frame.number % framesBetweenLimits == 0 || frame.structures != structures_;
+    const bool changed = frame.structures != structures_;
+    if (!changed && frames_++ % framesBetweenLooks != 0) return;
+    const bool limits = changed || looks_++ % looksBetweenLimits == 0;
     structures_ = frame.structures;
     for (const Kind kind : {Fault, Outside, Lost}) {
         if (kind == Outside && !limits) continue;

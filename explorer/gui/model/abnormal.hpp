@@ -30,6 +30,7 @@ private:
     std::array<int, KindCount> counts_{};
     std::array<std::vector<std::string>, KindCount> paths_;
     std::uint64_t structures_ = 0;
+    int frames_ = 0, looks_ = 0;
 };
 
 }  // namespace cortex::explorer

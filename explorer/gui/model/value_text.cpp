@@ -136,10 +136,6 @@ std::optional<Value> enteredValue(const DataItem& item, const QString& text, QSt
     return value;
 }
 
-QString counted(int count, const QString& one, const QString& many) {
-    return QStringLiteral("%1 %2").arg(count).arg(count == 1 ? one : many);
-}
-
 QString unitText(const std::string& ucum) {
     static constexpr std::array<std::array<const char*, 2>, 6> names{
         {{"Cel", "°C"}, {"deg", "°"}, {"Ohm", "Ω"}, {"um", "µm"}, {"us", "µs"}, {"uA", "µA"}}};

@@ -26,8 +26,6 @@ QString entryText(const DataItem& item, const Value& value);
 // cannot be the item's value.
 std::optional<Value> enteredValue(const DataItem& item, const QString& text, QString& why);
 
-// "1 fault", "2 faults".
-QString counted(int count, const QString& one, const QString& many);
 QString unitText(const std::string& ucum);  // "N.m" as "N·m", "m/s2" as "m/s²"
 QString ageText(double seconds);            // "6 ms", "2.1 s", "12 min", "3 h 05 min"
 QString wholeAgeText(double seconds);       // the same in whole seconds

@@ -3,6 +3,7 @@
 #include "program/options.hpp"
 #include "program/screenshot.hpp"
 #include "style/look.hpp"
+#include "style/plurals.hpp"
 #include "views/system_tree.hpp"
 #include "window/main_window.hpp"
 
@@ -21,6 +22,8 @@ int main(int argc, char** argv) {
     QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
     QCoreApplication::setApplicationName(QStringLiteral("cortex-explorer"));
     QApplication application{argc, argv};
+    Plurals plurals;
+    QCoreApplication::installTranslator(&plurals);
     // Pictures are alike on every machine, as far as the font is installed.
     Look::apply(options->theme, options->scale, picture ? QStringLiteral("Open Sans") : QString{});
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/system_tree.hpp"
 
-#include "model/value_text.hpp"
 #include "style/glyphs.hpp"
 #include "widgets/rows.hpp"
 #include "widgets/text_label.hpp"
@@ -178,8 +177,7 @@ void SystemTree::refresh(std::shared_ptr<const Frame> frame) {
     if (!current_.empty()) keepCurrent();
     tellTrouble();
     const auto agents = static_cast<int>(model_.frame().agents.size());
-    count_->show(
-        tr("%1 of %2").arg(model_.simplexes()).arg(counted(agents, tr("agent"), tr("agents"))));
+    count_->show(tr("%1 of %n agents", nullptr, agents).arg(model_.simplexes()));
     if (!opened_ && model_.rowCount() > 0) openFirstLevels();
     if (!wanted_.empty()) choose(std::exchange(wanted_, {}));
 }

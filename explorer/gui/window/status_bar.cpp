@@ -134,7 +134,7 @@ StatusBar::StatusBar(QWidget* parent)
 void StatusBar::refresh(const Frame& frame, const Abnormal& abnormal) {
     const int faults = abnormal.count(Abnormal::Fault), outside = abnormal.count(Abnormal::Outside),
               lost = abnormal.count(Abnormal::Lost);
-    counters_[Abnormal::Fault]->show(faults, counted(faults, tr("fault"), tr("faults")));
+    counters_[Abnormal::Fault]->show(faults, tr("%n faults", nullptr, faults));
     counters_[Abnormal::Outside]->show(outside, tr("%1 outside").arg(outside));
     counters_[Abnormal::Lost]->show(lost, tr("%1 lost").arg(lost));
     domain_->show(tr("Domain %1").arg(frame.domain));

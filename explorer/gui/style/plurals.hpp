@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QTranslator>
+#include <array>
+#include <utility>
+
+namespace cortex::explorer {
+
+// What `%n` stands before in texts of the window: for one, and for any other number.
+inline constexpr std::array<std::pair<const char*, const char*>, 9> plurals{{
+    {"%n agent", "%n agents"},
+    {"%n fault", "%n faults"},
+    {"%n value", "%n values"},
+    {"%n value with blanks between them", "%n values with blanks between them"},
+    {"%n cycle", "%n cycles"},
+    {"%n event of %1 did not come", "%n events of %1 did not come"},
+    {"Set %n item", "Set %n items"},
+    {"%1 of %n agent", "%1 of %n agents"},
+    {"%n participant with security was found; it is seen only with a folder of its authority.",
+     "%n participants with security were found; they are seen only with a folder of their "
+     "authority."},
+}};
+
+// To be installed in the application: texts are written for many, and it has those for one.
+class Plurals : public QTranslator {
+public:
+    using QTranslator::QTranslator;
+    bool isEmpty() const override { return false; }
+    QString translate(const char* context, const char* text, const char* remark,
+                      int count) const override;
+};
+
+}  // namespace cortex::explorer
