@@ -18,6 +18,8 @@ namespace {
 
 class Editing : public Window {
 protected:
+    using Window::Window;
+
     bool isReady() {
         if (!everythingComes()) return false;
         window.open("/drive");
@@ -42,20 +44,26 @@ protected:
         }
         return {};
     }
+    // The field that is open; null: none.
+    QLineEdit* field() {
+        const auto fields = table().findChildren<QLineEdit*>();
+        const auto found =
+            std::ranges::find_if(fields, [&](const auto* each) { return !each->isHidden(); });
+        return found == fields.end() ? nullptr : *found;
+    }
     // F2, the text, and the key that ends it.
-    void enters(const QString& item, const QString& text, Qt::Key key) {
-        table().setCurrentIndex(cellOf(item));
+    void type(const QModelIndex& cell, const QString& item, const QString& text, Qt::Key key) {
+        table().setCurrentIndex(cell);
         QKeyEvent edit{QEvent::KeyPress, Qt::Key_F2, Qt::NoModifier};
         QApplication::sendEvent(&table(), &edit);
-        const auto fields = table().findChildren<QLineEdit*>();
-        const auto found = std::ranges::find_if(fields, [&](const auto* each) {
-            return !each->isHidden() && each->accessibleName() == item;
-        });
-        ASSERT_NE(found, fields.end()) << item.toStdString();
-        QLineEdit* field = *found;
-        field->setText(text);
-        QTest::keyClick(field, key);
+        ASSERT_NE(field(), nullptr) << item.toStdString();
+        EXPECT_TRUE(field()->accessibleName().startsWith(item));
+        field()->setText(text);
+        QTest::keyClick(field(), key);
         QApplication::processEvents();
+    }
+    void enters(const QString& item, const QString& text, Qt::Key key) {
+        type(cellOf(item), item, text, key);
     }
     bool says(const QString& text) {
         return comes([&] { return bar().findChild<TextLabel*>()->text().contains(text); });
@@ -143,6 +151,75 @@ TEST_F(Editing, DoesNotTakeWhatIsOutOfTheRange) {
     EXPECT_TRUE(says("naturalFrequency is out of the range"))
         << bar().findChild<TextLabel*>()->text().toStdString();
     EXPECT_TRUE(valueOf("naturalFrequency").startsWith("12"));
+}
+
+TEST_F(Editing, AWrongFieldKeepsWhatWasTyped) {
+    ASSERT_TRUE(isReady());
+    enters("naturalFrequency", "1e6", Qt::Key_Return);
+    ASSERT_NE(field(), nullptr);
+    EXPECT_EQ(field()->text(), "1e6");
+    EXPECT_TRUE(says("naturalFrequency is out of the range"));
+    QFocusEvent leaves{QEvent::FocusOut};
+    QApplication::sendEvent(field(), &leaves);
+    QApplication::processEvents();
+    ASSERT_NE(field(), nullptr);
+    EXPECT_EQ(field()->text(), "1e6");
+    field()->setText("5");
+    QTest::keyClick(field(), Qt::Key_Tab);
+    QApplication::processEvents();
+    EXPECT_EQ(valueOf("naturalFrequency"), "5");
+}
+
+class EditingArrays : public Editing {
+protected:
+    EditingArrays() : Editing{"AxisPoseController"} {}
+    // The n-th element of the pose, from 1.
+    QModelIndex element(int number) {
+        const QModelIndex pose = cellOf("pose").siblingAtColumn(0);
+        table().expand(pose);
+        return table().model()->index(number - 1, ItemModel::Value, pose);
+    }
+    // In brackets in Standby, in which the controller writes nothing.
+    bool shows(int number, const QString& text) {
+        return element(number).data() == text || element(number).data() == '[' + text + ']';
+    }
+    void enters(int number, const QString& text, Qt::Key key) {
+        type(element(number), "pose", text, key);
+    }
+};
+
+TEST_F(EditingArrays, ElementsAreEnteredOneByOne) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/controller");
+    window.openPart("data");
+    ASSERT_TRUE(comes([this] { return shows(2, "0"); }));
+    ASSERT_TRUE(takes("/controller"));
+    enters(2, "0.25", Qt::Key_Tab);
+    EXPECT_EQ(element(2).data(), "0.25");
+    EXPECT_TRUE(shows(1, "0"));
+    enters(3, "abc", Qt::Key_Tab);
+    EXPECT_TRUE(says("pose 3 "));
+    ASSERT_NE(field(), nullptr);
+    QTest::keyClick(field(), Qt::Key_Escape);
+    // What others set meanwhile of the rest stays.
+    ASSERT_TRUE(comes([this] { return button("Set").isEnabled(); }));
+    session.releaseControl();
+    ASSERT_TRUE(comes([this] { return !window.control().holds(); }));
+    ASSERT_EQ(live({"set", "/controller", "pose=9 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0"}).exit, 0);
+    ASSERT_TRUE(comes([this] { return shows(1, "9"); }));
+    ASSERT_TRUE(takes("/controller"));
+    ASSERT_TRUE(comes([this] { return button("Set").isEnabled(); }));
+    button("Set").click();
+    EXPECT_TRUE(says("Set: pose "));
+    EXPECT_TRUE(comes([this] {
+        const auto frame = session.frame();
+        const auto place = frame->find("/controller");
+        const ItemLayout* item = frame->info(*place).layout->find("pose");
+        std::vector<double> pose(16);
+        pose[0] = 9;
+        pose[1] = 0.25;
+        return (*frame->agents[place->agent].image)->value(place->simplex, *item) == Value{pose};
+    }));
 }
 
 TEST_F(Editing, WillNotUndoWhatSomebodyElseHasSetSince) {

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <type_traits>
+#include <utility>
 
 namespace cortex::explorer {
 
@@ -72,6 +74,28 @@ std::optional<Shape> outsideOf(const ItemModel::Row& row, const Value& value) {
     if (row.max && *row.number > *row.max) return Shape::AboveLimit;
     if (row.min && *row.number < *row.min) return Shape::BelowLimit;
     return std::nullopt;
+}
+
+// One element of an array as a value of its own.
+Value element(const Value& value, std::size_t number) {
+    return std::visit(
+        [&](const auto& all) -> Value {
+            std::remove_cvref_t<decltype(all)> one;
+            if (number < all.size()) one.push_back(all[number]);
+            return one;
+        },
+        value);
+}
+
+// Values of another kind, or beyond the end, change nothing.
+void setElement(Value& value, std::size_t number, const Value& one) {
+    std::visit(
+        [&](auto& all) {
+            const auto* entered = std::get_if<std::remove_cvref_t<decltype(all)>>(&one);
+            if (entered == nullptr || entered->empty() || number >= all.size()) return;
+            all[number] = entered->front();
+        },
+        value);
 }
 
 QString labelsText(const DataItem& item) {
@@ -225,8 +249,7 @@ void ItemModel::refresh(Node& node) {
         if (row.item == nullptr || child->layout == nullptr || !built_) continue;
         const AgentFrame& agent = frame_->agents[built_->agent];
         const QString before = row.value, editedBefore = row.edited;
-        const auto entered = settableRow(row) ? edits_.find(row.item->name) : edits_.end();
-        row.edited = entered == edits_.end() ? QString{} : entryText(*row.item, entered->second);
+        row.edited = settableRow(row) ? editedText(row) : QString{};
         const auto mark = row.mark;
         row.mark.reset();
         row.number.reset();
@@ -262,7 +285,7 @@ void ItemModel::refresh(Node& node) {
 
 // Items of related simplexes are set where those are shown.
 bool ItemModel::settableRow(const Row& row) const {
-    return row.item != nullptr && row.whole && !row.item->settable.empty() && row.path == path_;
+    return row.item != nullptr && !row.item->settable.empty() && row.path == path_;
 }
 
 bool ItemModel::settable(const QModelIndex& index) const {
@@ -277,16 +300,75 @@ Qt::ItemFlags ItemModel::flags(const QModelIndex& index) const {
 bool ItemModel::setData(const QModelIndex& index, const QVariant& text, int role) {
     if (role != Qt::EditRole || !settable(index)) return false;
     if (text == data(index, Qt::EditRole)) return true;  // opened, and left as it was
-    const DataItem& item = *nodeOf(index)->row.item;
+    const Row& row = nodeOf(index)->row;
+    const DataItem item = entryItem(row);
     QString why;
     auto value = enteredValue(item, text.toString(), why);
-    if (!value) {
+    if (value && !enter(row, std::move(*value))) why = tr("has no values yet");
+    if (!why.isEmpty()) {
         Q_EMIT refused(QString::fromStdString(item.name) + ' ' + why);
         return false;
     }
-    edits_[item.name] = std::move(*value);
     for (const auto& group : root_->children) refresh(*group);
     return true;
+}
+
+// False: the other elements are not known.
+bool ItemModel::enter(const Row& row, cortex::Value value) {
+    const std::string& name = row.item->name;
+    if (row.whole) {
+        edits_[name] = {std::move(value)};
+        return true;
+    }
+    const auto found = edits_.find(name);
+    if (found != edits_.end()) {
+        setElement(found->second.value, row.element, value);
+        if (!found->second.elements.empty()) found->second.elements.insert(row.element);
+        return true;
+    }
+    auto now = valueNow(name);
+    if (!now) return false;
+    setElement(*now, row.element, value);
+    edits_[name] = {std::move(*now), {row.element}};
+    return true;
+}
+
+DataItem ItemModel::entryItem(const Row& row) {
+    DataItem item = *row.item;
+    if (row.whole) return item;
+    item.length = 1;
+    item.name += ' ' + std::to_string(row.element + 1);
+    return item;
+}
+
+std::optional<cortex::Value> ItemModel::valueNow(const std::string& item) const {
+    if (!built_) return std::nullopt;
+    const AgentFrame& agent = frame_->agents[built_->agent];
+    const ItemLayout* layout = frame_->info(*built_).layout->find(item);
+    if (layout == nullptr || !agent.came(built_->simplex)) return std::nullopt;
+    return (*agent.image)->value(built_->simplex, *layout);
+}
+
+cortex::Value ItemModel::merged(const std::string& item, const Edit& edit) const {
+    auto now = edit.elements.empty() ? std::nullopt : valueNow(item);
+    if (!now || lengthOf(*now) != lengthOf(edit.value)) return edit.value;
+    for (const std::size_t each : edit.elements) setElement(*now, each, element(edit.value, each));
+    return *now;
+}
+
+std::map<std::string, cortex::Value> ItemModel::edits() const {
+    std::map<std::string, cortex::Value> all;
+    for (const auto& [item, edit] : edits_) all[item] = merged(item, edit);
+    return all;
+}
+
+QString ItemModel::editedText(const Row& row) const {
+    const auto found = edits_.find(row.item->name);
+    if (found == edits_.end()) return {};
+    const Edit& edit = found->second;
+    if (row.whole) return entryText(*row.item, merged(row.item->name, edit));
+    if (!edit.elements.empty() && !edit.elements.contains(row.element)) return {};
+    return entryText(entryItem(row), element(edit.value, row.element));
 }
 
 QString ItemModel::copyText(const QModelIndex& index) const {
@@ -295,14 +377,7 @@ QString ItemModel::copyText(const QModelIndex& index) const {
     const AgentFrame& agent = frame_->agents[built_->agent];
     if (!agent.came(node.simplex)) return {};
     cortex::Value value = (*agent.image)->value(node.simplex, *node.layout);
-    if (!node.row.whole) {
-        std::visit(
-            [&](auto& all) {
-                all = {all.begin() + static_cast<std::ptrdiff_t>(node.row.element),
-                       all.begin() + static_cast<std::ptrdiff_t>(node.row.element) + 1};
-            },
-            value);
-    }
+    if (!node.row.whole) value = element(value, node.row.element);
     const QString text = QString::fromStdString(toText(value));
     const bool live = qualityOf(agent, node) == Quality::Good || node.row.item->constant;
     return live ? text : bracketed(text);
@@ -345,7 +420,9 @@ QVariant ItemModel::data(const QModelIndex& index, int role) const {
         const AgentFrame& agent = frame_->agents[built_->agent];
         const Node& node = *nodeOf(index);
         if (!agent.came(node.simplex)) return {};
-        return entryText(*row.item, (*agent.image)->value(node.simplex, *node.layout));
+        const cortex::Value value = (*agent.image)->value(node.simplex, *node.layout);
+        return row.whole ? entryText(*row.item, value)
+                         : entryText(entryItem(row), element(value, row.element));
     }
     if (role == Qt::ToolTipRole && row.item != nullptr) {
         QStringList lines{QString::fromStdString(row.path + '.' + row.item->name)};

@@ -9,6 +9,7 @@
 #include "widgets/rows.hpp"
 
 #include <QHeaderView>
+#include <QKeyEvent>
 #include <QLineEdit>
 #include <QStyledItemDelegate>
 #include <algorithm>
@@ -69,7 +70,7 @@ public:
     QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& /*option*/,
                           const QModelIndex& index) const override {
         auto* field = new QLineEdit{parent};
-        const DataItem& item = *items_.row(index).item;
+        const DataItem item = ItemModel::entryItem(items_.row(index));
         field->setAccessibleName(QString::fromStdString(item.name));
         connect(field, &QLineEdit::textChanged, field, [field, item] {
             QString why;
@@ -80,10 +81,20 @@ public:
         return field;
     }
 
+    // A field whose text is wrong stays open with it; Esc gives it up.
+    bool eventFilter(QObject* object, QEvent* event) override {
+        auto* field = qobject_cast<QLineEdit*>(object);
+        if (field == nullptr || !field->property(wrongInput).toBool() || !ends(*event)) {
+            return QStyledItemDelegate::eventFilter(object, event);
+        }
+        Q_EMIT commitData(field);  // it is refused, with the reason
+        return event->type() == QEvent::KeyPress;
+    }
+
     void updateEditorGeometry(QWidget* editor, const QStyleOptionViewItem& option,
                               const QModelIndex& index) const override {
         const ItemModel::Row& row = items_.row(index);
-        const bool wide = row.item->length > 1 || row.item->kind == Kind::String;
+        const bool wide = (row.whole && row.item->length > 1) || row.item->kind == Kind::String;
         QRect box = option.rect;
         if (wide)
             box.setWidth(Look::units(itemWidths[ItemModel::Value] + itemWidths[ItemModel::Unit] +
@@ -92,6 +103,15 @@ public:
     }
 
 private:
+    // Whether the event ends what is entered, other than by giving it up.
+    static bool ends(const QEvent& event) {
+        if (event.type() == QEvent::FocusOut) return true;
+        if (event.type() != QEvent::KeyPress) return false;
+        const int key = static_cast<const QKeyEvent&>(event).key();
+        return key == Qt::Key_Return || key == Qt::Key_Enter || key == Qt::Key_Tab ||
+               key == Qt::Key_Backtab;
+    }
+
     // What is not sent yet has a dot before it; what the agent has now stands beside it.
     static void paintEdited(QPainter& painter, const QStyleOptionViewItem& option,
                             const ItemModel::Row& row) {
@@ -167,10 +187,12 @@ ItemTable::ItemTable(ItemModel& model, QWidget* parent) : QTreeView{parent}, ite
 // Whatever column the cursor is in: it is the value that is edited. Tab goes on to the next one.
 bool ItemTable::edit(const QModelIndex& index, EditTrigger trigger, QEvent* event) {
     const QModelIndex value = index.siblingAtColumn(ItemModel::Value);
-    if (trigger == DoubleClicked || trigger == EditKeyPressed) {
-        return QTreeView::edit(value, trigger, event);
+    const bool asked = trigger == DoubleClicked || trigger == EditKeyPressed;
+    if (asked && state() == EditingState) {  // a wrong one comes first
+        if (auto* open = viewport()->findChild<QLineEdit*>()) open->setFocus();
+        return false;
     }
-    return QTreeView::edit(index, trigger, event);
+    return QTreeView::edit(asked ? value : index, trigger, event);
 }
 
 void ItemTable::closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) {
