@@ -12,6 +12,8 @@
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QRadioButton>
+#include <QSet>
 
 #include <QtTest/QTest>
 
@@ -81,6 +83,54 @@ TEST_F(Controlling, TakesControlCommandsAndReleases) {
     EXPECT_TRUE(comes([this] { return window.control().text() == "Read-only"; }));
     EXPECT_TRUE(comes([] { return leases().find("/drive") == std::string::npos; }));
     EXPECT_TRUE(isIn("/drive", State::Active)) << "releasing stops nothing";
+}
+
+TEST_F(Controlling, IsTakenByKeysAloneWithAFocusThatIsSeen) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/axis/observed");
+    QApplication::setActiveWindow(&window);
+    QTest::keyClick(&window, Qt::Key_T, Qt::ControlModifier);
+    ControlPanel* panel = window.control().panel();
+    ASSERT_NE(panel, nullptr);
+    const auto chosen = [&] {
+        const auto all = panel->findChildren<QRadioButton*>();
+        const auto found =
+            std::ranges::find_if(all, [](const auto* each) { return each->isChecked(); });
+        return found != all.end() ? *found : nullptr;
+    };
+    ASSERT_NE(chosen(), nullptr);
+    EXPECT_EQ(panel->focusWidget(), chosen()) << "arrows choose at once";
+    EXPECT_EQ(chosen()->text(), "/axis");
+    QTest::keyClick(panel->focusWidget(), Qt::Key_Up);
+    EXPECT_EQ(chosen()->text(), "/axis/observed");
+    EXPECT_EQ(panel->takeButton().text(), "Take /axis/observed");
+    QTest::keyClick(panel->focusWidget(), Qt::Key_Return);
+    EXPECT_TRUE(comes([&] { return window.control().prefix() == "/axis/observed"; }));
+}
+
+// The ring around it, in the colour of the accent.
+TEST_F(Controlling, EveryWidgetOfThePanelShowsThatItHasTheFocus) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    window.control().choose();
+    ControlPanel* panel = window.control().panel();
+    QApplication::setActiveWindow(panel);
+    QWidget* const first = panel->focusWidget();
+    ASSERT_NE(first, nullptr);
+    QSet<const QWidget*> seen;
+    do {
+        QWidget* const widget = panel->focusWidget();
+        seen.insert(widget);
+        const QImage with = widget->grab().toImage();
+        widget->clearFocus();
+        const QImage without = widget->grab().toImage();
+        widget->setFocus(Qt::TabFocusReason);
+        EXPECT_NE(with, without) << widget->metaObject()->className();
+        QTest::keyClick(widget, Qt::Key_Tab);
+    } while (panel->focusWidget() != first && seen.size() < 10);
+    EXPECT_TRUE(seen.contains(&panel->takeButton()));
+    QTest::keyClick(panel, Qt::Key_Escape);
+    EXPECT_FALSE(panel->isVisible());
 }
 
 TEST_F(Controlling, SaysWhoHoldsItAndTakesItWhenTheyAreGone) {

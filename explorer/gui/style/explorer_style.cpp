@@ -34,6 +34,15 @@ void box(QPainter& painter, const QRect& rect, const QColor& fill, const QColor&
     painter.restore();
 }
 
+void drawFocus(QPainter& painter, const QRect& rect, const QColor& colour) {
+    painter.save();
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen{colour, 2});
+    painter.drawRoundedRect(QRectF{rect}.adjusted(1, 1, -1, -1), Look::units(1), Look::units(1));
+    painter.restore();
+}
+
 void drawButton(QPainter& painter, const QStyleOption& option, const QWidget* widget) {
     const Tokens& c = Look::colours();
     const bool enabled = option.state.testFlag(QStyle::State_Enabled);
@@ -51,16 +60,8 @@ void drawButton(QPainter& painter, const QStyleOption& option, const QWidget* wi
     } else {
         box(painter, option.rect, hovered ? c.hover : c.raised, c.border);
     }
-}
-
-void drawFocus(QPainter& painter, const QRect& rect) {
-    const Tokens& c = Look::colours();
-    painter.save();
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setBrush(Qt::NoBrush);
-    painter.setPen(QPen{c.accent, 2});
-    painter.drawRoundedRect(QRectF{rect}.adjusted(1, 1, -1, -1), Look::units(1), Look::units(1));
-    painter.restore();
+    if (!option.state.testFlag(QStyle::State_HasFocus)) return;
+    drawFocus(painter, option.rect, pressed ? c.onAccent : c.accent);
 }
 
 void drawTab(QPainter& painter, const QStyleOptionTab& tab) {
@@ -172,7 +173,7 @@ void ExplorerStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* 
             drawButton(*painter, *option, widget);
             return;
         case PE_FrameFocusRect:
-            drawFocus(*painter, option->rect);
+            drawFocus(*painter, option->rect, c.accent);
             return;
         case PE_IndicatorBranch:
             drawBranch(*painter, *option);

@@ -116,7 +116,7 @@ void ControlBar::choose() {
         session_.takeControl(prefix);
     });
     showBelow(*panel_);
-    panel_->takeButton().setFocus();
+    panel_->focusChosen();
 }
 
 void ControlBar::showBelow(QWidget& popover) {

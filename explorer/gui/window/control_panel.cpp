@@ -11,6 +11,7 @@
 
 #include <QButtonGroup>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
@@ -47,6 +48,7 @@ ControlPanel::ControlPanel(std::shared_ptr<const Frame> frame, const std::string
       frame_{std::move(frame)},
       buttons_{new QButtonGroup{this}},
       holders_{new QLabel},
+      cancel_{new QPushButton{tr("Cancel")}},
       take_{new QPushButton} {
     setAttribute(Qt::WA_DeleteOnClose);
     for (std::string each = path; each.size() > 1; each.resize(each.rfind('/'))) {
@@ -68,11 +70,10 @@ ControlPanel::ControlPanel(std::shared_ptr<const Frame> frame, const std::string
     rows->addWidget(holders_);
     auto* last = new QHBoxLayout;
     last->addStretch(1);
-    auto* cancel = new QPushButton{tr("Cancel")};
-    last->addWidget(cancel);
+    last->addWidget(cancel_);
     last->addWidget(take_);
     rows->addLayout(last);
-    connect(cancel, &QPushButton::clicked, this, &QWidget::close);
+    connect(cancel_, &QPushButton::clicked, this, &QWidget::close);
     connect(take_, &QPushButton::clicked, this, [this] {
         Q_EMIT taken(chosen());
         close();
@@ -95,6 +96,24 @@ void ControlPanel::choose(const std::string& prefix) {
     if (found == scopes_.end()) return;
     buttons_->button(static_cast<int>(found - scopes_.begin()))->setChecked(true);
     refresh(frame_);
+}
+
+void ControlPanel::focusChosen() {
+    if (QAbstractButton* chosen = buttons_->checkedButton()) chosen->setFocus(Qt::TabFocusReason);
+}
+
+void ControlPanel::keyPressEvent(QKeyEvent* event) {
+    switch (event->key()) {
+        case Qt::Key_Return:
+        case Qt::Key_Enter:
+            (cancel_->hasFocus() ? cancel_ : take_)->click();
+            break;
+        case Qt::Key_Escape:
+            close();
+            break;
+        default:
+            QFrame::keyPressEvent(event);
+    }
 }
 
 void ControlPanel::refresh(std::shared_ptr<const Frame> frame) {

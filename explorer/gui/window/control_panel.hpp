@@ -12,8 +12,8 @@ class QPushButton;
 
 namespace cortex::explorer {
 
-// Which part to take control of, and who holds what of it now. A popover: a click beside it, or
-// Esc, closes it.
+// Which part to take control of, and who holds what of it now. Arrows choose the part, Enter takes
+// it. A popover: a click beside it, or Esc, closes it.
 class ControlPanel : public QFrame {
     Q_OBJECT
 public:
@@ -24,11 +24,13 @@ public:
     void refresh(std::shared_ptr<const Frame> frame);
     QPushButton& takeButton() { return *take_; }
     void choose(const std::string& prefix);
+    void focusChosen();
 
 Q_SIGNALS:
     void taken(const std::string& prefix);
 
 protected:
+    void keyPressEvent(QKeyEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
 
 private:
@@ -40,7 +42,7 @@ private:
     std::vector<std::string> scopes_;  // as the buttons
     QButtonGroup* buttons_;
     QLabel* holders_;
-    QPushButton* take_;
+    QPushButton *cancel_, *take_;
 };
 
 }  // namespace cortex::explorer
