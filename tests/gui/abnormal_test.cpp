@@ -5,8 +5,8 @@
 #include "views/event_list.hpp"
 #include "views/graph_view.hpp"
 
+#include <QAbstractItemView>
 #include <QPushButton>
-#include <QTreeView>
 #include <algorithm>
 #include <csignal>
 
@@ -32,7 +32,7 @@ protected:
         return nullptr;
     }
     bool hasEvent(const QString& text) {
-        const auto& rows = *window.findChild<EventList*>()->findChild<QTreeView*>()->model();
+        const auto& rows = *window.findChild<EventList*>()->findChild<QAbstractItemView*>()->model();
         for (int row = 0; row < rows.rowCount(); ++row) {
             for (int column = 0; column < rows.columnCount(); ++column) {
                 if (rows.index(row, column).data().toString().contains(text)) return true;

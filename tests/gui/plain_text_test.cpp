@@ -69,5 +69,54 @@ TEST(PlainText, AnyLabelOfTheProgramRendersNoMarkup) {
     EXPECT_FALSE(renders(label));
 }
 
+// A simplex whose type says hostile things, in a system of its own.
+class HostileTexts : public Window {
+protected:
+    HostileTexts() {
+        const std::string text = hostile.toHtmlEscaped().toStdString();
+        folder.write("hostile.xml",
+                     "<ontology name=\"hostile\" version=\"1.0\"><include file=\"base.xml\"/>"
+                     "<type name=\"Note\" extends=\"Concept\" description=\"" +
+                         text +
+                         "\"><data name=\"level\" kind=\"int\" labels=\"0:Low 1:High\" safe=\"0\" "
+                         "settable=\"always\" description=\"" +
+                         text + "\"/></type></ontology>");
+        std::string system = folder.read("mixer.xml");
+        const std::string end = "</system>";
+        system.replace(system.find(end), end.size(),
+                       "<simplex path=\"/note\" type=\"Note\"/>" + end);
+        const std::string types = "<morphology file=\"robotics-morphology.xml\"/>";
+        system.replace(system.find(types), types.size(),
+                       types + "<ontology file=\"hostile.xml\"/>");
+        agent.reset();
+        folder.write("mixer.xml", system);
+        start();
+    }
+};
+
+TEST_F(HostileTexts, AreShownInAllPartsOfTheWindowAsTheyAre) {
+    ASSERT_TRUE(comes([this] { return session.frame()->find("/note").has_value(); }));
+    window.open("/note");
+    const auto shown = [this] {
+        window.refresh();
+        const auto labels = window.findChildren<QLabel*>();
+        return std::ranges::any_of(
+            labels, [](const auto* each) { return textOf(*each).contains(hostile); });
+    };
+    EXPECT_TRUE(comes(shown));
+    for (const char* part : {"data", "relationships", "commands", "type"}) {
+        window.openPart(part);
+        window.refresh();
+        window.grab();
+        for (const auto* label : window.findChildren<QLabel*>()) {
+            EXPECT_FALSE(renders(*label)) << label->text().toStdString();
+        }
+    }
+    const auto& rows = *window.current()->findChild<ItemTable*>()->model();
+    const QModelIndex level = rows.index(0, 0, rows.index(0, 0));
+    ASSERT_EQ(level.data(), "level");
+    EXPECT_TRUE(level.data(Qt::ToolTipRole).toString().replace('\n', ' ').contains(hostile));
+}
+
 }  // namespace
 }  // namespace cortex::test

@@ -73,6 +73,7 @@ int writeScreenshot(MainWindow& window, const Session& session, const Options& o
         if (!frame->find(path)) return fail(unknown(*frame, path, limit));
     }
     window.refresh();
+    if (QWidget* focus = window.focusWidget()) focus->clearFocus();  // nobody types
     QApplication::processEvents();
     if (!window.grab().save(QString::fromStdString(file))) {
         std::cerr << "error: " << file << " cannot be written: is its folder there, and does its "

@@ -6,6 +6,7 @@
 #include "widgets/text_label.hpp"
 
 #include <QHBoxLayout>
+#include <QHeaderView>
 #include <QVBoxLayout>
 
 namespace cortex::explorer {
@@ -25,7 +26,7 @@ EventList::EventList(EventFilter& events, QWidget* parent)
     head->addWidget(filter_);
     head->addWidget(count_);
     head->addStretch(1);
-    rows_->setHeaderHidden(true);
+    rows_->horizontalHeader()->hide();
     setAutoFillBackground(true);
     auto* all = new QVBoxLayout{this};
     all->setContentsMargins(0, 0, 0, 0);

@@ -17,7 +17,7 @@ namespace cortex::explorer {
 namespace {
 
 // In units; the text takes the rest.
-constexpr std::array<double, EventModel::ColumnCount> eventWidths{25, 23, 26, 38, 19, 0, 13};
+constexpr std::array<double, EventModel::ColumnCount> eventWidths{25, 23, 26, 38, 19, 0, 15};
 constexpr double leastTextWidth = 60, leastPathWidth = 24;
 
 class EventDelegate : public QStyledItemDelegate {
@@ -25,13 +25,10 @@ public:
     EventDelegate(const EventFilter& events, QObject* parent)
         : QStyledItemDelegate{parent}, events_{events} {}
 
-    QSize sizeHint(const QStyleOptionViewItem& /*option*/,
-                   const QModelIndex& /*index*/) const override {
-        return {Look::units(10), rowHeight()};
-    }
-
-    void paint(QPainter* painter, const QStyleOptionViewItem& option,
+    void paint(QPainter* painter, const QStyleOptionViewItem& asked,
                const QModelIndex& index) const override {
+        QStyleOptionViewItem option = asked;
+        option.state &= ~QStyle::State_MouseOver;  // it is of one cell, not of the row
         const Tokens& c = Look::colours();
         const EventRow& row = events_.at(index.row());
         paintRow(*painter, option, row.isGap() ? c.dataBg : QColor{});
@@ -70,15 +67,24 @@ private:
 
 }  // namespace
 
-EventTable::EventTable(EventFilter& events, QWidget* parent) : QTreeView{parent}, events_{events} {
+EventTable::EventTable(EventFilter& events, QWidget* parent) : QTableView{parent}, events_{events} {
     setModel(&events);
     setItemDelegate(new EventDelegate{events, this});
-    setUpRows(*this);
+    setFrameShape(QFrame::NoFrame);
+    setShowGrid(false);
+    setWordWrap(false);
+    setTabKeyNavigation(false);
+    setSelectionBehavior(SelectRows);
+    setSelectionMode(SingleSelection);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    setRootIsDecorated(false);
-    setVerticalScrollMode(ScrollPerItem);
     setAccessibleName(tr("Events"));
-    header()->setStretchLastSection(false);
+    viewport()->setBackgroundRole(QPalette::Window);
+    verticalHeader()->hide();
+    verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
+    verticalHeader()->setMinimumSectionSize(1);
+    verticalHeader()->setDefaultSectionSize(explorer::rowHeight());
+    horizontalHeader()->setHighlightSections(false);
+    horizontalHeader()->setSectionResizeMode(QHeaderView::Fixed);
     connect(&events, &QAbstractItemModel::rowsInserted, this,
             [this](const QModelIndex&, int first, int last) { inserted(first, last); });
     connect(&events, &QAbstractItemModel::rowsRemoved, this,
@@ -92,7 +98,7 @@ EventTable::EventTable(EventFilter& events, QWidget* parent) : QTreeView{parent}
         if (follows_) newBelow_ = 0;
         Q_EMIT moved();
     });
-    connect(this, &QTreeView::activated, this, [this](const QModelIndex& index) {
+    connect(this, &QTableView::activated, this, [this](const QModelIndex& index) {
         const std::string& path = events_.at(index.row()).event.path;
         if (!path.empty()) Q_EMIT opened(path);
     });
@@ -145,7 +151,7 @@ void EventTable::rowsAboutToBeRemoved(const QModelIndex& parent, int first, int 
         keeps_ = false;
         Q_EMIT selectionDropped();
     }
-    QTreeView::rowsAboutToBeRemoved(parent, first, last);
+    QTableView::rowsAboutToBeRemoved(parent, first, last);
 }
 
 void EventTable::keepSelection() {
@@ -160,7 +166,7 @@ void EventTable::keepSelection() {
 }
 
 void EventTable::currentChanged(const QModelIndex& current, const QModelIndex& previous) {
-    QTreeView::currentChanged(current, previous);
+    QTableView::currentChanged(current, previous);
     if (!keeps_ && current.isValid()) Q_EMIT selectionSet();
 }
 
@@ -169,12 +175,20 @@ void EventTable::keyPressEvent(QKeyEvent* event) {
         follow();
         return;
     }
-    QTreeView::keyPressEvent(event);
+    QTableView::keyPressEvent(event);
     look();
 }
 
+void EventTable::changeEvent(QEvent* event) {
+    QTableView::changeEvent(event);
+    if (event->type() == QEvent::StyleChange) {
+        verticalHeader()->setDefaultSectionSize(explorer::rowHeight());
+        fitColumns();
+    }
+}
+
 void EventTable::resizeEvent(QResizeEvent* event) {
-    QTreeView::resizeEvent(event);
+    QTableView::resizeEvent(event);
     fitColumns();
     if (follows_) scrollToBottom();
 }
@@ -194,7 +208,7 @@ void EventTable::fitColumns() {
     }
     widths[EventModel::Text] = std::max(left + leastTextWidth, leastPathWidth);
     for (int i = 0; i < EventModel::ColumnCount; ++i) {
-        header()->resizeSection(i, Look::units(widths[static_cast<std::size_t>(i)]));
+        horizontalHeader()->resizeSection(i, Look::units(widths[static_cast<std::size_t>(i)]));
     }
 }
 

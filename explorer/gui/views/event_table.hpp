@@ -3,15 +3,16 @@
 
 #include "model/event_filter.hpp"
 
-#include <QTreeView>
+#include <QTableView>
 #include <optional>
 #include <string>
 
 namespace cortex::explorer {
 
-// The events that are shown, as rows. It follows the newest unless somebody has scrolled up; F and
-// End follow again. Which row is selected changes only by an act of the person.
-class EventTable : public QTreeView {
+// The events that are shown, as rows: a table, as a tree lays all rows out for each new one. It
+// follows the newest unless somebody has scrolled up; F and End follow again. Which row is selected
+// changes only by an act of the person.
+class EventTable : public QTableView {
     Q_OBJECT
 public:
     explicit EventTable(EventFilter& events, QWidget* parent = nullptr);
@@ -31,6 +32,7 @@ Q_SIGNALS:
 protected:
     void keyPressEvent(QKeyEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
     void rowsAboutToBeRemoved(const QModelIndex& parent, int first, int last) override;
     void currentChanged(const QModelIndex& current, const QModelIndex& previous) override;
 
