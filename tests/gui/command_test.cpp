@@ -109,6 +109,17 @@ TEST_F(Commanding, CancelNeedsNoControlAndItsAnswerIsShown) {
     EXPECT_TRUE(comes([&] { return !cancel.isVisible(); }));
 }
 
+TEST_F(Commanding, CancelSaysWhyItIsOff) {
+    ASSERT_TRUE(everythingComes());
+    ASSERT_TRUE(movesForLong());
+    agent->send(SIGSTOP);
+    EXPECT_TRUE(comes([this] { return says(card("moveTo"), "mixer is not heard"); }));
+    EXPECT_TRUE(button(card("moveTo"), "Cancel").isVisible());
+    EXPECT_FALSE(button(card("moveTo"), "Cancel").isEnabled());
+    agent->send(SIGCONT);
+    EXPECT_TRUE(comes([this] { return button(card("moveTo"), "Cancel").isEnabled(); }));
+}
+
 class Undoing : public Commanding {
 protected:
     bool sets() {
