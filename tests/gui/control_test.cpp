@@ -219,6 +219,18 @@ TEST_F(Controlling, KeepsWhatIsHandedOverToIt) {
     EXPECT_NE(leases().find("/drive"), std::string::npos);
 }
 
+TEST(ControlOfSeveralParts, IsStoppedAtThePathAroundThem) {
+    const auto commonOf = [](std::initializer_list<const char*> prefixes) {
+        Control control;
+        for (const char* each : prefixes) control.held.push_back({"robot", each, 0});
+        return control.common();
+    };
+    EXPECT_EQ(commonOf({}), "");
+    EXPECT_EQ(commonOf({"/arm"}), "/arm");
+    EXPECT_EQ(commonOf({"/arm/left", "/arm/right/hand"}), "/arm");
+    EXPECT_EQ(commonOf({"/arm", "/armature"}), "/");
+}
+
 TEST_F(Controlling, ANameThatNobodyHasEndsControlAndIsTold) {
     ASSERT_TRUE(everythingComes());
     window.open("/drive");

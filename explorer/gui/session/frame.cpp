@@ -70,6 +70,17 @@ std::vector<std::string> Control::prefixes() const {
     return prefixes;
 }
 
+std::string Control::common() const {
+    std::string path;
+    for (const std::string& each : prefixes()) {
+        if (path.empty()) path = each;
+        while (path != "/" && !isAtOrBelow(each, path)) {
+            path.resize(std::max<std::size_t>(path.rfind('/'), 1));
+        }
+    }
+    return path;
+}
+
 bool Control::covers(const std::string& agent, std::string_view path) const {
     return std::ranges::any_of(held, [&](const comms::LeaseClient::Lease& each) {
         return each.agent == agent && isAtOrBelow(path, each.prefix);

@@ -53,6 +53,7 @@ struct Control {
     std::vector<comms::LeaseClient::Lease> held;  // all, those handed over to it included
 
     std::vector<std::string> prefixes() const;  // that are held, each once
+    std::string common() const;                 // the path around all of them; empty: none
 
     bool covers(const std::string& agent, std::string_view path) const;
 };

@@ -75,7 +75,7 @@ void StopButton::stop() {
 void StopButton::refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes) {
     // It never follows what is selected: the same key must not mean something else after a click.
     inControl_ = !frame.control.prefix.empty();
-    const std::string& scope = inControl_ ? frame.control.prefix : everything;
+    const std::string scope = inControl_ ? frame.control.common() : everything;
     if (scope != prefix_) {
         prefix_ = scope;
         armed_.invalidate();
