@@ -69,6 +69,13 @@ TEST_F(EventRows, NumbersOfNamesAreNoNumbers) {
     EXPECT_EQ(some.numbers, (std::vector<std::string>{"1", "-2.5e-3", "7"}));
 }
 
+TEST_F(EventRows, WhatTheWindowSaysOfAnAgentHasNoNumberThatCouldBeMissing) {
+    const comms::AgentEvent restarted = eventOf(0, "agent", "/robot", "agent restarted");
+    events.add({restarted, limit(500, "first that came")});
+    EXPECT_EQ(shown.rowCount(), 2);
+    EXPECT_EQ(text(0), "agent restarted");
+}
+
 TEST_F(EventRows, NumbersOfAnAgentThatAreMissingAreARow) {
     events.add({limit(1, "a"), limit(9, "b")});
     ASSERT_EQ(shown.rowCount(), 3);

@@ -36,6 +36,10 @@ std::vector<EventRow> EventModel::withGaps(std::vector<comms::AgentEvent> events
     std::vector<EventRow> rows;
     rows.reserve(events.size());
     for (comms::AgentEvent& event : events) {
+        if (event.number == 0) {  // the window's own, such as of a lost agent
+            rows.emplace_back(std::move(event));
+            continue;
+        }
         if (last_.size() > mostStarts) last_.clear();
         const auto [last, isFirst] = last_.try_emplace(Start{event.agent, event.epoch});
         comms::AgentEvent& before = last->second;

@@ -69,8 +69,6 @@ void LifeCycleBar::refresh(const Frame& frame, Place place) {
     fit();
     tell();
     for (Button& each : buttons_) {
-        each.button->setFixedWidth(Look::units(32));  // in the size that applies now
-        each.reason->setFixedSize(Look::units(32), 2 * each.reason->fontMetrics().height());
         const auto command = std::ranges::find(type.commands, each.command, &Command::name);
         const QString why = command == type.commands.end()
                                 ? tr("its type has no %1").arg(each.button->text())
