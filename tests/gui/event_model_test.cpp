@@ -137,6 +137,12 @@ TEST_F(EventRows, TheDetailsOfACommandNameItsParts) {
     EXPECT_TRUE(has("latency", "3912 cycles"));
 }
 
+TEST_F(EventRows, APathThatIsCutIsWholeInItsTooltip) {
+    events.add({limit(1, "position limited")});
+    EXPECT_EQ(shown.index(0, EventModel::Path).data(Qt::ToolTipRole), "/arm/demands/4");
+    EXPECT_EQ(shown.index(0, EventModel::Text).data(Qt::ToolTipRole), "position limited");
+}
+
 TEST_F(EventRows, AnyTextIsARow) {
     events.add({limit(1, ""), limit(2, "-"), limit(3, "1e"),
                 limit(4, std::string("\x01 1 \n \xff", 7)),

@@ -59,8 +59,11 @@ EventDetails detailsOf(const EventRow& row) {
         return details;
     }
     details.emplace_back(detail("kind"), plainText(first.kind));
-    details.emplace_back(detail("cycle"), fromTo(number(first.cycle), number(last.cycle)));
-    details.emplace_back(detail("number"), fromTo(countText(first.number), countText(last.number)));
+    if (first.number > 0) {  // otherwise the window's own
+        details.emplace_back(detail("cycle"), fromTo(number(first.cycle), number(last.cycle)));
+        details.emplace_back(detail("number"),
+                             fromTo(countText(first.number), countText(last.number)));
+    }
     addTimes(details, row);
     for (const NumberRange& each : row.numbers) {
         if (each.least == each.greatest) continue;

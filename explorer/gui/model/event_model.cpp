@@ -131,7 +131,9 @@ QVariant EventModel::data(const QModelIndex& index, int role) const {
     if (!index.isValid() || (!texts && role != Qt::ToolTipRole)) return {};
     const EventRow& row = at(index.row());
     const comms::AgentEvent& event = row.event;
-    if (role == Qt::ToolTipRole) return tipText(row.text());
+    if (role == Qt::ToolTipRole) {
+        return tipText(index.column() == Path ? plainText(event.path) : row.text());
+    }
     switch (index.column()) {
         case Time:
             return utcText(event.wallClock, "HH:mm:ss.zzz");
