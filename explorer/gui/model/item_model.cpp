@@ -3,13 +3,13 @@
 
 #include "cortex/core/labelled_value.hpp"
 
+#include "model/item_text.hpp"
 #include "model/plain_text.hpp"
 #include "model/value_text.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <type_traits>
 #include <utility>
 
 namespace cortex::explorer {
@@ -34,30 +34,6 @@ struct ItemModel::Node {
 
 namespace {
 
-QString remarkOf(const DataItem& item) {
-    if (item.constant) return ItemModel::tr("constant");
-    if (item.measured) return ItemModel::tr("measured");
-    if (item.settable == StateSet::always()) return ItemModel::tr("settable");
-    if (!item.settable.empty())
-        return ItemModel::tr("set in %1").arg(QString::fromStdString(item.settable.text()));
-    return {};
-}
-
-// What a demand is set to while nobody that is Active writes it.
-QString safeRemark(const DataItem& item) {
-    switch (item.safe.kind) {
-        case Safe::Kind::Given:
-            return ItemModel::tr("safe %1").arg(valueText(item, item.safe.value));
-        case Safe::Kind::Hold:
-            return ItemModel::tr("safe: holds");
-        case Safe::Kind::Observed:
-            return ItemModel::tr("safe: as observed");
-        case Safe::Kind::None:
-            break;
-    }
-    return {};
-}
-
 // The types whose items only the framework writes.
 bool isOfFramework(const std::string& type) {
     static const std::set<std::string> types{"Simplex", "Active", "Activity", "Agent", "Cluster"};
@@ -76,42 +52,13 @@ std::optional<Shape> outsideOf(const ItemModel::Row& row, const Value& value) {
     return std::nullopt;
 }
 
-// One element of an array as a value of its own.
-Value element(const Value& value, std::size_t number) {
-    return std::visit(
-        [&](const auto& all) -> Value {
-            std::remove_cvref_t<decltype(all)> one;
-            if (number < all.size()) one.push_back(all[number]);
-            return one;
-        },
-        value);
-}
-
-// Values of another kind, or beyond the end, change nothing.
-void setElement(Value& value, std::size_t number, const Value& one) {
-    std::visit(
-        [&](auto& all) {
-            const auto* entered = std::get_if<std::remove_cvref_t<decltype(all)>>(&one);
-            if (entered == nullptr || entered->empty() || number >= all.size()) return;
-            all[number] = entered->front();
-        },
-        value);
-}
-
-QString labelsText(const DataItem& item) {
-    QStringList labels;
-    for (const auto& [number, label] : item.labels) {
-        labels << QString::number(number) + ':' + QString::fromStdString(label);
-    }
-    return ItemModel::tr("labels: %1").arg(labels.join(' '));
-}
-
 }  // namespace
 
 ItemModel::ItemModel(QObject* parent)
     : QAbstractItemModel{parent},
       frame_{std::make_shared<Frame>()},
-      root_{std::make_unique<Node>()} {}
+      root_{std::make_unique<Node>()},
+      edits_{[this](const std::string& item) { return valueNow(item); }} {}
 
 ItemModel::~ItemModel() = default;
 
@@ -304,7 +251,11 @@ bool ItemModel::setData(const QModelIndex& index, const QVariant& text, int role
     const DataItem item = entryItem(row);
     QString why;
     auto value = enteredValue(item, text.toString(), why);
-    if (value && !enter(row, std::move(*value))) why = tr("has no values yet");
+    if (value && row.whole) {
+        edits_.enter(item.name, std::move(*value));
+    } else if (value && !edits_.enter(row.item->name, row.element, *value)) {
+        why = tr("has no values yet");
+    }
     if (!why.isEmpty()) {
         Q_EMIT refused(QString::fromStdString(item.name) + ' ' + why);
         return false;
@@ -313,32 +264,8 @@ bool ItemModel::setData(const QModelIndex& index, const QVariant& text, int role
     return true;
 }
 
-// False: the other elements are not known.
-bool ItemModel::enter(const Row& row, cortex::Value value) {
-    const std::string& name = row.item->name;
-    if (row.whole) {
-        edits_[name] = {std::move(value)};
-        return true;
-    }
-    const auto found = edits_.find(name);
-    if (found != edits_.end()) {
-        setElement(found->second.value, row.element, value);
-        if (!found->second.elements.empty()) found->second.elements.insert(row.element);
-        return true;
-    }
-    auto now = valueNow(name);
-    if (!now) return false;
-    setElement(*now, row.element, value);
-    edits_[name] = {std::move(*now), {row.element}};
-    return true;
-}
-
 DataItem ItemModel::entryItem(const Row& row) {
-    DataItem item = *row.item;
-    if (row.whole) return item;
-    item.length = 1;
-    item.name += ' ' + std::to_string(row.element + 1);
-    return item;
+    return row.whole ? *row.item : elementItem(*row.item, row.element);
 }
 
 std::optional<cortex::Value> ItemModel::valueNow(const std::string& item) const {
@@ -349,26 +276,10 @@ std::optional<cortex::Value> ItemModel::valueNow(const std::string& item) const 
     return (*agent.image)->value(built_->simplex, *layout);
 }
 
-cortex::Value ItemModel::merged(const std::string& item, const Edit& edit) const {
-    auto now = edit.elements.empty() ? std::nullopt : valueNow(item);
-    if (!now || lengthOf(*now) != lengthOf(edit.value)) return edit.value;
-    for (const std::size_t each : edit.elements) setElement(*now, each, element(edit.value, each));
-    return *now;
-}
-
-std::map<std::string, cortex::Value> ItemModel::edits() const {
-    std::map<std::string, cortex::Value> all;
-    for (const auto& [item, edit] : edits_) all[item] = merged(item, edit);
-    return all;
-}
-
 QString ItemModel::editedText(const Row& row) const {
-    const auto found = edits_.find(row.item->name);
-    if (found == edits_.end()) return {};
-    const Edit& edit = found->second;
-    if (row.whole) return entryText(*row.item, merged(row.item->name, edit));
-    if (!edit.elements.empty() && !edit.elements.contains(row.element)) return {};
-    return entryText(entryItem(row), element(edit.value, row.element));
+    const std::string& name = row.item->name;
+    const auto value = row.whole ? edits_.of(name) : edits_.of(name, row.element);
+    return value ? entryText(entryItem(row), *value) : QString{};
 }
 
 QString ItemModel::copyText(const QModelIndex& index) const {
@@ -377,7 +288,7 @@ QString ItemModel::copyText(const QModelIndex& index) const {
     const AgentFrame& agent = frame_->agents[built_->agent];
     if (!agent.came(node.simplex)) return {};
     cortex::Value value = (*agent.image)->value(node.simplex, *node.layout);
-    if (!node.row.whole) value = element(value, node.row.element);
+    if (!node.row.whole) value = elementOf(value, node.row.element);
     const QString text = QString::fromStdString(toText(value));
     const bool live = qualityOf(agent, node) == Quality::Good || node.row.item->constant;
     return live ? text : bracketed(text);
@@ -422,7 +333,7 @@ QVariant ItemModel::data(const QModelIndex& index, int role) const {
         if (!agent.came(node.simplex)) return {};
         const cortex::Value value = (*agent.image)->value(node.simplex, *node.layout);
         return row.whole ? entryText(*row.item, value)
-                         : entryText(entryItem(row), element(value, row.element));
+                         : entryText(entryItem(row), elementOf(value, row.element));
     }
     if (role == Qt::ToolTipRole && row.item != nullptr) {
         QStringList lines{QString::fromStdString(row.path + '.' + row.item->name)};

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "model/item_edits.hpp"
 #include "session/frame.hpp"
 #include "style/shapes.hpp"
 
 #include <QAbstractItemModel>
-#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -41,9 +40,8 @@ public:
     void update(std::shared_ptr<const Frame> frame);
 
     const Row& row(const QModelIndex& index) const;
-    // What was entered for items of the simplex itself, and is not sent yet. Of an array of which
-    // elements were entered, the others are as the agent has them now.
-    std::map<std::string, cortex::Value> edits() const;
+    // What was entered for items of the simplex itself, and is not sent yet.
+    ItemEdits::Values edits() const { return edits_.all(); }
     // What the row is entered as: an element of an array as an item of its own, "pose 3".
     static DataItem entryItem(const Row& row);
     void clearEdits();
@@ -73,16 +71,9 @@ private:
     void addItem(Node& group, const DataItem& item, Place place, bool framework);
     static Quality qualityOf(const AgentFrame& agent, const Node& node);
     void refresh(Node& node);
-    struct Edit {
-        cortex::Value value;
-        std::set<std::size_t> elements{};  // that were entered; empty: all
-    };
-
     bool settableRow(const Row& row) const;
     std::optional<cortex::Value> valueNow(const std::string& item) const;
-    cortex::Value merged(const std::string& item, const Edit& edit) const;
     QString editedText(const Row& row) const;
-    bool enter(const Row& row, cortex::Value value);
     Node* nodeOf(const QModelIndex& index) const;
 
     std::string path_;
@@ -91,7 +82,7 @@ private:
     std::unique_ptr<Node> root_;
     std::optional<Place> built_;
     std::uint64_t structures_ = 0;
-    std::map<std::string, Edit> edits_;  // by item
+    ItemEdits edits_;
 };
 
 }  // namespace cortex::explorer
