@@ -2,6 +2,7 @@
 #include "window/status_bar.hpp"
 
 #include "model/value_text.hpp"
+#include "style/shapes.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QAbstractButton>
