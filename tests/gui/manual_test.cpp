@@ -2,6 +2,7 @@
 // The manual that is built into the window.
 #include "gui/window_fixture.hpp"
 #include "views/manual_view.hpp"
+#include "window/stop_button.hpp"
 
 #include <QTextBlock>
 

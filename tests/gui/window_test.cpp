@@ -12,6 +12,7 @@
 #include "widgets/item_table.hpp"
 #include "widgets/text_label.hpp"
 #include "window/main_window.hpp"
+#include "window/stop_button.hpp"
 
 #include <QAbstractItemModelTester>
 #include <QApplication>
