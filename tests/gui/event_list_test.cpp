@@ -153,6 +153,24 @@ TEST_F(EventTab, ShowsTheDetailsOfTheSelectedRowAlsoWhenItDropsOut) {
     EXPECT_TRUE(says(view, "/arm/demands/4"));
 }
 
+TEST_F(EventTab, OpensARowOfManyByTheRightArrowAndClosesItByTheLeftOne) {
+    events.add({limit(1, "limited to 1"), limit(2, "limited to 2"),
+                eventOf(3, "message", "/b", "something else")});
+    table().setCurrentIndex(table().model()->index(0, 0));
+    const auto press = [&](Qt::Key key) {
+        QKeyEvent event{QEvent::KeyPress, key, Qt::NoModifier};
+        QApplication::sendEvent(&table(), &event);
+    };
+    press(Qt::Key_Right);
+    EXPECT_EQ(table().model()->rowCount(), 4);
+    EXPECT_EQ(table().currentIndex().row(), 0);
+    press(Qt::Key_Down);
+    EXPECT_EQ(table().currentIndex().row(), 1);
+    press(Qt::Key_Left);
+    EXPECT_EQ(table().model()->rowCount(), 2);
+    EXPECT_EQ(table().currentIndex().row(), 0) << "of the row that was open";
+}
+
 TEST_F(EventTab, WritesWhatIsShownToAFileOrSaysWhyNot) {
     const QTemporaryDir folder;
     const QString path = folder.filePath("events.csv");

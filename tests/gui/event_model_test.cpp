@@ -124,6 +124,34 @@ TEST_F(EventRows, ARowKeepsNoMoreThanThousandOfItsEventsAndCountsAll) {
     EXPECT_EQ(events.dropped(), 0U);
 }
 
+TEST_F(EventRows, ARowOfManyOpensToEachOfThem) {
+    events.add({limit(1, "limited to 1"), limit(2, "limited to 2"),
+                eventOf(3, "message", "/b", "something else")});
+    ASSERT_EQ(shown.rowCount(), 2);
+    shown.open(shown.serial(1));
+    EXPECT_EQ(shown.rowCount(), 2) << "that is one event";
+    shown.open(shown.serial(0));
+    ASSERT_EQ(shown.rowCount(), 4);
+    EXPECT_EQ(text(1).trimmed(), "limited to 1");
+    EXPECT_EQ(text(2).trimmed(), "limited to 2");
+    EXPECT_EQ(shown.index(2, EventModel::Time).data(), "00:00:00.002");
+    EXPECT_EQ(text(3), "something else");
+    events.add({limit(4, "limited to 4"), eventOf(5, "message", "/c", "one more")});
+    ASSERT_EQ(shown.rowCount(), 6);
+    EXPECT_EQ(text(3).trimmed(), "limited to 4");
+    EXPECT_EQ(text(5), "one more");
+    EXPECT_EQ(shown.rowOf(shown.serial(5)), 5);
+    shown.search("severity:warning");
+    EXPECT_EQ(shown.rowCount(), 4) << "it stays open";
+    shown.search("severity:info");
+    EXPECT_EQ(shown.rowCount(), 2);
+    shown.search("");
+    EXPECT_EQ(shown.rowCount(), 3);
+    shown.open(shown.serial(0));
+    events.add(changes(6, EventModel::kept));
+    EXPECT_FALSE(shown.isMember(0)) << "it dropped out";
+}
+
 TEST_F(EventRows, TheDetailsOfACommandNameItsParts) {
     const EventDetails details = detailsOf(EventRow{eventOf(
         1, "command", "/a", "cortex@desk.4711: moveTo(speedShare=0.25): Done in 3912 cycles")});

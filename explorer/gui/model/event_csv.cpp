@@ -32,8 +32,8 @@ QString csvLine(const comms::AgentEvent& event) {
 
 QString eventsCsv(const EventFilter& events) {
     QString text = QStringLiteral("time,agent,number,cycle,severity,kind,path,text\n");
-    for (int i = 0; i < events.rowCount(); ++i) {
-        const EventRow& row = events.at(i);
+    for (std::size_t i = 0; i < events.rows(); ++i) {
+        const EventRow& row = events.shownAt(i);
         text += csvLine(row.event);
         for (const comms::AgentEvent& each : row.others) text += csvLine(each);
     }

@@ -26,12 +26,58 @@ EventFilter::EventFilter(EventModel& events, QObject* parent)
             });
 }
 
-int EventFilter::sourceOf(int row) const { return static_cast<int>(serial(row) - events_.first()); }
-
-std::optional<int> EventFilter::rowOf(std::uint64_t serial) const {
+std::optional<std::size_t> EventFilter::placeOf(std::uint64_t serial) const {
     const auto found = std::ranges::lower_bound(shown_, serial);
     if (found == shown_.end() || *found != serial) return std::nullopt;
-    return static_cast<int>(found - shown_.begin());
+    return static_cast<std::size_t>(found - shown_.begin());
+}
+
+std::optional<int> EventFilter::rowOf(std::uint64_t serial) const {
+    const auto place = placeOf(serial);
+    if (!place) return std::nullopt;
+    return static_cast<int>(*place) + (opened_ && serial > *opened_ ? members_ : 0);
+}
+
+EventFilter::Entry EventFilter::entry(int row) const {
+    const auto opened = opened_ ? placeOf(*opened_) : std::nullopt;
+    const auto place = static_cast<std::size_t>(row);
+    if (!opened || place <= *opened) return {shown_[place], std::nullopt};
+    const auto members = static_cast<std::size_t>(members_);
+    if (place <= *opened + members) return {*opened_, place - *opened - 1};
+    return {shown_[place - members], std::nullopt};
+}
+
+void EventFilter::open(std::uint64_t serial) {
+    if (isOpen(serial)) return;
+    close();
+    const auto row = rowOf(serial);
+    if (!row || rowAt(serial).times < 2) return;
+    const int members = static_cast<int>(rowAt(serial).others.size()) + 1;
+    beginInsertRows({}, *row + 1, *row + members);
+    opened_ = serial;
+    members_ = members;
+    endInsertRows();
+}
+
+void EventFilter::close() {
+    if (!opened_) return;
+    const int row = *rowOf(*opened_);
+    beginRemoveRows({}, row + 1, row + members_);
+    opened_.reset();
+    members_ = 0;
+    endRemoveRows();
+}
+
+// The row that is open has more events, or others.
+void EventFilter::grow() {
+    const int row = *rowOf(*opened_);
+    const int members = static_cast<int>(rowAt(*opened_).others.size()) + 1;
+    if (members > members_) {
+        beginInsertRows({}, row + 1 + members_, row + members);
+        members_ = members;
+        endInsertRows();
+    }
+    Q_EMIT dataChanged(index(row + 1, 0), index(row + members_, columnCount() - 1));
 }
 
 bool EventFilter::accepts(const EventRow& row) const {
@@ -63,6 +109,7 @@ void EventFilter::remove(int last) {
         counted_.pop_front();
     }
     const std::uint64_t left = events_.first() + static_cast<std::uint64_t>(last) + 1;
+    if (opened_ && *opened_ < left) close();
     const auto end = std::ranges::lower_bound(shown_, left);
     if (end == shown_.begin()) return;
     beginRemoveRows({}, 0, static_cast<int>(end - shown_.begin()) - 1);
@@ -73,7 +120,9 @@ void EventFilter::remove(int last) {
 void EventFilter::tell(int first, int last) {
     for (int row = first; row <= last; ++row) {
         count(row);
-        const auto shown = rowOf(events_.first() + static_cast<std::uint64_t>(row));
+        const std::uint64_t serial = events_.first() + static_cast<std::uint64_t>(row);
+        const auto shown = rowOf(serial);
+        if (shown && isOpen(serial)) grow();
         if (shown) Q_EMIT dataChanged(index(*shown, 0), index(*shown, columnCount() - 1));
     }
 }
@@ -88,6 +137,10 @@ void EventFilter::rebuild() {
         if (accepts(events_.at(row))) {
             shown_.push_back(events_.first() + static_cast<std::uint64_t>(row));
         }
+    }
+    if (opened_ && !placeOf(*opened_)) {
+        opened_.reset();
+        members_ = 0;
     }
     endResetModel();
     Q_EMIT changed();
@@ -143,7 +196,7 @@ void EventFilter::add(const EventRow& row, std::uint64_t events) {
 }
 
 int EventFilter::rowCount(const QModelIndex& parent) const {
-    return parent.isValid() ? 0 : static_cast<int>(shown_.size());
+    return parent.isValid() ? 0 : static_cast<int>(shown_.size()) + members_;
 }
 
 int EventFilter::columnCount(const QModelIndex& /*parent*/) const {
@@ -152,7 +205,21 @@ int EventFilter::columnCount(const QModelIndex& /*parent*/) const {
 
 QVariant EventFilter::data(const QModelIndex& index, int role) const {
     if (!index.isValid()) return {};
-    return events_.data(events_.index(sourceOf(index.row()), index.column()), role);
+    const auto [serial, member] = entry(index.row());
+    const EventRow& row = rowAt(serial);
+    const int column = index.column();
+    const bool own = role == Qt::ToolTipRole || column == EventModel::Time ||
+                     column == EventModel::Text || column == EventModel::Times;
+    if (!member || !own) {
+        return events_.data(events_.index(static_cast<int>(serial - events_.first()), column),
+                            role);
+    }
+    const comms::AgentEvent& event = *member == 0 ? row.event : row.others[*member - 1];
+    if (role == Qt::ToolTipRole) return tipText(plainText(event.text));
+    if (role != Qt::DisplayRole && role != Qt::AccessibleTextRole) return {};
+    if (column == EventModel::Times) return {};
+    if (column == EventModel::Time) return utcText(event.wallClock, "HH:mm:ss.zzz");
+    return QStringLiteral("    ") + plainText(event.text);
 }
 
 QVariant EventFilter::headerData(int section, Qt::Orientation orientation, int role) const {

@@ -29,9 +29,18 @@ public:
     explicit EventFilter(EventModel& events, QObject* parent = nullptr);
 
     EventModel& events() const { return events_; }
-    const EventRow& at(int row) const { return events_.at(sourceOf(row)); }
-    std::uint64_t serial(int row) const { return shown_[static_cast<std::size_t>(row)]; }
+    const EventRow& at(int row) const { return rowAt(entry(row).serial); }
+    std::uint64_t serial(int row) const { return entry(row).serial; }
     std::optional<int> rowOf(std::uint64_t serial) const;  // none: hidden, or no longer kept
+    // Without the events of the row that is open.
+    std::size_t rows() const { return shown_.size(); }
+    const EventRow& shownAt(std::size_t row) const { return rowAt(shown_[row]); }
+
+    // A row of many events opens to one row for each of them; one is open at a time.
+    void open(std::uint64_t serial);
+    void close();
+    bool isOpen(std::uint64_t serial) const { return opened_ == serial; }
+    bool isMember(int row) const { return entry(row).member.has_value(); }
 
     void search(const QString& text);
     void showSeverity(Severity severity, bool shown);
@@ -52,7 +61,16 @@ Q_SIGNALS:
     void changed();  // what is asked for
 
 private:
-    int sourceOf(int row) const;
+    struct Entry {
+        std::uint64_t serial;
+        std::optional<std::size_t> member;  // of the row that is open
+    };
+    Entry entry(int row) const;
+    const EventRow& rowAt(std::uint64_t serial) const {
+        return events_.at(static_cast<int>(serial - events_.first()));
+    }
+    std::optional<std::size_t> placeOf(std::uint64_t serial) const;
+    void grow();
     bool accepts(const EventRow& row) const;
     void insert(int first, int last);
     void remove(int last);
@@ -63,6 +81,8 @@ private:
 
     EventModel& events_;
     std::deque<std::uint64_t> shown_;  // serial numbers of rows
+    std::optional<std::uint64_t> opened_;
+    int members_ = 0;  // rows below the one that is open
     std::set<Severity> hidden_;
     std::set<std::string> hiddenKinds_;
     bool showsRoutine_ = false;

@@ -40,12 +40,21 @@ public:
             box.setLeft(box.left() + size + Look::units(1.5));
         }
         const bool times = index.column() == EventModel::Times;
-        paintText(*painter, box, index.data().toString(),
+        paintText(*painter, box, opener(index, row) + index.data().toString(),
                   rowInk(option, inkOf(index.column(), row, shape)),
                   times ? Qt::AlignRight : Qt::AlignLeft, times || row.isGap());
     }
 
 private:
+    // Before the number of a row that opens to its events.
+    QString opener(const QModelIndex& index, const EventRow& row) const {
+        const bool opens =
+            index.column() == EventModel::Times && row.times > 1 && !events_.isMember(index.row());
+        if (!opens) return {};
+        return events_.isOpen(events_.serial(index.row())) ? QStringLiteral("▾ ")
+                                                           : QStringLiteral("▸ ");
+    }
+
     static QColor inkOf(int column, const EventRow& row, Shape shape) {
         const Tokens& c = Look::colours();
         if (row.isGap()) return c.dataText;
@@ -88,7 +97,9 @@ EventTable::EventTable(EventFilter& events, QWidget* parent) : QTableView{parent
     connect(&events, &QAbstractItemModel::rowsInserted, this,
             [this](const QModelIndex&, int first, int last) { inserted(first, last); });
     connect(&events, &QAbstractItemModel::rowsRemoved, this,
-            [this](const QModelIndex&, int, int last) { removed(last + 1); });
+            [this](const QModelIndex&, int first, int last) {
+                if (first == 0) removed(last + 1);
+            });
     connect(&events, &QAbstractItemModel::modelAboutToBeReset, this,
             [this] { before_ = selected(); });
     connect(&events, &QAbstractItemModel::modelReset, this, &EventTable::keepSelection);
@@ -127,6 +138,7 @@ void EventTable::look() {
 }
 
 void EventTable::inserted(int first, int last) {
+    if (events_.isMember(first)) return;
     if (follows_) {
         scrollToBottom();
         return;
@@ -173,6 +185,18 @@ void EventTable::currentChanged(const QModelIndex& current, const QModelIndex& p
 void EventTable::keyPressEvent(QKeyEvent* event) {
     if (event->key() == Qt::Key_F || event->key() == Qt::Key_End) {
         follow();
+        return;
+    }
+    const auto row = selected();
+    if (row && event->key() == Qt::Key_Right) {
+        follows_ = false;  // what was opened stays in sight
+        events_.open(*row);
+        Q_EMIT moved();
+        return;
+    }
+    if (row && event->key() == Qt::Key_Left) {
+        if (events_.isOpen(*row)) setCurrentIndex(events_.index(*events_.rowOf(*row), 0));
+        events_.close();
         return;
     }
     QTableView::keyPressEvent(event);

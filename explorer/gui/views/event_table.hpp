@@ -10,8 +10,8 @@
 namespace cortex::explorer {
 
 // The events that are shown, as rows: a table, as a tree lays all rows out for each new one. It
-// follows the newest unless somebody has scrolled up; F and End follow again. Which row is selected
-// changes only by an act of the person.
+// follows the newest unless somebody has scrolled up; F and End follow again. Right opens a row of
+// many events, Left closes it. Which row is selected changes only by an act of the person.
 class EventTable : public QTableView {
     Q_OBJECT
 public:
