@@ -81,7 +81,7 @@ std::string percent(double part, double of) {
                : readable(std::round(std::abs(part / of) * 1000) / 10) + " %";
 }
 
-explorer::TextLine rowOf(const Compared& each) {
+cli::TextLine rowOf(const Compared& each) {
     const bool told = each.change != Change::NotComparable;
     return {{each.before.what},
             {valueText(each.before)},
@@ -104,8 +104,8 @@ std::string counts(const Comparison& comparison) {
 std::string only(const char* side, const std::vector<Quantity>& quantities) {
     std::string text;
     for (const Quantity& each : quantities) {
-        text += std::string{"only "} + side + ": " + explorer::printable(each.what) + ", " +
-                explorer::printable(valueText(each)) + "\n";
+        text += std::string{"only "} + side + ": " + cli::printable(each.what) + ", " +
+                cli::printable(valueText(each)) + "\n";
     }
     return text;
 }
@@ -144,19 +144,19 @@ std::string comparisonText(const Comparison& comparison, std::size_t width) {
     if (!comparison.otherMachine.empty()) {
         text += "DIFFERENT MACHINES or settings: the changes below say little of the code.\n";
         for (const std::string& each : comparison.otherMachine) {
-            text += "  " + explorer::printable(each) + "\n";
+            text += "  " + cli::printable(each) + "\n";
         }
         text += "\n";
     }
-    text += "before: " + explorer::printable(comparison.before) +
-            "\nafter:  " + explorer::printable(comparison.after) + "\n";
+    text += "before: " + cli::printable(comparison.before) +
+            "\nafter:  " + cli::printable(comparison.after) + "\n";
     if (!comparison.complete) text += "Not complete: one of the two runs was stopped.\n";
-    explorer::TextTable table{{{"", "what", 9, 0, false, true},
-                               {"", "before", 5},
-                               {"", "after", 6},
-                               {"", "ratio", 7},
-                               {"", "noise", 4},
-                               {"", "", 8, 0, false}}};
+    cli::TextTable table{{{"", "what", 9, 0, false, true},
+                          {"", "before", 5},
+                          {"", "after", 6},
+                          {"", "ratio", 7},
+                          {"", "noise", 4},
+                          {"", "", 8, 0, false}}};
     for (const Change change :
          {Change::Worse, Change::Better, Change::NotComparable, Change::Noise}) {
         for (const Compared& each : comparison.quantities) {

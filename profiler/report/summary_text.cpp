@@ -14,8 +14,8 @@ std::string listed(const std::string& heading, const std::vector<std::string>& e
     std::string text = "\n" + heading + (heading.empty() ? "" : "\n");
     for (const std::string& entry : entries) {
         std::string before = "- ";
-        for (const std::string& line : explorer::wrapped(explorer::printable(entry),
-                                                         width - std::min<std::size_t>(width, 2))) {
+        for (const std::string& line :
+             cli::wrapped(cli::printable(entry), width - std::min<std::size_t>(width, 2))) {
             text += before + line + "\n";
             before = "  ";
         }
@@ -25,22 +25,22 @@ std::string listed(const std::string& heading, const std::vector<std::string>& e
 
 }  // namespace
 
-std::string tableText(const explorer::TextTable& table, std::size_t width) {
+std::string tableText(const cli::TextTable& table, std::size_t width) {
     std::string text;
-    for (const explorer::TextLine& line : table.lines(width)) {
-        text += explorer::rendered(line, explorer::anyWidth, false) + "\n";
+    for (const cli::TextLine& line : table.lines(width)) {
+        text += cli::rendered(line, cli::anyWidth, false) + "\n";
     }
     return text;
 }
 
 std::string summaryText(const Results& results, std::size_t width) {
-    explorer::TextTable table{{{"", "what", 9, 0, false, true},
-                               {"", "here", 8},
-                               {"", "beside it", 3},
-                               {"", "ratio", 6},
-                               {"", "aim", 5},
-                               {"", "", 7, 0, false},
-                               {"", "paper", 1, 0, false}}};
+    cli::TextTable table{{{"", "what", 9, 0, false, true},
+                          {"", "here", 8},
+                          {"", "beside it", 3},
+                          {"", "ratio", 6},
+                          {"", "aim", 5},
+                          {"", "", 7, 0, false},
+                          {"", "paper", 1, 0, false}}};
     std::string group;
     for (const Quantity& each : results.quantities) {
         if (each.group != group) {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 class TextTable;
 }
 
@@ -16,6 +16,6 @@ namespace cortex::profiler {
 // where there is an aim; then how many are met, those that are not, and the notes.
 std::string summaryText(const Results& results, std::size_t width);
 
-std::string tableText(const explorer::TextTable& table, std::size_t width);
+std::string tableText(const cli::TextTable& table, std::size_t width);
 
 }  // namespace cortex::profiler

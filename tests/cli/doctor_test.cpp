@@ -11,8 +11,8 @@
 namespace cortex::test {
 namespace {
 
-using explorer::Diagnoses;
-using explorer::Diagnosis;
+using cli::Diagnoses;
+using cli::Diagnosis;
 using Level = Diagnosis::Level;
 
 // The files of a kernel, as far as they are looked at. It begins as a well prepared one.
@@ -49,7 +49,7 @@ public:
     }
     Diagnoses examined() const {
         Diagnoses found;
-        explorer::examineRealTime(folder_.path(), found);
+        cli::examineRealTime(folder_.path(), found);
         return found;
     }
     Diagnosis of(const std::string& subject) const {

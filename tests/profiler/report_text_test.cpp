@@ -69,8 +69,7 @@ TEST(ReportSummary, FitsTheWidthAndKeepsTheVerdict) {
     const std::string text = summaryText(results, 60);
 
     std::istringstream lines{text};
-    for (std::string line; std::getline(lines, line);)
-        EXPECT_LE(explorer::textWidth(line), 60U) << line;
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(cli::textWidth(line), 60U) << line;
     EXPECT_NE(text.find("MISSED"), std::string::npos);
     EXPECT_NE(text.find("words in it"), std::string::npos);
     EXPECT_EQ(text.find("Fig. 1"), std::string::npos);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // One thing that was looked at: what is so, and if it should not be, what to do.
 struct Diagnosis {
@@ -19,4 +19,4 @@ using Diagnoses = std::vector<Diagnosis>;
 // what else uses them, idle states, pages, hypervisor. `root` has its proc, sys and dev.
 void examineRealTime(const std::filesystem::path& root, Diagnoses& found);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -7,7 +7,7 @@
 #include "live/live.hpp"
 #include "live/live_events.hpp"
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 const char* name(Diagnosis::Level level);  // "ok", "warning", "error"
 
@@ -18,4 +18,4 @@ void examineNetwork(int domain, Diagnoses& found);
 // `arrivals` has the events of those agents.
 void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

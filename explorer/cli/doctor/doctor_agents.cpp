@@ -14,7 +14,7 @@
 
 #include <unistd.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using Level = Diagnosis::Level;
@@ -162,4 +162,4 @@ void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
     examineNames(starts, arrivals.take(std::chrono::milliseconds{0}), found);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -8,7 +8,7 @@
 
 #include <gnu/libc-version.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using Level = Diagnosis::Level;
@@ -42,4 +42,4 @@ void examineLibm(Diagnoses& found) {
     found.push_back({Level::Ok, "libm", text, ""});
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -17,7 +17,7 @@
 #include <time.h>
 #include <unistd.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -199,4 +199,4 @@ void examineMachine(Diagnoses& found) {
     examineLibm(found);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -21,7 +21,7 @@
 #include <net/if.h>
 #include <netinet/in.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using Level = Diagnosis::Level;
@@ -230,4 +230,4 @@ void examineNetwork(int domain, Diagnoses& found) {
     examineFirewall(domain, found);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

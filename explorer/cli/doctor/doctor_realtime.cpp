@@ -12,7 +12,7 @@
 
 #include <unistd.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -221,4 +221,4 @@ void examineRealTime(const fs::path& root, Diagnoses& found) {
     examineHypervisor(root, found);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 namespace {
 
@@ -45,4 +45,4 @@ std::string causesText(const std::vector<Cause>& causes) {
     return text;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

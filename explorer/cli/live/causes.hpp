@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // A simplex that made another one not good. `agent`: that has it; empty while none is heard.
 struct Cause {
@@ -19,4 +19,4 @@ std::vector<Cause> causesOf(Live& live, const FoundSimplex& simplex,
 // "/hand of station <- /tracker of station"; "" without any.
 std::string causesText(const std::vector<Cause>& causes);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <set>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using Lease = comms::LeaseClient::Lease;
@@ -137,4 +137,4 @@ BriefControl::~BriefControl() {
     if (taken_) leases_.wait(leases_.release(prefix_, {agent_}));
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -9,7 +9,7 @@
 #include <string>
 
 // Control of parts of the plant: who may command them.
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // Takes the lease on a prefix from every agent with something at or below it, or from none. Throws
 // Failure that names the holder and says what to do.
@@ -36,4 +36,4 @@ private:
     bool taken_ = false;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 std::string durationText(double seconds) {
@@ -34,4 +34,4 @@ std::string holderText(const comms::Mirror& mirror, const comms::ShownLease& lea
            durationText(lease.seconds) + ")";
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -5,9 +5,9 @@
 
 #include <string>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 std::string hostOf(const comms::Mirror& mirror, const std::string& holder);  // "" if not known
 std::string holderText(const comms::Mirror& mirror, const comms::ShownLease& lease);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -15,7 +15,7 @@
 #include <set>
 #include <tuple>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using Milliseconds = std::chrono::milliseconds;
@@ -281,4 +281,4 @@ comms::AgentImage Live::values(const FoundSimplex& simplex) {
                                 simplex.agent};
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // Which network to look at, and for how long to wait for it.
 struct NetworkArguments {
@@ -105,4 +105,4 @@ private:
 void checkPath(const std::string& path);
 void checkPrefix(const std::string& prefix);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

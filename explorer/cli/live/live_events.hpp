@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // Events on their way from the mirror's thread to ours.
 class Arrivals {
@@ -36,4 +36,4 @@ private:
 
 void sortByTime(std::vector<comms::AgentEvent>& events);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

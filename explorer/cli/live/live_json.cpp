@@ -10,7 +10,7 @@
 #include <string_view>
 #include <tuple>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 std::int64_t milliseconds(double seconds) { return std::llround(seconds * 1000); }
 
@@ -50,4 +50,4 @@ void sortByTime(std::vector<comms::AgentEvent>& events) {
     });
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

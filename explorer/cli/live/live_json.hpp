@@ -8,11 +8,11 @@
 #include <cstdint>
 
 // What several live verbs print as JSON.
-namespace cortex::explorer {
+namespace cortex::cli {
 
 std::int64_t milliseconds(double seconds);
 Json agentJson(const comms::AgentStatus& agent);  // an element of schemas/agents.json
 Json eventJson(const comms::AgentEvent& event);   // an element of schemas/events.json
 void printLine(const Json& json);                 // on one line, at once
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using Structures = std::vector<std::shared_ptr<const Structure>>;
@@ -115,4 +115,4 @@ Graph graphOf(Live& live) {
     return makeGraph(joined(names, " "), structure, std::move(agents), std::move(lost));
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

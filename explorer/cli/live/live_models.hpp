@@ -6,7 +6,7 @@
 #include "live/live.hpp"
 #include "models/graph.hpp"
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // The types of all agents as one model. What several agents define in different ways is that of the
 // first, by name, and is said on standard error.
@@ -15,4 +15,4 @@ TypeModel typesOf(Live& live);
 // The structures of all agents as one: relationships across agents are joined.
 Graph graphOf(Live& live);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -9,7 +9,7 @@
 #include <charconv>
 #include <ctime>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 // Decimals that a format such as "%.3f" asks for.
@@ -132,4 +132,4 @@ std::string timeText(std::int64_t wallClock) {
     return std::string{text.data()} + "." + fraction.substr(1) + "Z";
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

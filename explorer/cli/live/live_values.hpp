@@ -12,7 +12,7 @@
 #include <vector>
 
 // Values of agents as people and programs read them, and as people write them.
-namespace cortex::explorer {
+namespace cortex::cli {
 
 Json valueJson(const DataItem& item, const Value& value);  // a scalar, or a list
 Json labelJson(const DataItem& item, const Value& value);  // label or list; null without labels
@@ -33,4 +33,4 @@ ProgramInterface::Arguments parseArguments(const std::string& what, const Record
 std::string csvText(const std::string& text);  // quoted where it must be
 std::string timeText(std::int64_t wallClock);  // "2026-11-20T10:00:00.123Z"
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 constexpr double nearRates = 0.02;  // of the nominal one
@@ -31,4 +31,4 @@ std::string loopTrouble(const comms::AgentStatus& agent) {
            tenths(nominalRate(agent)) + " Hz";
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

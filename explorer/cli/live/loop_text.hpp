@@ -6,11 +6,11 @@
 #include <string>
 
 // What tools say of the loop of an agent.
-namespace cortex::explorer {
+namespace cortex::cli {
 
 std::string rateText(const comms::AgentStatus& agent);  // "100 Hz", "9.1 of 100 Hz"
 // "hangs in /ctl.stateActive for 8.5 s", "is overloaded: it runs at 9.1 Hz instead of 100 Hz", or
 // "" while it runs as it should.
 std::string loopTrouble(const comms::AgentStatus& agent);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 void viewOwnSimplexes(Live& live) {
     std::vector<std::string> own;
@@ -30,4 +30,4 @@ std::string pinnedCpus(const Live& live, const std::string& agent) {
     return toText(image->value(own, *item));
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // Views the own simplexes of all agents, and waits for their values.
 void viewOwnSimplexes(Live& live);
@@ -13,4 +13,4 @@ void viewOwnSimplexes(Live& live);
 // does not say.
 std::string pinnedCpus(const Live& live, const std::string& agent);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -8,7 +8,7 @@
 
 #include <unistd.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 constexpr std::uint32_t looksPerSecond = 5;
@@ -76,4 +76,4 @@ void Progress::look() {
     }
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // How far a long command has come, on standard error while its answer is waited for: on a terminal
 // on one line, which is gone at the end; elsewhere a line at most once a second.
@@ -32,4 +32,4 @@ private:
     std::chrono::steady_clock::time_point next_{};
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 std::optional<std::uint32_t> staleBy(const FoundSimplex& demand, const SlotState& state) {
     const SimplexInfo& info = demand.info();
@@ -37,4 +37,4 @@ std::string qualityText(Quality quality, const StaleDemand& demand) {
 
 Json safeJson(const StaleDemand& demand) { return demand.safe ? Json(demand.why) : Json(); }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

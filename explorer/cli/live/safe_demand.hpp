@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // What its writer's state says about a stale demand.
 struct StaleDemand {
@@ -24,4 +24,4 @@ StaleDemand safeBecause(const FoundSimplex& demand, const SlotState& state,
 std::string qualityText(Quality quality, const StaleDemand& demand);
 Json safeJson(const StaleDemand& demand);  // why it is safe; null where it is not
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ std::vector<SavedSimplex> readSaved(const fs::path& file) {
     return simplexes;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

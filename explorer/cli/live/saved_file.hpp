@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // What `save` writes and `restore` reads: the settable items of simplexes, as a system file has
 // them.
@@ -32,4 +32,4 @@ void writeSaved(const std::filesystem::path& file, const std::string& text);
 // Throws Failure with everything that is wrong with the file.
 std::vector<SavedSimplex> readSaved(const std::filesystem::path& file);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

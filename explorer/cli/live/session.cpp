@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 constexpr std::size_t keptEvents = 1000;
@@ -90,4 +90,4 @@ void Session::take(const comms::AgentEvent& event) {
     if (listener_) listener_(event);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // A participant with its mirror and its leases. A verb has one for itself; those of a shell share
 // one, one after the other. Main thread.
@@ -55,4 +55,4 @@ private:
     comms::LeaseClient leases_;  // ends first, and releases what it holds
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -9,7 +9,7 @@
 #include <functional>
 #include <tuple>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 constexpr std::size_t mostTasks = 10;
@@ -162,4 +162,4 @@ Json topJson(const TopFrame& frame) {
             {"events", events}};
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // What `cortex top` shows of one moment.
 struct TopAgent {
@@ -67,4 +67,4 @@ std::uint32_t ownSimplex(const Structure& structure);
 
 Json topJson(const TopFrame& frame);  // schemas/top.json; its events are new since the last
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

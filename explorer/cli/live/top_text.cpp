@@ -11,7 +11,7 @@
 #include <cmath>
 #include <span>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using Lines = std::vector<TextLine>;
@@ -248,4 +248,4 @@ Lines topLines(const TopFrame& frame, const std::string& head, std::size_t width
     return lines;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

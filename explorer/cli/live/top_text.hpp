@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // What a frame looks like within `rows` lines of `width` characters; `head` stands above it.
 std::vector<TextLine> topLines(const TopFrame& frame, const std::string& head, std::size_t width,
                                std::size_t rows);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 // First to second; what is delayed or belongs to another agent orders nothing.
@@ -104,4 +104,4 @@ Json graphJson(const Graph& graph) {
             {"relationships", relationships}};
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

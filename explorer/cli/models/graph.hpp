@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // A structure and the order of execution that its relationships give: tasks of level n wait for
 // nothing but tasks of lower levels. Only a structure without loops.
@@ -36,4 +36,4 @@ Json graphJson(const Graph& graph);  // schemas/graph.json
 void printGraph(std::ostream& stream, const Graph& graph);
 void printDot(std::ostream& stream, const Graph& graph);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/graph.hpp"
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 // A quoted string of the DOT language; backslashes would begin escapes of Graphviz.
@@ -63,4 +63,4 @@ void printDot(std::ostream& stream, const Graph& graph) {
     stream << "}\n";
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

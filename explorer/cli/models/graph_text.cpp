@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <span>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 // "/arm/axes/" and 3 for "/arm/axes/3".
@@ -149,4 +149,4 @@ private:
 
 void printGraph(std::ostream& stream, const Graph& graph) { GraphPrinter{stream, graph}.run(); }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

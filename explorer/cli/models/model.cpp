@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ void requireValid(std::span<const Model* const> models) {
 
 void requireValid(const Model& model) { requireValid(std::array{&model}); }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 using Paths = std::vector<std::filesystem::path>;
 
@@ -39,4 +39,4 @@ Report joinReports(std::span<const Model* const> models);
 void requireValid(std::span<const Model* const> models);
 void requireValid(const Model& model);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -5,7 +5,7 @@
 
 #include "text/new_files.hpp"
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 // Examples stand alone in a comment: without its two lines they are valid.
@@ -146,4 +146,4 @@ std::string morphologyText(const NewTypeText& text) {
                                          {"target", text.target}});
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // What the skeletons of a new type's two files are made of.
 struct NewTypeText {
@@ -21,4 +21,4 @@ struct NewTypeText {
 std::string ontologyText(const NewTypeText& text);
 std::string morphologyText(const NewTypeText& text);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 constexpr const char* remotePath = "remote-path";
@@ -75,4 +75,4 @@ void checkRemotePaths(std::span<Model* const> systems) {
     }
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

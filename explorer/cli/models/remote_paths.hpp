@@ -5,10 +5,10 @@
 
 #include <span>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // Compares what each system reads of another agent with what the others declare, and adds what it
 // finds to the report of the one that reads.
 void checkRemotePaths(std::span<Model* const> systems);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

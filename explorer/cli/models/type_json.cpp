@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 template <class T>
@@ -172,4 +172,4 @@ Json typeJson(const TypeModel& types, const Type& type) {
     return json;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -5,11 +5,11 @@
 
 #include "text/output.hpp"
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 Json typeSummaryJson(const Type& type);                   // an entry of schemas/types.json
 Json typeJson(const TypeModel& types, const Type& type);  // schemas/type.json
 
 std::vector<std::string> childrenOf(const TypeModel& types, const Type& type);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -264,4 +264,4 @@ void printType(std::ostream& stream, const TypeModel& types, const Type& type) {
     printRules(stream, type);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -5,9 +5,9 @@
 
 #include <ostream>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 void printTypeTree(std::ostream& stream, const TypeModel& types);
 void printType(std::ostream& stream, const TypeModel& types, const Type& type);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

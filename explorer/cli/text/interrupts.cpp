@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cstddef>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 constexpr std::array ending{SIGINT, SIGTERM, SIGHUP};
@@ -35,4 +35,4 @@ void throwIfInterrupted(const std::string& remark) {
     if (came != 0) throw Interrupted{remark};
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -7,7 +7,7 @@
 
 #include <signal.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // Thrown where something was waited for; `remark` says what goes on without us, if anything.
 struct Interrupted {
@@ -34,4 +34,4 @@ private:
 inline constexpr std::chrono::milliseconds interruptSlice{100};
 void throwIfInterrupted(const std::string& remark = "");
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

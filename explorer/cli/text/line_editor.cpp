@@ -17,7 +17,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 constexpr char endOfInput = '\x04';  // Ctrl-D
@@ -182,4 +182,4 @@ LineEditor::Ended LineEditor::read(std::string& line) {
     return Ended::ByReturn;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // Lines that a person types on a terminal, with history and completion. It alone knows libedit.
 class LineEditor {
@@ -32,4 +32,4 @@ private:
     std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <memory>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -98,4 +98,4 @@ std::string xmlComment(std::string_view text) {
     return result;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 struct NewFile {
     std::filesystem::path file;
@@ -37,4 +37,4 @@ std::string xmlComment(std::string_view text);  // what may stand in a comment
 // Of a wrong name that is a file's: where that belongs.
 std::string fileNameHint(std::string_view name);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

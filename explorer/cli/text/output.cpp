@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 constexpr const char* plain = "\033[0m";
@@ -84,4 +84,4 @@ void printFindings(const Report& report, Stream stream) {
     }
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

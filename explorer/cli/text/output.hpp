@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 enum class Stream { Output, Errors };
 bool coloured(Stream stream);  // on a terminal only, and not where NO_COLOR says no
@@ -64,4 +64,4 @@ void print(const Json& json);  // to standard output
 Json findingsJson(const Report& report);
 void printFindings(const Report& report, Stream stream);  // one a line; coloured on a terminal
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 bool continues(char c) { return (c & 0xC0) == 0x80; }  // a character of UTF-8
@@ -75,4 +75,4 @@ std::string joined(const std::vector<std::string>& parts, std::string_view separ
     return result;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // Text from files and arguments may hold anything: control characters, which a terminal would obey,
 // become visible escapes.
@@ -21,4 +21,4 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width);
 std::string plural(std::size_t count, const std::string& thing);  // "1 error", "3 errors"
 std::string joined(const std::vector<std::string>& parts, std::string_view separator = ", ");
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -12,7 +12,7 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 void writeAll(std::string_view text) {
@@ -107,4 +107,4 @@ void Screen::show(const std::string& lines) {
     writeAll(text + "\033[K\033[J");
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -9,7 +9,7 @@
 #include <signal.h>
 #include <termios.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 enum class Woken { ByTime, ByKey, BySize, BySignal };
 
@@ -55,4 +55,4 @@ private:
     std::optional<termios> before_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

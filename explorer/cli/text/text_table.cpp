@@ -7,7 +7,7 @@
 #include <array>
 #include <numeric>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 constexpr std::size_t gap = 2;            // between columns
@@ -131,4 +131,4 @@ std::vector<TextLine> TextTable::lines(std::size_t width) const {
     return result;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

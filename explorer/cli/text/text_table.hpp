@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // How text looks on a terminal; plain where there are no colours.
 enum class Look : std::uint8_t { Plain, Strong, Faint, Good, Warning, Error };
@@ -51,4 +51,4 @@ private:
     std::vector<TextLine> rows_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "text/words.hpp"
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 std::optional<std::vector<std::string>> splitWords(const std::string& line) {
     std::vector<std::string> words;
@@ -31,4 +31,4 @@ std::optional<std::vector<std::string>> splitWords(const std::string& line) {
     return words;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

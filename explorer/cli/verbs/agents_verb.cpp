@@ -6,7 +6,7 @@
 
 #include <iostream>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 Exit listAgents(const LiveOptions& options) {
     Live live{options.network};
@@ -38,4 +38,4 @@ Exit listAgents(const LiveOptions& options) {
     return Yes;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -13,7 +13,7 @@
 #include <iostream>
 #include <optional>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 Exit exitOf(Outcome outcome) {
@@ -158,4 +158,4 @@ Exit setItems(const CallOptions& options) {
     return callCommand(call);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

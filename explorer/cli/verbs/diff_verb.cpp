@@ -7,7 +7,7 @@
 #include <array>
 #include <iostream>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 std::vector<std::string> typesMissingIn(const TypeModel& other, const TypeModel& model) {
@@ -77,4 +77,4 @@ Exit diffModels(const DiffOptions& options) {
     return disagreements.empty() ? Yes : No;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <iostream>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using Level = Diagnosis::Level;
@@ -72,4 +72,4 @@ Exit examine(const LiveOptions& options) {
     return count(found, Level::Error) == 0 ? Yes : No;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

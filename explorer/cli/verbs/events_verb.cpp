@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <iostream>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using comms::AgentEvent;
@@ -92,4 +92,4 @@ Exit showEvents(const EventOptions& options) {
     return Yes;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -5,7 +5,7 @@
 #include "verbs/verb_registration.hpp"
 #include "verbs/verbs.hpp"
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 CLI::Option* addFiles(CLI::App& verb, Paths& files) {
@@ -134,4 +134,4 @@ void addFileVerbs(Verbs& verbs) {
     addNewSystem(verbs);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

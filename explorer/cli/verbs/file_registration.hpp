@@ -3,9 +3,9 @@
 
 #include "verbs/verb_registration.hpp"
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // The verbs of verbs.hpp, which read and make files of models.
 void addFileVerbs(Verbs& verbs);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -10,7 +10,7 @@
 #include <iostream>
 #include <optional>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 namespace {
 
@@ -58,4 +58,4 @@ Exit showGraph(const GraphOptions& options) {
     return Yes;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

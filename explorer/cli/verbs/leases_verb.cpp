@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iostream>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 std::vector<comms::ShownLease> allLeases(const Live& live) {
@@ -68,4 +68,4 @@ Exit listLeases(const LiveOptions& options) {
     return Yes;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -11,7 +11,7 @@
 #include <map>
 #include <set>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 struct Line {
@@ -124,4 +124,4 @@ Exit listSimplexes(const ListOptions& options) {
     return Yes;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

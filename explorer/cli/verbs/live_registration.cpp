@@ -7,7 +7,7 @@
 
 #include <memory>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 // Verbs that join the network of agents.
@@ -258,4 +258,4 @@ Examples:
         std::make_shared<LiveOptions>(), examine);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

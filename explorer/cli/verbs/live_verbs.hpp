@@ -12,7 +12,7 @@
 
 // The verbs that look at agents on a network. They print and return the exit code, or throw
 // Failure.
-namespace cortex::explorer {
+namespace cortex::cli {
 
 struct LiveOptions {
     NetworkArguments network;
@@ -79,4 +79,4 @@ struct TopOptions : LiveOptions {
 };
 Exit showTop(const TopOptions& options);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -7,7 +7,7 @@
 #include <iostream>
 
 int main(int count, char** values) {
-    using namespace cortex::explorer;
+    using namespace cortex::cli;
     try {
         return Program{}.run({values + 1, values + std::max(count, 1)});
     } catch (const Interrupted& interrupted) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "verbs/verbs.hpp"
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 constexpr std::string_view skeleton = R"(<?xml version="1.0" encoding="UTF-8"?>
@@ -64,4 +64,4 @@ Exit newSystem(const NewSystemOptions& options) {
     return Yes;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

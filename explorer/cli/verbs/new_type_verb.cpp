@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -118,4 +118,4 @@ Exit newType(const NewTypeOptions& options) {
     return Yes;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

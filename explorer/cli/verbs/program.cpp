@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <iostream>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 std::string nearestOrAll(const std::string& wrong, const std::vector<std::string>& names) {
@@ -136,4 +136,4 @@ Exit Program::run(const std::vector<std::string>& words) {
     return result;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -12,7 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // One command line: the verbs, and running the one that is named. Used once.
 class Program {
@@ -34,4 +34,4 @@ private:
     std::function<Exit()> run_;  // the verb that was chosen
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

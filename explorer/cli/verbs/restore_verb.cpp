@@ -18,7 +18,7 @@
 #include <list>
 #include <map>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using Arguments = comms::Mirror::Arguments;
@@ -261,4 +261,4 @@ Exit restoreItems(const RestoreOptions& options) {
     return exit;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

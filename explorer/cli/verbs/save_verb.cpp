@@ -8,7 +8,7 @@
 #include <iostream>
 #include <map>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 // What is worth knowing of an item in the file: its label, unit and range.
@@ -95,4 +95,4 @@ Exit saveItems(const SaveOptions& options) {
     return missing.empty() && lacking.empty() ? Yes : NotFound;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

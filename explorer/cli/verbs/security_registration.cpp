@@ -8,7 +8,7 @@
 
 #include <memory>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 void addDays(CLI::App& verb, SecurityOptions& options, const char* description) {
@@ -87,4 +87,4 @@ void addSecurityVerbs(CLI::App& app, bool& json, std::function<Exit()>& run) {
     addShow(verbs);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

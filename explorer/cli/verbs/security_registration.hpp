@@ -7,9 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // Adds `security` with its verbs; the one that is chosen sets `run`.
 void addSecurityVerbs(CLI::App& app, bool& json, std::function<Exit()>& run);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 std::string powersOf(const comms::AgentRights& rights) {
@@ -88,4 +88,4 @@ Exit showSecurity(const SecurityOptions& options) {
     return Yes;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 struct SecurityOptions {
     std::string folder;  // to make, or to show
@@ -23,4 +23,4 @@ Exit makeAuthority(const SecurityOptions& options);
 Exit makeAgent(const SecurityOptions& options);
 Exit showSecurity(const SecurityOptions& options);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <iostream>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 struct ControlOptions {
@@ -124,4 +124,4 @@ Example:
     }
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

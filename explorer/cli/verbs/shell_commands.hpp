@@ -3,9 +3,9 @@
 
 #include "verbs/verb_registration.hpp"
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // What a shell has beyond the verbs: take, release, handover, help, quit.
 void addShellCommands(Verbs& verbs, bool& leaves);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

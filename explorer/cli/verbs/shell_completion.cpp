@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string_view>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 enum class What { Nothing, Path, Item, Command, Argument, Setting, File, Type, Mine, Name, Verb };
@@ -217,4 +217,4 @@ std::vector<std::string> completionsOf(const std::string& before, const CLI::App
     return textsOf(found->kinds[std::min(words.size() - 1, found->kinds.size() - 1)], known, word);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

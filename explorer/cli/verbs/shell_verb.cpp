@@ -17,7 +17,7 @@
 
 #include <unistd.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 std::string historyFile() {
@@ -163,4 +163,4 @@ Examples:
     addNetwork(*verb, options->network, nullptr);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

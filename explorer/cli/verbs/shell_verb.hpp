@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 struct ShellOptions {
     NetworkArguments network;
@@ -19,4 +19,4 @@ Exit runShell(const ShellOptions& options);
 
 void addShell(Verbs& verbs);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <iostream>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 // Everything about one simplex at one moment.
@@ -230,4 +230,4 @@ Exit showSimplex(const ShowOptions& options) {
     return Yes;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

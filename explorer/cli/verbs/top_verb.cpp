@@ -10,7 +10,7 @@
 #include <cmath>
 #include <iostream>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -217,4 +217,4 @@ Exit showTop(const TopOptions& options) {
     return Top{options, signals}.run();
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -8,7 +8,7 @@
 
 #include <iostream>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 [[noreturn]] void unknownType(const TypeModel& types, const std::string& wrong) {
@@ -75,4 +75,4 @@ Exit showTypes(const TypesOptions& options) {
     return Yes;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <set>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 struct Checked {
@@ -91,4 +91,4 @@ Exit validateFiles(const ValidateOptions& options) {
     return report.ok() ? Yes : No;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -10,7 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 
 // Makes verbs below `app`, whose options live as long as the program runs. A verb that was chosen
 // sets `run`; `json` is the flag of all verbs.
@@ -50,4 +50,4 @@ private:
     std::shared_ptr<Session> session_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -12,7 +12,7 @@
 
 // The verbs of the program, each with what its options say. They print and return the exit code, or
 // throw Failure.
-namespace cortex::explorer {
+namespace cortex::cli {
 
 struct ValidateOptions {
     Paths files;
@@ -55,4 +55,4 @@ struct NewSystemOptions : NewFileOptions {
 };
 Exit newSystem(const NewSystemOptions& options);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -19,7 +19,7 @@
 #include <thread>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 // One value that is watched.
@@ -331,4 +331,4 @@ Exit watchValues(const WatchOptions& options) {
     return Yes;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::cli

@@ -52,8 +52,10 @@ std::vector<EventRow> EventModel::withGaps(std::vector<comms::AgentEvent> events
         }
         rows.emplace_back(std::move(event));
     }
-    std::ranges::stable_sort(rows, {}, [](const EventRow& each) {
-        return std::tie(each.event.wallClock, each.event.agent, each.event.number);
+    // What is missing stands behind the last one that came.
+    std::ranges::sort(rows, {}, [](const EventRow& each) {
+        const comms::AgentEvent& event = each.event;
+        return std::tie(event.wallClock, event.agent, event.number, each.missing, event.text);
     });
     return rows;
 }

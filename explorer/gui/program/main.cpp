@@ -22,8 +22,8 @@ int main(int argc, char** argv) {
     QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
     QCoreApplication::setApplicationName(QStringLiteral("cortex-explorer"));
     QApplication application{argc, argv};
-    Plurals plurals;
-    QCoreApplication::installTranslator(&plurals);
+    Plurals texts;
+    QCoreApplication::installTranslator(&texts);
     // Pictures are alike on every machine, as far as the font is installed.
     Look::apply(options->theme, options->scale, picture ? QStringLiteral("Open Sans") : QString{});
 
