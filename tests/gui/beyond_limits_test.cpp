@@ -7,8 +7,12 @@
 
 #include "model/item_model.hpp"
 #include "model/query.hpp"
+#include "style/look.hpp"
+#include "widgets/item_table.hpp"
 
+#include <QApplication>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -63,6 +67,23 @@ TEST(BeyondLimits, ANumberWithALabelHasNoMark) {
     items.update(lamp.frame);
 
     EXPECT_EQ(items.row(items.index(0, 0, items.index(0, 0))).mark, std::nullopt);
+}
+
+TEST(BeyondLimits, InANarrowTableTheRangeGivesWayBeforeTheMarkAndItsWord) {
+    const Lamp lamp{7};
+    ItemModel items;
+    items.show("/lamp");
+    items.update(lamp.frame);
+    ItemTable table{items};
+    table.show();
+    for (const auto& [width, range, description] :
+         {std::tuple{250, true, true}, {190, true, false}, {160, false, false}}) {
+        table.resize(Look::units(width), 300);
+        QApplication::processEvents();
+        EXPECT_FALSE(table.isColumnHidden(ItemModel::Remark)) << width;
+        EXPECT_EQ(!table.isColumnHidden(ItemModel::Range), range) << width;
+        EXPECT_EQ(!table.isColumnHidden(ItemModel::Description), description) << width;
+    }
 }
 
 TEST(BeyondLimits, TheFilterFindsWhatIsOutside) {

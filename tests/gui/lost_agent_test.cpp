@@ -89,6 +89,10 @@ TEST(Resting, AValueIsInBracketsAndItsMarkIsThatOfStandby) {
     EXPECT_EQ(orderRow(robot.now(), "value"), rests);
     robot.put("/probe", "state", std::int64_t{2});
     EXPECT_EQ(orderRow(robot.now(), "value"), stale) << "it should be live and is not";
+    AgentFrame ended = robot.now("lost");
+    ended.status.ended = true;
+    const std::pair<QString, QString> over{"[0]", "ended"};
+    EXPECT_EQ(orderRow(ended, "value"), over) << "an orderly end is no loss";
 }
 
 }  // namespace

@@ -34,6 +34,12 @@ struct ItemModel::Node {
 
 namespace {
 
+// Violet is for what should be live and is not: not for what rests, or has ended as it should.
+std::optional<Shape> markOf(const AgentFrame& agent, std::uint32_t simplex, Quality quality) {
+    if (agent.status.ended) return Shape::Ended;
+    return agent.rests(simplex) ? Shape::Standby : shapeOf(quality);
+}
+
 // The types whose items only the framework writes.
 bool isOfFramework(const std::string& type) {
     static const std::set<std::string> types{"Simplex", "Active", "Activity", "Agent", "Cluster"};
@@ -212,7 +218,7 @@ void ItemModel::refresh(Node& node) {
             if (!array) row.mark = outsideOf(row, value);
             const Quality quality = qualityOf(agent, *child);
             if (quality != Quality::Good && !row.item->constant) {
-                row.mark = agent.rests(child->simplex) ? Shape::Standby : shapeOf(quality);
+                row.mark = markOf(agent, child->simplex, quality);
                 row.value = bracketed(row.value);
             }
         }

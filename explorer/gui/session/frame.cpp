@@ -49,7 +49,7 @@ std::optional<State> AgentFrame::lastState(std::uint32_t simplex) const {
 }
 
 bool AgentFrame::rests(std::uint32_t simplex) const {
-    if (quality(simplex) != Quality::Stale) return false;
+    if (!beats() || quality(simplex) != Quality::Stale) return false;
     const std::uint32_t cause = (*image)->state(simplex).cause;
     return state(simplex) == State::Standby ||
            (cause < structure->simplexes.size() && state(cause) == State::Standby);

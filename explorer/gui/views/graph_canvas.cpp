@@ -39,8 +39,10 @@ NodeMarks marksOf(const Frame& frame, const GraphNode& node) {
         const AgentFrame& agent = frame.agents[place->agent];
         const auto state = agent.state(place->simplex);
         const Quality quality = agent.lost() ? Quality::Lost : agent.quality(place->simplex);
-        const bool silent = agent.lost() || agent.came(place->simplex);
-        if (silent && quality != Quality::Good) marks.trouble = shapeOf(quality);
+        const bool known = agent.lost() || agent.came(place->simplex);
+        if (known && quality != Quality::Good && !agent.rests(place->simplex)) {
+            marks.trouble = agent.status.ended ? Shape::Ended : shapeOf(quality);
+        }
         if (marks.shape == Shape::Fault) continue;
         if (state)
             marks.shape = shapeOf(*state);

@@ -203,6 +203,10 @@ void SimplexHeader::refresh(const Frame& frame, Place place) {
     refreshNotice(frame, place);
     showOrHide(*why_, whyText(frame, place));
     fit();
+    // It may need another height now; what is around it is not laid out just now.
+    if (parentWidget() != nullptr && parentWidget()->layout() != nullptr) {
+        parentWidget()->layout()->activate();
+    }
 }
 
 void SimplexHeader::refreshState(const Frame& frame, Place place) {
@@ -259,10 +263,11 @@ void SimplexHeader::refreshAgent(const Frame& frame, Place place) {
     agent_->show(text);
     const Quality quality = agent.lost() ? Quality::Lost : agent.quality(place.simplex);
     const QString word = tr("quality %1").arg(QLatin1String{name(quality)});
+    const bool amiss = came && quality != Quality::Good && !rests && !agent.status.ended;
     quality_->show(!came   ? tr("waiting for the first values")
                    : rests ? tr("%1, at rest").arg(word)
                            : word,
-                   came && quality != Quality::Good && !rests ? &Tokens::dataText : &Tokens::ink2);
+                   amiss ? &Tokens::dataText : &Tokens::ink2);
     showOrHide(*task_, taskText(agent, place.simplex));
 }
 

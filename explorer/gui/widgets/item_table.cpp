@@ -223,12 +223,16 @@ void ItemTable::resizeEvent(QResizeEvent* event) {
     fitColumns();
 }
 
+// The description gives way first, then the range, which becomes a line under the value. A mark
+// keeps its word.
 void ItemTable::fitColumns() {
     double left = viewport()->width() / static_cast<double>(Look::units(1));
-    for (const int column : {ItemModel::Name, ItemModel::Value, ItemModel::Unit, ItemModel::Range,
-                             ItemModel::Remark, ItemModel::Description}) {
+    bool all = true;
+    for (const int column : {ItemModel::Name, ItemModel::Value, ItemModel::Unit, ItemModel::Remark,
+                             ItemModel::Range, ItemModel::Description}) {
         const double width = itemWidths[static_cast<std::size_t>(column)];
-        const bool fits = column <= ItemModel::Unit || left >= width;
+        const bool fits = column <= ItemModel::Unit || (all && left >= width);
+        all = all && fits;
         setColumnHidden(column, !fits);
         if (fits) {
             header()->resizeSection(column, Look::units(width));
