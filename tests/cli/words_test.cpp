@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cortex::explorer {
+namespace cortex::cli {
 namespace {
 
 using Split = std::vector<std::string>;
@@ -27,4 +27,4 @@ TEST(Words, NeedTheEndOfAQuote) {
 }
 
 }  // namespace
-}  // namespace cortex::explorer
+}  // namespace cortex::cli
