@@ -32,7 +32,8 @@ protected:
         return nullptr;
     }
     bool hasEvent(const QString& text) {
-        const auto& rows = *window.findChild<EventList*>()->findChild<QAbstractItemView*>()->model();
+        const auto& rows =
+            *window.findChild<EventList*>()->findChild<QAbstractItemView*>()->model();
         for (int row = 0; row < rows.rowCount(); ++row) {
             for (int column = 0; column < rows.columnCount(); ++column) {
                 if (rows.index(row, column).data().toString().contains(text)) return true;
