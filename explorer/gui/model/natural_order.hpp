@@ -8,7 +8,7 @@ namespace cortex::explorer {
 
 // Numbers in names count as numbers, so that w2 stands before w10; otherwise by letters.
 struct NaturalOrder {
-    using is_transparent = void;
+    using is_transparent = void;  // NOLINT(readability-identifier-naming): a name of the library
 
     bool operator()(std::string_view a, std::string_view b) const {
         const std::string_view wholeA = a, wholeB = b;
