@@ -43,8 +43,8 @@ protected:
         options.insert(options.end(), more.begin(), more.end());
         return {folder, CORTEX_SOURCE_DIR "/examples/lbr_teleop/" + name + ".xml", options};
     }
-    // A tool with the keys of that folder; "": with none. On a busy machine one handshake of Fast
-    // DDS in some hundred hangs (docs/security.md): the tool finds nobody, and is started again.
+    // A tool with the keys of that folder; "": with none. On a busy machine a handshake of Fast
+    // DDS may not end (docs/security.md): a tool that finds nobody is started again, at most twice.
     Outcome tool(const Words& arguments, const std::string& name = "station",
                  const std::string& timeout = "") const {
         Outcome outcome = toolOnce(arguments, name, timeout.empty() ? "8" : timeout);
