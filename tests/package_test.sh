@@ -63,6 +63,18 @@ oven=$!
 kill "$oven"
 grep 'all active simplexes are started' "$outside/bakery"
 
+echo 'the examples of XML alone run as they are installed'
+for plant in gantry jog_axis lbr_teleop; do
+    "$prefix/bin/cortex-agent" "$prefix/share/cortex/examples/$plant/$plant.xml" --offline \
+        --startup --seconds 1 --priority 0 --log /dev/null 2>&1 |
+        grep 'all active simplexes are started'
+done
+
+echo 'the hooks of a plug-in are checked'
+built water
+"$prefix/bin/cortex-agent" "$outside/water/water.xml" --offline --startup --seconds 2 --check-hooks \
+    --plugin "$outside/water/build/water.so" --log /dev/null | grep 'hook check: no violation'
+
 echo 'the example of a view: the window loads it, and names what it cannot load'
 built e05_own_view
 mkdir "$outside/broken"

@@ -1,43 +1,77 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The pictures of docs/explorer.md, `./run pictures [FOLDER]`: the window on the tele-operated arm,
-# two agents on the loopback interface in a domain of their own. No display is needed.
+# The pictures of docs/explorer.md and of the examples' pages, `./run pictures [FOLDER]`: the window
+# on a plant of examples/ on the loopback interface, in a domain of its own. No display is needed.
+# They go to where the pages expect them, with a FOLDER to the same places below that.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-bin=${BIN:-build/release/bin} folder=${1:-docs/pictures} pids=()
+bin=${BIN:-build/release/bin} folder=${1:-} pids=()
 export CORTEX_DOMAIN=${CORTEX_DOMAIN:-43} CORTEX_INTERFACE=lo
 
-# name, size, then the options of the window
-pictures=(
-    "window 1280x800 /arm/lbr --theme light"
-    "dark 1280x800 /arm/lbr --theme dark"
-    "commands 1280x800 /playback --view commands"
-    "system 1280x800 /tracking --view system"
-    "agents 1280x800 /tracking --view agents"
-    "events 1280x800 /tracking --view events"
-    "small 800x600 /arm/lbr --font-scale 1.5"
+# folder of the page, name, size, then the options of the window
+teleop=(
+    "docs/pictures window 1280x800 /arm/lbr --theme light"
+    "docs/pictures dark 1280x800 /arm/lbr --theme dark"
+    "docs/pictures commands 1280x800 /playback --view commands"
+    "docs/pictures system 1280x800 /tracking --view system"
+    "docs/pictures agents 1280x800 /tracking --view agents"
+    "docs/pictures events 1280x800 /tracking --view events"
+    "docs/pictures small 800x600 /arm/lbr --font-scale 1.5"
 )
+jog=(
+    "examples/jog_axis graph 1100x600 /jog --view system --theme light"
+    "docs/pictures jog 1280x800 /jog --theme light"
+)
+gantry=("examples/gantry graph 1500x900 /control --view system --theme light")
 
-end() { ((${#pids[@]})) && kill "${pids[@]}" 2>/dev/null; wait; }
+end() {
+    ((${#pids[@]} == 0)) || kill "${pids[@]}" 2>/dev/null || true
+    wait
+    pids=()
+}
 trap end EXIT
 
-mkdir -p "$folder" build/pictures
-for name in robot operator; do
-    "$bin/cortex-agent" "examples/lbr_teleop/$name.xml" --startup --frequency 200 \
-        >"build/pictures/$name.txt" 2>&1 &
-    pids+=($!)
-done
-for try in {1..10}; do
-    if "$bin/cortex" watch /tracking.time /playback.state --count 15 >build/pictures/watch.txt 2>&1
-    then break; fi
-    ((try < 10)) || { cat build/pictures/*.txt; exit 1; }
-done
-for each in "${pictures[@]}"; do
-    read -r name size options <<<"$each"
-    # shellcheck disable=SC2086
-    "$bin/cortex-explorer" $options --size "$size" --timeout 60 --screenshot "$folder/$name.png" \
-        2>"build/pictures/$name.txt"
-    if grep -H '^warning' "build/pictures/$name.txt"; then exit 1; fi
-    printf '%s: %s bytes\n' "$folder/$name.png" "$(stat -c %s "$folder/$name.png")"
-done
+# start PLANT ITEM…: its agents, until these items have come 15 times.
+start() {
+    local plant=$1 file rest try
+    shift
+    while read -r file rest; do
+        [[ $file == show ]] && continue
+        "$bin/cortex-agent" "examples/$plant/$file" --startup --frequency 200 \
+            >"build/pictures/${file%.xml}.txt" 2>&1 &
+        pids+=($!)
+    done <"examples/$plant/agents"
+    for try in {1..10}; do
+        if "$bin/cortex" watch "$@" --count 15 >build/pictures/watch.txt 2>&1; then return; fi
+        ((try < 10)) || { cat build/pictures/*.txt; exit 1; }
+    done
+}
+
+take() {
+    local each place name size options status=0
+    for each in "$@"; do
+        read -r place name size options <<<"$each"
+        place=${folder:+$folder/}$place
+        mkdir -p "$place"
+        # shellcheck disable=SC2086
+        "$bin/cortex-explorer" $options --size "$size" --timeout 60 \
+            --screenshot "$place/$name.png" 2>"build/pictures/$name.txt" || status=$?
+        if ((status)) || grep -q '^warning' "build/pictures/$name.txt"; then
+            printf 'error: the picture %s: exit code %s\n' "$place/$name.png" "$status" >&2
+            cat "build/pictures/$name.txt" >&2
+            exit 1
+        fi
+        printf '%s: %s bytes\n' "$place/$name.png" "$(stat -c %s "$place/$name.png")"
+    done
+}
+
+mkdir -p build/pictures
+start lbr_teleop /tracking.time /playback.state
+take "${teleop[@]}"
+end
+start jog_axis /jog.state /turntable/axis.position
+take "${jog[@]}"
+end
+start gantry /control.state /hook.position
+take "${gantry[@]}"

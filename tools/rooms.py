@@ -16,46 +16,53 @@ import tempfile
 ROOMS = {
     "core": ["base", "types", "files", "tables", "commands", "model", "agent"],
     "comms": ["wire", "security", "peers", "rtps", "dds", "agent", "mirror", "leases"],
-    "cs": ["threads", "clocks", "tasks", "loop"],
+    "cs": ["threads", "clocks", "tasks", "loop", "hook_checker"],
     "explorer/cli": ["text", "models", "live", "doctor", "verbs"],
-    "explorer/gui": ["style", "session", "model", "plugin", "widgets", "views", "window", "program"],
+    "explorer/gui": ["style", "record", "session", "model", "plugin", "motion", "widgets", "plots", "views",
+                     "window", "program"],
 }
 # Rooms of one folder that do not know each other, although one stands before the other.
-STRANGERS = {("comms", "mirror"): ["agent"]}
+STRANGERS = {
+    ("comms", "mirror"): ["agent"],
+    # A view that a user could have written sees what is installed.
+    ("explorer/gui", "motion"): ["style", "record", "session", "model"],
+}
 # A folder may include its own headers and those of these folders.
 LAYERS = {
     "core": [],
     "cs": ["core"],
     "comms": ["core"],
-    "toolkit": ["core", "cs", "comms"],
+    "mechanics": [],
+    "toolkit": ["core", "cs", "comms", "mechanics"],
     "explorer/cli": ["core", "comms"],
     "explorer/gui": ["core", "comms"],
 }
 # The room of each header that other folders see (include/ and internal/).
 PUBLIC = {
     "core": {
-        "base": "cell clock data error event_count findings loop_pace machine nearest_names path quality "
+        "base": "cell clock control_commands data error event_count findings loop_pace machine nearest_names path plugin_places printable quality "
                 "realtime "
                 "report service_threads spsc_ring standstill state system_findings tick value xml_text",
         "types": "agreement labelled_value type_model",
         "files": "model_files type_description",
         "tables": "archive event event_fold event_sinks image image_pool structure tables",
         "commands": "argument_checks command loop_thread mailbox proposed_settings record",
-        "model": "make_structure registry simplex simplex_tree validation",
+        "model": "header_hash make_structure registry simplex simplex_tree validation",
         "agent": "agent command_exchange framework_item loopback program_interface transport",
     },
     "comms": {
-        "wire": "network_options",
+        "wire": "network_options simplex_mark",
         "security": "security",
         "agent": "dds_interface",
-        "mirror": "mirror",
+        "mirror": "mirror mirror_data",
         "leases": "lease_client",
     },
-    "explorer/gui": {"plugin": "view"},
+    "explorer/gui": {"plugin": "now small_plot theme view"},
     "cs": {
         "clocks": "trigger_source",
-        "tasks": "io_exchange simplex_cs",
+        "tasks": "io_exchange simplex_cs slow_work",
         "loop": "cluster_cs testing",
+        "hook_checker": "hook_checker",
     },
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')

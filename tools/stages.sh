@@ -71,6 +71,8 @@ stage_format() {
     if grep -rnE '(GCOVR?|LCOV)_EXCL' core cs; then die "no exclusion marks in core and cs"; fi
     python3 tools/rooms.py --self-test
     python3 tools/rooms.py
+    python3 tools/documents.py --self-test
+    python3 tools/documents.py
 }
 
 # Reads each file once; those that are compiled as one are read as one. The tests are not read.
@@ -97,12 +99,17 @@ stage_coverage() {
 
 measureCoverage() {
     local status=0
-    say "counting covered lines of core, cs, comms and the window"
+    say "counting covered lines of libraries and programs"
     gcovr --gcov-executable "llvm-cov-19 gcov" --filter core/ --filter cs/ --filter comms/ \
-        --filter explorer/gui/ --exclude ".*_autogen.*" -j "$jobs" --json build/coverage/coverage.json build/coverage >"$logs/gcovr.log" 2>&1 ||
+        --filter mechanics/ --filter toolkit/ --filter explorer/ --exclude ".*_autogen.*" \
+        -j "$jobs" --json build/coverage/coverage.json build/coverage >"$logs/gcovr.log" 2>&1 ||
         { cat "$logs/gcovr.log"; return 1; }
     requireCoverage 90 core cs || status=$?
     requireCoverage 85 comms || status=$?
+    requireCoverage 85 mechanics || status=$?
+    requireCoverage 85 toolkit/src toolkit/include || status=$?
+    requireCoverage 80 toolkit/agent || status=$?
+    requireCoverage 80 explorer/cli || status=$?
     requireCoverage 80 explorer/gui || status=$?
     return "$status"
 }
@@ -207,7 +214,7 @@ stage_docs() {
     [[ -d build/package ]] || stage_package
     say "taking the pictures of docs/explorer.md"
     build release -- cortex-agent cortex-cli cortex-explorer
-    tools/pictures.sh build/pictures/docs
+    tools/pictures.sh build/pictures
     say "cutting the tutorials out of docs/, building and running them"
     /usr/bin/python3 tests/docs/tutorials.py docs build/tutorials build/package
     if [[ -f docs/Doxyfile ]]; then reference; fi

@@ -102,7 +102,7 @@ void Attached::view() {
         const std::string& path = structure_->simplexes[task.simplex].path;
         prefixes.insert(path.substr(0, path.find('/', 1)));
     }
-    mirror_.view({prefixes.begin(), prefixes.end()});
+    mirror_.view(std::vector<std::string>{prefixes.begin(), prefixes.end()});
 }
 
 void Attached::sample(double seconds) {

@@ -104,8 +104,8 @@ std::string counts(const Comparison& comparison) {
 std::string only(const char* side, const std::vector<Quantity>& quantities) {
     std::string text;
     for (const Quantity& each : quantities) {
-        text += std::string{"only "} + side + ": " + cli::printable(each.what) + ", " +
-                cli::printable(valueText(each)) + "\n";
+        text += std::string{"only "} + side + ": " + printable(each.what) + ", " +
+                printable(valueText(each)) + "\n";
     }
     return text;
 }
@@ -144,12 +144,12 @@ std::string comparisonText(const Comparison& comparison, std::size_t width) {
     if (!comparison.otherMachine.empty()) {
         text += "DIFFERENT MACHINES or settings: the changes below say little of the code.\n";
         for (const std::string& each : comparison.otherMachine) {
-            text += "  " + cli::printable(each) + "\n";
+            text += "  " + printable(each) + "\n";
         }
         text += "\n";
     }
-    text += "before: " + cli::printable(comparison.before) +
-            "\nafter:  " + cli::printable(comparison.after) + "\n";
+    text += "before: " + printable(comparison.before) + "\nafter:  " + printable(comparison.after) +
+            "\n";
     if (!comparison.complete) text += "Not complete: one of the two runs was stopped.\n";
     cli::TextTable table{{{"", "what", 9, 0, false, true},
                           {"", "before", 5},

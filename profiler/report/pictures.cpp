@@ -26,7 +26,7 @@ constexpr std::array paleness{0.0, 0.4, 0.65, 0.8};  // of shades
 
 std::string quoted(const std::string& text) {
     std::string result = "'";
-    for (const char c : cli::printable(text)) result += c == '\'' ? "''" : std::string{c};
+    for (const char c : printable(text)) result += c == '\'' ? "''" : std::string{c};
     return result + "'";
 }
 

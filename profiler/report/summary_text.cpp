@@ -15,7 +15,7 @@ std::string listed(const std::string& heading, const std::vector<std::string>& e
     for (const std::string& entry : entries) {
         std::string before = "- ";
         for (const std::string& line :
-             cli::wrapped(cli::printable(entry), width - std::min<std::size_t>(width, 2))) {
+             cli::wrapped(printable(entry), width - std::min<std::size_t>(width, 2))) {
             text += before + line + "\n";
             before = "  ";
         }

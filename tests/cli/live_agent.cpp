@@ -73,6 +73,16 @@ void Background::send(int signal) {
     if (child_ != 0) kill(child_, signal);
 }
 
+std::string systemFile(const ModelFolder& folder, const std::string& agent,
+                       const std::string& simplexes) {
+    return folder
+        .write(agent + ".xml", "<system name=\"" + agent +
+                                   "\"><morphology file=\"robotics-morphology.xml\"/>"
+                                   "<cluster name=\"" +
+                                   agent + "\" frequency=\"200\"/>" + simplexes + "</system>")
+        .string();
+}
+
 std::vector<std::string> agentCommand(const std::string& file) {
     return std::vector<std::string>{CORTEX_BINARY_DIR "/bin/cortex-agent", file} + network;
 }

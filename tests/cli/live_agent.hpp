@@ -4,6 +4,7 @@
 #include "cli/cortex_process.hpp"
 #include "core/model_folder.hpp"
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,8 +46,20 @@ private:
     pid_t child_;
 };
 
+// A system file of one agent at 200 Hz, with these simplexes.
+std::string systemFile(const ModelFolder& folder, const std::string& agent,
+                       const std::string& simplexes);
 // An agent with a system file, on that network.
 std::vector<std::string> agentCommand(const std::string& file);
+
+// Looks again until it is so; 20 s at most.
+template <class Look, class Condition>
+auto lookUntil(Look look, Condition condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+    auto seen = look();
+    while (!condition(seen) && std::chrono::steady_clock::now() < end) seen = look();
+    return seen;
+}
 
 // The system that `cortex new-system` makes: one simulated axis that a controller of this type
 // moves or holds.

@@ -22,26 +22,6 @@ Outcome liveWithin(const std::string& seconds, const Words& arguments) {
     return cortex(arguments + network + Words{"--timeout", seconds});
 }
 
-// A system file of one agent.
-std::string systemFile(const ModelFolder& folder, const std::string& agent,
-                       const std::string& inside) {
-    return folder
-        .write(agent + ".xml", "<system name=\"" + agent +
-                                   "\"><morphology file=\"robotics-morphology.xml\"/>"
-                                   "<cluster name=\"" +
-                                   agent + "\" frequency=\"200\"/>" + inside + "</system>")
-        .string();
-}
-
-// Looks again until it is so; 20 s at most.
-template <class Look, class Condition>
-auto lookUntil(Look look, Condition condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
-    auto seen = look();
-    while (!condition(seen) && std::chrono::steady_clock::now() < end) seen = look();
-    return seen;
-}
-
 // A participant that says it is an agent, and sends nothing of its model.
 struct Ghost : comms::RawTool {
     Ghost() : RawTool{"ghost"} {}
@@ -112,6 +92,10 @@ struct CortexLoss : testing::Test {
                        "<relate rule=\"axes\" to=\"/cell/observed\" remote=\"true\" "
                        "type=\"RotaryAxisConcept\"/>"
                        "<relate rule=\"demands\" to=\"/desk/demanded\"/></simplex>")));
+        for (const char* each : {"/cell", "/desk"}) {  // one is heard before the other
+            lookUntil([each] { return live({"list", each}); },
+                      [](const Outcome& seen) { return seen.exit == 0; });
+        }
     }
 
     // Kills the device and waits until the controller has lost its input.
@@ -297,6 +281,21 @@ TEST(CortexHidden, ListWithoutSecuritySaysThatSecuredAgentsWereHeard) {
     EXPECT_TRUE(contains(outcome.errors, "1 participant with security was heard"))
         << outcome.errors;
     EXPECT_TRUE(contains(outcome.errors, "--security FOLDER")) << outcome.errors;
+    const Outcome doctor =
+        lookUntil([] { return liveWithin("1", {"doctor"}); },
+                  [](const Outcome& seen) { return contains(seen.output, "with security"); });
+    EXPECT_EQ(doctor.exit, 1) << doctor.output;
+
+    const Background open{agentCommand(
+        systemFile(folder, "open", "<simplex path=\"/arm\" type=\"RotaryAxisConcept\"/>"))};
+    const Outcome hidden =
+        lookUntil([] { return live({"show", "/drive"}); },
+                  [](const Outcome& seen) { return contains(seen.errors, "no agent has"); });
+    EXPECT_TRUE(contains(hidden.errors,
+                         "no agent has a simplex /drive that can be seen without security: 1 "
+                         "participant with security was heard"))
+        << hidden.errors;
+    EXPECT_EQ(live({"doctor"}).exit, 1);
 }
 
 TEST(CortexContradiction, TwoAgentsWithOnePathAreNamedByEveryVerbThatShowsThem) {

@@ -45,6 +45,8 @@ TEST_F(CortexLive, ShowsTheAgents) {
     EXPECT_EQ(agents[0]["state"], "running");
     EXPECT_EQ(agents[0]["simplexes"], 5);
     EXPECT_EQ(agents[0]["loss"], 0);
+    EXPECT_EQ(agents[0]["dropped"], "");
+    EXPECT_EQ(agents[0]["refused"], "");
     EXPECT_TRUE(contains(live({"agents"}).output, "mixer"));
 }
 
@@ -131,6 +133,38 @@ TEST_F(CortexLive, SetsItemsWithinTheirRange) {
                          "position is an observation; it is not settable; nothing "
                          "of /axis/observed is"))
         << observed.errors;
+    EXPECT_TRUE(contains(live({"set", "/controller", "position=1"}).errors,
+                         "nothing of /controller (HoldAxisController) can be set"));
+}
+
+TEST_F(CortexLive, APrefixBelowWhichNothingStandsIsNamedWithTheNearest) {
+    const Outcome misspelt = live({"call", "/mixer", "startup", "prefix=/drvie"});
+    EXPECT_EQ(misspelt.exit, 3);
+    EXPECT_TRUE(
+        contains(misspelt.errors, "mixer has nothing at or below /drvie; nearest of: /drive"))
+        << misspelt.errors;
+    EXPECT_TRUE(contains(live({"call", "/mixer", "startup", "prefix=drive"}).errors,
+                         "a path begins with '/'"));
+}
+
+TEST_F(CortexLive, SetSaysHowItIsWritten) {
+    const std::string words = "the path and the items are apart: cortex set /drive ";
+    EXPECT_TRUE(contains(live({"set", "/drive.naturalFrequency=5"}).errors,
+                         words + "naturalFrequency=5\n"));
+    EXPECT_TRUE(contains(live({"set", "/drive.naturalFrequency", "5"}).errors,
+                         words + "naturalFrequency=5\n"));
+    EXPECT_TRUE(contains(live({"set", "/drive"}).errors, words + "ITEM=VALUE\n"));
+    EXPECT_TRUE(contains(live({"show", "/drive.state"}).errors,
+                         "an item has no path of its own; name its simplex: /drive\n"));
+}
+
+TEST_F(CortexLive, WatchesAllThatThereIs) {
+    const json values =
+        json::parse(live({"watch", "/", "--json", "--count", "1"}).output)["values"];
+
+    for (const char* each : {"/drive.state", "/axis/observed.position", "/mixer.commandCount"}) {
+        EXPECT_EQ(values[each]["quality"], "good") << each;
+    }
 }
 
 TEST_F(CortexLive, WatchesValues) {
@@ -209,13 +243,19 @@ TEST(CortexNetwork, SaysWhatToDoWhereNobodyIs) {
         EXPECT_EQ(outcome.output, "");
         EXPECT_TRUE(contains(outcome.errors, "no agent on domain " + domain)) << outcome.errors;
         // A tool that has just left may still be counted.
-        EXPECT_TRUE(contains(outcome.errors, "--peer") ||
+        EXPECT_TRUE(contains(outcome.errors, "was heard within 0.05 s; wait longer (--timeout)") ||
                     contains(outcome.errors, "did not say who it is"))
             << outcome.errors;
     }
     const Outcome asJson =
         cortex(std::vector<std::string>{"list", "--json", "--timeout", "0.05"} + network);
     EXPECT_EQ(violationsOf("error", asJson.output), "");
+}
+
+TEST(CortexNetwork, ATimeWithAUnitIsAnsweredWithTheNumber) {
+    EXPECT_TRUE(contains(cortex({"list", "--timeout", "3s"}).errors,
+                         "'3s' is no number; write seconds as a number: 3"));
+    EXPECT_TRUE(contains(cortex({"top", "--rate", "5Hz"}).errors, "write it without a unit: 5"));
 }
 
 TEST(CortexNetwork, EndsWith2ForWrongUsage) {
@@ -229,7 +269,9 @@ TEST(CortexNetwork, EndsWith2ForWrongUsage) {
                                                       {"watch", "/arm", "--count", "0"},
                                                       {"events", "--severity", "bad"},
                                                       {"list", "--domain", "231"},
-                                                      {"list", "--timeout", "0"}};
+                                                      {"list", "--timeout", "0"},
+                                                      {"list", "--timeout", "nan"},
+                                                      {"list", "--timeout", "3s"}};
     for (const auto& arguments : wrong) {
         const Outcome outcome = cortex(arguments);
         EXPECT_EQ(outcome.exit, 2) << arguments.front() << outcome.errors;

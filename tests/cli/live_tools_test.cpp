@@ -166,6 +166,8 @@ TEST(CortexSave, BringsTextBackAsItWas) {
     ontology.insert(ontology.find(place), R"(
     <data name="label" kind="string" settable="always" description="What people call it."/>
     <data name="words" kind="string" length="2" settable="always" description="Two of them."/>
+    <data name="title" kind="string" capacity="16" settable="always" description="Short."/>
+    <data name="mode" kind="int" labels="0:Off 1:On" settable="always" description="Two."/>
     )");
     folder.write("robotics.xml", ontology);
     const Background agent{agentCommand((folder.path() / "mixer.xml").string())};
@@ -174,6 +176,12 @@ TEST(CortexSave, BringsTextBackAsItWas) {
     const std::string words = "\"a b\" c";
     ASSERT_EQ(live({"set", "/drive", "label=" + label, "words=" + words}).exit, 0);
 
+    EXPECT_TRUE(contains(live({"set", "/drive", "title=abcdefghijklmnopq"}).errors,
+                         "title: takes 16 bytes, and 17 are given"));
+    EXPECT_TRUE(contains(live({"set", "/drive", "mode=7"}).errors,
+                         "mode: 7 has no label; labels: 0:Off 1:On"));
+    EXPECT_TRUE(contains(live({"set", "/drive", "mode=Onn"}).errors,
+                         "mode: no label 'Onn'; nearest of: On; labels: 0:Off 1:On"));
     ASSERT_EQ(live({"save", file}).exit, 0);
     ASSERT_EQ(live({"set", "/drive", "label=other", "words=x y"}).exit, 0);
     ASSERT_EQ(live({"restore", file}).exit, 0);
@@ -204,23 +212,15 @@ TEST_F(CortexLive, ShowsTypesAndGraphAsFilesDo) {
 
 TEST(CortexGraph, JoinsWhatAgentsHaveOfEachOther) {
     const ModelFolder folder;
-    const auto systemOf = [&](const std::string& agent, const std::string& inside) {
-        return folder
-            .write(agent + ".xml", "<system name=\"" + agent +
-                                       "\"><morphology file=\"robotics-morphology.xml\"/>"
-                                       "<cluster name=\"" +
-                                       agent + "\" frequency=\"200\"/>" + inside + "</system>")
-            .string();
-    };
     std::optional<Background> front{
-        agentCommand(systemOf("front",
-                              "<simplex path=\"/front/lbr\" type=\"KukaLbr\"/>"
-                              "<simplex path=\"/front/gripper\" type=\"Robotiq2Finger\"/>"))};
+        agentCommand(systemFile(folder, "front",
+                                "<simplex path=\"/front/lbr\" type=\"KukaLbr\"/>"
+                                "<simplex path=\"/front/gripper\" type=\"Robotiq2Finger\"/>"))};
     const Background back{agentCommand(
-        systemOf("back",
-                 "<simplex path=\"/back/arm\" type=\"Arm\">"
-                 "<relate rule=\"manipulator\" to=\"/front/lbr\" remote=\"true\"/>"
-                 "<relate rule=\"gripper\" to=\"/front/gripper\" remote=\"true\"/></simplex>"))};
+        systemFile(folder, "back",
+                   "<simplex path=\"/back/arm\" type=\"Arm\">"
+                   "<relate rule=\"manipulator\" to=\"/front/lbr\" remote=\"true\"/>"
+                   "<relate rule=\"gripper\" to=\"/front/gripper\" remote=\"true\"/></simplex>"))};
     json graph;
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
     do {  // the second may not have begun
@@ -291,7 +291,7 @@ TEST(CortexDoctor, SaysThatNobodyIsThereAndGoesOn) {
     const Outcome outcome =
         cortex(std::vector<std::string>{"doctor", "--timeout", "0.05"} + network);
 
-    EXPECT_TRUE(contains(outcome.output, "no agent answers on domain " + domain)) << outcome.output;
+    EXPECT_TRUE(contains(outcome.output, "no agent on domain " + domain)) << outcome.output;
     EXPECT_NE(outcome.exit, 3);
 }
 

@@ -93,8 +93,10 @@ TEST(CortexNewType, OfAnAbstractParentSaysWhichUnitsAreStillToBeStated) {
 
     EXPECT_NE(open.output.find("version=\"1.0\" abstract=\"true\""), std::string::npos)
         << open.output;
-    EXPECT_NE(open.output.find("Units still open: acceleration, effort, position, velocity."),
-              std::string::npos)
+    EXPECT_NE(
+        open.output.find("Units still open: acceleration, armature, damping, effort, friction, "
+                         "position, velocity."),
+        std::string::npos)
         << open.output;
     EXPECT_EQ(fixed.output.find("abstract"), std::string::npos) << fixed.output;
 }

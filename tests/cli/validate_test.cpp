@@ -140,6 +140,19 @@ TEST(CortexValidate, LooksForThePathsOfAnotherAgentInTheOtherSystem) {
     EXPECT_TRUE(contains(other.output, "[arm.xml:69]")) << other.output;
 }
 
+TEST(CortexValidate, NotesWhatItCannotCheckOfASystemAlone) {
+    const Outcome alone =
+        cortex({"validate", (std::filesystem::path{example}.parent_path() / "robot.xml").string()});
+
+    EXPECT_EQ(alone.exit, 0) << alone.output;
+    const std::string note =
+        "note: /control/clutch: not checked: /handset/trigger of another agent";
+    EXPECT_TRUE(contains(alone.output, note)) << alone.output;
+    EXPECT_TRUE(contains(alone.output, "; add its system file")) << alone.output;
+    EXPECT_TRUE(contains(alone.output, " notes\n")) << alone.output;
+    EXPECT_FALSE(contains(alone.output, "warning")) << alone.output;
+}
+
 // As cortex-agent has it.
 TEST(CortexValidate, WantsOneClusterWithANameThatCanBeAPath) {
     const ModelFolder folder;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mutated samples, replayed against a live agent over real DDS: counted, and nothing else happens.
+#include "comms/mutated.hpp"
 #include "comms/network_agent.hpp"
 #include "comms/raw_dds.hpp"
 #include "wire/cdr.hpp"
@@ -30,37 +31,6 @@ template <class M>
 bool isMessage(const Octets& payload) {
     M message;
     return decode(payload, message);
-}
-
-// One to four changes: an octet, a number, an end, a repetition.
-Octets mutated(Octets payload, std::mt19937_64& random) {
-    const auto below = [&](std::size_t end) { return static_cast<std::size_t>(random() % end); };
-    for (std::size_t changes = 1 + below(4); changes > 0 && payload.size() > 8; --changes) {
-        const std::size_t place = below(payload.size());
-        const auto at = payload.begin() + static_cast<std::ptrdiff_t>(place);
-        switch (below(5)) {
-            case 0:
-                *at ^= static_cast<std::uint8_t>(1U << below(8));
-                break;
-            case 1:
-                *at = static_cast<std::uint8_t>(random());
-                break;
-            case 2:
-                std::fill(at,
-                          at + static_cast<std::ptrdiff_t>(
-                                   std::min<std::size_t>(4, payload.size() - place)),
-                          std::uint8_t{0xff});
-                break;
-            case 3:
-                payload.resize(place);
-                break;
-            default:
-                const Octets copy{at, at + static_cast<std::ptrdiff_t>(
-                                               std::min<std::size_t>(16, payload.size() - place))};
-                payload.insert(at, copy.begin(), copy.end());
-        }
-    }
-    return payload;
 }
 
 // "near" links /far of "away", which a tool listens to; the mutants are of what was heard.

@@ -72,11 +72,28 @@ TEST_F(AgentPeersTest, AStartThatIsSilentWhileAnotherSpeaksLeavesItsName) {
     EXPECT_EQ(peer().epoch(), first + 1);
 }
 
-TEST_F(AgentPeersTest, AStartThatSaysGoodbyeLeavesItsNameAtOnce) {
+TEST_F(AgentPeersTest, AStartThatSaysGoodbyeLeavesItsNameWhenItSaysNothingMore) {
     tell(first, 0);
     hear(first, millisecond, "stopping");
     hear(first - 1, 2 * millisecond);
+    EXPECT_EQ(peer().epoch(), first);
+
+    peers.expire(301 * millisecond);
+    EXPECT_EQ(lost, std::vector{first});
+    hear(first - 1, 302 * millisecond);
     EXPECT_EQ(peer().epoch(), first - 1);
+}
+
+TEST_F(AgentPeersTest, AGoodbyeThatSomebodyElseSaysEndsNobody) {
+    tell(first, 0);
+    for (int tenth = 1; tenth <= 20; ++tenth) {
+        hear(first, tenth * 100 * millisecond - 50 * millisecond,
+             tenth % 2 == 0 ? "stopping" : "silent");
+        peers.expire(tenth * 100 * millisecond - millisecond);
+        hear(first, tenth * 100 * millisecond);
+    }
+    EXPECT_TRUE(lost.empty());
+    EXPECT_TRUE(peer().heard);
 }
 
 TEST_F(AgentPeersTest, AnAgentIsKnownOnceAllOfItsModelIsThere) {

@@ -95,14 +95,14 @@ TEST_F(AgentStreamsTest, SendEveryCycleInOrderToWhoAsksForEveryCycle) {
 TEST_F(AgentStreamsTest, ShowAsAGapInTheCyclesWhatTheyLeftOut) {
     view(0, topics::viewEvery);
     const std::size_t before = blocks.elements().size();
-    MirrorTables tables{thread.structure, Id{}, true};
-    tables.apply(blocks.elements().back(), Moment{});
+    MirrorTables tables{thread.structure, Id{}, viewOf({{{"/"}, 0}})};
+    tables.apply(blocks.elements().back(), 0, Moment{});
     rig.step(500);
     send();
 
     const std::vector<Block> came = blocksFrom(before, rig.tick.cycle);
 
-    for (const Block& each : came) ASSERT_TRUE(tables.apply(each, Moment{}));
+    for (const Block& each : came) ASSERT_TRUE(tables.apply(each, 0, Moment{}));
     EXPECT_GT(came.size(), 16U);
     EXPECT_EQ(came.size() + tables.loss(), 500U) << "each came or is counted";
     EXPECT_EQ(tables.newest().cycle(), rig.tick.cycle);

@@ -299,6 +299,21 @@ TEST_F(FilterTest, NobodyAcknowledgesMoreThanWasWritten) {
     EXPECT_EQ(refusal(header() + other + ackNack(44)), Refusal::None);
 }
 
+TEST_F(FilterTest, WhatItSaidItselfOfItsEndpointsComesBackAndIsNotCounted) {
+    Datagram front = header();
+    std::ranges::copy(us, front.begin() + 8);
+    const Datagram endpoint = Datagram(us.begin(), us.end()) + Datagram{0, 0, 1, 3};
+    const Datagram announced = data(1, rtps::announcesWriters, 4,
+                                    Datagram{0, 3, 0, 0} + parameter(0x5a, endpoint) + endOfList);
+    Datagram said = front + announced;
+    EXPECT_EQ(refusal(said), Refusal::Parameters) << "it has not said that yet";
+
+    filter.noteSent(said, now);
+    EXPECT_EQ(filter.admit(said, address, now).left, 0U) << "Fast DDS would keep it for ever";
+    EXPECT_EQ(filter.dropped(), 1U) << "only what it has not said";
+    EXPECT_EQ(refusal(header() + announced), Refusal::Parameters) << "another says it";
+}
+
 TEST_F(FilterTest, WhatIsSignedAddsUpAndIsNotChanged) {
     const Datagram prefix = submessage(0x33, 0, Datagram(20)),
                    body = submessage(0x30, 0, Datagram(8));

@@ -248,6 +248,23 @@ TEST(PiecesTest, ASampleThatIsCutArrivesAsItWas) {
     EXPECT_EQ(rtps::piecesOf(all, 0x203).size(), 2U) << "of another writer";
 }
 
+// The transport of Fast DDS writes statistics into the last bytes of whatever looks like them.
+TEST(PiecesTest, EachPieceEndsWithTheStatisticsOfTheWhole) {
+    const Datagram statistics = submessage(0x80, 0, Datagram(56, 7));
+    const Datagram longOne = data(1, anyWriter, 4, Datagram(3'000));
+    Datagram two = header() + longOne + heartbeat(1, 1) + statistics;
+    EXPECT_EQ(rtps::piecesOf(two), (std::vector{header() + longOne + statistics,
+                                                header() + heartbeat(1, 1) + statistics}));
+    const auto cut = rtps::piecesOf(two, anyWriter);
+    ASSERT_EQ(cut.size(), 3U);
+    for (const Datagram& piece : cut) {
+        EXPECT_LE(piece.size(), rtps::onePacket);
+        EXPECT_TRUE(std::equal(statistics.rbegin(), statistics.rend(), piece.rbegin()));
+    }
+    Datagram one = header() + longOne + statistics;
+    EXPECT_TRUE(rtps::piecesOf(one).empty()) << "what has one part beside them is sent as it is";
+}
+
 TEST(PiecesTest, WhatIsShortOneOrSignedStaysAsItIs) {
     const Datagram time = submessage(0x09, 0, Datagram(8));
     const Datagram longOne = data(1, anyWriter, 4, Datagram(3'000));

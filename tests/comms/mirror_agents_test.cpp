@@ -17,7 +17,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const MirrorView everything{{"/"}, 30};
+const MirrorView everything = viewOf({{{"/"}, 30}});
+constexpr std::size_t at30 = 2;  // stream
 const MirrorView nothing{};
 const Moment begin{1h};
 
@@ -62,6 +63,7 @@ TEST_F(MirrorAgentsTest, KnowFromEachAgentHowManyThereAre) {
     agent.presence.extras = {{agentsHeard, "2"}};
     tellAll();
     agents.withdraw(agent.presence.agent);
+    agents.tick(nothing, begin + 301ms);
     EXPECT_EQ(agents.unheard(), 0U) << "what is lost says nothing";
     agent.presence.extras = {{agentsHeard, "x"}};
     tellAll();
@@ -89,7 +91,7 @@ TEST_F(MirrorAgentsTest, KeepTheirLastValuesWhenTheyAreLost) {
     agents.tick(everything, begin);
     agent.worker->data<double>("gain") = 7.0;
     agent.rig.step();
-    agents.take(agent.block(1), everything, begin);
+    agents.take(agent.block(1), at30, begin);
     const std::uint32_t worker = agents.find("rig")->structure->find("/work/one");
     EXPECT_FALSE(agents.find("rig")->image().lost());
 
@@ -106,7 +108,7 @@ TEST_F(MirrorAgentsTest, KeepTheirLastValuesWhenTheyAreLost) {
 TEST_F(MirrorAgentsTest, KeepTheirLastValuesAlsoWhenTheyWereNotViewedAnyLonger) {
     tellAll();
     agents.tick(everything, begin);
-    agents.take(agent.block(1), everything, begin);
+    agents.take(agent.block(1), at30, begin);
     const std::uint32_t worker = agents.find("rig")->structure->find("/work/one");
 
     agents.view(nothing);
@@ -140,17 +142,34 @@ TEST_F(MirrorAgentsTest, AreBackWithTheirModelAfterTheyWereForgotten) {
     EXPECT_TRUE(agents.find("rig")->structure);
 }
 
-TEST_F(MirrorAgentsTest, AreLostAtOnceWhenTheySayGoodbye) {
+TEST_F(MirrorAgentsTest, AreLostSoonAfterTheySayGoodbye) {
     tellAll();
     agents.withdraw(agentId("rig"));
+    agents.tick(nothing, begin + 301ms);
     EXPECT_EQ(status().state, "lost");
 
-    agents.take(agent.presence, begin);
+    agents.take(agent.presence, begin + 1s);
     Presence last = agent.presence;
     last.state = "stopping";
-    agents.take(last, begin);
+    agents.take(last, begin + 1s);
+    agents.tick(nothing, begin + 1301ms);
     EXPECT_EQ(status().state, "lost");
     EXPECT_EQ(lost.size(), 2U);
+}
+
+TEST_F(MirrorAgentsTest, StayWhenOthersSayGoodbyeInTheirName) {
+    tellAll();
+    Presence forged = agent.presence;
+    forged.state = "stopping";
+    for (int tenth = 1; tenth <= 20; ++tenth) {
+        const Moment now = begin + tenth * 100ms;
+        agents.take(forged, now - 50ms);
+        agents.withdraw(agentId("rig"));
+        agents.tick(nothing, now - 1ms);
+        agents.take(agent.presence, now);
+        EXPECT_EQ(status(now).state, "running");
+    }
+    EXPECT_TRUE(lost.empty());
 }
 
 TEST_F(MirrorAgentsTest, AreReplacedByAnotherStartOnlyWhenTheyAreSilent) {
@@ -246,7 +265,7 @@ TEST_F(MirrorAgentsTest, ValuesOfALoopThatStandsStillAreAsOldAsItsLastCycle) {
     agent.presence.extras = {{ageOfLoop, "3000000000"}};
     tellAll();
     agents.tick(everything, begin);
-    agents.take(again, everything, begin);
+    agents.take(again, at30, begin);
     MirrorTables& tables = *agents.find("rig")->tables;
     const std::uint32_t worker = tables.structure().find("/work/one");
 
@@ -258,13 +277,13 @@ TEST_F(MirrorAgentsTest, HaveTablesOnceTheyAreViewedAndImagesWhileTheyAre) {
     tellAll();
     agents.tick(nothing, begin);
     EXPECT_FALSE(agents.find("rig")->tables);
-    agents.tick({{"/elsewhere"}, 5}, begin);
+    agents.tick(viewOf({{{"/elsewhere"}, 5}}), begin);
     EXPECT_FALSE(agents.find("rig")->tables);
 
     agents.tick(everything, begin);
     ASSERT_TRUE(agents.find("rig")->tables);
     EXPECT_FALSE(agents.valuesComplete(everything));
-    agents.take(agent.block(1), everything, begin);
+    agents.take(agent.block(1), at30, begin);
     EXPECT_TRUE(agents.valuesComplete(everything));
 
     EXPECT_TRUE(agents.find("rig")->image());
@@ -318,6 +337,7 @@ TEST_F(MirrorAgentsTest, KnowWhetherThePastOfEachAgentHasCome) {
     tellAll();
     EXPECT_FALSE(agents.eventsComplete());
     agents.withdraw(agent.presence.agent);
+    agents.tick(nothing, begin + 301ms);
     EXPECT_TRUE(agents.eventsComplete()) << "what is lost says nothing";
 }
 

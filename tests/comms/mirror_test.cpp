@@ -261,7 +261,7 @@ TEST(Mirror, SubscribesNothingThatIsNotAskedFor) {
 
     mirror.view({"/arm"}, 30);
     EXPECT_TRUE(comesTrue([&] { return blocks->readers() == 1; }));
-    mirror.view({});
+    mirror.view(std::vector<Viewed>{});
     EXPECT_TRUE(comesTrue([&] { return blocks->readers() == 0; }));
     mirror.onEvent([](const AgentEvent&) {});
     EXPECT_TRUE(comesTrue([&] { return events->readers() == 1; }));
@@ -287,6 +287,37 @@ TEST(Mirror, CallsCommandsAndSaysWhatCameOfThem) {
     EXPECT_EQ(answer.outcome, Outcome::Done) << answer.text();
     agent->change([&] { EXPECT_EQ(double{arm(*agent).data<double>("gain")}, 4.0); });
     EXPECT_TRUE(agent->rig.hasEvent(mirror.name())) << "the agent says who commanded";
+}
+
+// What takes time are endpoints that find each other. Here they all have, before the command.
+TEST(Mirror, PreparesCommandsWithEachAgentBeforeTheFirstOne) {
+    const auto agent = robot();
+    agent->run();
+    Participant other{loopback(), "other"};
+    std::vector<std::unique_ptr<Reader<Answer>>> readers;
+    for (const char digit : std::string{"0123456789abcdef"}) {
+        readers.push_back(other.reader<Answer>(
+            {"cortex/1/answer/" + std::string{digit}, Qos::Exchange}, [](Answer&&) {}));
+    }
+    const auto writers = [&] {
+        std::uint32_t count = 0;
+        for (const auto& each : readers) count += each->writers();
+        return count;
+    };
+    const auto commands = other.reader<Command>(topics::command, [](Command&&) {});
+    Mirror looks{"test", loopback()};
+    looks.view({"/"}, 30);
+    ASSERT_TRUE(looks.waitUntilComplete(longEnough));
+    ASSERT_TRUE(looks.waitForValues(longEnough));
+    EXPECT_EQ(writers(), 0U) << "one that only looks costs no answers";
+    Mirror mirror{"test", loopback()};
+
+    mirror.prepareCommands();
+
+    EXPECT_TRUE(comesTrue([&] { return writers() == 1 && commands->writers() == 1; }));
+    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    EXPECT_EQ(mirror.call("/arm", "poke", {}, 10s).outcome, Outcome::Failed);
+    EXPECT_EQ(writers(), 1U);
 }
 
 TEST(Mirror, NamesTheNearestPathOfAnUnknownOne) {
@@ -411,6 +442,7 @@ TEST(Mirror, SurvivesWhatNoAgentWouldSay) {
         return mirror.refused() >= refused + 3;
     }));
     EXPECT_EQ(statusOf(mirror, "robot").state, "running");
+    EXPECT_TRUE(mirror.refusals().empty()) << "its gate let all of them in, and it did not believe";
 }
 
 TEST(Mirror, HasANameOfItsOwnForEveryInstance) {

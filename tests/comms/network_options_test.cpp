@@ -39,7 +39,7 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 // As /proc/net/udp of a machine with one participant of domain 0 on each of these addresses.
-bool onlyLoopbackAmong(int domain, const std::string& addresses) {
+OnLoopback loopbackAmong(int domain, const std::string& addresses) {
     const std::string file = testing::TempDir() + "cortex-udp-" + std::to_string(::getpid());
     {
         std::ofstream out{file};
@@ -47,18 +47,23 @@ bool onlyLoopbackAmong(int domain, const std::string& addresses) {
         std::istringstream words{addresses};
         for (std::string each; words >> each;) out << "  26: " << each << " 00000000:0000 07 0:0\n";
     }
-    const bool only = onlyOnLoopback(domain, file);
+    const OnLoopback found = onLoopback(domain, file);
     std::remove(file.c_str());
-    return only;
+    return found;
 }
 
-TEST(NetworkOptions, KnowWhetherAllParticipantsOfADomainKeepToTheLoopbackInterface) {
+TEST(NetworkOptions, KnowHowManyParticipantsOfADomainKeepToTheLoopbackInterface) {
     const std::string agent = "0100007F:1CF2 0100007F:1CF3 ";  // 127.0.0.1:7410, 7411
-    EXPECT_TRUE(onlyLoopbackAmong(0, agent));
-    EXPECT_FALSE(onlyLoopbackAmong(0, "")) << "nobody is there";
-    EXPECT_FALSE(onlyLoopbackAmong(0, agent + "00000000:1CF4")) << "one uses all interfaces";
-    EXPECT_TRUE(onlyLoopbackAmong(0, agent + "00000000:0035 0200000A:BEEF")) << "no participants";
-    EXPECT_FALSE(onlyLoopbackAmong(1, agent)) << "those of domain 0 do not count";
+    const std::string all = "00000000:1CF4 00000000:1CF5 ";
+    EXPECT_EQ(loopbackAmong(0, agent), OnLoopback::All);
+    EXPECT_EQ(loopbackAmong(0, ""), OnLoopback::None) << "nobody is there";
+    EXPECT_EQ(loopbackAmong(0, agent + all), OnLoopback::Some) << "one uses all";
+    EXPECT_EQ(loopbackAmong(0, all), OnLoopback::None);
+    EXPECT_EQ(loopbackAmong(0, "0100007F:1CF4 0100007F:1CF9"), OnLoopback::None)
+        << "single ports are of who sends";
+    EXPECT_EQ(loopbackAmong(0, agent + "00000000:0035 0200000A:BEEF"), OnLoopback::All)
+        << "no participants";
+    EXPECT_EQ(loopbackAmong(1, agent), OnLoopback::None) << "those of domain 0 do not count";
 }
 
 TEST(NetworkOptions, RefusesUnknownInterfacesAndListsThoseThatThereAre) {

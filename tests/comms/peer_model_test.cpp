@@ -8,6 +8,8 @@
 #include "wire/named_values.hpp"
 #include "wire/type_messages.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace cortex::comms {
@@ -101,6 +103,28 @@ TEST(PeerModel, CountsWhatIsMissingUntilAllIsThere) {
         EXPECT_EQ(peer.missing(), missing);
     }
     EXPECT_TRUE(peer.complete());
+}
+
+TEST(PeerModel, NamesTypesThatWereNamedAndHaveNotCome) {
+    const ToldAgent agent;
+    PeerModel peer = peerOf(agent);
+    peer.add(agent.presence);
+    EXPECT_EQ(peer.missingTypes(), agent.presence.types);
+    EXPECT_EQ(peer.missingNames(), std::vector<std::string>{}) << "nothing names one yet";
+    for (const Model& model : agent.models) {
+        if (!model.simplexes.empty()) peer.add(model);
+    }
+    const auto names = peer.missingNames();
+    EXPECT_FALSE(names.empty());
+    EXPECT_LE(names.size(), PeerModel::mostNames);
+    for (const std::string& each : names) {
+        EXPECT_TRUE(std::ranges::any_of(agent.models, [&](const Model& model) {
+            return std::ranges::find(model.types, each, &TypeMessage::name) != model.types.end();
+        })) << each;
+    }
+    for (const Model& model : agent.models) peer.add(model);
+    EXPECT_EQ(peer.missingNames(), std::vector<std::string>{});
+    EXPECT_EQ(peer.missingTypes(), 0U);
 }
 
 TEST(PeerModel, IsIncompleteWhileAHashDiffers) {
@@ -224,7 +248,7 @@ TEST(PeerModel, FindsWhatASimplexSaysThatItsTypeDoesNotAllow) {
 }
 
 TEST(TypeMessages, CarryEveryShippedTypeUnchanged) {
-    const TypeModel model = TypeModel::load(CORTEX_SOURCE_DIR "/ontology/robotics-morphology.xml");
+    const TypeModel model = TypeModel::load(CORTEX_SOURCE_DIR "/ontology/cortex-morphology.xml");
     std::vector<TypeDescription> received;
     for (const auto& [name, type] : model.types()) {
         received.push_back(typeDescription(typeMessage(describe(type))));

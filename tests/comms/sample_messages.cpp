@@ -221,6 +221,23 @@ Sample<Block> sample() {
 }
 
 template <>
+Sample<Summary> sample() {
+    return {.message = {.agent = idFrom(0),
+                        .epoch = 1,
+                        .structureHash = idFrom(0x20),
+                        .cycle = 3,
+                        .marks = {0x0c, 0x36, 0x03},
+                        .extras = {}},
+            .layout = R"(
+                00 01 02 03 04 05 06 07 08 09 0a 0b 0c 0d 0e 0f
+                8:1
+                20 21 22 23 24 25 26 27 28 29 2a 2b 2c 2d 2e 2f
+                8:3
+                4:3 0c 36 03
+                00 4:0)"};
+}
+
+template <>
 Sample<Command> sample() {
     return {.message = {.link = idFrom(0),
                         .sender = "s",

@@ -12,6 +12,8 @@
 
 #include <functional>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 namespace cortex::comms {
@@ -52,6 +54,27 @@ TEST(SecurityFolder, KeysAreForTheirOwnerAlone) {
         EXPECT_EQ(fs::status(key).permissions(), fs::perms::owner_read | fs::perms::owner_write);
     }
     EXPECT_EQ(fs::status(agent).permissions(), fs::perms::owner_all);
+}
+
+TEST(SecurityFolder, ThatSomebodyElseCanChangeIsRefused) {
+    const SecuredPlant plant;
+    const fs::path robot = plant.make("robot"), gripper = plant.make("gripper"),
+                   camera = plant.make("camera");
+    fs::permissions(robot / files::permissionsAuthority, fs::perms::group_write,
+                    fs::perm_options::add);
+    fs::permissions(gripper, fs::perms::others_write, fs::perm_options::add);
+
+    EXPECT_TRUE(contains(errorOf([&] { checkSecurity(robot); }),
+                         "permissions_ca.pem can be written by others: they could change whom this "
+                         "agent trusts; chmod go-w "));
+    EXPECT_TRUE(contains(errorOf([&] { checkSecurity(gripper); }), "chmod go-w "));
+    EXPECT_EQ(errorOf([&] { checkSecurity(camera); }), "");
+    fs::permissions(plant.authority(), fs::perms::others_write, fs::perm_options::add);
+    EXPECT_TRUE(contains(errorOf([&] { plant.make("arm"); }), "can be written by others"));
+    if (geteuid() != 0) GTEST_SKIP() << "only root gives files away";
+    ASSERT_EQ(chown((camera / files::commands).c_str(), 12345, 12345), 0);
+    EXPECT_TRUE(contains(errorOf([&] { checkSecurity(camera); }),
+                         "commands.smime belongs to user 12345, and this program runs as user 0"));
 }
 
 TEST(SecurityFolder, IsNeverOverwritten) {

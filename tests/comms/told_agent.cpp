@@ -2,6 +2,7 @@
 #include "told_agent.hpp"
 
 #include "wire/ids.hpp"
+#include "wire/simplex_marks.hpp"
 #include "wire/simplex_values.hpp"
 
 #include <ranges>
@@ -70,6 +71,20 @@ Block ToldAgent::block(std::uint64_t sequenceNumber) const {
         readValues(i, *structure().simplexes[i].layout, image.slice(i), block.simplexes.back());
     }
     return block;
+}
+
+Summary ToldAgent::summary() const {
+    const Image image = rig.agent->images().newest();
+    Summary summary;
+    summary.agent = agentId(name());
+    summary.epoch = epoch();
+    summary.structureHash = presence.structureHash;
+    summary.cycle = image.cycle();
+    const SimplexMarks marks{structure()};
+    for (std::uint32_t i = 0; i < presence.simplexes; ++i) {
+        summary.marks.push_back(octetOf(marks.of(i, image.slice(i))));
+    }
+    return summary;
 }
 
 void tell(const ToldAgent& agent, PeerModel& peer) {

@@ -26,6 +26,7 @@ public:
     void lie(const std::string& type, const std::function<void(TypeMessage&)>& change);
     // All own simplexes, as they are now.
     Block block(std::uint64_t sequenceNumber) const;
+    Summary summary() const;
 
     test::AgentRig rig;
     test::Hand* worker = nullptr;

@@ -243,7 +243,7 @@ TEST(CanonicalText, HashIsTheBeginningOfSha256) {
 // The shipped ontology's hashes change only on purpose: then take over the file that this test
 // writes.
 TEST(ShippedOntology, HasTheCommittedHashes) {
-    const TypeModel types = TypeModel::load(CORTEX_SOURCE_DIR "/ontology/robotics-morphology.xml");
+    const TypeModel types = TypeModel::load(CORTEX_SOURCE_DIR "/ontology/cortex-morphology.xml");
     std::string now;
     for (const auto& [name, each] : types.types()) now += toHex(typeHash(each)) + " " + name + "\n";
     const std::string written = CORTEX_BINARY_DIR "/ontology-hashes.txt";

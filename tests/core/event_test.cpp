@@ -219,6 +219,49 @@ TEST_F(EventFoldTest, NeverFoldsFaultsErrorsStatesAndCommands) {
     EXPECT_EQ(told.size(), 10U);
 }
 
+TEST_F(EventFoldTest, TellsARunOfCommandsOnceASecondWithTheNewestArguments) {
+    const auto done = [](const std::string& text) {
+        return event(text.c_str(), EventKind::Command, Severity::Info);
+    };
+    for (int i = 0; i < 30; ++i) {  // three seconds of jog at 10 Hz, and a slider
+        const std::int64_t now = i * second / 10;
+        const std::string speed = i % 2 == 0 ? "-1.5e-05" : "2";
+        fold.take(done("desk: jog(speed=" + speed + "): Done in the same cycle"), now);
+        fold.take(done("desk: set(gain=" + std::to_string(i) + ", on=true): Done in 2 cycles"),
+                  now);
+    }
+    fold.take(done("desk: set(title=\"new\"): Done in 1 cycle"), 3 * second - 1);
+    fold.pass(3 * second);
+
+    ASSERT_EQ(told.size(), 8U);
+    EXPECT_EQ(told[0], "desk: jog(speed=-1.5e-05): Done in the same cycle");
+    EXPECT_EQ(told[1], "desk: set(gain=0, on=true): Done in 2 cycles");
+    EXPECT_EQ(told[2], "9 times within a second: desk: jog(speed=2): Done in the same cycle");
+    EXPECT_EQ(told.back(), "11 times within a second: desk: set(title=\"new\"): Done in 1 cycle");
+}
+
+TEST_F(EventFoldTest, KeepsApartCommandsOfOtherSendersPathsNamesAndTexts) {
+    for (const char* text :
+         {"desk: jog(speed=1): Done in 1 cycle", "hall: jog(speed=1): Done in 1 cycle",
+          "desk for ann: jog(speed=1): Done in 1 cycle", "desk: halt(): Done in 1 cycle",
+          "desk: take(prefix=\"/arm\"): Done in 1 cycle",
+          "desk: take(prefix=\"/hand\"): Done in 1 cycle"}) {
+        Event here = event(text, EventKind::Command, Severity::Info);
+        fold.take(here, 0);
+        here.simplex = 3;
+        fold.take(here, 0);
+    }
+
+    EXPECT_EQ(told.size(), 12U);
+}
+
+TEST_F(EventFoldTest, TellsEachCommandThatFailsOrIsRefused) {
+    for (int i = 0; i < 5; ++i) {
+        fold.take(event("desk: jog(speed=1): Failed, it hurts in 1 cycle", EventKind::Command), i);
+    }
+    EXPECT_EQ(told.size(), 5U);
+}
+
 TEST_F(EventFoldTest, KeepsApartWhatDiffersInPathSeverityOrWords) {
     fold.take(event("over"), 0);
     fold.take(event("under"), 0);
@@ -370,6 +413,15 @@ TEST(EventText, IsBuiltFromWordsAndNumbers) {
     EXPECT_EQ(text.view(), "clamped to 2.5 of -3");
 }
 
+TEST(EventText, HasNumbersOfSixDigitsOrWholeOrAsManyAsTellTwoApart) {
+    EventText text;
+    text << 0.1 + 0.2 << " " << 1.0 / 3 << " " << 1234567.0 << " ";
+    text.apart(1.0000001, 1) << " ";
+    text.apart(1.0000001, 2);
+
+    EXPECT_EQ(text.view(), "0.3 0.333333 1234567 1.0000001 1");
+}
+
 TEST(EventText, IsCutAtACharacter) {
     EventText text;
     for (int i = 0; i < 149; ++i) text << "a";
@@ -402,9 +454,9 @@ TEST(LineOf, NamesTheAgentWhereNoSimplexIsMeant) {
 
 TEST(LineOf, StaysOneLine) {
     Event event;
-    event.text = "a\nb\tc\x7f";
+    event.text = "a\nb\tc\x7f\xff";
     EXPECT_EQ(lineOf(event, *test::makePlant().structure, 0),
-              "1970-01-01T00:00:00.000Z info /robot a?b?c?");
+              "1970-01-01T00:00:00.000Z info /robot a\\x0ab\\x09c\\x7f\\xff");
 }
 
 struct CommaNumbers : std::numpunct<char> {

@@ -79,13 +79,35 @@ TEST(ClassRegistry, TakesOneClassForAType) {
     EXPECT_THROW(registry.add<Valve>("Valve"), Error);
 }
 
+TEST(ClassRegistry, GivesATypeWithoutAClassTheOneOfItsNearestAncestor) {
+    const test::ModelFolder folder;
+    const TypeModel types = TypeModel::load(folder.write("gates.xml", R"(<ontology name="gates">
+        <type name="Valve" role="active"/> <type name="Gate" extends="Valve"/>
+        <type name="WideGate" extends="Gate"/> <type name="Meter" role="active"/>
+        <type name="Late" extends="Valve WideGate"/> <type name="Both" extends="WideGate Meter"/>
+        </ontology>)"));
+    using Names = std::vector<std::string>;
+    ClassRegistry registry;
+    EXPECT_EQ(registry.classesFor(types.at("WideGate"), types), Names{});
+    registry.add<Valve>("Valve");
+    EXPECT_EQ(registry.classesFor(types.at("WideGate"), types), Names{"Valve"});
+    registry.add<Valve>("Gate");
+
+    EXPECT_EQ(registry.classesFor(types.at("Gate"), types), Names{"Gate"});
+    EXPECT_EQ(registry.classesFor(types.at("Late"), types), Names{"Gate"})
+        << "that of Valve is older";
+    EXPECT_EQ(registry.classesFor(types.at("Meter"), types), Names{});
+    registry.add<Valve>("Meter");
+    EXPECT_EQ(registry.classesFor(types.at("Both"), types), (Names{"Gate", "Meter"}));
+}
+
 TEST(ClassRegistry, LoadsAPluginAndItsClassesWork) {
     ClassRegistry registry;
     SimplexTree tree{pumps()};
 
     registry.loadPlugin(plugin("good"), tree.types());
 
-    EXPECT_EQ(registry.names(), std::vector<std::string>{"Pump"});
+    EXPECT_EQ(registry.names(), (std::vector<std::string>{"Pump", "Turbine"}));
     const auto pump = (*registry.find("Pump"))({"/pump", tree.types().find("Pump")});
     EXPECT_EQ(pump->type().name, "Pump");
 }
@@ -101,11 +123,24 @@ TEST(ClassRegistry, StatesTheHashOfTheTypeThatThePluginWasMadeFor) {
 }
 
 TEST(ClassRegistry, RefusesAnotherAbiCompilerOrLibrary) {
-    EXPECT_TRUE(contains(refusal("wrong-abi"), "has plug-in ABI 999, this program has 2"));
+    EXPECT_TRUE(contains(refusal("wrong-abi"), "has plug-in ABI 999, this program has 3"));
     EXPECT_TRUE(contains(refusal("wrong-compiler"), "built with compiler 'another compiler 1.0'"));
     EXPECT_TRUE(contains(refusal("wrong-compiler"), compilerOfThisBuild()));
     EXPECT_TRUE(contains(refusal("wrong-library"), "built with 'another library'"));
     EXPECT_TRUE(contains(refusal("wrong-library"), standardLibraryOfThisBuild()));
+}
+
+TEST(ClassRegistry, RefusesAPluginThatWasBuiltAgainstOtherHeaders) {
+    const std::string why = refusal("wrong-headers");
+
+    EXPECT_TRUE(contains(why, "was built against other headers of cortex (0123456789abcdef)"));
+    EXPECT_TRUE(contains(why, headersOfThisBuild())) << why;
+    EXPECT_TRUE(contains(why, "build it anew against the installed headers")) << why;
+}
+
+TEST(ClassRegistry, RefusesAPluginThatStatesATypeAndRegistersNoClassForIt) {
+    EXPECT_TRUE(contains(refusal("unregistered"),
+                         "states type Turbine in CORTEX_PLUGIN, but registers no class for it"));
 }
 
 TEST(ClassRegistry, RefusesWhatIsNoPlugin) {

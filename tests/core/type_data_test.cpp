@@ -128,7 +128,7 @@ TEST(DataItem, HasADefaultOfItsKindAndRange) {
 TEST(DataItem, HasASafeValueOfItsKindAndRange) {
     EXPECT_TRUE(finds(item("kind='float' safe='none'"), "safe-kind", "A", 2));
     EXPECT_TRUE(
-        finds(item("kind='float' max='1' safe='2'"), "safe-range", "A", 2, "write safe=\"0\""));
+        finds(item("kind='float' max='1' safe='2'"), "safe-range", "A", 2, "safe for the plant"));
     EXPECT_EQ(item("kind='float' safe='observed'").data("A", "x").safe.kind, Safe::Kind::Observed);
     EXPECT_EQ(item("kind='bool' safe='hold'").data("A", "x").safe.kind, Safe::Kind::Hold);
 }

@@ -129,7 +129,7 @@ TEST_P(ShippedTypes, AreToldWhole) {
 
 INSTANTIATE_TEST_SUITE_P(Files, ShippedTypes,
                          testing::Values("ontology/base-morphology.xml",
-                                         "ontology/robotics-morphology.xml",
+                                         "ontology/cortex-morphology.xml",
                                          "tests/data/command-rules.xml", "tests/data/cs-rules.xml",
                                          "tests/data/determinism-rules.xml",
                                          "tests/data/schema/valid/morphology.xml"));
@@ -410,7 +410,7 @@ TEST(TypeDescription, ClosureHasAncestorsTargetsAndWhatIsCreated) {
 
 TEST(TypeDescription, ClosureOfAnyShippedTypeIsToldWithoutTheOthers) {
     const TypeModel model = TypeModel::load(std::filesystem::path{CORTEX_SOURCE_DIR} /
-                                            "ontology/robotics-morphology.xml");
+                                            "ontology/cortex-morphology.xml");
     for (const auto& [name, type] : model.types()) {
         std::vector<TypeDescription> described;
         for (const Type* each : closureOf(model, std::span{&name, 1})) {

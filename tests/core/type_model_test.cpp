@@ -66,7 +66,7 @@ TEST(TypeModel, LoadThrowsAllFindingsAtOnce) {
 }
 
 TEST(TypeModel, LoadReadsTheShippedFiles) {
-    const TypeModel model = TypeModel::load(CORTEX_SOURCE_DIR "/ontology/robotics-morphology.xml");
+    const TypeModel model = TypeModel::load(CORTEX_SOURCE_DIR "/ontology/cortex-morphology.xml");
     EXPECT_TRUE(model.isA("Robotiq2Finger", "Gripper"));
     EXPECT_TRUE(model.isA("Robotiq2Finger", "OneDofManipulator"));
     EXPECT_TRUE(model.declarations().contains("Active"));

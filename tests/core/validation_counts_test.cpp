@@ -100,6 +100,10 @@ TEST(Validation, WantsAsManyUnderARuleAsUnderTheOneThatItGoesBy) {
         only(checkSmall(simplex("/m", "Mover", seen + relate("moved", "/c")) + lifts));
     const auto equal = checkSmall(
         simplex("/m", "Mover", seen + relate("moved", "/c") + relate("moved", "/d")) + lifts);
+    const auto more = only(
+        checkSmall(simplex("/m", "Mover",
+                           relate("seen", "/a") + relate("moved", "/c") + relate("moved", "/d")) +
+                   lifts));
     const auto none = checkSmall(simplex("/m", "Mover", seen) + lifts);
 
     EXPECT_EQ(fewer.rule, "count-unequal");
@@ -108,6 +112,12 @@ TEST(Validation, WantsAsManyUnderARuleAsUnderTheOneThatItGoesBy) {
               "rule 'moved' (small-morphology.xml:49) has 1, rule 'seen' has 2: there must be one "
               "for each, in the same order");
     EXPECT_TRUE(fewer.remedy.starts_with("relate one with <relate rule=\"moved\" to=\"/"));
+    EXPECT_FALSE(contains(fewer.remedy, "remote")) << "an output: " << fewer.remedy;
+    EXPECT_EQ(more.rule, "count-unequal");
+    EXPECT_TRUE(contains(more.remedy,
+                         "; if another agent has it, <relate rule=\"seen\" to=\"…\" "
+                         "remote=\"true\"/>"))
+        << more.remedy;
     EXPECT_TRUE(equal.report.ok()) << equal.report.text();
     EXPECT_TRUE(none.report.ok()) << none.report.text();
 }

@@ -104,6 +104,16 @@ TEST(Validation, FindsAnUnknownTarget) {
     EXPECT_EQ(input.remedy,
               "write <relate rule=\"axes\" to=\"/axis\"/>; if another agent has it, "
               "<relate rule=\"axes\" to=\"/axsi\" remote=\"true\"/>");
+    const std::string far =
+        checkSmall(simplex("/c", "Controller",
+                           relate("axes", "/elsewhere/of/9") + relate("demands", "/own")) +
+                   simplex("/own", "Axis"))
+            .report.text();
+    EXPECT_TRUE(contains(far,
+                         "if another agent has it, write <relate rule=\"axes\" "
+                         "to=\"/elsewhere/of/9\" remote=\"true\"/>; if this one should, add a "
+                         "simplex with this path"))
+        << "never what it writes itself: " << far;
     EXPECT_EQ(output.rule, "unknown-path");
     EXPECT_EQ(output.remedy, "write <relate rule=\"lamps\" to=\"/lamps\"/>");
 }
@@ -190,7 +200,7 @@ INSTANTIATE_TEST_SUITE_P(
         SettingCase{"position", "3.5", "setting-range", "<set data=\"position\" value=\"3\"/>"},
         SettingCase{"position", "-3.5", "setting-range", "<set data=\"position\" value=\"-3\"/>"},
         SettingCase{"position", "1 2", "setting-length", "<set data=\"position\" value=\"0\"/>"},
-        SettingCase{"mode", "1.5", "setting-kind", "<set data=\"mode\" value=\"0\"/>"},
+        SettingCase{"mode", "1.5", "setting-kind", "write one of the labels"},
         SettingCase{"mode", "2", "setting-range", "<set data=\"mode\" value=\"0\"/>"},
         SettingCase{"direction", "0 0", "setting-length", "value=\"0 0 1\"/>"},
         SettingCase{"direction", "0 0 x", "setting-kind", "value=\"0 0 1\"/>"},

@@ -476,7 +476,13 @@ TEST(ClusterCS, GivesItsPriorityToTheThreadsOfTheLoopOnly) {
     if (cs::usableCpus().size() < 2) GTEST_SKIP() << "one CPU";
     SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};
     tree.add<Probe>("/a", "Probe");
-    cs::ClusterCS cluster{"live", {.threads = 2, .priority = 10, .lockMemory = false}};
+    // The CPUs are named, as tests beside this one may have claimed those that are free to all.
+    cs::ClusterCS cluster{"live",
+                          {.threads = 2,
+                           .priority = 10,
+                           .lockMemory = false,
+                           .keepCpusAwake = false,
+                           .cpus = cs::usableCpus()}};
     cluster.addSimplexTree(tree);
     cluster.setTriggerSource<cs::InternalClock>(1ms);
     cluster.start();
@@ -500,11 +506,7 @@ int awakeCpuRequestsWhileRunning(cs::ClusterOptions options) {
 }
 
 TEST(ClusterCS, KeepsCpusAwakeWhileItsLoopRunsWithAPriority) {
-    std::vector<std::string> refusals;
-    {
-        const cs::AwakeCpus asked{refusals};
-    }
-    if (!refusals.empty()) GTEST_SKIP() << refusals.front();
+    if (const std::string why = test::whyNoAwakeCpus(); !why.empty()) GTEST_SKIP() << why;
 
     EXPECT_EQ(awakeCpuRequestsWhileRunning({.priority = 10, .lockMemory = false}), 1);
     EXPECT_EQ(

@@ -66,6 +66,22 @@ TEST_P(ImageOfCycle, ShowsWhatEveryTaskWroteInItsCycle) {
     EXPECT_EQ(late, 0U);
 }
 
+TEST_P(ImageOfCycle, HasTheClusterItselfAsOldAsTheCycle) {
+    test::ProbeCluster cluster{{.threads = GetParam()}};
+    cluster.probe("/p");
+    cluster.start();
+    for (std::int64_t cycle = 1; cycle <= 3; ++cycle) {
+        cluster.step();
+        const Image image = cluster.cluster->image();
+        const Structure& structure = image.structure();
+        for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
+            if (!structure.simplexes[i].layout->type->isA("Cluster")) continue;
+            EXPECT_EQ(image.state(i).cycle, cycle);
+            EXPECT_EQ(image.state(i).time, image.nominalTime());
+        }
+    }
+}
+
 TEST_P(ImageOfCycle, ShowsWhatATaskWroteIntoAnotherActiveSimplex) {
     test::ProbeCluster cluster{{.threads = GetParam()}};
     ClusterTesting::set(*cluster.cluster, {.forceThreads = true});

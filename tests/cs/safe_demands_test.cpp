@@ -2,6 +2,7 @@
 // What a demand becomes on each way out of Active and back, for value, hold and observed.
 #include "support/probe.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -232,6 +233,29 @@ TEST(DemandLimits, ClampToTheRangeAreCountedAndOneEventAnEpisode) {
         if (event == "/a: value of /s limited from 5000 to 1000") ++events;
     }
     EXPECT_EQ(events, 1);
+}
+
+TEST(DemandLimits, OfTheStrokesOfARampAreOneEpisodeThatASecondWithoutOneEnds) {
+    ProbeCluster cluster;
+    Probe& probe = cluster.probe("/a");
+    cluster.tree.relate(probe, "out", cluster.tree.add("/s", "Signal"));
+    probe.onPopulate = [](Probe& self) {
+        Data<double> out = self.output("out").data<double>("value");
+        self.onActive = [out](Probe&, const Tick& tick) mutable {
+            const bool stroke = tick.cycle % 10 == 0 && (tick.cycle < 200 || tick.cycle > 1800);
+            out = stroke ? 5000.00001 : 0;
+        };
+    };
+    cluster.start();
+    cluster.startup(probe);
+
+    cluster.step(100);
+    EXPECT_GE(cluster.integer("/test", "limitCount"), 9);
+    const std::string said = "/a: value of /s limited from 5000 to 1000";
+    EXPECT_EQ(std::ranges::count(cluster.events(), said), 1);
+
+    cluster.step(1800);
+    EXPECT_EQ(std::ranges::count(cluster.events(), said), 2);
 }
 
 TEST(DemandLimits, FaultWhereTheItemSaysSo) {

@@ -30,6 +30,9 @@ void Behaviour::sense(World& world) {
         chance_.mix(static_cast<std::uint64_t>(input.quality()));
         chance_.mix(bits(input.stamp()));
     }
+    for (const OutputPort& output : world.outputs) {
+        for (const auto& number : output.accepted) chance_.mix(bits(number()));
+    }
     for (const SenderPort& sender : world.senders) {
         const SeenAnswer answer = sender.answer();
         chance_.mix(static_cast<std::uint64_t>(answer.outcome) * 16 +
@@ -128,6 +131,15 @@ void Behaviour::active(World& world, const Tick& tick) {
     sense(world);
     write(world);
     talk(world);
+    if (world.exchange.choices > 0) {
+        if (chance_.oneIn(7)) {
+            // Mostly one of them; now and then several together, or none.
+            wanted_ = std::uint64_t{1} << chance_.below(world.exchange.choices);
+            if (chance_.oneIn(6))
+                wanted_ = chance_.below(std::uint64_t{1} << world.exchange.choices);
+        }
+        chance_.mix(static_cast<std::uint64_t>(world.exchange.handOver(wanted_, tick)));
+    }
     if (chance_.oneIn(25)) {
         const auto age = static_cast<std::int64_t>(chance_.below(12)) * period;
         const bool old = chance_.oneIn(2);  // perhaps from before the start

@@ -30,6 +30,8 @@ struct InputPort {
 struct OutputPort {
     std::vector<double*> numbers;
     std::vector<double> scales;  // of each number, see scaleOf()
+    // Of a demand: as it went out in the cycle before.
+    std::vector<std::function<double()>> accepted;
     std::vector<std::int64_t*> integers;
     std::vector<bool*> flags;
     std::vector<std::function<void(std::string_view)>> texts;
@@ -55,12 +57,18 @@ struct LifePort {
     std::function<State()> state;
     std::function<void(LifeCycle)> post;
 };
+// What a task hands demands over between: bit n of `wanted` is the n-th choice.
+struct ExchangePort {
+    std::size_t choices = 0;
+    std::function<int(std::uint64_t wanted, const Tick& tick)> handOver;
+};
 struct World {
     std::size_t index = 0;  // in the plan
     std::vector<InputPort> inputs;
     std::vector<OutputPort> outputs;
     std::vector<SenderPort> senders;
     std::vector<LifePort> lives;
+    ExchangePort exchange;
     double *result = nullptr, *gain = nullptr;
     std::int64_t *total = nullptr, *heard = nullptr, *choice = nullptr;
     double* progress = nullptr;  // of a LongTask
@@ -109,7 +117,8 @@ private:
 
     Chance chance_;
     bool wild_;
-    int left_ = 0;  // calls of the long command
+    int left_ = 0;              // calls of the long command
+    std::uint64_t wanted_ = 1;  // of the choices
 };
 
 }  // namespace cortex::determinism

@@ -41,8 +41,8 @@ std::uint64_t systemCount() {
 // How many systems have what.
 struct Counts {
     std::uint64_t systems = 0, delayed = 0, shared = 0, rates = 0, faults = 0, across = 0;
-    std::uint64_t all = 0, plans = 0, commands = 0, commandsAcross = 0, events = 0, refused = 0,
-                  limited = 0;
+    std::uint64_t handOvers = 0, all = 0, plans = 0, commands = 0, commandsAcross = 0, events = 0,
+                  refused = 0, limited = 0;
 
     void add(const Plan& plan, const Observation& reference, std::uint64_t executed,
              std::uint64_t executedAcross, std::uint64_t plansOffered) {
@@ -56,6 +56,7 @@ struct Counts {
         delayed += plan.hasDelayedEdges();
         shared += plan.hasSharedSimplexes();
         rates += plan.hasRates();
+        handOvers += plan.handsOver();
         faults += faulted;
         across += executedAcross > 0;
         all += plan.hasDelayedEdges() && plan.hasSharedSimplexes() && plan.hasRates() && faulted &&
@@ -69,12 +70,13 @@ struct Counts {
     void print() const {
         std::printf(
             "%llu systems: %llu have delayed edges, %llu two writers, %llu rates, %llu faults, "
+            "%llu controllers that are handed over, "
             "%llu commands that crossed threads, %llu all of it\n"
             "  %llu commands along relationships (counted in three runs), %llu of them on another "
             "thread than sent; %llu events, among them %llu refusals, %llu limits; %llu plans "
             "exchanged while the loop ran\n",
-            n(systems), n(delayed), n(shared), n(rates), n(faults), n(across), n(all), n(commands),
-            n(commandsAcross), n(events), n(refused), n(limited), n(plans));
+            n(systems), n(delayed), n(shared), n(rates), n(faults), n(handOvers), n(across), n(all),
+            n(commands), n(commandsAcross), n(events), n(refused), n(limited), n(plans));
     }
     static unsigned long long n(std::uint64_t number) { return number; }
 };
@@ -106,6 +108,7 @@ TEST_P(Determinism, HoldsForRandomSystemsOnOneTwoAndFourThreadsAgainstAPlainRefe
     counts.print();
     EXPECT_GE(counts.all * 10, counts.systems * 9);
     EXPECT_GE(counts.plans, counts.systems);
+    EXPECT_GE(counts.handOvers * 3, counts.systems);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shards, Determinism, testing::Range(std::uint64_t{0}, shards));

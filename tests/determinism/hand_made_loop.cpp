@@ -129,7 +129,7 @@ Observation HandMadeLoop::run() {
         agent_->beginCycle(tick_);
         runner_->beginCycle(tick_);
         pool.cycle();
-        metrics.write(runner_->counts(), tick_.nominalTime);
+        metrics.write(runner_->counts(), tick_);
         agent_->endCycle(tick_, 0);
         if (step % snapshotEvery != 0) continue;
         observation_.snapshots.push_back(snapshotOf(agent_->images().newest()));

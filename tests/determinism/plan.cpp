@@ -38,6 +38,7 @@ private:
     void addTasks();
     void addSignals();
     void addLoops();
+    void addExchange();
     void addReaders();
     void addTalk();
     void addScript();
@@ -141,6 +142,24 @@ void Planner::addLoops() {
             relate(controller, "observed", reading);
             lastWriter_[demand] = std::max(lastWriter_[demand], controller);
         }
+    }
+}
+
+// One task hands a shared simplex over between two or three others.
+void Planner::addExchange() {
+    if (!chance_.oneIn(2)) return;
+    const std::size_t manager = chance_.below(2);
+    const std::size_t shared = add(chance_.oneIn(2) ? "SharedSignal" : "StrictSharedSignal");
+    std::size_t choices = 2 + chance_.below(2);
+    for (std::size_t i = manager + 1; choices > 0 && i + 2 < tasks_; ++i) {
+        if (!chance_.oneIn(2) && i + choices + 2 < tasks_) continue;
+        const bool late = chance_.oneIn(6);
+        if (!relate(manager, late ? "late" : "after", i, late) || !managed_.insert(i).second)
+            continue;
+        at(manager).choices.push_back(at(manager).relations.size() - 1);
+        relate(i, "out", shared);
+        lastWriter_[shared] = i;
+        --choices;
     }
 }
 
@@ -297,6 +316,7 @@ Plan Planner::make() {
     addTasks();
     addSignals();
     addLoops();
+    addExchange();
     addReaders();
     addTalk();
     addScript();
@@ -330,6 +350,11 @@ bool Plan::hasSharedSimplexes() const {
 
 bool Plan::hasRates() const {
     return std::ranges::any_of(simplexes, [](const SimplexPlan& each) { return each.every > 1; });
+}
+
+bool Plan::handsOver() const {
+    return std::ranges::any_of(simplexes,
+                               [](const SimplexPlan& each) { return each.choices.size() > 1; });
 }
 
 Plan makePlan(std::uint64_t seed) { return Planner{seed}.make(); }

@@ -51,6 +51,7 @@ struct SimplexPlan {
     std::vector<RelationPlan> relations;
     std::vector<SenderPlan> senders;
     std::vector<LifePlan> lives;
+    std::vector<std::size_t> choices;  // relationships to what it hands demands over between
 };
 
 struct OutsideCommandPlan {
@@ -79,6 +80,7 @@ struct Plan {
     bool hasDelayedEdges() const;
     bool hasSharedSimplexes() const;
     bool hasRates() const;
+    bool handsOver() const;
 };
 
 inline constexpr std::int64_t steps = 200;

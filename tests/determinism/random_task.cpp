@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "determinism/random_task.hpp"
 
+#include "cortex/core/agent.hpp"
+
 #include <algorithm>
 #include <map>
 #include <thread>
@@ -88,6 +90,12 @@ void RandomTask::bindSenders() {
     for (const SenderPlan& sender : self_.senders) {
         with(sender.relation, [&](const auto& related) { addSender(related, sender); });
     }
+    for (const std::size_t relation : self_.choices) {
+        with(relation, [&](const auto& related) { choices_.push_back(lifeCycle(related, true)); });
+    }
+    world_.exchange = {choices_.size(), [this](std::uint64_t wanted, const Tick& tick) {
+                           return handOver(wanted, tick);
+                       }};
     for (const LifePlan& plan : self_.lives) {
         with(plan.relation, [&](const auto& related) {
             LifeCycleSender& sender = lives_.emplace_back(lifeCycle(related, plan.manage));
@@ -101,10 +109,19 @@ void RandomTask::bindSenders() {
     }
 }
 
+int RandomTask::handOver(std::uint64_t wanted, const Tick& tick) {
+    if (choices_.size() == 2 && (wanted == 1 || wanted == 2)) {
+        const std::size_t to = wanted - 1;
+        return static_cast<int>(choices_[1 - to].handOver(choices_[to], tick));
+    }
+    const auto isWanted = [wanted](std::size_t place) { return (wanted >> place & 1U) != 0; };
+    return static_cast<int>(LifeCycleSender::handOver(choices_, isWanted, tick));
+}
+
 InputPort RandomTask::inputPort(const InputSimplex& input) {
     InputPort port;
     for (const DataItem& item : input.type().data) {
-        if (item.measured) continue;
+        if (item.measured || item.constant) continue;
         const auto append = [](auto& list, auto values) {
             for (const auto& value : values) list.push_back(&value);
         };
@@ -124,6 +141,9 @@ InputPort RandomTask::inputPort(const InputSimplex& input) {
 
 OutputPort RandomTask::outputPort(const OutputSimplex& output) {
     OutputPort port;
+    const Structure& structure = runtime().structure();
+    const bool demand =
+        structure.simplexes[structure.find(output.path())].role == Role::Modification;
     for (const DataItem& item : output.type().data) {
         if (item.measured) {
             loads_.push_back(output.array<std::int64_t>(item.name));
@@ -132,6 +152,11 @@ OutputPort RandomTask::outputPort(const OutputSimplex& output) {
         const auto append = [](auto& list, auto values) {
             for (auto& value : values) list.push_back(&value);
         };
+        if (demand && item.kind == Kind::Float) {
+            for (const double& number : output.acceptedArray<double>(item.name)) {
+                port.accepted.emplace_back([&number] { return number; });
+            }
+        }
         if (item.kind == Kind::Float) {
             append(port.numbers, output.array<double>(item.name));
             port.scales.resize(port.numbers.size(), scaleOf(item));

@@ -63,6 +63,7 @@ private:
     OutputPort outputPort(const OutputSimplex& output);
     template <class Related>
     void addSender(const Related& related, const SenderPlan& plan);
+    int handOver(std::uint64_t wanted, const Tick& tick);
     void handleAll(std::string_view command);
     Reply execute(const Bound& bound, Call& call);
     void delay();
@@ -75,6 +76,7 @@ private:
     World world_;
     std::deque<Sender> senders_;
     std::deque<LifeCycleSender> lives_;
+    std::vector<LifeCycleSender> choices_;
     std::deque<Bound> handlers_;
     std::vector<std::span<std::int64_t>> loads_;  // measured items: may say what they like
     Data<std::string_view> words_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -13,6 +14,14 @@ namespace cortex::determinism {
 
 std::string inText(double number) {
     char buffer[32];
+    char* const end = buffer + sizeof buffer;
+    if (number == std::trunc(number)) return {buffer, std::to_chars(buffer, end, number).ptr};
+    return {buffer, std::to_chars(buffer, end, number, std::chars_format::general, 6).ptr};
+}
+
+std::string inText(double number, double other) {
+    char buffer[32];
+    if (number == other || inText(number) != inText(other)) return inText(number);
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
 }
 
@@ -80,7 +89,8 @@ void Reference::addSimplexes() {
         if (shape.items.empty()) shape = Shape{*simplex.type};
         simplex.shape = &shape;
         simplex.live = simplex.latch = simplex.previous = shape.initial;
-        simplex.limited.resize(shape.items.size());
+        simplex.inEpisode.resize(shape.items.size());
+        simplex.quiet.resize(shape.items.size());
         if (plan == nullptr) agent_ = static_cast<int>(i);
         if (plan == nullptr || !plan->task) continue;
         simplex.task = std::make_unique<RefTask>();
@@ -283,6 +293,7 @@ void Reference::cycle() {
         else if (at(simplex).writers.size() > 1)
             arbitrate(simplex);
     }
+    at(agent_).live.state = {cycle_, now_, noSimplex, Quality::Good};
     item<std::int64_t>(agent_, "overflowCount") = overflows_;
     item<std::int64_t>(agent_, "commandCount") = commands_;
     item<std::int64_t>(agent_, "rejectedCount") = rejected_;

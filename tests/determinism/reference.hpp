@@ -55,6 +55,7 @@ private:
     OutputPort outputPort(Link& link);
     void addSender(int simplex, const SenderPlan& plan);
     void addLife(int simplex, const LifePlan& plan);
+    void addChoice(int simplex, std::size_t planned);
     void fillWorld(int simplex);
     Link& linkOf(int simplex, std::size_t planned);
 
@@ -74,17 +75,25 @@ private:
 
     // reference_demands.cpp
     void initialiseDemands();
-    void latchSafe(int simplex);
-    void latchSafe(Link& output);
+    void latchSafe(int simplex, bool startsUp = false);
+    void latchSafe(Link& output, bool startsUp = false);
+    void slowDown(Link& output, double elapsed) const;
     void writeSafe(int simplex);
     void writeSafe(Link& output, bool all = true);
-    void putSafe(int simplex);
-    void settleSafe(int simplex);
+    void putSafe(int simplex, double elapsed);
+    void settleSafe(int simplex, double elapsed);
     void tellInVain(int simplex, const Link& output, const std::string& who,
                     const std::string& remedy);
+    static bool endsAtItsRange(const RefSimplex& demand, const Item& derivative, std::size_t i);
     LimitFinding limit(RefSimplex& demand, double elapsed);
     void limitOutputs(int simplex, double elapsed);
     void checkValues(int writer, RefSimplex& checked, Record& values);
+
+    // reference_exchange.cpp
+    int handOver(int simplex, std::uint64_t wanted);
+    bool refuses(Choice& choice);
+    bool isReplaced(const Choice& choice, const std::vector<Choice>& choices,
+                    std::uint64_t wanted) const;
 
     // reference_commands.cpp
     Outcome send(SenderHandle& handle, double amount, std::int64_t number);

@@ -21,7 +21,7 @@ std::string wrong(const DataItem& item, const Value& value) {
         if (!below && number <= highest) return {};
         std::string text = item.name + ": ";
         if constexpr (std::is_same_v<decltype(number), double>)
-            text += inText(number);
+            text += inText(number, below ? lowest : highest);
         else
             text += std::to_string(number);
         text += below ? " is below " : " is above ";

@@ -58,6 +58,11 @@ void storeGiven(const Item& item, const Value& value, Record& to) {
     }
 }
 
+bool stops(const Item& item) { return item.type->safe.kind == Safe::Kind::Stop; }
+
+// The derivative of an item that stops.
+bool stopsWithAnother(const Item& item) { return stops(item) && !item.type->derivativeOf.empty(); }
+
 double numberOf(const std::optional<Number>& bound, double otherwise) {
     if (!bound) return otherwise;
     return std::visit([](auto number) { return static_cast<double>(number); }, *bound);
@@ -89,7 +94,11 @@ void Reference::initialiseDemands() {
             for (const Item& item : demand.shape->items) {
                 if (item.type->safe.kind == Safe::Kind::Given) {
                     storeGiven(item, item.type->safe.value, output->safe);
-                } else if (item.type->safe.kind == Safe::Kind::Observed) {
+                } else if (stopsWithAnother(item)) {
+                    std::fill_n(
+                        output->safe.floats.begin() + static_cast<std::ptrdiff_t>(item.first),
+                        item.type->length, 0.0);
+                } else if (item.type->safe.kind == Safe::Kind::Observed || stops(item)) {
                     copyItem(item, *output->observed,
                              output->observedShape->find(item.type->name)->first, output->safe);
                 }
@@ -103,22 +112,51 @@ void Reference::initialiseDemands() {
     }
 }
 
-void Reference::latchSafe(int simplex) {
-    for (Link* output : at(simplex).task->outputs) latchSafe(*output);
+void Reference::latchSafe(int simplex, bool startsUp) {
+    for (Link* output : at(simplex).task->outputs) latchSafe(*output, startsUp);
 }
 
-void Reference::latchSafe(Link& output) {
+void Reference::latchSafe(Link& output, bool startsUp) {
     const RefSimplex& demand = at(output.target);
     if (!demand.demand) return;
     output.moved = false;
+    output.slows = !startsUp;
     for (const Item& item : demand.shape->items) {
         const Safe::Kind kind = item.type->safe.kind;
         if (kind == Safe::Kind::Given || kind == Safe::Kind::None) continue;
-        if (kind == Safe::Kind::Observed && output.observed->state.quality < Quality::Bad) {
+        const bool observes =
+            kind == Safe::Kind::Observed || (stops(item) && startsUp && !stopsWithAnother(item));
+        if (stopsWithAnother(item) && startsUp) {
+            for (std::size_t i = 0; i < item.type->length; ++i)
+                output.safe.floats[item.first + i] = 0;
+        } else if (observes && output.observed->state.quality < Quality::Bad) {
             copyItem(item, *output.observed, output.observedShape->find(item.type->name)->first,
                      output.safe);
         } else {
             copyItem(item, demand.previous, item.first, output.safe);
+        }
+    }
+}
+
+// Each cycle anew from what went out last: the derivative goes to 0 by its rate, and the item by
+// the mean of what its derivative was and is. At the end of the range both stand.
+void Reference::slowDown(Link& output, double elapsed) const {
+    const RefSimplex& demand = all_[static_cast<std::size_t>(output.target)];
+    if (!demand.demand || !output.slows) return;
+    for (const Item& derivative : demand.shape->items) {
+        if (!stopsWithAnother(derivative)) continue;
+        const Item& item = *demand.shape->find(derivative.type->derivativeOf);
+        for (std::size_t i = 0; i < item.type->length; ++i) {
+            const double before = demand.previous.floats[derivative.first + i];
+            const double place = demand.previous.floats[item.first + i];
+            const double change = *derivative.type->rate * elapsed;
+            double velocity = before > 0 ? before - change : before + change;
+            if (std::abs(before) <= change) velocity = 0;
+            const double next = place + (before + velocity) / 2 * elapsed;
+            const double end =
+                std::clamp(next, numberOf(item.type->min, next), numberOf(item.type->max, next));
+            output.safe.floats[item.first + i] = end;
+            output.safe.floats[derivative.first + i] = end == next ? velocity : 0;
         }
     }
 }
@@ -140,15 +178,17 @@ void Reference::writeSafe(Link& output, bool all) {
 }
 
 // On the way between two states a demand is its safe value until a hook moves it.
-void Reference::putSafe(int simplex) {
+void Reference::putSafe(int simplex, double elapsed) {
     for (Link* output : at(simplex).task->outputs) {
-        if (!output->moved) writeSafe(*output, false);
+        if (output->moved) continue;
+        slowDown(*output, elapsed);
+        writeSafe(*output, false);
     }
 }
 
 // After the hooks, whichever of them wrote. Only in Active, and with all that it needs, a demand is
 // what they say.
-void Reference::settleSafe(int simplex) {
+void Reference::settleSafe(int simplex, double elapsed) {
     const RefTask& task = *at(simplex).task;
     for (Link* output : task.outputs) {
         const RefSimplex& demand = at(output->target);
@@ -156,6 +196,7 @@ void Reference::settleSafe(int simplex) {
         if (!demand.demand) continue;
         if (resting(task.state) || task.safeByLoss) {
             if (resting(task.state)) tellInVain(simplex, *output, "a hook or handler", "");
+            slowDown(*output, elapsed);
             writeSafe(*output, false);
             output->standsSafe = true;
         } else if (task.state != State::Active) {
@@ -183,6 +224,15 @@ void Reference::tellInVain(int simplex, const Link& output, const std::string& w
     }
 }
 
+// Whether the item whose derivative this one is stands at an end of its range.
+bool Reference::endsAtItsRange(const RefSimplex& demand, const Item& derivative, std::size_t i) {
+    if (!stopsWithAnother(derivative)) return false;
+    const Item& item = *demand.shape->find(derivative.type->derivativeOf);
+    const double place = demand.live.floats[item.first + i];
+    return place <= numberOf(item.type->min, place - 1) ||
+           place >= numberOf(item.type->max, place + 1);
+}
+
 // Limits the live values of a demand against what it was when it was last sent.
 LimitFinding Reference::limit(RefSimplex& demand, double elapsed) {
     LimitFinding finding;
@@ -190,9 +240,9 @@ LimitFinding Reference::limit(RefSimplex& demand, double elapsed) {
     const auto report = [&](std::size_t n, bool& first, double written, double became,
                             bool byRate) {
         const DataItem& type = *demand.shape->items[n].type;
-        if (!first && !demand.limited[n]) {
+        if (!first && !demand.inEpisode[n]) {
             finding.texts.push_back(type.name + " of " + demand.path + " limited from " +
-                                    inText(written) + " to " + inText(became) +
+                                    inText(written, became) + " to " + inText(became, written) +
                                     (type.unit.empty() ? "" : " " + type.unit) +
                                     (byRate ? " by its rate" : ""));
         }
@@ -220,7 +270,8 @@ LimitFinding Reference::limit(RefSimplex& demand, double elapsed) {
                 if (item.type->rate) {
                     const double step = *item.type->rate * elapsed;
                     const double before = demand.previous.floats[i];
-                    value = std::clamp(value, before - step, before + step);
+                    const bool free = value == 0 && endsAtItsRange(demand, item, i - item.first);
+                    if (!free) value = std::clamp(value, before - step, before + step);
                 }
                 if (value == written) continue;
                 report(n, limited, written, value, value != inRange);
@@ -239,7 +290,8 @@ LimitFinding Reference::limit(RefSimplex& demand, double elapsed) {
             if (!finding.faults) finding.item = item.type;
             finding.faults = true;
         }
-        demand.limited[n] = limited;
+        demand.quiet[n] = limited ? 0 : demand.quiet[n] + elapsed;
+        demand.inEpisode[n] = limited || (demand.inEpisode[n] && demand.quiet[n] < 1);
     }
     return finding;
 }
@@ -268,7 +320,7 @@ void Reference::limitOutputs(int simplex, double elapsed) {
     again = again || task.faultPending;
     if (task.faultPending) {
         enterFault(simplex);
-        settleSafe(simplex);
+        settleSafe(simplex, elapsed);
     }
     for (Link* output : task.outputs) {
         RefSimplex& demand = at(output->target);
@@ -279,25 +331,45 @@ void Reference::limitOutputs(int simplex, double elapsed) {
     }
 }
 
+// Of several that one manager hands the demand over between, the one that became Active last.
 void Reference::arbitrate(int simplex) {
     RefSimplex& target = at(simplex);
-    std::size_t active = 0;
+    std::vector<std::size_t> active;
     for (std::size_t i = 0; i < target.candidates.size(); ++i) {
-        if (at(target.candidates[i]->owner).task->state != State::Active) continue;
-        if (active++ == 0) target.selected = i;
+        if (at(target.candidates[i]->owner).task->state == State::Active) active.push_back(i);
     }
+    const auto writer = [&](std::size_t i) -> const RefTask& {
+        return *at(target.candidates[i]->owner).task;
+    };
+    const bool oneManager = !active.empty() && writer(active[0]).manager >= 0 &&
+                            std::ranges::all_of(active, [&](std::size_t i) {
+                                return writer(i).manager == writer(active[0]).manager;
+                            });
+    if (oneManager) {
+        target.selected = *std::ranges::max_element(
+            active, {}, [&](std::size_t i) { return writer(i).stateSince; });
+    } else if (!active.empty()) {
+        target.selected = active[0];
+    }
+    const bool conflict = active.size() > 1 && !oneManager;
     Link& chosen = *target.candidates[target.selected];
-    if (active > 1) {
+    if (conflict) {
         ++conflicts_;
         if (!target.inConflict) {
             post(simplex, Severity::Warning, EventKind::Conflict,
                  "several writers are Active; taken is " + at(chosen.owner).path);
         }
     }
-    target.inConflict = active > 1;
+    target.inConflict = conflict;
+    const double elapsed = static_cast<double>(elapsed_) * 1e-9;
+    const bool stopping =
+        target.demand && chosen.standsSafe && std::ranges::any_of(target.shape->items, stops);
+    if (stopping) {
+        slowDown(chosen, elapsed);
+        writeSafe(chosen, false);
+    }
     target.live = *chosen.seen;
     if (!target.demand) return;
-    const double elapsed = static_cast<double>(elapsed_) * 1e-9;
     const LimitFinding finding = limit(target, elapsed);
     const bool reports = !chosen.standsSafe;
     if (reports) {
@@ -312,6 +384,7 @@ void Reference::arbitrate(int simplex) {
     }
     if (finding.notFinite || (finding.faults && reports)) {
         latchSafe(chosen);
+        slowDown(chosen, elapsed);
         writeSafe(chosen);
         target.live = *chosen.seen;
         target.live.state = {cycle_, now_, static_cast<std::uint32_t>(chosen.owner),

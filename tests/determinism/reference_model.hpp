@@ -139,6 +139,15 @@ struct Link {  // a relationship
     bool notFinite = false;  // in this run
     bool moved = false;      // by a hook, since its safe value was latched
     bool standsSafe = true;  // in this run
+    bool slows = false;      // what stops does so: not since a startup
+};
+
+// One of those that a task hands demands over between.
+struct Choice {
+    int target = 0;
+    bool later = false;  // delayed
+    const std::int64_t* state = nullptr;
+    std::int64_t askedAt = -1, askedIn = -1, activeSince = -1;
 };
 
 struct RefTask {
@@ -156,6 +165,7 @@ struct RefTask {
     std::unique_ptr<Behaviour> behaviour;
     World world;
     std::deque<SenderHandle> handles;
+    std::vector<Choice> choices;
     std::vector<Link*> inputs, outputs;  // outputs: to descriptive simplexes
 };
 
@@ -168,9 +178,10 @@ struct RefSimplex {
     std::vector<Link*> links;
     std::vector<int> writers;
     bool delayedOutput = false, demand = false;
-    // A demand: what it was, and which items are limited just now.
+    // A demand: what it was, and which items are limited, or were lately.
     Record previous;
-    std::vector<bool> limited;
+    std::vector<bool> inEpisode;
+    std::vector<double> quiet;  // s of the episode in which nothing was limited
     // With several writers.
     std::vector<Link*> candidates;
     std::size_t selected = 0;
@@ -193,6 +204,7 @@ inline bool passing(State state) { return !resting(state) && state != State::Act
 
 // Numbers as they stand in texts.
 std::string inText(double number);
+std::string inText(double number, double other);  // so that they look different
 // As much of a text as fits; all texts here are ASCII.
 std::string cut(std::string_view text, std::size_t capacity);
 inline constexpr std::size_t eventCapacity = 150;

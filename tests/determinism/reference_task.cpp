@@ -26,7 +26,7 @@ void Reference::runTask(int simplex) {
     SlotState state{cycle_, now_, noSimplex, Quality::Good};
     try {
         transition(simplex);
-        if (passing(task.state)) putSafe(simplex);
+        if (passing(task.state)) putSafe(simplex, tick.elapsedSeconds());
         process(simplex, task.state);
         for (const Link* output : task.outputs) {
             if (!resting(task.state) || !at(output->target).demand) continue;
@@ -153,7 +153,7 @@ void Reference::enter(int simplex, State to) {
     }
     const bool comesToRest = to == State::Standby && from != State::Fault;
     if (from == State::Active || to == State::StartingUp || to == State::Fault || comesToRest) {
-        latchSafe(simplex);
+        latchSafe(simplex, to == State::StartingUp);
         writeSafe(simplex);
     }
     if (from == State::Fault) {
@@ -265,8 +265,9 @@ void Reference::inputLost(int simplex, Link& link) {
 
 void Reference::finish(int simplex, SlotState state, std::int64_t elapsed) {
     RefTask& task = *at(simplex).task;
-    settleSafe(simplex);
-    limitOutputs(simplex, static_cast<double>(elapsed) * 1e-9);
+    const double seconds = static_cast<double>(elapsed) * 1e-9;
+    settleSafe(simplex, seconds);
+    limitOutputs(simplex, seconds);
     const auto own = static_cast<std::uint32_t>(simplex);
     const Quality least = task.state == State::Fault    ? Quality::Bad
                           : task.state == State::Active ? Quality::Good

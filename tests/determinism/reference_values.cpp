@@ -38,6 +38,13 @@ WrongValue wrongIn(const Item& item, const Record& values) {
     return wrong;
 }
 
+// The bound that a value is beyond.
+double beyond(const DataItem& type, double value) {
+    const auto plain = [](auto each) { return static_cast<double>(each); };
+    if (type.max && value > std::visit(plain, *type.max)) return std::visit(plain, *type.max);
+    return type.min ? std::visit(plain, *type.min) : value;
+}
+
 std::string boundText(const std::optional<Number>& bound) {
     if (!bound) return "";
     const auto* whole = std::get_if<std::int64_t>(&*bound);
@@ -73,9 +80,9 @@ void Reference::checkValues(int writer, RefSimplex& checked, Record& values) {
         if (wrong.notFinite)
             text += "not a number: its quality is bad";
         else
-            text += inText(wrong.value) + (item.type->unit.empty() ? "" : " " + item.type->unit) +
-                    ", out of its range " + boundText(item.type->min) + " .. " +
-                    boundText(item.type->max);
+            text += inText(wrong.value, beyond(*item.type, wrong.value)) +
+                    (item.type->unit.empty() ? "" : " " + item.type->unit) + ", out of its range " +
+                    boundText(item.type->min) + " .. " + boundText(item.type->max);
         post(writer, Severity::Warning, EventKind::Limit, text);
     }
     if (!any) return;

@@ -28,6 +28,10 @@ void Reference::fillWorld(int simplex) {
             world.outputs.push_back(outputPort(link));
     }
     for (const SenderPlan& sender : plan.senders) addSender(simplex, sender);
+    for (const std::size_t choice : plan.choices) addChoice(simplex, choice);
+    world.exchange = {plan.choices.size(), [this, simplex](std::uint64_t wanted, const Tick&) {
+                          return handOver(simplex, wanted);
+                      }};
     for (const LifePlan& life : plan.lives) addLife(simplex, life);
     world.result = &item<double>(simplex, "result");
     world.gain = &item<double>(simplex, "gain");
@@ -85,6 +89,10 @@ OutputPort Reference::outputPort(Link& link) {
             if (item.type->kind == Kind::Float) {
                 port.numbers.push_back(&record.floats[i]);
                 port.scales.push_back(scaleOf(*item.type));
+            }
+            const RefSimplex& target = at(link.target);
+            if (item.type->kind == Kind::Float && target.demand) {
+                port.accepted.emplace_back([&target, i] { return target.previous.floats[i]; });
             }
             if (item.type->kind == Kind::Int) port.integers.push_back(&record.ints[i]);
             if (item.type->kind == Kind::Bool) port.flags.push_back(&record.flags[i].on);

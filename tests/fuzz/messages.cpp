@@ -29,7 +29,7 @@ void readAndWrite(Payload payload) {
 constexpr void (*kinds[])(Payload) = {readAndWrite<Presence>, readAndWrite<Model>,
                                       readAndWrite<Block>,    readAndWrite<Command>,
                                       readAndWrite<Answer>,   readAndWrite<EventMessage>,
-                                      readAndWrite<Interest>};
+                                      readAndWrite<Interest>, readAndWrite<Summary>};
 
 }  // namespace
 

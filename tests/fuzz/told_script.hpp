@@ -32,12 +32,14 @@ public:
         payloads_.push_back(encoded(told_.presence));
         payloads_.push_back(encoded(told_.block(1)));
         payloads_.push_back(encoded(told_.block(2)));
+        payloads_.push_back(encoded(told_.summary()));
     }
 
     struct Told {
         std::vector<comms::Model> models;
         std::vector<comms::Presence> presences;
         std::vector<comms::Block> blocks;
+        std::vector<comms::Summary> summaries;
     };
     Told play(std::span<const std::uint8_t> input) const {
         const std::uint8_t agreeing = take(input);
@@ -47,7 +49,8 @@ public:
         std::size_t each = 0;
         for (; each < told_.models.size(); ++each) add(payloads[each], told.models);
         add(payloads[each++], told.presences);
-        for (; each < payloads.size(); ++each) add(payloads[each], told.blocks);
+        for (; each + 1 < payloads.size(); ++each) add(payloads[each], told.blocks);
+        add(payloads[each], told.summaries);
         if ((agreeing & 1U) != 0) agreeModels(told);
         if ((agreeing & 8U) != 0) agreeHashes(told);
         if ((agreeing & 2U) != 0) agreePresences(told);
@@ -150,6 +153,12 @@ private:
             block.agent = comms::agentId(told_.name());
             block.epoch = told_.epoch();
             if (!told.presences.empty()) block.structureHash = told.presences.front().structureHash;
+        }
+        for (comms::Summary& summary : told.summaries) {
+            summary.agent = comms::agentId(told_.name());
+            summary.epoch = told_.epoch();
+            if (told.presences.empty()) continue;
+            summary.structureHash = told.presences.front().structureHash;
         }
     }
 

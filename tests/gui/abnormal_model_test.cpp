@@ -9,7 +9,7 @@
 namespace cortex::test {
 namespace {
 
-using namespace explorer;
+using namespace gui;
 using namespace std::chrono_literals;
 
 const LostAgents::Moment begin{1h};
@@ -52,6 +52,17 @@ TEST_F(Troubles, AreFaultsWhatIsOutsideOfItsLimitsNowAndWhatIsLost) {
     EXPECT_EQ(abnormal.count(Abnormal::Fault), 1);
     EXPECT_EQ(abnormal.count(Abnormal::Outside), 1) << "a stale value may be within by now";
     EXPECT_EQ(abnormal.count(Abnormal::Lost), 2);
+}
+
+TEST_F(Troubles, AreCountedInTheFrameInWhichTheirValuesCome) {
+    AgentFrame early = robot.now();
+    early.image = {};
+    Abnormal abnormal;
+    abnormal.update(*frameOf({early}));
+    EXPECT_EQ(abnormal.count(Abnormal::Fault), 0);
+    abnormal.update(*frameOf({robot.now()}));
+    EXPECT_EQ(abnormal.count(Abnormal::Fault), 1);
+    EXPECT_EQ(abnormal.count(Abnormal::Outside), 1);
 }
 
 TEST_F(Troubles, AreGoneThroughInTurnForwardAndBack) {

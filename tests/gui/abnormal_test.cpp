@@ -107,7 +107,7 @@ TEST_F(Abnormals, AnOrderlyEndIsNoLoss) {
 
 TEST_F(Abnormals, TheSystemStaysInFrontWhenWhatWasNamedComes) {
     window.open("/drive");
-    window.openGraph();
+    window.openKind("system");
     ASSERT_TRUE(everythingComes());
     ASSERT_TRUE(comes([this] { return tree().indexOf("/drive").isValid(); }));
     window.refresh();

@@ -20,7 +20,7 @@ namespace cortex::test {
 
 namespace {
 
-using explorer::Look;
+using gui::Look;
 
 constexpr double leastContrast = 4.5, leastPoints = 9;
 // The stems of small letters do not reach the full colour of their text.
@@ -78,7 +78,7 @@ double contrastIn(const QImage& image, const QRect& box) {
     }
     double greatest = 1;
     for (auto each = counts.begin(); each != counts.end(); ++each) {
-        greatest = std::max(greatest, explorer::contrast(QColor{each.key()}, QColor{ground}));
+        greatest = std::max(greatest, gui::contrast(QColor{each.key()}, QColor{ground}));
     }
     return greatest;
 }

@@ -4,20 +4,28 @@
 #include "gui/audit.hpp"
 
 #include "gui/window_fixture.hpp"
+#include "model/shown_time.hpp"
+#include "plots/plot_view.hpp"
 #include "style/look.hpp"
+#include "views/compare_view.hpp"
 #include "views/manual_view.hpp"
+#include "widgets/item_drag.hpp"
 #include "window/control_bar.hpp"
+#include "window/workspace.hpp"
 
+#include <QDragEnterEvent>
 #include <QPushButton>
+#include <QTabBar>
 #include <QTranslator>
 #include <array>
+#include <memory>
 
 #include <gtest/gtest.h>
 
 namespace cortex::test {
 namespace {
 
-using namespace cortex::explorer;
+using namespace cortex::gui;
 
 struct Size {
     int width, height;
@@ -44,18 +52,57 @@ struct View {
     const char* name;
     void (*open)(MainWindow& window);
 };
+// The page of agents with one of the tabs below the table.
+void openAgents(MainWindow& window, int tab) {
+    window.openKind("agents");
+    window.current()->findChild<QTabBar*>()->setCurrentIndex(tab);
+}
+
 const std::array views{
     View{"data",
          [](MainWindow& window) {
              window.open("/drive");
              window.openPart("data");
          }},
+    View{"data in degrees",
+         [](MainWindow& window) {
+             window.workspace().units().choose(ShownUnits::restored({"deg", "mm"}));
+         }},
     View{"relationships", [](MainWindow& window) { window.openPart("relationships"); }},
     View{"commands", [](MainWindow& window) { window.openPart("commands"); }},
     View{"type", [](MainWindow& window) { window.openPart("type"); }},
-    View{"system", [](MainWindow& window) { window.openGraph(); }},
-    View{"agents", [](MainWindow& window) { window.openAgents(); }},
-    View{"events", [](MainWindow& window) { window.openEvents(); }},
+    View{"system", [](MainWindow& window) { window.openKind("system"); }},
+    View{"loop", [](MainWindow& window) { openAgents(window, 0); }},
+    View{"last ten minutes", [](MainWindow& window) { openAgents(window, 1); }},
+    View{"leases", [](MainWindow& window) { openAgents(window, 2); }},
+    View{"agreement", [](MainWindow& window) { openAgents(window, 3); }},
+    View{"events", [](MainWindow& window) { window.openKind("events"); }},
+    View{"compare",
+         [](MainWindow& window) {
+             window.openKind("compare");
+             qobject_cast<CompareView*>(window.current())->compare("position");
+         }},
+    View{"empty plot", [](MainWindow& window) { window.openPlot({}); }},
+    View{"plot",
+         [](MainWindow& window) {
+             window.openPlot({{{}, "/drive", "position", 0}, {{}, "/drive", "state", 0}});
+         }},
+    View{"plot in degrees and local time",
+         [](MainWindow& window) {
+             window.workspace().units().choose(ShownUnits::restored({"deg", "mm"}));
+             showLocalTime(true);
+         }},
+    View{"second plot, with a place for what is dragged",
+         [](MainWindow& window) {
+             showLocalTime(false);
+             window.workspace().newPlot({{{}, "/axis/observed", "position", 0}});
+             window.refresh();
+             auto* plot = qobject_cast<PlotView*>(window.current());
+             const std::unique_ptr<QMimeData> data{mimeOf({{{}, "/axis/observed", "velocity", 0}})};
+             const QPoint at = plot->rect().center();
+             QDragEnterEvent enter{at, Qt::CopyAction, data.get(), Qt::LeftButton, {}};
+             QApplication::sendEvent(plot, &enter);
+         }},
     View{"manual", [](MainWindow& window) { window.openManual(); }},
 };
 

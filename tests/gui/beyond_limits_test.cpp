@@ -20,7 +20,7 @@
 namespace cortex::test {
 namespace {
 
-using namespace explorer;
+using namespace gui;
 
 // /lamp of the agent "robot" has an item `mode`, which is Off or On, as it came.
 struct Lamp {

@@ -1,60 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Control and commands from the window, with a real agent over DDS.
-#include "gui/window_fixture.hpp"
-#include "views/command_card.hpp"
-#include "views/life_cycle_bar.hpp"
-#include "widgets/text_label.hpp"
+#include "gui/controlling.hpp"
 #include "widgets/value_field.hpp"
-#include "window/control_bar.hpp"
+#include "window/control_notice.hpp"
+#include "window/start_all.hpp"
 #include "window/stop_button.hpp"
 
+#include <QApplication>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMenu>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QRadioButton>
 #include <QSet>
+#include <QTreeView>
 
 #include <QtTest/QTest>
 
 namespace cortex::test {
 namespace {
-
-class Controlling : public Window {
-protected:
-    bool takes(const std::string& prefix) {
-        window.control().choose();
-        window.control().panel()->choose(prefix);
-        window.control().panel()->takeButton().click();
-        return comes([&] { return window.control().prefix() == prefix; });
-    }
-    QPushButton& button(const QString& text) {
-        const auto* bar = window.current()->findChild<LifeCycleBar*>();
-        for (auto* each : bar->findChildren<QPushButton*>()) {
-            if (each->text() == text) return *each;
-        }
-        throw std::runtime_error{"no such button"};
-    }
-    // Why the buttons of the life cycle cannot be pressed.
-    bool says(const QString& reason) {
-        window.refresh();
-        const auto labels = window.current()->findChildren<TextLabel*>();
-        return std::ranges::any_of(labels,
-                                   [&](const auto* each) { return each->text().contains(reason); });
-    }
-    CommandCard& card(const std::string& command) {
-        for (auto* each : window.current()->findChildren<CommandCard*>()) {
-            if (each->command().name == command) return *each;
-        }
-        throw std::runtime_error{"no such command"};
-    }
-    bool isIn(const std::string& path, State state) {
-        const auto frame = session.frame();
-        const auto place = frame->find(path);
-        return place && frame->agents[place->agent].state(place->simplex) == state;
-    }
-    static std::string leases() { return live({"leases"}).output; }
-};
 
 TEST_F(Controlling, IsReadOnlyAtFirstAndSaysHowToTakeControl) {
     ASSERT_TRUE(everythingComes());
@@ -62,6 +27,11 @@ TEST_F(Controlling, IsReadOnlyAtFirstAndSaysHowToTakeControl) {
     EXPECT_EQ(window.control().text(), "Read-only");
     EXPECT_FALSE(button("Startup").isEnabled());
     EXPECT_TRUE(says("read-only: take control of /drive"));
+    ASSERT_EQ(live({"call", "/drive", "startup"}).exit, 0);
+    EXPECT_TRUE(comes([this] {
+        window.refresh();
+        return button("Shutdown").isEnabled();
+    })) << "whoever looks may stop";
     EXPECT_TRUE(says("needs Fault"));
 }
 
@@ -133,92 +103,6 @@ TEST_F(Controlling, EveryWidgetOfThePanelShowsThatItHasTheFocus) {
     EXPECT_FALSE(panel->isVisible());
 }
 
-TEST_F(Controlling, SaysWhoHoldsItAndTakesItWhenTheyAreGone) {
-    ASSERT_TRUE(everythingComes());
-    window.open("/drive");
-    {
-        Session other{ownNetwork()};
-        ASSERT_TRUE(comes([&] {
-            const auto frame = other.frame();
-            return frame->find("/drive").has_value();
-        }));
-        other.isAlive();
-        other.takeControl("/drive");
-        const auto isHeld = [&] {
-            other.isAlive();
-            return !other.frame()->control.prefix.empty();
-        };
-        ASSERT_TRUE(comes(isHeld));
-        const QString holder = QString::fromStdString(other.frame()->control.self);
-        EXPECT_TRUE(comes([&] { return isHeld() && says("held by " + holder + " since "); }));
-        window.control().choose();
-        window.control().panel()->choose("/");
-        window.control().panel()->takeButton().click();
-        EXPECT_TRUE(comes([&] { return isHeld() && !window.control().noticeText().isEmpty(); }));
-        EXPECT_EQ(window.control().noticeText(), "Control of / was not taken. mixer: " + holder +
-                                                     " holds /drive, and must release it or "
-                                                     "hand it over.");
-        EXPECT_FALSE(window.control().holds());
-    }
-    EXPECT_TRUE(comes([this] { return says("read-only"); })) << "its end releases";
-    EXPECT_TRUE(takes("/"));
-    EXPECT_TRUE(window.control().noticeText().isEmpty());
-}
-
-// Another window of the same person or of a colleague, without a screen.
-struct Colleague {
-    bool sees(const char* path) const { return session.frame()->find(path).has_value(); }
-    const Control& control() {
-        session.isAlive();
-        now = session.frame()->control;
-        return now;
-    }
-    Session session{ownNetwork()};
-    Control now;
-};
-
-TEST_F(Controlling, HandsControlOverAndTakesItAgain) {
-    ASSERT_TRUE(everythingComes());
-    Colleague other;
-    ASSERT_TRUE(comes([&] { return other.sees("/drive"); }));
-    window.open("/drive");
-    ASSERT_TRUE(takes("/drive"));
-    window.control().chooseHandOver();
-    auto* panel = window.control().handOverPanel();
-    ASSERT_NE(panel, nullptr);
-    EXPECT_FALSE(panel->handOverButton().isEnabled()) << "nobody is named";
-    const QString name = QString::fromStdString(other.control().self);
-    panel->nameField().setText(name);
-    panel->handOverButton().click();
-    ASSERT_TRUE(comes([&] { return other.control().prefix == "/drive"; }));
-    ASSERT_TRUE(comes([&] { return !window.control().holds(); }));
-    EXPECT_EQ(window.control().noticeText(), "Control of /drive was handed over to " + name + ".");
-    EXPECT_TRUE(comes([&] { return other.control().held.size() == 1 && says("held by " + name); }));
-    other.session.releaseControl();
-    ASSERT_TRUE(comes([&] { return other.control().prefix.empty() && says("read-only"); }));
-    EXPECT_EQ(window.control().takeAgainButton().text(), "Take /drive again");
-    window.control().takeAgainButton().click();
-    EXPECT_TRUE(comes([&] { return window.control().prefix() == "/drive"; }));
-}
-
-TEST_F(Controlling, KeepsWhatIsHandedOverToIt) {
-    ASSERT_TRUE(everythingComes());
-    Colleague other;
-    ASSERT_TRUE(comes([&] { return other.sees("/drive"); }));
-    other.control();
-    other.session.takeControl("/drive");
-    ASSERT_TRUE(comes([&] { return other.control().prefix == "/drive"; }));
-    other.session.handOver(session.frame()->control.self);
-    ASSERT_TRUE(comes([&] { return window.control().prefix() == "/drive"; }));
-    EXPECT_EQ(window.control().noticeText(), "Control of /drive of agent mixer is yours now.");
-    // An agent ends a lease 2 s after its last renewal: 3,000 cycles of 1 ms are longer.
-    const auto cycle = [this] { return session.frame()->agents.front().status.cycle; };
-    const std::int64_t then = cycle();
-    EXPECT_TRUE(comes([&] { return cycle() > then + 3000; }));
-    EXPECT_EQ(window.control().prefix(), "/drive");
-    EXPECT_NE(leases().find("/drive"), std::string::npos);
-}
-
 TEST(ControlOfSeveralParts, IsStoppedAtThePathAroundThem) {
     const auto commonOf = [](std::initializer_list<const char*> prefixes) {
         Control control;
@@ -231,23 +115,15 @@ TEST(ControlOfSeveralParts, IsStoppedAtThePathAroundThem) {
     EXPECT_EQ(commonOf({"/arm", "/armature"}), "/");
 }
 
-TEST_F(Controlling, ANameThatNobodyHasEndsControlAndIsTold) {
-    ASSERT_TRUE(everythingComes());
-    window.open("/drive");
-    ASSERT_TRUE(takes("/drive"));
-    session.handOver("nobody@nowhere.1-000000");
-    EXPECT_TRUE(comes([&] { return !window.control().noticeText().isEmpty(); }));
-    EXPECT_TRUE(comes([] { return leases().find("nobody@") == std::string::npos; }));
-}
-
 TEST_F(Controlling, AWindowThatHangsHoldsNothing) {
     ASSERT_TRUE(everythingComes());
     ASSERT_TRUE(takes("/"));
     // No event is handled from here on, as in a window that hangs.
     EXPECT_TRUE(comesWithoutEvents([] { return leases().find("explorer@") == std::string::npos; }));
     EXPECT_TRUE(comes([this] { return !window.control().holds(); }));
-    EXPECT_TRUE(window.control().noticeText().startsWith("Control of / of agent mixer was lost: "))
-        << window.control().noticeText().toStdString();
+    EXPECT_TRUE(
+        window.control().notice().text().startsWith("Control of / of agent mixer was lost: "))
+        << window.control().notice().text().toStdString();
 }
 
 TEST_F(Controlling, StopsWhatIsHeldAtTheFirstPressOfF12) {
@@ -263,9 +139,84 @@ TEST_F(Controlling, StopsWhatIsHeldAtTheFirstPressOfF12) {
     QTest::keyClick(&window, Qt::Key_F12);
     EXPECT_TRUE(comes([this] { return isIn("/controller", State::Standby); }));
     EXPECT_TRUE(comes([this] {
-        return window.stopButton().progress().startsWith("All 1 in Standby, ");
+        return window.stopButton().progress().startsWith("All 1 of /controller in Standby, ");
     })) << window.stopButton().progress().toStdString();
     EXPECT_TRUE(isIn("/drive", State::Active));
+}
+
+TEST_F(Controlling, StartsAllOfASubtreeOnceControlOfItIsGiven) {
+    ASSERT_TRUE(everythingComes());
+    window.startAll().begin("/drive");
+    EXPECT_TRUE(window.startAll().text().endsWith("needs control"));
+    ASSERT_NE(window.control().panel(), nullptr);
+    EXPECT_EQ(window.control().panel()->takeButton().text(), "Take /drive");
+    EXPECT_TRUE(isIn("/drive", State::Standby));
+    window.control().panel()->takeButton().click();
+    EXPECT_TRUE(comes([this] { return isIn("/drive", State::Active); }));
+    EXPECT_TRUE(comes([this] {
+        return window.startAll().text().startsWith("All 1 of /drive Active, ");
+    })) << window.startAll().text().toStdString();
+    EXPECT_TRUE(isIn("/controller", State::Standby));
+}
+
+TEST_F(Controlling, WhoeverDeclinesControlStartsNothingLater) {
+    ASSERT_TRUE(everythingComes());
+    window.startAll().begin("/drive");
+    window.control().panel()->close();
+    EXPECT_TRUE(window.startAll().text().isEmpty());
+    window.open("/drive");
+    ASSERT_TRUE(takes("/drive"));
+    window.refresh();
+    EXPECT_TRUE(isIn("/drive", State::Standby));
+    EXPECT_TRUE(window.startAll().text().isEmpty());
+}
+
+TEST_F(Controlling, AStopEndsAStartThatStillWaits) {
+    ASSERT_TRUE(everythingComes());
+    window.startAll().begin("/drive");
+    QTest::mouseClick(&window.stopButton(), Qt::LeftButton);
+    EXPECT_TRUE(window.startAll().text().isEmpty());
+    window.control().panel()->takeButton().click();
+    ASSERT_TRUE(comes([this] { return window.control().holds(); }));
+    window.refresh();
+    EXPECT_TRUE(window.startAll().text().isEmpty());
+    EXPECT_TRUE(isIn("/drive", State::Standby));
+}
+
+TEST_F(Controlling, StopsAlwaysWhatAPersonChoseForIt) {
+    ASSERT_TRUE(everythingComes());
+    ASSERT_TRUE(comes([] { return live({"call", "/mixer", "startup"}).exit == 0; }));
+    ASSERT_TRUE(comes([this] { return isIn("/controller", State::Active); }));
+    window.stopButton().setScope("/controller");
+    window.open("/drive");
+    ASSERT_TRUE(takes("/drive"));
+    window.refresh();
+    EXPECT_EQ(window.stopButton().text(), "Stop always /controller");
+    QTest::mouseClick(&window.stopButton(), Qt::LeftButton);
+    EXPECT_TRUE(comes([this] { return isIn("/controller", State::Standby); }));
+    EXPECT_TRUE(isIn("/drive", State::Active));
+    window.stopButton().setScope(std::nullopt);
+    window.refresh();
+    EXPECT_EQ(window.stopButton().text(), "Stop /drive");
+}
+
+TEST_F(Controlling, TheMenuOfARowChoosesNothingAndSpeaksOfItsPath) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    auto* rows = window.tree().findChild<QTreeView*>();
+    const QModelIndex row = window.tree().model().indexOf("/controller");
+    ASSERT_TRUE(row.isValid());
+    const QPoint at = rows->visualRect(row).center();
+    QTest::mouseClick(rows->viewport(), Qt::RightButton, Qt::NoModifier, at);
+    EXPECT_EQ(window.tree().model().path(rows->currentIndex()), "/drive");
+    Q_EMIT rows->customContextMenuRequested(at);
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    ASSERT_NE(menu, nullptr);
+    QStringList entries;
+    for (const QAction* each : menu->actions()) entries << each->text();
+    EXPECT_TRUE(entries.contains("Start all of /controller")) << entries.join('|').toStdString();
+    EXPECT_TRUE(entries.contains("Stop all of /controller"));
+    menu->close();
 }
 
 TEST_F(Controlling, AsksBeforeItIsClosed) {

@@ -3,13 +3,16 @@
 #include "gui/window_fixture.hpp"
 #include "views/command_card.hpp"
 #include "views/edit_bar.hpp"
+#include "widgets/entry_hint.hpp"
 #include "widgets/text_label.hpp"
 #include "window/control_bar.hpp"
 
 #include <QAction>
 #include <QClipboard>
+#include <QContextMenuEvent>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QTimer>
 
 #include <QtTest/QTest>
 
@@ -85,6 +88,7 @@ TEST_F(Editing, SendsNothingBeforeControlIsTakenAndThenSetsAndUndoes) {
     EXPECT_EQ(valueOf("dampingRatio"), "0.75") << "what was entered stays";
     ASSERT_TRUE(takes("/drive"));
     ASSERT_TRUE(comes([this] { return button("Set").isEnabled(); }));
+    EXPECT_TRUE(says("Not sent yet.")) << "what held it up is over";
     button("Set").click();
     EXPECT_TRUE(says("Set: dampingRatio "));
     EXPECT_TRUE(comes([this] { return valueOf("dampingRatio").startsWith("0.75"); }));
@@ -93,6 +97,33 @@ TEST_F(Editing, SendsNothingBeforeControlIsTakenAndThenSetsAndUndoes) {
     button("Undo").click();
     EXPECT_TRUE(says("Undone: dampingRatio 0.75"));
     EXPECT_TRUE(comes([&] { return valueOf("dampingRatio") == before; }));
+    EXPECT_TRUE(says("Undone: dampingRatio 0.75"));
+    session.releaseControl();
+    ASSERT_TRUE(comes([this] { return !window.control().holds(); }));
+    ASSERT_EQ(live({"set", "/drive", "dampingRatio=0.95"}).exit, 0);
+    EXPECT_TRUE(comes([this] { return bar().findChild<TextLabel*>()->text().isEmpty(); }))
+        << "somebody else has set it since";
+}
+
+// The entry of the menu of a row that sets it.
+QAction& setOf(ItemTable& table, const QModelIndex& cell) {
+    table.setCurrentIndex(cell);
+    QTimer::singleShot(0, [] { QApplication::activePopupWidget()->close(); });
+    QContextMenuEvent menu{QContextMenuEvent::Keyboard, table.visualRect(cell).center(),
+                           table.mapToGlobal({})};
+    QApplication::sendEvent(table.viewport(), &menu);
+    for (QAction* each : table.actions()) {
+        if (each->text().startsWith("Set")) return *each;
+    }
+    throw std::runtime_error{"no such entry"};
+}
+
+TEST_F(Editing, TheMenuSaysWhyAnItemCannotBeSet) {
+    ASSERT_TRUE(isReady());
+    EXPECT_TRUE(setOf(table(), cellOf("dampingRatio")).isEnabled());
+    EXPECT_FALSE(setOf(table(), cellOf("state")).isEnabled());
+    EXPECT_EQ(setOf(table(), cellOf("state")).text(), "Set: state is not settable");
+    EXPECT_EQ(setOf(table(), cellOf("dampingRatio")).text(), "Set…");
 }
 
 TEST_F(Editing, SetsSeveralItemsTogetherAndDiscardsThem) {
@@ -153,6 +184,51 @@ TEST_F(Editing, DoesNotTakeWhatIsOutOfTheRange) {
     EXPECT_TRUE(valueOf("naturalFrequency").startsWith("12"));
 }
 
+TEST_F(Editing, AFieldSaysWhileTypingWhatIsWrongAndMovesNothing) {
+    ASSERT_TRUE(isReady());
+    table().setCurrentIndex(cellOf("naturalFrequency"));
+    QKeyEvent edit{QEvent::KeyPress, Qt::Key_F2, Qt::NoModifier};
+    QApplication::sendEvent(&table(), &edit);
+    ASSERT_NE(field(), nullptr);
+    auto* hint = table().findChild<EntryHint*>();
+    ASSERT_NE(hint, nullptr);
+    EXPECT_FALSE(hint->isVisible());
+    for (int i = 0; i < 5; ++i) QApplication::processEvents();  // it is laid out
+    const QRect place = table().geometry(), row = table().visualRect(table().currentIndex());
+    field()->selectAll();
+    QTest::keyClicks(field(), "1e6");
+    for (int i = 0; i < 5; ++i) QApplication::processEvents();
+    EXPECT_TRUE(hint->isVisible());
+    EXPECT_TRUE(hint->text().contains("out of the range")) << hint->text().toStdString();
+    EXPECT_FALSE(hint->geometry().intersects(field()->geometry()));
+    EXPECT_TRUE(table().viewport()->rect().contains(hint->geometry()));
+    EXPECT_EQ(table().geometry(), place);
+    EXPECT_EQ(table().visualRect(table().currentIndex()), row);
+    field()->selectAll();
+    QTest::keyClicks(field(), "5");
+    EXPECT_FALSE(hint->isVisible());
+    QTest::keyClicks(field(), "e6");
+    EXPECT_TRUE(hint->isVisible());
+    QTest::keyClick(field(), Qt::Key_Escape);
+    EXPECT_FALSE(hint->isVisible());
+}
+
+TEST_F(Editing, TheKeyboardIsInTheTableAfterSetting) {
+    ASSERT_TRUE(isReady());
+    window.activateWindow();
+    ASSERT_TRUE(takes("/drive"));
+    for (const char* pressed : {"Discard", "Set"}) {
+        enters("dampingRatio", "0.75", Qt::Key_Tab);
+        if (field() != nullptr) QTest::keyClick(field(), Qt::Key_Escape);
+        ASSERT_TRUE(comes([&] { return button(pressed).isEnabled(); }));
+        button(pressed).setFocus();
+        QTest::keyClick(&button(pressed), Qt::Key_Space);
+        EXPECT_EQ(QApplication::focusWidget(), &table()) << pressed;
+    }
+    EXPECT_TRUE(says("Set: dampingRatio "));
+    EXPECT_EQ(QApplication::focusWidget(), &table());
+}
+
 TEST_F(Editing, AWrongFieldKeepsWhatWasTyped) {
     ASSERT_TRUE(isReady());
     enters("naturalFrequency", "1e6", Qt::Key_Return);
@@ -201,6 +277,9 @@ TEST_F(EditingArrays, ElementsAreEnteredOneByOne) {
     EXPECT_TRUE(says("pose 3 "));
     ASSERT_NE(field(), nullptr);
     QTest::keyClick(field(), Qt::Key_Escape);
+    const auto frames = session.frame()->number;
+    EXPECT_TRUE(comes([&] { return session.frame()->number > frames + 3; }));
+    EXPECT_TRUE(says("pose 3 ")) << "it stays until something else is entered";
     // What others set meanwhile of the rest stays.
     ASSERT_TRUE(comes([this] { return button("Set").isEnabled(); }));
     session.releaseControl();

@@ -22,7 +22,7 @@
 namespace cortex::test {
 namespace {
 
-using namespace explorer;
+using namespace gui;
 
 bool says(const QWidget& widget, const QString& text) {
     const auto labels = widget.findChildren<TextLabel*>();

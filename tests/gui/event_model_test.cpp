@@ -4,13 +4,14 @@
 #include "model/event_details.hpp"
 
 #include <QAbstractItemModelTester>
+#include <clocale>
 
 #include <gtest/gtest.h>
 
 namespace cortex::test {
 namespace {
 
-using namespace explorer;
+using namespace gui;
 
 constexpr std::int64_t second = 1'000'000'000;  // ns
 
@@ -38,6 +39,14 @@ TEST_F(EventRows, TheSameWithOtherNumbersIsOneRowWithTheirRange) {
     EXPECT_EQ(times(0), QString::fromUtf8("×3"));
     EXPECT_EQ(shown.index(0, EventModel::Time).data(), "00:00:00.001") << "of the first";
     EXPECT_EQ(times(1), "");
+}
+
+TEST_F(EventRows, HaveTheSameRangeInEveryLocale) {
+    const std::string before = std::setlocale(LC_ALL, nullptr);
+    (void)std::setlocale(LC_ALL, "de_DE.UTF-8");  // where it is installed
+    events.add({limit(1, "limited from 2.7 to 1"), limit(2, "limited from 2.25 to 1")});
+    std::setlocale(LC_ALL, before.c_str());
+    EXPECT_EQ(text(0), QString::fromUtf8("limited from 2.25 … 2.7 to 1"));
 }
 
 TEST_F(EventRows, AreTheirOwnAfterTenSecondsAndAtAnotherSeverity) {

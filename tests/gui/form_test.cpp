@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 namespace {
 
 DataItem itemOfKind(Kind kind) {
@@ -70,6 +70,22 @@ TEST(Field, HasButtonsForAFewLabelsAndAListForMany) {
     ValueField yesOrNo{itemOfKind(Kind::Bool)};
     yesOrNo.setText("true");
     EXPECT_EQ(yesOrNo.value(), Value{std::vector<bool>{true}});
+}
+
+TEST(Field, HasAnAmpersandInALabelWholeOnItsButtonAndMakesNoKeyOfIt) {
+    DataItem item = itemOfKind(Kind::Int);
+    item.labels = {{0, "R&D"}, {1, "&amp;"}};
+    ValueField field{item};
+    QStringList shown;
+    for (auto* each : field.findChildren<QPushButton*>()) {
+        EXPECT_TRUE(each->shortcut().isEmpty()) << each->shortcut().toString().toStdString();
+        shown << each->text().replace("&&", "&");  // as Qt paints it
+    }
+    EXPECT_EQ(shown, (QStringList{"R&D", "&amp;"}));
+    field.findChildren<QPushButton*>().front()->click();
+    EXPECT_EQ(field.value(), Value{std::vector<std::int64_t>{0}});
+    field.setText("&amp;");
+    EXPECT_EQ(field.value(), Value{std::vector<std::int64_t>{1}});
 }
 
 TEST(Field, TakesAllElementsOfAnArrayOrNone) {
@@ -131,4 +147,4 @@ TEST(ShellText, IsQuotedForAShell) {
 }
 
 }  // namespace
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

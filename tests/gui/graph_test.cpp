@@ -13,8 +13,8 @@
 namespace cortex::test {
 namespace {
 
-using explorer::layered;
-using explorer::LayoutEdge;
+using gui::layered;
+using gui::LayoutEdge;
 
 using Edges = std::vector<LayoutEdge>;
 
@@ -108,7 +108,7 @@ protected:
         add(*structure, "/alone", axisLayout);
         return structure;
     }
-    static std::vector<std::string> keys(const explorer::SystemGraph& graph) {
+    static std::vector<std::string> keys(const gui::SystemGraph& graph) {
         std::vector<std::string> keys;
         for (const auto& node : graph.nodes) keys.push_back(node.key);
         return keys;
@@ -117,7 +117,7 @@ protected:
     Type axis, controller;
     Rule demand, measured;
     TypeLayout axisLayout, controllerLayout;
-    explorer::Frame frame;
+    gui::Frame frame;
 };
 
 TEST_F(Related, SiblingsThatAreRelatedAlikeAreOneFamily) {

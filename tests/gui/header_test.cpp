@@ -21,9 +21,11 @@ protected:
         QObject::connect(&header, &SimplexHeader::typeWanted,
                          [this](const std::string& type) { wanted = type; });
     }
-    void show(const std::string& path, std::vector<AgentFrame> agents) {
-        const auto frame = frameOf(std::move(agents));
-        header.show(*frame, *frame->find(path));
+    void show(const std::string& path, std::vector<AgentFrame> agents,
+              std::vector<comms::Contested> contested = {}) {
+        Frame frame = *frameOf(std::move(agents));
+        frame.contested = std::move(contested);
+        header.show(frame, *frame.find(path));
     }
     bool says(const QString& text) {
         for (const auto* label : header.findChildren<TextLabel*>()) {
@@ -65,15 +67,21 @@ TEST_F(Header, HasCodeAndWholeTextOfAFault) {
 
 TEST_F(Header, SaysWhoseValuesAreShownWhereTwoAgentsClaimThePath) {
     MadeAgent spare{"spare", [](SimplexTree& tree) { tree.add("/probe", "Probe"); }};
+    const comms::Contested contest{"/probe",
+                                   {"robot", "spare"},
+                                   "spare",
+                                   "which was there first",
+                                   "agents robot, spare both have /probe; commands go to spare, "
+                                   "which was there first"};
     AgentFrame first = robot.now(), second = spare.now();
-    first.status.since = 2;
-    second.status.since = 1;
-    show("/probe", {first, second});
-    EXPECT_TRUE(says("/probe is claimed by spare and by robot."));
-    EXPECT_TRUE(says("The values of spare are shown. Commands go to spare."));
+    show("/probe", {first, second}, {contest});
+    EXPECT_TRUE(
+        says("Agents robot, spare both have /probe; commands go to spare, which was there "
+             "first."));
+    EXPECT_TRUE(says("agent spare"));
     second.status.state = "lost";
     show("/probe", {first, second});
-    EXPECT_FALSE(says("claimed"));
+    EXPECT_FALSE(says("both have"));
     EXPECT_TRUE(says("agent robot")) << "who is heard owns it";
 }
 
@@ -169,6 +177,21 @@ TEST_F(Header, AnOverloadedLoopShowsTheRateItReaches) {
         inTable = inTable || table.topLevelItem(0)->text(i) == "734 of 1000 Hz";
     }
     EXPECT_TRUE(inTable);
+    EXPECT_TRUE(table.topLevelItem(0)->text(table.columnCount() - 1).startsWith("overloaded: 734"));
+    EXPECT_GE(table.columnWidth(5), QFontMetrics{table.font()}.horizontalAdvance("734 of 1000 Hz"));
+}
+
+TEST_F(Header, ALoopThatReachesItsRateAgainIsNotSaidToMissIt) {
+    AgentFrame again = robot.now("overloaded");
+    again.status.overloaded = true;
+    again.status.rate = 999.96;
+    StatusBar bar;
+    bar.resize(900, bar.height());
+    bar.refresh(*frameOf({again}), Abnormal{});
+    const auto labels = bar.findChildren<TextLabel*>();
+    EXPECT_TRUE(std::ranges::any_of(labels, [](const auto* each) {
+        return each->text() == "robot overloaded until just now";
+    }));
 }
 
 }  // namespace

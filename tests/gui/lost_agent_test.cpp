@@ -10,7 +10,7 @@
 namespace cortex::test {
 namespace {
 
-using namespace explorer;
+using namespace gui;
 
 MadeAgent readingAgent() {
     return {"robot",
@@ -27,7 +27,7 @@ TEST(LostAgent, AViewOfOnesOwnKnowsConstantsBeforeAnyValueCame) {
     AgentFrame silent = robot.now();
     silent.image = nullptr;
     const auto frame = frameOf({silent});
-    const SimplexNow now{*frame, "/reading"};
+    const explorer::SimplexNow now{*frame, "/reading"};
     EXPECT_EQ(now.number("origin", 1), 2.0);
     EXPECT_EQ(now.text("origin", 2), "3");
     EXPECT_FALSE(now.number("a"));
@@ -37,7 +37,7 @@ TEST(LostAgent, AViewOfOnesOwnKnowsConstantsBeforeAnyValueCame) {
 TEST(LostAgent, AViewOfOnesOwnHasItsLastValuesInBracketsAndItsConstantsAsTheyAre) {
     MadeAgent robot = readingAgent();
     const auto frame = frameOf({robot.now("lost")});
-    const SimplexNow now{*frame, "/reading"};
+    const explorer::SimplexNow now{*frame, "/reading"};
     EXPECT_EQ(now.number("a"), 1.5);
     EXPECT_EQ(now.text("a"), "[1.5]");
     EXPECT_EQ(now.text("origin", 0), "1");

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cortex::test {
@@ -21,8 +22,10 @@ public:
     using Fill = std::function<void(SimplexTree&)>;
 
     MadeAgent(std::string agent, const Fill& fill, const std::string& types = "cs-rules.xml")
-        : agent_{std::move(agent)},
-          tree_{TypeModel::load(CORTEX_SOURCE_DIR "/tests/data/" + types)} {
+        : MadeAgent{std::move(agent), fill,
+                    TypeModel::load(CORTEX_SOURCE_DIR "/tests/data/" + types)} {}
+    MadeAgent(std::string agent, const Fill& fill, TypeModel types)
+        : agent_{std::move(agent)}, tree_{std::move(types)} {
         fill(tree_);
         structure = makeStructure(agent_, tree_);
         tables = std::make_shared<Tables>(structure);
@@ -45,25 +48,41 @@ public:
     void degrade(std::string_view path, Quality quality) {
         tables->live(at(path)).state->quality = quality;
     }
-    // "running" or "lost", with all values as they are now.
-    explorer::AgentFrame now(const std::string& state = "running") {
-        explorer::AgentFrame frame;
+    // "running" or "lost", with all values as they are now, also when this agent is gone.
+    gui::AgentFrame now(const std::string& state = "running") {
+        gui::AgentFrame frame;
         frame.status.name = agent_;
         frame.status.state = state;
         frame.status.simplexes = static_cast<std::uint32_t>(structure->simplexes.size());
         frame.status.period = 1'000'000;
         frame.status.epoch = structure->epoch;
         frame.structure = structure;
-        images_->publish(++cycle_, 0, 0);
+        ++cycle_;
+        const std::int64_t time = (cycle_ + waited_) * period;
+        images_->publish(cycle_, time, start + time);
+        const auto kept =
+            std::make_shared<std::pair<std::shared_ptr<Tables>, std::shared_ptr<ImagePool>>>(
+                tables, images_);
         frame.image = std::make_shared<comms::AgentImage>(
-            images_, images_->newest(), std::vector<bool>(structure->simplexes.size(), true),
-            state == "lost");
+            kept, images_->newest(), std::vector<bool>(structure->simplexes.size(), true),
+            state == "lost", behind);
         frame.ages.assign(structure->simplexes.size(), 0.1F);
         return frame;
     }
 
+    void skip(std::int64_t cycles) { cycle_ += cycles; }
+    void wait(std::int64_t periods) { waited_ += periods; }  // in which no cycle runs
+    double seconds() const {                                 // of the next cycle
+        return static_cast<double>((cycle_ + 1 + waited_) * period) * 1e-9;
+    }
+    std::int64_t cycle() const { return cycle_; }
+
+    static constexpr std::int64_t period = 1'000'000;                 // ns
+    static constexpr std::int64_t start = 1'700'000'000'000'000'000;  // UTC ns
+
     std::shared_ptr<const Structure> structure;
     std::shared_ptr<Tables> tables;
+    std::vector<bool> behind;  // the cycle, by simplex
 
 private:
     void* cell(std::string_view path, std::string_view item, Kind kind) {
@@ -75,13 +94,13 @@ private:
     std::string agent_;
     SimplexTree tree_;
     std::shared_ptr<ImagePool> images_;
-    std::int64_t cycle_ = 0;
+    std::int64_t cycle_ = 0, waited_ = 0;
 };
 
 // A frame of these agents, with a number and structures of its own.
-inline std::shared_ptr<explorer::Frame> frameOf(std::vector<explorer::AgentFrame> agents) {
+inline std::shared_ptr<gui::Frame> frameOf(std::vector<gui::AgentFrame> agents) {
     static std::uint64_t count = 0;
-    auto frame = std::make_shared<explorer::Frame>();
+    auto frame = std::make_shared<gui::Frame>();
     frame->joined = true;
     frame->number = ++count * 15;  // filters look at conditions anew
     frame->structures = count;

@@ -12,7 +12,7 @@
 namespace cortex::test {
 namespace {
 
-using namespace cortex::explorer;
+using namespace cortex::gui;
 
 TEST_F(Window, OpensItsManualAtWhatIsSaidOfWhatHasTheKeyboard) {
     QApplication::setActiveWindow(&window);

@@ -20,7 +20,7 @@
 namespace cortex::test {
 namespace {
 
-using namespace cortex::explorer;
+using namespace cortex::gui;
 
 constexpr std::array keys{
     Qt::Key_Tab,    Qt::Key_Backtab, Qt::Key_Up,    Qt::Key_Down,     Qt::Key_Left, Qt::Key_Right,

@@ -6,6 +6,7 @@
 #include "views/system_tree.hpp"
 #include "widgets/text_label.hpp"
 #include "window/control_bar.hpp"
+#include "window/status_bar.hpp"
 #include "window/stop_button.hpp"
 
 #include <QPushButton>
@@ -16,7 +17,7 @@
 namespace cortex::test {
 namespace {
 
-using namespace cortex::explorer;
+using namespace cortex::gui;
 
 class SmallWindow : public Window {
 protected:
@@ -34,6 +35,17 @@ protected:
         return false;
     }
 };
+
+TEST_F(SmallWindow, LeavesOutOfTheStatusLineWhatHasNoRoom) {
+    ASSERT_TRUE(everythingComes());
+    window.refresh();
+    QApplication::processEvents();
+    const auto* status = window.findChild<StatusBar*>();
+    for (const auto* each : status->findChildren<TextLabel*>()) {
+        if (!each->isVisible()) continue;
+        EXPECT_LE(each->sizeHint().width(), each->width()) << each->text().toStdString();
+    }
+}
 
 TEST_F(SmallWindow, HasItsStateLeaseAndStopWhole) {
     ASSERT_TRUE(everythingComes());

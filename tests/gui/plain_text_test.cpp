@@ -2,6 +2,7 @@
 // Texts of agents are shown as they are: no markup in them is rendered.
 #include "gui/window_fixture.hpp"
 #include "views/command_card.hpp"
+#include "widgets/rows.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QMessageBox>
@@ -63,6 +64,13 @@ TEST(PlainText, ATextThatDoesNotFitIsWholeInATooltipThatRendersNoMarkup) {
     EXPECT_TRUE(tip->text().contains('\n')) << "long lines are broken";
 }
 
+TEST(PlainText, ACellThatIsCutIsAsItIsInItsTooltip) {
+    QTreeWidget tree;
+    auto* row = new QTreeWidgetItem{&tree, {QString{}}};
+    setCell(*row, 0, QStringLiteral("a < b & c"));
+    EXPECT_EQ(row->toolTip(0), "a < b & c");
+}
+
 TEST(PlainText, AnyLabelOfTheProgramRendersNoMarkup) {
     QLabel label{hostile};
     label.ensurePolished();
@@ -85,7 +93,7 @@ protected:
         const std::string end = "</system>";
         system.replace(system.find(end), end.size(),
                        "<simplex path=\"/note\" type=\"Note\"/>" + end);
-        const std::string types = "<morphology file=\"robotics-morphology.xml\"/>";
+        const std::string types = "<morphology file=\"cortex-morphology.xml\"/>";
         system.replace(system.find(types), types.size(),
                        types + "<ontology file=\"hostile.xml\"/>");
         agent.reset();

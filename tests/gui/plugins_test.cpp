@@ -3,12 +3,14 @@
 
 #include "cortex/core/simplex_tree.hpp"
 
+#include "motion/motion_views.hpp"
+
 #include <gtest/gtest.h>
 
 namespace cortex::test {
 namespace {
 
-using namespace explorer;
+using namespace gui;
 
 const QString folderOfViews = QStringLiteral(CORTEX_BINARY_DIR "/lib/views");
 
@@ -31,6 +33,18 @@ TEST(Plugins, OneOfAnotherVersionIsNamedWithWhatToDo) {
     const QString& problem = plugins.problems().front();
     EXPECT_TRUE(problem.contains("views_of_another_version.so")) << problem.toStdString();
     EXPECT_TRUE(problem.contains("Build it again")) << problem.toStdString();
+}
+
+TEST(Plugins, AViewOfTheProgramGivesWayToOneOfASharedObjectForTheSameType) {
+    const TypeModel types = TypeModel::load(CORTEX_SOURCE_DIR "/ontology/robotics-morphology.xml");
+    Plugins plugins{{folderOfViews}};
+    plugins.add(explorer::motionViews());
+    const auto nameFor = [&](const char* type) {
+        const ViewType* view = plugins.viewFor(*types.find(type), types);
+        return view == nullptr ? std::string{} : std::string{view->name};
+    };
+    EXPECT_EQ(nameFor("JogController"), "orders");
+    EXPECT_EQ(nameFor("AxisPoseController"), "pose");
 }
 
 TEST(Plugins, AFolderThatIsNotThereIsNoProblem) {

@@ -2,7 +2,10 @@
 // The program `cortex-explorer` as it is started, without a display.
 #include "gui/window_fixture.hpp"
 
+#include <QFile>
 #include <QImage>
+#include <QJsonDocument>
+#include <QJsonObject>
 
 namespace cortex::test {
 namespace {
@@ -27,6 +30,23 @@ TEST_F(Program, MakesAPictureOfEveryViewInTheSizeThatWasAskedFor) {
         EXPECT_EQ(made.exit, 0) << made.errors;
         EXPECT_EQ(QImage(QString::fromStdString(file())).size(), QSize(900, 700));
     }
+}
+
+TEST_F(Program, MakesAPictureOfAPlotAndMeasuresIt) {
+    const Outcome made = explorerWith(
+        {"--screenshot", file(), "--timeout", "30", "--plot", "/drive.position", "/drive.state"});
+    EXPECT_EQ(made.exit, 0) << made.errors;
+    EXPECT_FALSE(QImage(QString::fromStdString(file())).isNull());
+    const Outcome measured =
+        explorerWith({"--measure", "1", file(), "--plot", "/drive.position", "/drive.state"});
+    EXPECT_EQ(measured.exit, 0) << measured.errors;
+    QFile result{QString::fromStdString(file())};
+    ASSERT_TRUE(result.open(QIODevice::ReadOnly));
+    const QJsonObject found = QJsonDocument::fromJson(result.readAll()).object();
+    EXPECT_GT(found["frames"].toInt(), 0);
+    EXPECT_GT(found["memory_mb"].toObject()["end"].toDouble(), 1);
+    EXPECT_EQ(found["shown"].toObject()["lines"].toInt(), 2);
+    EXPECT_EQ(explorerWith({"--plot", "drive"}).exit, 2);
 }
 
 TEST_F(Program, SaysThatAPictureCannotBeWritten) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/query.hpp"
 
+#include "gui/measured_agent.hpp"
 #include "support/small_structure.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,7 @@
 namespace cortex::test {
 namespace {
 
-using namespace explorer;
+using namespace gui;
 
 // The plant of small_structure.hpp, of the agent "robot"; nothing of it has come.
 Frame plantFrame() {
@@ -61,6 +62,20 @@ TEST(Query, NamesTheNearestFieldForAnUnknownOne) {
     const Query query{"stat:Fault"};
     EXPECT_TRUE(query.trouble().contains("state")) << query.trouble().toStdString();
     EXPECT_TRUE(Query{"state:Fault"}.trouble().isEmpty());
+}
+
+TEST(Query, NamesTheNearestTypesForAnUnknownOneOnceAllAreKnown) {
+    MadeAgent robot = clusterNamed("robot");
+    const auto frame = frameOf({robot.now()});
+    const Query query{"fault or -is:Clust"};
+    frame->complete = false;
+    EXPECT_EQ(query.troubleIn(*frame), QString{}) << "it may still come";
+    frame->complete = true;
+    const QString trouble = query.troubleIn(*frame);
+    EXPECT_TRUE(trouble.startsWith("No agent has a type \"Clust\"")) << trouble.toStdString();
+    EXPECT_TRUE(trouble.contains("Cluster")) << trouble.toStdString();
+    EXPECT_EQ(Query{"type:cluster is:Active"}.troubleIn(*frame), QString{});
+    EXPECT_TRUE(Query{"stat:Fault"}.troubleIn(*frame).contains("state"));
 }
 
 TEST(Query, ReadsConditionsOnValues) {

@@ -16,8 +16,8 @@
 namespace cortex::comms {
 namespace {
 
-using explorer::CommandOutcome;
-using explorer::Session;
+using gui::CommandOutcome;
+using gui::Session;
 using test::ProbeCluster;
 
 TEST(Session, IsUsedWhileAgentsComeAndGoAndCommandsAreAnswered) {

@@ -15,7 +15,7 @@
 namespace cortex::test {
 namespace {
 
-using namespace explorer;
+using namespace gui;
 
 MadeAgent agentWith(const std::string& name, const std::vector<std::string>& paths) {
     return {name, [&](SimplexTree& tree) {
@@ -53,6 +53,16 @@ protected:
     MadeAgent robot = agentWith("robot", {"/control/clutch", "/control/hold", "/drive"});
     MadeAgent operators = agentWith("operator", {"/hand", "/playback"});
 };
+
+TEST_F(Tree, APartOfThePlantIsChosenWithoutOpeningAnything) {
+    tree.refresh(frameOf({robot.now(), operators.now()}));
+    tree.choose("/control/clutch");
+    EXPECT_EQ(tree.part(), "");
+    chosen.clear();
+    key(Qt::Key_Up);
+    EXPECT_EQ(tree.part(), "/control");
+    EXPECT_TRUE(chosen.empty());
+}
 
 TEST_F(Tree, RowsThatGoOpenNoOtherSimplex) {
     tree.refresh(frameOf({robot.now(), operators.now()}));

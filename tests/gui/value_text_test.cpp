@@ -10,7 +10,7 @@
 namespace cortex::test {
 namespace {
 
-using namespace explorer;
+using namespace gui;
 
 std::string shown(double number, double resolution = 0, const std::string& format = {}) {
     DataItem each = item("x", std::vector<double>{0});

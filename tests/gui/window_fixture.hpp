@@ -16,7 +16,7 @@
 
 namespace cortex::test {
 
-using namespace explorer;
+using namespace gui;
 
 inline constexpr qint64 longEnough = 30'000;  // ms; no test waits so long unless it fails
 

@@ -2,6 +2,7 @@
 // The whole window, offscreen, with a real agent over DDS.
 #include "gui/window_fixture.hpp"
 #include "model/item_model.hpp"
+#include "plots/plot_view.hpp"
 #include "style/look.hpp"
 #include "views/base_view.hpp"
 #include "views/event_list.hpp"
@@ -15,6 +16,7 @@
 #include "window/stop_button.hpp"
 
 #include <QAbstractItemModelTester>
+#include <QAction>
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QImage>
@@ -29,7 +31,7 @@
 namespace cortex::test {
 namespace {
 
-using namespace explorer;
+using namespace gui;
 
 TEST_F(Window, ShowsEverySimplexOfAnAgentItHasNeverHeardOf) {
     ASSERT_TRUE(everythingComes());
@@ -95,7 +97,7 @@ TEST_F(Window, FiltersTheTreeAndNamesWhatIsWrongWithAFilter) {
 
 TEST_F(Window, DrawsWhatIsRelatedAndOpensItByKey) {
     ASSERT_TRUE(everythingComes());
-    window.openGraph();
+    window.openKind("system");
     window.refresh();
     const SystemGraph& graph = qobject_cast<GraphView*>(window.current())->graph();
     ASSERT_FALSE(graph.edges.empty());
@@ -135,7 +137,7 @@ TEST_F(Window, ShowsEventsInATabInPlaceOfTheStripWithTheSameFilter) {
     ASSERT_EQ(live({"call", "/mixer", "startup"}).exit, 0);
     const auto* strip = window.findChild<EventList*>();
     EXPECT_TRUE(strip->isVisible());
-    window.openEvents();
+    window.openKind("events");
     EXPECT_FALSE(strip->isVisible());
     const auto& rows = *window.current()->findChild<EventTable*>()->model();
     EXPECT_TRUE(comes([&] { return rows.rowCount() > 4; }));
@@ -249,6 +251,33 @@ TEST(WindowAlone, SaysWhyADomainCannotBeJoinedAndPaintsAllTheSame) {
     EXPECT_TRUE(contains(session.frame()->problem, "no-such-interface"))
         << session.frame()->problem;
     EXPECT_FALSE(window.grab().isNull());
+}
+
+TEST_F(Window, PutsAValueIntoAPlotByPAndAnotherOneIntoTheSame) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    window.refresh();
+    const auto* view = window.current();
+    auto* table = view->findChild<ItemTable*>();
+    const auto plotThe = [&](const QString& item) {
+        const auto found = table->model()->match(table->model()->index(0, 0), Qt::DisplayRole, item,
+                                                 1, Qt::MatchExactly | Qt::MatchRecursive);
+        ASSERT_FALSE(found.isEmpty()) << item.toStdString();
+        table->setCurrentIndex(found.front());
+        for (QAction* each : table->actions()) {
+            if (each->shortcut() == QKeySequence{Qt::Key_P}) each->trigger();
+        }
+    };
+    plotThe(QStringLiteral("position"));
+    auto* plot = qobject_cast<PlotView*>(window.current());
+    ASSERT_NE(plot, nullptr);
+    plotThe(QStringLiteral("state"));
+    EXPECT_EQ(window.current(), plot);
+    ASSERT_EQ(plot->lines().all().size(), 2U);
+    EXPECT_TRUE(comes([&] {
+        window.refresh();
+        return plot->drawn().front().any() && plot->drawn().back().any();
+    }));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <regex>
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <gtest/gtest.h>
@@ -42,8 +43,11 @@ TEST(CortexAgent, RunsTheCaseStudyAndPrintsMetricsAndMonitors) {
 
     EXPECT_EQ(ended.exitCode, 0) << ended.output;
     EXPECT_TRUE(says(ended, "all active simplexes are started")) << ended.output;
+    EXPECT_FALSE(says(ended, "not started")) << ended.output;
     EXPECT_TRUE(says(ended, "duty cycle")) << ended.output;
     EXPECT_TRUE(says(ended, "/tracking (TrackingMonitor)")) << ended.output;
+    EXPECT_LT(ended.output.rfind("ShuttingDown -> Standby"), ended.output.find("cycle duration"))
+        << "what the stop executes counts: " << ended.output;
 }
 
 TEST(CortexAgent, NamesWhatItsStartupWaitsForAtOnceAndAtTheEndAndEndsWithFour) {
@@ -60,6 +64,19 @@ TEST(CortexAgent, NamesWhatItsStartupWaitsForAtOnceAndAtTheEndAndEndsWithFour) {
     EXPECT_NE(ended.output.find(waits, first + 1), std::string::npos) << ended.output;
     EXPECT_TRUE(says(ended, "did not follow: startup needs enable")) << ended.output;
     EXPECT_TRUE(says(ended, "more, as events say")) << ended.output;
+}
+
+TEST(CortexAgent, SaysThatNobodyAskedForAStartUp) {
+    const TeleopFile file;
+
+    const Ended ended = agent(file.path().string() + " --priority 0 --frequency 50 --seconds 0.2");
+
+    EXPECT_EQ(ended.exitCode, 0) << ended.output;
+    const std::string told =
+        "are in Standby, and nobody asked for a start-up: start this agent "
+        "with --startup\n";
+    EXPECT_TRUE(says(ended, told)) << ended.output;
+    EXPECT_EQ(ended.output.find(told), ended.output.rfind(told)) << ended.output;
 }
 
 TEST(CortexAgent, NamesWhoDidNotGetThroughTheShutdownInTimeAndEndsWithFour) {
@@ -99,14 +116,26 @@ TEST(CortexAgent, RefusesAnArmWithoutGripperWithRulePlaceAndRemedy) {
 }
 
 TEST(CortexAgent, RefusesASystemWhoseClassesAreMissing) {
+    const TeleopFile file{{{"</system>", "<simplex path=\"/own\" type=\"Own\"/></system>"}},
+                          "<type name=\"Own\" extends=\"Active\"/>"};
+
+    const Ended ended = agent(file.path().string() + " --seconds 0.1");
+
+    EXPECT_EQ(ended.exitCode, 1) << ended.output;
+    EXPECT_TRUE(says(ended, "/own: no C++ class implements")) << ended.output;
+    EXPECT_TRUE(says(ended, "--plugin")) << ended.output;
+}
+
+TEST(CortexAgent, RunsTheClassOfTheNearestAncestorAndSaysSo) {
     const TeleopFile file{{{"type=\"FollowAxisController\"", "type=\"MyFollow\""}},
                           "<type name=\"MyFollow\" extends=\"FollowAxisController\"/>"};
 
     const Ended ended = agent(file.path().string() + " --seconds 0.1");
 
-    EXPECT_EQ(ended.exitCode, 1) << ended.output;
-    EXPECT_TRUE(says(ended, "/control/follow")) << ended.output;
-    EXPECT_TRUE(says(ended, "--plugin")) << ended.output;
+    EXPECT_EQ(ended.exitCode, 0) << ended.output;
+    EXPECT_TRUE(
+        says(ended, "MyFollow has no class of its own and runs that of FollowAxisController"))
+        << ended.output;
 }
 
 TEST(CortexAgent, EndsWithTwoForWrongUsage) {
@@ -116,6 +145,7 @@ TEST(CortexAgent, EndsWithTwoForWrongUsage) {
     EXPECT_EQ(agent("").exitCode, 2);
     EXPECT_EQ(agent(system + " --frequency fast").exitCode, 2);
     EXPECT_EQ(agent(system + " --threads 0").exitCode, 2);
+    EXPECT_TRUE(says(agent(system + " --seconds nan"), "'nan' is no number"));
     EXPECT_EQ(agent(system + " --what").exitCode, 2);
     EXPECT_EQ(agent(system + " --set /drives/1.naturalFrequency").exitCode, 2);
     EXPECT_EQ(agent(system + " --set /drives/1.naturalFrequency=soft").exitCode, 2);
@@ -124,6 +154,14 @@ TEST(CortexAgent, EndsWithTwoForWrongUsage) {
     EXPECT_TRUE(says(ended, "naturalFrequency")) << ended.output;
     EXPECT_EQ(agent(system + " --set /drive/1.naturalFrequency=10").exitCode, 2);
     EXPECT_EQ(agent("--help").exitCode, 0);
+}
+
+TEST(CortexAgent, SaysThatAnAgentRunsOneFileAndNumbersHaveNoUnit) {
+    EXPECT_TRUE(says(agent("plant.xml control.xml"),
+                     "'control.xml' was not expected: one agent runs one system file; start "
+                     "another cortex-agent for it"));
+    EXPECT_TRUE(
+        says(agent("plant.xml --frequency 1kHz"), "'1kHz' is no number; write it without a unit"));
 }
 
 TEST(CortexAgent, SaysHowManyValuesASettingNeeds) {
@@ -195,6 +233,17 @@ TEST(CortexAgent, OptionsOutrankTheFile) {
 
     EXPECT_EQ(ended.exitCode, 0) << ended.output;
     EXPECT_TRUE(says(ended, "at 200 Hz")) << ended.output;
+}
+
+TEST(CortexAgent, WritesNoEventsToAPipe) {
+    const TeleopFile file;
+    const std::filesystem::path pipe = file.path().parent_path() / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+
+    const Ended ended = agent(file.path().string() + " --seconds 0.1 --log " + pipe.string());
+
+    EXPECT_EQ(ended.exitCode, 1) << ended.output;
+    EXPECT_TRUE(says(ended, " is a pipe, whose reader could hold up all events")) << ended.output;
 }
 
 TEST(CortexAgent, WritesEventsToTheLogFile) {

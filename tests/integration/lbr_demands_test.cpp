@@ -3,8 +3,8 @@
 // move in a cycle.
 #include "cortex/cs/testing.hpp"
 
+#include "mechanics/lbr_chain.hpp"
 #include "teleop.hpp"
-#include "toolkit/lbr_chain.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -89,7 +89,7 @@ public:
     double worst = 0, way = 0;
 
 private:
-    std::vector<toolkit::ChainJoint> joints_ = toolkit::test::lbrJoints();
+    std::vector<mechanics::ChainJoint> joints_ = mechanics::test::lbrJoints();
     Axes last_{};
     std::int64_t lastTime_ = -1;
 };

@@ -58,7 +58,7 @@ TEST(LbrTeleop, ArmStaysWhileTheHandMovesReleased) {
     teleop.runUntil(7.6);  // released at 7.2, the hand goes on from 7.3 to 9.0
     ASSERT_FALSE(pressed(teleop.image()));
     const Axes before = positionsOf(teleop.image(), "axes");
-    const toolkit::Pose hand = handOf(teleop.image());
+    const mechanics::Pose hand = handOf(teleop.image());
 
     teleop.runUntil(8.9);
 

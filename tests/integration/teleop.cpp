@@ -4,7 +4,7 @@
 #include "cortex/toolkit/classes.hpp"
 
 #include "core/model_folder.hpp"
-#include "toolkit/lbr_chain.hpp"
+#include "mechanics/lbr_chain.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -18,7 +18,7 @@
 namespace cortex::test {
 namespace {
 
-using toolkit::Pose;
+using mechanics::Pose;
 
 void replace(std::string& text, const std::string& from, const std::string& to) {
     std::size_t place = text.find(from);
@@ -129,10 +129,10 @@ State stateOf(const Image& image, const std::string& path) {
 bool pressed(const Image& image) { return image.get<bool>("/handset/trigger", "value"); }
 
 Tracking track(Teleop& teleop, double until) {
-    const toolkit::SerialChain chain = toolkit::test::lbrChain();
+    const mechanics::SerialChain chain = mechanics::test::lbrChain();
     const auto tipOf = [&](const Image& image) {
         const Axes axes = positionsOf(image, "axes");
-        toolkit::SerialChain::JointVector joints(lbrAxes);
+        mechanics::SerialChain::JointVector joints(lbrAxes);
         for (std::size_t i = 0; i < lbrAxes; ++i) joints[static_cast<Eigen::Index>(i)] = axes[i];
         return chain.forward(joints);
     };
@@ -155,8 +155,8 @@ Tracking track(Teleop& teleop, double until) {
         }
         held = pressed(image);
         if (held && stateOf(image, "/control/follow") == State::Active) {
-            const toolkit::Twist error =
-                toolkit::difference(motion(handThen, hand), motion(tipThen, tip));
+            const mechanics::Twist error =
+                mechanics::difference(motion(handThen, hand), motion(tipThen, tip));
             result.rmsPosition += error.head<3>().squaredNorm();
             result.rmsRotation += error.tail<3>().squaredNorm();
             way += (hand.position - lastHand.position).squaredNorm();

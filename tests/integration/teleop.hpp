@@ -3,7 +3,7 @@
 
 #include "cortex/core/registry.hpp"
 #include "cortex/cs/cluster_cs.hpp"
-#include "cortex/toolkit/serial_chain.hpp"
+#include "cortex/mechanics/serial_chain.hpp"
 
 #include <array>
 #include <filesystem>
@@ -66,7 +66,7 @@ public:
 };
 
 Axes positionsOf(const Image& image, const std::string& group);  // "axes" or "demands"
-toolkit::Pose handOf(const Image& image);
+mechanics::Pose handOf(const Image& image);
 State stateOf(const Image& image, const std::string& path);
 bool pressed(const Image& image);
 

@@ -142,6 +142,18 @@ class CycloneClient(unittest.TestCase):
         self.assertGreater(len(set(times)), 10, times)
         self.assertIn('/playback.file = "synthetic_hand_path.csv"', lines)
 
+    def test_prints_how_the_simplexes_of_an_agent_are(self):
+        with self.demo():
+            client = Client(0)
+            listed = client.list()
+            owner = next(each[3] for each in listed if each[0] == "/drives/1")
+            marks = {}
+            while marks.get("/drives/1") != "good Active":  # it is started up meanwhile
+                marks = dict(line.split(" ", 1) for line in client.run("summary", "/drives/1"))
+            marks = dict(line.split(" ", 1) for line in client.run("summary", "/"))
+            self.assertEqual(sorted(marks), sorted(each[0] for each in listed if each[3] == owner))
+            self.assertEqual(len(client.run("summary", "/drives/1")), 1)
+
     def test_calls_commands_and_gets_their_answers(self):
         with self.demo():
             client = Client(0)

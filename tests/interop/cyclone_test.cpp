@@ -26,6 +26,7 @@ using Pairs = testing::Types<Pair<Presence, cortex_Presence, &cortex_Presence_de
                              Pair<Model, cortex_Model, &cortex_Model_desc>,
                              Pair<Interest, cortex_Interest, &cortex_Interest_desc>,
                              Pair<Block, cortex_Block, &cortex_Block_desc>,
+                             Pair<Summary, cortex_Summary, &cortex_Summary_desc>,
                              Pair<Command, cortex_Command, &cortex_Command_desc>,
                              Pair<Answer, cortex_Answer, &cortex_Answer_desc>,
                              Pair<EventMessage, cortex_EventMessage, &cortex_EventMessage_desc>>;

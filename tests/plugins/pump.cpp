@@ -16,6 +16,9 @@ public:
 
 [[maybe_unused]] void addClasses(cortex::ClassRegistry& registry) {
     registry.add<Pump>("Pump");
+#ifndef PUMP_UNREGISTERED
+    registry.add<Pump>("Turbine");
+#endif
 #ifdef PUMP_UNSTATED
     registry.add<Pump>("Valve");
 #endif
@@ -26,8 +29,8 @@ public:
 #ifdef PUMP_DESCRIPTION
 
 extern "C" __attribute__((visibility("default"))) const cortex::PluginDescription* cortexPlugin() {
-    static const cortex::PluginDescription::ImplementedType types[] = {{"Pump", ""},
-                                                                       {nullptr, nullptr}};
+    static const cortex::PluginDescription::ImplementedType types[] = {
+        {"Pump", ""}, {"Turbine", ""}, {nullptr, nullptr}};
     static const cortex::PluginDescription description{PUMP_DESCRIPTION, types, addClasses};
     return &description;
 }

@@ -7,7 +7,9 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sys/ptrace.h>
@@ -69,6 +71,61 @@ protected:
     fs::path system;
     std::string output;
 };
+
+class EarlyEndOfAProcess : public EndOfAProcess {
+protected:
+    ~EarlyEndOfAProcess() override { unsetenv("ENDS_EARLY"); }
+
+    int endOfOneThat(const char* how) {
+        setenv("ENDS_EARLY", how, 1);
+        fs::remove(folder.path() / "plant.txt");  // what the one before has printed
+        const std::string plugin = CORTEX_BINARY_DIR "/lib/plugins/ends-early.so";
+        AgentProcess agent{folder, system, {"--plugin", plugin, "--seconds", "20"}};
+        const int code = agent.waitForEnd();
+        output = agent.output();
+        return code;
+    }
+    bool says(const std::string& text) const {
+        if (output.find(text) != std::string::npos) return true;
+        std::cerr << output;
+        return false;
+    }
+};
+
+TEST_F(EarlyEndOfAProcess, ByExitInAPluginHasCodeThreeAndNamesItAndItsPhase) {
+    const std::string plugin =
+        "plug-in " CORTEX_BINARY_DIR "/lib/plugins/ends-early.so called exit(";
+    EXPECT_EQ(endOfOneThat("exit load"), 3);
+    EXPECT_TRUE(says("exit(1) was called in loading the plug-in "));
+    EXPECT_EQ(endOfOneThat("exit constructor"), 3);
+    EXPECT_TRUE(says(plugin));
+    EXPECT_TRUE(says(") in making the simplexes of "));
+    EXPECT_EQ(endOfOneThat("exit populate"), 3);
+    EXPECT_TRUE(
+        says(") in populate() of /stuck (NeverReturns); the process ends with exit code 3"));
+}
+
+TEST_F(EarlyEndOfAProcess, ByExitWhileItsLoopRunsComesAfterTheShutdown) {
+    for (const auto& [how, where] : {std::pair{"exit hook", "in stateStandby of /stuck"},
+                                     std::pair{"exit thread", "in a thread of its own"}}) {
+        EXPECT_EQ(endOfOneThat(how), 3);
+        EXPECT_TRUE(says(std::string{where} + "; all is shut down first; the process ends with "
+                                              "exit code 3"));
+        EXPECT_TRUE(says("cycles in ")) << "the end of one that was shut down";
+    }
+    EXPECT_EQ(endOfOneThat("exit hook"), 3);
+    EXPECT_TRUE(says("error /stuck fault "));
+}
+
+TEST_F(EarlyEndOfAProcess, ByACrashOutsideOfHooksNamesThePluginAndThePhase) {
+    endOfOneThat("crash load");
+    EXPECT_TRUE(says("cortex: SIGSEGV in loading the plug-in " CORTEX_BINARY_DIR
+                     "/lib/plugins/ends-early.so; the process ends"));
+    endOfOneThat("crash populate");
+    EXPECT_TRUE(says("cortex: SIGSEGV in populate() of /stuck (NeverReturns) (plug-in "));
+    endOfOneThat("crash thread");
+    EXPECT_TRUE(says("cortex: SIGSEGV in a thread of plug-in "));
+}
 
 TEST_F(EndOfAProcess, ComesWhilePopulateDoesNotReturn) {
     EXPECT_EQ(endOfOneThatHangsIn("populate"), 3);

@@ -137,8 +137,56 @@ TEST_F(RetainedValues, KeepTheirLastGoodValueWhereTheNewOneIsNoNumber) {
     agent.start();
     ASSERT_TRUE(
         station.waitFor([&] { return contains(agent.output(), "/counter.share 0 -> 0.25\n"); }));
-    EXPECT_EQ(agent.endInOrder(), 0);
+    EXPECT_EQ(agent.endInOrder(), 0) << agent.output();
     EXPECT_TRUE(contains(retainedText(), good)) << "it was good before the restart";
+}
+
+TEST_F(RetainedValues, AndSavedOnesKeepATextWithControlCharacters) {
+    const std::string saved = (folder.path() / "saved.xml").string();
+    const std::string inFile = R"(value="a\x01b\\x02\x0a" escaped="true"/>)";
+    AgentProcess agent{folder, system, options()};
+    ASSERT_EQ(set({"title=a\x01"
+                   "b\\x02\n"})
+                  .exit,
+              0);
+    ASSERT_EQ(tool({"save", saved, counter}).exit, 0);
+    EXPECT_TRUE(contains(textOf(saved), inFile)) << textOf(saved);
+    EXPECT_EQ(agent.endInOrder(), 0);
+    EXPECT_TRUE(contains(retainedText(), inFile)) << retainedText();
+
+    agent.start();
+    ASSERT_EQ(set({"title=other"}).exit, 0) << agent.output();
+    EXPECT_TRUE(contains(agent.output(), R"(/counter.title "" -> "a\x01b\x02\x0a")"))
+        << agent.output();
+    const Outcome restored = tool({"restore", saved});
+    EXPECT_EQ(restored.exit, 0) << restored.errors;
+    EXPECT_EQ(agent.endInOrder(), 0);
+    EXPECT_TRUE(contains(retainedText(), inFile)) << retainedText();
+}
+
+TEST_F(RetainedValues, TakeNoTextThatIsTooLongOrNoUtf8) {
+    AgentProcess agent{folder, system, options()};
+    const Outcome tooLong = set({"title=" + std::string(41, 'x')});
+    EXPECT_EQ(tooLong.exit, 2);
+    EXPECT_TRUE(contains(tooLong.errors, "title: takes 40 bytes, and 41 are given"))
+        << tooLong.errors;
+    const Outcome noText = set({"title=\xff"});
+    EXPECT_EQ(noText.exit, 2);
+    EXPECT_TRUE(contains(noText.errors, "title: the text is not UTF-8")) << noText.errors;
+}
+
+TEST_F(RetainedValues, ReplaceNothingThatIsNoRegularFile) {
+    const std::filesystem::path kept = folder.write("kept.txt", "kept");
+    for (const std::filesystem::path& other : {folder.path() / "link", folder.path()}) {
+        if (other != folder.path()) std::filesystem::create_symlink(kept, other);
+        AgentProcess agent{folder, system, options({"--retain", other.string()})};
+        EXPECT_EQ(agent.waitForEnd(), 2);
+        EXPECT_TRUE(contains(agent.output(), "--retain: " + other.string() + " is a "))
+            << agent.output();
+        EXPECT_TRUE(std::filesystem::exists(other));
+    }
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link"));
+    EXPECT_EQ(textOf(kept), "kept");
 }
 
 TEST_F(RetainedValues, AreKeptWhereAClassWouldReplaceThemAsTheStartIsRefused) {
@@ -200,6 +248,19 @@ TEST_F(RetainedValues, CannotBeWrittenWhichIsToldOnceWhileTheAgentGoesOn) {
     const std::string told = "retained items are not written: ";
     ASSERT_TRUE(contains(output, told)) << output;
     EXPECT_EQ(output.find(told), output.rfind(told)) << output;
+    EXPECT_TRUE(contains(output, "is missing: mkdir -p " + (folder.path() / "none").string()));
+}
+
+TEST_F(RetainedValues, AreWrittenOnceTheirFolderIsThereWhichIsTold) {
+    const std::filesystem::path late = folder.path() / "late";
+    AgentProcess agent{folder, system, options({"--retain", (late / "r.xml").string()})};
+    ASSERT_TRUE(comms::comesTrue([&] { return contains(agent.output(), "is missing: mkdir"); }));
+
+    std::filesystem::create_directory(late);
+
+    EXPECT_TRUE(comms::comesTrue(
+        [&] { return contains(agent.output(), "retained items are written again: "); }));
+    EXPECT_TRUE(std::filesystem::exists(late / "r.xml"));
 }
 
 TEST_F(RetainedValues, SettingsThatWereSavedAreStartValuesAndEveryDifferenceIsShown) {

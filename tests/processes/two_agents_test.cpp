@@ -248,12 +248,12 @@ TEST_F(TwoAgents, TheRobotStartsFirstAndWaitsForTheOperator) {
 TEST_F(TwoAgents, ASecondStartOfAnAgentIsSilentUntilTheFirstEnds) {
     ASSERT_TRUE(follows()) << outputs();
     const std::int64_t first = station.epochOf("robot");
-    AgentProcess second{folder, example("robot.xml"), options()};
+    AgentProcess second{folder, example("robot.xml"), options({"--wait"})};
     const auto says = [&](const std::string& words) {
         return station.waitFor([&] { return second.output().find(words) != std::string::npos; });
     };
-    EXPECT_TRUE(says("another start of robot is heard")) << second.output();
-    EXPECT_TRUE(says("it was there first, so this one is silent until it ends"));
+    EXPECT_TRUE(says("another start of its name is there; this one waits until it has ended"))
+        << second.output();
     EXPECT_TRUE(station.waitFor(
         [&] { return station.hasEvent("/robot", "another start of robot is heard"); }));
     EXPECT_TRUE(follows());

@@ -34,14 +34,14 @@ TEST(DdsInterface, NeitherAllocatesNorLocksNorCallsTheSystemInTheLoop) {
     wanted.views = {{0, {"/"}}};
     ASSERT_TRUE(tool.interests->write(tool.interest(wanted)));
     ASSERT_TRUE(tool.presences->write(tool.presence()));
-    test::resetOffences();
+    test::checker().reset();
     std::atomic<bool> stop{false};
     std::thread loop{[&] {
-        test::watchThisThread();
+        test::checker().watchThisThread();
         while (!stop) {
-            test::enterTick();
+            test::checker().enterTick();
             near.rig.step();
-            test::leaveTick();
+            test::checker().leaveTick();
             std::this_thread::sleep_for(1ms);
         }
     }};
@@ -64,13 +64,13 @@ TEST(DdsInterface, NeitherAllocatesNorLocksNorCallsTheSystemInTheLoop) {
     stop = true;
     loop.join();
 
-    EXPECT_TRUE(test::offences().none()) << test::offences().text();
+    EXPECT_EQ(test::violations(), "");
 }
 
 // A real loop at 1 kHz that links a simplex of another agent, while tools come, look at everything,
 // command and go, and the other agent goes and comes back.
 TEST(DdsCluster, KeepsItsTicksCleanWhileClientsComeAndGo) {
-    test::resetOffences();
+    test::checker().reset();
     SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};
     auto& probe = tree.add<test::Probe>("/probe", "Probe");
     tree.relateRemote(probe, "observed", "/axis");
@@ -81,7 +81,7 @@ TEST(DdsCluster, KeepsItsTicksCleanWhileClientsComeAndGo) {
     cluster.addInterface<DdsInterface>(loopback());
     cluster.start();
     test::runCycles(cluster, 200);
-    const std::uint64_t faults = test::pageFaults();
+    const std::uint64_t faults = test::checker().counts().pageFaults;
 
     const auto axisIs = [&](Quality quality) {
         return comesTrue([&] { return cluster.image().quality("/axis") == quality; });
@@ -118,10 +118,11 @@ TEST(DdsCluster, KeepsItsTicksCleanWhileClientsComeAndGo) {
         EXPECT_TRUE(axisIs(Quality::Lost));
     }
 
-    EXPECT_TRUE(test::offences().none()) << test::offences().text();
-    EXPECT_EQ(test::pageFaults(), faults);
+    EXPECT_EQ(test::violations(), "");
+    EXPECT_EQ(test::checker().counts().pageFaults, faults);
     // In each cycle the loop wakes the communication thread at most once.
-    EXPECT_LE(test::offences().futexCalls, static_cast<std::uint64_t>(cluster.image().cycle()));
+    EXPECT_LE(test::checker().counts().futexCalls,
+              static_cast<std::uint64_t>(cluster.image().cycle()));
     cluster.stop();
 }
 

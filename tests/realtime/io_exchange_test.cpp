@@ -51,7 +51,7 @@ private:
 };
 
 TEST(BlockingDevice, DisturbsNoTickWhateverItsThreadDoes) {
-    resetOffences();
+    checker().reset();
     SimplexTree tree{TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/cs-rules.xml")};
     auto& drive = tree.add<RestlessDrive>("/drive", "Drive");
     tree.relate(drive, "demand", tree.add("/wish", "Demand"));
@@ -69,12 +69,12 @@ TEST(BlockingDevice, DisturbsNoTickWhateverItsThreadDoes) {
         EXPECT_EQ(cluster.call("/drive", "clearFaults").outcome, Outcome::Done);
     };
     killAndClear(1);  // what runs for the first time may meet a page of code
-    const std::uint64_t faultsBefore = pageFaults();
+    const std::uint64_t faultsBefore = checker().counts().pageFaults;
 
     for (int deaths = 2; deaths <= 4; ++deaths) killAndClear(deaths);
 
-    EXPECT_TRUE(offences().none()) << offences().text();
-    EXPECT_EQ(pageFaults(), faultsBefore);
+    EXPECT_EQ(violations(), "");
+    EXPECT_EQ(checker().counts().pageFaults, faultsBefore);
     cluster.stop();
 }
 

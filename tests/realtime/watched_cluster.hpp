@@ -2,25 +2,37 @@
 #pragma once
 
 #include "cortex/cs/cluster_cs.hpp"
+#include "cortex/cs/hook_checker.hpp"
 #include "cortex/cs/testing.hpp"
-
-#include "realtime/detectors.hpp"
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 #include <thread>
 #include <utility>
 
 namespace cortex::test {
+
+inline cs::HookChecker& checker() { return cs::HookChecker::ofProcess(); }
+
+// What ticks and hooks did that they must not, one line each; "": nothing. The first cycles may
+// meet pages: whoever looks at those as well compares counts.
+inline std::string violations() {
+    std::string text;
+    for (const cs::HookViolation& each : checker().violations()) {
+        if (each.what != "page fault") text += each.text() + "\n";
+    }
+    return text;
+}
 
 // The internal clock; a tick lasts from the return of waitForTick to its next call.
 class WatchedClock final : public cs::TriggerSource {
 public:
     void start() override { clock_.start(); }
     cs::Trigger waitForTick() override {
-        leaveTick();
+        checker().leaveTick();
         const cs::Trigger trigger = clock_.waitForTick();
-        if (!trigger.stopped) enterTick();
+        if (!trigger.stopped) checker().enterTick();
         return trigger;
     }
     void interrupt() override { clock_.interrupt(); }
@@ -45,10 +57,10 @@ inline void watch(cs::ClusterCS& cluster, std::uint32_t threads) {
     cs::TestOptions options;
     options.forceThreads = threads > 1;
     options.onThreadStart = [](std::uint32_t thread) {
-        watchThisThread();
-        if (thread > 0) enterTick();  // a worker between cycles only waits
+        if (thread > 0) checker().enterTick();  // a worker between cycles only waits
     };
     cs::ClusterTesting::set(cluster, std::move(options));
+    checker().watch(cluster);
 }
 
 // Of all threads together in so many cycles, where nothing keeps a thread off its CPU: each worker

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "threads/realtime_thread.hpp"
+
 #include <filesystem>
+#include <string>
 #include <system_error>
+#include <vector>
 
 namespace cortex::test {
 
@@ -16,6 +20,15 @@ inline int awakeCpuRequests() {
         if (fs::read_symlink(file.path(), gone) == "/dev/cpu_dma_latency") ++count;
     }
     return count;
+}
+
+// Why this process may not ask for CPUs that stay awake; empty where it may. A machine without a
+// driver that follows the request takes it all the same.
+inline std::string whyNoAwakeCpus() {
+    std::vector<std::string> report;
+    const cs::AwakeCpus asked{report};
+    if (report == cs::awakeReport("none")) return "";
+    return report.empty() ? "" : report.front();
 }
 
 }  // namespace cortex::test

@@ -21,13 +21,14 @@ public:
     std::function<void(Probe&)> onPopulate;
     Hook onLoopStart, onStandby, onActive, onLoopEnd;
     Condition onStartingUp, onShuttingDown, onFault;
-    std::function<Outcome(Probe&, Call&)> onAdd, onPoke, onWork;
+    std::function<cortex::Outcome(Probe&, Call&)> onAdd, onPoke, onWork;
     std::function<void(Probe&, ProposedSettings&)> onProposed;
     std::function<void(Probe&)> onChanged;
     std::function<void(Archive&)> onKeep;
 
     using SimplexCS::event;
     using SimplexCS::fault;
+    using SimplexCS::HandOver;
     using SimplexCS::input;
     using SimplexCS::inputLost;
     using SimplexCS::inputs;
@@ -70,9 +71,13 @@ private:
     bool ask(const Condition& condition, const Tick& tick) {
         return !condition || condition(*this, tick);
     }
-    Outcome add(Call& call) { return onAdd ? onAdd(*this, call) : Outcome::Done; }
-    Outcome poke(Call& call) { return onPoke ? onPoke(*this, call) : Outcome::Done; }
-    Outcome work(Call& call) { return onWork ? onWork(*this, call) : Outcome::Done; }
+    cortex::Outcome add(Call& call) { return onAdd ? onAdd(*this, call) : cortex::Outcome::Done; }
+    cortex::Outcome poke(Call& call) {
+        return onPoke ? onPoke(*this, call) : cortex::Outcome::Done;
+    }
+    cortex::Outcome work(Call& call) {
+        return onWork ? onWork(*this, call) : cortex::Outcome::Done;
+    }
 };
 
 // Its end calls no hooks of probes: what they refer to may be gone by then.

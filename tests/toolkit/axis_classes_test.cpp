@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lbr_chain.hpp"
+#include "mechanics/lbr_chain.hpp"
 #include "rig.hpp"
 
 #include <cmath>
@@ -9,6 +9,8 @@
 
 namespace cortex::toolkit::test {
 namespace {
+
+using mechanics::test::radians;
 
 constexpr double axis1Speed = 85 * std::numbers::pi / 180;
 
@@ -20,8 +22,8 @@ protected:
         rig_.add("/drive", "SimulatedAxis", {{"demand", "/demand"}, {"observation", "/axis"}},
                  {{"startPosition", startPosition}});
         rig_.start();
-        demand_ = rig_.tree.at("/demand").data<double>("position");
-        demandSpeed_ = rig_.tree.at("/demand").data<double>("velocity");
+        demand_ = rig_.tree().at("/demand").data<double>("position");
+        demandSpeed_ = rig_.tree().at("/demand").data<double>("velocity");
     }
     double position() { return rig_.get<double>("/axis", "position"); }
     double velocity() { return rig_.get<double>("/axis", "velocity"); }
@@ -50,7 +52,7 @@ TEST_F(SimulatedAxis, DoesNotMoveUnlessActive) {
 TEST_F(SimulatedAxis, DoesNotSwitchOnWhileTheDemandIsElsewhere) {
     begin();
     demand_ = 0.5;
-    rig_.cluster.send("/drive", "startup");
+    rig_.cluster().send("/drive", "startup");
     rig_.step(500);
     EXPECT_EQ(rig_.state("/drive"), State::StartingUp);
 
@@ -191,14 +193,16 @@ TEST_F(OneController, PoseArrivesAndSaysSo) {
     EXPECT_EQ(rig_.get<double>("/demand", "velocity"), 0);
 }
 
-TEST_F(OneController, PoseOutOfRangeFails) {
+TEST_F(OneController, PoseOutOfRangeIsRejectedWithItemValueAndLimit) {
     begin("AxisPoseController");
     EXPECT_TRUE(
         rig_.call("/controller", "set", {{"pose", Value{std::vector<double>(16, 3.0)}}}).done());
 
     const CallResult answer = rig_.call("/controller", "moveTo");
 
-    EXPECT_EQ(answer.outcome, Outcome::Failed);
+    EXPECT_EQ(answer.outcome, Outcome::Rejected);
+    EXPECT_EQ(answer.reason, Reason::Range);
+    EXPECT_EQ(answer.why, "pose[0] is 3, above 2.96706, the limit of /demand");
     EXPECT_NEAR(rig_.get<double>("/axis", "position"), 0.2, 1e-9);
 }
 
@@ -208,7 +212,7 @@ TEST_F(OneController, PoseDemandsAndTheDriveMeasuresTheAcceleration) {
     std::vector<double> pose(16);
     pose[0] = -0.7;
     EXPECT_TRUE(rig_.call("/controller", "set", {{"pose", Value{pose}}}).done());
-    rig_.cluster.send("/controller", "moveTo", {{"speedShare", 0.5}});
+    rig_.cluster().send("/controller", "moveTo", {{"speedShare", 0.5}});
     double demanded = 0, measured = 0, greatest = 0;
     for (int i = 0; i < 2000; ++i) {
         rig_.step();

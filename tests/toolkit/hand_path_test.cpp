@@ -2,7 +2,7 @@
 // The example's synthetic hand path: what it must contain, and that the LBR can follow it.
 #include "cortex/toolkit/recorded_path.hpp"
 
-#include "toolkit/lbr_chain.hpp"
+#include "mechanics/lbr_chain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,9 @@
 
 namespace cortex::toolkit {
 namespace {
+
+using mechanics::Pose;
+using mechanics::SerialChain;
 
 constexpr double period = 0.001;
 
@@ -91,8 +94,8 @@ TEST(HandPath, PressesThreeTimesEachWithAWideQuickTurningMotion) {
         }
         EXPECT_GE(rmsSpeed(press.from, press.until), 0.15);
         EXPECT_GE(farthest, 0.2);
-        EXPECT_GE(turn, test::radians(18));
-        EXPECT_LE(turn, test::radians(30));
+        EXPECT_GE(turn, mechanics::test::radians(18));
+        EXPECT_LE(turn, mechanics::test::radians(30));
         EXPECT_LT(rmsSpeed(press.from, press.from + 150), 0.01) << "moves before it is pressed";
     }
     EXPECT_GE(widest, 0.4);
@@ -147,8 +150,8 @@ struct Effort {
 };
 
 Effort followed() {
-    const SerialChain arm = test::lbrChain();
-    const auto posture = test::lbrPosture();
+    const SerialChain arm = mechanics::test::lbrChain();
+    const auto posture = mechanics::test::lbrPosture();
     SerialChain::InverseOptions options;
     options.period = period;
     Effort effort;

@@ -8,6 +8,7 @@
 #include "cortex/cs/cluster_cs.hpp"
 #include "cortex/toolkit/classes.hpp"
 
+#include "hook_check.hpp"
 #include "options.hpp"
 #include "retained_file.hpp"
 #include "start_up.hpp"
@@ -15,6 +16,7 @@
 #include "summary.hpp"
 
 #include <array>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -26,7 +28,15 @@
 namespace cortex::toolkit {
 namespace {
 
-enum ExitCode { Ended = 0, Refused = 1, Usage = 2, Halted = 3, NotFollowed = 4 };
+enum ExitCode {
+    Ended = 0,
+    Refused = 1,
+    Usage = 2,
+    Halted = 3,
+    NotFollowed = 4,
+    Second = 5,
+    HooksBroke = 6
+};
 
 class UsageError : public Error {
 public:
@@ -71,7 +81,11 @@ void applySetting(SimplexTree& tree, const std::string& text, std::set<std::stri
 void applyFiles(const CommandLine& line, SimplexTree& tree, RetainedFile& retained) {
     if (!line.settingsFile.empty()) std::cout << applySettingsFile(line.settingsFile, tree);
     if (RetainedFile::hasItems(tree)) {
-        std::cout << retained.restore(tree);
+        try {
+            std::cout << retained.restore(tree);
+        } catch (const Error& error) {
+            throw UsageError(error.what());
+        }
     } else if (!line.retainFile.empty()) {
         std::cerr << "--retain: no item of this system has retain=\"true\"" << std::endl;
     }
@@ -116,11 +130,13 @@ double left(const CommandLine& line, Clock::time_point began) {
     return line.seconds > 0 ? std::max(1e-3, line.seconds - used.count()) : 0;
 }
 
-void watch(cs::ClusterCS& cluster, const std::string& name, double seconds, StartUp* startUp) {
+// Until the end is asked for, the loop ends, or `look` says so.
+void watch(cs::ClusterCS& cluster, const std::string& name, double seconds,
+           const std::function<bool()>& look) {
     const bool terminal = isatty(STDOUT_FILENO) != 0;
     auto next = Clock::now();
     cs::waitForInterrupt(seconds, [&] {
-        if (startUp != nullptr) startUp->look();
+        if (look()) return true;
         if (terminal && Clock::now() >= next) {
             next += std::chrono::seconds{1};
             std::cout << "\r\033[K" << statusLine(cluster.image(), name) << std::flush;
@@ -130,20 +146,44 @@ void watch(cs::ClusterCS& cluster, const std::string& name, double seconds, Star
     if (terminal) std::cout << "\r\033[K" << std::flush;
 }
 
-void printEnd(cs::ClusterCS& cluster, const std::string& name, const comms::DdsInterface* network) {
-    std::cout << metricsTable(cluster.image(), name);
-    if (network != nullptr) {
-        std::cout << countLine("lost samples", network->lost())
-                  << countLine("refused samples", network->rejected());
-        for (const auto& [reason, count] : network->rejections()) {
-            std::cout << "    " << count << ": " << reason << '\n';
-        }
+void printStart(const CommandLine& line, const cs::ClusterCS& cluster,
+                const ClusterSettings& settings, std::size_t simplexes) {
+    for (const std::string& refused : cluster.realtimeReport()) {
+        std::cerr << "real time: " << refused << std::endl;
     }
-    std::cout << monitorTables(cluster.image()) << faultLines(cluster.image()) << std::flush;
+    std::cout << line.system.string() << ": " << simplexes << " simplexes at "
+              << 1e9 / static_cast<double>(settings.period.count()) << " Hz as /" << settings.name
+              << (line.offline ? "" : ", domain " + std::to_string(networkOptions(line).domain))
+              << std::endl;
+}
+
+// Of an interface that is still there.
+std::string networkCounts(const comms::DdsInterface* network) {
+    if (network == nullptr) return {};
+    std::string text = countLine("lost samples", network->lost()) +
+                       countLine("refused samples", network->rejected());
+    for (const auto& [reason, count] : network->rejections()) {
+        text += "    " + std::to_string(count) + ": " + reason + "\n";
+    }
+    return text;
+}
+
+// What the simplexes say before the stop, and what was counted after it: it executes as well.
+void printAndStop(cs::ClusterCS& cluster, const std::string& name,
+                  const comms::DdsInterface* network) {
+    std::string counts;
+    {
+        const cs::BoundedStep step{"printing the summary"};
+        counts = networkCounts(network);
+        std::cout << monitorTables(cluster.image()) << faultLines(cluster.image()) << std::flush;
+    }
+    cluster.stop();
+    const cs::BoundedStep step{"printing the metrics"};
+    std::cout << metricsTable(cluster.image(), name) << counts << std::flush;
 }
 
 int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTree& tree,
-               RetainedFile& retained) {
+               RetainedFile& retained, HookCheck& hookCheck) {
     ClusterSettings settings = clusterSettings(tree.description(), line);
     const bool retains = RetainedFile::hasItems(tree);
     if (retains) ++settings.options.imageReaders;
@@ -152,6 +192,7 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     cluster.addSimplexTree(tree);
     cluster.useClasses(registry);
     setTrigger(cluster, settings);
+    hookCheck.watch(cluster);
     cluster.addEventSink(line.log.empty() ? printEvents(std::cerr) : logEvents(line.log),
                          EventLog::Repeats::Folded);
     const comms::DdsInterface* network =
@@ -159,42 +200,62 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     const auto finish = [](RetainedFile* each) { each->finish(); };
     const std::unique_ptr<RetainedFile, decltype(finish)> keeping{&retained, finish};
     std::optional<StartUp> startUp;
-    if (line.startup) startUp.emplace(cluster, settings.name);
+    std::optional<NotStarted> notStarted;
+    if (line.startup)
+        startUp.emplace(cluster, settings.name);
+    else
+        notStarted.emplace(cluster, settings.name, optionsOfTools(line));
     cluster.start();
     if (retains) retained.keep(cluster);
-    for (const std::string& refused : cluster.realtimeReport()) {
-        std::cerr << "real time: " << refused << std::endl;
+    printStart(line, cluster, settings, tree.simplexes().size());
+    const auto isSecond = [&] { return !line.wait && network != nullptr && network->isSecond(); };
+    watch(cluster, settings.name, left(line, began), [&] {
+        hookCheck.look();
+        if (isSecond()) return true;
+        startUp ? startUp->look() : notStarted->look();
+        return false;
+    });
+    if (isSecond()) {
+        std::cerr << "another start of " << settings.name << " is there; this one ends"
+                  << std::endl;
+        cluster.stop();
+        return Second;
     }
-    std::cout << line.system.string() << ": " << tree.simplexes().size() << " simplexes at "
-              << 1e9 / static_cast<double>(settings.period.count()) << " Hz as /" << settings.name
-              << (line.offline ? "" : ", domain " + std::to_string(networkOptions(line).domain))
-              << std::endl;
-    watch(cluster, settings.name, left(line, began), startUp ? &*startUp : nullptr);
+    if (notStarted) notStarted->lookAtEnd();
     const bool endedItself = !cluster.running();  // its trigger has ended, as an event says
-    {
-        const cs::BoundedStep step{"printing the summary"};
-        printEnd(cluster, settings.name, network);
-    }
     const bool halted = cluster.ended() == cs::Ended::Halted;
     std::string notFollowed = startUp ? startUp->endText() : "";
-    cluster.stop();
+    printAndStop(cluster, settings.name, network);
     for (const std::string& each : cluster.notShutDown()) notFollowed += "shutdown: " + each + "\n";
     retained.finish();
     std::cerr << notFollowed << std::flush;
-    if (halted || endedItself) return Halted;
-    return notFollowed.empty() ? Ended : NotFollowed;
+    const bool broken = hookCheck.printEnd();
+    if (halted || endedItself || cs::exitWasRefused()) return Halted;
+    if (!notFollowed.empty()) return NotFollowed;
+    return broken ? HooksBroke : Ended;
 }
 
 int run(int argc, char** argv) {
     int exitCode = Ended;
     const auto line = parseCommandLine(argc, argv, exitCode);
     if (!line) return exitCode;
+    HookCheck hookCheck{line->checkHooks, argv};
     cs::blockStopSignals();
     ClassRegistry registry;
     addClasses(registry);
     RetainedFile retained{retainFile(*line)};
     SimplexTree tree = readSystem(*line, registry, retained);
-    return runCluster(*line, registry, tree, retained);
+    try {
+        return runCluster(*line, registry, tree, retained, hookCheck);
+    } catch (const comms::SecondStart& error) {
+        std::cerr
+            << error.what()
+            << (line->wait
+                    ? "\n"
+                    : "; end that one, give one of them another name (<cluster name=…>), or wait "
+                      "until it has ended (--wait)\n");
+        return Second;
+    }
 }
 
 }  // namespace

@@ -3,9 +3,11 @@
 
 #include "cortex/core/error.hpp"
 #include "cortex/core/nearest_names.hpp"
+#include "cortex/core/value.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <sstream>
@@ -19,7 +21,8 @@ constexpr int usageError = 2;
 
 constexpr const char* footerText =
     R"(Exit codes: 0 ended; 1 model refused, the report was printed; 2 usage; 3 halted or hung;
-4 ended, but some simplexes did not follow --startup or the shutdown, they were named.
+4 ended, but some simplexes did not follow --startup or the shutdown, they were named;
+5 another start of its name was there first; 6 ended, but --check-hooks found something, and nothing of the above.
 Settings of the loop stand in the system file, <cluster name="…" frequency="…" threads="…"
 priority="…" overflow="…"/>; options outrank them. Files are looked for beside the file that names
 them, in $CORTEX_PATH, and where CorteX is installed.)";
@@ -59,7 +62,8 @@ cs::ClusterOptions optionsOf(const Attributes& attributes, const CommandLine& li
     options.priority =
         line.priority.value_or(static_cast<int>(number(attributes, "priority", options.priority)));
     options.acrossCaches = word(attributes, "acrossCaches") == "true";
-    options.lockMemory = word(attributes, "lockMemory") != "false";
+    // A check of hooks sees memory that was never used, whatever rights the agent has.
+    options.lockMemory = word(attributes, "lockMemory") != "false" && !line.checkHooks;
     options.keepCpusAwake = word(attributes, "keepCpusAwake") != "false";
     options.cpus = cpusOf(word(attributes, "cpus"));
     options.overflow = overflowOf(word(attributes, "overflow"));
@@ -73,6 +77,34 @@ cs::ClusterOptions optionsOf(const Attributes& attributes, const CommandLine& li
     options.controlRequired = word(attributes, "control") == "required";
     options.imageReaders = count(attributes, "imageReaders", options.imageReaders);
     return options;
+}
+
+// A range of CLI11 takes "nan", and calls what is no number out of range.
+std::string aNumber(const std::string& text) {
+    if (toFloat(text)) return {};
+    const std::string digits = text.substr(0, text.find_first_not_of("0123456789.+-"));
+    return "'" + text + "' is no number" +
+           (toFloat(digits) ? "; write it without a unit (cortex-agent --help names it)" : "");
+}
+
+void addLoop(CLI::App& app, CommandLine& line) {
+    app.add_option("--frequency", line.frequency, "cycles per second")
+        ->type_name("HZ")
+        ->check(aNumber)
+        ->check(CLI::Range(0.01, 1e5));
+    app.add_option("--threads", line.threads, "threads of the loop, its own included")
+        ->type_name("N")
+        ->check(CLI::Range(1, 256));
+    app.add_option("--priority", line.priority, "real-time priority (SCHED_FIFO); 0: none")
+        ->type_name("P")
+        ->check(CLI::Range(0, 99));
+    app.add_option(
+           "--spin", line.spin,
+           "polls the clock for so long before each cycle instead of sleeping; for isolated "
+           "CPUs")
+        ->type_name("US")
+        ->check(aNumber)
+        ->check(CLI::Range(0.0, 1e8));
 }
 
 void addNetwork(CLI::App& app, CommandLine& line) {
@@ -122,6 +154,11 @@ std::string wrongUsage(const CLI::App& app, const CLI::ParseError& error) {
         return error.what();
     }
     const std::string& wrong = unexpected.front();
+    if (wrong.ends_with(".xml")) {
+        return "'" + wrong +
+               "' was not expected: one agent runs one system file; start another "
+               "cortex-agent for it";
+    }
     return "'" + wrong + "' was not expected" +
            (wrong.ends_with(".so") ? "; did you mean --plugin " + wrong + "?" : "");
 }
@@ -147,26 +184,22 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
                    "file that keeps items with retain=\"true\" over restarts; SYSTEM.retained.xml "
                    "beside the system file if not given")
         ->type_name("FILE");
-    app.add_option("--frequency", line.frequency, "cycles per second")
-        ->type_name("HZ")
-        ->check(CLI::Range(0.01, 1e5));
-    app.add_option("--threads", line.threads, "threads of the loop, its own included")
-        ->type_name("N")
-        ->check(CLI::Range(1, 256));
-    app.add_option("--priority", line.priority, "real-time priority (SCHED_FIFO); 0: none")
-        ->type_name("P")
-        ->check(CLI::Range(0, 99));
-    app.add_option(
-           "--spin", line.spin,
-           "polls the clock for so long before each cycle instead of sleeping; for isolated "
-           "CPUs")
-        ->type_name("US")
-        ->check(CLI::Range(0.0, 1e8));
+    app.add_option("--files", line.files,
+                   "folder below which simplexes may read and write files, such as taught points; "
+                   "none if not given")
+        ->type_name("FOLDER");
+    addLoop(app, line);
     app.add_option("--seconds", line.seconds,
                    "ends after this time; otherwise with SIGINT or SIGTERM")
         ->type_name("S")
+        ->check(aNumber)
         ->check(CLI::Range(1e-3, 1e9));
+    app.add_flag("--wait", line.wait,
+                 "while another start of its name is there, waits until that one has ended");
     app.add_flag("--startup", line.startup, "starts all active simplexes");
+    app.add_flag(
+        "--check-hooks", line.checkHooks,
+        "names each allocation, lock, system call, page fault, throw and output of a hook");
     app.add_option("--log", line.log, "writes events to a file instead of the standard error")
         ->type_name("FILE");
     addNetwork(app, line);
@@ -196,7 +229,23 @@ comms::NetworkOptions networkOptions(const CommandLine& line) {
     options.peers = line.peers;
     if (line.discoveryServer) options.discoveryServer = *line.discoveryServer;
     if (line.security) options.security = *line.security;
+    options.onSecondStart = line.wait ? comms::OnSecondStart::Waits : comms::OnSecondStart::Refused;
+    options.waitForFirst = [](const std::function<bool()>& ended) {
+        std::cerr << "another start of its name is there; this one waits until it has ended"
+                  << std::endl;
+        return !cs::waitForInterrupt(0, ended);
+    };
     return options;
+}
+
+std::optional<std::string> optionsOfTools(const CommandLine& line) {
+    if (line.offline) return {};
+    std::string text;
+    if (line.domain) text += " --domain " + std::to_string(*line.domain);
+    for (const std::string& each : line.interfaces) text += " --interface " + each;
+    if (line.discoveryServer) text += " --discovery-server " + *line.discoveryServer;
+    if (line.security) text += " --security FOLDER";
+    return text;
 }
 
 void setTrigger(cs::ClusterCS& cluster, const ClusterSettings& settings) {
@@ -239,6 +288,7 @@ ClusterSettings clusterSettings(const SystemDescription& system, const CommandLi
     settings.period = std::chrono::nanoseconds{std::llround(1e9 / frequency)};
     settings.spin = std::chrono::nanoseconds{std::llround(1e3 * line.spin)};
     settings.options = optionsOf(entry.attributes, line);
+    settings.options.files = line.files;
     return settings;
 }
 

@@ -19,12 +19,14 @@ struct CommandLine {
     std::vector<std::filesystem::path> plugins;
     std::vector<std::string> settings;  // PATH.ITEM=VALUE
     std::filesystem::path settingsFile, retainFile;
+    std::string files;  // folder that simplexes may use
     std::optional<double> frequency;
     std::optional<std::uint32_t> threads;
     std::optional<int> priority;
     double spin = 0;     // us
     double seconds = 0;  // 0: until SIGINT or SIGTERM
-    bool startup = false;
+    bool startup = false, checkHooks = false;
+    bool wait = false;  // for another start of the name to end
     std::filesystem::path log;
     bool offline = false;
     std::optional<int> domain;
@@ -45,6 +47,9 @@ struct ClusterSettings {
     std::chrono::nanoseconds period{}, spin{};
     cs::ClusterOptions options;
 };
+
+// Those of them with which `cortex` sees this agent: " --domain 7"; empty when it is offline.
+std::optional<std::string> optionsOfTools(const CommandLine& line);
 
 comms::NetworkOptions networkOptions(const CommandLine& line);
 

@@ -48,10 +48,32 @@ private:
     int file_;
 };
 
+// A new file takes the place of the old one: of /dev/null as well, where we may do so.
+std::string otherThanAFile(const fs::path& path) {
+    std::error_code none;
+    switch (fs::symlink_status(path, none).type()) {
+        case fs::file_type::regular:
+        case fs::file_type::not_found:
+            return "";
+        case fs::file_type::symlink:
+            return path.string() + " is a symbolic link, which would be replaced: name the file";
+        case fs::file_type::directory:
+            return path.string() + " is a folder: name a file in it";
+        default:
+            return path.string() +
+                   " is no regular file, and would be replaced by one: name another file";
+    }
+}
+
 // In one step: after a power failure the file is the old or the new one. "" or why it is the old.
 std::string replaceFile(const fs::path& file, const std::string& text) {
     const fs::path next = file.string() + ".new";
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path{"."};
+    if (std::string other = otherThanAFile(file); !other.empty()) return other;
+    if (std::error_code none; !fs::exists(folder, none)) {
+        return "the folder " + folder.string() + " is missing: mkdir -p " + folder.string() +
+               ", and they are written within a second";
+    }
     const auto failed = [&] { return file.string() + ": " + std::strerror(errno); };
     {
         const OpenFile output{next, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW};
@@ -76,6 +98,9 @@ bool RetainedFile::hasItems(const SimplexTree& tree) {
 }
 
 std::string RetainedFile::restore(SimplexTree& tree) {
+    if (const std::string other = otherThanAFile(file_); !other.empty()) {
+        throw Error("--retain: " + other);
+    }
     std::error_code none;
     if (!fs::exists(fs::symlink_status(file_, none))) return {};
     Report report;
@@ -151,8 +176,7 @@ std::string RetainedFile::textOf(const Image& image) {
                 good_.try_emplace(info.path + "." + each.item->name, toText(each.item->initial))
                     .first->second;
             if (valueError(*each.item, value).empty()) good = toText(value);
-            text += "    <set data=\"" + each.item->name + "\" value=\"" + xmlAttribute(good) +
-                    "\"/>\n";
+            text += "    " + setElement(each.item->name, good) + "\n";
         }
         text += "  </simplex>\n";
     }
@@ -163,6 +187,8 @@ std::string RetainedFile::textOf(const Image& image) {
 void RetainedFile::tell(const std::string& problem) {
     if (problem != problem_ && !problem.empty()) {
         std::cerr << "retained items are not written: " << problem << std::endl;
+    } else if (!problem_.empty() && problem.empty()) {
+        std::cerr << "retained items are written again: " << file_.string() << std::endl;
     }
     problem_ = problem;
 }

@@ -117,4 +117,42 @@ std::string StartUp::endText() const {
     return notFollowed_ + missingText(complete_ ? MissingLinks{} : missingLinks(cluster_.image()));
 }
 
+NotStarted::NotStarted(cs::ClusterCS& cluster, std::string agentName,
+                       std::optional<std::string> options)
+    : cluster_{cluster},
+      path_{"/" + std::move(agentName)},
+      options_{std::move(options)},
+      asked_{std::make_shared<std::atomic<bool>>(false)} {
+    cluster_.addEventSink([asked = asked_](const Event& event, const Structure&) {
+        const bool startup = event.kind == EventKind::Command &&
+                             event.text.view().find("startup(") != std::string_view::npos;
+        if (startup || event.kind == EventKind::StateChange) asked->store(true);
+    });
+}
+
+void NotStarted::look() {
+    constexpr std::chrono::seconds timeToAsk{3};
+    if (!told_ && Clock::now() - began_ >= timeToAsk) tell();
+}
+
+void NotStarted::tell() {
+    if (std::exchange(told_, true) || asked_->load()) return;
+    constexpr std::size_t mostNamed = 3;
+    const Image image = cluster_.image();
+    std::string names;
+    std::size_t resting = 0;
+    for (const SimplexInfo& info : image.structure().simplexes) {
+        if (info.remote || !info.layout->type->isA("Active")) continue;
+        if (image.get<std::int64_t>(info.path, "state") != static_cast<int>(State::Standby)) return;
+        if (resting++ < mostNamed) names += (names.empty() ? "" : ", ") + info.path;
+    }
+    if (resting == 0) return;
+    if (resting > mostNamed) names += " and " + std::to_string(resting - mostNamed) + " more";
+    std::cerr << "not started: " << names << (resting == 1 ? " is" : " are")
+              << " in Standby, and nobody asked for a start-up: "
+              << (options_ ? "cortex call " + path_ + " startup prefix=/" + *options_ + ", or "
+                           : std::string{})
+              << "start this agent with --startup" << std::endl;
+}
+
 }  // namespace cortex::toolkit

@@ -6,9 +6,11 @@
 
 #include "summary.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,29 @@ private:
     std::vector<std::string> started_;  // by it
     std::string notFollowed_;           // what it was answered
     std::shared_ptr<Hints> hints_;
+};
+
+// Without --startup: says once what is in Standby and that nobody asked for a start-up, a while
+// after the start, or at the end where that comes first. Made before the cluster starts.
+class NotStarted {
+public:
+    // `options`: those with which `cortex` reaches this agent; none: nothing does.
+    NotStarted(cs::ClusterCS& cluster, std::string agentName, std::optional<std::string> options);
+
+    void look();
+    void lookAtEnd() { tell(); }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void tell();
+
+    cs::ClusterCS& cluster_;
+    std::string path_;
+    std::optional<std::string> options_;
+    Clock::time_point began_ = Clock::now();
+    std::shared_ptr<std::atomic<bool>> asked_;  // the event thread's, which may outlive this
+    bool told_ = false;
 };
 
 }  // namespace cortex::toolkit

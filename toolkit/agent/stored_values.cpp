@@ -5,6 +5,7 @@
 #include "cortex/core/labelled_value.hpp"
 #include "cortex/core/model_files.hpp"
 #include "cortex/core/nearest_names.hpp"
+#include "cortex/core/printable.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +17,7 @@ using Entry = SystemDescription::SimplexEntry;
 
 // What a person reads of a value: quotes where its end would not be seen.
 std::string shownValue(const DataItem& item, const Value& value) {
-    const std::string text = toText(value);
+    const std::string text = printable(toText(value));
     return item.kind == Kind::String ? "\"" + text + "\"" : text;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "summary.hpp"
 
+#include "cortex/core/printable.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -46,7 +48,7 @@ std::string textOf(const DataItem& item, const Value& value) {
             return label->second;
         }
     }
-    return toText(value);
+    return printable(toText(value));
 }
 
 std::string monitorTable(const Image& image, std::uint32_t index) {
@@ -152,7 +154,7 @@ std::string faultLines(const Image& image) {
         if (info.remote || !info.layout->type->isA("Active")) continue;
         if (image.get<std::int64_t>(info.path, "state") != static_cast<int>(State::Fault)) continue;
         const auto why = image.get<std::string_view>(info.path, "faultText");
-        text += info.path + " is in Fault: " + std::string{why} + "\n";
+        text += info.path + " is in Fault: " + printable(why) + "\n";
     }
     return text.empty() ? text : "\n" + text;
 }

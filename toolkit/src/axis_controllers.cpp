@@ -1,66 +1,89 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "axis_controllers.hpp"
+#include "cortex/toolkit/axis_controllers.hpp"
+
+#include "handles.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace cortex::toolkit {
 
+using mechanics::MotionLimits;
+using mechanics::MotionState;
+using mechanics::Profile;
+
 void HoldAxisController::populate() {
-    axes_ = axisInputs(inputs("axes"));
-    demands_ = axisOutputs(outputs("demands"));
-    requireSameCount(*this, axes_.size(), demands_.size(), "demands");
-    held_.resize(axes_.size());
+    AxisController::populate();
+    stops_.resize(axisCount());
 }
 
-bool HoldAxisController::stateStartingUp(const Tick&) {
-    for (std::size_t i = 0; i < axes_.size(); ++i) held_[i] = axes_[i].position;
-    return true;
+void HoldAxisController::takeOver(const Tick&) {
+    for (std::size_t i = 0; i < axisCount(); ++i) {
+        const MotionState& now = demands()[i];
+        stops_[i] = mechanics::planVelocity(now, 0, limits(i).motion())
+                        .value_or(Profile::standing({now.position, 0, 0}));
+    }
+    time_ = 0;
 }
 
-void HoldAxisController::stateActive(const Tick&) {
-    for (std::size_t i = 0; i < demands_.size(); ++i) demands_[i].write(held_[i], 0);
+void HoldAxisController::move(const Tick& tick) {
+    time_ += tick.elapsedSeconds();
+    for (std::size_t i = 0; i < axisCount(); ++i) demands()[i] = stops_[i].at(time_);
 }
 
 void HoldAxisController::keep(Archive& archive) {
-    archive.version("HoldAxisController", 1);
-    archive & held_;
+    AxisController::keep(archive);
+    archive.version("HoldAxisController", 2);
+    archive & stops_ & time_;
 }
 
 void FollowAxisController::populate() {
-    targets_ = axisInputs(inputs("targets"));
-    demands_ = axisOutputs(outputs("demands"));
-    requireSameCount(*this, inputs("axes").size(), demands_.size(), "demands");
-    requireSameCount(*this, inputs("axes").size(), targets_.size(), "targets");
-}
-
-void FollowAxisController::stateActive(const Tick&) {
-    for (std::size_t i = 0; i < demands_.size(); ++i) {
-        demands_[i].write(targets_[i].position, targets_[i].velocity, targets_[i].acceleration);
+    AxisController::populate();
+    const auto targets = inputs("targets");
+    requireSameCount(*this, axisCount(), targets.size(), "targets");
+    for (const InputSimplex& target : targets) {
+        targets_.push_back({target.data<double>("position"),
+                            target.data<double>("velocity"),
+                            target.data<double>("acceleration"),
+                            {}});
     }
 }
 
-void SineController::populate() {
-    axis_.emplace(output("axis"));
-    amplitude_ = data<const double>("amplitude");
-    frequency_ = data<const double>("frequency");
+MotionState FollowAxisController::target(std::size_t axis) {
+    const Target& target = targets_[axis];
+    return {target.position, target.velocity, target.acceleration};
 }
 
-bool SineController::stateStartingUp(const Tick& tick) {
-    startedAt_ = tick.nominalTime;
-    return true;
+void FollowAxisController::takeOver(const Tick& tick) {
+    const double elapsed = tick.elapsedSeconds();
+    for (std::size_t i = 0; i < axisCount(); ++i) {
+        targets_[i].offset = Profile{};
+        if (!std::isfinite(limits(i).acceleration)) continue;
+        const MotionState aim = target(i), now = demands()[i];
+        const MotionLimits half = limits(i).motion();
+        // Where the target was in the cycle before, which is when the demand was there.
+        const double before = aim.position - elapsed * aim.velocity;
+        const auto offset =
+            mechanics::planPosition({now.position - before, now.velocity - aim.velocity,
+                                     now.acceleration - aim.acceleration},
+                                    0, {half.velocity / 2, half.acceleration / 2, half.jerk / 2});
+        if (offset) targets_[i].offset = *offset;
+    }
+    time_ = 0;
 }
 
-void SineController::stateActive(const Tick& tick) {
-    const double turning = 2 * std::numbers::pi * frequency_;
-    const double angle = turning * static_cast<double>(tick.nominalTime - startedAt_) * 1e-9;
-    const double position = amplitude_ * std::sin(angle);
-    axis_->write(position, amplitude_ * turning * std::cos(angle), -turning * turning * position);
+void FollowAxisController::move(const Tick& tick) {
+    time_ += tick.elapsedSeconds();
+    for (std::size_t i = 0; i < axisCount(); ++i) {
+        const MotionState aim = target(i), offset = targets_[i].offset.at(time_);
+        demands()[i] = {aim.position + offset.position, aim.velocity + offset.velocity,
+                        aim.acceleration + offset.acceleration};
+    }
 }
 
-void SineController::keep(Archive& archive) {
-    archive.version("SineController", 1);
-    archive & startedAt_;
+void FollowAxisController::keep(Archive& archive) {
+    AxisController::keep(archive);
+    archive.version("FollowAxisController", 1);
+    archive & targets_ & time_;
 }
 
 }  // namespace cortex::toolkit

@@ -1,106 +1,97 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "axis_pose_controller.hpp"
+#include "cortex/toolkit/axis_pose_controller.hpp"
+
+#include "handles.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace cortex::toolkit {
-namespace {
 
-constexpr double rampShare = 0.2;  // share of the time to speed up, and to slow down
-
-struct Share {
-    double way, speed, acceleration;
-};
-
-// Trapezoidal speed: share of the way after a share of the time, and its derivatives.
-Share trapezoid(double time) {
-    const double speed = 1 / (1 - rampShare);
-    const double ramp = speed / rampShare;
-    if (time < rampShare) return {ramp * time * time / 2, ramp * time, ramp};
-    if (time <= 1 - rampShare) return {speed * (time - rampShare / 2), speed, 0};
-    const double left = std::max(0.0, 1 - time);
-    return {1 - ramp * left * left / 2, ramp * left, left > 0 ? -ramp : 0};
-}
-
-}  // namespace
+using mechanics::MotionLimits;
 
 void AxisPoseController::populate() {
-    const auto observed = inputs("axes");
-    const auto demands = outputs("demands");
-    requireSameCount(*this, observed.size(), demands.size(), "demands");
-    for (std::size_t i = 0; i < demands.size(); ++i) {
-        axes_.push_back(
-            {AxisInput{observed[i]}, AxisOutput{demands[i]}, AxisLimits{demands[i].type()}});
-    }
+    AxisController::populate();
     pose_ = array<const double>("pose");
-    if (axes_.size() > pose_.size()) requireSameCount(*this, axes_.size(), pose_.size(), "demands");
+    const std::size_t most = std::min(pose_.size(), plan_.maxAxes);
+    if (axisCount() > most) requireSameCount(*this, axisCount(), most, "demands");
+    shape_ = data<const std::int64_t>("profile");
     progress_ = data<double>("progress");
+    remaining_ = data<double>("remaining");
     speedShare_ = argument<double>("moveTo", "speedShare");
-    on<&AxisPoseController::moveTo>("moveTo");
+    on<&AxisPoseController::runMoveTo>("moveTo");
+    planLimits_.resize(axisCount());
+    target_.resize(axisCount());
 }
 
-bool AxisPoseController::stateStartingUp(const Tick&) {
-    for (Axis& axis : axes_) {
-        axis.from = axis.observed.position;
-        axis.position = axis.from;
-        axis.way = 0;
-    }
+bool AxisPoseController::stateStartingUp(const Tick& tick) {
+    aims_ = false;
+    return AxisController::stateStartingUp(tick);
+}
+
+MotionLimits AxisPoseController::limitsOf(std::size_t axis, double speedShare) const {
+    MotionLimits limits = this->limits(axis).motion(speedShare);
+    if (shape_ == Trapezoid) limits.jerk = std::numeric_limits<double>::infinity();
+    return limits;
+}
+
+bool AxisPoseController::moveTo(std::span<const double> pose, double speedShare) {
+    for (std::size_t i = 0; i < axisCount(); ++i) planLimits_[i] = limitsOf(i, speedShare);
+    if (!plan_.plan(demands(), pose.first(axisCount()), planLimits_)) return false;
+    if (pose.data() != target_.data()) std::ranges::copy(pose.first(axisCount()), target_.begin());
+    share_ = speedShare;
     time_ = 0;
-    duration_ = 0;
+    aims_ = true;
+    lost_ = false;
     return true;
 }
 
-bool AxisPoseController::poseIsInRange() const {
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        if (pose_[i] < axes_[i].limits.min || pose_[i] > axes_[i].limits.max) return false;
-    }
-    return true;
-}
-
-void AxisPoseController::begin(double speedShare) {
+void AxisPoseController::stop() {
+    for (std::size_t i = 0; i < axisCount(); ++i) planLimits_[i] = limitsOf(i, 1);
+    plan_.stop(demands(), planLimits_);
     time_ = 0;
-    duration_ = 1e-3;
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        Axis& axis = axes_[i];
-        axis.from = axis.position;
-        axis.way = pose_[i] - axis.from;
-        const double speed = std::min(axis.limits.speed, 1e3) * speedShare * (1 - rampShare);
-        duration_ = std::max(duration_, std::abs(axis.way) / speed);
-    }
+    aims_ = false;
 }
 
-Outcome AxisPoseController::moveTo(Call& call) {
-    if (call.first()) {
-        if (!poseIsInRange()) return call.fail("the pose is out of the range of an axis");
-        begin(call[speedShare_]);
-    }
+// What limits took away is made up for; after a loss somebody has to command anew.
+void AxisPoseController::takeOver(const Tick&) {
+    lost_ = lost_ || (aims_ && inputLost());
+    if (!aims_ || lost_ || !moveTo(target_, share_)) stop();
+}
+
+void AxisPoseController::move(const Tick& tick) {
+    if (moves()) time_ += tick.elapsedSeconds();
+    for (std::size_t i = 0; i < axisCount(); ++i) demands()[i] = plan_.profile(i).at(time_);
+    remaining_ = std::max(0.0, plan_.duration() - time_);
+}
+
+Outcome AxisPoseController::proceed(Call& call) {
     if (call.cancelling()) {
-        duration_ = 0;
+        stop();
         return Outcome::Cancelled;
     }
-    progress_ = std::min(1.0, time_ / duration_);
-    return time_ >= duration_ ? Outcome::Done : Outcome::Running;
+    if (lost_ || inputLost()) {
+        aims_ = false;
+        return call.fail("an axis was lost on the way");
+    }
+    progress_ = moves() ? time_ / plan_.duration() : 1.0;
+    return moves() ? Outcome::Running : Outcome::Done;
 }
 
-void AxisPoseController::stateActive(const Tick& tick) {
-    const bool moves = time_ < duration_;
-    if (moves) time_ += tick.elapsedSeconds();
-    for (Axis& axis : axes_) {
-        double velocity = 0, acceleration = 0;
-        if (moves) {
-            const Share share = trapezoid(std::min(1.0, time_ / duration_));
-            axis.position = axis.from + share.way * axis.way;
-            velocity = share.speed * axis.way / duration_;
-            acceleration = share.acceleration * axis.way / (duration_ * duration_);
+Outcome AxisPoseController::runMoveTo(Call& call) {
+    if (call.first()) {
+        for (std::size_t i = 0; i < axisCount(); ++i) {
+            if (!inRange(call, "pose", i, pose_[i])) return Outcome::Rejected;
         }
-        axis.demand.write(axis.position, velocity, acceleration);
+        if (!moveTo(pose_, call[speedShare_])) return call.fail("no motion leads to this pose");
     }
+    return proceed(call);
 }
 
 void AxisPoseController::keep(Archive& archive) {
-    archive.version("AxisPoseController", 1);
-    archive & axes_ & duration_ & time_;
+    AxisController::keep(archive);
+    archive.version("AxisPoseController", 2);
+    archive & plan_ & target_ & share_ & time_ & aims_ & lost_;
 }
 
 }  // namespace cortex::toolkit

@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/toolkit/classes.hpp"
 
-#include "axis_controllers.hpp"
-#include "axis_pose_controller.hpp"
+#include "cortex/toolkit/axis_controller_selector.hpp"
+#include "cortex/toolkit/axis_controllers.hpp"
+#include "cortex/toolkit/axis_pose_controller.hpp"
+#include "cortex/toolkit/cartesian_jog_controller.hpp"
+#include "cortex/toolkit/jog_controller.hpp"
+#include "cortex/toolkit/joint_trajectory_controller.hpp"
+#include "cortex/toolkit/pid_controller.hpp"
+
 #include "cartesian_follow_controller.hpp"
 #include "handset_playback.hpp"
-#include "jog_controller.hpp"
 #include "kinematics.hpp"
+#include "process/filter.hpp"
+#include "process/ramp.hpp"
+#include "process/rate_limiter.hpp"
+#include "process/watchdog.hpp"
 #include "processor_selector.hpp"
 #include "simulated_axis.hpp"
+#include "sine_controller.hpp"
 #include "tracking_monitor.hpp"
 
 namespace cortex::toolkit {
@@ -19,13 +29,21 @@ void addClasses(ClassRegistry& registry) {
     registry.add<HoldAxisController>("HoldAxisController");
     registry.add<FollowAxisController>("FollowAxisController");
     registry.add<AxisPoseController>("AxisPoseController");
+    registry.add<AxisControllerSelector>("AxisControllerSelector");
     registry.add<JogController>("JogController");
+    registry.add<CartesianJogController>("CartesianJogController");
+    registry.add<JointTrajectoryController>("JointTrajectoryController");
     registry.add<SineController>("SineController");
     registry.add<CartesianFollowController>("CartesianFollowController");
     registry.add<ProcessorSelector>("ProcessorSelector");
     registry.add<SimulatedAxis>("SimulatedAxis");
     registry.add<HandsetPlayback>("HandsetPlayback");
     registry.add<TrackingMonitor>("TrackingMonitor");
+    registry.add<PidController>("PidController");
+    registry.add<RateLimiter>("RateLimiter");
+    registry.add<Filter>("Filter");
+    registry.add<Ramp>("Ramp");
+    registry.add<Watchdog>("Watchdog");
 }
 
 }  // namespace cortex::toolkit

@@ -4,10 +4,8 @@
 #include "cortex/core/error.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <optional>
+#include <stdexcept>
 #include <string>
-#include <variant>
 
 namespace cortex::toolkit {
 namespace {
@@ -16,11 +14,6 @@ Eigen::Vector3d vector(std::span<const double> values) { return {values[0], valu
 
 void copy(const Eigen::Vector3d& from, std::span<double> to) {
     for (Eigen::Index i = 0; i < 3; ++i) to[static_cast<std::size_t>(i)] = from[i];
-}
-
-double valueOf(const std::optional<Number>& bound, double otherwise) {
-    if (!bound) return otherwise;
-    return std::visit([](auto number) { return static_cast<double>(number); }, *bound);
 }
 
 // For a chain, which wants finite limits: more than any mechanism moves.
@@ -114,15 +107,6 @@ std::vector<AxisOutput> axisOutputs(const std::vector<OutputSimplex>& axes) {
     return {axes.begin(), axes.end()};
 }
 
-AxisLimits::AxisLimits(const Type& axis) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const DataItem* position = axis.findData("position");
-    const DataItem* velocity = axis.findData("velocity");
-    min = position ? valueOf(position->min, -infinity) : -infinity;
-    max = position ? valueOf(position->max, infinity) : infinity;
-    speed = velocity ? valueOf(velocity->max, infinity) : infinity;
-}
-
 void requireSameCount(const Simplex& owner, std::size_t axes, std::size_t others,
                       const char* otherRule) {
     if (axes == others) return;
@@ -133,7 +117,7 @@ void requireSameCount(const Simplex& owner, std::size_t axes, std::size_t others
 
 SerialChain chainOf(const Simplex& owner, const std::vector<InputSimplex>& axes,
                     std::span<const double> tipPosition, std::span<const double> tipRotation) {
-    std::vector<ChainJoint> joints;
+    std::vector<mechanics::ChainJoint> joints;
     for (const InputSimplex& axis : axes) {
         if (axis.isRemote()) {
             throw Error(owner.path() + ": " + axis.path() +
@@ -141,11 +125,12 @@ SerialChain chainOf(const Simplex& owner, const std::vector<InputSimplex>& axes,
                         "let the agent that has the axes compute their chain");
         }
         const AxisLimits limits{axis.type()};
-        joints.push_back(
-            {vector(axis.array<double>("originPosition")),
-             vector(axis.array<double>("originRotation")), vector(axis.array<double>("direction")),
-             axis.type().isA("LinearAxisConcept") ? JointKind::Linear : JointKind::Rotary,
-             finite(limits.min), finite(limits.max), finite(limits.speed)});
+        joints.push_back({vector(axis.array<double>("originPosition")),
+                          vector(axis.array<double>("originRotation")),
+                          vector(axis.array<double>("direction")),
+                          axis.type().isA("LinearAxisConcept") ? mechanics::JointKind::Linear
+                                                               : mechanics::JointKind::Rotary,
+                          finite(limits.min), finite(limits.max), finite(limits.speed)});
     }
     const Eigen::Vector3d angles = vector(tipRotation);
     const Eigen::Quaterniond rotation = Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
@@ -153,7 +138,7 @@ SerialChain chainOf(const Simplex& owner, const std::vector<InputSimplex>& axes,
                                         Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX());
     try {
         return SerialChain{joints, Pose{vector(tipPosition), rotation}};
-    } catch (const Error& error) {
+    } catch (const std::invalid_argument& error) {
         throw Error(owner.path() + ": " + error.what());
     }
 }

@@ -3,13 +3,18 @@
 
 #include "cortex/core/archive.hpp"
 #include "cortex/core/simplex.hpp"
-#include "cortex/toolkit/serial_chain.hpp"
+#include "cortex/mechanics/serial_chain.hpp"
+#include "cortex/toolkit/axis_limits.hpp"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace cortex::toolkit {
+
+using mechanics::Pose;
+using mechanics::SerialChain;
+using mechanics::Twist;
 
 // What keep() hands over of Eigen's types.
 template <class Matrix>
@@ -83,12 +88,6 @@ struct AxisOutput {
 
 std::vector<AxisInput> axisInputs(const std::vector<InputSimplex>& axes);
 std::vector<AxisOutput> axisOutputs(const std::vector<OutputSimplex>& axes);
-
-// Limits that the type of an axis states; infinite where it states none.
-struct AxisLimits {
-    explicit AxisLimits(const Type& axis);
-    double min, max, speed;
-};
 
 // Throws Error unless there are as many of the one as of the other, where a morphology of the
 // user's own lacks the rule's sameCount="axes", by which files are checked.

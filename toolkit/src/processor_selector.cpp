@@ -4,10 +4,7 @@
 namespace cortex::toolkit {
 namespace {
 
-constexpr std::int64_t retryAfter = 500'000'000;  // ns
-
 bool running(State state) { return state == State::StartingUp || state == State::Active; }
-bool ended(State state) { return state == State::Standby || state == State::Fault; }
 
 }  // namespace
 
@@ -20,14 +17,13 @@ void ProcessorSelector::populate() {
     selected_ = data<std::int64_t>("selected");
     reason_ = data<std::int64_t>("reason");
     switchCount_ = data<std::int64_t>("switchCount");
-    choices_[0].sender = lifeCycle(output("whileMoving"), true);
-    choices_[1].sender = lifeCycle(output("otherwise"), true);
+    choices_[0] = lifeCycle(output("whileMoving"), true);
+    choices_[1] = lifeCycle(output("otherwise"), true);
 }
 
-bool ProcessorSelector::stateStartingUp(const Tick& tick) {
+bool ProcessorSelector::stateStartingUp(const Tick&) {
     stillFor_ = stillTime_ + 1;
     enable_.reset();
-    for (Managed& choice : choices_) choice.askedAt = tick.nominalTime - retryAfter;
     return true;
 }
 
@@ -44,7 +40,7 @@ ProcessorSelector::Reason ProcessorSelector::reason(const Tick& tick) {
     const bool enabled = enable_.update(inputLost());
     if (!enable_.usable()) return InputLost;
     if (!enabled) return NotEnabled;
-    if (choices_[0].sender.state() == State::Fault) return Faulted;
+    if (choices_[0].state() == State::Fault) return Faulted;
     return moves ? HandMoves : HandStill;
 }
 
@@ -62,36 +58,27 @@ void ProcessorSelector::select(Reason reason) {
 
 void ProcessorSelector::stateActive(const Tick& tick) {
     select(reason(tick));
-    const bool follow = selected_ == WhileMoving;
-    Managed& chosen = choices_[follow ? 0 : 1];
-    Managed& other = choices_[follow ? 1 : 0];
-    if (running(other.sender.state())) other.sender.shutdown();
-    if (chosen.sender.state() != State::Standby) {
-        chosen.askedAt = tick.nominalTime - retryAfter;
-    } else if (tick.nominalTime - chosen.askedAt >= retryAfter) {
-        chosen.askedAt = tick.nominalTime;
-        chosen.sender.startup();
-    }
+    const std::size_t wanted = selected_ == WhileMoving ? 0 : 1;
+    const HandOver step = LifeCycleSender::handOver(
+        choices_, [wanted](std::size_t place) { return place == wanted; }, tick);
+    // The hand does not lead on because what follows it does not start.
+    if (step == HandOver::Failed && wanted == 1 && running(choices_[0].state()))
+        choices_[0].shutdown();
 }
 
-bool ProcessorSelector::stopAll() {
-    bool all = true;
-    for (Managed& choice : choices_) {
-        const State state = choice.sender.state();
-        if (running(state)) choice.sender.shutdown();
-        all = all && ended(state);
-    }
+bool ProcessorSelector::stopAll(const Tick& tick) {
     selected_ = None;
     reason_ = NotActive;
-    return all;
+    const auto none = [](std::size_t) { return false; };
+    return LifeCycleSender::handOver(choices_, none, tick) == HandOver::Done;
 }
 
-bool ProcessorSelector::stateShuttingDown(const Tick&) { return stopAll(); }
+bool ProcessorSelector::stateShuttingDown(const Tick& tick) { return stopAll(tick); }
 
-bool ProcessorSelector::stateFault(const Tick&) { return stopAll(); }
+bool ProcessorSelector::stateFault(const Tick& tick) { return stopAll(tick); }
 
 void ProcessorSelector::keep(Archive& archive) {
-    archive.version("ProcessorSelector", 1);
+    archive.version("ProcessorSelector", 2);
     archive & enable_ & choices_ & stillFor_;
 }
 

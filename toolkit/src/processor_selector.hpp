@@ -9,8 +9,8 @@
 
 namespace cortex::toolkit {
 
-// Keeps one of two processors Active: the first while it is enabled and the
-// hand moves, otherwise the second.
+// Keeps one of two processors Active: the first while it is enabled and the hand moves, otherwise
+// the second. Each goes on until the other one is Active, so there is no gap between them.
 class ProcessorSelector final : public cs::SimplexCS {
 public:
     using SimplexCS::SimplexCS;
@@ -18,12 +18,6 @@ public:
 private:
     enum Choice : std::int64_t { None, WhileMoving, Otherwise };
     enum Reason : std::int64_t { NotActive, HandMoves, HandStill, NotEnabled, InputLost, Faulted };
-    struct Managed {
-        LifeCycleSender sender;
-        std::int64_t askedAt = 0;  // ns; a startup that was refused is tried again later
-
-        void keep(Archive& archive) { archive & askedAt; }
-    };
 
     void populate() override;
     bool stateStartingUp(const Tick& tick) override;
@@ -35,14 +29,14 @@ private:
     bool handMoves(const Tick& tick);
     Reason reason(const Tick& tick);
     void select(Reason reason);
-    bool stopAll();
+    bool stopAll(const Tick& tick);
 
     PoseInput hand_;
     Enable enable_;
     Data<const double> speedThreshold_, turnThreshold_, stillTime_;
     Data<std::int64_t> selected_, reason_, switchCount_;
-    std::array<Managed, 2> choices_;  // WhileMoving, Otherwise
-    double stillFor_ = 0;             // s
+    std::array<LifeCycleSender, 2> choices_;  // WhileMoving, Otherwise
+    double stillFor_ = 0;                     // s
 };
 
 }  // namespace cortex::toolkit

@@ -3,11 +3,13 @@
 
 namespace cortex::comms {
 
-void AgentAnswers::send(const Answer& answer) {
-    const Topic topic = topics::answerTo(answer.sender);
+void AgentAnswers::send(const Answer& answer) { writerTo(answer.sender).write(answer); }
+
+Writer<Answer>& AgentAnswers::writerTo(const std::string& sender) {
+    const Topic topic = topics::answerTo(sender);
     std::unique_ptr<Writer<Answer>>& writer = writers_[topic.name];
     if (!writer) writer = participant_.writer<Answer>(topic);
-    writer->write(answer);
+    return *writer;
 }
 
 }  // namespace cortex::comms

@@ -46,8 +46,13 @@ AgentCallSender::AgentCallSender(AgentSelf& self, const AgentLinks& links, Parti
       links_{links},
       participant_{participant},
       pipe_{self.access},
-      sent_{senderOf(self)},
-      out_{self.access.calls > 0 ? participant.writer<Command>(topics::command) : nullptr} {}
+      sent_{senderOf(self)} {
+    join();
+}
+
+void AgentCallSender::join() {
+    if (any()) out_ = participant_.writer<Command>(topics::command);
+}
 
 void AgentCallSender::step(const Peers& peers, bool silent) {
     if (!any()) return;

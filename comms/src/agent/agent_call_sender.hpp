@@ -25,7 +25,10 @@ class AgentCallSender {
 public:
     AgentCallSender(AgentSelf& self, const AgentLinks& links, Participant& participant);
 
-    bool any() const { return out_ != nullptr; }  // whether a task may send to another agent
+    // Whether a task may send to another agent.
+    bool any() const { return self_.access.calls > 0; }
+    void leave() { out_.reset(); }  // before its participant is replaced
+    void join();                    // after that
     void take(const Answer& answer) { sent_.take(answer); }
     // Sends what the loop has given and what is due again. While this agent is silent it sends
     // nothing.

@@ -5,6 +5,7 @@
 #include "cortex/core/error.hpp"
 #include "cortex/core/record.hpp"
 
+#include "agent/agent_rivals.hpp"
 #include "security/security_identity.hpp"
 #include "wire/ids.hpp"
 #include "wire/named_values.hpp"
@@ -63,10 +64,11 @@ std::string prefixOf(const Value& value) {
 }  // namespace
 
 AgentCommands::AgentCommands(AgentSelf& self, std::function<void(const Answer&)> send,
-                             SecurityIdentity* identity)
+                             SecurityIdentity* identity, const AgentRivals* rivals)
     : self_{self},
       send_{std::move(send)},
       identity_{identity},
+      rivals_{rivals},
       pipe_{self.access, onTheirWay},
       lostSenders_{64} {}
 
@@ -174,6 +176,8 @@ bool AgentCommands::encode(const Command& command, OutsideCommand& message,
         if (self_.structure().simplexes[message.simplex].remote) {
             throw Error(command.path + " belongs to another agent");
         }
+        const std::string other = rivals_ != nullptr ? rivals_->refusal(message.simplex) : "";
+        if (!other.empty()) throw Error(other);
         refusal.reason = Reason::Range;
         const auto arguments = valuesOf(command.arguments);
         if (!arguments) throw Error("its arguments are malformed, or one is given twice");

@@ -17,6 +17,7 @@
 
 namespace cortex::comms {
 
+class AgentRivals;
 class SecurityIdentity;
 
 // Passes valid commands from the network to the loop and answers the others at once. It sends the
@@ -26,9 +27,10 @@ class SecurityIdentity;
 // start.
 class AgentCommands {
 public:
-    // With an identity, a sender must prove that it may command.
+    // With an identity, a sender must prove that it may command. With rivals, commands to paths
+    // that another agent owns are refused.
     AgentCommands(AgentSelf& self, std::function<void(const Answer&)> send,
-                  SecurityIdentity* identity = nullptr);
+                  SecurityIdentity* identity = nullptr, const AgentRivals* rivals = nullptr);
 
     // For each command that was received, those for other agents included.
     void take(const Command& command, std::int64_t now);
@@ -77,6 +79,7 @@ private:
     AgentSelf& self_;
     std::function<void(const Answer&)> send_;
     SecurityIdentity* identity_;
+    const AgentRivals* rivals_;
     CommandPipe pipe_;
     SpscRing<Sender> lostSenders_;
     std::map<std::string, HeardSender> senders_;  // by name

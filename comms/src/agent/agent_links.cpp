@@ -110,15 +110,15 @@ void AgentLinks::reportContradiction(Peer& peer) const {
 }
 
 void AgentLinks::claim(Link& link, Peer& peer) {
+    const std::string& path = self_.structure().simplexes[link.simplex].path;
     const auto known = link.claims.find(peer.name);
     if (known != link.claims.end()) {
         known->second.heard = peer.heard;
-        known->second.since = peer.since;
+        if (peer.current) known->second.claimant = peer.current->claimTo(path);
         if (peer.current && known->second.epoch == peer.epoch()) return;
         link.claims.erase(known);
     }
     if (!peer.heard || !peer.agent) return;
-    const std::string& path = self_.structure().simplexes[link.simplex].path;
     if (!peer.model().has(path)) return;
     const auto theirs = peer.current->model.structure();
     const std::uint32_t index = indexOf(theirs.get(), path);
@@ -134,7 +134,7 @@ AgentLinks::Claim AgentLinks::makeClaim(const Link& link, Peer& peer, std::uint3
     const Structure& ours = self_.structure();
     Claim claim;
     claim.epoch = peer.epoch();
-    claim.since = peer.since;
+    claim.claimant = peer.current->claimTo(ours.simplexes[link.simplex].path);
     claim.theirs = theirs;
     claim.simplexes = presence.simplexes;
     claim.structureHash = presence.structureHash;
@@ -149,24 +149,24 @@ AgentLinks::Claim AgentLinks::makeClaim(const Link& link, Peer& peer, std::uint3
     return claim;
 }
 
-// Of several agents that have the path, the one that was heard first stays linked. Of those that
-// were there before this agent, it is the one that says it started first.
+// Of several agents that have the path its owner is linked.
 void AgentLinks::choose(Link& link) {
-    const std::string* chosen = nullptr;
-    const auto usable = [](const Claim& claim) { return claim.heard && claim.binding.usable; };
-    const auto isBefore = [](const Claim& one, const Claim& other) {
-        return std::pair{one.since, one.epoch} < std::pair{other.since, other.epoch};
-    };
+    std::vector<Claimant> claimants;
     for (const auto& [agent, claim] : link.claims) {
-        if (!usable(claim)) continue;
-        if (chosen == nullptr || isBefore(claim, link.claims.at(*chosen))) chosen = &agent;
+        if (claim.heard && claim.binding.usable) claimants.push_back(claim.claimant);
     }
-    for (auto& [agent, claim] : link.claims) {
-        if (!usable(claim) || agent == *chosen || std::exchange(claim.reported, true)) continue;
-        self_.event(Severity::Error, link.simplex,
-                    agent + " claims it as well; " + *chosen + " stays linked");
+    const auto owner = ownerAmong(claimants, [&](const Claimant& one, const Claimant& other) {
+        return wasFirst(one, other, self_.began);
+    });
+    for (const Claimant& each : claimants) {
+        if (owner && each.agent == claimants[*owner].agent) continue;
+        if (std::exchange(link.claims.at(each.agent).reported, true)) continue;
+        self_.event(
+            Severity::Error, link.simplex,
+            owner ? each.agent + " claims it as well; " + claimants[*owner].agent + " stays linked"
+                  : each.agent + " is not linked: its signed list owns other paths");
     }
-    bind(link, chosen);
+    bind(link, owner ? &claimants[*owner].agent : nullptr);
 }
 
 void AgentLinks::bind(Link& link, const std::string* agent) {

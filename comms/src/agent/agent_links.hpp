@@ -71,7 +71,7 @@ private:
     // An agent that has the path, in one of its starts.
     struct Claim {
         std::int64_t epoch = 0;
-        std::int64_t since = 0;  // its owner is heard; monotonic, ns
+        Claimant claimant;
         std::uint32_t theirs = noSimplex, simplexes = 0;
         Id structureHash{};
         std::shared_ptr<const Structure> structure;

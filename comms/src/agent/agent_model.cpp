@@ -111,6 +111,10 @@ void AgentModel::addSimplexes() {
     pack(std::move(all), &Model::simplexes);
 }
 
+void AgentModel::show(const std::string& list) {
+    if (!samples_.empty()) samples_.front().extras.push_back({signedList, list});
+}
+
 Presence AgentModel::presence(const char* state, std::uint32_t agents, std::uint64_t events) const {
     Presence presence = presence_;
     presence.extras = {{agentsHeard, std::to_string(agents)},

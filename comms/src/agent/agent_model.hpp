@@ -16,6 +16,9 @@ class AgentModel {
 public:
     explicit AgentModel(const AgentSelf& self, std::string_view security = {});
 
+    // The first sample shows this signed list from now on.
+    void show(const std::string& list);
+
     const std::vector<Model>& samples() const { return samples_; }
     const Id& structureHash() const { return presence_.structureHash; }
     // `agents`: how many are present, this one included. `events`: the number of the last event

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/agent_peers.hpp"
 
+#include "security/security_identity.hpp"
 #include "wire/ids.hpp"
 #include "wire/presence_interval.hpp"
 
@@ -25,8 +26,9 @@ std::size_t pathsIn(const Interest& interest) {
 
 }  // namespace
 
-AgentPeers::AgentPeers(AgentSelf& self, std::function<void(const std::string&, std::int64_t)> lost)
-    : self_{self}, lost_{std::move(lost)} {}
+AgentPeers::AgentPeers(AgentSelf& self, std::function<void(const std::string&, std::int64_t)> lost,
+                       SecurityIdentity* identity)
+    : self_{self}, lost_{std::move(lost)}, identity_{identity} {}
 
 bool AgentPeers::plausible(const std::string& name, std::int64_t epoch) {
     if (name.empty() || name.size() > longestAgentName || epoch <= 0) {
@@ -81,8 +83,9 @@ void AgentPeers::makeCurrent(Peer& peer, std::int64_t epoch) {
         std::swap(peer.current, peer.other);
     } else {
         if (peer.current && peer.current->model.complete()) peer.other = std::move(peer.current);
-        peer.current.emplace(peer.name, epoch);
+        peer.current.emplace(peer.name, epoch, identity_ != nullptr);
     }
+    peer.goodbye.clear();
     changed_ = true;
 }
 
@@ -101,16 +104,20 @@ void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
     if (!peer.current->model.add(presence)) {
         return self_.rejections.add("a presence of " + peer.name + " that cannot be");
     }
-    changed_ = changed_ || peer.model().complete() != complete;
-    if (presence.state != "running") peer.missed = false;
-    if (presence.state == "stopping") return lose(peer, "it stopped");
-    if (presence.state == "silent") return lose(peer, "another start of it was there first");
+    if (peer.model().complete() != complete) becameComplete(*peer.current);
+    if (presence.state != "running") {
+        peer.missed = false;
+        peer.goodbye =
+            presence.state == "silent" ? "another start of it was there first" : "it stopped";
+        return;
+    }
+    peer.goodbye.clear();
     peer.lastHeard = now;
+    if (peer.current->seniority.take(presence, now)) changed_ = true;
     const bool agent = presence.role == "agent";
     changed_ = changed_ || agent != peer.agent || !peer.heard;
     peer.agent = agent;
     peer.missed = false;
-    if (!peer.heard) peer.since = name_.isNew(now) ? 0 : now;
     if (!std::exchange(peer.heard, true) && peer.agent) {
         self_.event(Severity::Info, self_.simplex,
                     "agent " + peer.name + " was found, on host " + presence.host);
@@ -146,9 +153,14 @@ void AgentPeers::expire(std::int64_t now) {
     for (auto& [name, peer] : peers_) {
         if (!peer.heard) continue;
         peer.lastHeard = std::min(now, peer.lastHeard + stood);
-        const std::int64_t patience =
-            patienceWith(*peer.model().presence(), peer.agent ? crowd : 0);
-        if (now - peer.lastHeard <= patience) continue;
+        const Presence& presence = *peer.model().presence();
+        const std::int64_t silence = now - peer.lastHeard;
+        if (!peer.goodbye.empty() && silence > patienceAfterGoodbye(presence)) {
+            lose(peer, peer.goodbye);
+            continue;
+        }
+        const std::int64_t patience = patienceWith(presence, peer.agent ? crowd : 0);
+        if (silence <= patience) continue;
         lose(peer, "nothing was received for " + std::to_string(patience / 1'000'000) + " ms");
         peer.missed = peer.agent;
     }
@@ -162,11 +174,19 @@ PeerStart* AgentPeers::startOf(const std::string& name, std::int64_t epoch, std:
     if (peer->current && epoch == peer->epoch()) return &*peer->current;
     std::optional<PeerStart>& other = peer->other;
     if (!other || other->model.epoch() < epoch || now - other->spoke > shortestPatience) {
-        if (!other || other->model.epoch() != epoch) other.emplace(name, epoch);
+        if (!other || other->model.epoch() != epoch) {
+            other.emplace(name, epoch, identity_ != nullptr);
+        }
     }
     if (other->model.epoch() != epoch) return nullptr;
     other->spoke = now;
     return &*other;
+}
+
+void AgentPeers::becameComplete(PeerStart& start) {
+    changed_ = true;
+    if (identity_ == nullptr) return;
+    start.rights = identity_->shownBy(start.model.agent(), start.model.authority());
 }
 
 void AgentPeers::take(const Model& model, std::int64_t now) {
@@ -177,7 +197,7 @@ void AgentPeers::take(const Model& model, std::int64_t now) {
         self_.rejections.add("a sample of the model of " + model.agent + " that cannot be");
     }
     if (complete || !start->model.complete()) return;
-    changed_ = true;
+    becameComplete(*start);
     const Peer& peer = peers_.at(model.agent);
     if (peer.current && start == &*peer.current) sayIfKnown(peer);
 }
@@ -201,6 +221,12 @@ bool AgentPeers::missesAny(std::int64_t now) const {
     return std::ranges::any_of(peers_, [&](const auto& each) {
         return each.second.missed && now - each.second.lastHeard < longestAbsence;
     });
+}
+
+std::uint32_t AgentPeers::heard() const {
+    const auto others =
+        std::ranges::count_if(peers_, [](const auto& each) { return each.second.heard; });
+    return static_cast<std::uint32_t>(others) + name_.heard();
 }
 
 std::uint32_t AgentPeers::agents() const {

@@ -34,8 +34,8 @@ bool isStart(std::int64_t epoch) {
 }
 
 void Rejections::add(std::string_view reason) {
-    count_.fetch_add(1, std::memory_order_relaxed);
     const std::lock_guard lock{mutex_};
+    count_.fetch_add(1, std::memory_order_relaxed);  // whoever sees it waits for the reason
     last_ = reason;
     auto found = reasons_.find(reason);
     if (found == reasons_.end()) {
@@ -79,7 +79,8 @@ AgentSelf::AgentSelf(const AgentAccess& agent)
       host{hostName()},
       id{agentId(name)},
       epoch{agent.structure->epoch},
-      simplex{agent.structure->find("/" + name)} {}
+      simplex{agent.structure->find("/" + name)},
+      began{monotonicNow()} {}
 
 void AgentSelf::event(Severity severity, std::uint32_t about, std::string_view text) const {
     Event event;

@@ -55,6 +55,7 @@ struct AgentSelf {
     Id id;
     std::int64_t epoch;
     std::uint32_t simplex;  // /<name>
+    std::int64_t began;     // monotonicNow()
     Rejections rejections;
 };
 

@@ -43,6 +43,10 @@ std::int64_t AgentStreams::due() const {
     return earliest;
 }
 
+void AgentStreams::renew() {
+    for (Stream& each : streams_) each.writer.reset();
+}
+
 void AgentStreams::update(const Peers& peers) {
     for (auto& wanted : wanted_) wanted.assign(own_, false);
     for (const auto& [name, peer] : peers) {

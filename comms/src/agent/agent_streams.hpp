@@ -24,10 +24,11 @@ class AgentStreams {
 public:
     AgentStreams(AgentSelf& self, const Id& structureHash, Participant& participant);
 
-    void update(const Peers& peers);               // after the peers have changed
-    bool everyCycle() const;                       // whether somebody asks for every cycle
-    std::int64_t due() const;                      // of the other streams; far in the future: never
-    void step(std::int64_t now);                   // sends what is due
+    void update(const Peers& peers);  // after the peers have changed
+    bool everyCycle() const;          // whether somebody asks for every cycle
+    std::int64_t due() const;         // of the other streams; far in the future: never
+    void step(std::int64_t now);      // sends what is due
+    void renew();  // before its participant is replaced; update() makes the writers anew
     void keep() CORTEX_REALTIME { kept_.keep(); }  // loop thread, after each cycle
 
 private:

@@ -3,9 +3,7 @@
 
 #include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
-#include "cortex/core/loop_pace.hpp"
 #include "cortex/core/service_threads.hpp"
-#include "cortex/core/standstill.hpp"
 
 #include "security/security_identity.hpp"
 #include "wire/presence_extras.hpp"
@@ -13,11 +11,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <exception>
-#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -33,44 +29,121 @@ constexpr std::size_t mostLostOwners = 16;
 constexpr std::int64_t muchTooEarly = 100'000;      // ns
 constexpr std::int64_t shortestExpected = 500'000;  // ns; of less, too much would be waited awake
 constexpr std::int64_t lead = 20'000;               // ns, before and after an expected write
-constexpr std::int64_t silentInterval = 1'000'000'000;  // ns
-constexpr std::size_t longestReason = 200;              // of a refusal, in a presence
-constexpr int timesStopping = 3;
-constexpr std::chrono::milliseconds pauseStopping{10};
+constexpr std::chrono::milliseconds pauseStanding{5};
+constexpr std::int64_t quietWhenMet = 100'000'000;  // ns without anybody new
 
 // Commands and answers are urgent. Everything else waits for the next step.
 template <class Message>
 constexpr bool isUrgent = std::same_as<Message, Command> || std::same_as<Message, Answer>;
 
+// Null: without security.
+const AgentRights* rightsOf(const Participant& participant) {
+    const SecurityIdentity* identity = participant.identity();
+    return identity != nullptr ? &identity->folder().rights : nullptr;
+}
+
 }  // namespace
 
 AgentThread::AgentThread(const AgentAccess& agent, const NetworkOptions& options)
     : self_{agent},
+      network_{self_, options},
       model_{self_, options.security.empty() ? "" : securityOn},
-      participant_{options, self_.name, Participant::Speaks::WhenTold},
-      presenceOut_{participant_.writer<Presence>(topics::presence)},
-      modelOut_{participant_.writer<Model>(topics::model)},
-      eventOut_{participant_.writer<EventMessage>(topics::event)},
+      participant_{network_.options(), self_.name, Participant::Speaks::WhenTold},
       events_{self_},
       answers_{participant_},
+      rivals_{self_, rightsOf(participant_)},
       commands_{self_, [this](const Answer& answer) { sendAnswer(answer); },
-                participant_.identity()},
+                participant_.identity(), &rivals_},
       links_{self_},
-      interestOut_{links_.any() ? participant_.writer<Interest>(topics::interest) : nullptr},
       streams_{self_, model_.structureHash(), participant_},
+      summary_{self_, model_.structureHash(), participant_},
       calls_{self_, links_, participant_},
       peers_{self_,
-             [this](const std::string& name, std::int64_t epoch) { commands_.lost(name, epoch); }},
-      presenceIn_{receive<Presence>({topics::presence.name, Qos::Cycle})},  // the next comes soon
-      modelIn_{links_.any() ? receive<Model>(topics::model) : nullptr},
-      interestIn_{receive<Interest>(topics::interest)},
-      commandIn_{receive<Command>(topics::command)},
-      answerIn_{calls_.any() ? receive<Answer>(topics::answerTo(self_.name)) : nullptr} {
+             [this](const std::string& name, std::int64_t epoch) { commands_.lost(name, epoch); },
+             participant_.identity()} {
+    if (const AgentRights* rights = rightsOf(participant_)) {
+        requireOwned(self_.structure(), *rights);
+        model_.show(participant_.identity()->folder().commands);
+    }
+    makeEndpoints();
+    const ServiceThreads named{"cortex-comms"};
+    thread_ = std::thread{[this] { run(); }};
+    if (options.onSecondStart == OnSecondStart::Silent) return;
+    try {
+        awaitStanding(options);
+    } catch (...) {
+        stopping_.store(true);
+        signals_.wake();
+        thread_.join();
+        throw;
+    }
+}
+
+void AgentThread::makeEndpoints() {
+    presenceOut_ = participant_.writer<Presence>(topics::presence);
+    modelOut_ = participant_.writer<Model>(topics::model);
+    eventOut_ = participant_.writer<EventMessage>(topics::event);
+    if (links_.any()) interestOut_ = participant_.writer<Interest>(topics::interest);
+    presenceIn_ = receive<Presence>({topics::presence.name, Qos::Cycle});  // the next comes soon
+    if (links_.any()) modelIn_ = receive<Model>(topics::model);
+    interestIn_ = receive<Interest>(topics::interest);
+    commandIn_ = receive<Command>(topics::command);
+    if (calls_.any()) answerIn_ = receive<Answer>(topics::answerTo(self_.name));
     for (const Model& sample : model_.samples()) modelOut_->write(sample);
     sendInterest();
     participant_.speak();
-    const ServiceThreads named{"cortex-comms"};
-    thread_ = std::thread{[this] { run(); }};
+}
+
+// Endpoints of DDS keep the addresses with which they were made. Whoever joins from now on gets the
+// events from now on.
+void AgentThread::joinAnew() {
+    Participant next{network_.options(), self_.name, Participant::Speaks::WhenTold};
+    participant_.stopListening();
+    answers_.renew();
+    streams_.renew();
+    summary_.renew();
+    calls_.leave();
+    linksIn_.clear();
+    answerIn_.reset();
+    commandIn_.reset();
+    interestIn_.reset();
+    modelIn_.reset();
+    presenceIn_.reset();
+    interestOut_.reset();
+    eventOut_.reset();
+    modelOut_.reset();
+    presenceOut_.reset();
+    {
+        const std::lock_guard lock{joining_};
+        participant_.replaceBy(std::move(next));
+    }
+    calls_.join();
+    makeEndpoints();
+    changed();
+    presenceDue_ = 0;
+}
+
+// The thread of the program waits here, before anything else of the agent begins.
+void AgentThread::awaitStanding(const NetworkOptions& options) {
+    while (standing_.load() == Standing::Unknown) std::this_thread::sleep_for(pauseStanding);
+    if (!isSecond()) return;
+    const std::string other = "another start of " + self_.name + " is there";
+    if (options.onSecondStart == OnSecondStart::Refused) throw SecondStart{other};
+    const auto ended = [this] { return !isSecond(); };
+    if (options.waitForFirst && !options.waitForFirst(ended)) {
+        throw SecondStart{other + ", and this one was stopped before it ended"};
+    }
+    while (!ended()) std::this_thread::sleep_for(pauseStanding);
+}
+
+// Once everybody who was found has said who it is, it is known whether our name is free.
+void AgentThread::meet(std::int64_t now) {
+    if (peers_.isSecond()) return standing_.store(Standing::Second);
+    if (standing_.load() != Standing::Unknown) return standing_.store(Standing::First);
+    const std::uint32_t found = presenceIn_->writers() + participant_.pending();
+    if (std::exchange(found_, found) != found || foundAt_ == 0) foundAt_ = now;
+    const bool known = peers_.heard() >= found && now - foundAt_ >= quietWhenMet;
+    if (known || now - self_.began >= timeToMeet) standing_.store(Standing::First);
 }
 
 AgentThread::~AgentThread() {
@@ -167,10 +240,14 @@ void AgentThread::step() {
         newCycleAt_ = now;
     }
     if (!silent_) streams_.step(now);
+    if (!silent_) summary_.step(now);
     takeMessages(now);
     reportRefusals();
     peers_.expire(now);
     if (peers_.takeChanged()) changed();
+    meet(now);
+    const std::uint32_t others = peers_.agents() + (silent_ ? 1 : 0);
+    if (network_.look(others, links_.anyUnbound(), now)) joinAnew();
     if (links_.askAgain(now)) feed(now);
     commands_.step(now);
     calls_.step(peers_.all(), silent_);
@@ -186,6 +263,9 @@ void AgentThread::takeMessages(std::int64_t now) {
         peers_.take(presence, came);
         if (presence.state != "stopping" && !peers_.isOther(presence.name, presence.epoch)) {
             commands_.heard(presence, came);
+            if (!silent_ && numberIn(presence, commandsOthers) != 0) {
+                answers_.prepare(presence.name);
+            }
         }
     }
     for (auto& [model, came] : messages_.models) peers_.take(model, came);
@@ -227,14 +307,18 @@ void AgentThread::reportRefusals() {
 }
 
 std::map<std::string, std::uint64_t> AgentThread::rejections() const {
+    const std::lock_guard lock{joining_};
     auto counts = participant_.refusals();
     counts.merge(self_.rejections.byReason());
     return counts;
 }
 
 void AgentThread::changed() {
+    rivals_.update(peers_.all());
+    if (!modelIn_ && rivals_.needsModels(peers_.all())) modelIn_ = receive<Model>(topics::model);
     links_.update(peers_.all());
     streams_.update(peers_.all());
+    summary_.update(peers_.all());
     everyCycle_.store(streams_.everyCycle(), std::memory_order_relaxed);
     listenToOwners();
 }
@@ -271,78 +355,6 @@ void AgentThread::sendEvents() {
         if (!silent_ && eventOut_->write(event)) lastEvent_ = event.number;
     }
     eventsToSend_.clear();
-}
-
-Presence AgentThread::presence(const char* state) const {
-    Presence presence = model_.presence(state, peers_.agents() + 1, lastEvent_);
-    presence.interval = intervalAmong(presenceOut_->readers());
-    presence.extras.insert(presence.extras.begin(),
-                           {uptimeOfAgent, std::to_string(monotonicNow() - began_)});
-    if (self_.access.realTime) addTimes(presence);
-    addRefusals(presence);
-    return presence;
-}
-
-// The rest of what was rejected() are datagrams.
-void AgentThread::addRefusals(Presence& presence) const {
-    const std::string datagrams = participant_.dropped();
-    const std::uint64_t messages = self_.rejections.count() + participant_.malformed();
-    if (!datagrams.empty()) presence.extras.push_back({droppedDatagrams, datagrams});
-    if (messages == 0) return;
-    const std::string last = self_.rejections.last().substr(0, longestReason);
-    presence.extras.push_back(
-        {refusedMessages, std::to_string(messages) + (last.empty() ? "" : ": " + last)});
-}
-
-// A loop that is stepped by hand has no time of its own.
-void AgentThread::addTimes(Presence& presence) const {
-    const std::int64_t now = monotonicNow();
-    presence.extras.push_back({clockOfAgent, std::to_string(now)});
-    presence.extras.push_back({ageOfLoop, std::to_string(now - newCycleAt_)});
-    if (const LoopPace* pace = self_.access.pace; pace != nullptr && pace->rate() > 0) {
-        presence.extras.push_back({rateOfLoop, std::to_string(std::llround(pace->rate() * 1000))});
-        if (pace->overloaded()) presence.extras.push_back({overloaded, "1"});
-    }
-    const StandstillNote* note = self_.access.standstill;
-    const auto found = note != nullptr ? note->get() : std::nullopt;
-    if (!found) return;
-    presence.extras.push_back({standstill, found->why});
-    presence.extras.push_back({timeStood, std::to_string(now - found->since)});
-}
-
-void AgentThread::sendPresence(std::int64_t now) {
-    if (now < presenceDue_) return;
-    const Presence said = presence(silent_ ? "silent" : "running");
-    presenceOut_->write(said);
-    if (silent_)
-        presenceDue_ = now + silentInterval;
-    else
-        presenceDue_ = std::max(presenceDue_ + said.interval, now + said.interval / 2);
-}
-
-// While another start of the name was there first, nothing is said but that. What others know of
-// this start they keep.
-void AgentThread::beSilent(bool silent) {
-    silent_ = silent;
-    presenceDue_ = 0;
-    if (!silent) sendInterest();
-}
-
-// Leaves the network after the last cycle. A silent agent disposes of nothing, because the keys
-// belong to the other start. The last presence is sent more than once: the end of the writer
-// travels through another socket. Under load it overtakes the last sample, which best-effort
-// readers do not get again.
-void AgentThread::leave() {
-    step();
-    if (silent_) return;
-    while (!events_.empty()) sendEvents();
-    const Presence last = presence("stopping");
-    for (int said = 1; said < timesStopping; ++said) {
-        presenceOut_->write(last);
-        std::this_thread::sleep_for(pauseStopping);
-    }
-    presenceOut_->write(last);
-    presenceOut_->dispose(last);
 }
 
 }  // namespace cortex::comms

@@ -10,16 +10,20 @@
 #include "agent/agent_events.hpp"
 #include "agent/agent_links.hpp"
 #include "agent/agent_model.hpp"
+#include "agent/agent_network.hpp"
 #include "agent/agent_peers.hpp"
 #include "agent/agent_received.hpp"
+#include "agent/agent_rivals.hpp"
 #include "agent/agent_self.hpp"
 #include "agent/agent_streams.hpp"
+#include "agent/agent_summary.hpp"
 #include "dds/participant.hpp"
 
 #include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -38,15 +42,24 @@ public:
     void write(Outbox& outbox) CORTEX_REALTIME;
 
     std::uint64_t rejected() const {
+        const std::lock_guard lock{joining_};
         return self_.rejections.count() + participant_.malformed() + participant_.refused();
     }
     std::map<std::string, std::uint64_t> rejections() const;  // by reason
     std::uint64_t lost() const { return links_.lost(); }
     std::string lastRejection() const { return self_.rejections.last(); }
+    // Whether another start of the name was there first. Any thread.
+    bool isSecond() const { return standing_.load() == Standing::Second; }
 
 private:
+    enum class Standing { Unknown, First, Second };
+
     template <class Message>
     std::unique_ptr<Reader<Message>> receive(const Topic& topic);
+    void makeEndpoints();
+    void joinAnew();
+    void awaitStanding(const NetworkOptions& options);
+    void meet(std::int64_t now);
     void run();
     void wait(std::chrono::nanoseconds limit);
     void awaitWrite(std::int64_t time);
@@ -69,6 +82,7 @@ private:
     void leave();
 
     AgentSelf self_;
+    AgentNetwork network_;
     AgentModel model_;
     Participant participant_;
     EventCount signals_;  // wakes the communication thread
@@ -78,14 +92,17 @@ private:
     std::unique_ptr<Writer<EventMessage>> eventOut_;
     AgentEvents events_;
     AgentAnswers answers_;
+    AgentRivals rivals_;
     AgentCommands commands_;
     AgentLinks links_;
     std::unique_ptr<Writer<Interest>> interestOut_;  // null: this agent links nothing
     AgentStreams streams_;
+    AgentSummary summary_;
     AgentCallSender calls_;
     AgentPeers peers_;
     std::unique_ptr<Reader<Presence>> presenceIn_;
-    std::unique_ptr<Reader<Model>> modelIn_;  // null: this agent links nothing
+    // Null: this agent links nothing, and nobody may have a path of it.
+    std::unique_ptr<Reader<Model>> modelIn_;
     std::unique_ptr<Reader<Interest>> interestIn_;
     std::map<std::string, std::unique_ptr<Reader<Block>>> linksIn_;  // by owner
     std::unique_ptr<Reader<Command>> commandIn_;
@@ -95,12 +112,17 @@ private:
     ReceivedMessages messages_;
     std::vector<EventMessage> eventsToSend_;
     std::uint64_t lastEvent_ = 0;  // number of the last event that was written
-    std::int64_t began_ = monotonicNow();
-    std::int64_t newestCycle_ = 0, newCycleAt_ = began_;  // of the loop
+    std::int64_t newestCycle_ = 0, newCycleAt_ = self_.began;  // of the loop
     std::int64_t presenceDue_ = 0;
     std::uint32_t seen_ = 0;  // value of signals_
     bool silent_ = false;
+    std::uint32_t found_ = 0;   // participants on the network
+    std::int64_t foundAt_ = 0;  // when the last of them was found
 
+    std::atomic<Standing> standing_{Standing::Unknown};
+
+    // Held while the participant is replaced, and by other threads that ask it something.
+    mutable std::mutex joining_;
     std::atomic<bool> everyCycle_{false};  // somebody reads every cycle
     std::atomic<std::int64_t> next_{0};    // when the loop is expected to write for them
     std::atomic<bool> stopping_{false};

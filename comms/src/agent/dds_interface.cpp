@@ -39,6 +39,10 @@ std::map<std::string, std::uint64_t> DdsInterface::rejections() const {
                                    : std::map<std::string, std::uint64_t>{};
 }
 
+bool DdsInterface::isSecond() const {
+    return implementation_->thread && implementation_->thread->isSecond();
+}
+
 std::uint64_t DdsInterface::lost() const {
     return implementation_->thread ? implementation_->thread->lost() : 0;
 }

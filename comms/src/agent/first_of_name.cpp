@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/first_of_name.hpp"
 
+#include "peers/owners.hpp"
 #include "wire/presence_extras.hpp"
 #include "wire/presence_interval.hpp"
 
@@ -9,7 +10,6 @@
 namespace cortex::comms {
 namespace {
 
-constexpr std::int64_t nearlyAtOnce = 500'000'000;  // ns
 constexpr std::int64_t tellAgain = 10'000'000'000;  // ns
 
 }  // namespace
@@ -18,6 +18,15 @@ void FirstOfName::tell(Severity severity, const std::string& text, std::int64_t 
     if (told_ != 0 && now - told_ < tellAgain) return;
     told_ = now;
     self_.event(severity, self_.simplex, text);
+}
+
+void FirstOfName::note(const std::string& text, std::int64_t now) {
+    noted_ = now;
+    other_ = text;
+}
+
+std::string FirstOfName::otherSelf(std::int64_t now) const {
+    return other_.empty() || now - noted_ > tellAgain ? "" : other_;
 }
 
 bool FirstOfName::isNew(std::int64_t now) const {
@@ -36,19 +45,20 @@ void FirstOfName::hear(const Presence& ours, std::int64_t now) {
     if (began_ == 0) began_ = now;
     const bool runs = ours.state == "running";
     if (ours.epoch == self_.epoch) {
-        if (!runs && !isSecond_) {
-            tell(Severity::Warning, "somebody else says that " + self_.name + " is " + ours.state,
-                 now);
-        }
-        return;
+        ownHeard_ = true;
+        if (runs || isSecond_) return;
+        const std::string forged = "somebody else says that " + self_.name + " is " + ours.state;
+        note(forged, now);
+        return tell(Severity::Warning, forged, now);
     }
     const std::string rival = "another start of " + self_.name + " is heard, on host " + ours.host;
+    note(rival, now);
     if (ours.state == "silent") {  // it says so again and again, and ends nobody's silence
         if (!isSecond_) tell(Severity::Warning, rival + "; it is silent while this one runs", now);
         return;
     }
-    rivalHeard_ = runs ? now : 0;
-    rivalPatience_ = patienceWith(ours);
+    if (runs) rivalHeard_ = now;
+    rivalPatience_ = runs ? patienceWith(ours) : patienceAfterGoodbye(ours);
     if (!runs || isSecond_) return;
     if (isNew(now) && comesBefore(ours, now)) {
         isSecond_ = true;

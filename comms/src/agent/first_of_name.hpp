@@ -19,16 +19,23 @@ public:
     void hear(const Presence& ours, std::int64_t now);  // of our name
     void expire(std::int64_t now);
     bool isSecond() const { return isSecond_; }
+    // How many starts of the name are heard, this one included.
+    std::uint32_t heard() const { return (ownHeard_ ? 1U : 0U) + (rivalHeard_ != 0 ? 1U : 0U); }
+    // Who else spoke in this name of late, in words; empty: nobody.
+    std::string otherSelf(std::int64_t now) const;
     // Whether what is heard now was there before this start.
     bool isNew(std::int64_t now) const;
 
 private:
     bool comesBefore(const Presence& rival, std::int64_t now) const;
+    void note(const std::string& text, std::int64_t now);
     void tell(Severity severity, const std::string& text, std::int64_t now);
 
     AgentSelf& self_;
     std::int64_t began_ = 0, rivalHeard_ = 0, rivalPatience_ = 0, told_ = 0;  // monotonic, ns
-    bool isSecond_ = false;
+    std::int64_t noted_ = 0;
+    std::string other_;  // who speaks in this name
+    bool isSecond_ = false, ownHeard_ = false;
 };
 
 }  // namespace cortex::comms

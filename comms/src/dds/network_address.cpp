@@ -3,51 +3,37 @@
 
 #include "cortex/core/error.hpp"
 
+#include "dds/network_interfaces.hpp"
+
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
+#include <iterator>
 #include <memory>
 #include <string_view>
 
-#include <ifaddrs.h>
 #include <netdb.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <arpa/inet.h>
-#include <net/if.h>
 #include <netinet/in.h>
 
 namespace cortex::comms {
 namespace {
 
-struct Interface {
-    std::string name, ip;
-};
+constexpr rlim_t filesOfParticipant = 32;  // sockets and what a thread opens now and then
 
-std::string ipOf(const sockaddr* address) {
-    char ip[INET_ADDRSTRLEN] = {};
-    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(address)->sin_addr, ip, sizeof ip);
-    return ip;
-}
-
-std::vector<Interface> activeInterfaces() {
-    ifaddrs* first = nullptr;
-    if (getifaddrs(&first) != 0) throw Error{"the network interfaces cannot be listed"};
-    const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner{first, &freeifaddrs};
-    std::vector<Interface> found;
-    for (const ifaddrs* entry = first; entry; entry = entry->ifa_next) {
-        const bool usable = entry->ifa_addr && entry->ifa_addr->sa_family == AF_INET &&
-                            (entry->ifa_flags & IFF_UP) != 0;
-        if (usable) found.push_back({entry->ifa_name, ipOf(entry->ifa_addr)});
-    }
-    return found;
-}
-
-std::string listed(const std::vector<Interface>& interfaces) {
+std::string listed(const std::vector<NetworkInterface>& interfaces) {
     std::string list;
-    for (const Interface& one : interfaces) {
-        list += (list.empty() ? "" : ", ") + one.name + " (" + one.ip + ")";
+    for (const NetworkInterface& one : interfaces) {
+        if (!one.up) continue;
+        std::string ips;
+        for (const std::string& ip : one.ips) ips += (ips.empty() ? "" : ", ") + ip;
+        list += (list.empty() ? "" : ", ") + one.name + " (" +
+                (ips.empty() ? "no IPv4 address" : ips) + ")";
     }
     return list.empty() ? "none" : list;
 }
@@ -57,7 +43,9 @@ std::string listed(const std::vector<Interface>& interfaces) {
 bool canBind(int port) {
     const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (descriptor < 0) {
-        throw Error{std::string{"no UDP socket can be opened: "} + std::strerror(errno)};
+        throw Error{
+            std::string{"no UDP socket can be opened: "} + std::strerror(errno) +
+            (errno == EMFILE ? "; allow this process more open files (ulimit -n 1024)" : "")};
     }
     sockaddr_in address{};
     address.sin_family = AF_INET;
@@ -73,20 +61,38 @@ bool canBind(int port) {
 std::vector<std::string> interfaceAddresses(const std::vector<std::string>& interfaces) {
     std::vector<std::string> addresses;
     if (interfaces.empty()) return addresses;
-    const std::vector<Interface> active = activeInterfaces();
+    const std::vector<NetworkInterface> all = networkInterfaces();
     std::string unknown;
     for (const std::string& wanted : interfaces) {
         const std::size_t before = addresses.size();
-        for (const Interface& one : active) {
-            if (one.name == wanted || one.ip == wanted) addresses.push_back(one.ip);
+        for (const NetworkInterface& one : all) {
+            for (const std::string& ip : one.ips) {
+                if (one.up && (one.name == wanted || ip == wanted)) addresses.push_back(ip);
+            }
         }
         if (addresses.size() == before) unknown += (unknown.empty() ? "'" : ", '") + wanted + "'";
     }
+    for (const NetworkInterface& one : chosen(all, interfaces)) {
+        if (!one.up) throw Error{downText(one)};
+    }
     if (!unknown.empty()) {
         throw Error{"no active network interface has the name or IPv4 address " + unknown +
-                    "; this machine has " + listed(active)};
+                    "; this machine has " + listed(all)};
     }
     return addresses;
+}
+
+void requireFiles() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+    std::error_code none;
+    const auto open = std::distance(std::filesystem::directory_iterator{"/proc/self/fd", none},
+                                    std::filesystem::directory_iterator{});
+    const auto needed = static_cast<rlim_t>(open) + filesOfParticipant;
+    if (!none && limit.rlim_cur >= needed) return;
+    throw Error{"this process may open " + std::to_string(limit.rlim_cur) +
+                " files, and needs at least " + std::to_string(needed) +
+                " to join the network: allow more (ulimit -n 1024)"};
 }
 
 int freeParticipant(int domain, int participants) {
@@ -119,7 +125,10 @@ Address addressOf(const std::string& text, const std::string& option) {
                     "give an address such as 192.168.1.10, or a name that resolves"};
     }
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner{first, &freeaddrinfo};
-    address.ip = ipOf(first->ai_addr);
+    char ip[INET_ADDRSTRLEN] = {};
+    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(first->ai_addr)->sin_addr, ip,
+              sizeof ip);
+    address.ip = ip;
     return address;
 }
 

@@ -16,6 +16,9 @@ struct Address {
 // IPv4 addresses of interfaces given by name or address; throws Error that lists the valid ones.
 std::vector<std::string> interfaceAddresses(const std::vector<std::string>& interfaces);
 
+// Throws Error if this process may not open as many files as a participant needs.
+void requireFiles();
+
 // The lowest participant number of a domain whose port is free. Throws Error if the first
 // `participants` ports are taken, because others would not ask beyond them. Fast DDS itself never
 // uses a number twice in a process.

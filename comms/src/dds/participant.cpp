@@ -21,6 +21,7 @@
 #include <map>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -66,8 +67,9 @@ std::chrono::milliseconds announcementsAmong(std::uint32_t participants) {
 
 struct Participant::Impl {
     std::string name;
-    std::unique_ptr<DiscoveryCounter> listener;  // outlives the participant
-    SecurityGuard* guard = nullptr;              // the listener, with security
+    std::unique_ptr<DiscoveryCounter> listener;              // outlives the participant
+    std::vector<std::unique_ptr<DiscoveryCounter>> retired;  // others may know their identities
+    SecurityGuard* guard = nullptr;                          // the listener, with security
     std::shared_ptr<Gate> gate;
     int othersOnHost = 0;
     dds::DomainParticipant* participant = nullptr;
@@ -78,10 +80,13 @@ struct Participant::Impl {
     std::uint64_t announcements = 0;
     std::chrono::steady_clock::time_point announceDue{};
 
-    ~Impl() {
-        if (!participant) return;
+    ~Impl() { leave(); }
+
+    void leave() {
+        if (participant == nullptr) return;
         participant->delete_contained_entities();
         dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+        participant = nullptr;
     }
 
     // To be called with the gate held, as everything that makes or deletes endpoints.
@@ -239,7 +244,17 @@ void Participant::speak() { impl_->gate->open(); }
 
 void Participant::stopListening() { impl_->gate->close(); }
 
+Participant::Participant(Participant&& other) noexcept = default;
+
 Participant::~Participant() = default;
+
+void Participant::replaceBy(Participant&& next) {
+    impl_->leave();
+    next.impl_->retired = std::move(impl_->retired);
+    next.impl_->retired.push_back(std::move(impl_->listener));
+    next.impl_->malformed += impl_->malformed;
+    impl_ = std::move(next.impl_);
+}
 
 template <class M>
 std::unique_ptr<Writer<M>> Participant::writer(const Topic& topic) {
@@ -290,8 +305,8 @@ void Participant::announce() {
     const auto now = std::chrono::steady_clock::now();
     if (now < self.announceDue) return;
     self.announceDue = now + announcementsAmong(self.listener->known());
-    // Fast DDS announces a change at once. It then takes its locks in another order than where it
-    // receives.
+    // Fast DDS announces a change at once, and then also looks for new interfaces. It then takes
+    // its locks in another order than where it receives.
     const auto held = self.gate->hold();
     dds::DomainParticipantQos qos = self.participant->get_qos();
     qos.user_data().data_vec({static_cast<std::uint8_t>(++self.announcements)});
@@ -335,50 +350,26 @@ std::uint32_t Participant::secured() const { return impl_->listener->secured(); 
 
 // --- the messages -------------------------------------------------------------------------------
 
-template class Writer<Presence>;
-template class Writer<Model>;
-template class Writer<Interest>;
-template class Writer<Block>;
-template class Writer<Command>;
-template class Writer<Answer>;
-template class Writer<EventMessage>;
-
-template class Reader<Presence>;
-template class Reader<Model>;
-template class Reader<Interest>;
-template class Reader<Block>;
-template class Reader<Command>;
-template class Reader<Answer>;
-template class Reader<EventMessage>;
-
-template std::unique_ptr<Writer<Presence>> Participant::writer(const Topic&);
-template std::unique_ptr<Writer<Model>> Participant::writer(const Topic&);
-template std::unique_ptr<Writer<Interest>> Participant::writer(const Topic&);
-template std::unique_ptr<Writer<Block>> Participant::writer(const Topic&);
-template std::unique_ptr<Writer<Command>> Participant::writer(const Topic&);
-template std::unique_ptr<Writer<Answer>> Participant::writer(const Topic&);
-template std::unique_ptr<Writer<EventMessage>> Participant::writer(const Topic&);
-
 using OnDisposed = std::function<void(const Id&)>;
-template std::unique_ptr<Reader<Presence>> Participant::reader(const Topic&,
-                                                               std::function<void(Presence&&)>,
-                                                               OnDisposed);
-template std::unique_ptr<Reader<Model>> Participant::reader(const Topic&,
-                                                            std::function<void(Model&&)>,
-                                                            OnDisposed);
-template std::unique_ptr<Reader<Interest>> Participant::reader(const Topic&,
-                                                               std::function<void(Interest&&)>,
-                                                               OnDisposed);
-template std::unique_ptr<Reader<Block>> Participant::reader(const Topic&,
-                                                            std::function<void(Block&&)>,
-                                                            OnDisposed);
-template std::unique_ptr<Reader<Command>> Participant::reader(const Topic&,
-                                                              std::function<void(Command&&)>,
-                                                              OnDisposed);
-template std::unique_ptr<Reader<Answer>> Participant::reader(const Topic&,
-                                                             std::function<void(Answer&&)>,
-                                                             OnDisposed);
-template std::unique_ptr<Reader<EventMessage>> Participant::reader(
-    const Topic&, std::function<void(EventMessage&&)>, OnDisposed);
+
+// A type cannot stand in parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
+#define CORTEX_MESSAGE(M)                                                  \
+    template class Writer<M>;                                              \
+    template class Reader<M>;                                              \
+    template std::unique_ptr<Writer<M>> Participant::writer(const Topic&); \
+    template std::unique_ptr<Reader<M>> Participant::reader(const Topic&,  \
+                                                            std::function<void(M&&)>, OnDisposed)
+// NOLINTEND(bugprone-macro-parentheses)
+
+CORTEX_MESSAGE(Presence);
+CORTEX_MESSAGE(Model);
+CORTEX_MESSAGE(Interest);
+CORTEX_MESSAGE(Block);
+CORTEX_MESSAGE(Summary);
+CORTEX_MESSAGE(Command);
+CORTEX_MESSAGE(Answer);
+CORTEX_MESSAGE(EventMessage);
+
+#undef CORTEX_MESSAGE
 
 }  // namespace cortex::comms

@@ -64,6 +64,7 @@ public:
     // costs an exchange with each of them.
     Participant(const NetworkOptions& options, const std::string& name,
                 Speaks speaks = Speaks::AtOnce);
+    Participant(Participant&& other) noexcept;
     ~Participant();
 
     template <class M>
@@ -82,6 +83,10 @@ public:
     // Fast DDS announces this participant every 3 s, or less often in a crowd. Calling this often,
     // while another participant may have forgotten us, announces it more often.
     void announce();
+
+    // Leaves the network and goes on as `next`, which has joined it. All endpoints of this one are
+    // destroyed before. identity() stays valid, and what it knew is known no more.
+    void replaceBy(Participant&& next);
 
     std::uint64_t malformed() const;  // samples that did not decode, or at which a callback threw
 

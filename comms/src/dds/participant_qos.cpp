@@ -66,19 +66,20 @@ Locator_t locatorOf(const Address& address, std::uint16_t port) {
 bool isLoopback(const std::string& ip) { return ip.starts_with("127."); }
 
 // Peers replace the multicast address that Fast DDS asks by default, so that address is named as
-// well. Other vendors hear no multicast on the loopback interface alone: there the first few
-// participants are asked one by one.
+// well. On the loopback interface other vendors hear no multicast, and who keeps to it hears none
+// of those who use others as well: there the first few participants are asked one by one.
 void addPeers(dds::WireProtocolConfigQos& protocol, const NetworkOptions& options,
               const std::vector<std::string>& interfaces) {
     auto& list = protocol.builtin.initialPeersList;
     for (const std::string& peer : options.peers) {
         list.push_back(locatorOf(addressOf(peer, "peer"), 0));
     }
-    if (!interfaces.empty() && std::ranges::all_of(interfaces, isLoopback)) {
+    const auto loopback = std::ranges::find_if(interfaces, isLoopback);
+    if (loopback != interfaces.end()) {
         for (std::uint32_t i = 0; i < askedOnLoopback; ++i) {
             const auto port =
                 protocol.port.getUnicastPort(static_cast<std::uint32_t>(options.domain), i);
-            list.push_back(locatorOf({interfaces.front()}, static_cast<std::uint16_t>(port)));
+            list.push_back(locatorOf({*loopback}, static_cast<std::uint16_t>(port)));
         }
     }
     // The address has its port, because Fast DDS 2.9 would otherwise ask it at the ports of single
@@ -87,6 +88,25 @@ void addPeers(dds::WireProtocolConfigQos& protocol, const NetworkOptions& option
     if (!list.empty()) {
         list.push_back(locatorOf({discoveryMulticast}, static_cast<std::uint16_t>(port)));
     }
+}
+
+// Fast DDS does not announce the address of the loopback interface beside others. Who keeps to that
+// interface could then not answer.
+void announceLoopback(dds::WireProtocolConfigQos& protocol, int domain,
+                      const std::vector<std::string>& interfaces) {
+    if (std::ranges::none_of(interfaces, isLoopback)) return;
+    if (std::ranges::all_of(interfaces, isLoopback)) return;
+    const auto number = static_cast<std::uint32_t>(protocol.participant_id);
+    const auto place = static_cast<std::uint32_t>(domain);
+    const auto port = static_cast<std::uint16_t>(protocol.port.getUnicastPort(place, number));
+    for (const std::string& each : interfaces) {
+        protocol.builtin.metatrafficUnicastLocatorList.push_back(locatorOf({each}, port));
+        protocol.default_unicast_locator_list.push_back(
+            locatorOf({each}, static_cast<std::uint16_t>(port + 1)));
+    }
+    const auto multicast = static_cast<std::uint16_t>(protocol.port.getMulticastPort(place));
+    protocol.builtin.metatrafficMulticastLocatorList.push_back(
+        locatorOf({discoveryMulticast}, multicast));
 }
 
 // A prefix that no other participant has: vendor and random numbers. An id of the host would be
@@ -118,6 +138,15 @@ void addServers(BuiltinAttributes& builtin, std::string_view servers) {
     }
     builtin.discovery_config.discoveryProtocol =
         eprosima::fastrtps::rtps::DiscoveryProtocol_t::CLIENT;
+}
+
+std::shared_ptr<transport::UDPv4TransportDescriptor> udpTransport(const NetworkOptions& options) {
+    auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
+    udp->interfaceWhiteList = interfaceAddresses(options.interfaces);
+    udp->maxInitialPeersRange = peersPerHost;
+    udp->receiveBufferSize = largestBuffer("/proc/sys/net/core/rmem_max");
+    udp->sendBufferSize = largestBuffer("/proc/sys/net/core/wmem_max");
+    return udp;
 }
 
 // Fast DDS 2.9 packs consecutive samples into messages that leave no room for what security adds,
@@ -165,13 +194,9 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
         throw Error{"domain " + std::to_string(options.domain) + " of '" + name +
                     "' does not exist; choose one from 0 to " + std::to_string(lastDomain)};
     }
+    requireFiles();
     const int number = freeParticipant(options.domain, participantsPerHost);
-    auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
-    udp->interfaceWhiteList = interfaceAddresses(options.interfaces);
-    udp->maxInitialPeersRange = peersPerHost;
-    udp->receiveBufferSize = largestBuffer("/proc/sys/net/core/rmem_max");
-    udp->sendBufferSize = largestBuffer("/proc/sys/net/core/wmem_max");
-
+    const auto udp = udpTransport(options);
     dds::DomainParticipantQos qos;
     qos.name(name);
     if (!options.security.empty()) {
@@ -195,6 +220,7 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     const auto others = static_cast<std::uint32_t>(number);
     builtin.discovery_config.leaseDuration = milliseconds(10'000 + 1'000 * others);
     builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(3'000 + 150 * others);
+    announceLoopback(qos.wire_protocol(), options.domain, udp->interfaceWhiteList);
     if (options.discoveryServer.empty()) {
         addPeers(qos.wire_protocol(), options, udp->interfaceWhiteList);
     } else {

@@ -26,6 +26,7 @@ inline const std::string& claimedName(const Presence& sample) { return sample.na
 inline const std::string& claimedName(const Model& sample) { return sample.agent; }
 inline const std::string& claimedName(const Interest& sample) { return sample.name; }
 inline const Id& claimedName(const Block& sample) { return sample.agent; }
+inline const Id& claimedName(const Summary& sample) { return sample.agent; }
 inline const std::string& claimedName(const Command& sample) { return sample.sender; }
 inline const std::string& claimedName(const Answer& sample) { return sample.agent; }
 inline const std::string& claimedName(const EventMessage& sample) { return sample.name; }

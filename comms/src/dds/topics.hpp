@@ -32,6 +32,7 @@ inline const Topic view5{"cortex/1/view/5", Qos::Cycle};
 inline const Topic view30{"cortex/1/view/30", Qos::Cycle};
 inline const Topic view100{"cortex/1/view/100", Qos::Cycle};
 inline const Topic viewEvery{"cortex/1/view/every", Qos::Cycle};
+inline const Topic summary{"cortex/1/view/summary", Qos::Cycle};
 inline const Topic command{"cortex/1/command", Qos::Exchange};
 inline const Topic event{"cortex/1/event", Qos::Log};
 inline Topic linkOf(const std::string& agent) {

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/comms/lease_client.hpp"
+#include "cortex/core/control_commands.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace cortex::comms {
 namespace {
-
-constexpr std::array<std::string_view, 4> ofControl{"takeControl", "renewControl",
-                                                    "handOverControl", "releaseControl"};
-constexpr std::array<std::string_view, 2> urgent{"shutdown", "cancel"};
 
 // An item of the agent's own simplex; empty if its type has it differently.
 template <class T>
@@ -24,12 +20,10 @@ std::vector<T> itemOf(const AgentImage& image, std::uint32_t simplex, const char
 
 }  // namespace
 
-bool isControlCommand(std::string_view command) {
-    return std::ranges::find(ofControl, command) != ofControl.end();
-}
+bool isControlCommand(std::string_view command) { return cortex::isControlCommand(command); }
 
 bool isFreeCommand(std::string_view command) {
-    return isControlCommand(command) || std::ranges::find(urgent, command) != urgent.end();
+    return isControlCommand(command) || isUrgentCommand(command);
 }
 
 std::vector<ShownLease> leasesOf(const AgentStatus& agent, const AgentImage& image) {

@@ -92,15 +92,25 @@ std::optional<std::string> Mirror::ownerOf(std::string_view path) const {
 }
 
 std::optional<std::string> Mirror::waitForOwner(std::string_view path, Milliseconds limit) const {
+    bool owned = false;
     implementation_->thread.waitFor(limit, [&](MirrorState& state) {
-        const MirrorAgent* owner = state.agents.ownerOf(path);
-        return (owner != nullptr && !owner->lost) || state.everybodyIsHere();
+        owned = state.isOwned(path);
+        return owned || state.everybodyIsHere();
     });
-    return ownerOf(path);
+    return owned ? ownerOf(path) : std::nullopt;
+}
+
+std::vector<Contested> Mirror::contested() const {
+    return implementation_->thread.read(
+        [](MirrorState& state) { return state.agents.contested(); });
 }
 
 void Mirror::view(std::vector<std::string> prefixes, std::uint32_t rate) {
-    MirrorView view{std::move(prefixes), viewClass(rate)};
+    this->view({Viewed{std::move(prefixes), rate}});
+}
+
+void Mirror::view(const std::vector<Viewed>& views) {
+    MirrorView view = viewOf(views);
     implementation_->thread.change([&](MirrorState& state) {
         if (state.view == view) return;
         state.view = std::move(view);
@@ -117,6 +127,21 @@ AgentImage Mirror::image(const std::string& agent) const {
     return implementation_->thread.read([&](MirrorState& state) {
         const MirrorAgent* found = state.agents.find(agent);
         return found != nullptr ? found->image() : AgentImage{};
+    });
+}
+
+void Mirror::viewSummary(bool wanted) {
+    implementation_->thread.change([&](MirrorState& state) {
+        state.summarised = wanted;
+        if (!wanted) state.agents.forgetSummaries();
+    });
+}
+
+std::vector<SimplexMark> Mirror::summary(const std::string& agent) const {
+    return implementation_->thread.read([&](MirrorState& state) {
+        const MirrorAgent* found = state.summarised ? state.agents.find(agent) : nullptr;
+        return found != nullptr ? found->marks(std::chrono::steady_clock::now())
+                                : std::vector<SimplexMark>{};
     });
 }
 
@@ -148,6 +173,10 @@ std::uint64_t Mirror::waitForImage(std::uint64_t last, Milliseconds limit) const
         return images > last;
     });
     return images;
+}
+
+void Mirror::prepareCommands() {
+    implementation_->thread.change([](MirrorState& state) { state.mayCommand = true; });
 }
 
 void Mirror::actFor(const std::string& person) {
@@ -209,5 +238,9 @@ bool Mirror::eventsComplete() const {
 }
 
 std::uint64_t Mirror::refused() const { return implementation_->thread.refused(); }
+
+std::map<std::string, std::uint64_t> Mirror::refusals() const {
+    return implementation_->thread.refusals();
+}
 
 }  // namespace cortex::comms

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mirror/mirror_agents.hpp"
 
-#include "cortex/core/error.hpp"
-
+#include "security/security_identity.hpp"
 #include "wire/ids.hpp"
 #include "wire/presence_extras.hpp"
 #include "wire/presence_interval.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
 namespace cortex::comms {
 namespace {
 
-constexpr std::uint16_t major = 1;
 constexpr std::size_t mostAgents = 10'000;
 constexpr std::chrono::seconds forgottenAfter{61};
-constexpr std::size_t longestReason = 200;
+constexpr std::chrono::seconds silentPatience{4};  // a silent start says so each second
 
 // Visits those of an agent's own simplexes that a view shows.
 template <class Visit>
@@ -36,77 +33,6 @@ bool showsAny(const Structure& structure, const MirrorView& view) {
 }
 
 }  // namespace
-
-bool MirrorAgent::foreign() const {
-    return present() && std::ranges::count(model.presence()->majors, major) == 0;
-}
-
-bool MirrorAgent::holdsName(Moment now) const {
-    return !lost && present() &&
-           now - heard <= std::chrono::nanoseconds{patienceWithRival(*model.presence())};
-}
-
-std::chrono::nanoseconds MirrorAgent::patience() const {
-    return std::chrono::nanoseconds{present() ? patienceWith(*model.presence()) : shortestPatience};
-}
-
-AgentImage MirrorAgent::image() const {
-    if (!tables || (!viewed && !lost)) return {};
-    return {tables, tables->newest(), tables->received(), lost};
-}
-
-CommandTarget MirrorAgent::target() {
-    if (!structure) throw Error("agent " + model.agent() + " has not sent its structure yet");
-    if (!commands) commands = std::make_shared<CommandTables>(structure);
-    return {model, *commands, cycle, heard, clock, clockHeard, lost};
-}
-
-// As of the last presence, and the time since then.
-std::string MirrorAgent::standstillText(Moment now) const {
-    const std::string why = present() && !lost ? textIn(*model.presence(), standstill) : "";
-    if (why.empty()) return {};
-    const std::int64_t stood = timeIn(*model.presence(), timeStood);
-    const double seconds =
-        static_cast<double>(stood) * 1e-9 + std::chrono::duration<double>(now - clockHeard).count();
-    return why.substr(0, longestReason) + " for " + toText(std::round(seconds * 10) / 10) + " s";
-}
-
-AgentStatus MirrorAgent::status(Moment now) const {
-    AgentStatus status;
-    status.name = model.agent();
-    status.epoch = model.epoch();
-    status.ended = lost && !missed;
-    status.since = since.time_since_epoch().count();
-    status.age = std::chrono::duration<double>(now - moved).count();
-    status.missing = model.missing();
-    status.cycle = cycle;
-    status.loss = eventLoss + (tables ? tables->loss() : 0);
-    if (present()) {
-        const Presence& presence = *model.presence();
-        status.host = presence.host;
-        status.state = presence.state;
-        status.types = presence.types;
-        status.simplexes = presence.simplexes;
-        status.period = presence.period;
-        status.security = presence.security;
-        status.rate = static_cast<double>(numberIn(presence, rateOfLoop)) * 1e-3;
-        status.overloaded = !lost && numberIn(presence, overloaded) != 0;
-        status.dropped = textIn(presence, droppedDatagrams);
-        status.refused = textIn(presence, refusedMessages);
-    }
-    if (foreign()) {
-        status.trouble = "it speaks none of the protocols that this program knows";
-    } else if (!model.findings().ok()) {
-        status.trouble = model.findings().findings.front().text();
-    }
-    status.standstill = standstillText(now);
-    const bool whole = present() && !foreign() && model.complete() && status.trouble.empty();
-    if (status.overloaded) status.state = "overloaded";
-    if (!status.standstill.empty()) status.state = "standstill";
-    if (!whole) status.state = "incomplete";
-    if (lost) status.state = "lost";
-    return status;
-}
 
 // Null: the sample is refused, or another start of the name was there first.
 MirrorAgent* MirrorAgents::at(const std::string& name, std::int64_t epoch, Moment now) {
@@ -173,13 +99,23 @@ void MirrorAgents::take(const Presence& presence, Moment now) {
     }
     MirrorAgent* const known = find(presence.name);
     const bool isOther = known != nullptr && known->model.epoch() != presence.epoch;
-    if (isOther && presence.state != "running") return;
+    if (presence.state != "running") {
+        if (presence.state == "silent" && silent_.size() < mostAgents) {
+            silent_[{presence.name, presence.epoch}] = now;
+        }
+        if (known == nullptr || isOther) return;
+        known->goodbye = presence.state == "silent" ? "another start of it was there first"
+                                                    : "the agent has ended";
+        return;
+    }
     MirrorAgent* agent = at(presence.name, presence.epoch, now);
     if (agent == nullptr || !agent->model.add(presence)) return;
     finish(*agent);
-    if (presence.state == "stopping") return lose(*agent, "the agent has ended");
-    if (presence.state == "silent") return lose(*agent, "another start of it was there first");
+    silent_.erase({presence.name, presence.epoch});
+    agent->goodbye = nullptr;
+    agent->seniority.take(presence, now.time_since_epoch().count());
     if (agent->lost) agent->since = sinceAt(now);
+    structuresChanged_ = structuresChanged_ || agent->lost;
     if (agent->tables) agent->tables->find();
     agent->heard = now;
     agent->lost = agent->missed = false;
@@ -198,20 +134,48 @@ void MirrorAgents::take(const Model& model, Moment now) {
     if (agent->model.add(model)) finish(*agent);
 }
 
-const MirrorAgent* MirrorAgents::take(const Block& block, const MirrorView& view, Moment now) {
+const MirrorAgent* MirrorAgents::take(const Block& block, std::size_t stream, Moment now) {
     const auto name = names_.find(block.agent);
     MirrorAgent* agent = name != names_.end() ? find(name->second) : nullptr;
-    if (agent == nullptr || !agent->tables || view.prefixes.empty()) return nullptr;
+    if (agent == nullptr || !agent->tables || !agent->viewed) return nullptr;
     if (block.cycle > agent->cycle) agent->moved = now;
     // What is sent again while the loop stands still is as old as its cycle.
-    if (!agent->tables->apply(block, agent->moved)) return nullptr;
+    if (!agent->tables->apply(block, stream, agent->moved)) return nullptr;
     if (agent->moved < now) {
-        agent->tables->markStale(now, view.patience(agent->model.presence()->period));
+        agent->tables->markStale(now, agent->model.presence()->period);
     }
-    agent->heard = now;
-    agent->lost = agent->missed = false;
-    agent->cycle = std::max(agent->cycle, block.cycle);
+    hear(*agent, block.cycle, now);
     return agent;
+}
+
+// By what it sends of its cycles.
+void MirrorAgents::hear(MirrorAgent& agent, std::int64_t cycle, Moment now) {
+    agent.heard = now;
+    structuresChanged_ = structuresChanged_ || agent.lost;
+    agent.lost = agent.missed = false;
+    agent.cycle = std::max(agent.cycle, cycle);
+}
+
+bool MirrorAgents::take(const Summary& summary, Moment now) {
+    const auto name = names_.find(summary.agent);
+    MirrorAgent* agent = name != names_.end() ? find(name->second) : nullptr;
+    if (agent == nullptr || !agent->structure) return false;
+    const Structure& structure = *agent->structure;
+    const auto own = std::ranges::count(structure.simplexes, false, &SimplexInfo::remote);
+    const bool isOfIt = summary.epoch == structure.epoch &&
+                        summary.structureHash == agent->model.presence()->structureHash;
+    const Moment moved = summary.cycle > agent->cycle ? now : agent->moved;
+    if (!isOfIt || !agent->summary.take(summary, static_cast<std::size_t>(own), moved)) {
+        ++refused_;
+        return false;
+    }
+    agent->moved = moved;
+    hear(*agent, summary.cycle, now);
+    return true;
+}
+
+void MirrorAgents::forgetSummaries() {
+    for (auto& [name, agent] : agents_) agent.summary = {};
 }
 
 std::optional<AgentEvent> MirrorAgents::take(const EventMessage& message) {
@@ -243,7 +207,13 @@ void MirrorAgents::finish(MirrorAgent& agent) {
     const auto structure = agent.model.structure();
     if (structure == agent.structure) return;
     agent.structure = structure;
+    agent.known = std::chrono::steady_clock::now();
+    structuresChanged_ = true;
+    if (identity_ != nullptr) {
+        agent.rights = identity_->shownBy(agent.model.agent(), agent.model.authority());
+    }
     agent.commands.reset();
+    agent.summary = {};
     if (agent.tables) forgottenImages_ += agent.tables->published();
     agent.tables.reset();
 }
@@ -252,11 +222,12 @@ void MirrorAgents::withdraw(const Id& agent) {
     tools_.erase(agent);
     const auto name = names_.find(agent);
     MirrorAgent* found = name != names_.end() ? find(name->second) : nullptr;
-    if (found != nullptr) lose(*found, "the agent has ended");
+    if (found != nullptr) found->goodbye = "the agent has ended";
 }
 
 void MirrorAgents::lose(MirrorAgent& agent, const char* why) {
     if (std::exchange(agent.lost, true)) return;
+    structuresChanged_ = true;
     if (agent.tables) agent.tables->lose();
     onLost_(agent, why);
 }
@@ -265,8 +236,12 @@ void MirrorAgents::tick(const MirrorView& view, Moment now) {
     std::erase_if(tools_, [&](const auto& each) {
         return now - each.second > std::chrono::nanoseconds{shortestPatience};
     });
+    std::erase_if(silent_, [&](const auto& each) { return now - each.second > silentPatience; });
     for (auto each = agents_.begin(); each != agents_.end();) {
         MirrorAgent& agent = each->second;
+        if (!agent.lost && agent.goodbye != nullptr && agent.isGone(now)) {
+            lose(agent, agent.goodbye);
+        }
         if (!agent.lost && now - agent.heard > agent.patience()) {
             lose(agent, "the agent is not heard");
             agent.missed = true;
@@ -276,15 +251,16 @@ void MirrorAgents::tick(const MirrorView& view, Moment now) {
             names_.erase(agentId(each->first));
             forget(agent);
             each = agents_.erase(each);
+            structuresChanged_ = true;
             continue;
         }
-        agent.viewed = agent.structure && showsAny(*agent.structure, view);
+        if (!agent.tables) agent.viewed = agent.structure && showsAny(*agent.structure, view);
         if (agent.viewed && !agent.tables) {
             const Id& hash = agent.model.presence()->structureHash;
-            agent.tables = std::make_shared<MirrorTables>(agent.structure, hash, view.rate == 0);
+            agent.tables = std::make_shared<MirrorTables>(agent.structure, hash, view);
         }
-        if (agent.tables && !view.prefixes.empty()) {
-            agent.tables->markStale(now, view.patience(agent.model.presence()->period));
+        if (agent.tables && !view.empty()) {
+            agent.tables->markStale(now, agent.model.presence()->period);
         }
         ++each;
     }
@@ -303,25 +279,11 @@ MirrorAgent* MirrorAgents::find(std::string_view name) {
     return found != agents_.end() ? &found->second : nullptr;
 }
 
-MirrorAgent* MirrorAgents::ownerOf(std::string_view path) {
-    MirrorAgent* owner = nullptr;
-    for (auto& [name, agent] : agents_) {
-        if (!agent.structure) continue;
-        const std::uint32_t index = agent.structure->find(path);
-        if (index == noSimplex || agent.structure->simplexes[index].remote) continue;
-        const bool before =
-            owner == nullptr || (owner->lost && !agent.lost) ||
-            (owner->lost == agent.lost && std::pair{agent.since, agent.model.epoch()} <
-                                              std::pair{owner->since, owner->model.epoch()});
-        if (before) owner = &agent;
-    }
-    return owner;
-}
-
 std::uint32_t MirrorAgents::present() const {
     const auto heard = std::ranges::count_if(
         agents_, [](const auto& each) { return each.second.present() && !each.second.lost; });
-    return static_cast<std::uint32_t>(static_cast<std::size_t>(heard) + tools_.size());
+    return static_cast<std::uint32_t>(static_cast<std::size_t>(heard) + tools_.size() +
+                                      silent_.size());
 }
 
 bool MirrorAgents::missesAny() const {

@@ -4,10 +4,13 @@
 #include "cortex/comms/mirror.hpp"
 #include "cortex/core/command_exchange.hpp"
 
+#include "mirror/mirror_summary.hpp"
 #include "mirror/mirror_tables.hpp"
+#include "peers/owners.hpp"
 #include "peers/peer_model.hpp"
 #include "peers/sent_commands.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -16,6 +19,8 @@
 #include <string_view>
 
 namespace cortex::comms {
+
+class SecurityIdentity;
 
 // One start of one agent.
 struct MirrorAgent {
@@ -26,14 +31,19 @@ struct MirrorAgent {
     Moment heard;                       // last
     Moment since{};                     // it is heard; none: it was there before
     bool lost = false, missed = false;  // missed: lost without saying so
-    std::int64_t cycle = 0;             // newest
-    std::int64_t clock = 0;             // its own, ns; 0: not said
+    const char* goodbye = nullptr;      // why it ends, as it or somebody in its name says
+    Seniority seniority;
+    Moment known{};                             // its structure
+    std::shared_ptr<const AgentRights> rights;  // that it shows; null: none
+    std::int64_t cycle = 0;                     // newest
+    std::int64_t clock = 0;                     // its own, ns; 0: not said
     Moment clockHeard{};
     Moment moved{};                                 // when its newest cycle ended
     std::shared_ptr<const Structure> structure;     // once it is complete
     std::shared_ptr<const CommandTables> commands;  // once one was sent
     std::shared_ptr<MirrorTables> tables;           // once it is viewed, and from then on
     bool viewed = false;                            // at present
+    MirrorSummary summary;                          // empty: none has come
     std::uint64_t lastEvent = 0, eventLoss = 0;
 
     bool present() const { return model.presence().has_value(); }
@@ -42,9 +52,12 @@ struct MirrorAgent {
     // Whether it keeps its name although another start of it is heard.
     bool holdsName(Moment now) const;
     bool settled() const { return lost || foreign() || (present() && model.complete()); }
+    bool isGone(Moment now) const;
     std::chrono::nanoseconds patience() const;  // how long it may be silent
     AgentStatus status(Moment now) const;
-    AgentImage image() const;                      // empty: nothing of it is viewed
+    AgentImage image() const;  // empty: nothing of it is viewed
+    bool summarises() const;
+    std::vector<SimplexMark> marks(Moment now) const;
     CommandTarget target();                        // throws Error where its structure has not come
     std::string standstillText(Moment now) const;  // empty: its loop runs
 };
@@ -60,25 +73,35 @@ public:
 
     explicit MirrorAgents(OnLost onLost) : onLost_{std::move(onLost)} {}
 
+    void judgeBy(SecurityIdentity* identity) { identity_ = identity; }  // null: without security
+
     void take(const Presence& presence, Moment now);
     void take(const Model& model, Moment now);
     // The agent that has a new image now. Null: the block was refused.
-    const MirrorAgent* take(const Block& block, const MirrorView& view, Moment now);
+    const MirrorAgent* take(const Block& block, std::size_t stream, Moment now);
+    // False: the summary was refused.
+    bool take(const Summary& summary, Moment now);
     // The event for the listeners. None: it was refused.
     std::optional<AgentEvent> take(const EventMessage& message);
     void withdraw(const Id& agent);
     void tick(const MirrorView& view, Moment now);
     void view(const MirrorView& view);  // another one from now on
+    void forgetSummaries();
 
     Map& all() { return agents_; }
     const Map& all() const { return agents_; }
     MirrorAgent* find(std::string_view name);
     MirrorAgent* ownerOf(std::string_view path);  // null: nobody owns it
-    std::uint32_t present() const;                // number of agents and tools
-    bool missesAny() const;                       // lost without saying so
-    bool complete() const;                        // at least one agent, and everything of all
-    std::uint32_t unheard() const;                // agents that only another agent hears
-    bool eventsComplete() const;                  // all events of the present agents have come
+    // Whether its owner is there and nobody else who was found may be it. After 2 s others do not
+    // count. `allKnown`: whether all that were found have said who they are.
+    bool isOwned(std::string_view path, Moment now, bool allKnown);
+    // Paths of several agents, or of one without a right to them.
+    std::vector<Contested> contested();
+    std::uint32_t present() const;  // number of agents and tools
+    bool missesAny() const;         // lost without saying so
+    bool complete() const;          // at least one agent, and everything of all
+    std::uint32_t unheard() const;  // agents that only another agent hears
+    bool eventsComplete() const;    // all events of the present agents have come
     bool valuesComplete(const MirrorView& view) const;
     std::uint64_t images() const;  // published, of all together
     std::uint64_t refused() const;
@@ -88,15 +111,23 @@ private:
     Moment sinceAt(Moment now);
     std::optional<PeerModel> takeAside(const std::string& name, std::int64_t epoch);
     void setAside(const Model& model);
+    void hear(MirrorAgent& agent, std::int64_t cycle, Moment now);
     void forget(MirrorAgent& agent);
     void lose(MirrorAgent& agent, const char* why);
     void finish(MirrorAgent& agent);
+    void findShared();
+    Claimant claim(const MirrorAgent& agent, std::string_view path) const;
+    std::vector<Claimant> claimants(std::string_view path, bool lost) const;
 
     OnLost onLost_;
+    SecurityIdentity* identity_ = nullptr;
+    bool structuresChanged_ = true;
+    std::vector<std::string> shared_;  // paths of several, or of one without a right
     Moment began_{};
     Map agents_;
     std::map<std::string, PeerModel, std::less<>> aside_;  // of a start that may be alive
     std::map<Id, Moment> tools_;
+    std::map<std::pair<std::string, std::int64_t>, Moment> silent_;  // starts: name and epoch
     std::map<Id, std::string> names_;
     std::map<std::string, std::pair<std::int64_t, std::uint64_t>, std::less<>>
         newestEvents_;  // epoch and number, by agent

@@ -3,6 +3,7 @@
 
 #include "security/security_identity.hpp"
 #include "wire/ids.hpp"
+#include "wire/presence_extras.hpp"
 #include "wire/presence_interval.hpp"
 
 #include <utility>
@@ -10,18 +11,9 @@
 namespace cortex::comms {
 namespace {
 
-const Topic& viewTopic(std::uint32_t rate) {
-    switch (rate) {
-        case 5:
-            return topics::view5;
-        case 30:
-            return topics::view30;
-        case 100:
-            return topics::view100;
-        default:
-            return topics::viewEvery;
-    }
-}
+// By stream.
+const std::array<const Topic*, viewRates.size()> viewTopics{&topics::viewEvery, &topics::view100,
+                                                            &topics::view30, &topics::view5};
 
 Presence presenceOf(const Sender& tool) {
     Presence presence;
@@ -68,15 +60,20 @@ void MirrorEndpoints::speak() {
     presence_->write(self_);
 }
 
-void MirrorEndpoints::view(const MirrorView& view) {
-    if (view == view_) return;
-    const bool looks = !view.prefixes.empty();
-    if (!looks || view.rate != view_.rate) blocks_.reset();
+void MirrorEndpoints::view(const MirrorView& view, bool summarised) {
+    if (view == view_ && summarised == (summaries_ != nullptr)) return;
     view_ = view;
-    if (looks && !blocks_) {
-        speak();
-        blocks_ = participant_.reader<Block>(
-            viewTopic(view.rate), [this](Block&& sample) { inbox_.push(std::move(sample)); });
+    const bool looks = summarised || !view.empty();
+    if (looks) speak();
+    viewSummaries(summarised);
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+        if (view.prefixes[i].empty()) {
+            blocks_[i].reset();
+        } else if (!blocks_[i]) {
+            blocks_[i] = participant_.reader<Block>(*viewTopics[i], [this, i](Block&& sample) {
+                inbox_.push(StreamBlock{std::move(sample), i});
+            });
+        }
     }
     if (looks && !interests_) interests_ = participant_.writer<Interest>(topics::interest);
     if (!interests_) return;
@@ -84,8 +81,20 @@ void MirrorEndpoints::view(const MirrorView& view) {
     interest.agent = self_.agent;
     interest.name = self_.name;
     interest.epoch = self_.epoch;
-    if (looks) interest.views.push_back({view.rate, view.prefixes});
+    for (std::size_t i = 0; i < viewRates.size(); ++i) {
+        if (!view.prefixes[i].empty()) interest.views.push_back({viewRates[i], view.prefixes[i]});
+    }
+    if (summarised) interest.extras.push_back({summaries, "1"});
     interests_->write(interest);
+}
+
+void MirrorEndpoints::viewSummaries(bool wanted) {
+    if (!wanted) {
+        summaries_.reset();
+    } else if (!summaries_) {
+        summaries_ = participant_.reader<Summary>(
+            topics::summary, [this](Summary&& sample) { inbox_.push(std::move(sample)); });
+    }
 }
 
 void MirrorEndpoints::command() {
@@ -94,6 +103,8 @@ void MirrorEndpoints::command() {
     answers_ = participant_.reader<Answer>(
         topics::answerTo(self_.name), [this](Answer&& sample) { inbox_.push(std::move(sample)); });
     commands_ = participant_.writer<Command>(topics::command);
+    self_.extras.push_back({commandsOthers, "1"});
+    presence_->write(self_);
 }
 
 bool MirrorEndpoints::write(const Command& command) {

@@ -5,7 +5,9 @@
 #include "mirror/mirror_agents.hpp"
 #include "mirror/mirror_inbox.hpp"
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 
 namespace cortex::comms {
@@ -17,8 +19,8 @@ public:
     MirrorEndpoints(const NetworkOptions& options, const Sender& tool, MirrorInbox& inbox);
     ~MirrorEndpoints();
 
-    void view(const MirrorView& view);  // reads its stream and informs the agents
-    void command();
+    void view(const MirrorView& view, bool summarised);  // reads its streams and informs the agents
+    void command();  // makes what commands need, and tells the agents to do so
     void listen();
     void announce(const MirrorAgents& agents, Moment now);  // this tool
     bool write(const Command& command);
@@ -29,10 +31,13 @@ public:
     std::uint32_t closed() const {
         return participant_.identity() == nullptr ? participant_.secured() : 0;
     }
+    SecurityIdentity* identity() const { return participant_.identity(); }
     std::uint64_t malformed() const { return participant_.malformed() + participant_.refused(); }
+    std::map<std::string, std::uint64_t> refusals() const { return participant_.refusals(); }
 
 private:
     void speak();
+    void viewSummaries(bool wanted);
 
     const Sender tool_;
     MirrorInbox& inbox_;
@@ -41,10 +46,11 @@ private:
     std::unique_ptr<Reader<Model>> models_;
     std::unique_ptr<Writer<Presence>> presence_;
     std::unique_ptr<Writer<Interest>> interests_;
-    std::unique_ptr<Reader<Block>> blocks_;
+    std::array<std::unique_ptr<Reader<Block>>, viewRates.size()> blocks_;  // by stream
     std::unique_ptr<Writer<Command>> commands_;
     std::unique_ptr<Reader<Answer>> answers_;
     std::unique_ptr<Reader<EventMessage>> events_;
+    std::unique_ptr<Reader<Summary>> summaries_;
     Presence self_;
     Moment spoke_{};
     MirrorView view_;  // the one that the agents know

@@ -14,7 +14,8 @@ constexpr std::size_t mostBlocks = 1'000;  // they are large, and the next one m
 void MirrorInbox::push(MirrorSample sample) {
     {
         const std::lock_guard lock{mutex_};
-        const bool block = std::holds_alternative<Block>(sample);
+        const bool block =
+            std::holds_alternative<StreamBlock>(sample) || std::holds_alternative<Summary>(sample);
         if (samples_.size() >= mostSamples || (block && blocks_ >= mostBlocks)) {
             ++dropped_;
             return;

@@ -18,7 +18,14 @@ struct Withdrawn {
     Id agent;
 };
 
-using MirrorSample = std::variant<Presence, Model, Block, Answer, EventMessage, Withdrawn>;
+// A block does not say on which stream it came.
+struct StreamBlock {
+    Block block;
+    std::size_t stream;
+};
+
+using MirrorSample =
+    std::variant<Presence, Model, StreamBlock, Summary, Answer, EventMessage, Withdrawn>;
 
 // Carries samples from the threads of DDS to the mirror's thread. It is bounded. Any thread.
 class MirrorInbox {

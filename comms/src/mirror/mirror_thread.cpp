@@ -36,8 +36,15 @@ bool MirrorState::everybodyIsHere() const {
            agents.present() >= speakers && agents.unheard() == 0;
 }
 
+bool MirrorState::isOwned(std::string_view path) {
+    const Moment now = std::chrono::steady_clock::now();
+    const bool known = agents.present() >= speakers && agents.unheard() == 0;
+    return agents.isOwned(path, now, known);
+}
+
 MirrorThread::MirrorThread(const std::string& name, const NetworkOptions& options)
     : name_{name}, tool_{makeSender(name)}, state_{tool_}, endpoints_{options, tool_, inbox_} {
+    state_.agents.judgeBy(endpoints_.identity());
     const ServiceThreads named{"cortex-mirror"};
     thread_ = std::thread{[this] { run(); }};
 }
@@ -97,8 +104,10 @@ const MirrorAgent* MirrorThread::take(const MirrorSample& sample, Moment now) {
         agents.take(*presence, now);
     } else if (const auto* model = std::get_if<Model>(&sample)) {
         agents.take(*model, now);
-    } else if (const auto* block = std::get_if<Block>(&sample)) {
-        return agents.take(*block, state_.view, now);
+    } else if (const auto* came = std::get_if<StreamBlock>(&sample)) {
+        return agents.take(came->block, came->stream, now);
+    } else if (const auto* summary = std::get_if<Summary>(&sample)) {
+        if (state_.summarised) agents.take(*summary, now);
     } else if (const auto* answer = std::get_if<Answer>(&sample)) {
         state_.commands.take(*answer);
     } else if (const auto* message = std::get_if<EventMessage>(&sample)) {
@@ -111,8 +120,8 @@ const MirrorAgent* MirrorThread::take(const MirrorSample& sample, Moment now) {
 
 void MirrorThread::serve(Moment now) {
     state_.agents.tick(state_.view, now);
-    endpoints_.view(state_.view);
-    if (state_.commands.waiting()) endpoints_.command();
+    endpoints_.view(state_.view, state_.summarised);
+    if (state_.commands.waiting() || state_.mayCommand) endpoints_.command();
     if (!state_.listeners.empty()) endpoints_.listen();
     endpoints_.announce(state_.agents, now);
     state_.commands.tick(now, [&](const Command& command) { return endpoints_.write(command); });

@@ -12,6 +12,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -31,16 +32,20 @@ struct MirrorState {
     // Whether all participants that were found, or that another one hears, have sent everything,
     // and no new one was found for a while.
     bool everybodyIsHere() const;
+    // Whether the path has an owner, and nobody who was found may come before it.
+    bool isOwned(std::string_view path);
 
     MirrorAgents agents;
     SentCommands commands;
     MirrorView view;
+    bool summarised = false;  // summaries are viewed
     std::vector<std::function<void(const AgentEvent&)>> listeners;
     std::vector<std::function<void(const std::string&, const AgentImage&)>> imageListeners;
     // How many participants send presences, whether theirs has come already or not.
     std::uint32_t speakers = 0;
     std::uint32_t closed = 0;  // those with security, while this mirror has none
     Moment news = std::chrono::steady_clock::now();  // when the last of them was discovered
+    bool mayCommand = false;                         // soon
     bool stopping = false;
     std::string failure;  // why the thread has ended
 };
@@ -57,6 +62,8 @@ public:
     std::uint64_t send(std::string_view path, std::string_view command,
                        const Mirror::Arguments& arguments, Mirror::Milliseconds budget);
     std::uint64_t refused() const;  // messages not believed or dropped, since the start
+    // Those that never got as far as to be read, by the reason.
+    std::map<std::string, std::uint64_t> refusals() const { return endpoints_.refusals(); }
 
     // Calls `function` with the state, under the mutex.
     template <class Function>

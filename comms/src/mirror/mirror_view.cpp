@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mirror/mirror_view.hpp"
 
+#include "cortex/core/clock.hpp"
 #include "cortex/core/path.hpp"
 
 #include <algorithm>
@@ -12,22 +13,50 @@ constexpr std::int64_t stalePeriods = 3;
 // A shorter time would judge the scheduling of the mirror itself.
 constexpr std::chrono::milliseconds leastPatience{50};
 
-}  // namespace
-
-bool MirrorView::shows(std::string_view path) const {
+bool isBelowAny(std::string_view path, const std::vector<std::string>& prefixes) {
     return std::ranges::any_of(prefixes,
                                [&](const auto& prefix) { return isAtOrBelow(path, prefix); });
 }
 
-std::chrono::nanoseconds MirrorView::patience(std::int64_t period) const {
-    const std::chrono::nanoseconds own{rate == 0 ? period : 1'000'000'000 / rate};
+}  // namespace
+
+bool MirrorView::empty() const {
+    return std::ranges::all_of(prefixes, [](const auto& each) { return each.empty(); });
+}
+
+std::optional<std::size_t> MirrorView::streamOf(std::string_view path) const {
+    for (std::size_t i = 0; i < prefixes.size(); ++i) {
+        if (isBelowAny(path, prefixes[i])) return i;
+    }
+    return {};
+}
+
+MirrorView viewOf(const std::vector<Viewed>& views) {
+    MirrorView view;
+    for (const Viewed& each : views) {
+        auto& prefixes = view.prefixes[streamFor(each.rate)];
+        prefixes.insert(prefixes.end(), each.prefixes.begin(), each.prefixes.end());
+    }
+    for (std::size_t slow = 1; slow < viewRates.size(); ++slow) {
+        std::erase_if(view.prefixes[slow], [&](const std::string& prefix) {
+            return std::any_of(view.prefixes.begin(),
+                               view.prefixes.begin() + static_cast<std::ptrdiff_t>(slow),
+                               [&](const auto& faster) { return isBelowAny(prefix, faster); });
+        });
+    }
+    return view;
+}
+
+std::chrono::nanoseconds patienceOf(std::size_t stream, std::int64_t period) {
+    const std::uint32_t rate = viewRates.at(stream);
+    const std::chrono::nanoseconds own{rate == 0 ? period : nsPerSecond / rate};
     return std::max<std::chrono::nanoseconds>(stalePeriods * own, leastPatience);
 }
 
-std::uint32_t viewClass(std::uint32_t rate) {
+std::size_t streamFor(std::uint32_t rate) {
     if (rate == 0 || rate > 100) return 0;
-    if (rate > 30) return 100;
-    return rate > 5 ? 30 : 5;
+    if (rate > 30) return 1;
+    return rate > 5 ? 2 : 3;
 }
 
 }  // namespace cortex::comms

@@ -5,9 +5,11 @@
 
 #include "peers/peer_structure.hpp"
 #include "wire/ids.hpp"
+#include "wire/presence_extras.hpp"
 #include "wire/type_messages.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,7 @@ namespace {
 // Limits for one agent, so that a hostile one costs bounded memory.
 constexpr std::size_t mostTypes = 16'384;
 constexpr std::size_t mostSimplexes = 250'000;
+constexpr std::size_t longestList = 65'536;  // bytes
 
 template <class Map, class Message>
 bool exceeds(const Map& known, const Message& name, std::size_t most) {
@@ -62,6 +65,10 @@ bool PeerModel::add(const Model& model) {
         model.types.empty() == model.simplexes.empty()) {
         return refuse();
     }
+    if (std::string shown = textIn(model, signedList); !shown.empty()) {
+        if (shown.size() > longestList) return refuse();
+        authority_ = std::move(shown);
+    }
     bool all = true;
     for (const TypeMessage& each : model.types) all = add(each) && all;
     for (const SimplexMessage& each : model.simplexes) all = add(each) && all;
@@ -94,9 +101,22 @@ std::vector<std::string> PeerModel::paths() const {
 }
 
 std::uint32_t PeerModel::missing() const {
-    if (!presence_) return 0;
-    return lacking(presence_->types, types_.size()) +
-           lacking(presence_->simplexes, simplexes_.size());
+    return presence_ ? missingTypes() + lacking(presence_->simplexes, simplexes_.size()) : 0;
+}
+
+std::uint32_t PeerModel::missingTypes() const {
+    return presence_ ? lacking(presence_->types, types_.size()) : 0;
+}
+
+std::vector<std::string> PeerModel::missingNames() const {
+    std::set<std::string> names;
+    if (missingTypes() == 0) return {};
+    const auto add = [&](const std::string& type) {
+        if (names.size() < mostNames && !types_.contains(type)) names.insert(type);
+    };
+    for (const auto& [name, type] : types_) std::ranges::for_each(type.parents, add);
+    for (const auto& [path, simplex] : simplexes_) add(simplex.type);
+    return {names.begin(), names.end()};
 }
 
 bool PeerModel::complete() const {

@@ -30,10 +30,16 @@ public:
     bool add(const Model& model);
 
     const std::optional<Presence>& presence() const { return presence_; }
+    // The signed list that its first sample shows; empty without security.
+    const std::string& authority() const { return authority_; }
     bool has(const std::string& path) const { return simplexes_.contains(path); }
     std::vector<std::string> paths() const;
     std::uint32_t missing() const;  // types and simplexes that were announced and have not come
-    bool complete() const;          // everything that the presence counts has come; hashes agree
+    std::uint32_t missingTypes() const;
+    // Types that others name and that have not come; at most as many as are told.
+    std::vector<std::string> missingNames() const;
+    static constexpr std::size_t mostNames = 5;
+    bool complete() const;  // everything that the presence counts has come; hashes agree
     std::uint64_t refused() const { return refused_; }
 
     // Built at the first call from what has come. Null until it is complete, for a tool, and where
@@ -55,6 +61,7 @@ private:
     std::optional<Presence> presence_;
     std::map<std::string, TypeMessage> types_;
     std::map<std::string, SimplexMessage> simplexes_;  // by path
+    std::string authority_;
     std::uint64_t refused_ = 0;
     mutable std::optional<bool> agreed_;  // whether the hashes agree; none: not computed yet
     bool built_ = false;

@@ -75,7 +75,7 @@ DatagramFilter::Admitted DatagramFilter::admit(Bytes datagram, std::uint32_t add
     const std::lock_guard lock{mutex_};
     const Refusal refusal = judge(datagram, address, now);
     if (refusal != Refusal::None) {
-        note(refusal, 1, address);
+        if (refusal != Refusal::Echo) note(refusal, 1, address);
         return {};
     }
     const std::uint64_t before = fragments_.dropped();
@@ -153,7 +153,7 @@ Refusal DatagramFilter::judgeNumber(const Submessage& submessage, const Prefix& 
             if (!numbers_.admits(guidOf(sender, body.subspan(8)),
                                  readNumber(body.subspan(12), little), 0, now))
                 return Refusal::Number;
-            return judgeEndpoint(submessage, now);
+            return judgeEndpoint(submessage, sender, now);
         case Kind::DataFragments: {
             const WriterGuid writer = guidOf(sender, body.subspan(8));
             auto* const known = fragmented_.find(writer);
@@ -176,16 +176,26 @@ Refusal DatagramFilter::judgeNumber(const Submessage& submessage, const Prefix& 
     }
 }
 
+// A participant that announces a group for discovery is told of endpoints there, which comes back
+// to who says it.
+bool DatagramFilter::isEcho(const Submessage& data, const Prefix& sender) const {
+    if (sender != us_) return false;
+    const auto* const sent = sent_.find(guidOf(us_, data.body.subspan(8)));
+    return sent != nullptr && readNumber(data.body.subspan(12), data.little()) <= sent->value;
+}
+
 // Fast DDS keeps for ever an announcement that names none, or an endpoint of its own participant.
-Refusal DatagramFilter::judgeEndpoint(const Submessage& submessage, std::int64_t now) {
+Refusal DatagramFilter::judgeEndpoint(const Submessage& submessage, const Prefix& sender,
+                                      std::int64_t now) {
     const auto [says, endpoint] = announcementIn(submessage);
     if (says == Announcement::Nothing) return Refusal::None;
     if (says == Announcement::IsGone) {
         endpoints_.remove(endpoint);
         return Refusal::None;
     }
-    if (says == Announcement::Unclear || std::ranges::equal(us_, std::span{endpoint}.first<12>()))
-        return Refusal::Parameters;
+    if (says == Announcement::Unclear) return Refusal::Parameters;
+    if (std::ranges::equal(us_, std::span{endpoint}.first<12>()))
+        return isEcho(submessage, sender) ? Refusal::Echo : Refusal::Parameters;
     return endpoints_.admits(endpoint, participants_, now) ? Refusal::None : Refusal::Endpoints;
 }
 

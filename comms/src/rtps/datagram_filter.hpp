@@ -50,7 +50,8 @@ private:
     Refusal judge(Bytes& datagram, std::uint32_t address, std::int64_t now);
     Refusal judgeNumbers(Bytes datagram, Prefix sender, std::int64_t now);
     Refusal judgeNumber(const Submessage& submessage, const Prefix& sender, std::int64_t now);
-    Refusal judgeEndpoint(const Submessage& submessage, std::int64_t now);
+    Refusal judgeEndpoint(const Submessage& submessage, const Prefix& sender, std::int64_t now);
+    bool isEcho(const Submessage& data, const Prefix& sender) const;
     std::vector<Message> takeFragments(Bytes& datagram, std::int64_t now);
     void note(Refusal refusal, std::uint64_t count, std::uint32_t address);
     bool admitsHeartbeat(const Submessage& heartbeat, const Prefix& sender, std::int64_t now);

@@ -26,6 +26,19 @@ Bytes firstPart(Bytes rest) {
     return {};
 }
 
+// What Fast DDS sends of its statistics at the end. Its transport writes them into the last 60
+// bytes of whatever it sends, if they begin as these do; so each piece ends with them.
+Bytes statisticsIn(Bytes datagram) {
+    for (std::size_t at = headerSize; at < datagram.size();) {
+        const auto [submessage, refusal] = cutSubmessage(datagram.subspan(at));
+        if (refusal != Refusal::None) return {};
+        at += submessage.whole.size();
+        if (submessage.kind >= Kind::FirstOfVendors && at == datagram.size())
+            return submessage.whole;
+    }
+    return {};
+}
+
 // What of a part holds for those behind it, too.
 struct Context {
     Bytes destination, time;
@@ -91,6 +104,9 @@ void appendFragments(std::vector<std::vector<std::uint8_t>>& pieces, Bytes front
 std::vector<std::vector<std::uint8_t>> piecesOf(Bytes datagram, std::uint32_t cut) {
     std::vector<std::vector<std::uint8_t>> pieces;
     if (datagram.size() <= onePacket || !hasHeader(datagram)) return pieces;
+    const Bytes statistics = statisticsIn(datagram);
+    datagram = datagram.first(datagram.size() - statistics.size());
+    const std::size_t room = onePacket - std::min(onePacket, statistics.size());
     Context context;
     for (Bytes rest = datagram.subspan(headerSize); !rest.empty();) {
         const Bytes part = firstPart(rest);
@@ -107,13 +123,14 @@ std::vector<std::vector<std::uint8_t>> piecesOf(Bytes datagram, std::uint32_t cu
             appendFragments(pieces, front, sample);
             continue;
         }
-        if (pieces.empty() || pieces.back().size() + part.size() > onePacket) {
+        if (pieces.empty() || pieces.back().size() + part.size() > room) {
             append(pieces.emplace_back(), datagram.first(headerSize));
             append(pieces.back(), before.destination);
             append(pieces.back(), before.time);
         }
         append(pieces.back(), part);
     }
+    for (std::vector<std::uint8_t>& piece : pieces) append(piece, statistics);
     return pieces;
 }
 

@@ -17,8 +17,9 @@ enum class Refusal : std::uint8_t {
     Participants,  // more participants than an address or the network may have
     Unfinished,    // fragments of a sample that was never complete, while others needed the room
     Endpoints,  // an announcement of one endpoint more than a participant or the network may have
+    Echo,       // what this participant itself has sent to a group of which it is; never counted
 };
-inline constexpr std::size_t refusals = 9;
+inline constexpr std::size_t refusals = 10;
 
 // What an event says of it, behind "N datagrams were dropped: ".
 constexpr const char* wordsOf(Refusal refusal) {
@@ -32,6 +33,7 @@ constexpr const char* wordsOf(Refusal refusal) {
         "there are too many participants",
         "they began more samples in fragments than there is room for",
         "they announce more endpoints than there is room for",
+        "they are its own",
     };
     return words[static_cast<std::size_t>(refusal)];
 }

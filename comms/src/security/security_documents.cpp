@@ -4,6 +4,7 @@
 #include "cortex/comms/network_options.hpp"
 #include "cortex/core/path.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -113,6 +114,7 @@ std::string textOf(const CommandList& list) {
                        "\nuntil: " + list.rights.until + "\n";
     for (const int each : list.rights.domains) text += "domain: " + std::to_string(each) + "\n";
     for (const std::string& each : list.rights.mayCommand) text += "may-command: " + each + "\n";
+    for (const std::string& each : list.rights.owns) text += "owns: " + each + "\n";
     for (const std::string& each : list.rights.carriedBy) text += "carried-by: " + each + "\n";
     return text;
 }
@@ -134,6 +136,8 @@ std::optional<CommandList> commandListFrom(std::string_view text) {
             rights.domains.push_back(*domain);
         } else if (takeField(text, "may-command", value)) {
             rights.mayCommand.push_back(value);
+        } else if (takeField(text, "owns", value)) {
+            rights.owns.push_back(value);
         } else if (takeField(text, "carried-by", value)) {
             rights.carriedBy.push_back(value);
         } else if (!skipField(text)) {
@@ -157,6 +161,12 @@ std::optional<std::time_t> utcFrom(const std::string& text) {
     const char* end = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%SZ", &fields);
     if (end == nullptr || *end != '\0') return {};
     return timegm(&fields);
+}
+
+bool ownsPath(const AgentRights& rights, std::string_view path) {
+    return std::ranges::any_of(rights.owns, [&](const std::string& each) {
+        return !each.empty() && isAtOrBelow(path, each);
+    });
 }
 
 bool mayCommand(const AgentRights& rights, std::string_view path, std::string& why) {

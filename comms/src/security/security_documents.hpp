@@ -24,6 +24,8 @@ std::optional<CommandList> commandListFrom(std::string_view text);
 
 std::string utcText(std::time_t time);  // 2027-11-20T12:00:00Z
 std::optional<std::time_t> utcFrom(const std::string& text);
+// Whether its list names the path, or one above it, as its own.
+bool ownsPath(const AgentRights& rights, std::string_view path);
 // Whether the agent may command what is at `path`; if not, `why` has the reason.
 bool mayCommand(const AgentRights& rights, std::string_view path, std::string& why);
 

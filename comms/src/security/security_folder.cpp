@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace cortex::comms {
 namespace {
@@ -42,6 +43,7 @@ private:
 };
 
 std::string FolderCheck::read(const char* file) {
+    if (const std::string why = changeableByOthers(folder_.folder / file); !why.empty()) wrong(why);
     try {
         return contentOf(folder_.folder / file);
     } catch (const Error& error) {
@@ -140,6 +142,7 @@ void FolderCheck::run() {
         throw Error{"there is no security folder '" + folder_.folder.string() +
                     "'; make one: cortex security create-agent NAME"};
     }
+    if (const std::string why = changeableByOthers(folder_.folder); !why.empty()) wrong(why);
     identityAuthority_ = readCertificate(files::identityAuthority);
     folder_.permissionsAuthority = readCertificate(files::permissionsAuthority);
     certificate_ = readCertificate(files::certificate);
@@ -148,14 +151,30 @@ void FolderCheck::run() {
     checkPermissions();
     checkCommands();
     if (findings_.empty()) return;
-    throw Error{"the security folder '" + folder_.folder.string() + "' cannot be used:" +
-                findings_ + "\n  Make it anew: cortex security create-agent NAME --out FOLDER"};
+    throw Error{"the security folder '" + folder_.folder.string() +
+                "' cannot be used:" + findings_ +
+                "\n  Mend this, or make it anew: cortex security create-agent NAME --out FOLDER"};
 }
 
 }  // namespace
 
 SecurityFolder::SecurityFolder(const fs::path& path) : folder{fs::absolute(path)} {
     FolderCheck{*this}.run();
+}
+
+std::string changeableByOthers(const fs::path& path) {
+    struct stat status{};
+    if (stat(path.c_str(), &status) != 0) return {};  // whoever reads it says so
+    const uid_t self = geteuid();
+    if (status.st_uid != self && status.st_uid != 0) {
+        return path.string() + " belongs to user " + std::to_string(status.st_uid) +
+               ", and this program runs as user " + std::to_string(self) +
+               ": its owner could change whom this agent trusts; chown it to that user, or to root";
+    }
+    if ((status.st_mode & (S_IWGRP | S_IWOTH)) == 0) return {};
+    return path.string() +
+           " can be written by others: they could change whom this agent trusts; chmod go-w " +
+           path.string();
 }
 
 std::string contentOf(const fs::path& file) {

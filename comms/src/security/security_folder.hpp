@@ -32,6 +32,10 @@ struct SecurityFolder {
     std::string commands;  // the signed list
 };
 
+// Why somebody else can change it, with the remedy: its mode, or its owner, who is neither this
+// program's user nor root. "" if nobody can.
+std::string changeableByOthers(const std::filesystem::path& path);
+
 // Throws Error if it cannot be read.
 std::string contentOf(const std::filesystem::path& file);
 

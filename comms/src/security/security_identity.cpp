@@ -5,6 +5,7 @@
 
 #include "wire/cdr.hpp"
 #include "wire/ids.hpp"
+#include "wire/presence_extras.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -12,8 +13,8 @@
 namespace cortex::comms {
 namespace {
 
-constexpr std::size_t mostParticipants = 4'096, mostNames = 16, mostLists = 64;
-constexpr const char *authorityExtra = "authority", *signatureExtra = "signature";
+constexpr std::size_t mostParticipants = 4'096, mostNames = 16, mostLists = 1'024;
+constexpr const char* signatureExtra = "signature";
 
 const std::string* extraOf(const Command& command, const char* name) {
     const auto found = std::ranges::find(command.extras, name, &Extra::name);
@@ -45,7 +46,7 @@ bool belongsTo(const GuidPrefix& participant, const std::string& name) {
 std::string_view certifiedName(std::string_view name) { return name.substr(0, name.find('@')); }
 
 SecurityIdentity::SecurityIdentity(const std::string& folder, const std::string& name, int domain)
-    : folder_{folder} {
+    : folder_{folder}, domain_{domain} {
     const AgentRights& rights = folder_.rights;
     const std::string made = "the security folder '" + folder_.folder.string() + "' is made for ";
     if (certifiedName(name) != rights.agent) {
@@ -88,7 +89,7 @@ bool SecurityIdentity::hasSpoken(const GuidPrefix& participant) {
 }
 
 void SecurityIdentity::sign(Command& command) const {
-    command.extras.push_back({authorityExtra, folder_.commands});
+    command.extras.push_back({signedList, folder_.commands});
     command.extras.push_back(
         {signatureExtra, signatureOf(signedOctets(command), folder_.key.get())});
 }
@@ -105,13 +106,13 @@ std::shared_ptr<const CommandList> SecurityIdentity::listOf(const std::string& s
 
 std::shared_ptr<const AgentRights> SecurityIdentity::rightsOf(const Command& command,
                                                               std::string& why) {
-    const std::string* authority = extraOf(command, authorityExtra);
+    const std::string* shown = extraOf(command, signedList);
     const std::string* signature = extraOf(command, signatureExtra);
-    if (authority == nullptr || signature == nullptr) {
+    if (shown == nullptr || signature == nullptr) {
         why = "it does not say what it may command";
         return {};
     }
-    const auto list = listOf(*authority);
+    const auto list = listOf(*shown);
     if (!list) {
         why = "its list of commands was changed, or is not signed by our authority";
         return {};
@@ -131,6 +132,17 @@ std::shared_ptr<const AgentRights> SecurityIdentity::rightsOf(const Command& com
         return {};
     }
     return {list, &rights};
+}
+
+std::shared_ptr<const AgentRights> SecurityIdentity::shownBy(std::string_view agent,
+                                                             const std::string& smime) {
+    const auto list = smime.empty() ? nullptr : listOf(smime);
+    if (!list) return {};
+    const AgentRights& rights = list->rights;
+    const bool counts = rights.agent == certifiedName(agent) &&
+                        utcFrom(rights.until).value_or(0) >= std::time(nullptr) &&
+                        (rights.domains.empty() || std::ranges::count(rights.domains, domain_) > 0);
+    return counts ? std::shared_ptr<const AgentRights>{list, &rights} : nullptr;
 }
 
 }  // namespace cortex::comms

@@ -46,11 +46,16 @@ public:
     // the reason.
     std::shared_ptr<const AgentRights> rightsOf(const Command& command, std::string& why);
 
+    // The rights on the signed list that an agent shows with its model, whose sender is
+    // authenticated. Null: it shows none, or one of another agent, domain or time.
+    std::shared_ptr<const AgentRights> shownBy(std::string_view agent, const std::string& smime);
+
 private:
     using Lists = std::map<std::string, std::shared_ptr<const CommandList>>;
     std::shared_ptr<const CommandList> listOf(const std::string& smime);
 
     SecurityFolder folder_;
+    const int domain_;
     std::mutex mutex_;
     std::map<GuidPrefix, std::map<std::string, Id, std::less<>>> speakers_;
     Lists lists_;  // those that were verified, by their text

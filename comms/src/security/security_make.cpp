@@ -72,6 +72,9 @@ Signer newAuthority(const std::string& name, std::time_t until) {
 
 Signer signerFrom(const fs::path& folder, const char* certificateFile, const char* keyFile) {
     const std::string where = " in '" + folder.string() + "'";
+    for (const fs::path& each : {folder, folder / certificateFile, folder / keyFile}) {
+        if (const std::string why = changeableByOthers(each); !why.empty()) throw Error{why};
+    }
     Signer signer{certificateFrom(contentOf(folder / certificateFile)),
                   keyFrom(contentOf(folder / keyFile))};
     if (!signer.certificate || !signer.key ||
@@ -94,9 +97,11 @@ void check(const AgentRights& rights, int days) {
         throw Error{"'" + name + "' cannot name an agent: use A-Z a-z 0-9 _ -, at most " +
                     std::to_string(longestName) + " characters"};
     }
-    for (const std::string& prefix : rights.mayCommand) {
-        const std::string no = prefix == "/" ? "" : SimplexTree::pathError(prefix);
-        if (!no.empty()) throw Error{"'" + prefix + "' is no path: " + no};
+    for (const auto* prefixes : {&rights.mayCommand, &rights.owns}) {
+        for (const std::string& prefix : *prefixes) {
+            const std::string no = prefix == "/" ? "" : SimplexTree::pathError(prefix);
+            if (!no.empty()) throw Error{"'" + prefix + "' is no path: " + no};
+        }
     }
     for (const int domain : rights.domains) {
         if (domain < 0 || domain > lastDomain) {

@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <span>
 
-// The encoding of the messages that are topics: Presence, Model, Interest, Block, Command, Answer
-// and EventMessage. It is plain CDR, the Common Data Representation of the OMG (DDS-XTypes 1.3,
-// 7.4.1, calls it XCDR version 1). Written little endian, read in both orders. Free of state: any
-// thread.
-// Fast CDR 1.0 comes with Fast DDS and is not used: it reserves as much memory as a sample says and
-// throws where one ends early. This decoder bounds each count by the octets that are left.
+// The encoding of the messages that are topics: Presence, Model, Interest, Block, Summary, Command,
+// Answer and EventMessage. It is plain CDR, the Common Data Representation of the OMG
+// (DDS-XTypes 1.3, 7.4.1, calls it XCDR version 1). Written little endian, read in both orders.
+// Free of state: any thread. Fast CDR 1.0 comes with Fast DDS and is not used: it reserves as much
+// memory as a sample says and throws where one ends early. This decoder bounds each count by the
+// octets that are left.
 namespace cortex::comms {
 
 inline constexpr std::size_t maxTextLength = 64 * 1024;  // octets of a string

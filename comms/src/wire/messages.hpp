@@ -227,6 +227,21 @@ struct Block {
     bool operator==(const Block&) const = default;
 };
 
+struct Summary {
+    static constexpr const char* typeName = "cortex::Summary";
+    Id agent{};
+    std::int64_t epoch = 0;
+    Id structureHash{};
+    std::int64_t cycle = 0;
+    std::vector<std::uint8_t> marks;
+    std::vector<Extra> extras;
+
+    static void visit(auto& self, auto&& f) {
+        f(self.agent, self.epoch, self.structureHash, self.cycle, self.marks, self.extras);
+    }
+    bool operator==(const Summary&) const = default;
+};
+
 struct Command {
     static constexpr const char* typeName = "cortex::Command";
     Id link{};

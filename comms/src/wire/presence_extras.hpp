@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-// What an agent adds to its presence, and a sender to its commands, as decimal numbers.
+// What an agent or a tool adds to its presence, and a sender to its commands, as decimal numbers.
 namespace cortex::comms {
 
 inline constexpr const char* agentsHeard = "agents";     // itself included
@@ -23,6 +23,14 @@ inline constexpr const char* rateOfLoop = "rate";        // of late, cycles in 1
 inline constexpr const char* overloaded = "overloaded";  // "1"; not said of a loop that keeps up
 inline constexpr const char* droppedDatagrams = "dropped";  // by reason, in words
 inline constexpr const char* refusedMessages = "refused";   // how many, and why the last, in words
+inline constexpr const char* firstOfPairs = "first";        // "one>two": who was there before whom
+inline constexpr const char* rootPaths = "roots";           // its topmost paths, or "*"
+inline constexpr const char* otherSelf = "other";           // who else speaks in its name, in words
+inline constexpr const char* commandsOthers = "commands";   // "1": a tool that may command soon
+// Of an agent: "1": it can send summaries. Of an interest: "1": its sender wants them.
+inline constexpr const char* summaries = "summary";
+// Of the first sample of a model: the signed list of its agent.
+inline constexpr const char* signedList = "authority";
 inline constexpr const char* validUntil = "until";  // of a command, by the clock of its target
 // Of a command: who is behind it, and what its sender knows it by. The answer says both again.
 inline constexpr const char* onBehalfOf = "onBehalfOf";

@@ -39,4 +39,10 @@ inline std::int64_t patienceWithRival(const Presence& presence) {
                     patienceWith(presence));
 }
 
+// Without security anybody may say that somebody ends. So a participant that is said to end is gone
+// when it says nothing more for so long.
+inline std::int64_t patienceAfterGoodbye(const Presence& presence) {
+    return std::clamp(presence.interval, shortestInterval, longestInterval) + 200'000'000;
+}
+
 }  // namespace cortex::comms

@@ -47,7 +47,7 @@ bool bypassesMailbox(const CommandTable& table) {
 }  // namespace
 
 AgentRuntime::AgentRuntime(std::string name, SimplexTree& tree, AgentOptions options)
-    : name_{std::move(name)}, tree_{tree}, options_{options} {
+    : name_{std::move(name)}, tree_{tree}, options_{std::move(options)} {
     addAgentSimplex();
     tree_.createRelated();
     checkModel();

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/clock.hpp"
+#include "cortex/core/control_commands.hpp"
 
 #include "agent/router.hpp"
 #include "commands/command_port.hpp"
 
-#include <algorithm>
-#include <array>
-
 namespace cortex {
 namespace {
-
-constexpr std::array<std::string_view, 4> controlCommands{"takeControl", "renewControl",
-                                                          "handOverControl", "releaseControl"};
 
 bool takesText(const RecordLayout& request, std::string_view name) {
     const ItemLayout* item = request.find(name);
@@ -77,9 +72,8 @@ bool Router::isRenewal(std::uint32_t simplex, std::uint32_t command) const {
 }
 
 bool Router::isControl(std::uint32_t simplex, std::uint32_t command) const {
-    if (simplex != runtime_.agentSimplex()) return false;
-    const auto& name = runtime_.commands(simplex).entries[command].name;
-    return std::ranges::find(controlCommands, name) != controlCommands.end();
+    return simplex == runtime_.agentSimplex() &&
+           isControlCommand(runtime_.commands(simplex).entries[command].name);
 }
 
 std::string_view Router::argument(Call& call, std::string_view command,

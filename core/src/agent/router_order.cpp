@@ -3,6 +3,8 @@
 // gaps, so a command waits until all below it have come, for a limited time. What comes after that
 // is refused if a later one to the same simplex has begun. A command to the agent itself counts as
 // one to each of its simplexes.
+#include "cortex/core/control_commands.hpp"
+
 #include "agent/router.hpp"
 
 #include <algorithm>
@@ -11,8 +13,7 @@ namespace cortex {
 
 // What stops something waits for nothing, and needs no control.
 bool Router::isUrgent(std::uint32_t simplex, std::uint32_t command) const {
-    const auto& name = runtime_.commands(simplex).entries[command].name;
-    return name == "shutdown" || name == "cancel";
+    return isUrgentCommand(runtime_.commands(simplex).entries[command].name);
 }
 
 bool Router::concernEachOther(std::uint32_t simplex, std::uint32_t other) const {

@@ -66,8 +66,7 @@ const Type& typeOf(const Structure& structure, std::uint32_t simplex) {
     return *structure.simplexes[simplex].layout->type;
 }
 
-const Rule& ruleAt(const Type& type, const std::string& path, std::string_view rule,
-                   Direction direction) {
+const Rule& ruleAt(const Type& type, const std::string& path, std::string_view rule) {
     const Rule* found = type.findRule(rule);
     if (found == nullptr) {
         std::vector<std::string> names;
@@ -75,12 +74,30 @@ const Rule& ruleAt(const Type& type, const std::string& path, std::string_view r
         throwUnknown(path + ": type " + type.name + " has no rule '" + std::string{rule} + "'",
                      rule, names);
     }
-    if (found->direction != direction) {
-        const std::string is = name(found->direction);
-        throw Error(path + ": rule '" + found->name + "' is an " + is + "; ask " + is + "() or " +
+    return *found;
+}
+
+const Rule& ruleAt(const Type& type, const std::string& path, std::string_view rule,
+                   Direction direction) {
+    const Rule& found = ruleAt(type, path, rule);
+    if (found.direction != direction) {
+        const std::string is = name(found.direction);
+        throw Error(path + ": rule '" + found.name + "' is an " + is + "; ask " + is + "() or " +
                     is + "s()");
     }
-    return *found;
+    return found;
+}
+
+// The relationships of a simplex that count for a rule, in order.
+std::vector<std::uint32_t> edgesOf(const Structure& structure, std::uint32_t simplex,
+                                   std::string_view rule) {
+    const SimplexInfo& info = structure.simplexes[simplex];
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t edge = info.firstEdge; edge < info.firstEdge + info.edgeCount; ++edge) {
+        if (countsFor(*info.layout->type, structure.edges[edge].rule->name, rule))
+            found.push_back(edge);
+    }
+    return found;
 }
 
 [[noreturn]] void throwNoCommand(const Simplex& simplex, std::string_view command) {
@@ -143,6 +160,19 @@ bool RelatedSimplex::isRemote() const {
     return structure.simplexes[structure.edges[edge_].target].remote;
 }
 
+std::vector<RelatedSimplex::Joined> RelatedSimplex::related(std::string_view rule) const {
+    const Structure& structure = owner_->runtime().structure();
+    const std::uint32_t target = structure.edges[edge_].target;
+    ruleAt(type(), path(), rule);
+    std::vector<Joined> joined;
+    if (structure.simplexes[target].remote) return joined;
+    for (const std::uint32_t edge : edgesOf(structure, target, rule)) {
+        const SimplexInfo& other = structure.simplexes[structure.edges[edge].target];
+        joined.push_back({other.path, other.layout->type});
+    }
+    return joined;
+}
+
 bool RelatedSimplex::has(std::string_view item) const { return type().findData(item) != nullptr; }
 
 void* RelatedSimplex::cell(std::string_view item, const ItemAccess& access,
@@ -161,8 +191,15 @@ void* RelatedSimplex::cell(std::string_view item, const ItemAccess& access,
                     " is written by its own task only: take a handle to const, or send a "
                     "command");
     }
+    const bool isDemand = info.role == Role::Modification && !info.writers.empty();
+    if (access.accepted && !isDemand) {
+        throw Error(where +
+                    ": only a demand is accepted, this is none: read what goes out by "
+                    "data<const ...>()");
+    }
     length = layout.item->length;
-    const Slice slice = layout.constant ? tables.constants(target) : tables.edge(edge_);
+    if (layout.constant) return tables.constants(target).at(access.kind, layout.offset);
+    const Slice slice = access.accepted ? tables.accepted(target) : tables.edge(edge_);
     return slice.at(access.kind, layout.offset);
 }
 
@@ -242,14 +279,8 @@ RelatedList<OutputSimplex> Simplex::outputs(std::string_view rule) {
 }
 
 std::vector<std::uint32_t> Simplex::edgesUnder(std::string_view rule, Direction direction) const {
-    const Structure& structure = startedRuntime().structure();
     ruleAt(type(), path(), rule, direction);
-    const SimplexInfo& info = structure.simplexes[index_];
-    std::vector<std::uint32_t> found;
-    for (std::uint32_t edge = info.firstEdge; edge < info.firstEdge + info.edgeCount; ++edge) {
-        if (countsFor(type(), structure.edges[edge].rule->name, rule)) found.push_back(edge);
-    }
-    return found;
+    return edgesOf(startedRuntime().structure(), index_, rule);
 }
 
 const ItemLayout& Simplex::parameter(std::string_view command, std::string_view parameter,

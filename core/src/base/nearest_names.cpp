@@ -39,10 +39,11 @@ bool isBeginning(std::string_view a, std::string_view b) {
     return std::min(a.size(), b.size()) >= least && (a.starts_with(b) || b.starts_with(a));
 }
 
-}  // namespace
+constexpr std::size_t mostNamed = 3;
 
-std::string nearestNames(std::string_view wrong, std::span<const std::string> valid) {
-    constexpr std::size_t most = 3;
+// The nearest first.
+std::vector<std::string_view> namesNear(std::string_view wrong,
+                                        std::span<const std::string> valid) {
     if (wrong.empty() || wrong.size() > 2 * bounds::nameLength) return {};
     const std::size_t limit = std::max<std::size_t>(1, (wrong.size() + 1) / 3);
     std::vector<std::pair<std::size_t, std::string_view>> near;
@@ -55,13 +56,26 @@ std::string nearestNames(std::string_view wrong, std::span<const std::string> va
     }
     std::ranges::sort(near);
     near.erase(std::ranges::unique(near).begin(), near.end());
-    if (near.size() > most) near.resize(most);
+    if (near.size() > mostNamed) near.resize(mostNamed);
+    std::vector<std::string_view> names;
+    for (const auto& [distance, candidate] : near) names.push_back(candidate);
+    return names;
+}
+
+}  // namespace
+
+std::string nearestNames(std::string_view wrong, std::span<const std::string> valid) {
     std::string result;
-    for (const auto& [distance, candidate] : near) {
+    for (const std::string_view name : namesNear(wrong, valid)) {
         result += result.empty() ? "nearest of: " : ", ";
-        result += candidate;
+        result += name;
     }
     return result;
+}
+
+std::string nearestName(std::string_view wrong, std::span<const std::string> valid) {
+    const auto names = namesNear(wrong, valid);
+    return names.empty() ? "" : std::string{names.front()};
 }
 
 }  // namespace cortex

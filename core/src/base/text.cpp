@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text.hpp"
 
+#include "cortex/core/printable.hpp"
+
 #include "base/bounds.hpp"
 
 #include <algorithm>
@@ -65,6 +67,28 @@ bool isName(std::string_view text) {
 std::string wrongCount(std::size_t expected, std::size_t found) {
     return "expected " + std::to_string(expected) + (expected == 1 ? " value" : " values") +
            ", found " + std::to_string(found);
+}
+
+std::string printable(std::string_view text) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string result;
+    const auto escape = [&](unsigned octet) {
+        result += "\\x";
+        result += digits[octet / 16];
+        result += digits[octet % 16];
+    };
+    while (!text.empty()) {
+        const std::size_t size = characterSize(text);
+        const auto octet = static_cast<unsigned char>(text.front());
+        const unsigned last = static_cast<unsigned char>(text[size > 1 ? 1 : 0]);
+        const bool secondSet = size == 2 && octet == 0xC2 && last < 0xA0;  // U+0080 to U+009F
+        if (size == 0 || octet < 0x20 || octet == 0x7F || secondSet)
+            escape(last);
+        else
+            result += text.substr(0, size);
+        text.remove_prefix(size == 0 ? 1 : size);
+    }
+    return result;
 }
 
 bool isUtf8(std::string_view text) {

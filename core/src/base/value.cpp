@@ -95,6 +95,10 @@ std::optional<Value> parseElements(std::size_t length, std::string_view text, Co
 
 std::optional<Value> parseStrings(std::size_t length, std::string_view text, std::string& why) {
     std::vector<std::string> parts;
+    if (!isUtf8(text)) {
+        why = "the text is not UTF-8";
+        return std::nullopt;
+    }
     if (length == 1) {
         parts.emplace_back(text);
     } else if (!splitStrings(text, parts)) {

@@ -88,8 +88,12 @@ bool outside(const ArgumentCheck& check, T value, T lower, T upper, Words& why) 
             return true;
         }
     }
-    text << value << (value < lower ? " is below " : " is above ")
-         << (value < lower ? lower : upper);
+    const T bound = value < lower ? lower : upper;
+    if constexpr (std::is_same_v<T, double>)
+        text.apart(value, bound);
+    else
+        text << value;
+    text << (value < lower ? " is below " : " is above ") << bound;
     if (!check.item->unit.empty()) text << " " << check.item->unit;
     return true;
 }

@@ -2,6 +2,7 @@
 #include "cortex/core/record.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/labelled_value.hpp"
 #include "cortex/core/tables.hpp"
 
 #include "base/text.hpp"
@@ -51,6 +52,8 @@ Value converted(const DataItem& item, const Value& value, const std::string& wha
         throw Error(what + " is " + shapeOf(item) + ": " +
                     wrongCount(item.length, lengthOf(result)) + ": " + inQuotes(toText(value)));
     }
+    const std::string wrong = item.kind == Kind::String ? valueError(item, result) : "";
+    if (!wrong.empty()) throw Error(what + " " + wrong);
     return result;
 }
 

@@ -30,7 +30,10 @@ std::string readBound(std::optional<Number>& target, std::string_view text) {
 
 std::string readSafe(Safe& target, std::string_view text) {
     using enum Safe::Kind;
-    target.kind = text == "hold" ? Hold : text == "observed" ? Observed : Given;
+    target.kind = text == "hold"       ? Hold
+                  : text == "observed" ? Observed
+                  : text == "stop"     ? Stop
+                                       : Given;
     if (target.kind == Given) target.value = rawValue(text);
     return {};
 }
@@ -110,6 +113,7 @@ constexpr std::array dataAttributes{
     AttributeReader<D>{
         "rate",
         [](D& item, std::string_view text) { return readFloat(item.rate.emplace(), text); }},
+    AttributeReader<D>{"derivativeOf", textInto<&D::derivativeOf>},
     AttributeReader<D>{"safe",
                        [](D& item, std::string_view text) { return readSafe(item.safe, text); }},
     AttributeReader<D>{"onLimit", enumInto<&D::onLimit>},

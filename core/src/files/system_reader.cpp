@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/system_reader.hpp"
 
+#include "cortex/core/xml_text.hpp"
+
 #include "files/element_reader.hpp"
 
 #include <algorithm>
@@ -43,6 +45,9 @@ constexpr std::array settingAttributes{
         "value",
         [](Setting& setting, std::string_view text) { return readText(setting.value, text); },
         true},
+    AttributeReader<Setting>{
+        "escaped",
+        [](Setting& setting, std::string_view text) { return readBool(setting.escaped, text); }},
 };
 
 std::string readInteger(int& target, std::string_view text, int least) {
@@ -163,6 +168,15 @@ void readSetting(const ElementReader& reader, const XmlElement& child, Entry& en
         child, std::span<const AttributeReader<Setting>>{settingAttributes}, setting);
     reader.children(child, {});
     if (!complete) return;
+    if (setting.escaped) {
+        const auto value = withoutEscapes(setting.value);
+        if (!value) {
+            return reader.error(finding::attributeValue, child.line,
+                                "<set> is escaped, and has value=" + inQuotes(setting.value),
+                                "write \\\\ for a \\, and \\x with two digits for an octet");
+        }
+        setting.value = *value;
+    }
     const auto [same, added] = known.emplace(setting.data, setting.place);
     if (!added) {
         reader.error(finding::duplicateSetting, child.line,

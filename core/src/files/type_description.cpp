@@ -58,6 +58,8 @@ std::string safeText(const Safe& safe) {
             return "hold";
         case Safe::Kind::Observed:
             return "observed";
+        case Safe::Kind::Stop:
+            return "stop";
     }
     return "";
 }

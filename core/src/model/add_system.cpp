@@ -89,9 +89,12 @@ void addSetting(const TypeModel& types, Simplex& simplex, const SystemDescriptio
         simplex.set(setting.data, *value, setting.place);
         return;
     }
-    report.error(simplex.path(), ruleOf(*item, setting.value), setting.place,
-                 "item '" + setting.data + "' is " + shapeOf(*item) + ": " + why,
-                 "write " + setText(setting.data, valueText(item->initial)));
+    const std::string mended =
+        item->labels.empty() ? valueText(item->initial) : withNearestLabels(*item, setting.value);
+    report.error(
+        simplex.path(), ruleOf(*item, setting.value), setting.place,
+        "item '" + setting.data + "' is " + shapeOf(*item) + ": " + why,
+        mended.empty() ? "write one of the labels" : "write " + setText(setting.data, mended));
 }
 
 }  // namespace

@@ -3,9 +3,11 @@
 
 #include "cortex/core/agreement.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/plugin_places.hpp"
 
 #include "model/remedies.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <dlfcn.h>
@@ -77,6 +79,11 @@ void checkBuild(const PluginDescription& plugin, const std::string& who) {
         throw Error{who + "was built with '" + library + "', this program with '" +
                     standardLibraryOfThisBuild() + "'; build it with the same standard library"};
     }
+    if (std::string_view{plugin.headers} != headersOfThisBuild()) {
+        throw Error{who + "was built against other headers of cortex (" + plugin.headers +
+                    ") than this program (" + headersOfThisBuild() +
+                    "); build it anew against the installed headers"};
+    }
 }
 
 // The types that the plug-in states. One that this model lacks is not used by it either.
@@ -111,6 +118,20 @@ const ClassRegistry::Factory* ClassRegistry::find(std::string_view type) const {
     return found != factories_.end() ? &found->second : nullptr;
 }
 
+std::vector<std::string> ClassRegistry::classesFor(const Type& type, const TypeModel& types) const {
+    if (find(type.name) != nullptr) return {type.name};
+    std::vector<std::string> nearest;
+    for (const std::string& ancestor : type.ancestors) {
+        if (find(ancestor) != nullptr) nearest.push_back(ancestor);
+    }
+    const std::vector<std::string> all = nearest;
+    std::erase_if(nearest, [&](const std::string& one) {
+        return std::ranges::any_of(
+            all, [&](const std::string& other) { return other != one && types.isA(other, one); });
+    });
+    return nearest;
+}
+
 std::vector<std::string> ClassRegistry::names() const {
     std::vector<std::string> names;
     for (const auto& [name, factory] : factories_) names.push_back(name);
@@ -123,7 +144,8 @@ void ClassRegistry::loadPlugin(const std::filesystem::path& file, const TypeMode
     const PluginDescription& plugin = describe(library.get(), who);
     checkBuild(plugin, who);
     const std::set<std::string> stated = checkTypes(plugin, types, who);
-    [[maybe_unused]] void* forGood = library.release();  // code of it may be in use from here on
+    void* const forGood = library.release();  // code of it may be in use from here on
+    notePlugin(forGood, file.string());
     ClassRegistry added;
     plugin.registerClasses(added);
     for (const auto& name : added.names()) {
@@ -133,11 +155,20 @@ void ClassRegistry::loadPlugin(const std::filesystem::path& file, const TypeMode
         }
         if (find(name) != nullptr) throw Error{who + "brings a second class for type " + name};
     }
+    for (const std::string& type : stated) {
+        if (added.find(type) != nullptr) continue;
+        throw Error{who + "states type " + type +
+                    " in CORTEX_PLUGIN, but registers no class for it; register one "
+                    "(registry.add<…>(\"" +
+                    type + "\")), or take it out"};
+    }
     factories_.merge(added.factories_);
 }
 
 const char* compilerOfThisBuild() { return __VERSION__; }
 
 const char* standardLibraryOfThisBuild() { return CORTEX_STANDARD_LIBRARY; }
+
+const char* headersOfThisBuild() { return CORTEX_HEADER_HASH; }
 
 }  // namespace cortex

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/remedies.hpp"
 
-#include "cortex/core/nearest_names.hpp"
 #include "cortex/core/xml_text.hpp"
 
 #include <algorithm>
@@ -16,20 +15,12 @@ std::string relateText(std::string_view rule, std::string_view to, std::string_v
 }
 
 std::string setText(std::string_view item, std::string_view value) {
-    return "<set data=\"" + xmlAttribute(item) + "\" value=\"" + xmlAttribute(value) + "\"/>";
+    return setElement(item, value);
 }
 
 std::string valueText(const Value& value) {
     const auto* strings = std::get_if<std::vector<std::string>>(&value);
     return strings != nullptr && strings->size() == 1 ? strings->front() : toText(value);
-}
-
-std::string nearestName(std::string_view wrong, const std::vector<std::string>& valid) {
-    const std::string names = nearestNames(wrong, valid);  // "nearest of: a, b, c"
-    const auto colon = names.find(": ");
-    if (colon == std::string::npos) return "";
-    const auto first = colon + 2;
-    return names.substr(first, names.find(',', first) - first);
 }
 
 std::string listText(const std::vector<std::string>& names, std::size_t most) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/nearest_names.hpp"
 #include "cortex/core/simplex_tree.hpp"
 
 #include <string>
@@ -14,8 +15,6 @@ std::string relateText(std::string_view rule, std::string_view to, std::string_v
 std::string setText(std::string_view item, std::string_view value);
 std::string valueText(const Value& value);  // as the attribute `value` holds it
 
-// The nearest of `valid`, "" if none is near.
-std::string nearestName(std::string_view wrong, const std::vector<std::string>& valid);
 // Whether to look for names that are near: not for the many findings of a hopeless model.
 inline bool looksForNearest(const Report& report) { return report.findings.size() < 200; }
 

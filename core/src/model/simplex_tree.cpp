@@ -84,9 +84,10 @@ Simplex& SimplexTree::insert(std::unique_ptr<Simplex> simplex) {
 std::unique_ptr<Simplex> SimplexTree::make(std::string_view path, const Type& type,
                                            const ClassRegistry* registry) const {
     Simplex::Identity identity{std::string{path}, &type};
-    const auto* factory = registry != nullptr ? registry->find(type.name) : nullptr;
-    if (factory == nullptr) return std::make_unique<Simplex>(std::move(identity));
-    return (*factory)(std::move(identity));
+    const std::vector<std::string> classes =
+        registry != nullptr ? registry->classesFor(type, *types_) : std::vector<std::string>{};
+    if (classes.size() != 1) return std::make_unique<Simplex>(std::move(identity));
+    return (*registry->find(classes.front()))(std::move(identity));
 }
 
 Simplex& SimplexTree::add(std::string_view path, std::string_view type) {

@@ -112,6 +112,14 @@ void checkMaximum(const Checked& checked, const Simplex& owner, const Rule& rule
     }
 }
 
+// As relateMissing(), or from another agent, as an input may.
+std::string relateSame(const Checked& checked, const Simplex& owner, const Rule& rule,
+                       std::size_t missing) {
+    std::string text = relateMissing(checked, owner, rule, missing);
+    if (rule.direction == Direction::Output) return text;
+    return text + "; if another agent has it, " + relateText(rule.name, "…", "remote=\"true\"");
+}
+
 // Which of the two are to be added or removed, only their owner knows: the remedy fills up.
 void checkSame(const Checked& checked, const Simplex& owner, const Rule& rule, std::size_t count) {
     const Rule* other = owner.type().findRule(rule.sameCount);
@@ -124,8 +132,8 @@ void checkSame(const Checked& checked, const Simplex& owner, const Rule& rule, s
                          ruleText(owner, rule) + " has " + std::to_string(count) + ", rule '" +
                              other->name + "' has " + std::to_string(wanted) +
                              ": there must be one for each, in the same order",
-                         fewer ? relateMissing(checked, owner, rule, wanted - count)
-                               : relateMissing(checked, owner, *other, count - wanted));
+                         fewer ? relateSame(checked, owner, rule, wanted - count)
+                               : relateSame(checked, owner, *other, count - wanted));
 }
 
 }  // namespace

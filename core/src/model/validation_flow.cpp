@@ -188,8 +188,9 @@ void Flow::checkSafe(const SimplexInfo& demand, const Simplex& simplex) {
     checked_.report.error(demand.path, finding::safeNeeded, simplex.place(),
                           "it is a modification" + writer + ", but " + listText(names) +
                               " of type " + type.name + " has no safe value",
-                          "write safe=\"" + valueText(first->initial) + "\" for '" + first->name +
-                              "' (" + first->place.text() + "), or \"hold\", or \"observed\"");
+                          "say for '" + first->name + "' (" + first->place.text() +
+                              ") what is safe for the plant: safe=\"…\" with a value, hold (the "
+                              "last demand), observed (where it is) or stop (it slows down)");
 }
 
 // Edges of a simplex lie by rule: those under one rule are neighbours.
@@ -236,16 +237,17 @@ std::string Flow::counterpartRemedy(const Edge& output, const DataItem& item) co
 void Flow::checkObserved(std::uint32_t index) {
     const Edge& output = edge(index);
     for (const DataItem& item : info(output.target).layout->type->data) {
-        if (item.safe.kind != Safe::Kind::Observed) continue;
+        if (!latchesObservation(item)) continue;
         const std::string& rule = output.rule->counterpart;
         const std::string wrong =
             rule.empty() ? "states no counterpart" : observationError(output, rule, item);
         if (wrong.empty()) continue;
-        checked_.report.error(
-            owner(output).path(), finding::observedCounterpart, relations_[index]->place,
-            "'" + item.name + "' of " + info(output.target).path + " is safe=\"observed\", but " +
-                ruleText(owner(output), *output.rule) + " " + wrong,
-            counterpartRemedy(output, item));
+        checked_.report.error(owner(output).path(), finding::observedCounterpart,
+                              relations_[index]->place,
+                              "'" + item.name + "' of " + info(output.target).path + " is safe=\"" +
+                                  (item.safe.kind == Safe::Kind::Stop ? "stop" : "observed") +
+                                  "\", but " + ruleText(owner(output), *output.rule) + " " + wrong,
+                              counterpartRemedy(output, item));
         if (rule.empty()) return;  // one item says it for all
     }
 }

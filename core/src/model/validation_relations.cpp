@@ -49,11 +49,13 @@ void checkUnknownTarget(const Checked& checked, const Simplex& owner, const Rule
     auto paths = fitting(checked, owner, rule);
     const std::string nearest = nearestName(relation.target, paths);
     if (!nearest.empty()) paths.insert(paths.begin(), nearest);
-    std::string remedy = "add a simplex with this path";
-    if (!paths.empty()) remedy = "write " + relateText(rule.name, paths.front());
+    std::string remedy = paths.empty() ? "add a simplex with this path"
+                                       : "write " + relateText(rule.name, paths.front());
     if (rule.direction == Direction::Input) {
-        remedy += "; if another agent has it, " +
-                  relateText(rule.name, relation.target, "remote=\"true\"");
+        const std::string remote = relateText(rule.name, relation.target, "remote=\"true\"");
+        remedy = nearest.empty() ? "if another agent has it, write " + remote +
+                                       "; if this one should, " + remedy
+                                 : remedy + "; if another agent has it, " + remote;
     }
     checked.report.error(owner.path(), finding::unknownPath, relation.place,
                          ruleText(owner, rule) + ": there is no simplex '" + relation.target + "'",
@@ -101,6 +103,20 @@ void reportTwice(const Checked& checked, const Simplex& owner, const Rule& rule,
                                                  : writeOneOf(rule.name, paths));
 }
 
+// What simplexes of the same type write, this one included: who read it would follow itself.
+std::set<std::string_view> outputsOfPeers(const Checked& checked, const Simplex& owner) {
+    std::set<std::string_view> outputs;
+    for (const auto& [path, simplex] : checked.tree.simplexes()) {
+        if (&simplex->type() != &owner.type()) continue;
+        for (const Relation& each : simplex->relations()) {
+            const Rule* rule = owner.type().findRule(each.rule);
+            if (rule != nullptr && rule->direction == Direction::Output)
+                outputs.insert(each.target);
+        }
+    }
+    return outputs;
+}
+
 std::string_view parentOf(std::string_view path) { return path.substr(0, path.rfind('/')); }
 
 // What other simplexes of the same type relate under the rule.
@@ -141,7 +157,8 @@ std::vector<std::string> fitting(const Checked& checked, const Simplex& owner, c
     std::vector<std::string> paths;
     if (!looksForNearest(checked.report)) return paths;
     const std::set<std::string_view> targets = targetsOfPeers(checked, owner, rule);
-    std::set<std::string_view> folders;
+    std::set<std::string_view> outputs, folders;
+    if (rule.direction == Direction::Input) outputs = outputsOfPeers(checked, owner);
     for (const std::string_view target : targets) folders.insert(parentOf(target));
     for (const auto& [path, simplex] : checked.tree.simplexes()) {
         const auto related = [&](const Relation& each) {
@@ -149,7 +166,8 @@ std::vector<std::string> fitting(const Checked& checked, const Simplex& owner, c
         };
         const bool written = rule.direction == Direction::Output && !simplex->type().manyWriters &&
                              !checked.info(*simplex).writers.empty();
-        const bool fits = simplex.get() != &owner && simplex->type().isA(rule.target) && !written;
+        const bool fits = simplex.get() != &owner && simplex->type().isA(rule.target) && !written &&
+                          !outputs.contains(path);
         if (fits && std::ranges::none_of(owner.relations(), related)) paths.push_back(path);
     }
     std::ranges::sort(paths, {}, [&](const std::string& path) {

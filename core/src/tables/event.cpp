@@ -4,6 +4,7 @@
 #include "cortex/core/clock.hpp"
 #include "cortex/core/data.hpp"
 #include "cortex/core/event_fold.hpp"
+#include "cortex/core/printable.hpp"
 #include "cortex/core/service_threads.hpp"
 
 #include "types/enum_names.hpp"
@@ -12,6 +13,7 @@
 #include <bit>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <limits>
@@ -64,10 +66,19 @@ auto mergeKey(const Event& event) {
     return std::tie(event.cycle, event.order, event.sequence, event.number);
 }
 
-template <class Number>
-std::string_view numberText(Number number, std::array<char, 32>& buffer) {
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;
+using NumberBuffer = std::array<char, 32>;
+
+template <class... Form>
+std::string_view numberText(NumberBuffer& buffer, auto number, Form... form) {
+    const auto end =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), number, form...).ptr;
     return {buffer.data(), static_cast<std::size_t>(end - buffer.data())};
+}
+
+std::string_view shortText(NumberBuffer& buffer, double number) {
+    constexpr int digits = 6;
+    if (number == std::trunc(number)) return numberText(buffer, number);
+    return numberText(buffer, number, std::chars_format::general, digits);
 }
 
 }  // namespace
@@ -87,13 +98,20 @@ EventText& EventText::operator<<(std::string_view text) {
 EventText& EventText::operator<<(const char* text) { return *this << std::string_view{text}; }
 
 EventText& EventText::operator<<(std::int64_t number) {
-    std::array<char, 32> buffer;
-    return *this << numberText(number, buffer);
+    NumberBuffer buffer;
+    return *this << numberText(buffer, number);
 }
 
 EventText& EventText::operator<<(double number) {
-    std::array<char, 32> buffer;
-    return *this << numberText(number, buffer);
+    NumberBuffer buffer;
+    return *this << shortText(buffer, number);
+}
+
+EventText& EventText::apart(double number, double other) {
+    NumberBuffer buffer, others;
+    const std::string_view text = shortText(buffer, number);
+    const bool alike = number != other && text == shortText(others, other);
+    return *this << (alike ? numberText(buffer, number) : text);
 }
 
 // Three places for each order: before, in and after the tasks.
@@ -284,12 +302,8 @@ std::string lineOf(const Event& event, const Structure& structure, std::int64_t 
     const std::string path = event.simplex < structure.simplexes.size()
                                  ? structure.simplexes[event.simplex].path
                                  : "/" + structure.agent;
-    std::string line = utcText(wallClock) + ' ' + name(event.severity) + ' ' + path + ' ';
-    for (const char each : event.text.view()) {
-        const auto code = static_cast<unsigned char>(each);
-        line += code < 0x20 || code == 0x7f ? '?' : each;
-    }
-    return line;
+    return utcText(wallClock) + ' ' + name(event.severity) + ' ' + path + ' ' +
+           printable(event.text.view());
 }
 
 }  // namespace cortex

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstddef>
 #include <limits>
+#include <string>
+#include <string_view>
 
 namespace cortex {
 namespace {
@@ -15,9 +18,15 @@ constexpr std::size_t mostOpen = 1'000;
 constexpr std::array foldedKinds{EventKind::Refusal,  EventKind::Overflow, EventKind::Limit,
                                  EventKind::Conflict, EventKind::Agent,    EventKind::Message};
 
+// A command that was done: "operator@desk: jog(speed=0.5): Done in 2 cycles".
+bool isDone(const Event& event) {
+    return event.kind == EventKind::Command && event.severity == Severity::Info &&
+           event.text.view().find("): Done") != std::string_view::npos;
+}
+
 bool mayFold(const Event& event) {
-    return event.severity != Severity::Error &&
-           std::ranges::find(foldedKinds, event.kind) != foldedKinds.end();
+    const bool kind = std::ranges::find(foldedKinds, event.kind) != foldedKinds.end();
+    return isDone(event) || (kind && event.severity != Severity::Error);
 }
 
 // Without its numbers: two that missed 3 and 5 ticks are the same event again.
@@ -29,12 +38,30 @@ std::string wordsOf(std::string_view text) {
     return words;
 }
 
+// The sender and the command. Those that differ in numbers are one run, and any two that set items.
+std::string runOf(std::string_view text) {
+    const std::size_t name = text.find(": ");
+    const std::size_t arguments = std::min(text.find('(', name), text.size());
+    std::string run{text.substr(0, arguments)};
+    if (run.ends_with(": set")) return run;
+    char before = '\0';
+    for (const char each : text.substr(arguments, text.rfind("): Done") - arguments)) {
+        const bool digit = std::isdigit(static_cast<unsigned char>(each)) != 0;
+        const bool exponent = each == 'e' && before == '0';
+        if (!digit && !exponent && each != '.' && each != '-' && each != '+') run += each;
+        before = digit ? '0' : each;
+    }
+    return run;
+}
+
 }  // namespace
 
 void EventFold::take(const Event& event, std::int64_t now) {
     pass(now);
     if (!mayFold(event)) return handOn(event);
-    const Key key{event.simplex, event.kind, event.severity, wordsOf(event.text.view())};
+    const std::string_view text = event.text.view();
+    const Key key{event.simplex, event.kind, event.severity,
+                  isDone(event) ? runOf(text) : wordsOf(text)};
     const auto found = open_.find(key);
     if (found != open_.end()) {
         ++found->second.count;

@@ -3,9 +3,11 @@
 
 #include "cortex/core/error.hpp"
 
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <system_error>
 
 namespace cortex {
 
@@ -24,6 +26,13 @@ EventLog::Sink printEvents(std::ostream& out) {
 }
 
 EventLog::Sink logEvents(const std::filesystem::path& file) {
+    std::error_code ignored;
+    const auto status = std::filesystem::status(file, ignored);
+    if (std::filesystem::is_fifo(status) || std::filesystem::is_socket(status)) {
+        throw Error("the log file " + file.string() +
+                    " is a pipe, whose reader could hold up all events: give a regular file, or "
+                    "leave --log out, and they go to the standard error");
+    }
     auto out = std::make_shared<std::ofstream>(file, std::ios::app);
     if (!*out) throw Error("cannot write the log file " + file.string() + ": give another --log");
     return [out, file, lost = 0](const Event& event, const Structure& structure) mutable {

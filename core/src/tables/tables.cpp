@@ -277,6 +277,24 @@ Slice Tables::extraSlice(std::uint32_t simplex) {
     return slice;
 }
 
+Slice Tables::accepted(std::uint32_t simplex) {
+    if (structure_->simplexes[simplex].writers.size() > 1) return live(simplex);
+    Slice& copy = accepted_[simplex];
+    if (copy.state == nullptr) copy = extraSlice(simplex);
+    return copy;
+}
+
+Slice Tables::acceptedCopy(std::uint32_t simplex) const {
+    const auto found = accepted_.find(simplex);
+    return found == accepted_.end() ? Slice{} : found->second;
+}
+
+void Tables::acceptLive() {
+    for (const auto& [simplex, copy] : accepted_) {
+        copySlice(structure_->simplexes[simplex].layout->cyclic, live(simplex), copy);
+    }
+}
+
 void* Tables::cell(std::uint32_t simplex, const ItemLayout& item) const {
     const Slice slice = item.constant ? constants(simplex) : live(simplex);
     return slice.at(item.item->kind, item.offset);

@@ -153,11 +153,13 @@ void checkNames(const Command& own, const ItemContext& context) {
             }
             const bool other = each.safe.kind != Safe::Kind::None || !each.settable.empty() ||
                                each.constant || each.measured || each.retain || each.rate ||
-                               each.onLimit != OnLimit::Clamp || each.atRest != AtRest::Safe;
+                               each.onLimit != OnLimit::Clamp || each.atRest != AtRest::Safe ||
+                               !each.derivativeOf.empty();
             if (other) {
-                parameter.error(
-                    finding::parameterAttribute, "has an attribute of data items",
-                    "remove safe, settable, constant, measured, retain, rate, onLimit and atRest");
+                parameter.error(finding::parameterAttribute, "has an attribute of data items",
+                                "remove safe, settable, constant, measured, retain, rate, "
+                                "derivativeOf, onLimit "
+                                "and atRest");
             }
         }
     }

@@ -116,13 +116,14 @@ void checkValues(DataItem& item, const DataItem* own, const ItemContext& context
     if (item.safe.kind != Safe::Kind::Given) return;
     std::string error = valueError(item, item.safe.value);
     const std::string text = toText(item.safe.value);
-    if (item.kind == Kind::String && (text == "hold" || text == "observed")) {
+    if (item.kind == Kind::String && (text == "hold" || text == "observed" || text == "stop")) {
         error = "is a word of files for another thing";
     }
     if (error.empty()) return;
-    context.error(finding::safeRange,
-                  "has the safe value " + inQuotes(toText(item.safe.value)) + ", which " + error,
-                  "write safe=\"" + toText(implicitValue(item)) + "\", hold or observed");
+    context.error(
+        finding::safeRange,
+        "has the safe value " + inQuotes(toText(item.safe.value)) + ", which " + error,
+        "write the value in that range that is safe for the plant, or hold, observed or stop");
     item.safe.value = implicitValue(item);
 }
 
@@ -277,7 +278,7 @@ void fitData(DataItem& own, const DataItem& shape, const ItemContext& context) {
     const std::string error = fitValue(own.safe.value, shape);
     if (error.empty()) return;
     context.error(finding::safeKind, "has a safe value that does not fit: " + error,
-                  "write hold, observed, or a value of the item's kind and length");
+                  "write hold, observed, stop, or a value of the item's kind and length");
     own.safe = {Safe::Kind::Hold, {}};
 }
 

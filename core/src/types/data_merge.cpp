@@ -40,6 +40,8 @@ std::string safeStated(const Safe& safe) {
             return "hold";
         case Safe::Kind::Observed:
             return "observed";
+        case Safe::Kind::Stop:
+            return "stop";
     }
     return "";
 }
@@ -117,6 +119,14 @@ void intersectSettable(DataItem& item, const FromParent<DataItem>& second, const
     item.settable = item.settable & other;
 }
 
+void intersectDerivative(DataItem& item, const FromParent<DataItem>& second,
+                         const std::string& first, const ItemContext& context) {
+    const std::string& other = second.item->derivativeOf;
+    if (item.derivativeOf.empty()) item.derivativeOf = other;
+    if (other.empty() || item.derivativeOf == other) return;
+    context.exclude("derivativeOf", item.derivativeOf, other, first, second.parent);
+}
+
 void finer(double& step, double other) {
     if (step == 0 || (other > 0 && other < step)) step = other;
 }
@@ -135,6 +145,7 @@ void intersect(DataItem& item, const FromParent<DataItem>& second, const std::st
     intersectRange(item, second, first, context);
     intersectValues(item, second, first, stated, context);
     intersectSettable(item, second, first, context);
+    intersectDerivative(item, second, first, context);
     joinLabels(item, other, finding::intersectionEmpty, "in " + second.parent, context);
     item.onLimit = std::max(item.onLimit, other.onLimit);
     item.retain = item.retain || other.retain;
@@ -214,6 +225,16 @@ void narrow(DataItem& item, const DataItem& own, const Stated& stated, const Ite
                           "write settable=\"" + item.settable.text() + "\" or fewer");
         } else {
             item.settable = own.settable;
+        }
+    }
+    if (!own.derivativeOf.empty()) {
+        if (!item.derivativeOf.empty() && own.derivativeOf != item.derivativeOf) {
+            context.error(finding::derivative,
+                          "changes the inherited derivativeOf from " + inQuotes(item.derivativeOf) +
+                              " to " + inQuotes(own.derivativeOf),
+                          "leave derivativeOf out, or take another name");
+        } else {
+            item.derivativeOf = own.derivativeOf;
         }
     }
     if (stated("onLimit", own.onLimit != OnLimit::Clamp)) {

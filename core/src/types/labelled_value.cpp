@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/labelled_value.hpp"
 
+#include "cortex/core/nearest_names.hpp"
+
+#include <algorithm>
 #include <sstream>
 #include <type_traits>
 
@@ -55,9 +58,27 @@ std::optional<Value> parseItemValue(const DataItem& item, std::string_view text,
     if (item.labels.empty()) return parseValue(item.kind, item.length, text, why);
     auto value = parseValue(item.kind, item.length, withNumbers(item, text), why);
     if (value) return value;
+    const std::string nearest = withNearestLabels(item, text);
+    if (item.length == 1) why = "no label '" + std::string{text} + "'";
+    if (!nearest.empty()) why += "; nearest of: " + nearest;
     why += "; labels:";
     for (const auto& [number, label] : item.labels) why += " " + toText(number) + ":" + label;
     return value;
+}
+
+std::string withNearestLabels(const DataItem& item, std::string_view text) {
+    std::vector<std::string> labels;
+    for (const auto& [number, label] : item.labels) labels.push_back(label);
+    std::istringstream words{std::string{text}};
+    std::string result;
+    std::size_t count = 0;
+    for (std::string word; words >> word; ++count) {
+        const bool right = toInt(word) || std::ranges::find(labels, word) != labels.end();
+        const std::string meant = right ? word : nearestName(word, labels);
+        if (meant.empty()) return {};
+        result += (result.empty() ? "" : " ") + meant;
+    }
+    return count == item.length ? result : "";
 }
 
 std::vector<std::string> labelsOf(const DataItem& item, const Value& value) {

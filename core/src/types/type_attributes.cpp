@@ -45,6 +45,8 @@ std::string safeText(const Safe& safe) {
             return "hold";
         case Safe::Kind::Observed:
             return "observed";
+        case Safe::Kind::Stop:
+            return "stop";
     }
     return "";
 }
@@ -106,6 +108,7 @@ std::vector<TypeAttribute> attributesOf(const DataItem& item) {
         {"constant", truth(item.constant), "false"},
         {"deadband", toText(item.deadband), "0"},
         {"default", valueText(item.initial), valueText(implicitValue(item))},
+        {"derivativeOf", item.derivativeOf, ""},
         {"format", freeText(item.format), ""},
         {"kind", name(item.kind), name(plain.kind)}};
     for (const auto& [number, label] : item.labels) {

@@ -253,7 +253,7 @@ void TypeResolver::checkBehaviour(const Type& type) {
         report_.error(
             type.name, finding::safeMissing, item.definedBy == type.name ? item.place : type.place,
             "data " + inQuotes(item.name) + " has no safe value, and the type is a modification",
-            "write safe=\"hold\", \"observed\" or a value");
+            "write safe=\"hold\", \"observed\", \"stop\" or a value");
     }
 }
 

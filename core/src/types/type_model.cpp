@@ -25,6 +25,11 @@ const Item* findSorted(const std::vector<Item>& items, std::string_view name) {
 
 }  // namespace
 
+bool latchesObservation(const DataItem& item) {
+    return item.safe.kind == Safe::Kind::Observed ||
+           (item.safe.kind == Safe::Kind::Stop && item.derivativeOf.empty());
+}
+
 const DataItem* Type::findData(std::string_view item) const { return findSorted(data, item); }
 const Command* Type::findCommand(std::string_view command) const {
     return findSorted(commands, command);

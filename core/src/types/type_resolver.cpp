@@ -5,6 +5,7 @@
 
 #include "base/bounds.hpp"
 #include "base/text.hpp"
+#include "types/derivative_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,8 +76,16 @@ TypeResolver::Types TypeResolver::run() {
         checkRules(type);
         checkBehaviour(type);
         checkUnits(type);
+        checkDerivatives(type);
     }
     return std::move(types_);
+}
+
+void TypeResolver::checkDerivatives(const Type& type) {
+    if (graph_.incomplete(type.name)) return;
+    std::vector<const Type*> parents;
+    for (const std::string& parent : type.parents) parents.push_back(&types_.find(parent)->second);
+    cortex::checkDerivatives(type, parents, report_);
 }
 
 Type TypeResolver::resolve(const TypeDeclaration& declaration) {

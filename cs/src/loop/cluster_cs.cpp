@@ -9,6 +9,7 @@
 
 #include "loop/cluster_loop.hpp"
 #include "loop/given_values.hpp"
+#include "loop/simplex_classes.hpp"
 #include "loop/start_order.hpp"
 #include "tasks/crash_report.hpp"
 #include "tasks/io_threads.hpp"
@@ -19,7 +20,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <mutex>
 
 namespace cortex::cs {
 
@@ -42,18 +42,14 @@ struct ClusterCS::Implementation {
     std::vector<SimplexCS*> activeInOrder(std::span<const std::uint32_t> order) const;
     TaskGraph graph() const;
     StartOrder startOrder(const TaskGraph& graph, std::span<const std::uint32_t> order) const;
-    void requireClasses() const;
     void populate(std::span<SimplexCS* const> simplexes) const;
     void joinSettings(SimplexCS& simplex, Report& report) const;
-    void warn(std::uint32_t simplex, const EventText& text) const;
     void warnOfModel() const;
     void endIoThreads();
     [[noreturn]] void endProcess(const std::string& why) const;
 };
 
 namespace {
-
-bool hasTask(const SimplexInfo& info) { return !info.remote && info.layout->type->isA("Active"); }
 
 std::uint32_t threadsFor(const ClusterOptions& options, std::vector<std::string>& report) {
     const std::uint32_t threads =
@@ -134,20 +130,6 @@ TaskGraph ClusterCS::Implementation::graph() const {
     return graph;
 }
 
-void ClusterCS::Implementation::requireClasses() const {
-    Report report;
-    for (const SimplexInfo& info : agent->structure().simplexes) {
-        if (info.role != Role::Active || info.remote || info.path == "/" + name) continue;
-        const Simplex& simplex = agent->tree().at(info.path);
-        if (hasTask(info) && dynamic_cast<const SimplexCS*>(&simplex) != nullptr) continue;
-        report.error(info.path, finding::noClass, simplex.place(),
-                     "no C++ class implements the active type " + info.layout->type->name,
-                     "load the plug-in that has it (--plugin FILE), or register a class derived "
-                     "from SimplexCS for this type");
-    }
-    if (!report.ok()) refuse(std::move(report));
-}
-
 std::vector<SimplexCS*> ClusterCS::Implementation::activeInOrder(
     std::span<const std::uint32_t> order) const {
     std::vector<SimplexCS*> simplexes;
@@ -215,20 +197,16 @@ void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) 
     if (!report.ok()) refuse(std::move(report));
 }
 
-void ClusterCS::Implementation::warn(std::uint32_t simplex, const EventText& text) const {
-    Event event;
-    event.severity = Severity::Warning;
-    event.simplex = simplex;
-    event.text = text;
-    agent->events().postOutside(event);
-}
-
 void ClusterCS::Implementation::warnOfModel() const {
     for (const Finding& finding : agent->warnings().findings) {
         EventText text{finding.message};
         const std::string place = finding.place.text();
         if (!place.empty()) text << " [" << place << "]";
-        warn(agent->structure().find(finding.path), text);
+        Event event;
+        event.severity = Severity::Warning;
+        event.simplex = agent->structure().find(finding.path);
+        event.text = text;
+        agent->events().postOutside(event);
     }
 }
 
@@ -289,9 +267,11 @@ void ClusterCS::startAll() {
     options.controlRequired = self.options.controlRequired;
     options.period = self.trigger->period();
     options.epoch = self.options.epoch;
+    options.files = self.options.files;
     options.realTime = self.trigger->realTime();
     self.agent = std::make_unique<AgentRuntime>(self.name, *self.tree, options);
-    self.requireClasses();
+    if (Report report = missingClasses(*self.agent, self.registry); !report.ok())
+        refuse(std::move(report));
     const TaskGraph graph = self.graph();
     const std::vector<std::uint32_t> order = canonicalOrder(graph);
     self.agent->setCanonicalOrder(order);
@@ -319,6 +299,7 @@ void ClusterCS::startAll() {
     self.loop->start();
     self.ioThreads.begin(simplexes);
     self.warnOfModel();
+    tellInheritedClasses(*self.agent, self.registry);
 }
 
 bool ClusterCS::stop() {
@@ -339,18 +320,11 @@ const std::vector<std::string>& ClusterCS::notShutDown() const {
     return implementation_->notShutDown;
 }
 
-void ClusterTesting::set(ClusterCS& cluster, TestOptions options) {
-    cluster.implementation_->test = std::move(options);
-}
+TestOptions& ClusterTesting::optionsOf(ClusterCS& cluster) { return cluster.implementation_->test; }
 
 bool ClusterTesting::offerPlan(ClusterCS& cluster, std::uint32_t threads, std::uint32_t chunkSize) {
     const ClusterCS::Implementation& self = *cluster.implementation_;
     return self.loop->offerPlan(makeSchedule(self.graph(), {threads, chunkSize, {}, true}));
-}
-
-void ClusterTesting::playLate(ManualTrigger& trigger, std::int64_t periods) {
-    const std::lock_guard lock{trigger.mutex_};
-    trigger.requestedLate_ += periods;
 }
 
 bool ClusterCS::running() const {

@@ -167,7 +167,7 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     plan_->pool->cycle(trigger_.nextDeadline());
     const RunnerCounts counts = runner_.counts();
     if (watchdog_->reported() == tick.cycle - 1) metrics_.hung(true);
-    metrics_.write(counts, tick.nominalTime);
+    metrics_.write(counts, tick);
     if (mayReschedule_) rescheduler_->follow(counts.startups, tick.nominalTime, runner_.timedAll());
     agent_.endCycle(tick, wallClockNow() - (monotonicNow() - begin) - trigger.lateness);
     metrics_.cycleEnded(lastWakeUp_ == 0 ? 0 : begin - lastWakeUp_, trigger.lateness,
@@ -253,8 +253,9 @@ void ClusterLoop::judgePace(std::int64_t nominalTime, std::int64_t begin) {
     if (!pace_.changed()) return;
     const double due = 1e9 / static_cast<double>(trigger_.period());
     EventText text{pace_.overloaded() ? "overloaded: " : "no longer overloaded: "};
-    text << std::round(pace_.rate() * 10) / 10 << " cycles a second instead of "
-         << std::round(due * 10) / 10;
+    const double rate = std::round(pace_.rate() * 10) / 10, wanted = std::round(due * 10) / 10;
+    text << rate << " cycles a second";
+    if (rate != wanted) text << " instead of " << wanted;
     if (pace_.overloaded()) nameLongest(text);
     tell(pace_.overloaded() ? Severity::Warning : Severity::Info, text);
 }

@@ -65,7 +65,7 @@ void ClusterLoop::prepareThread() {
 
 // On each thread that runs tasks, before its first cycle.
 void ClusterLoop::threadStarts(std::uint32_t worker) {
-    reportCrashesOfThisThread(agent_.structure(), runner_.position(worker));
+    reportCrashesOfThisThread(agent_.structure(), runner_.position(worker), runner_.escape(worker));
     if (test_.onThreadStart) test_.onThreadStart(worker);
 }
 

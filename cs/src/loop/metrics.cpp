@@ -82,6 +82,7 @@ void MetricSeries::writePercentiles() {
 
 ClusterMetrics::ClusterMetrics(AgentRuntime& agent, std::int64_t period, std::uint32_t threads)
     : agent_{agent},
+      own_{agent.tables().live(agent.agentSimplex()).state},
       period_{static_cast<double>(period)},
       series_{MetricSeries{agent, "cycleDuration", 1000}, MetricSeries{agent, "jitter", 1000},
               MetricSeries{agent, "lateness", 1000}, MetricSeries{agent, "dutyCycle", 10000}},
@@ -116,9 +117,10 @@ void ClusterMetrics::cycleEnded(std::int64_t sinceLastWakeUp, std::int64_t laten
     series_[3].add(lastDuty_);
 }
 
-void ClusterMetrics::write(const RunnerCounts& counts, std::int64_t nominalTime) {
+void ClusterMetrics::write(const RunnerCounts& counts, const Tick& tick) {
+    *own_ = {tick.cycle, tick.nominalTime, noSimplex, Quality::Good};
     for (MetricSeries& series : series_) series.write();
-    writePercentiles(nominalTime);
+    writePercentiles(tick.nominalTime);
     std::uint64_t commands = 0;
     std::uint64_t rejected = 0;
     for (std::uint32_t i = 0; i < agent_.threadCount(); ++i) {

@@ -51,7 +51,7 @@ public:
     void overflow(std::int64_t missed) CORTEX_REALTIME { overflows_ += missed; }
     void hung(bool hung) CORTEX_REALTIME { hung_ = hung; }
     // Writes all into the tables; before the image is taken.
-    void write(const RunnerCounts& counts, std::int64_t nominalTime) CORTEX_REALTIME;
+    void write(const RunnerCounts& counts, const Tick& tick) CORTEX_REALTIME;
     void cpus(std::string_view cpus) CORTEX_REALTIME { cpusItem_ = cpus; }
     void threads(std::uint32_t threads) CORTEX_REALTIME { threads_ = threads; }
     double lastDuty() const { return lastDuty_; }
@@ -62,6 +62,7 @@ private:
     void writeLatency() CORTEX_REALTIME;
 
     AgentRuntime& agent_;
+    SlotState* own_;  // of the cluster's simplex
     double period_;
     std::array<MetricSeries, 4> series_;   // duration, jitter, lateness, duty
     std::array<Data<double>, 6> latency_;  // last, mean, p50, p99, p999, max

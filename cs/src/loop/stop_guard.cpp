@@ -4,6 +4,8 @@
 #include "cortex/core/clock.hpp"
 #include "cortex/core/service_threads.hpp"
 
+#include "tasks/crash_report.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -46,7 +48,11 @@ void StopGuard::begin(const sigset_t& signals) {
     if (begun_.exchange(true)) return;
     signals_ = signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC);
     wake_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-    std::atexit([] { get().enter("the end of the process after main()", false); });
+    std::atexit([] {
+        [[maybe_unused]] static const auto* const last =  // to the end, so never destroyed
+            new PhaseOfThread{"the end of the process after main()"};
+        get().enter("the end of the process after main()", false);
+    });
     const ServiceThreads named{"cortex-stop"};
     std::thread{[this] { run(); }}.detach();
 }

@@ -2,6 +2,7 @@
 #include "cortex/cs/cluster_cs.hpp"
 
 #include "loop/stop_guard.hpp"
+#include "tasks/crash_report.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -64,13 +65,21 @@ bool waitForInterrupt(double seconds, const std::function<bool()>& done) {
 }
 
 struct BoundedStep::Implementation {
+    explicit Implementation(StopGuard::Steps::iterator entered)
+        : step{entered}, phase{step->what.c_str()} {}
+
     StopGuard::Steps::iterator step;
+    PhaseOfThread phase;
 };
 
 BoundedStep::BoundedStep(std::string what, Kind kind)
     : implementation_{std::make_unique<Implementation>(
-          Implementation{StopGuard::get().enter(std::move(what), kind == Kind::Wait)})} {}
+          StopGuard::get().enter(std::move(what), kind == Kind::Wait))} {}
 
-BoundedStep::~BoundedStep() { StopGuard::get().leave(implementation_->step); }
+BoundedStep::~BoundedStep() {
+    const auto step = implementation_->step;
+    implementation_.reset();
+    StopGuard::get().leave(step);
+}
 
 }  // namespace cortex::cs

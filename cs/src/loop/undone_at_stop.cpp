@@ -13,10 +13,12 @@ void ClusterLoop::tellUnsafe() {
         event.time = lastNominal_;
         event.simplex = each.simplex;
         event.severity = Severity::Error;
-        event.text << item->name << " is " << value;
+        event.text << item->name << " is ";
+        event.text.apart(value, safe);
         if (!item->unit.empty()) event.text << " " << item->unit;
-        event.text << ", its safe value " << safe << " was not reached within the stopTimeout of "
-                   << options_.stopTimeout << " s";
+        event.text << ", its safe value ";
+        event.text.apart(safe, value)
+            << " was not reached within the stopTimeout of " << options_.stopTimeout << " s";
         unsafe_.push_back(agent_.structure().simplexes[each.simplex].path + ": " +
                           std::string{event.text.view()});
         agent_.events().postOutside(event);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tasks/crash_report.hpp"
 
+#include "cortex/core/plugin_places.hpp"
+
 #include <array>
 #include <csignal>
 #include <memory>
 #include <string_view>
 
+#include <execinfo.h>
 #include <unistd.h>
 
 namespace cortex::cs {
@@ -26,6 +29,8 @@ std::array<Crash, 5> crashes{Crash{SIGSEGV, "SIGSEGV", {}}, Crash{SIGFPE, "SIGFP
 // What this thread runs. Bound at start-up of the program: reading it never allocates.
 [[gnu::tls_model("initial-exec")]] thread_local const Structure* structureOfThread = nullptr;
 [[gnu::tls_model("initial-exec")]] thread_local const Position* positionOfThread = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local const char* phaseOfThread = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local Escape* escapeNow = nullptr;
 
 // An overflow of the stack leaves none for the handler.
 class CrashStack {
@@ -55,29 +60,54 @@ void print(std::string_view text) {
     if (write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nothing is left to do
 }
 
-void printPlace(std::string_view signal) {
-    const std::uint32_t simplex = positionOfThread->simplex.load(std::memory_order_relaxed);
-    if (simplex == noSimplex) return;
-    print("cortex: ");
-    print(signal);
-    print(" in ");
+// noSimplex: in no hook.
+std::uint32_t simplexOfThread() {
+    return positionOfThread == nullptr ? noSimplex
+                                       : positionOfThread->simplex.load(std::memory_order_relaxed);
+}
+
+void printHook() {
     print(name(positionOfThread->hook.load(std::memory_order_relaxed)));
     print(" of ");
-    print(structureOfThread->simplexes[simplex].path);
-    print("; the process ends\n");
+    print(structureOfThread->simplexes[simplexOfThread()].path);
+}
+
+// The place first: to look for the plug-in may crash again, where the stack is broken.
+void printPlace(std::string_view signal) {
+    const bool inHook = simplexOfThread() != noSimplex;
+    const bool known = inHook || phaseOfThread != nullptr;
+    if (known) {
+        print("cortex: ");
+        print(signal);
+        print(" in ");
+        inHook ? printHook() : print(phaseOfThread);
+    }
+    const char* const plugin = pluginOfThread();
+    if (plugin != nullptr) {
+        if (!known) {
+            print("cortex: ");
+            print(signal);
+        }
+        print(known ? " (plug-in " : " in a thread of plug-in ");
+        print(plugin);
+        if (known) print(")");
+    }
+    if (known || plugin != nullptr) print("; the process ends\n");
 }
 
 // A fault of the processor happens again when this returns; what was sent is sent again.
 void report(int signal, siginfo_t* info, void* /*context*/) {
     for (const Crash& crash : crashes) {
         if (crash.signal != signal) continue;
-        if (positionOfThread != nullptr) printPlace(crash.name);
+        printPlace(crash.name);
         sigaction(signal, &crash.before, nullptr);
     }
     if (info->si_code <= 0) raise(signal);
 }
 
 bool installHandlers() {
+    void* first = nullptr;
+    backtrace(&first, 1);  // loads what it needs, which a handler may not
     struct sigaction action{};
     action.sa_sigaction = report;
     action.sa_flags = SA_SIGINFO | SA_ONSTACK;
@@ -86,16 +116,62 @@ bool installHandlers() {
     return true;
 }
 
-}  // namespace
-
-void reportCrashesOfThisThread(const Structure& structure, const Position& position) {
+void installOnce() {
     static const bool installed = installHandlers();
     static_cast<void>(installed);
+}
+
+}  // namespace
+
+void reportCrashesOfThisThread(const Structure& structure, const Position& position,
+                               Escape& escapeFromHooks) {
+    installOnce();
     static const thread_local CrashStack stack;
     structureOfThread = &structure;
     positionOfThread = &position;
+    escapeNow = &escapeFromHooks;
+}
+
+PhaseOfThread::PhaseOfThread(const char* what, Escape* escapeFromIt)
+    : before_{phaseOfThread}, escapeBefore_{escapeNow} {
+    installOnce();
+    phaseOfThread = what;
+    escapeNow = escapeFromIt;
+}
+
+PhaseOfThread::~PhaseOfThread() {
+    phaseOfThread = before_;
+    escapeNow = escapeBefore_;
+}
+
+HookOfThread hookOfThisThread() noexcept {
+    const std::uint32_t simplex = simplexOfThread();
+    if (simplex == noSimplex) return {};
+    return {&structureOfThread->simplexes[simplex],
+            positionOfThread->hook.load(std::memory_order_relaxed)};
 }
 
 bool isLoopThread() { return positionOfThread != nullptr; }
+
+std::string placeOfThread() {
+    const std::uint32_t simplex = simplexOfThread();
+    if (simplex == noSimplex)
+        return phaseOfThread != nullptr ? phaseOfThread : "a thread of its own";
+    return std::string{name(positionOfThread->hook.load(std::memory_order_relaxed))} + " of " +
+           structureOfThread->simplexes[simplex].path;
+}
+
+Escape* escapeOfThread() {
+    return isLoopThread() && simplexOfThread() == noSimplex ? nullptr : escapeNow;
+}
+
+const char* pluginOfThread() {
+    std::array<void*, 64> frames{};
+    const int count = backtrace(frames.data(), static_cast<int>(frames.size()));
+    for (int i = 0; i < count; ++i) {
+        if (const char* plugin = pluginAt(frames[static_cast<std::size_t>(i)])) return plugin;
+    }
+    return nullptr;
+}
 
 }  // namespace cortex::cs

@@ -3,11 +3,12 @@
 
 #include "cortex/core/labelled_value.hpp"
 
+#include "tasks/number_bounds.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <variant>
 
 namespace cortex::cs {
 
@@ -26,11 +27,6 @@ std::uint32_t sizeOf(const DataItem& item) {
     return item.length * 8;
 }
 
-double asDouble(const std::optional<Number>& bound, double otherwise) {
-    if (!bound) return otherwise;
-    return std::visit([](auto number) { return static_cast<double>(number); }, *bound);
-}
-
 std::uint32_t alignedSize(const DataItem& item) { return (sizeOf(item) + 7U) / 8U * 8U; }
 
 std::byte* cellOf(const Slice& slice, const ItemLayout& layout) {
@@ -38,6 +34,13 @@ std::byte* cellOf(const Slice& slice, const ItemLayout& layout) {
 }
 
 bool hasSafe(const DataItem& item) { return item.safe.kind != Safe::Kind::None && !item.constant; }
+
+bool isStop(const DataItem& item) { return item.safe.kind == Safe::Kind::Stop; }
+
+// It comes to 0; it is not observed.
+bool isStoppedDerivative(const DataItem& item) {
+    return isStop(item) && !item.derivativeOf.empty();
+}
 
 bool isFree(const DataItem& item) { return item.atRest == AtRest::Writer; }
 
@@ -90,15 +93,16 @@ void store(const DataItem& item, const Value& value, std::byte* cells) {
 
 }  // namespace
 
-DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, std::uint32_t simplex)
+DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, const Slice& accepted,
+                           std::uint32_t simplex)
     : simplex_{simplex} {
+    const bool elsewhere = accepted.state != nullptr;
     std::size_t size = 0;
     for (const ItemLayout& entry : layout.items) {
-        if (!entry.item->constant) size += alignedSize(*entry.item);
+        if (!entry.item->constant && !elsewhere) size += alignedSize(*entry.item);
     }
     memory_.resize(size);
     std::byte* next = memory_.data();
-    constexpr double greatest = std::numeric_limits<double>::max();
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (const ItemLayout& entry : layout.items) {
         const DataItem& item = *entry.item;
@@ -106,11 +110,18 @@ DemandLimits::DemandLimits(const TypeLayout& layout, const Slice& live, std::uin
         const bool closed = item.kind == Kind::Int && isClosed(item);
         const bool limited = item.kind == Kind::Float || closed ||
                              (item.kind == Kind::Int && (item.min || item.max));
-        items_.push_back({&item, cellOf(live, entry), next, sizeOf(item),
-                          asDouble(item.min, -greatest), asDouble(item.max, greatest),
-                          item.rate.value_or(infinity), limited, false,
-                          item.kind == Kind::Float && item.length == 1 && !item.rate, closed});
-        next += alignedSize(item);
+        const bool plain = item.kind == Kind::Float && item.length == 1 && !item.rate;
+        std::byte* previous = elsewhere ? cellOf(accepted, entry) : next;
+        items_.push_back({&item, cellOf(live, entry), previous, sizeOf(item), limited, false, plain,
+                          closed, leastOf(item), greatestOf(item), item.rate.value_or(infinity),
+                          nullptr});
+        if (!elsewhere) next += alignedSize(item);
+    }
+    for (Item& item : items_) {
+        if (!isStoppedDerivative(*item.item)) continue;
+        const auto nameOf = [](const Item& each) -> std::string_view { return each.item->name; };
+        const auto base = std::ranges::find(items_, item.item->derivativeOf, nameOf);
+        if (base != items_.end()) item.base = &*base;
     }
     beginnings_.reserve(items_.size() + 1);  // an array may begin two: a limit, then not finite
     accept();
@@ -139,7 +150,7 @@ LimitResult DemandLimits::apply(double elapsedSeconds) {
         if (item.plain) {
             const double value = *reinterpret_cast<const double*>(item.live);
             if (value >= item.min && value <= item.max) {
-                item.inEpisode = false;
+                if (item.inEpisode) follow(item, false, elapsedSeconds);
                 continue;
             }
         }
@@ -147,9 +158,15 @@ LimitResult DemandLimits::apply(double elapsedSeconds) {
                                     ? applyFloat(item, elapsedSeconds, result)
                                     : applyInt(item, result);
         if (result.notFinite) return result;
-        item.inEpisode = limitedNow;
+        if (limitedNow || item.inEpisode) follow(item, limitedNow, elapsedSeconds);
     }
     return result;
+}
+
+void DemandLimits::follow(Item& item, bool limitedNow, double elapsed) {
+    constexpr double silence = 1;  // s
+    item.quiet = limitedNow ? 0 : item.quiet + elapsed;
+    item.inEpisode = limitedNow || (item.inEpisode && item.quiet < silence);
 }
 
 void DemandLimits::found(const Item& item, bool first, double value, double limit, bool byRate,
@@ -157,6 +174,13 @@ void DemandLimits::found(const Item& item, bool first, double value, double limi
     result.any = result.limited = true;
     if (!first || item.inEpisode) return;
     beginnings_.push_back({item.item, value, limit, false, byRate, item.closed});
+}
+
+// What a derivative of an item at the end of its range may be at once: 0, as it goes no further.
+bool DemandLimits::standsAtItsEnd(const Item& item, std::uint32_t element) {
+    if (item.base == nullptr) return false;
+    const double value = reinterpret_cast<const double*>(item.base->live)[element];
+    return value <= item.base->min || value >= item.base->max;
 }
 
 bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
@@ -177,7 +201,7 @@ bool DemandLimits::applyFloat(Item& item, double elapsed, LimitResult& result) {
         const double inRange = std::clamp(written, item.min, item.max);
         const double limited =
             rated ? std::clamp(inRange, previous[i] - step, previous[i] + step) : inRange;
-        if (limited == written) continue;
+        if (limited == written || (written == 0 && standsAtItsEnd(item, i))) continue;
         values[i] = limited;
         found(item, !any, written, limited, limited != inRange, result);
         any = true;
@@ -225,18 +249,19 @@ SafeDemands::SafeDemands(const TypeLayout& layout, const Slice& out, const Deman
         const DataItem& item = *entry.item;
         if (!hasSafe(item)) continue;
         const bool given = item.safe.kind == Safe::Kind::Given;
-        const ItemLayout* source =
-            item.safe.kind == Safe::Kind::Observed && observedLayout != nullptr
-                ? observedLayout->find(item.name)
-                : nullptr;
+        const ItemLayout* source = latchesObservation(item) && observedLayout != nullptr
+                                       ? observedLayout->find(item.name)
+                                       : nullptr;
         if (source != nullptr) observedState_ = observed.state;
         items_.push_back({&item, cellOf(out, entry), next, limits.previous(item),
                           source != nullptr ? cellOf(observed, *source) : nullptr, sizeOf(item),
                           given});
         std::memcpy(next, items_.back().out, items_.back().size);
         if (given) store(item, item.safe.value, next);
+        if (isStoppedDerivative(item)) std::memset(next, 0, items_.back().size);
         next += alignedSize(item);
     }
+    addStops();
     // Before the first startup a demand stands where the plant is expected to be.
     for (const Item& item : items_) {
         if (item.observed != nullptr) std::memcpy(item.safe, item.observed, item.size);
@@ -244,13 +269,29 @@ SafeDemands::SafeDemands(const TypeLayout& layout, const Slice& out, const Deman
     write();
 }
 
-void SafeDemands::latch() {
+void SafeDemands::addStops() {
+    const auto number = [](const auto* cells) { return reinterpret_cast<const double*>(cells); };
+    const auto cells = [&](const Item& item) {
+        return Stopping::Cells{number(item.previous), reinterpret_cast<double*>(item.safe)};
+    };
+    for (const Item& derivative : items_) {
+        if (!isStoppedDerivative(*derivative.item)) continue;
+        for (const Item& item : items_) {
+            if (item.item->name != derivative.item->derivativeOf || !isStop(*item.item)) continue;
+            stops_.emplace_back(*item.item, *derivative.item, cells(item), cells(derivative));
+        }
+    }
+}
+
+void SafeDemands::latch(Latch why) {
     moved_ = false;
+    slows_ = why == Latch::Stop;
     const bool usable = observedState_ != nullptr && observedState_->quality < Quality::Bad;
     for (const Item& item : items_) {
         if (item.given) continue;
-        const bool observe = item.observed != nullptr && usable;
+        const bool observe = item.observed != nullptr && usable && !(isStop(*item.item) && slows_);
         std::memcpy(item.safe, observe ? item.observed : item.previous, item.size);
+        if (!slows_ && isStoppedDerivative(*item.item)) std::memset(item.safe, 0, item.size);
     }
 }
 
@@ -283,11 +324,14 @@ const DataItem* SafeDemands::writtenInVain(bool sole) const {
 }
 
 std::optional<SafeDemands::Way> SafeDemands::onTheWay() const {
-    constexpr double greatest = std::numeric_limits<double>::max();
+    for (const Stopping& each : stops_) {
+        const std::int64_t element = slows_ ? each.moving() : -1;
+        if (element >= 0) return Way{&each.derivative(), each.velocity(element), 0};
+    }
     for (const Item& item : items_) {
         if (item.item->kind != Kind::Float || !item.item->rate || isFree(*item.item)) continue;
-        const double min = asDouble(item.item->min, -greatest);
-        const double max = asDouble(item.item->max, greatest);
+        if (slows_ && isStop(*item.item)) continue;
+        const double min = leastOf(*item.item), max = greatestOf(*item.item);
         for (std::uint32_t i = 0; i < item.item->length; ++i) {
             const double value = reinterpret_cast<const double*>(item.previous)[i];
             const double safe = reinterpret_cast<const double*>(item.safe)[i];

@@ -4,6 +4,8 @@
 #include "cortex/core/agent.hpp"
 #include "cortex/core/tables.hpp"
 
+#include "tasks/stopping.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,7 +26,8 @@ struct LimitResult {
 // One per modification that has a writer; used by the task that ran last among its writers.
 class DemandLimits {
 public:
-    // The first cycle of an episode of one item.
+    // The first cycle of an episode of one item. It ends after a second without a limit, so that
+    // the strokes of a ramp are one.
     struct Beginning {
         const DataItem* item;
         double value, limit;  // what was written, what it became
@@ -33,7 +36,10 @@ public:
         bool noLabel;  // of a closed enumeration: it became the value before
     };
 
-    DemandLimits(const TypeLayout& layout, const Slice& live, std::uint32_t simplex);
+    // `accepted`: where the values last accepted are kept for a writer that reads them; its state
+    // is null where none does, and they are kept here.
+    DemandLimits(const TypeLayout& layout, const Slice& live, const Slice& accepted,
+                 std::uint32_t simplex);
 
     std::uint32_t simplex() const { return simplex_; }
     // Limits the live values against those last accepted. May be called again with other values
@@ -51,11 +57,15 @@ private:
         std::byte* live;
         std::byte* previous;
         std::uint32_t size;  // octets
-        double min, max, rate;
         bool limited, inEpisode;
         bool plain;   // one number without a rate
         bool closed;  // a closed enumeration: its labels are its range
+        double min, max, rate;
+        const Item* base;  // of one that is safe="stop": the item whose derivative it is
+        double quiet = 0;  // seconds of the episode in which nothing was limited
     };
+    static void follow(Item& item, bool limitedNow, double elapsed) CORTEX_REALTIME;
+    static bool standsAtItsEnd(const Item& item, std::uint32_t element) CORTEX_REALTIME;
     bool applyFloat(Item& item, double elapsed, LimitResult& result) CORTEX_REALTIME;
     bool applyInt(Item& item, LimitResult& result) CORTEX_REALTIME;
     void found(const Item& item, bool first, double value, double limit, bool byRate,
@@ -78,14 +88,25 @@ public:
                 const TypeLayout* observedLayout, const Slice& observed);
 
     // On leaving Active and on startup: `observed` takes the observation, `hold` the last demand.
-    // An observation that is bad or lost cannot be taken; then the last demand stands in.
-    void latch() CORTEX_REALTIME;
+    // An observation that is bad or lost cannot be taken; then the last demand stands in. `stop`
+    // takes the observation on startup, at rest; otherwise it goes on from the last demand.
+    enum class Latch : std::uint8_t { Startup, Stop };
+    void latch(Latch why) CORTEX_REALTIME;
+    // What stops is slower by this time. Called again before the demand goes out, it gives the
+    // same.
+    void slow(double elapsedSeconds) CORTEX_REALTIME {
+        if (!slows_) return;
+        for (const Stopping& each : stops_) each.step(elapsedSeconds);
+    }
+    bool stops() const { return !stops_.empty(); }
     void write() CORTEX_REALTIME;
     // Again, but for the items that are their writer's at rest.
     void hold() CORTEX_REALTIME;
     // Before hooks on the way between states: what no hook has moved goes on to its safe value.
-    void put() CORTEX_REALTIME {
-        if (!moved_) hold();
+    void put(double elapsedSeconds) CORTEX_REALTIME {
+        if (moved_) return;
+        slow(elapsedSeconds);
+        hold();
     }
     // After them: whether a hook has moved it since the last latch().
     bool moved() CORTEX_REALTIME;
@@ -113,10 +134,13 @@ private:
         std::uint32_t size;
         bool given;
     };
+    void addStops();
     std::vector<Item> items_;
     std::vector<std::byte> memory_;
     const SlotState* observedState_ = nullptr;
+    std::vector<Stopping> stops_;
     bool moved_ = false;
+    bool slows_ = false;  // not since a startup
 };
 
 }  // namespace cortex::cs

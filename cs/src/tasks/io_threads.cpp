@@ -2,8 +2,11 @@
 #include "tasks/io_threads.hpp"
 
 #include "cortex/core/clock.hpp"
+#include "cortex/core/error.hpp"
 
 #include "tasks/beside_tick.hpp"
+#include "tasks/crash_report.hpp"
+#include "tasks/refused_exit.hpp"
 
 namespace cortex::cs {
 
@@ -11,7 +14,14 @@ void IoThreads::begin(std::span<SimplexCS* const> simplexes) {
     for (SimplexCS* simplex : simplexes) {
         auto* threaded = dynamic_cast<ThreadedSimplex*>(simplex);
         if (threaded == nullptr) continue;
-        threaded->beside_->begin([threaded] { threaded->runThread(); });
+        threaded->beside_->begin([threaded, phase = "communicate() of " + threaded->path()] {
+            Escape escape;
+            const PhaseOfThread present{phase.c_str(), &escape};
+            if (_setjmp(escape.place) == 0)
+                threaded->runThread();
+            else
+                throw Error(refusedExitText());
+        });
         simplexes_.push_back(threaded);
     }
 }

@@ -6,7 +6,6 @@
 
 #include "tasks/task_thread.hpp"
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -57,6 +56,8 @@ void requireFit(const Simplex& simplex, const Archive& archive, const char* othe
 
 }  // namespace
 
+const std::string& SimplexCS::filesFolder() const { return runtime().options().files; }
+
 std::vector<std::byte> SimplexCS::savedState() {
     refuseUnderClock(*this, runtime().writersRefused());
     Archive measured;
@@ -76,69 +77,6 @@ void SimplexCS::restoreState(std::span<const std::byte> saved) {
     requireFit(*this, check, "nothing was restored");
     Archive archive{saved, Archive::Purpose::Restore};
     keep(archive);
-}
-
-// Handles on the three commands of a simplex of another agent.
-struct SimplexCS::LifeCycleSender::Remote {
-    CommandSender& of(LifeCycle command) {
-        return senders[static_cast<std::size_t>(command) - std::size_t{1}];
-    }
-    std::array<CommandSender, 3> senders;  // in the order of LifeCycle, without None
-    const CommandSender* last = nullptr;
-};
-
-SimplexCS::LifeCycleSender SimplexCS::lifeCycle(const RelatedSimplex& target, bool manage) {
-    LifeCycleSender sender;
-    sender.runtime_ = &runtime();
-    if (target.isRemote() && target.type().isA("Active")) {
-        if (manage) {
-            throw Error(path() + ": " + target.path() +
-                        " belongs to another agent, whose group commands do not ask this one: "
-                        "leave out `manage`");
-        }
-        const InputSimplex input{target};
-        sender.remote_ = std::make_shared<LifeCycleSender::Remote>();
-        sender.remote_->senders = {input.command("startup", 1), input.command("shutdown", 1),
-                                   input.command("clearFaults", 1)};
-        sender.state_ = input.data<std::int64_t>("state");
-        return sender;
-    }
-    const auto* active =
-        target.isRemote() ? nullptr : dynamic_cast<const SimplexCS*>(&target.simplex());
-    if (active == nullptr) {
-        throw Error(path() + ": " + target.path() + " has no life cycle; it is a " +
-                    target.type().name + ", not an active simplex");
-    }
-    sender.target_ = active->index();
-    sender.isDelayed_ = target.isDelayed();
-    sender.state_ = InputSimplex{target}.data<std::int64_t>("state");
-    if (manage) static_cast<SimplexCS&>(runtime().simplex(active->index())).manager_ = index();
-    return sender;
-}
-
-AgentRuntime& SimplexCS::LifeCycleSender::bound() const {
-    if (runtime_ == nullptr) throw UnboundHandle{"LifeCycleSender", this};
-    return *runtime_;
-}
-
-State SimplexCS::LifeCycleSender::state() const {
-    bound();
-    return static_cast<State>(static_cast<std::int64_t>(state_));
-}
-
-const AnswerHead& SimplexCS::LifeCycleSender::answer() const {
-    static const AnswerHead none;
-    bound();
-    return remote_ != nullptr && remote_->last != nullptr ? remote_->last->answer() : none;
-}
-
-void SimplexCS::LifeCycleSender::post(LifeCycle command) {
-    AgentRuntime& agent = bound();
-    if (remote_ == nullptr) return agent.postLifeCycle(target_, command, isDelayed_);
-    CommandSender& sender = remote_->of(command);
-    if (sender.sent() != sender.answered()) return;
-    sender.send();
-    remote_->last = &sender;
 }
 
 }  // namespace cortex::cs

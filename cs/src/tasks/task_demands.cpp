@@ -44,7 +44,7 @@ bool TaskDemands::limit(Task& task, const Tick& tick) {
     return again;
 }
 
-void TaskDemands::settle(Task& task, bool bound) {
+void TaskDemands::settle(Task& task, const Tick& tick, bool bound) {
     const SimplexCS& simplex = *task.simplex;
     const bool rests = isResting(simplex.state_);
     task.demands = bound ? Task::Demands::Bound : Task::Demands::Free;
@@ -52,6 +52,7 @@ void TaskDemands::settle(Task& task, bool bound) {
         if (output.safe == nullptr) continue;
         if (rests) tellInVain(task, output, "a hook or handler");
         if (rests || simplex.safeByLoss_) {
+            output.safe->slow(tick.elapsedSeconds());
             output.safe->hold();
             output.standsSafe = true;
         } else {
@@ -134,7 +135,9 @@ void TaskDemands::reportLimits(const DemandLimits& limits, std::uint32_t simplex
         } else if (each.noLabel) {
             text << " was " << each.value << ", none of its labels; " << each.limit << " stays";
         } else {
-            text << " limited from " << each.value << " to " << each.limit;
+            text << " limited from ";
+            text.apart(each.value, each.limit) << " to ";
+            text.apart(each.limit, each.value);
             if (!each.item->unit.empty()) text << " " << each.item->unit;
             if (each.byRate) text << " by its rate";
         }
@@ -142,14 +145,29 @@ void TaskDemands::reportLimits(const DemandLimits& limits, std::uint32_t simplex
     }
 }
 
-void TaskDemands::arbitrate(Arbiter& arbiter, const Tick& tick, TaskThread& thread) {
-    std::uint32_t active = 0;
+// Whether several are Active that nobody hands over.
+bool TaskDemands::choose(Arbiter& arbiter) {
+    std::uint32_t active = 0, first = 0, last = 0, manager = noSimplex;
+    bool managed = true;
     for (std::uint32_t i = 0; i < arbiter.candidates.size(); ++i) {
-        if (arbiter.candidates[i].writer->state_ != State::Active) continue;
-        if (active++ == 0) arbiter.selected = i;
+        const Arbiter::Candidate& each = arbiter.candidates[i];
+        if (each.writer->state_ != State::Active) continue;
+        if (active++ == 0) {
+            first = last = i;
+            manager = each.writer->manager_;
+            continue;
+        }
+        managed = managed && manager != noSimplex && each.writer->manager_ == manager;
+        if (*each.stateSince > *arbiter.candidates[last].stateSince) last = i;
     }
+    if (active > 0) arbiter.selected = managed ? last : first;
+    return active > 1 && !managed;
+}
+
+void TaskDemands::arbitrate(Arbiter& arbiter, const Tick& tick, TaskThread& thread) {
+    const bool conflict = choose(arbiter);
     Arbiter::Candidate& chosen = arbiter.candidates[arbiter.selected];
-    if (active > 1) {
+    if (conflict) {
         ++thread.conflicts;
         if (!arbiter.inConflict) {
             EventText text{"several writers are Active; taken is "};
@@ -158,10 +176,13 @@ void TaskDemands::arbitrate(Arbiter& arbiter, const Tick& tick, TaskThread& thre
                             text);
         }
     }
-    arbiter.inConflict = active > 1;
+    arbiter.inConflict = conflict;
+    const double elapsed = tick.elapsedSeconds();
+    if (chosen.output->standsSafe && chosen.output->safe->stops()) {
+        chosen.output->safe->put(elapsed);  // its writer may run in fewer cycles
+    }
     copySlice(arbiter.sizes, chosen.slice, arbiter.live);
     if (arbiter.limits == nullptr) return;
-    const double elapsed = tick.elapsedSeconds();
     const LimitResult result = arbiter.limits->apply(elapsed);
     // Events here are the shared simplex's: its writer's own may come from another thread.
     const bool demands = !chosen.output->standsSafe;
@@ -173,7 +194,8 @@ void TaskDemands::arbitrate(Arbiter& arbiter, const Tick& tick, TaskThread& thre
         chosen.writer->pending_.demandRefused = true;
     }
     if (faults || result.notFinite) {
-        chosen.output->safe->latch();
+        chosen.output->safe->latch(SafeDemands::Latch::Stop);
+        chosen.output->safe->slow(elapsed);
         chosen.output->safe->write();
         copySlice(arbiter.sizes, chosen.slice, arbiter.live);
         *arbiter.live.state = ofSafeDemand(chosen.writer->index(), tick);

@@ -97,7 +97,7 @@ SlotState TaskInputs::read(Task& task, const Tick& tick) {
     if (safe || simplex.safeByLoss_) {
         safe = safe && !isResting(simplex.state_);
         if (safe && !simplex.safeByLoss_) {
-            demands_.latchSafe(task);
+            demands_.latchSafe(task, SafeDemands::Latch::Stop);
             demands_.writeSafe(task);
         }
         simplex.safeByLoss_ = safe;

@@ -4,6 +4,7 @@
 #include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
 
+#include "tasks/refused_exit.hpp"
 #include "tasks/state_machine.hpp"
 #include "tasks/unbound_handle.hpp"
 
@@ -30,6 +31,7 @@ TaskRunner::TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64
       values_{set_},
       chunks_{schedule.chunks},
       positions_{std::make_unique<Position[]>(agent.threadCount())},
+      escapes_{std::make_unique<Escape[]>(agent.threadCount())},
       timed_{agent.options().realTime && set_.tasks.size() <= timedWhole ? timedWhole
                                                                          : timedInTurn} {}
 
@@ -60,11 +62,19 @@ void TaskRunner::noteStandstill(const Tick& tick) {
 }
 
 void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
+    set_.threads[worker].loop->clock = {tick_.cycle, monotonicNow()};
+    const std::uint32_t first = chunks_[chunk].first, end = first + chunks_[chunk].count;
+    // Locals keep their values over the jump, as none is changed after this.
+    if (_setjmp(escapes_[worker].place) == 0)
+        runTasks(first, end, worker);
+    else
+        runTasks(endEscaped(first, end, worker), end, worker);
+}
+
+void TaskRunner::runTasks(std::uint32_t from, std::uint32_t end, std::uint32_t worker) {
     TaskThread& thread = set_.threads[worker];
     Position& position = positions_[worker];
-    thread.loop->clock = {tick_.cycle, monotonicNow()};
-    const std::uint32_t end = chunks_[chunk].first + chunks_[chunk].count;
-    for (std::uint32_t i = chunks_[chunk].first; i < end; ++i) {
+    for (std::uint32_t i = from; i < end; ++i) {
         if (i - firstTimed_ < timed_)  // for those before it this is a large number
             runTimed(set_.tasks[i], thread, position);
         else
@@ -72,6 +82,17 @@ void TaskRunner::run(std::uint32_t chunk, std::uint32_t worker) {
     }
     position.simplex.store(noSimplex, std::memory_order_relaxed);
     position.setHook(Hook::None);
+}
+
+std::uint32_t TaskRunner::endEscaped(std::uint32_t from, std::uint32_t end, std::uint32_t worker) {
+    const std::uint32_t simplex = positions_[worker].simplex.load(std::memory_order_relaxed);
+    while (from < end && set_.tasks[from].index != simplex) ++from;
+    if (from == end) return end;
+    Task& task = set_.tasks[from];
+    task.simplex->enterFault(HookThrew, refusedExitText());
+    task.simplex->dead_ = true;
+    endTask(task, *task.simplex, tick_);
+    return from + 1;
 }
 
 void TaskRunner::runTimed(Task& task, TaskThread& thread, Position& position) {
@@ -115,7 +136,7 @@ inline void TaskRunner::runSimplex(Task& task, const Tick& tick, TaskThread& thr
     try {
         const std::uint8_t calls = set_.agent.calls(task.index);
         if (states_.mayMove(simplex, calls)) states_.transition(task, tick);
-        if (isPassing(simplex.state_)) demands_.put(task);
+        if (isPassing(simplex.state_)) demands_.put(task, tick);
         if (AgentRuntime::hasCommandWork(calls)) {
             set_.agent.processCommands(task.index, simplex.state_, *thread.loop, simplex.dead_);
             if (task.demands != Task::Demands::None) demands_.tellHandlersInVain(task);
@@ -134,6 +155,12 @@ inline void TaskRunner::runSimplex(Task& task, const Tick& tick, TaskThread& thr
         simplex.enterFault(HookThrew, "a hook threw something that is no std::exception");
         simplex.dead_ = true;
     }
+    endTask(task, simplex, tick);
+}
+
+// After its hooks, however they ended. In line, as it runs for each task of each cycle.
+[[gnu::always_inline]] inline void TaskRunner::endTask(Task& task, SimplexCS& simplex,
+                                                       const Tick& tick) {
     if (simplex.pending_.fault) states_.enterFault(task, tick);
     if (task.demands != Task::Demands::None) finishDemands(task, tick);
     TaskInputs::settleQuality(set_.states[task.index], task, simplex, tick);
@@ -177,11 +204,11 @@ void TaskRunner::runPassing(SimplexCS& simplex, const Tick& tick, Position& posi
 // After all hooks, whoever of them wrote: safe values where they stand, then limits. What is not a
 // number or faults the task becomes safe, and is limited once more.
 void TaskRunner::finishDemands(Task& task, const Tick& tick) {
-    demands_.settle(task);
+    demands_.settle(task, tick);
     bool again = demands_.limit(task, tick);
     if (task.simplex->pending_.fault) {
         states_.enterFault(task, tick);
-        demands_.settle(task);
+        demands_.settle(task, tick);
         again = true;
     }
     demands_.accept(task, tick, again);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tasks/crash_report.hpp"
 #include "tasks/hook.hpp"
 #include "tasks/task_demands.hpp"
 #include "tasks/task_inputs.hpp"
@@ -41,6 +42,7 @@ public:
     TaskStates& states() { return states_; }
     const TaskDemands& demands() const { return demands_; }
     const Position& position(std::uint32_t worker) const { return positions_[worker]; }
+    Escape& escape(std::uint32_t worker) { return escapes_[worker]; }
     RunnerCounts counts() const;
     // Of the last cycle. Small sets of tasks are timed whole, of others a few a cycle in turn,
     // however they are cut into chunks.
@@ -49,6 +51,10 @@ public:
     bool timedAll() const { return timedAll_; }
 
 private:
+    void runTasks(std::uint32_t from, std::uint32_t end, std::uint32_t worker) CORTEX_REALTIME;
+    // After an exit() in a hook: that task ends in Fault. Returns the place of the next one.
+    std::uint32_t endEscaped(std::uint32_t from, std::uint32_t end, std::uint32_t worker);
+    void endTask(Task& task, SimplexCS& simplex, const Tick& tick) CORTEX_REALTIME;
     void noteStandstill(const Tick& tick) CORTEX_REALTIME;
     // False: it is not its turn, or nobody's task.
     bool runTask(Task& task, TaskThread& thread, Position& position) CORTEX_REALTIME;
@@ -69,6 +75,7 @@ private:
     TaskValues values_;
     std::span<const Chunk> chunks_;
     std::unique_ptr<Position[]> positions_;
+    std::unique_ptr<Escape[]> escapes_;
     Tick tick_;
     const std::uint32_t timed_;     // so many tasks in a cycle
     std::uint32_t firstTimed_ = 0;  // in the order of execution

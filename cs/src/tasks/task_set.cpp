@@ -64,8 +64,8 @@ struct TaskBuilder {
         agent.tables().latch();
         for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
             if (!isDemand(i)) continue;
-            set.limits.push_back(
-                std::make_unique<DemandLimits>(layout(i), agent.tables().live(i), i));
+            set.limits.push_back(std::make_unique<DemandLimits>(layout(i), agent.tables().live(i),
+                                                                agent.tables().acceptedCopy(i), i));
             limitsOf[i] = set.limits.back().get();
         }
         set.tasks.resize(schedule.tasks.size());
@@ -184,7 +184,10 @@ struct TaskBuilder {
             output.checks = checksOf(out, edge.target);
         }
         set.outputs.push_back(output);
-        if (shared) candidates[edge.target].push_back({&writer, out, &set.outputs.back()});
+        if (shared) {
+            candidates[edge.target].push_back(
+                {&writer, out, &set.outputs.back(), &set.detailsOf(task).stateSince});
+        }
         if (output.checks != nullptr) task.values = Task::Values::ToPass;
     }
 

@@ -58,12 +58,14 @@ struct TaskOutput {
     LimitResult refused;      // set by the arbiter: this demand faults its writer
 };
 
-// A simplex that several tasks write: takes the candidate of the one that is Active.
+// A simplex that several tasks write: takes the candidate of the one that is Active; of several
+// with one manager, of the one that became so last.
 struct Arbiter {
     struct Candidate {
         SimplexCS* writer;
         Slice slice;
         TaskOutput* output;
+        const std::int64_t* stateSince;  // of the writer
     };
     std::uint32_t target = noSimplex;
     BlockSizes sizes;

@@ -109,7 +109,8 @@ void TaskStates::enter(Task& task, State to, const Tick& tick) {
     }
     const bool comesToRest = to == State::Standby && from != State::Fault;
     if (from == State::Active || to == State::StartingUp || to == State::Fault || comesToRest) {
-        demands_.latchSafe(task);
+        demands_.latchSafe(
+            task, to == State::StartingUp ? SafeDemands::Latch::Startup : SafeDemands::Latch::Stop);
         demands_.writeSafe(task);
     }
     if (from == State::Fault) {

@@ -3,6 +3,9 @@
 
 #include "cortex/core/labelled_value.hpp"
 
+#include <optional>
+#include <variant>
+
 namespace cortex::cs {
 
 namespace {
@@ -10,6 +13,15 @@ namespace {
 EventText& operator<<(EventText& text, const Number& number) {
     if (const auto* whole = std::get_if<std::int64_t>(&number)) return text << *whole;
     return text << std::get<double>(number);
+}
+
+// The bound that a value is beyond; itself where there is none.
+double boundBeyond(const DataItem& item, double value) {
+    const auto number = [value](const std::optional<Number>& bound) {
+        if (!bound) return value;
+        return std::visit([](auto each) { return static_cast<double>(each); }, *bound);
+    };
+    return value > number(item.max) ? number(item.max) : number(item.min);
 }
 
 // The labels are the range of an item that has no other.
@@ -58,7 +70,8 @@ void TaskValues::report(const ValueChecks& checks, const ValueChecks::Beginning&
     if (each.notFinite) {
         text << " is not a number: its quality is bad";
     } else {
-        text << " is " << each.value;
+        text << " is ";
+        text.apart(each.value, boundBeyond(item, each.value));
         if (!item.unit.empty()) text << " " << item.unit;
         describeRange(item, text);
     }

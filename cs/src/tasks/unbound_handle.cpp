@@ -36,6 +36,11 @@ std::string_view itemAt(const void* cell, std::uint32_t simplex, const Tables& t
         const std::string_view item = itemIn(*structure.simplexes[target].layout, tables.seen(edge),
                                              tables.constants(target), cell);
         if (!item.empty()) return item;
+        const Slice accepted = tables.acceptedCopy(target);
+        if (accepted.state == nullptr) continue;
+        const std::string_view read =
+            itemIn(*structure.simplexes[target].layout, accepted, tables.constants(target), cell);
+        if (!read.empty()) return read;
     }
     return {};
 }

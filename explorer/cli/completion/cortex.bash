@@ -30,7 +30,7 @@ _cortex() {
                     -- "$word")
                 return
             fi
-            options="--authority --out --read-only --may-command --domain --days --json --help"
+            options="--authority --out --read-only --may-command --owns --domain --days --json --help"
             ;;
         new-system) options="--output --force --json --help" ;;
         *) return ;;
@@ -63,7 +63,7 @@ _cortex() {
                 sed -n 's/^ *\([A-Za-z0-9_-]*\).*/\1/p' | sort -u)" -- "$word")
             ((${#COMPREPLY[@]})) && return
         fi
-        ((${#files[@]})) || files=(robotics-morphology.xml)
+        ((${#files[@]})) || files=(cortex-morphology.xml)
         mapfile -t COMPREPLY < <(compgen -W "$("$1" types --file "${files[@]}" 2>/dev/null |
             sed -n 's/^ *\([A-Za-z0-9_-]*\).*/\1/p' | sort -u)" -- "$word")
         return

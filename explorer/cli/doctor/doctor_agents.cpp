@@ -60,13 +60,19 @@ void examineState(const comms::AgentStatus& agent, Diagnoses& found) {
         add(Level::Ok, who + ", security " + (agent.security.empty() ? "none" : agent.security),
             "");
     }
+    if (!agent.otherSelf.empty()) {
+        add(Level::Error, who + " is not alone with its name: " + agent.otherSelf,
+            "end the other one; if nobody started it, somebody forges messages: turn security on");
+    }
     if (!agent.dropped.empty()) {
         add(Level::Warning, who + " dropped datagrams: " + printable(agent.dropped),
             "its events say where they came from (cortex events)");
     }
     if (!agent.refused.empty()) {
+        const bool hasReason = agent.refused.find(':') != std::string::npos;
         add(Level::Warning,
-            who + " refused messages: " + printable(agent.refused) + " (the last reason)",
+            who + " refused messages: " + printable(agent.refused) +
+                (hasReason ? " (the last reason)" : ""),
             remedyFor(agent.refused));
     }
     if (agent.loss > 0) {
@@ -99,7 +105,8 @@ void examineNames(const std::map<std::string, std::set<std::int64_t>>& starts,
     }
     for (const std::string& each : doubled) {
         found.push_back({Level::Error, "name", "several agents are called " + each,
-                         "give each its own name: <cluster name=…> in its system file"});
+                         "if one system runs twice, end the one that was started later; if they "
+                         "are two systems, give one another name: <cluster name=…>"});
     }
 }
 
@@ -142,21 +149,29 @@ void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
     }
     const auto agents = live.mirror().agents();
     viewOwnSimplexes(live);
+    const std::string closed = closedText(live.mirror().closed());
     if (agents.empty()) {
+        const Trouble trouble = live.nobody();
+        found.push_back({trouble.isError ? Level::Error : Level::Warning, "agents", trouble.what,
+                         trouble.remedy});
+    } else if (!closed.empty()) {
         found.push_back(
-            {Level::Warning, "agents",
-             "no agent answers on domain " + std::to_string(live.domain()),
-             "start one (cortex-agent FILE --domain " + std::to_string(live.domain()) +
-                 "), look at another domain (--domain N), or name its host (--peer HOST)"});
+            {Level::Error, "security", closed + ", and cannot be seen without it", nameAFolder});
     }
     for (const auto& each : live.mirror().agents()) {
         examineState(each, found);
         examineCpus(live, each, found);
         if (each.host != hostName()) examineClock(live, each, found);
     }
-    for (const std::string& each : live.contradictions()) {
-        found.push_back({Level::Error, "path", each,
-                         "give one of the two simplexes another path in its system file"});
+    for (const comms::Contested& each : live.mirror().contested()) {
+        found.push_back({Level::Error, "owner", each.text,
+                         "give one of the simplexes another path in its system file, stop one of "
+                         "the agents, or say with security whose it is (cortex security "
+                         "create-agent NAME --owns PREFIX)"});
+    }
+    if (const std::string refused = live.refusedHere(); !refused.empty() && !agents.empty()) {
+        found.push_back({Level::Warning, "this tool", printable(refused),
+                         "look for programs of another version, and for strangers on the network"});
     }
     examineSecurity(agents, found);
     examineNames(starts, arrivals.take(std::chrono::milliseconds{0}), found);

@@ -116,7 +116,13 @@ std::string multicastTrouble(const Interface& interface) {
 
 void examineInterfaces(Diagnoses& found) {
     std::size_t outward = 0;
-    for (const Interface& each : interfaces()) {
+    const std::vector<Interface> all = interfaces();
+    if (all.empty()) {
+        found.push_back({Level::Error, "interface", "no network interface is up",
+                         "ip link set lo up reaches this host, and another one other hosts"});
+        return;
+    }
+    for (const Interface& each : all) {
         if (each.loopback) {
             found.push_back({Level::Ok, "interface", each.text() + ": this host only", ""});
             continue;
@@ -134,8 +140,9 @@ void examineInterfaces(Diagnoses& found) {
         }
     }
     if (outward > 0) return;
-    found.push_back({Level::Warning, "interface", "no network but this host itself",
-                     "bring an interface up: ip -brief address"});
+    found.push_back(
+        {Level::Warning, "interface", "no network but this host itself",
+         "for other hosts bring a card up: ip link set NAME up, with a name from ip -brief link"});
 }
 
 bool canBind(int port, bool shared) {

@@ -41,7 +41,7 @@ std::string holdersText(Live& live, const Lease& key) {
 [[noreturn]] void failToTake(Live& live, const Lease& key, const comms::CommandAnswer& answer) {
     const std::string start = "no control of " + key.prefix + " of agent " + key.agent + ": ";
     if (answer.outcome == Outcome::Unknown) throw Failure{NotFound, start + answer.text()};
-    const std::string holders = answer.reason == Reason::Authority ? holdersText(live, key) : "";
+    const std::string holders = lacksControl(answer) ? holdersText(live, key) : "";
     if (holders.empty()) throw Failure{No, start + answer.text()};
     throw Failure{No, start + holders +
                           "; the holder must release it or hand it over to you, nobody else can; "
@@ -122,6 +122,23 @@ std::optional<std::string> controlledBy(const FoundSimplex& simplex,
     const Value& value = given != arguments.end() ? given->second : prefix->item->initial;
     const auto* text = std::get_if<std::vector<std::string>>(&value);
     return text != nullptr && text->size() == 1 ? withoutEnd(text->front()) : simplex.info().path;
+}
+
+bool lacksControl(const comms::CommandAnswer& answer) {
+    return answer.reason == Reason::Authority &&
+           (answer.why.find(" is held by ") != std::string::npos ||
+            answer.why.starts_with("control is required"));
+}
+
+std::string authorityHint(const comms::CommandAnswer& answer) {
+    if (lacksControl(answer)) {
+        return "cortex: --take takes control for one command; 'cortex leases' shows who has it\n";
+    }
+    const bool lacksRight = answer.why.starts_with("it may only look") ||
+                            answer.why.starts_with("its authority ends at ");
+    if (!lacksRight) return {};
+    return "cortex: the security folder of this tool gives it no such right ('cortex security show "
+           "FOLDER'); 'cortex security create-agent' makes one with more\n";
 }
 
 BriefControl::BriefControl(Live& live, const std::string& agent, const std::string& prefix)

@@ -22,6 +22,11 @@ std::optional<std::string> controlledBy(const FoundSimplex& simplex,
                                         const CommandTable::Entry& command,
                                         const comms::Mirror::Arguments& arguments);
 
+// Whether control, which somebody else has or nobody, is what a command lacks.
+bool lacksControl(const comms::CommandAnswer& answer);
+// What to do about a command that was refused for want of control or of a right, a line; or "".
+std::string authorityHint(const comms::CommandAnswer& answer);
+
 // Control for the time of one verb, unless the session has it anyway.
 class BriefControl {
 public:

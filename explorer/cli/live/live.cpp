@@ -11,8 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <map>
-#include <set>
+#include <ranges>
 #include <tuple>
 
 namespace cortex::cli {
@@ -20,6 +19,8 @@ namespace {
 
 using Milliseconds = std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t mostContests = 8;  // that are printed one by one
 
 comms::NetworkOptions optionsOf(const NetworkArguments& arguments) {
     comms::NetworkOptions options;
@@ -37,7 +38,13 @@ int domainOf(const NetworkArguments& arguments) { return optionsOf(arguments).do
 
 void checkPath(const std::string& path) {
     const std::string wrong = SimplexTree::pathError(path);
-    if (!wrong.empty()) throw Failure{Usage, "'" + path + "': " + wrong};
+    if (wrong.empty()) return;
+    const std::string simplex = path.substr(0, path.find('.'));
+    const bool isItem = simplex != path && SimplexTree::pathError(simplex).empty();
+    throw Failure{
+        Usage,
+        "'" + path + "': " +
+            (isItem ? "an item has no path of its own; name its simplex: " + simplex : wrong)};
 }
 
 void checkPrefix(const std::string& prefix) {
@@ -48,13 +55,17 @@ std::shared_ptr<Session> makeSession(const NetworkArguments& arguments) {
     comms::NetworkOptions options = optionsOf(arguments);
     const bool chosen =
         !options.interfaces.empty() || !options.peers.empty() || !options.discoveryServer.empty();
-    if (!chosen && comms::onlyOnLoopback(options.domain)) {
+    const comms::OnLoopback there = comms::onLoopback(options.domain);
+    if (!chosen && there == comms::OnLoopback::All) {
         options.interfaces = {"127.0.0.1"};
         std::cerr << "cortex: looks on the loopback interface alone, to which all agents and tools "
                      "of domain "
                   << options.domain << " on this machine keep; --interface ADDR looks elsewhere\n";
     }
-    return std::make_shared<Session>(options);
+    if (!chosen && there == comms::OnLoopback::Some) comms::alsoOnLoopback(options);
+    if (const std::string trouble = comms::networkTrouble(options); !trouble.empty())
+        throw Failure{NotFound, trouble};
+    return std::make_shared<Session>(options, optionsOf(arguments).interfaces);
 }
 
 Live::Live(const NetworkArguments& arguments)
@@ -95,36 +106,38 @@ std::optional<std::string> Live::waitForOwner(const std::string& path) {
     std::optional<std::string> owner;
     waitInSlices([&](Milliseconds limit) {
         owner = mirror().waitForOwner(path, limit);
-        const auto agents = mirror().agents();
-        return std::ranges::any_of(agents,
-                                   [&](const comms::AgentStatus& each) {
-                                       return each.name == owner && each.state != "lost";
-                                   }) ||
-               mirror().waitUntilComplete(Milliseconds{0});
+        return owner || mirror().waitUntilComplete(Milliseconds{0});
     });
     return owner ? owner : mirror().ownerOf(path);  // it may have come after it was asked for
 }
 
+Trouble Live::nobody() const {
+    Nobody found{.domain = session_->domain(),
+                 .waited = timeout_,
+                 .interfaces = session_->named(),
+                 .otherDomains = otherDomains(),
+                 .closed = mirror().closed(),
+                 .nameless = mirror().nameless(),
+                 .strangers = strangers(),
+                 .refused = refusedHere()};
+    return troubleOf(found);
+}
+
+std::vector<int> Live::otherDomains() const {
+    std::vector<int> domains = comms::domainsHere();
+    std::erase(domains, session_->domain());
+    return domains;
+}
+
+std::uint64_t Live::strangers() const {
+    const auto refusals = mirror().refusals();
+    const auto found = refusals.find("security refused their sender");
+    return found != refusals.end() ? found->second : 0;
+}
+
 void Live::failWithNobody() const {
-    const std::string domain = std::to_string(session_->domain());
-    if (mirror().closed() > 0) {
-        throw Failure{NotFound, "no agent on domain " + domain +
-                                    " can be seen without security: " + closed() +
-                                    "; name a folder that 'cortex security "
-                                    "create-agent' made (--security FOLDER or "
-                                    "CORTEX_SECURITY)"};
-    }
-    if (mirror().nameless() > 0) {
-        throw Failure{NotFound, "no agent on domain " + domain + " is known yet: " + nameless() +
-                                    " within " + limitText() + "; wait longer (--timeout)"};
-    }
-    throw Failure{
-        NotFound,
-        "no agent on domain " + domain + "; start one (cortex-agent FILE --domain " + domain +
-            "), look at another domain (--domain N or CORTEX_DOMAIN), name the interface that the "
-            "agents are kept to (--interface lo or CORTEX_INTERFACE), or a host that multicast "
-            "does not reach "
-            "(--peer HOST)"};
+    const Trouble trouble = nobody();
+    throw Failure{NotFound, trouble.what + "; " + trouble.remedy};
 }
 
 std::string Live::limitText() const {
@@ -136,21 +149,6 @@ comms::AgentStatus Live::statusOf(const std::string& agent) const {
         if (each.name == agent) return each;
     }
     return {};
-}
-
-std::string Live::closed() const {
-    const std::uint32_t count = mirror().closed();
-    return count == 0 ? ""
-                      : plural(count, "participant") + " with security " +
-                            (count == 1 ? "was" : "were") + " heard";
-}
-
-std::string Live::nameless() const {
-    const std::uint32_t count = mirror().nameless();
-    return count == 0
-               ? ""
-               : plural(count, "participant") + " of CorteX " + (count == 1 ? "was" : "were") +
-                     " found and did not say who " + (count == 1 ? "it is" : "they are");
 }
 
 std::string Live::incomplete() const {
@@ -170,6 +168,14 @@ std::string Live::incomplete() const {
     return parts.empty() ? "" : "incomplete: " + joined(parts);
 }
 
+std::string Live::refusedHere() const {
+    std::vector<std::string> parts;
+    for (const auto& [reason, count] : mirror().refusals()) {
+        parts.push_back(std::to_string(count) + " (" + reason + ")");
+    }
+    return parts.empty() ? "" : "this tool itself refused messages: " + joined(parts);
+}
+
 std::vector<std::string> Live::paths() const {
     std::vector<std::string> paths;
     for (const FoundSimplex& each : below("/")) paths.push_back(each.info().path);
@@ -182,16 +188,33 @@ FoundSimplex Live::find(const std::string& path) {
         FoundSimplex found{*owner, mirror().structure(*owner), 0};
         if (found.structure) {
             found.index = found.structure->find(path);
+            const auto contest = contestOf(path);
+            if (contest && told_.insert(path).second) {
+                std::cerr << "cortex: " << printable(contest->text) << '\n';
+            }
             return found;
         }
     }
+    if (const auto contest = contestOf(path)) throw Failure{NotFound, printable(contest->text)};
     if (mirror().agents().empty()) failWithNobody();
     const std::string nearest = nearestNames(path, paths());
     const bool all = mirror().waitUntilComplete(Milliseconds{0});
-    throw Failure{NotFound, (all ? "no agent has a simplex " + path
+    throw Failure{NotFound, (all ? "no agent has a simplex " + path + elsewhere()
                                  : path + " was not found within " + limitText() +
                                        ", which does not mean that it is not there: " + heard()) +
                                 (nearest.empty() ? "" : "; " + nearest)};
+}
+
+// Where a simplex may be that no agent has which can be seen.
+std::string Live::elsewhere() const {
+    const std::string others = closedText(mirror().closed());
+    if (!others.empty())
+        return " that can be seen without security: " + others + "; " + nameAFolder;
+    const std::string domains = domainsText(otherDomains());
+    return domains.empty()
+               ? ""
+               : " on domain " + std::to_string(session_->domain()) +
+                     ", while this machine has participants of " + domains + " (--domain N)";
 }
 
 // What was heard until the time was over, where that is not everything.
@@ -202,29 +225,47 @@ std::string Live::heard() const {
         if (each.state != "incomplete") continue;
         parts.push_back(each.name + " was heard, but its model did not come");
     }
-    const std::string others = nameless();
+    const std::string others = namelessText(mirror().nameless());
     if (!others.empty()) parts.push_back(others);
     const std::string lacking = incomplete();
     return joined(parts) + (lacking.empty() ? "" : "; " + lacking) + "; wait longer (--timeout)";
 }
 
-// Who claims a path that another agent has, and who gets its commands.
-std::vector<std::string> Live::contradictions() const {
-    std::map<std::string, std::vector<std::string>> claims;
-    std::set<std::string> lost;
-    for (const comms::AgentStatus& each : mirror().agents()) {
-        if (each.state == "lost") lost.insert(each.name);
+namespace {
+
+bool isSame(const comms::Contested& one, const comms::Contested& other) {
+    return one.agents == other.agents && one.owner == other.owner && one.why == other.why;
+}
+
+// Of a tree that several agents have, the top, with the number of paths below.
+void printContests(const std::vector<comms::Contested>& all) {
+    std::vector<std::pair<const comms::Contested*, std::size_t>> tops;
+    for (const comms::Contested& each : all) {
+        const auto top = std::ranges::find_if(tops, [&](const auto& known) {
+            return isAtOrBelow(each.path, known.first->path) && isSame(each, *known.first);
+        });
+        if (top != tops.end())
+            ++top->second;
+        else
+            tops.emplace_back(&each, 0);
     }
-    for (const FoundSimplex& each : below("/")) {
-        if (!lost.contains(each.agent)) claims[each.info().path].push_back(each.agent);
+    for (const auto& [contest, below] : tops | std::views::take(mostContests)) {
+        std::cerr << "cortex: " << printable(contest->text);
+        if (below > 0) std::cerr << "; the same of " << plural(below, "path") << " below";
+        std::cerr << '\n';
     }
-    std::vector<std::string> found;
-    for (const auto& [path, agents] : claims) {
-        if (agents.size() < 2) continue;
-        found.push_back("agents " + joined(agents) + " both have " + path + "; commands go to " +
-                        ownerOf(path).value_or("none"));
+    if (tops.size() > mostContests) {
+        std::cerr << "cortex: so it is with " << tops.size() - mostContests << " further paths\n";
     }
-    return found;
+}
+
+}  // namespace
+
+std::optional<comms::Contested> Live::contestOf(const std::string& path) const {
+    for (comms::Contested& each : mirror().contested()) {
+        if (each.path == path) return std::move(each);
+    }
+    return {};
 }
 
 void Live::printWarnings() const {
@@ -233,10 +274,10 @@ void Live::printWarnings() const {
         if (trouble.empty()) continue;
         std::cerr << "cortex: " << printable(each.name + " " + trouble) << '\n';
     }
-    for (const std::string& each : contradictions()) {
-        std::cerr << "cortex: " << printable(each) << '\n';
-    }
-    const std::string others = closed();
+    printContests(mirror().contested());
+    const std::string refused = refusedHere();
+    if (!refused.empty()) std::cerr << "cortex: " << printable(refused) << '\n';
+    const std::string others = closedText(mirror().closed());
     if (others.empty()) return;
     std::cerr << "cortex: " << others
               << "; --security FOLDER shows what this tool may see of them\n";

@@ -3,6 +3,7 @@
 
 #include "cortex/comms/mirror.hpp"
 
+#include "live/nobody.hpp"
 #include "live/session.hpp"
 #include "text/output.hpp"
 
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,14 +65,16 @@ public:
     }
     // Until everything of everybody is here; throws Failure if nobody is there.
     void waitForAll();
-    // Two agents with one path, each as a sentence.
-    std::vector<std::string> contradictions() const;
+    // The path, if several agents have it.
+    std::optional<comms::Contested> contestOf(const std::string& path) const;
     // These, agents whose loop is not well, and participants that cannot be seen without security,
     // on standard error.
     void printWarnings() const;
     comms::AgentStatus statusOf(const std::string& agent) const;
     // "incomplete: 37 of 44 from robot", or "" when all is here.
     std::string incomplete() const;
+    // "this tool itself has refused 12: …, 3: …", or "" where it let everything in.
+    std::string refusedHere() const;
     FoundSimplex find(const std::string& path);  // throws Failure naming the nearest
     std::optional<std::string> ownerOf(const std::string& path) const {
         return mirror().ownerOf(path);
@@ -85,7 +89,8 @@ public:
     bool over() const { return std::chrono::steady_clock::now() >= end_; }
     std::chrono::milliseconds timeout() const { return timeout_; }
     int domain() const { return session_->domain(); }
-    [[noreturn]] void failWithNobody() const;  // throws Failure that says what to try
+    Trouble nobody() const;                    // why no agent is heard, with what to try
+    [[noreturn]] void failWithNobody() const;  // throws that as Failure
 
 private:
     template <class Wait>
@@ -93,12 +98,14 @@ private:
     std::vector<std::string> paths() const;
     std::string limitText() const;  // "3 s"
     std::string heard() const;
-    std::string closed() const;    // "2 participants with security were heard"; "" without any
-    std::string nameless() const;  // the same of those that did not say who they are
+    std::string elsewhere() const;
+    std::vector<int> otherDomains() const;
+    std::uint64_t strangers() const;
 
     std::chrono::milliseconds timeout_;
     std::chrono::steady_clock::time_point end_;
     std::shared_ptr<Session> session_;
+    std::set<std::string> told_;  // paths of several agents
 };
 
 // Throws Failure unless it can be the path of a simplex; a prefix may be "/" too.

@@ -28,6 +28,21 @@ Json agentJson(const comms::AgentStatus& agent) {
             {"standstill", agent.standstill}};
 }
 
+Json contestedJson(const comms::Contested& contested) {
+    return {{"path", contested.path},
+            {"agents", contested.agents},
+            {"owner", contested.owner},
+            {"why", contested.why}};
+}
+
+Json contestedJson(const std::vector<comms::Contested>& all, const std::string& agent) {
+    Json list = Json::array();
+    for (const comms::Contested& each : all) {
+        if (std::ranges::count(each.agents, agent) > 0) list.push_back(contestedJson(each));
+    }
+    return list;
+}
+
 Json eventJson(const comms::AgentEvent& event) {
     return {{"time", timeText(event.wallClock)},
             {"agent", event.agent},

@@ -36,6 +36,27 @@ std::string labelText(const DataItem& item, std::int64_t number) {
     return label != item.labels.end() ? label->second : toText(number);
 }
 
+// What of a value can be refused before the agent is asked; "" if nothing.
+std::string wrongArgument(const DataItem& item, const Value& value) {
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) {
+        for (const std::string& each : *texts) {
+            if (each.size() > item.capacity)
+                return "takes " + std::to_string(item.capacity) + " bytes, and " +
+                       std::to_string(each.size()) + " are given";
+        }
+    }
+    const auto* numbers = std::get_if<std::vector<std::int64_t>>(&value);
+    if (numbers == nullptr || item.labels.empty() || !isClosed(item)) return {};
+    const auto isLabel = [&](std::int64_t each) { return item.labels.contains(each); };
+    const auto wrong = std::ranges::find_if_not(*numbers, isLabel);
+    if (wrong == numbers->end()) return {};
+    std::string labels;
+    for (const auto& [number, label] : item.labels) {
+        labels.append(" ").append(toText(number)).append(":").append(label);
+    }
+    return toText(*wrong) + " has no label; labels:" + labels;
+}
+
 }  // namespace
 
 Json valueJson(const DataItem& item, const Value& value) {
@@ -105,7 +126,8 @@ ProgramInterface::Arguments parseArguments(const std::string& what, const Record
         }
         std::string why;
         auto value = parseItemValue(*item->item, text.substr(equals + 1), why);
-        if (!value) throw Failure{Usage, name + ": " + why};
+        if (value) why = wrongArgument(*item->item, *value);
+        if (!why.empty()) throw Failure{Usage, name + ": " + why};
         if (!arguments.emplace(name, std::move(*value)).second) {
             throw Failure{Usage, "'" + name + "' is given twice"};
         }

@@ -27,6 +27,8 @@ std::string rateText(const comms::AgentStatus& agent) {
 
 std::string loopTrouble(const comms::AgentStatus& agent) {
     if (!agent.standstill.empty() || !agent.overloaded) return agent.standstill;
+    if (agent.rate > 0 && agent.rate >= 0.9 * nominalRate(agent))
+        return "was overloaded until just now";
     return "is overloaded: it runs at " + tenths(agent.rate) + " Hz instead of " +
            tenths(nominalRate(agent)) + " Hz";
 }

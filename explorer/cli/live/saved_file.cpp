@@ -38,8 +38,7 @@ std::string savedText(const std::vector<SavedSimplex>& simplexes, const std::str
     for (const SavedSimplex& simplex : simplexes) {
         text += "  <simplex path=\"" + simplex.path + "\" type=\"" + simplex.type + "\">\n";
         for (const SavedItem& item : simplex.items) {
-            text +=
-                "    <set data=\"" + item.name + "\" value=\"" + xmlAttribute(item.value) + "\"/>";
+            text += "    " + setElement(item.name, item.value);
             if (!item.note.empty()) text += "  <!-- " + xmlComment(item.note) + " -->";
             text += '\n';
         }

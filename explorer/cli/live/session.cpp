@@ -13,8 +13,11 @@ constexpr std::size_t keptEvents = 1000;
 
 }  // namespace
 
-Session::Session(const comms::NetworkOptions& options)
-    : domain_{options.domain}, mirror_{"cortex", options}, leases_{mirror_} {}
+Session::Session(const comms::NetworkOptions& options, std::vector<std::string> named)
+    : domain_{options.domain},
+      named_{std::move(named)},
+      mirror_{"cortex", options},
+      leases_{mirror_} {}
 
 comms::CommandAnswer Session::call(const std::string& path, const std::string& command,
                                    const comms::Mirror::Arguments& arguments, Milliseconds limit,

@@ -21,11 +21,13 @@ public:
     using Milliseconds = std::chrono::milliseconds;
     using Listener = std::function<void(const comms::AgentEvent&)>;
 
-    explicit Session(const comms::NetworkOptions& options);
+    // `named`: interfaces that its user named.
+    explicit Session(const comms::NetworkOptions& options, std::vector<std::string> named = {});
 
     comms::Mirror& mirror() { return mirror_; }
     comms::LeaseClient& leases() { return leases_; }
     int domain() const { return domain_; }
+    const std::vector<std::string>& named() const { return named_; }
     // As the mirror does, but an interrupt ends it; `meanwhile` is called ten times a second.
     comms::CommandAnswer call(const std::string& path, const std::string& command,
                               const comms::Mirror::Arguments& arguments, Milliseconds limit,
@@ -43,6 +45,7 @@ private:
     void applyView();  // with the agents that are there now
 
     int domain_;
+    std::vector<std::string> named_;
     std::mutex viewMutex_;
     std::vector<std::string> wanted_, viewed_;
     std::uint32_t rate_ = slowRate, viewedRate_ = slowRate;

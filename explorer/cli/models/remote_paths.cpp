@@ -6,7 +6,9 @@
 #include "cortex/core/transport.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cortex::cli {
@@ -52,6 +54,13 @@ void compareTypes(Model& reader, const Simplex& owner, const Simplex::Relation& 
     }
 }
 
+// Of a system alone: nothing is wrong with it, and nothing is known of the other.
+void noteUnchecked(Model& reader, const Simplex& owner, const Simplex::Relation& relation) {
+    reader.report.add({Severity::Info, owner.path(), remotePath, relation.place,
+                       "not checked: " + relation.target + " of another agent",
+                       "add its system file to check both together"});
+}
+
 void checkRelation(Model& reader, const Simplex& owner, const Simplex::Relation& relation,
                    std::span<Model* const> systems) {
     for (const Model* each : systems) {
@@ -60,16 +69,21 @@ void checkRelation(Model& reader, const Simplex& owner, const Simplex::Relation&
         if (each != &reader) compareTypes(reader, owner, relation, *each, *target);
         return;
     }
-    addMissing(reader, owner, relation, systems);
+    if (systems.size() == 1)
+        noteUnchecked(reader, owner, relation);
+    else
+        addMissing(reader, owner, relation, systems);
 }
 
 }  // namespace
 
 void checkRemotePaths(std::span<Model* const> systems) {
     for (Model* reader : systems) {
+        std::set<std::string_view> noted;
         for (const auto& [path, simplex] : reader->tree->simplexes()) {
             for (const Simplex::Relation& relation : simplex->relations()) {
-                if (relation.remote) checkRelation(*reader, *simplex, relation, systems);
+                const bool again = systems.size() == 1 && !noted.insert(relation.target).second;
+                if (relation.remote && !again) checkRelation(*reader, *simplex, relation, systems);
             }
         }
     }

@@ -32,6 +32,8 @@ Json safeJson(const DataItem& item) {
             return "hold";
         case Safe::Kind::Observed:
             return "observed";
+        case Safe::Kind::Stop:
+            return "stop";
         case Safe::Kind::Given:
             break;
     }
@@ -81,6 +83,7 @@ Json dataJson(const DataItem& item) {
     json["on_limit"] = name(item.onLimit);
     json["at_rest"] = name(item.atRest);
     json["rate"] = orNull(item.rate);
+    json["derivative_of"] = item.derivativeOf;
     json["settable"] = statesJson(item.settable);
     json["constant"] = item.constant;
     json["measured"] = item.measured;

@@ -48,6 +48,8 @@ std::string safeOf(const DataItem& item) {
             return "safe hold";
         case Safe::Kind::Observed:
             return "safe observed";
+        case Safe::Kind::Stop:
+            return "safe stop";
         case Safe::Kind::Given:
             break;
     }
@@ -77,6 +79,7 @@ void printData(std::ostream& stream, const Type& type) {
             more.push_back("on limit " + std::string{name(item.onLimit)});
         if (item.atRest != AtRest::Safe) more.emplace_back("at rest its writer's");
         if (item.rate) more.push_back("rate " + toText(*item.rate) + " per s");
+        if (!item.derivativeOf.empty()) more.push_back("derivative of " + item.derivativeOf);
         if (!item.settable.empty()) more.push_back("settable: " + item.settable.text());
         if (item.constant) more.emplace_back("constant");
         if (item.measured) more.emplace_back("measured");

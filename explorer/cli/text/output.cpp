@@ -78,7 +78,7 @@ void printFindings(const Report& report, Stream stream) {
     const bool colour = coloured(stream);
     for (const Finding& finding : report.findings) {
         if (colour) out << colourOf(finding.severity);
-        out << name(finding.severity) << ':';
+        out << (finding.severity == Severity::Info ? "note" : name(finding.severity)) << ':';
         if (colour) out << plain;
         out << ' ' << printable(finding.text()) << " (" << printable(finding.rule) << ")\n";
     }

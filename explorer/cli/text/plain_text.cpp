@@ -8,32 +8,7 @@ namespace {
 
 bool continues(char c) { return (c & 0xC0) == 0x80; }  // a character of UTF-8
 
-void appendEscaped(std::string& text, unsigned octet) {
-    constexpr std::string_view digits = "0123456789abcdef";
-    text += "\\x";
-    text += digits[octet / 16];
-    text += digits[octet % 16];
-}
-
 }  // namespace
-
-std::string printable(std::string_view text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto octet = static_cast<unsigned char>(text[i]);
-        const unsigned next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
-        const bool secondSet = octet == 0xC2 && next >= 0x80 && next < 0xA0;  // U+0080 to U+009F
-        if (octet < 0x20 || octet == 0x7F) {
-            appendEscaped(result, octet);
-        } else if (secondSet) {
-            appendEscaped(result, next);
-            ++i;
-        } else {
-            result += text[i];
-        }
-    }
-    return result;
-}
 
 std::size_t textWidth(std::string_view text) {
     return text.size() - static_cast<std::size_t>(std::ranges::count_if(text, continues));

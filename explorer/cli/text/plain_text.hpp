@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/printable.hpp"
+
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace cortex::cli {
-
-// Text from files and arguments may hold anything: control characters, which a terminal would obey,
-// become visible escapes.
-std::string printable(std::string_view text);
 
 std::size_t textWidth(std::string_view text);  // characters of UTF-8
 std::string clipped(const std::string& text, std::size_t width);

@@ -19,6 +19,10 @@ Exit listAgents(const LiveOptions& options) {
         for (const auto& each : agents) {
             list.push_back(agentJson(each));
             list.back()["cpus"] = pinnedCpus(live, each.name);
+            list.back()["other_self"] = each.otherSelf;
+            list.back()["contested"] = contestedJson(live.mirror().contested(), each.name);
+            list.back()["dropped"] = each.dropped;
+            list.back()["refused"] = each.refused;
         }
         print(list);
         return Yes;
@@ -33,6 +37,9 @@ Exit listAgents(const LiveOptions& options) {
                      std::to_string(each.cycle), std::to_string(each.loss),
                      cpus.empty() ? "-" : cpus, each.security.empty() ? "none" : each.security});
         if (!each.trouble.empty()) columns.addNote(each.trouble);
+        if (!each.otherSelf.empty()) columns.addNote(each.otherSelf);
+        if (!each.dropped.empty()) columns.addNote("dropped datagrams: " + each.dropped);
+        if (!each.refused.empty()) columns.addNote("refused messages: " + each.refused);
     }
     columns.print(std::cout);
     return Yes;

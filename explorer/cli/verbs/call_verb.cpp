@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/nearest_names.hpp"
+#include "cortex/core/path.hpp"
 #include "cortex/core/record.hpp"
 
 #include "live/control.hpp"
+#include "live/live_json.hpp"
 #include "live/live_values.hpp"
 #include "live/progress.hpp"
 #include "text/interrupts.hpp"
@@ -26,6 +28,10 @@ const CommandTable::Entry& entryOf(const CommandTable& table, const FoundSimplex
                                    const std::string& command) {
     const std::uint32_t index = table.find(command);
     if (index != CommandTable::none) return table.entries[index];
+    if (command == "set") {
+        throw Failure{Usage, "nothing of " + simplex.info().path + " (" + simplex.type().name +
+                                 ") can be set"};
+    }
     std::vector<std::string> valid;
     for (const auto& each : table.entries) valid.emplace_back(each.name);
     const std::string nearest = nearestNames(command, valid);
@@ -106,6 +112,23 @@ void printAnswer(const comms::CommandAnswer& answer, const RecordLayout& layout)
     columns.print(std::cout);
 }
 
+// That something stands at or below a prefix that is a parameter of the agent's own simplex.
+void checkPrefixParameter(const FoundSimplex& simplex, const comms::Mirror::Arguments& arguments) {
+    const auto given = arguments.find("prefix");
+    if (given == arguments.end() || simplex.info().path != "/" + simplex.agent) return;
+    const auto* texts = std::get_if<std::vector<std::string>>(&given->second);
+    if (texts == nullptr || texts->size() != 1) return;
+    checkPrefix(texts->front());
+    std::vector<std::string> paths;
+    for (const SimplexInfo& each : simplex.structure->simplexes) {
+        if (!each.remote && isAtOrBelow(each.path, texts->front())) return;
+        if (!each.remote) paths.push_back(each.path);
+    }
+    const std::string nearest = nearestNames(texts->front(), paths);
+    throw Failure{NotFound, simplex.agent + " has nothing at or below " + texts->front() +
+                                (nearest.empty() ? "" : "; " + nearest)};
+}
+
 }  // namespace
 
 // Finding the agent and its answer share one time to wait. Control is released on every way out.
@@ -119,6 +142,7 @@ Exit callCommand(const CallOptions& options) {
     const CommandTable::Entry& entry = entryOf(table, simplex, options.command);
     const auto arguments =
         parseArguments("command '" + options.command + "'", entry.request, options.arguments);
+    checkPrefixParameter(simplex, arguments);
     const std::string missing = missingArguments(entry, arguments);
     if (!missing.empty()) throw Failure{Usage, missing};
     std::optional<BriefControl> control;
@@ -140,19 +164,30 @@ Exit callCommand(const CallOptions& options) {
     const auto took = std::chrono::steady_clock::now() - sent;
     if (options.json) {
         Json shown = answerJson(answer, entry.response);
+        if (const auto contest = live.contestOf(options.path)) {
+            shown["contested"] = contestedJson(*contest);
+        }
         shown["round_trip_us"] = std::chrono::duration<double, std::micro>(took).count();
         print(shown);
     } else {
         printAnswer(answer, entry.response);
-        if (answer.reason == Reason::Authority && !options.take) {
-            std::cerr << "cortex: --take takes control for one command; 'cortex leases' shows who "
-                         "has it\n";
-        }
+        if (answer.reason == Reason::Authority && !options.take) std::cerr << authorityHint(answer);
     }
     return exitOf(answer.outcome);
 }
 
+std::string howToSet(const std::string& path, const std::vector<std::string>& arguments) {
+    const std::size_t dot = path.find('.');
+    const std::string item = dot == std::string::npos ? "ITEM" : path.substr(dot + 1);
+    const bool hasValue = item.find('=') != std::string::npos;
+    const std::string value = arguments.size() == 1 && !hasValue ? arguments.front() : "VALUE";
+    return "the path and the items are apart: cortex set " + path.substr(0, dot) + " " + item +
+           (hasValue ? "" : "=" + value);
+}
+
 Exit setItems(const CallOptions& options) {
+    if (options.path.find('.') != std::string::npos)
+        throw Failure{Usage, howToSet(options.path, options.arguments)};
     CallOptions call = options;
     call.command = "set";
     return callCommand(call);

@@ -54,6 +54,8 @@ Exit examine(const LiveOptions& options) {
         Live live{options.network};
         live.listen([&](const comms::AgentEvent& event) { arrivals.push(event); });
         examineAgents(live, arrivals, found);
+    } catch (const Failure& failure) {
+        found.push_back({Level::Error, "network", failure.what(), ""});
     } catch (const Error& error) {
         found.push_back({Level::Error, "network", error.what(), ""});
     }

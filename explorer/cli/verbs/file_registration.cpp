@@ -38,7 +38,7 @@ void addValidate(Verbs& verbs) {
 1: not, 3: a file was not found.
 Examples:
   cortex validate lbr_teleop.xml           a system, with the types and rules that it names
-  cortex validate robotics-morphology.xml  types and rules alone)",
+  cortex validate cortex-morphology.xml    types and rules alone)",
         options, validateFiles);
     verb->add_option("FILE", options->files,
                      "System, ontology or morphology files; together they are one model")
@@ -53,7 +53,7 @@ void addDiff(Verbs& verbs) {
         R"(A contradiction keeps two agents from linking simplexes of that type, a difference is listed and
 linked all the same; types that only one model has are no disagreement. Exit code 0: none, 1: some.
 Example:
-  cortex diff old/robotics-morphology.xml robotics-morphology.xml)",
+  cortex diff old/cortex-morphology.xml cortex-morphology.xml)",
         options, diffModels);
     verb->add_option("OURS", options->ours, "First model")->required()->type_name("FILE");
     verb->add_option("THEIRS", options->theirs, "Second model")->required()->type_name("FILE");
@@ -63,10 +63,10 @@ void addTypes(Verbs& verbs) {
     const auto options = std::make_shared<TypesOptions>();
     CLI::App* verb = verbs.add("types", "Show the tree of types, or everything about one",
                                R"(Examples:
-  cortex types                                         those of all agents on the network
-  cortex types --file robotics-morphology.xml          the tree: who extends whom
-  cortex types KukaLbr --file robotics-morphology.xml  its data, commands and relationships, own and
-                                                       inherited, and its hash)",
+  cortex types                                       those of all agents on the network
+  cortex types --file cortex-morphology.xml          the tree: who extends whom
+  cortex types KukaLbr --file cortex-morphology.xml  its data, commands and relationships, own and
+                                                     inherited, and its hash)",
                                options, showTypes);
     verb->add_option("NAME", options->type, "Name of a type")->type_name("");
     addSource(verbs, *verb, options->files, options->network);
@@ -101,9 +101,9 @@ Examples:
         ->required()
         ->delimiter(',')
         ->type_name("TYPE");
-    options->file = "robotics-morphology.xml";
+    options->file = "cortex-morphology.xml";
     verb->add_option("-f,--file", options->file,
-                     "Model that has these types; robotics-morphology.xml if not given")
+                     "Model that has these types; cortex-morphology.xml if not given")
         ->type_name("FILE");
     addOutput(*verb, *options, "Ontology file to write; the morphology is written beside it");
 }

@@ -2,6 +2,7 @@
 #include "verbs/live_registration.hpp"
 
 #include "cortex/comms/network_options.hpp"
+#include "cortex/core/value.hpp"
 
 #include "verbs/live_verbs.hpp"
 
@@ -58,6 +59,20 @@ void addShow(LiveVerbs& verbs) {
         ->type_name("");
 }
 
+// A range of CLI11 takes "nan", and calls what is no number out of range.
+std::string aNumber(const std::string& text) {
+    if (toFloat(text)) return {};
+    const std::string digits = text.substr(0, text.find_first_not_of("0123456789.+-"));
+    return "'" + text + "' is no number" +
+           (toFloat(digits) ? "; write it without a unit: " + digits : "");
+}
+
+std::string ofSeconds(const std::string& text) {
+    const std::string digits = text.substr(0, text.find_first_not_of("0123456789.+-"));
+    if (toFloat(text) || !toFloat(digits)) return aNumber(text);
+    return "'" + text + "' is no number; write seconds as a number: " + digits;
+}
+
 void addWatch(LiveVerbs& verbs) {
     const auto watch = std::make_shared<WatchOptions>();
     CLI::App* verb = verbs.add(
@@ -65,9 +80,11 @@ void addWatch(LiveVerbs& verbs) {
         R"(A line for each value that has changed; with --csv or --json a line for each moment.
 Examples:
   cortex watch /arm/axis/1.position
+  cortex watch /                           all that there is
   cortex watch /arm /hand.value --rate 30 --csv --count 300 > run.csv)",
         watch, watchValues);
-    verb->add_option("PATH[.ITEM]", watch->what, "Simplexes, or single items of them")
+    verb->add_option("PATH[.ITEM]", watch->what,
+                     "Simplexes, or single items of them; / is all there is")
         ->required()
         ->type_name("");
     verb->add_option("--rate", watch->rate,
@@ -198,9 +215,11 @@ Examples:
             "--rate", top->rate,
             "Refreshes per second; if not given 2 on a terminal, 1 for JSON, otherwise 0.2")
         ->type_name("HZ")
+        ->check(aNumber)
         ->check(CLI::Range(0.001, 30.0));
     CLI::Option* seconds = verb->add_option("--seconds", top->seconds, "End after so many seconds")
                                ->type_name("N")
+                               ->check(ofSeconds)
                                ->check(CLI::Range(0.0, 1e6));
     verb->add_flag("--once", top->once, "Print one moment and end")->excludes(seconds);
     verb->add_flag("--until-gone", top->untilGone,
@@ -213,6 +232,7 @@ void addNetwork(CLI::App& verb, NetworkArguments& network,
                 const std::shared_ptr<Session>& session) {
     verb.add_option("--timeout", network.timeout, "How long to wait for agents; 3 s if not given")
         ->type_name("S")
+        ->check(ofSeconds)
         ->check(CLI::Range(0.001, 1e6));
     network.session = session;
     if (session) return;

@@ -48,7 +48,10 @@ struct CallOptions : LiveOptions {
     std::string person;                  // on behalf of whom; empty: nobody says
 };
 Exit callCommand(const CallOptions& options);
-Exit setItems(const CallOptions& options);  // command "set"
+Exit setItems(const CallOptions& options);
+// What was meant by a path that has an item, or by no items.
+std::string howToSet(const std::string& path,
+                     const std::vector<std::string>& arguments);  // command "set"
 
 Exit listLeases(const LiveOptions& options);
 

@@ -13,7 +13,7 @@ constexpr std::string_view skeleton = R"(<?xml version="1.0" encoding="UTF-8"?>
 <system name="{name}">
   <!-- The types and rules that it is made of. Files are looked for beside this one, then in
        $CORTEX_PATH, then in the installed share/cortex. -->
-  <morphology file="robotics-morphology.xml"/>
+  <morphology file="cortex-morphology.xml"/>
 
   <!-- The agent: its name, cycles per second, threads, real-time priority, and what happens when a
        cycle takes too long (skip, catchUp or halt). Its own simplex is /{name}. -->

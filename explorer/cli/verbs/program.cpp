@@ -6,11 +6,14 @@
 
 #include "verbs/file_registration.hpp"
 #include "verbs/live_registration.hpp"
+#include "verbs/live_verbs.hpp"
 #include "verbs/security_registration.hpp"
 #include "verbs/shell_verb.hpp"
 
 #include <algorithm>
 #include <iostream>
+#include <string>
+#include <string_view>
 
 namespace cortex::cli {
 namespace {
@@ -54,6 +57,11 @@ std::string wrongUsage(const CLI::App& app, const CLI::ParseError& error) {
     if (app.get_parent() != nullptr && app.get_require_subcommand_min() > 0) {
         return wrongVerb(app, extra.empty() ? "" : extra.front());
     }
+    const CLI::Option* path = app.get_option_no_throw("PATH");
+    const bool isRequired = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    if (isRequired && app.get_name() == "set" && path != nullptr && path->count() == 1) {
+        return howToSet(path->results().front(), {});
+    }
     if (extra.empty() || dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) {
         return error.what();
     }
@@ -63,6 +71,15 @@ std::string wrongUsage(const CLI::App& app, const CLI::ParseError& error) {
            (files ? "; did you mean --file " + joined(extra, " ") + "?" : "");
 }
 
+// An error that lists several things has an indented line for each.
+std::string linesOf(std::string_view text) {
+    constexpr std::string_view indented = "\n  ";
+    const std::size_t end = text.find(indented);
+    if (end == std::string_view::npos) return printable(text);
+    return printable(text.substr(0, end)) + std::string{indented} +
+           linesOf(text.substr(end + indented.size()));
+}
+
 void printFailure(const Failure& failure, bool json) {
     if (json) {
         print({{"error", failure.what()}, {"findings", findingsJson(failure.report())}});
@@ -70,7 +87,7 @@ void printFailure(const Failure& failure, bool json) {
     }
     printFindings(failure.report(), Stream::Errors);
     const bool said = failure.code() == NotFound && !failure.report().ok();  // by the findings
-    if (!said) std::cerr << "cortex: " << printable(failure.what()) << '\n';
+    if (!said) std::cerr << "cortex: " << linesOf(failure.what()) << '\n';
 }
 
 }  // namespace

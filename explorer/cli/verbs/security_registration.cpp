@@ -35,9 +35,10 @@ void addAgent(Verbs& verbs) {
     CLI::App* verb = verbs.add(
         "create-agent", "Make the folder of keys and rights of one agent or tool",
         R"(An agent's NAME is that of its <cluster>; a tool may have any. Nothing is ever overwritten.
-Without --read-only and --may-command it may command everything.
+Without --read-only and --may-command it may command everything. Without --owns it owns the paths
+that it has before any other agent.
 Examples:
-  cortex security create-agent robot
+  cortex security create-agent robot --owns /arm /gripper
   cortex security create-agent station1 --may-command /cell /belt
   cortex security create-agent display --read-only --out display-2027)",
         options, makeAgent);
@@ -55,6 +56,10 @@ Examples:
                      "Paths that it may command, with all below")
         ->type_name("PREFIX")
         ->excludes(readOnly);
+    verb->add_option("--owns", options->owns,
+                     "Paths that are its own, with all below: it is linked and commanded there "
+                     "alone, and no other agent takes them from it")
+        ->type_name("PREFIX");
     verb->add_option("--domain", options->domains, "Domains that it may join; all if not given")
         ->type_name("N")
         ->check(CLI::Range(0, comms::lastDomain));

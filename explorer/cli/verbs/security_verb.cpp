@@ -14,6 +14,10 @@ std::string powersOf(const comms::AgentRights& rights) {
     return "look, and command what is at and below " + joined(rights.mayCommand);
 }
 
+std::string ownsOf(const comms::AgentRights& rights) {
+    return rights.owns.empty() ? "what it has first" : joined(rights.owns);
+}
+
 std::string domainsOf(const comms::AgentRights& rights) {
     std::vector<std::string> domains;
     for (const int each : rights.domains) domains.push_back(std::to_string(each));
@@ -21,17 +25,15 @@ std::string domainsOf(const comms::AgentRights& rights) {
 }
 
 Json jsonOf(const std::string& folder, const comms::AgentRights& rights) {
-    return {{"folder", folder},
-            {"agent", rights.agent},
-            {"may_command", rights.mayCommand},
-            {"domains", rights.domains},
-            {"until", rights.until}};
+    return {{"folder", folder},    {"agent", rights.agent},     {"may_command", rights.mayCommand},
+            {"owns", rights.owns}, {"domains", rights.domains}, {"until", rights.until}};
 }
 
 void printRights(const comms::AgentRights& rights) {
     Columns columns{2};
     columns.add({"agent", rights.agent});
     columns.add({"may", powersOf(rights)});
+    columns.add({"owns", ownsOf(rights)});
     columns.add({"domains", domainsOf(rights)});
     columns.add({"until", rights.until});
     columns.print(std::cout);
@@ -60,6 +62,7 @@ Exit makeAgent(const SecurityOptions& options) {
     rights.domains = options.domains;
     if (options.readOnly) rights.mayCommand.clear();
     if (!options.mayCommand.empty()) rights.mayCommand = options.mayCommand;
+    rights.owns = options.owns;
     const std::string folder = options.folder.empty() ? options.agent : options.folder;
     rights = comms::createAgent(options.authority, folder, rights,
                                 options.days > 0 ? options.days : comms::agentDays);

@@ -13,6 +13,7 @@ struct SecurityOptions {
     std::string authority = "authority";
     std::string agent;
     std::vector<std::string> mayCommand;  // none: everything
+    std::vector<std::string> owns;        // none: what it has first
     bool readOnly = false;
     std::vector<int> domains;
     int days = 0;  // 0: as usual

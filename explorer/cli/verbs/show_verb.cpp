@@ -2,6 +2,7 @@
 #include "cortex/core/labelled_value.hpp"
 
 #include "live/causes.hpp"
+#include "live/live_json.hpp"
 #include "live/live_values.hpp"
 #include "live/loop_text.hpp"
 #include "live/safe_demand.hpp"
@@ -220,7 +221,11 @@ Exit showSimplex(const ShowOptions& options) {
     shown.demand = demandOf(live, shown);
     shown.causes = causesOf(live, shown.simplex, shown.image);
     if (options.json) {
-        print(shownJson(shown));
+        Json json = shownJson(shown);
+        if (const auto contest = live.contestOf(options.path)) {
+            json["contested"] = contestedJson(*contest);
+        }
+        print(json);
         return Yes;
     }
     printHead(shown);

@@ -3,6 +3,7 @@
 #include "verbs/verbs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <set>
 
@@ -26,6 +27,7 @@ std::vector<Checked> check(const Paths& files) {
     std::vector<Checked> checked;
     if (systems.size() < 2) {
         checked.push_back({files, readSystem(files)});
+        checkRemotePaths(std::array{&checked.front().model});
         return checked;
     }
     for (const auto& system : systems) {
@@ -45,6 +47,17 @@ Report join(const std::vector<Checked>& checked) {
     return joinReports(models);
 }
 
+// ", 1 warning, 2 notes"
+std::string lesserText(const Report& report) {
+    const auto count = [&](Severity severity) {
+        return static_cast<std::size_t>(
+            std::ranges::count(report.findings, severity, &Finding::severity));
+    };
+    const std::size_t warnings = count(Severity::Warning), notes = count(Severity::Info);
+    return (warnings > 0 ? ", " + plural(warnings, "warning") : "") +
+           (notes > 0 ? ", " + plural(notes, "note") : "");
+}
+
 void printValid(const Checked& checked) {
     const Model& model = checked.model;
     const auto& simplexes = model.tree->simplexes();
@@ -52,7 +65,6 @@ void printValid(const Checked& checked) {
         simplexes, [](const auto& each) { return each.second->type().active(); });
     std::size_t rules = 0;
     for (const auto& [name, type] : model.types().declarations()) rules += type.rules.size();
-    const std::size_t warnings = model.report.findings.size();
     std::cout << printable(checked.files.size() == 1 ? checked.files.front().string()
                                                      : plural(checked.files.size(), "file"))
               << ": valid, "
@@ -60,16 +72,14 @@ void printValid(const Checked& checked) {
                       ? plural(simplexes.size(), "simplex") + ", " + std::to_string(active) +
                             " active"
                       : plural(model.types().types().size(), "type") + ", " + plural(rules, "rule"))
-              << (warnings > 0 ? ", " + plural(warnings, "warning") : "") << '\n';
+              << lesserText(model.report) << '\n';
 }
 
 void printSummary(const Report& report) {
     std::set<std::string> files;
     for (const Finding& finding : report.findings) files.insert(finding.place.file);
     files.erase("");
-    const std::size_t warnings = report.findings.size() - report.errors();
-    std::cout << plural(report.errors(), "error")
-              << (warnings > 0 ? ", " + plural(warnings, "warning") : "")
+    std::cout << plural(report.errors(), "error") << lesserText(report)
               << (files.empty() ? "" : " in " + plural(files.size(), "file")) << '\n';
 }
 

@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 #include <utility>
@@ -40,23 +41,51 @@ struct Reading {
     StaleDemand demand{};
 };
 
-void addItems(Live& live, const std::string& what, std::vector<Watched>& watched) {
-    const std::size_t dot = what.find('.');
-    const FoundSimplex simplex = live.find(what.substr(0, dot));
+void addItems(const FoundSimplex& simplex, const std::optional<std::string>& wanted,
+              std::vector<Watched>& watched) {
     const std::string& path = simplex.info().path;
-    const std::string wanted = dot == std::string::npos ? "" : what.substr(dot + 1);
     std::vector<std::string> names;
     const std::size_t before = watched.size();
     for (const ItemLayout& each : simplex.info().layout->items) {
         names.push_back(each.item->name);
-        if (dot != std::string::npos && each.item->name != wanted) continue;
+        if (wanted && each.item->name != *wanted) continue;
         watched.push_back({simplex, &each, path + "." + each.item->name, each.item->name, ""});
     }
-    if (watched.size() > before) return;
-    const std::string nearest = nearestNames(wanted, names);
+    if (!wanted || watched.size() > before) return;
+    const std::string nearest = nearestNames(*wanted, names);
     const std::string all = names.empty() ? "there is none" : "there are " + joined(names);
-    throw Failure{NotFound, path + " (" + simplex.type().name + ") has no item '" + wanted + "'; " +
-                                (nearest.empty() ? all : nearest)};
+    throw Failure{NotFound, path + " (" + simplex.type().name + ") has no item '" + *wanted +
+                                "'; " + (nearest.empty() ? all : nearest)};
+}
+
+// "/" stands for all that there is.
+void addWatched(Live& live, const std::string& what, std::vector<Watched>& watched) {
+    if (what == "/") {
+        live.waitForAll();
+        live.printWarnings();
+        for (const FoundSimplex& each : live.below(what)) {
+            if (live.ownerOf(each.info().path) == each.agent) addItems(each, {}, watched);
+        }
+        return;
+    }
+    const std::size_t dot = what.find('.');
+    addItems(live.find(what.substr(0, dot)),
+             dot == std::string::npos ? std::nullopt : std::optional{what.substr(dot + 1)},
+             watched);
+}
+
+// The simplexes, and who writes a demand: their states tell why it is stale.
+std::vector<std::string> pathsOf(const std::vector<Watched>& watched) {
+    std::set<std::string> paths;
+    for (const Watched& each : watched) {
+        const SimplexInfo& info = each.simplex.info();
+        paths.insert(info.path);
+        if (info.role != Role::Modification) continue;
+        for (const std::uint32_t writer : info.writers) {
+            paths.insert(each.simplex.structure->simplexes[writer].path);
+        }
+    }
+    return {paths.begin(), paths.end()};
 }
 
 // A later start of the agent has a structure of its own. Where that has no such item, or has not
@@ -307,17 +336,9 @@ void runAtEveryCycle(const WatchOptions& options, Live& live, const std::vector<
 Exit watchValues(const WatchOptions& options) {
     Live live{options.network};
     std::vector<Watched> watched;
-    std::vector<std::string> paths;
-    for (const std::string& each : options.what) {
-        addItems(live, each, watched);
-        const SimplexInfo& info = watched.back().simplex.info();
-        paths.push_back(info.path);
-        if (info.role != Role::Modification) continue;
-        for (const std::uint32_t writer : info.writers) {  // their states tell why it is stale
-            paths.push_back(watched.back().simplex.structure->simplexes[writer].path);
-        }
-    }
-    live.view(paths, options.rate);
+    for (const std::string& each : options.what) addWatched(live, each, watched);
+    const bool all = std::ranges::find(options.what, "/") != options.what.end();
+    live.view(all ? std::vector<std::string>{"/"} : pathsOf(watched), options.rate);
     if (!live.waitForValues()) {
         throw Failure{NotFound, "not all of the values came within " +
                                     toText(options.network.timeout) + " s"};

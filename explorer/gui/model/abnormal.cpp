@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -19,6 +19,14 @@ void forOwnSimplexes(const AgentFrame& agent, Visit visit) {
     for (std::uint32_t i = 0; i < simplexes.size(); ++i) {
         if (!simplexes[i].remote) visit(i);
     }
+}
+
+// What comes is counted at once: none says "0 faults" of what it has not heard yet.
+std::size_t howManyCame(const Frame& frame) {
+    std::size_t come = 0;
+    for (const AgentFrame& agent : frame.agents)
+        forOwnSimplexes(agent, [&](std::uint32_t simplex) { come += agent.came(simplex) ? 1 : 0; });
+    return come;
 }
 
 // The simplex that stands for a lost agent: its own, otherwise its first.
@@ -42,10 +50,12 @@ void Abnormal::findOutside(const AgentFrame& agent) {
 }
 
 void Abnormal::update(const Frame& frame) {
-    const bool changed = frame.structures != structures_;
+    const std::size_t come = howManyCame(frame);
+    const bool changed = frame.structures != structures_ || come != come_;
     if (!changed && frames_++ % framesBetweenLooks != 0) return;
     const bool limits = changed || looks_++ % looksBetweenLimits == 0;
     structures_ = frame.structures;
+    come_ = come;
     for (const Kind kind : {Fault, Outside, Lost}) {
         if (kind == Outside && !limits) continue;
         counts_[kind] = 0;
@@ -77,4 +87,4 @@ std::string Abnormal::next(const std::string& path, bool back, std::optional<Kin
     return last ? all.front() : *(here + 1);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // What is in Fault, beyond its limits or lost, of everything that is heard, whatever is shown.
 class Abnormal {
@@ -30,7 +30,8 @@ private:
     std::array<int, KindCount> counts_{};
     std::array<std::vector<std::string>, KindCount> paths_;
     std::uint64_t structures_ = 0;
+    std::size_t come_ = 0;
     int frames_ = 0, looks_ = 0;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

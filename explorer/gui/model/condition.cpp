@@ -12,7 +12,7 @@
 #include <utility>
 #include <variant>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -115,4 +115,4 @@ bool isOutside(const AgentFrame& agent, std::uint32_t simplex) {
     });
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

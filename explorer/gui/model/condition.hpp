@@ -6,7 +6,7 @@
 #include <QString>
 #include <optional>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // What a filter asks of a value: `position>1.5`, `speed<=0.1m/s`, `mode=Position`. Without a unit
 // the number is in that of the item; with another unit it does not hold.
@@ -29,4 +29,4 @@ bool holds(const Condition& condition, const AgentFrame& agent, std::uint32_t si
 // labelled numbers are values.
 bool isOutside(const AgentFrame& agent, std::uint32_t simplex);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

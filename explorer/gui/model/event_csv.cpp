@@ -5,7 +5,7 @@
 
 #include <QSaveFile>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -48,4 +48,4 @@ QString writeEvents(const EventFilter& events, const QString& file) {
     return written ? QString{} : target.errorString();
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

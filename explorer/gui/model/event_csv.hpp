@@ -5,7 +5,7 @@
 
 #include <QString>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // The events that are shown, a line each, as `cortex events --csv` writes them. What did not come
 // is a line of the kind "missing".
@@ -14,4 +14,4 @@ QString eventsCsv(const EventFilter& events);
 // Empty: it is written; otherwise why not.
 QString writeEvents(const EventFilter& events, const QString& file);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -2,11 +2,12 @@
 #include "model/event_details.hpp"
 
 #include "model/plain_text.hpp"
+#include "model/shown_time.hpp"
 
 #include <QCoreApplication>
 #include <QRegularExpression>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -33,10 +34,10 @@ void addCommand(EventDetails& details, const QString& text) {
 
 void addTimes(EventDetails& details, const EventRow& row) {
     const comms::AgentEvent &first = row.event, &last = row.newest();
-    const QString time = utcText(first.wallClock, "yyyy-MM-dd HH:mm:ss.zzz");
+    const QString time = shownTimeText(first.wallClock, "yyyy-MM-dd HH:mm:ss.zzz");
     details.emplace_back(row.times == 1 ? detail("time") : detail("first"), time);
     if (row.times == 1) return;
-    details.emplace_back(detail("last"), utcText(last.wallClock, "yyyy-MM-dd HH:mm:ss.zzz"));
+    details.emplace_back(detail("last"), shownTimeText(last.wallClock, "yyyy-MM-dd HH:mm:ss.zzz"));
     const double seconds = static_cast<double>(last.wallClock - first.wallClock) * 1e-9;
     QString times = detail("%1 in %2 s").arg(countText(row.times)).arg(seconds, 0, 'f', 1);
     if (seconds >= 0.1) {
@@ -55,7 +56,8 @@ EventDetails detailsOf(const EventRow& row) {
     if (row.isGap()) {
         details.emplace_back(detail("number"), fromTo(countText(first.number + 1),
                                                       countText(first.number + row.missing)));
-        details.emplace_back(detail("after"), utcText(first.wallClock, "yyyy-MM-dd HH:mm:ss.zzz"));
+        details.emplace_back(detail("after"),
+                             shownTimeText(first.wallClock, "yyyy-MM-dd HH:mm:ss.zzz"));
         return details;
     }
     details.emplace_back(detail("kind"), plainText(first.kind));
@@ -74,4 +76,4 @@ EventDetails detailsOf(const EventRow& row) {
     return details;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -2,10 +2,11 @@
 #include "model/event_filter.hpp"
 
 #include "model/plain_text.hpp"
+#include "model/shown_time.hpp"
 
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -218,7 +219,7 @@ QVariant EventFilter::data(const QModelIndex& index, int role) const {
     if (role == Qt::ToolTipRole) return tipText(plainText(event.text));
     if (role != Qt::DisplayRole && role != Qt::AccessibleTextRole) return {};
     if (column == EventModel::Times) return {};
-    if (column == EventModel::Time) return utcText(event.wallClock, "HH:mm:ss.zzz");
+    if (column == EventModel::Time) return shownTimeText(event.wallClock, "HH:mm:ss.zzz");
     return QStringLiteral("    ") + plainText(event.text);
 }
 
@@ -226,4 +227,4 @@ QVariant EventFilter::headerData(int section, Qt::Orientation orientation, int r
     return events_.headerData(section, orientation, role);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

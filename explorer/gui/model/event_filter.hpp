@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // The events that are shown: those that match what is typed, without the severities and kinds that
 // are switched off. What did not come is always shown. All views of a window share it.
@@ -90,4 +90,4 @@ private:
     std::deque<std::uint64_t> counted_;  // events of each row of the model that are in the counts
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -2,12 +2,14 @@
 #include "model/event_model.hpp"
 
 #include "model/plain_text.hpp"
+#include "model/shown_time.hpp"
+#include "session/utc_now.hpp"
 
 #include <algorithm>
 #include <array>
 #include <tuple>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -138,7 +140,7 @@ QVariant EventModel::data(const QModelIndex& index, int role) const {
     }
     switch (index.column()) {
         case Time:
-            return utcText(event.wallClock, "HH:mm:ss.zzz");
+            return shownTimeText(event.wallClock, "HH:mm:ss.zzz");
         case SeverityColumn:
             return row.isGap() ? tr("missing") : QString{QLatin1String{name(event.severity)}};
         case Kind:
@@ -162,9 +164,10 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         return QVariant::fromValue(side | Qt::AlignVCenter);
     }
     if (role != Qt::DisplayRole) return {};
-    const std::array titles{tr("Time (UTC)"), tr("Severity"), tr("Kind"), tr("Path"),
-                            tr("Agent"),      tr("What"),     tr("Times")};
+    const QString time = tr("Time (%1)").arg(zoneName(utcNow()));
+    const std::array titles{time,        tr("Severity"), tr("Kind"), tr("Path"),
+                            tr("Agent"), tr("What"),     tr("Times")};
     return titles[static_cast<std::size_t>(section)];
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

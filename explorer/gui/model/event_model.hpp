@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // The events of all agents, the newest last. The same event again counts up in its row; where
 // numbers of an agent are missing, a row says how many.
@@ -59,4 +59,4 @@ private:
     std::size_t held_ = 0;  // events in all rows
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/event_query.hpp"
 
-#include "cortex/core/nearest_names.hpp"
 #include "cortex/core/path.hpp"
 
 #include "model/query.hpp"
 
-#include <QCoreApplication>
 #include <algorithm>
 #include <array>
-#include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -28,36 +25,23 @@ bool is(const std::string& text, const QString& value) {
 }  // namespace
 
 EventQuery::EventQuery(const QString& text) : text_{text.trimmed()} {
-    std::vector<Term> terms;
-    for (const QString& each : queryWords(text)) {
-        if (each == QLatin1String{"or"}) {
-            if (!terms.empty()) alternatives_.push_back(std::exchange(terms, {}));
-        } else {
-            add(terms, each);
-        }
+    for (const QStringList& words : alternativesOf(text)) {
+        auto& terms = alternatives_.emplace_back();
+        for (const QString& each : words) terms.push_back(termFrom(each));
     }
-    if (!terms.empty()) alternatives_.push_back(std::move(terms));
 }
 
-void EventQuery::add(std::vector<Term>& terms, QString word) {
+EventQuery::Term EventQuery::termFrom(QString word) {
     Term term;
-    if (word.size() > 1 && word.startsWith('-')) {
-        term.no = true;
-        word.remove(0, 1);
-    }
+    term.no = takeNot(word);
     const int colon = word.indexOf(':');
     term.field = colon > 0 ? word.left(colon).toLower() : QString{};
     term.value = colon > 0 ? word.mid(colon + 1) : word;
     const bool known = term.field.isEmpty() || std::ranges::any_of(eventFields, [&](auto each) {
                            return term.field == QLatin1String{each};
                        });
-    if (!known) {
-        const std::vector<std::string> names{eventFields.begin(), eventFields.end()};
-        trouble_ = QCoreApplication::translate("Query", "\"%1:\" is no field. %2")
-                       .arg(term.field,
-                            QString::fromStdString(nearestNames(term.field.toStdString(), names)));
-    }
-    terms.push_back(std::move(term));
+    if (!known) trouble_ = unknownField(term.field, eventFields);
+    return term;
 }
 
 bool EventQuery::matches(const comms::AgentEvent& event) const {
@@ -82,4 +66,4 @@ bool EventQuery::holds(const Term& term, const comms::AgentEvent& event) {
     return field == QLatin1String{"severity"} && is(name(event.severity), term.value);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

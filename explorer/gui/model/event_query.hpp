@@ -6,7 +6,7 @@
 #include <QString>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // What is typed into the filter of events, in the grammar of the tree's: words, "texts" and
 // field:value; blank is `and`, `or` binds weaker, - is not. `in:/arm severity:warning`,
@@ -27,7 +27,7 @@ private:
         QString field, value;  // an empty field: a part of path, text, agent or kind
         bool no = false;
     };
-    void add(std::vector<Term>& terms, QString word);
+    Term termFrom(QString word);
     static bool holds(const Term& term, const comms::AgentEvent& event);
 
     QString text_;
@@ -35,4 +35,4 @@ private:
     QString trouble_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

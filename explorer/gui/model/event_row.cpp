@@ -10,7 +10,7 @@
 #include <array>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -79,4 +79,4 @@ QString EventRow::text() const {
     return times == 1 ? plainText(event.text) : foldedText(words, numbers);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // A row among the events: one event, the same again and again, or how many did not come.
 struct EventRow {
@@ -40,4 +40,4 @@ struct EventRow {
     std::size_t kind = 0;                  // index of its kind in the model
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/event_text.hpp"
 
+#include "cortex/core/value.hpp"
+
 #include "model/plain_text.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
+#include <limits>
 #include <string_view>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -53,6 +55,11 @@ std::size_t numberAt(std::string_view text, std::size_t begin) {
     return end < text.size() && belongsToName(text[end]) ? begin : end;
 }
 
+// Whatever the locale; one that no double holds is shown as infinite.
+double valueOf(const std::string& number) {
+    return toFloat(number).value_or(std::numeric_limits<double>::infinity());
+}
+
 QString shown(double number) {
     QString text = QString::number(number, 'g', digitsOfRange);
     return text.startsWith('-') ? QChar{0x2212} + text.mid(1) : text;
@@ -80,10 +87,10 @@ NumberedText numberedText(const std::string& text) {
 }
 
 NumberRange::NumberRange(const std::string& number)
-    : first{number}, last{number}, least{std::strtod(number.c_str(), nullptr)}, greatest{least} {}
+    : first{number}, last{number}, least{valueOf(number)}, greatest{least} {}
 
 void NumberRange::take(const std::string& number) {
-    const double value = std::strtod(number.c_str(), nullptr);
+    const double value = valueOf(number);
     last = number;
     least = std::min(least, value);
     greatest = std::max(greatest, value);
@@ -105,4 +112,4 @@ QString foldedText(const std::string& words, const std::vector<NumberRange>& ran
     return text + plainText(words.substr(begin));
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -6,7 +6,7 @@
 #include <vector>
 
 // Texts of events with their numbers taken out: two that differ only in numbers are one row.
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // "position limited from # to # rad", and the numbers as they were written. What belongs to a name
 // (/drives/4, A4, 0x8611, 12:04) is no number.
@@ -29,4 +29,4 @@ struct NumberRange {
 // The words with those ranges in their places.
 QString foldedText(const std::string& words, const std::vector<NumberRange>& ranges);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -3,7 +3,7 @@
 
 #include <type_traits>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::optional<Value> ItemEdits::of(const std::string& item, std::size_t element)
     return elementOf(edit.value, element);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // One element of an array as a value, and as an item, of its own: "pose 3".
 Value elementOf(const Value& value, std::size_t element);
@@ -47,4 +47,4 @@ private:
     std::map<std::string, Edit> edits_;  // by item
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -3,34 +3,16 @@
 
 #include "cortex/core/labelled_value.hpp"
 
+#include "model/item_node.hpp"
 #include "model/item_text.hpp"
 #include "model/plain_text.hpp"
 #include "model/value_text.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
-namespace cortex::explorer {
-
-struct ItemModel::Node {
-    Row row;
-    Node* parent = nullptr;
-    int number = 0;
-    std::uint32_t agent = 0, simplex = 0;
-    const ItemLayout* layout = nullptr;
-    std::vector<std::unique_ptr<Node>> children;
-
-    Node& add(Row below) {
-        children.push_back(std::make_unique<Node>());
-        Node& node = *children.back();
-        node.row = std::move(below);
-        node.parent = this;
-        node.number = static_cast<int>(children.size()) - 1;
-        return node;
-    }
-};
+namespace cortex::gui {
 
 namespace {
 
@@ -40,21 +22,17 @@ std::optional<Shape> markOf(const AgentFrame& agent, std::uint32_t simplex, Qual
     return agent.rests(simplex) ? Shape::Standby : shapeOf(quality);
 }
 
-// The types whose items only the framework writes.
-bool isOfFramework(const std::string& type) {
-    static const std::set<std::string> types{"Simplex", "Active", "Activity", "Agent", "Cluster"};
-    return types.contains(type);
-}
-
 std::optional<Shape> outsideOf(const ItemModel::Row& row, const Value& value) {
     const auto* ints = std::get_if<std::vector<std::int64_t>>(&value);
     if (isClosed(*row.item) && ints != nullptr && row.element < ints->size()) {
         const bool known = row.item->labels.contains((*ints)[row.element]);
         return known ? std::nullopt : std::optional{Shape::NoLabel};
     }
-    if (!row.number || !std::isfinite(*row.number)) return std::nullopt;
-    if (row.max && *row.number > *row.max) return Shape::AboveLimit;
-    if (row.min && *row.number < *row.min) return Shape::BelowLimit;
+    const auto number = numberOf(value, row.element);  // as the model has it, as are its limits
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    const auto min = numberOf(row.item->min), max = numberOf(row.item->max);
+    if (max && *number > *max) return Shape::AboveLimit;
+    if (min && *number < *min) return Shape::BelowLimit;
     return std::nullopt;
 }
 
@@ -163,12 +141,9 @@ void ItemModel::addItem(Node& group, const DataItem& item, Place place, bool fra
     row.item = &item;
     row.framework = framework;
     row.name = QString::fromStdString(item.name);
-    row.unit = unitText(item.unit);
-    row.remark = remarkOf(item);
-    if (row.remark.isEmpty() && info.role == Role::Modification) row.remark = safeRemark(item);
+    row.demand = info.role == Role::Modification;
     row.note = QString::fromStdString(item.description);
-    row.min = numberOf(item.min);
-    row.max = numberOf(item.max);
+    describe(row);
     Node& node = group.add(std::move(row));
     node.agent = place.agent;
     node.simplex = place.simplex;
@@ -183,6 +158,38 @@ void ItemModel::addItem(Node& group, const DataItem& item, Place place, bool fra
         Node& child = node.add(std::move(element));
         child.simplex = node.simplex;
         child.layout = node.layout;
+    }
+}
+
+// What depends on the unit in which it is shown.
+void ItemModel::describe(Row& row) const {
+    if (row.item == nullptr) return;
+    row.shown = units_.of(*row.item);
+    const DataItem& item = row.asShown();
+    row.unit = unitText(item.unit);
+    row.remark = remarkOf(item);
+    if (row.remark.isEmpty() && row.demand) row.remark = safeRemark(item);
+    row.min = numberOf(item.min);
+    row.max = numberOf(item.max);
+}
+
+void ItemModel::describe(Node& node) {
+    for (const auto& child : node.children) {
+        describe(child->row);
+        describe(*child);
+    }
+    if (node.children.empty()) return;
+    Q_EMIT dataChanged(
+        createIndex(0, 0, node.children.front().get()),
+        createIndex(node.children.back()->number, ColumnCount - 1, node.children.back().get()));
+}
+
+void ItemModel::setUnits(const ShownUnits& units) {
+    if (units == units_) return;
+    units_ = units;
+    for (const auto& group : root_->children) {
+        describe(*group);
+        refresh(*group);
     }
 }
 
@@ -213,8 +220,9 @@ void ItemModel::refresh(Node& node) {
             const cortex::Value& value = *known;
             const bool array = row.whole && row.item->length > 1;
             row.value = array ? tr("%n values", nullptr, static_cast<int>(row.item->length))
-                              : elementText(*row.item, value, row.element);
+                              : shownText(row.shown.get(), *row.item, value, row.element);
             if (!array) row.number = numberOf(value, row.element);
+            if (row.number && row.shown) *row.number *= row.shown->factor;
             if (!array) row.mark = outsideOf(row, value);
             const Quality quality = qualityOf(agent, *child);
             if (quality != Quality::Good && !row.item->constant) {
@@ -236,73 +244,11 @@ void ItemModel::refresh(Node& node) {
     }
 }
 
-// Items of related simplexes are set where those are shown.
-bool ItemModel::settableRow(const Row& row) const {
-    return row.item != nullptr && !row.item->settable.empty() && row.path == path_;
-}
-
-bool ItemModel::settable(const QModelIndex& index) const {
-    return index.isValid() && built_ && settableRow(nodeOf(index)->row);
-}
-
 Qt::ItemFlags ItemModel::flags(const QModelIndex& index) const {
     const bool editable = index.column() == Value && settable(index);
-    return QAbstractItemModel::flags(index) | (editable ? Qt::ItemIsEditable : Qt::NoItemFlags);
-}
-
-bool ItemModel::setData(const QModelIndex& index, const QVariant& text, int role) {
-    if (role != Qt::EditRole || !settable(index)) return false;
-    if (text == data(index, Qt::EditRole)) return true;  // opened, and left as it was
-    const Row& row = nodeOf(index)->row;
-    const DataItem item = entryItem(row);
-    QString why;
-    auto value = enteredValue(item, text.toString(), why);
-    if (value && row.whole) {
-        edits_.enter(item.name, std::move(*value));
-    } else if (value && !edits_.enter(row.item->name, row.element, *value)) {
-        why = tr("has no values yet");
-    }
-    if (!why.isEmpty()) {
-        Q_EMIT refused(QString::fromStdString(item.name) + ' ' + why);
-        return false;
-    }
-    for (const auto& group : root_->children) refresh(*group);
-    return true;
-}
-
-DataItem ItemModel::entryItem(const Row& row) {
-    return row.whole ? *row.item : elementItem(*row.item, row.element);
-}
-
-std::optional<cortex::Value> ItemModel::valueNow(const std::string& item) const {
-    if (!built_) return std::nullopt;
-    const AgentFrame& agent = frame_->agents[built_->agent];
-    const ItemLayout* layout = frame_->info(*built_).layout->find(item);
-    if (layout == nullptr || !agent.came(built_->simplex)) return std::nullopt;
-    return (*agent.image)->value(built_->simplex, *layout);
-}
-
-QString ItemModel::editedText(const Row& row) const {
-    const std::string& name = row.item->name;
-    const auto value = row.whole ? edits_.of(name) : edits_.of(name, row.element);
-    return value ? entryText(entryItem(row), *value) : QString{};
-}
-
-QString ItemModel::copyText(const QModelIndex& index) const {
-    const Node& node = *nodeOf(index);
-    if (node.row.item == nullptr || node.layout == nullptr || !built_) return node.row.name;
-    const AgentFrame& agent = frame_->agents[built_->agent];
-    if (!agent.came(node.simplex)) return {};
-    cortex::Value value = (*agent.image)->value(node.simplex, *node.layout);
-    if (!node.row.whole) value = elementOf(value, node.row.element);
-    const QString text = QString::fromStdString(toText(value));
-    const bool live = qualityOf(agent, node) == Quality::Good || node.row.item->constant;
-    return live ? text : bracketed(text);
-}
-
-void ItemModel::clearEdits() {
-    edits_.clear();
-    for (const auto& group : root_->children) refresh(*group);
+    return QAbstractItemModel::flags(index) |
+           (index.isValid() ? Qt::ItemIsDragEnabled : Qt::NoItemFlags) |
+           (editable ? Qt::ItemIsEditable : Qt::NoItemFlags);
 }
 
 ItemModel::Node* ItemModel::nodeOf(const QModelIndex& index) const {
@@ -338,16 +284,20 @@ QVariant ItemModel::data(const QModelIndex& index, int role) const {
         const Node& node = *nodeOf(index);
         if (!agent.came(node.simplex)) return {};
         const cortex::Value value = (*agent.image)->value(node.simplex, *node.layout);
-        return row.whole ? entryText(*row.item, value)
-                         : entryText(entryItem(row), elementOf(value, row.element));
+        return row.whole
+                   ? shownEntry(row.shown.get(), *row.item, value)
+                   : shownEntry(row.shown.get(), entryItem(row), elementOf(value, row.element));
     }
     if (role == Qt::ToolTipRole && row.item != nullptr) {
         QStringList lines{QString::fromStdString(row.path + '.' + row.item->name)};
         if (!row.item->description.empty()) {
             lines << QString::fromStdString(row.item->description);
         }
+        if (const QString limits = limitsText(row.asShown()); !limits.isEmpty())
+            lines << tr("Range: %1").arg(limits);
         if (row.mark) lines << word(*row.mark);
         if (row.mark == Shape::NoLabel) lines << labelsText(*row.item);
+        if (row.shown) lines << tr("In the model in %1.").arg(unitText(row.item->unit));
         return tipText(lines.join('\n'));
     }
     if (role != Qt::DisplayRole && role != Qt::AccessibleTextRole) return {};
@@ -390,4 +340,4 @@ QVariant ItemModel::headerData(int section, Qt::Orientation orientation, int rol
     }
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/item_edits.hpp"
+#include "model/shown_units.hpp"
 #include "session/frame.hpp"
 #include "style/shapes.hpp"
 
@@ -11,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // The data of one simplex as rows: a group for its own type, for each ancestor that adds items, and
 // for each related simplex. Arrays open to one row an element.
@@ -26,11 +27,14 @@ public:
         const DataItem* item = nullptr;  // null: a group
         std::size_t element = 0;         // of an array
         QString name, value, unit, remark, note;
-        QString edited;  // what was entered and is not sent yet
-        std::optional<double> number, min, max;
-        std::optional<Shape> mark;  // outside of its range, or not live
-        bool framework = false;     // only the framework writes it
-        bool whole = true;          // the item, not one of its elements
+        QString edited;                          // what was entered and is not sent yet
+        std::optional<double> number, min, max;  // as they are shown
+        std::shared_ptr<const ShownItem> shown;  // null: as the model has it
+        std::optional<Shape> mark;               // outside of its range, or not live
+        bool demand = false;                     // a wish, of a modification
+        bool framework = false;                  // only the framework writes it
+        bool whole = true;                       // the item, not one of its elements
+        const DataItem& asShown() const { return shown ? shown->item : *item; }
     };
 
     explicit ItemModel(QObject* parent = nullptr);
@@ -39,14 +43,21 @@ public:
     void show(const std::string& path);  // and its related simplexes
     void update(std::shared_ptr<const Frame> frame);
 
+    void setUnits(const ShownUnits& units);
+    const ShownUnits& units() const { return units_; }
+
     const Row& row(const QModelIndex& index) const;
     // What was entered for items of the simplex itself, and is not sent yet.
     ItemEdits::Values edits() const { return edits_.all(); }
     // What the row is entered as: an element of an array as an item of its own, "pose 3".
     static DataItem entryItem(const Row& row);
+    // What a person entered for it, in the unit of the model; none, and why, where it is wrong.
+    std::optional<cortex::Value> entered(const Row& row, const QString& text, QString& why) const;
     void clearEdits();
     bool settable(const QModelIndex& index) const;
-    // The value at full precision in plain ASCII; in brackets where it is not live.
+    QString whyNotSettable(const QModelIndex& index) const;  // empty: it is
+    // The value at full precision in plain ASCII, in the unit of the model; in brackets where it is
+    // not live.
     QString copyText(const QModelIndex& index) const;
 
     Qt::ItemFlags flags(const QModelIndex& index) const override;
@@ -69,6 +80,8 @@ private:
     void addGroups(Place place);
     void addRelated(Place place);
     void addItem(Node& group, const DataItem& item, Place place, bool framework);
+    void describe(Row& row) const;
+    void describe(Node& node);
     static Quality qualityOf(const AgentFrame& agent, const Node& node);
     void refresh(Node& node);
     bool settableRow(const Row& row) const;
@@ -82,7 +95,8 @@ private:
     std::unique_ptr<Node> root_;
     std::optional<Place> built_;
     std::uint64_t structures_ = 0;
+    ShownUnits units_;
     ItemEdits edits_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

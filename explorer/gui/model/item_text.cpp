@@ -5,8 +5,10 @@
 
 #include <QCoreApplication>
 #include <QStringList>
+#include <optional>
+#include <set>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -31,10 +33,32 @@ QString safeRemark(const DataItem& item) {
             return itemText("safe: holds");
         case Safe::Kind::Observed:
             return itemText("safe: as observed");
+        case Safe::Kind::Stop:
+            return itemText("safe: stops");
         case Safe::Kind::None:
             break;
     }
     return {};
+}
+
+bool isOfFramework(const std::string& type) {
+    static const std::set<std::string> types{"Simplex", "Active", "Activity", "Agent", "Cluster"};
+    return types.contains(type);
+}
+
+QString limitsText(const DataItem& item) {
+    const auto text = [&](const std::optional<Number>& limit) {
+        QString number = QString::number(*numberOf(limit), 'g', 12);
+        number.replace('-', QStringLiteral("−"));
+        return item.unit.empty() ? number : number + ' ' + unitText(item.unit);
+    };
+    if (item.min && item.max) {
+        const QString least = QString::number(*numberOf(item.min), 'g', 12);
+        return itemText("%1 to %2")
+            .arg(QString{least}.replace('-', QStringLiteral("−")), text(item.max));
+    }
+    if (item.min) return itemText("at least %1").arg(text(item.min));
+    return item.max ? itemText("at most %1").arg(text(item.max)) : QString{};
 }
 
 QString labelsText(const DataItem& item) {
@@ -45,4 +69,4 @@ QString labelsText(const DataItem& item) {
     return itemText("labels: %1").arg(labels.join(' '));
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -325,4 +325,4 @@ LayeredLayout layered(std::size_t nodes, std::span<const LayoutEdge> edges) {
     return result;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -9,7 +9,7 @@
 // Places the nodes of a directed graph in layers from left to right, with few crossings: longest
 // paths give the layers, medians of neighbours the order within one (Sugiyama, Tagawa, Toda 1981;
 // Gansner et al. 1993).
-namespace cortex::explorer {
+namespace cortex::gui {
 
 struct LayoutEdge {
     std::uint32_t from = 0, to = 0;
@@ -34,4 +34,4 @@ struct LayeredLayout {
 
 LayeredLayout layered(std::size_t nodes, std::span<const LayoutEdge> edges);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

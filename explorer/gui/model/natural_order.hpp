@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // Numbers in names count as numbers, so that w2 stands before w10; otherwise by letters.
 struct NaturalOrder {
@@ -41,4 +41,4 @@ private:
     }
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -2,12 +2,13 @@
 #include "model/outcome_text.hpp"
 
 #include "model/plain_text.hpp"
+#include "model/shown_time.hpp"
 #include "model/value_text.hpp"
 
 #include <QCoreApplication>
 #include <cmath>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -16,7 +17,7 @@ QString tell(const char* text) { return QCoreApplication::translate("Outcome", t
 // When the window had the outcome.
 QString timeOf(const CommandOutcome& outcome) {
     if (outcome.came == 0) return {};
-    return QStringLiteral("  ") + utcText(outcome.came, "HH:mm:ss.zzz");
+    return QStringLiteral("  ") + shownTimeText(outcome.came, "HH:mm:ss.zzz");
 }
 
 QString doneText(const CommandOutcome& outcome, const Command* command) {
@@ -84,4 +85,4 @@ std::optional<ActivityNow> activityOf(const AgentFrame& agent, std::uint32_t sim
                        *outcome == static_cast<std::int64_t>(Outcome::Running)};
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -5,7 +5,7 @@
 
 #include <QString>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // What became of a command, what that means, what to do, and when it came: "Done  1.9 ms, 2 cycles
 // 12:04:07.123", "Rejected (range): …", "No answer. The command may have been executed. …".
@@ -19,4 +19,4 @@ struct ActivityNow {
 };
 std::optional<ActivityNow> activityOf(const AgentFrame& agent, std::uint32_t simplex);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

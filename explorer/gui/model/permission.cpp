@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/permission.hpp"
 
+#include "cortex/core/control_commands.hpp"
 #include "cortex/core/path.hpp"
 
+#include "model/shown_time.hpp"
 #include "model/value_text.hpp"
 #include "session/lease.hpp"
 
 #include <QCoreApplication>
-#include <QDateTime>
+#include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -17,10 +19,7 @@ QString say(const char* text) { return QCoreApplication::translate("Permission",
 
 }  // namespace
 
-QString clockText(std::int64_t utc) {
-    return QDateTime::fromMSecsSinceEpoch(utc / 1'000'000, Qt::UTC)
-        .toString(QStringLiteral("HH:mm"));
-}
+QString clockText(std::int64_t utc) { return shownTimeText(utc, "HH:mm"); }
 
 QString scopeText(const std::string& prefix) {
     return prefix == "/" ? say("everything") : QString::fromStdString(prefix);
@@ -32,7 +31,22 @@ std::string scopeOf(const Frame& frame, Place place) {
     return path.substr(0, path.find('/', 1));
 }
 
-QString whyNotNow(const Frame& frame, Place place, StateSet available) {
+std::vector<std::string> scopesOf(const Frame& frame) {
+    std::vector<std::string> scopes;
+    for (const AgentFrame& agent : frame.agents) {
+        if (!agent.structure) continue;
+        for (const SimplexInfo& info : agent.structure->simplexes) {
+            const Type& type = *info.layout->type;
+            if (info.remote || !type.active() || type.isA("Agent")) continue;
+            scopes.push_back(info.path.substr(0, info.path.find('/', 1)));
+        }
+    }
+    std::ranges::sort(scopes);
+    scopes.erase(std::unique(scopes.begin(), scopes.end()), scopes.end());
+    return scopes;
+}
+
+QString whyNotNow(const Frame& frame, Place place, StateSet available, std::string_view command) {
     const AgentFrame& agent = frame.agents[place.agent];
     const std::string& path = frame.info(place).path;
     const bool ofAgent = frame.type(place).isA("Agent");
@@ -48,6 +62,7 @@ QString whyNotNow(const Frame& frame, Place place, StateSet available) {
                 .arg(QString::fromStdString(available.text()).replace(' ', say(" or ")));
         }
     }
+    if (isUrgentCommand(command)) return {};
     // What an agent's own command concerns follows from its prefix, which the agent checks.
     const bool ours = ofAgent ? frame.control.covers(agent.status.name, frame.control.prefix)
                               : frame.control.covers(agent.status.name, path);
@@ -61,4 +76,4 @@ QString whyNotNow(const Frame& frame, Place place, StateSet available) {
     return say("read-only: take control of %1").arg(scopeText(scopeOf(frame, place)));
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

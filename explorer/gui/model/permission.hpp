@@ -4,19 +4,27 @@
 #include "session/frame.hpp"
 
 #include <QString>
+#include <string>
+#include <string_view>
+#include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // Why nothing can be sent to the simplex now that needs one of these states; empty: it can be sent.
 // "needs Standby", "held by cortex@desk.4711-3f since 12:03 (4 min)", "read-only: take control of
 // /arm", "robot is not heard".
-QString whyNotNow(const Frame& frame, Place place, StateSet available);
+// What stops something needs no control, whatever the command is that is named.
+QString whyNotNow(const Frame& frame, Place place, StateSet available,
+                  std::string_view command = {});
 
 // What to take control of for this path: its first part, or "/" for all of an agent.
 std::string scopeOf(const Frame& frame, Place place);
 
-QString clockText(std::int64_t utc);  // "12:03" of UTC ns
+// The first parts of all paths that something can be stopped at, sorted.
+std::vector<std::string> scopesOf(const Frame& frame);
+
+QString clockText(std::int64_t utc);  // "12:03" of UTC ns, in the zone that is shown
 // "everything" for "/".
 QString scopeText(const std::string& prefix);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

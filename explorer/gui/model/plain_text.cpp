@@ -6,7 +6,7 @@
 #include <QStringList>
 #include <QTimeZone>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -48,4 +48,4 @@ QString countText(std::uint64_t count) {
     return QLocale{QLocale::English}.toString(static_cast<qulonglong>(count));
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -6,7 +6,7 @@
 #include <string>
 
 // Texts that come from outside, and texts of the screen that many views share.
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // In one line: control characters, line breaks too, are blanks.
 QString plainText(const std::string& text);
@@ -17,4 +17,4 @@ QString tipText(const QString& text);
 QString utcText(std::int64_t utc, const char* format);  // UTC ns, such as "HH:mm:ss.zzz"
 QString countText(std::uint64_t count);                 // "1,652"
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

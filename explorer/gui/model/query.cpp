@@ -7,8 +7,9 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <array>
+#include <set>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -34,9 +35,8 @@ bool has(const Type& type, const QString& name) {
     return std::ranges::any_of(type.data, named) || std::ranges::any_of(type.commands, named);
 }
 
-}  // namespace
-
-QStringList queryWords(const QString& text) {
+// Blanks between quotes do not part words.
+QStringList wordsOf(const QString& text) {
     QStringList result;
     QString word;
     bool quoted = false;
@@ -54,30 +54,71 @@ QStringList queryWords(const QString& text) {
     return result;
 }
 
-Query::Query(const QString& text) {
-    std::vector<Term> terms;
-    for (const QString& each : queryWords(text)) {
-        if (each == QLatin1String{"or"}) {
-            if (!terms.empty()) alternatives_.push_back(std::exchange(terms, {}));
-        } else {
-            add(terms, each);
-        }
-    }
-    if (!terms.empty()) alternatives_.push_back(std::move(terms));
+bool namesType(const QString& field) {
+    return field == QLatin1String{"is"} || field == QLatin1String{"type"};
 }
 
-void Query::add(std::vector<Term>& terms, QString text) {
-    Term term;
-    if (text.size() > 1 && text.startsWith('-')) {
-        term.no = true;
-        text.remove(0, 1);
+bool isKnown(const QString& type, const Frame& frame) {
+    return std::ranges::any_of(frame.agents, [&](const AgentFrame& agent) {
+        return agent.structure && agent.structure->types &&
+               std::ranges::any_of(agent.structure->types->types(),
+                                   [&](auto& each) { return equal(each.first, type); });
+    });
+}
+
+QString unknownType(const QString& name, const Frame& frame) {
+    std::set<std::string> known;
+    for (const AgentFrame& agent : frame.agents) {
+        if (!agent.structure || !agent.structure->types) continue;
+        for (const auto& each : agent.structure->types->types()) known.insert(each.first);
     }
+    const std::vector<std::string> names{known.begin(), known.end()};
+    const std::string near = nearestNames(name.toStdString(), names);
+    const QString text =
+        QCoreApplication::translate("Query", "No agent has a type \"%1\"").arg(name);
+    return near.empty() ? text + '.' : text + QStringLiteral("; ") + QString::fromStdString(near);
+}
+
+}  // namespace
+
+std::vector<QStringList> alternativesOf(const QString& text) {
+    std::vector<QStringList> result(1);
+    for (const QString& each : wordsOf(text)) {
+        if (each != QLatin1String{"or"}) {
+            result.back() << each;
+        } else if (!result.back().isEmpty()) {
+            result.emplace_back();
+        }
+    }
+    if (result.back().isEmpty()) result.pop_back();
+    return result;
+}
+
+bool takeNot(QString& word) {
+    const bool no = word.size() > 1 && word.startsWith('-');
+    if (no) word.remove(0, 1);
+    return no;
+}
+
+QString unknownField(const QString& field, std::span<const char* const> known) {
+    const std::vector<std::string> names{known.begin(), known.end()};
+    return QCoreApplication::translate("Query", "\"%1:\" is no field. %2")
+        .arg(field, QString::fromStdString(nearestNames(field.toStdString(), names)));
+}
+
+Query::Query(const QString& text) {
+    for (const QStringList& words : alternativesOf(text)) {
+        auto& terms = alternatives_.emplace_back();
+        for (const QString& each : words) terms.push_back(termFrom(each));
+    }
+}
+
+Query::Term Query::termFrom(QString text) {
+    Term term;
+    term.no = takeNot(text);
     const int colon = text.indexOf(':');
     term.condition = conditionFrom(text, trouble_);
-    if (term.condition) {
-        terms.push_back(std::move(term));
-        return;
-    }
+    if (term.condition) return term;
     if (colon < 0) {
         const bool flag = std::ranges::any_of(flags, [&](auto each) { return equal(each, text); });
         term.field = flag ? text.toLower() : QString{};
@@ -86,13 +127,22 @@ void Query::add(std::vector<Term>& terms, QString text) {
         term.field = text.left(colon).toLower();
         term.value = text.mid(colon + 1);
         if (std::ranges::none_of(fields, [&](auto each) { return equal(each, term.field); })) {
-            const std::vector<std::string> names{fields.begin(), fields.end()};
-            const std::string nearest = nearestNames(term.field.toStdString(), names);
-            trouble_ = QCoreApplication::translate("Query", "\"%1:\" is no field. %2")
-                           .arg(term.field, QString::fromStdString(nearest));
+            trouble_ = unknownField(term.field, fields);
         }
     }
-    terms.push_back(std::move(term));
+    return term;
+}
+
+// Types may still come while not everything is there.
+QString Query::troubleIn(const Frame& frame) const {
+    if (!trouble_.isEmpty() || !frame.complete) return trouble_;
+    for (const auto& terms : alternatives_) {
+        for (const Term& each : terms) {
+            if (namesType(each.field) && !isKnown(each.value, frame))
+                return unknownType(each.value, frame);
+        }
+    }
+    return {};
 }
 
 bool Query::matches(const Frame& frame, Place place) const {
@@ -105,7 +155,7 @@ bool Query::matches(const Frame& frame, Place place) const {
 
 bool Query::holds(const Term& term, const Frame& frame, Place place) {
     const AgentFrame& agent = frame.agents[place.agent];
-    if (term.condition) return explorer::holds(*term.condition, agent, place.simplex);
+    if (term.condition) return gui::holds(*term.condition, agent, place.simplex);
     const SimplexInfo& info = frame.info(place);
     const Type& type = frame.type(place);
     const QString& field = term.field;
@@ -129,4 +179,4 @@ bool Query::holds(const Term& term, const Frame& frame, Place place) {
     return field == QLatin1String{"state"} && state && equal(name(*state), term.value);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

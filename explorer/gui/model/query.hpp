@@ -7,16 +7,22 @@
 #include <QString>
 #include <QStringList>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
-// The words of a text; blanks between quotes do not part them.
-QStringList queryWords(const QString& text);
+// The words of each alternative of a text: `or` parts alternatives, blanks part words unless they
+// are between quotes. No alternative has no word.
+std::vector<QStringList> alternativesOf(const QString& text);
+// Whether the word says "not"; its - is taken away.
+bool takeNot(QString& word);
+// What is wrong with a field that nobody knows, with the nearest names.
+QString unknownField(const QString& field, std::span<const char* const> known);
 
 // What is typed into a filter: words, "texts", field:value, conditions on values, flags; blank is
-// `and`, `or` binds weaker, - is not. `is:Axis state:Active`, `position>1.5 in:/arm`,
+// `and`, `or` binds weaker, - is not. `is:AxisConcept state:Active`, `position>1.5 in:/arm`,
 // `agent:robot -quality:good`, `fault or lost`.
 class Query {
 public:
@@ -26,6 +32,8 @@ public:
     bool empty() const { return alternatives_.empty(); }
     // What is wrong with it, with the nearest names; empty: nothing.
     const QString& trouble() const { return trouble_; }
+    // The same, and a type that no agent knows.
+    QString troubleIn(const Frame& frame) const;
     bool matches(const Frame& frame, Place place) const;
 
 private:
@@ -35,10 +43,10 @@ private:
         bool no = false;
     };
     static bool holds(const Term& term, const Frame& frame, Place place);
-    void add(std::vector<Term>& terms, QString word);
+    Term termFrom(QString word);
 
     std::vector<std::vector<Term>> alternatives_;
     QString trouble_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -43,4 +43,4 @@ QString shellText(const comms::NetworkOptions& network, const char* verb, const 
     return QString::fromStdString(text);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

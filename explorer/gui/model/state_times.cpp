@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/state_times.hpp"
 
+#include "model/shown_time.hpp"
 #include "model/value_text.hpp"
 
 #include <QCoreApplication>
 #include <QDateTime>
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
 constexpr std::size_t mostChanges = 100'000;
-
-QString utcText(std::int64_t utc, const QString& format) {
-    return QDateTime::fromMSecsSinceEpoch(utc / 1'000'000, Qt::UTC).toString(format);
-}
 
 bool isStateChange(const comms::AgentEvent& event) {
     return event.kind == name(EventKind::StateChange) || event.kind == name(EventKind::Fault);
@@ -41,14 +38,14 @@ QString StateTimes::text(const Frame& frame, Place place) const {
     const auto found = changes_.find({agent.status.name, frame.info(place).path});
     if (found == changes_.end() || found->second.epoch != agent.status.epoch) {
         return QCoreApplication::translate("StateTimes", "since before %1")
-            .arg(utcText(begin_, QStringLiteral("HH:mm")));
+            .arg(shownTimeText(begin_, "HH:mm"));
     }
     const std::int64_t when = found->second.when;
     // By the clock of the agent, which also stamped the event.
     const std::int64_t now = agent.image && *agent.image ? (*agent.image)->wallClock() : when;
     const double seconds = static_cast<double>(std::max<std::int64_t>(now - when, 0)) * 1e-9;
     return QCoreApplication::translate("StateTimes", "since %1, %2")
-        .arg(utcText(when, QStringLiteral("HH:mm:ss")), wholeAgeText(seconds));
+        .arg(shownTimeText(when, "HH:mm:ss"), wholeAgeText(seconds));
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // Since when simplexes are in their states, from the events of state changes.
 class StateTimes {
@@ -18,7 +18,8 @@ public:
     StateTimes();
 
     void add(const std::vector<comms::AgentEvent>& events);
-    // "since 12:03:22, 12 min", in UTC; "since before 12:03" where no event told.
+    // "since 12:03:22, 12 min", in the zone that is shown; "since before 12:03" where no event
+    // told.
     QString text(const Frame& frame, Place place) const;
 
 private:
@@ -29,4 +30,4 @@ private:
     std::int64_t begin_;                                             // UTC ns
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

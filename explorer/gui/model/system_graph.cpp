@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -116,4 +116,4 @@ SystemGraph makeSystemGraph(const Frame& frame, const std::set<std::string>& ope
     return graph;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

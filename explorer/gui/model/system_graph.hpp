@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // A simplex, or a family: siblings 1..n of one type, or of children of one, that are related alike.
 struct GraphNode {
@@ -36,4 +36,4 @@ struct SystemGraph {
 // Families whose keys are in `open` are shown one by one.
 SystemGraph makeSystemGraph(const Frame& frame, const std::set<std::string>& open);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

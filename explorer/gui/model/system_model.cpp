@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -68,8 +68,9 @@ struct SystemModel::Wanted {
         if (place) type = QString::fromStdString(frame.type(*place).name);
         for (auto& [below, each] : children) each.name(frame);
     }
-    void add(std::string_view path, Place where, const Frame& frame) {
+    void add(const std::string_view whole, Place where, const Frame& frame) {
         Wanted* node = this;
+        std::string_view path = whole;
         while (!path.empty()) {
             path.remove_prefix(1);  // the slash
             const std::string_view name = path.substr(0, path.find('/'));
@@ -80,10 +81,9 @@ struct SystemModel::Wanted {
             node->place = where;
             return;
         }
-        const AgentFrame &first = frame.agents[node->place->agent],
-                         &other = frame.agents[where.agent];
-        if (!first.lost() && !other.lost()) node->twice = true;
-        if (other.owns(first)) node->place = where;
+        const std::uint32_t first = node->place->agent;
+        if (!frame.agents[first].lost() && !frame.agents[where.agent].lost()) node->twice = true;
+        if (frame.isOwner(where.agent, first, whole)) node->place = where;
     }
 };
 
@@ -129,6 +129,11 @@ void SystemModel::update(std::shared_ptr<const Frame> frame) {
     const auto number = frame_->number % framesBetweenFilters;
     if (changed || (!query_.empty() && number == 0)) change(*root_, wanted());
     refresh(*root_);
+}
+
+Qt::ItemFlags SystemModel::flags(const QModelIndex& index) const {
+    const Qt::ItemFlags usual = QAbstractItemModel::flags(index);
+    return place(index) ? usual | Qt::ItemIsDragEnabled : usual;
 }
 
 void SystemModel::setFilter(Query query) {
@@ -279,7 +284,7 @@ QString SystemModel::word(const Node& node) const {
     const Shape shape = node.marks.shape;
     const bool ordinary = shape == Shape::Active || shape == Shape::Standby ||
                           shape == Shape::Data || shape == Shape::Agent;
-    if (!ordinary) return explorer::word(shape);
+    if (!ordinary) return gui::word(shape);
     return node.type;
 }
 
@@ -299,9 +304,9 @@ QVariant SystemModel::data(const QModelIndex& index, int role) const {
         case Qt::AccessibleTextRole: {
             QStringList parts{QString::fromStdString(node.path)};
             if (node.place) parts << node.type;
-            if (node.marks.shape <= Shape::Unknown) parts << explorer::word(node.marks.shape);
-            if (node.marks.own) parts << explorer::word(*node.marks.own);
-            if (node.marks.worst) parts << tr("below: %1").arg(explorer::word(*node.marks.worst));
+            if (node.marks.shape <= Shape::Unknown) parts << gui::word(node.marks.shape);
+            if (node.marks.own) parts << gui::word(*node.marks.own);
+            if (node.marks.worst) parts << tr("below: %1").arg(gui::word(*node.marks.worst));
             return parts.join(QStringLiteral(", "));
         }
         default:
@@ -309,4 +314,4 @@ QVariant SystemModel::data(const QModelIndex& index, int role) const {
     }
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // What a row of the tree says of a simplex and of what lies below it.
 struct Marks {
@@ -34,6 +34,8 @@ public:
 
     void update(std::shared_ptr<const Frame> frame);
     void setFilter(Query query);
+    const Query& filter() const { return query_; }
+    Qt::ItemFlags flags(const QModelIndex& index) const override;  // simplexes can be dragged
 
     const Frame& frame() const { return *frame_; }
     const Marks& marks(const QModelIndex& index) const;
@@ -67,4 +69,4 @@ private:
     int simplexes_ = 0;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

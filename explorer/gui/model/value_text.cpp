@@ -9,7 +9,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -17,21 +17,6 @@ constexpr QChar minus{0x2212};
 constexpr int significantDigits = 6;
 
 QString tr(const char* text) { return QCoreApplication::translate("Value", text); }
-
-// Decimals that a format such as "%.3f" asks for, or a resolution of 0.001; -1: neither.
-int decimalsOf(const DataItem& item) {
-    if (const std::size_t dot = item.format.find('.'); dot != std::string::npos) {
-        int decimals = 0;
-        const char* end = item.format.data() + item.format.size();
-        if (std::from_chars(item.format.data() + dot + 1, end, decimals).ec == std::errc{}) {
-            return std::clamp(decimals, 0, 17);
-        }
-    }
-    if (item.resolution > 0) {
-        return std::clamp(static_cast<int>(std::ceil(-std::log10(item.resolution) - 1e-9)), 0, 17);
-    }
-    return -1;
-}
 
 QString superscript(int number) {
     static const QString digits = QStringLiteral("⁰¹²³⁴⁵⁶⁷⁸⁹");
@@ -58,6 +43,21 @@ QString label(const DataItem& item, std::int64_t number) {
 }
 
 }  // namespace
+
+// Decimals that a format such as "%.3f" asks for, or a resolution of 0.001.
+int decimalsOf(const DataItem& item) {
+    if (const std::size_t dot = item.format.find('.'); dot != std::string::npos) {
+        int decimals = 0;
+        const char* end = item.format.data() + item.format.size();
+        if (std::from_chars(item.format.data() + dot + 1, end, decimals).ec == std::errc{}) {
+            return std::clamp(decimals, 0, 17);
+        }
+    }
+    if (item.resolution > 0) {
+        return std::clamp(static_cast<int>(std::ceil(-std::log10(item.resolution) - 1e-9)), 0, 17);
+    }
+    return -1;
+}
 
 QString numberText(const DataItem& item, double number) {
     if (std::isnan(number)) return tr("not a number");
@@ -198,4 +198,4 @@ std::optional<double> numberOf(const std::optional<Number>& bound) {
     return std::visit([](auto number) { return static_cast<double>(number); }, *bound);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -7,11 +7,12 @@
 #include <QString>
 
 // Values as the screen shows them. Copies use cortex::toText, in plain ASCII at full precision.
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // By the format of the item, otherwise its resolution, otherwise 6 significant digits; with a minus
 // sign as it is printed, and exponents only below 1e-4 and from 1e7 on.
 QString numberText(const DataItem& item, double number);
+int decimalsOf(const DataItem& item);  // by its format or resolution; -1: neither says
 
 // "−0.0121", "AtLimit (3)", "7 (no label)", "true", "7 values" with the first three.
 QString valueText(const DataItem& item, const Value& value);
@@ -34,4 +35,4 @@ QString wholeAgeText(double seconds);       // the same in whole seconds
 std::optional<double> numberOf(const Value& value, std::size_t element = 0);
 std::optional<double> numberOf(const std::optional<Number>& bound);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

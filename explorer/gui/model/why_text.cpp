@@ -5,7 +5,7 @@
 #include <QStringList>
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -95,19 +95,13 @@ QString whyText(const Frame& frame, Place place) {
     return sentences.join(' ');
 }
 
+// The sentence of all tools. Of a lost agent nothing is claimed any more.
 QString claimsText(const Frame& frame, Place place) {
-    const QString owner = QString::fromStdString(frame.agents[place.agent].status.name);
-    QStringList others;
-    for (std::uint32_t i = 0; i < frame.agents.size(); ++i) {
-        const AgentFrame& agent = frame.agents[i];
-        if (i == place.agent || agent.lost() || !agent.structure) continue;
-        const std::uint32_t simplex = agent.structure->find(frame.info(place).path);
-        if (simplex == noSimplex || agent.structure->simplexes[simplex].remote) continue;
-        others << QString::fromStdString(agent.status.name);
-    }
-    if (others.isEmpty() || frame.agents[place.agent].lost()) return {};
-    return sayWhy("%1 is claimed by %2 and by %3. The values of %2 are shown. Commands go to %2.")
-        .arg(pathOf(frame, place), owner, others.join(sayWhy(" and by ")));
+    const comms::Contested* contest = frame.contestOf(frame.info(place).path);
+    if (contest == nullptr || frame.agents[place.agent].lost()) return {};
+    QString text = QString::fromStdString(contest->text) + '.';
+    text.front() = text.front().toUpper();
+    return text;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -5,7 +5,7 @@
 
 #include <QString>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // Who writes the simplex and how it is, and why its values are safe ones or not good, as far as
 // that is known: "Written by /control/hold (Standby). Safe values, as /control/hold is in Standby."
@@ -14,4 +14,4 @@ QString whyText(const Frame& frame, Place place);
 // Who else claims the path, whose values are shown and who gets commands; empty: nobody else.
 QString claimsText(const Frame& frame, Place place);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -6,7 +6,7 @@
 #include <QLibrary>
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -52,7 +52,22 @@ void Plugins::load(const QString& file) {
                          .arg(Plugin::current);
         return;
     }
-    for (std::size_t i = 0; i < plugin->count; ++i) views_.push_back(&plugin->views[i]);
+    add(*plugin);
+}
+
+void Plugins::add(const Plugin& plugin) {
+    for (std::size_t i = 0; i < plugin.count; ++i) {
+        if (std::ranges::find(views_, &plugin.views[i]) == views_.end())
+            views_.push_back(&plugin.views[i]);
+    }
+}
+
+std::vector<const ViewType*> Plugins::ofSystem() const {
+    std::vector<const ViewType*> found;
+    for (const ViewType* each : views_) {
+        if (*each->forType == '\0') found.push_back(each);
+    }
+    return found;
 }
 
 const ViewType* Plugins::viewFor(const Type& type, const TypeModel& types) const {
@@ -76,4 +91,4 @@ const ViewType* Plugins::viewFor(const Type& type, const TypeModel& types) const
     return nullptr;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugin/plugins.hpp"
+#include "program/measure.hpp"
 #include "program/options.hpp"
 #include "program/screenshot.hpp"
 #include "style/look.hpp"
 #include "style/plurals.hpp"
 #include "views/system_tree.hpp"
+#include "window/layout_keeper.hpp"
 #include "window/main_window.hpp"
+#include "window/pages.hpp"
 
 #include <QApplication>
+#include <algorithm>
 #include <iostream>
+#include <vector>
 
-using namespace cortex::explorer;
+using namespace cortex::gui;
 
 int main(int argc, char** argv) {
     int exit = 0;
     const auto options = parseOptions(argc, argv, exit);
     if (!options) return exit;
     const bool picture = !options->screenshot.empty();
-    if (picture) qputenv("QT_QPA_PLATFORM", "offscreen");
+    const bool measured = !options->measureFile.empty();
+    if (picture || measured) qputenv("QT_QPA_PLATFORM", "offscreen");
     QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
     QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
     QCoreApplication::setApplicationName(QStringLiteral("cortex-explorer"));
@@ -25,7 +31,8 @@ int main(int argc, char** argv) {
     Plurals texts;
     QCoreApplication::installTranslator(&texts);
     // Pictures are alike on every machine, as far as the font is installed.
-    Look::apply(options->theme, options->scale, picture ? QStringLiteral("Open Sans") : QString{});
+    Look::apply(options->theme, options->scale,
+                picture || measured ? QStringLiteral("Open Sans") : QString{});
 
     for (const QString& problem : Plugins::all().problems()) {
         std::cerr << "warning: " << problem.toStdString() << '\n';
@@ -36,13 +43,23 @@ int main(int argc, char** argv) {
     MainWindow window{session};
     window.resize(options->size);
     if (!options->filter.empty()) window.tree().filter(QString::fromStdString(options->filter));
+    if (picture || measured || options->sized) window.layouts().keepSize();
+    const QString layout = QString::fromStdString(options->layout);
+    if (!picture || !layout.isEmpty()) window.layouts().begin(options->network.domain, layout);
     for (const std::string& path : options->paths) {
         path == options->paths.front() ? window.open(path) : window.openTab(path);
     }
     window.openPart(options->view);
-    if (options->view == "agents") window.openAgents();
-    if (options->view == "system") window.openGraph();
-    if (options->view == "events") window.openEvents();
+    const std::vector<PageKind> kinds = pageKinds();
+    const auto kind = QString::fromStdString(options->view);
+    if (kind.startsWith("view:") ||
+        std::ranges::find(kinds, kind, &PageKind::kind) != kinds.end()) {
+        window.openKind(kind);
+    }
+    std::vector<RecordedItem> plotted;
+    for (const std::string& each : options->plot) plotted.push_back(*recordedItem(each));
+    if (!plotted.empty()) window.openPlot(plotted);
     window.show();
+    if (measured) return measure(window, *options);
     return picture ? writeScreenshot(window, session, *options) : QApplication::exec();
 }

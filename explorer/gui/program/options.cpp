@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/options.hpp"
 
+#include "cortex/core/nearest_names.hpp"
+
+#include "record/recorded_item.hpp"
+
 #include <QString>
+#include <algorithm>
 #include <exception>
 #include <iostream>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -22,6 +28,19 @@ std::string checkSize(const std::string& text) {
     const bool fits = size.width() >= 800 && size.height() >= 600 && size.width() <= 8192 &&
                       size.height() <= 8192;
     return fits ? std::string{} : "a size is written as 1280x800, from 800x600 to 8192x8192";
+}
+
+std::string checkView(const std::string& name) {
+    const std::vector<std::string> known{"simplex", "data",   "relationships", "commands",
+                                         "type",    "system", "agents",        "events",
+                                         "compare", "manual"};
+    if (name.starts_with("view:") || std::ranges::find(known, name) != known.end()) return {};
+    return "there is no view " + name + "; " + nearestNames(name, known);
+}
+
+std::string checkItem(const std::string& text) {
+    return recordedItem(text) ? std::string{}
+                              : "an item is written as /drives/4.position or /arm.pose[3]";
 }
 
 }  // namespace
@@ -56,9 +75,18 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exit) {
     app.add_option("--security", options.network.security,
                    "Folder made by `cortex security create-agent`; otherwise CORTEX_SECURITY")
         ->type_name("FOLDER");
-    app.add_option("--view", options.view, "What to show at first")
-        ->check(CLI::IsMember({"simplex", "data", "relationships", "commands", "type", "system",
-                               "agents", "events"}));
+    app.add_option("--view", options.view,
+                   "What to show at first: simplex, data, relationships, commands, type, system, "
+                   "agents, events, compare, manual, or view:NAME of a plug-in")
+        ->check(CLI::Validator{checkView, "NAME"});
+    app.add_option("--layout", options.layout,
+                   "Arrange the window as this file says, which the menu has saved; nothing is "
+                   "saved by itself then")
+        ->check(CLI::ExistingFile)
+        ->type_name("FILE");
+    app.add_option("--plot", options.plot,
+                   "Plot of these items, as /drives/4.position or /arm.pose[3]")
+        ->check(CLI::Validator{checkItem, "ITEM"});
     app.add_option("--filter", options.filter, "Filter of the tree")->type_name("TEXT");
     app.add_option("--rate", options.rate,
                    "How often values are taken, in Hz; 0: in every cycle of their agent")
@@ -70,12 +98,17 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exit) {
     app.add_option("--font-scale", options.scale, "Size of text and everything else")
         ->check(CLI::Range(1.0, 1.5))
         ->capture_default_str();
-    app.add_option("--size", size, "Of the window in pixels")
-        ->check(CLI::Validator{checkSize, "WxH"})
-        ->capture_default_str();
+    const auto* sized = app.add_option("--size", size, "Of the window in pixels")
+                            ->check(CLI::Validator{checkSize, "WxH"})
+                            ->capture_default_str();
     app.add_option("--screenshot", options.screenshot,
                    "Write a picture (.png) once everything has come, and end; needs no display")
         ->type_name("FILE");
+    std::pair<double, std::string> measured{0, {}};
+    app.add_option("--measure", measured,
+                   "Write what a frame costs, as JSON, after so many seconds, and end; needs no "
+                   "display")
+        ->type_name("SECONDS FILE");
     app.add_option("--timeout", options.timeout, "Seconds that a screenshot waits for everything")
         ->check(CLI::Range(0.1, 600.0))
         ->capture_default_str();
@@ -87,7 +120,10 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exit) {
     }
     options.theme = *themeNamed(QString::fromStdString(theme));
     options.size = sizeFrom(size);
+    options.sized = sized->count() > 0;
+    options.measureSeconds = measured.first;
+    options.measureFile = measured.second;
     return options;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

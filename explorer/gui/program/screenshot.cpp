@@ -3,8 +3,10 @@
 
 #include "cortex/core/nearest_names.hpp"
 
+#include "plots/plot_view.hpp"
 #include "session/session.hpp"
 #include "window/main_window.hpp"
+#include "window/workspace.hpp"
 
 #include <QApplication>
 #include <QElapsedTimer>
@@ -13,12 +15,13 @@
 #include <iostream>
 #include <sstream>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
 // In the words of `cortex`, which ends with the same exit code.
 constexpr int notFound = 3;
+constexpr double secondsOfPlot = 5;
 
 int fail(const std::string& why) {
     std::cerr << "error: " << why << '\n';
@@ -53,6 +56,12 @@ std::string unknown(const Frame& frame, const std::string& path, double limit) {
     return "no agent has a simplex " + path + (nearest.empty() ? "" : "; " + nearest);
 }
 
+// A plot is a picture once it has some seconds to show.
+bool hasSomeTime(const MainWindow& window) {
+    const auto* plot = qobject_cast<const PlotView*>(window.current());
+    return plot == nullptr || plot->kept().length() >= secondsOfPlot;
+}
+
 }  // namespace
 
 int writeScreenshot(MainWindow& window, const Session& session, const Options& options) {
@@ -64,7 +73,8 @@ int writeScreenshot(MainWindow& window, const Session& session, const Options& o
     while (!ready && static_cast<double>(timer.elapsed()) < limit * 1000) {
         QApplication::processEvents(QEventLoop::WaitForMoreEvents);
         const auto now = session.frame();
-        ready = window.ready() && (now->complete || haveAll(*now, options.paths));
+        ready = window.ready() && hasSomeTime(window) &&
+                (now->complete || haveAll(*now, options.paths));
     }
     const auto frame = session.frame();
     if (!frame->problem.empty()) return fail(frame->problem);
@@ -73,6 +83,9 @@ int writeScreenshot(MainWindow& window, const Session& session, const Options& o
         if (!frame->find(path)) return fail(unknown(*frame, path, limit));
     }
     window.refresh();
+    while (!window.workspace().settled() && static_cast<double>(timer.elapsed()) < limit * 1000) {
+        QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    }
     if (QWidget* focus = window.focusWidget()) focus->clearFocus();  // nobody types
     QApplication::processEvents();
     if (!window.grab().save(QString::fromStdString(file))) {
@@ -84,4 +97,4 @@ int writeScreenshot(MainWindow& window, const Session& session, const Options& o
     return 0;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -3,7 +3,7 @@
 
 #include "program/options.hpp"
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class MainWindow;
 class Session;
@@ -13,4 +13,4 @@ class Session;
 // nobody is heard, or nobody has a path that was named.
 int writeScreenshot(MainWindow& window, const Session& session, const Options& options);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/commands.hpp"
 
+#include "session/utc_now.hpp"
+
 #include <chrono>
 #include <utility>
 
-namespace cortex::explorer {
-
-namespace {
-
-std::int64_t utcNow() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-               std::chrono::system_clock::now().time_since_epoch())
-        .count();
-}
-
-}  // namespace
+namespace cortex::gui {
 
 void Commands::send(const std::string& path, const std::string& command,
                     comms::Mirror::Arguments arguments, std::chrono::milliseconds limit,
-                    QObject* asker, Done done, const std::string& keptAs) {
-    const std::uint64_t number = session_.send(path, command, std::move(arguments), limit);
+                    QObject* asker, Done done, const std::string& keptAs,
+                    std::chrono::milliseconds budget) {
+    const std::uint64_t number = session_.send(path, command, std::move(arguments), limit, budget);
     Key key{path, keptAs.empty() ? command : keptAs};
     last_[key] = {number, std::nullopt};
     asked_.emplace(number, Asked{asker, std::move(done), std::move(key)});
@@ -41,4 +34,4 @@ const Commands::Last* Commands::last(const std::string& path, const std::string&
     return found != last_.end() ? &found->second : nullptr;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // The commands of the window: whoever sends one is called with its outcome. What became of the last
 // one of each name stays with its simplex, whatever is shown by then. GUI thread.
@@ -30,7 +30,9 @@ public:
     // has it; the command's, if it is empty.
     void send(const std::string& path, const std::string& command,
               comms::Mirror::Arguments arguments, std::chrono::milliseconds limit, QObject* asker,
-              Done done, const std::string& keptAs = {});
+              Done done, const std::string& keptAs = {},
+              std::chrono::milliseconds budget = std::chrono::seconds{5});
+    Session& session() { return session_; }
     void deliver(const std::vector<CommandOutcome>& outcomes);
     const Last* last(const std::string& path, const std::string& name) const;  // null: none
 
@@ -46,4 +48,4 @@ private:
     std::map<Key, Last> last_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

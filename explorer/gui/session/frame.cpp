@@ -4,17 +4,13 @@
 #include "cortex/core/path.hpp"
 
 #include <algorithm>
-#include <tuple>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 bool AgentFrame::beats() const { return !lost() && status.standstill.empty() && status.age < 1; }
 
-bool AgentFrame::owns(const AgentFrame& other) const {
-    const auto order = [](const AgentFrame& each) {
-        return std::make_tuple(each.lost(), each.status.since, each.status.epoch);
-    };
-    return order(*this) < order(other);
+std::uint32_t AgentFrame::own() const {
+    return structure ? structure->find("/" + status.name) : noSimplex;
 }
 
 Quality AgentFrame::quality(std::uint32_t simplex) const {
@@ -87,6 +83,17 @@ bool Control::covers(const std::string& agent, std::string_view path) const {
     });
 }
 
+const comms::Contested* Frame::contestOf(std::string_view path) const {
+    const auto found = std::ranges::lower_bound(contested, path, {}, &comms::Contested::path);
+    return found != contested.end() && found->path == path ? &*found : nullptr;
+}
+
+bool Frame::isOwner(std::uint32_t one, std::uint32_t other, std::string_view path) const {
+    if (agents[one].lost() != agents[other].lost()) return agents[other].lost();
+    const comms::Contested* contest = contestOf(path);
+    return contest != nullptr && contest->owner == agents[one].status.name;
+}
+
 std::optional<Place> Frame::find(std::string_view path) const {
     std::optional<Place> found;
     for (std::uint32_t agent = 0; agent < agents.size(); ++agent) {
@@ -94,9 +101,9 @@ std::optional<Place> Frame::find(std::string_view path) const {
         if (!structure) continue;
         const std::uint32_t simplex = structure->find(path);
         if (simplex == noSimplex || structure->simplexes[simplex].remote) continue;
-        if (!found || agents[agent].owns(agents[found->agent])) found = Place{agent, simplex};
+        if (!found || isOwner(agent, found->agent, path)) found = Place{agent, simplex};
     }
     return found;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

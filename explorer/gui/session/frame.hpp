@@ -12,7 +12,7 @@
 
 // One moment of everything that is known. Frames are immutable: the session's thread makes them,
 // any thread may read them.
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // What is known of one agent. Without a structure its types and simplexes have not all come.
 struct AgentFrame {
@@ -22,9 +22,8 @@ struct AgentFrame {
     std::vector<float> ages;                         // s, by simplex; negative: never came
 
     bool lost() const { return status.state == "lost"; }  // or ended
-    // Whether it owns, and is sent commands for, a path that the other one claims as well.
-    bool owns(const AgentFrame& other) const;
-    bool beats() const;  // its loop runs, as far as was heard within a second
+    bool beats() const;         // its loop runs, as far as was heard within a second
+    std::uint32_t own() const;  // the simplex of the agent itself; noSimplex: none is known
     bool came(std::uint32_t simplex) const { return image && *image && image->came(simplex); }
     Quality quality(std::uint32_t simplex) const;  // lost where nothing is known
     // None also of a lost agent, whose last state may be over.
@@ -60,6 +59,7 @@ struct Control {
 
 struct Frame {
     std::uint64_t number = 0;
+    std::int64_t utc = 0;          // ns, by this computer's clock
     std::uint64_t structures = 0;  // changes whenever an agent or its structure came or went
     int domain = 0;
     bool joined = false;
@@ -71,6 +71,12 @@ struct Frame {
     std::uint32_t closed = 0;  // participants with security, which cannot be seen without
     Control control;
     std::vector<AgentFrame> agents;
+    std::vector<comms::Contested> contested;  // by path
+
+    // What is known of a path that several agents have; null: at most one has it.
+    const comms::Contested* contestOf(std::string_view path) const;
+    // Whether the one is shown and commanded rather than the other, which has the path as well.
+    bool isOwner(std::uint32_t one, std::uint32_t other, std::string_view path) const;
 
     // Where the simplex is; of several agents that claim the path, the one that owns it.
     std::optional<Place> find(std::string_view path) const;
@@ -80,4 +86,4 @@ struct Frame {
     const Type& type(Place place) const { return *info(place).layout->type; }
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 std::vector<comms::ShownLease> leasesOf(const AgentFrame& agent) {
     if (!agent.image) return {};
@@ -28,4 +28,4 @@ bool hasBelow(const AgentFrame& agent, std::string_view prefix) {
            });
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // By prefix; empty where nothing is held, or nothing is known of the agent.
 std::vector<comms::ShownLease> leasesOf(const AgentFrame& agent);
@@ -19,4 +19,4 @@ std::optional<comms::ShownLease> leaseOfOthers(const AgentFrame& agent, std::str
 // Whether the agent has a simplex of its own at or below the path.
 bool hasBelow(const AgentFrame& agent, std::string_view prefix);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -109,4 +109,4 @@ void LeaseKeeper::finishHandOver(const comms::LeaseClient::Answers& answers) {
                                         : " was not handed over to " + to_ + "." + refusals);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

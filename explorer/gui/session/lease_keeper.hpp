@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // What the window does with control: it takes one part of the plant at a time, hands it over, and
 // accepts what is handed over to it. No call waits, but the end. Session thread.
@@ -37,4 +37,4 @@ private:
     comms::LeaseClient client_;  // ends first, and releases all within a second
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/lost_agents.hpp"
 
+#include "session/utc_now.hpp"
+
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -14,9 +16,7 @@ comms::AgentEvent eventOf(const AgentFrame& agent, Severity severity, std::strin
     event.agent = agent.status.name;
     event.epoch = agent.status.epoch;
     event.cycle = agent.status.cycle;
-    event.wallClock = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                          std::chrono::system_clock::now().time_since_epoch())
-                          .count();
+    event.wallClock = utcNow();
     event.severity = severity;
     event.kind = name(EventKind::Agent);
     event.path = '/' + agent.status.name;
@@ -90,4 +90,4 @@ void LostAgents::dismiss(const std::string& agent) {
     dismissed_.insert({agent, found->second.frame.status.epoch});
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // What became of agents: one that was lost stays, with its last values, until a person dismisses
 // it or it is heard again. That it was lost, ended, came back or started anew is told once.
@@ -35,4 +35,4 @@ private:
     std::set<std::pair<std::string, std::int64_t>> dismissed_;  // name and start
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

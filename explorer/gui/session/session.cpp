@@ -4,11 +4,14 @@
 #include "cortex/core/error.hpp"
 #include "cortex/core/realtime.hpp"
 
+#include "session/utc_now.hpp"
+
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -17,12 +20,15 @@ using namespace std::chrono_literals;
 
 constexpr auto framePeriod = 33ms;
 constexpr std::size_t mostEvents = 100'000;
-constexpr auto deaf = 1s;  // a window that does not answer for so long must not hold a plant
+constexpr auto overdue = 500ms;  // the session's thread is held up
+constexpr auto deaf = 1s;        // a window that does not answer for so long must not hold a plant
 
 bool sameStructures(const Frame& a, const Frame& b) {
-    return std::ranges::equal(a.agents, b.agents, [](const AgentFrame& x, const AgentFrame& y) {
-        return x.structure == y.structure && x.status.name == y.status.name && x.lost() == y.lost();
-    });
+    return a.contested == b.contested &&
+           std::ranges::equal(a.agents, b.agents, [](const AgentFrame& x, const AgentFrame& y) {
+               return x.structure == y.structure && x.status.name == y.status.name &&
+                      x.lost() == y.lost();
+           });
 }
 
 AgentFrame agentFrame(const comms::Mirror& mirror, const comms::AgentStatus& status) {
@@ -42,10 +48,23 @@ AgentFrame agentFrame(const comms::Mirror& mirror, const comms::AgentStatus& sta
     return result;
 }
 
+// The same moment, so much later.
+std::shared_ptr<const Frame> aged(const Frame& frame, double seconds) {
+    auto result = std::make_shared<Frame>(frame);
+    result->seconds += seconds;
+    for (AgentFrame& agent : result->agents) {
+        agent.status.age += seconds;
+        for (float& age : agent.ages) {
+            if (age >= 0) age += static_cast<float>(seconds);
+        }
+    }
+    return result;
+}
+
 }  // namespace
 
 Session::Session(comms::NetworkOptions options)
-    : options_{std::move(options)}, begin_{Clock::now()} {
+    : options_{std::move(options)}, begin_{Clock::now()}, published_{begin_} {
     auto first = std::make_shared<Frame>();
     first->domain = options_.domain;
     frame_ = std::move(first);
@@ -63,13 +82,18 @@ Session::~Session() {
 
 // A lock for the copy of a pointer: libstdc++ 12 has a data race in std::atomic<std::shared_ptr>.
 std::shared_ptr<const Frame> Session::frame() const {
-    const std::lock_guard lock{mutex_};
-    return frame_;
+    std::unique_lock lock{mutex_};
+    auto newest = frame_;
+    const auto since = Clock::now() - published_;
+    lock.unlock();
+    if (since < overdue) return newest;
+    return aged(*newest, std::chrono::duration<double>(since).count());
 }
 
-void Session::view(std::vector<std::string> prefixes) {
+void Session::view(std::vector<std::string> prefixes, std::vector<comms::Viewed> others) {
     const std::lock_guard lock{mutex_};
     wanted_ = std::move(prefixes);
+    others_ = std::move(others);
 }
 
 void Session::setRate(std::uint32_t rate) {
@@ -83,12 +107,14 @@ std::vector<comms::AgentEvent> Session::takeEvents() {
 }
 
 std::uint64_t Session::send(std::string path, std::string command,
-                            comms::Mirror::Arguments arguments, std::chrono::milliseconds limit) {
+                            comms::Mirror::Arguments arguments, std::chrono::milliseconds limit,
+                            std::chrono::milliseconds budget) {
     std::uint64_t number = 0;
     {
         const std::lock_guard lock{mutex_};
         number = ++lastNumber_;
-        Request request{number, std::move(path), std::move(command), std::move(arguments), limit};
+        Request request{number, std::move(path), std::move(command), std::move(arguments),
+                        limit,  budget};
         requests_.push_back(std::move(request));
     }
     changed_.notify_all();
@@ -98,6 +124,38 @@ std::uint64_t Session::send(std::string path, std::string command,
 std::vector<CommandOutcome> Session::takeOutcomes() {
     const std::lock_guard lock{mutex_};
     return std::exchange(outcomes_, {});
+}
+
+std::uint64_t Session::hold(HeldCommand command) {
+    std::uint64_t number = 0;
+    {
+        const std::lock_guard lock{mutex_};
+        number = ++lastNumber_;
+        holdChanges_.emplace_back(
+            [number, command = std::move(command)](Holds& holds) { holds.begin(number, command); });
+    }
+    changed_.notify_all();
+    return number;
+}
+
+void Session::changeHold(std::uint64_t number, comms::Mirror::Arguments arguments) {
+    const std::lock_guard lock{mutex_};
+    holdChanges_.emplace_back([number, arguments = std::move(arguments)](Holds& holds) {
+        holds.change(number, arguments);
+    });
+}
+
+void Session::endHold(std::uint64_t number) {
+    {
+        const std::lock_guard lock{mutex_};
+        holdChanges_.emplace_back([this, number](Holds& holds) { holds.end(number, *frame_); });
+    }
+    changed_.notify_all();
+}
+
+std::vector<HoldEnd> Session::takeHoldEnds() {
+    const std::lock_guard lock{mutex_};
+    return std::exchange(holdEnds_, {});
 }
 
 void Session::dismiss(std::string agent) {
@@ -138,31 +196,43 @@ void Session::run() {
     do {
         bool again = false;
         std::vector<std::string> wanted;
+        std::vector<comms::Viewed> others;
         std::uint32_t rate = 0;
         {
             const std::lock_guard lock{mutex_};
             again = std::exchange(again_, false);
             wanted = wanted_;
+            others = others_;
             rate = rate_;
         }
         if (again && !mirror_) join();
-        if (mirror_) applyView(std::move(wanted), rate);
+        if (mirror_) applyView(std::move(wanted), std::move(others), rate);
         sendRequests();
         takeAnswers();
         keepControl();
+        keepHolds();
         publish();
     } while (pause());
+    holds_.reset();
     leases_.reset();
     mirror_.reset();
 }
 
 // The agents' own simplexes are always viewed: they say who holds control of what.
-void Session::applyView(std::vector<std::string> wanted, std::uint32_t rate) {
-    for (const AgentFrame& each : frame()->agents) wanted.push_back("/" + each.status.name);
-    if (wanted == applied_ && rate == appliedRate_) return;
-    applied_ = wanted;
+void Session::applyView(std::vector<std::string> wanted, std::vector<comms::Viewed> views,
+                        std::uint32_t rate) {
+    for (const AgentFrame& each : frame_->agents) wanted.push_back("/" + each.status.name);
+    if (auto recorded = recorder_.viewed(); !recorded.empty()) {
+        views.push_back({std::move(recorded), 0});
+    }
+    views.push_back({std::move(wanted), rate});
+    const bool same = std::ranges::equal(applied_, views, [](const auto& one, const auto& other) {
+        return one.rate == other.rate && one.prefixes == other.prefixes;
+    });
+    if (same) return;
+    applied_ = std::move(views);
     appliedRate_ = rate;
-    mirror_->view(std::move(wanted), rate);
+    mirror_->view(applied_);
 }
 
 void Session::join() {
@@ -170,9 +240,18 @@ void Session::join() {
     problem_.clear();
     publish();
     try {
-        mirror_ = std::make_unique<comms::Mirror>("cortex-explorer", options_);
+        comms::NetworkOptions options = options_;
+        if (comms::onLoopback(options.domain) != comms::OnLoopback::None) {
+            comms::alsoOnLoopback(options);
+        }
+        mirror_ = std::make_unique<comms::Mirror>("cortex-explorer", options);
         leases_ = std::make_unique<LeaseKeeper>(*mirror_);
+        holds_ = std::make_unique<Holds>(*mirror_);
         applied_.clear();
+        mirror_->prepareCommands();  // the first one may be Stop
+        mirror_->onImage([this](const std::string& agent, const comms::AgentImage& image) {
+            recorder_.hear(agent, image, utcNow());
+        });
         mirror_->onEvent([this](const comms::AgentEvent& event) {
             const std::lock_guard lock{mutex_};
             if (events_.size() < mostEvents) events_.push_back(event);
@@ -192,9 +271,9 @@ void Session::sendRequests() {
         std::string problem = "no domain is joined";
         if (mirror_) {
             try {
-                each.sent = mirror_->send(each.path, each.command, each.arguments);
+                each.sent = mirror_->send(each.path, each.command, each.arguments, each.budget);
                 each.since = Clock::now();
-                const auto last = this->frame();
+                const auto last = frame_;
                 if (const auto place = last->find(each.path)) {
                     each.agent = last->agents[place->agent].status.name;
                     each.epoch = last->agents[place->agent].status.epoch;
@@ -229,7 +308,7 @@ void Session::takeAnswers() {
 // Whether the agent that the command went to is lost, or has started anew.
 bool Session::isGone(const Request& request) const {
     if (request.agent.empty()) return false;
-    const auto last = this->frame();
+    const auto last = frame_;
     const auto agent = std::ranges::find(last->agents, request.agent,
                                          [](const AgentFrame& each) { return each.status.name; });
     return agent == last->agents.end() || agent->lost() || agent->status.epoch != request.epoch;
@@ -244,7 +323,7 @@ void Session::keepControl() {
         to = std::exchange(handOverTo_, {});
     }
     if (!leases_) return;
-    const auto last = this->frame();
+    const auto last = frame_;
     if (wanted && wanted->empty()) leases_->release();
     if (wanted && !wanted->empty()) leases_->take(*wanted, *last);
     if (!to.empty()) leases_->handOver(leases_->now().prefix, to);
@@ -252,10 +331,26 @@ void Session::keepControl() {
     leases_->step(*last, Clock::duration{now - alive_} < deaf);
 }
 
+void Session::keepHolds() {
+    std::vector<std::function<void(Holds&)>> changes;
+    {
+        const std::lock_guard lock{mutex_};
+        changes = std::exchange(holdChanges_, {});
+    }
+    if (!holds_) return;
+    for (const auto& each : changes) each(*holds_);
+    const auto last = frame_;
+    auto ends =
+        holds_->step(*last, Clock::now(), Clock::time_point{Clock::duration{alive_.load()}});
+    const std::lock_guard lock{mutex_};
+    std::ranges::move(ends, std::back_inserter(holdEnds_));
+}
+
 void Session::publish() {
-    const auto last = this->frame();
+    const auto last = frame_;
     auto frame = std::make_shared<Frame>();
     frame->number = ++number_;
+    frame->utc = utcNow();
     frame->domain = options_.domain;
     frame->joined = mirror_ != nullptr;
     frame->seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
@@ -270,11 +365,13 @@ void Session::publish() {
             frame->agents.push_back(agentFrame(*mirror_, status));
         }
         keepLost(frame->agents);
+        frame->contested = mirror_->contested();
     }
     if (!sameStructures(*last, *frame)) ++structures_;
     frame->structures = structures_;
     const std::lock_guard lock{mutex_};
     frame_ = std::move(frame);
+    published_ = Clock::now();
 }
 
 void Session::keepLost(std::vector<AgentFrame>& agents) {
@@ -292,9 +389,10 @@ void Session::keepLost(std::vector<AgentFrame>& agents) {
 bool Session::pause() {
     std::unique_lock lock{mutex_};
     changed_.wait_for(lock, framePeriod, [this] {
-        return ends_ || again_ || control_ || !handOverTo_.empty() || !requests_.empty();
+        return ends_ || again_ || control_ || !handOverTo_.empty() || !requests_.empty() ||
+               !holdChanges_.empty();
     });
     return !ends_;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <map>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -62,6 +62,31 @@ void drawButton(QPainter& painter, const QStyleOption& option, const QWidget* wi
     }
     if (!option.state.testFlag(QStyle::State_HasFocus)) return;
     drawFocus(painter, option.rect, pressed ? c.onAccent : c.accent);
+}
+
+// A track that is filled up to the handle.
+void drawSlider(QPainter& painter, const QStyleOptionSlider& slider, const QStyle& style,
+                const QWidget* widget) {
+    const Tokens& c = Look::colours();
+    const bool enabled = slider.state.testFlag(QStyle::State_Enabled);
+    const QRect handle =
+        style.subControlRect(QStyle::CC_Slider, &slider, QStyle::SC_SliderHandle, widget);
+    QRect track = slider.rect, filled = slider.rect;
+    const int half = Look::units(0.75);
+    if (slider.orientation == Qt::Horizontal) {
+        track = filled = {slider.rect.left(), handle.center().y() - half, slider.rect.width(),
+                          2 * half};
+        filled.setRight(handle.center().x());
+    } else {
+        track = filled = {handle.center().x() - half, slider.rect.top(), 2 * half,
+                          slider.rect.height()};
+        filled.setTop(handle.center().y());
+    }
+    box(painter, track, c.band, c.border);
+    box(painter, filled, enabled ? c.accent : c.border, c.border);
+    const bool held = slider.activeSubControls.testFlag(QStyle::SC_SliderHandle);
+    box(painter, handle, held ? c.hover : c.raised, enabled ? c.ink : c.border);
+    if (slider.state.testFlag(QStyle::State_HasFocus)) drawFocus(painter, handle, c.accent);
 }
 
 void drawTab(QPainter& painter, const QStyleOptionTab& tab) {
@@ -247,6 +272,10 @@ void ExplorerStyle::drawControl(ControlElement element, const QStyleOption* opti
 
 void ExplorerStyle::drawComplexControl(ComplexControl control, const QStyleOptionComplex* option,
                                        QPainter* painter, const QWidget* widget) const {
+    if (control == CC_Slider) {
+        drawSlider(*painter, *qstyleoption_cast<const QStyleOptionSlider*>(option), *this, widget);
+        return;
+    }
     if (control != CC_ScrollBar) {
         QProxyStyle::drawComplexControl(control, option, painter, widget);
         return;
@@ -321,4 +350,4 @@ QRect ExplorerStyle::subControlRect(ComplexControl control, const QStyleOptionCo
     }
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

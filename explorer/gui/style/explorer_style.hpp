@@ -3,7 +3,7 @@
 
 #include <QProxyStyle>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // Fusion with the edges, sizes and colours of the tokens: flat, one radius, a focus ring that can
 // be seen, and a dashed edge around what cannot be pressed now.
@@ -37,4 +37,4 @@ inline constexpr const char* stopKind = "stop";          // filled: the Stop but
 inline constexpr const char* wrongInput = "wrongInput";  // of a field: true makes its edge amber
 inline constexpr const char* plainKind = "plain";        // no edge before the pointer is on it
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -103,4 +103,4 @@ QIcon icon(Glyph glyph, const QColor& colour, int pixels) {
     return result;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -8,7 +8,7 @@
 #include <array>
 
 // The pictures on buttons: drawn by code, so that they take the colours of the theme.
-namespace cortex::explorer {
+namespace cortex::gui {
 
 enum class Glyph {
     Menu,
@@ -42,4 +42,4 @@ inline constexpr int glyphCount = static_cast<int>(Glyph::Help) + 1;
 void paint(QPainter& painter, const QRectF& box, Glyph glyph, const QColor& colour);
 QIcon icon(Glyph glyph, const QColor& colour, int pixels);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

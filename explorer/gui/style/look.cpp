@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -105,4 +105,4 @@ int Look::units(double count) { return static_cast<int>(std::lround(length(count
 
 int Look::lineWidth() { return theme() == Theme::HighContrast ? 2 : 1; }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -7,7 +7,7 @@
 #include <QPalette>
 
 // How everything looks at present: theme, size, fonts. One for the program; GUI thread.
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // Sizes of text in points at 100 %.
 enum class TextSize { Note, Text, Value, Title, Empty };  // 9, 10, 12, 15, 20
@@ -32,4 +32,4 @@ public:
 // comes next to it.
 QString readableFamily(const QString& wanted);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 QString Plurals::translate(const char* /*context*/, const char* text, const char* /*remark*/,
                            int count) const {
@@ -14,4 +14,4 @@ QString Plurals::translate(const char* /*context*/, const char* text, const char
     return found == plurals.end() ? QString{} : QString::fromUtf8(found->first);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

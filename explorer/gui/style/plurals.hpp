@@ -5,15 +5,18 @@
 #include <array>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // What `%n` stands before in texts of the window: for one, and for any other number.
-inline constexpr std::array<std::pair<const char*, const char*>, 9> plurals{{
+inline constexpr std::array<std::pair<const char*, const char*>, 12> plurals{{
     {"%n agent", "%n agents"},
     {"%n fault", "%n faults"},
+    {"%n thread", "%n threads"},
+    {"Compared with %n other agent", "Compared with %n other agents"},
     {"%n value", "%n values"},
     {"%n value with blanks between them", "%n values with blanks between them"},
     {"%n cycle", "%n cycles"},
+    {"%n row", "%n rows"},
     {"%n event of %1 did not come", "%n events of %1 did not come"},
     {"Set %n item", "Set %n items"},
     {"%1 of %n agent", "%1 of %n agents"},
@@ -31,4 +34,4 @@ public:
                       int count) const override;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

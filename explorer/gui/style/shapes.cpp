@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -250,4 +250,4 @@ QColor textColour(Shape shape, const Tokens& colours) {
     }
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -14,7 +14,7 @@
 #include <optional>
 
 // Marks that say what something is or how it is, each with its word: never by colour alone.
-namespace cortex::explorer {
+namespace cortex::gui {
 
 enum class Shape {
     Standby,
@@ -64,4 +64,4 @@ void paint(QPainter& painter, const QRectF& box, Shape shape, const Tokens& colo
 // The colour in which the word beside a shape is written.
 QColor textColour(Shape shape, const Tokens& colours);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

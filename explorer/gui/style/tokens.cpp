@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -186,4 +186,4 @@ double contrast(const QColor& one, const QColor& other) {
     return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

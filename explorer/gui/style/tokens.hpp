@@ -8,7 +8,7 @@
 #include <span>
 
 // The colours of the program, by what they mean. Every colour on the screen is one of these.
-namespace cortex::explorer {
+namespace cortex::gui {
 
 enum class Theme { Light, Dark, HighContrast };
 
@@ -48,4 +48,4 @@ std::span<const ContrastRule> contrastRules();
 double luminance(const QColor& colour);
 double contrast(const QColor& one, const QColor& other);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -1,34 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/agent_table.hpp"
 
+#include "model/agent_text.hpp"
+#include "model/shown_time.hpp"
 #include "model/value_text.hpp"
 #include "widgets/rows.hpp"
 
-#include <QDateTime>
-#include <QTimeZone>
+#include <QHeaderView>
+#include <QScrollBar>
+#include <algorithm>
+#include <array>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
-QString troubleOf(const AgentFrame& agent) {
-    const comms::AgentStatus& s = agent.status;
-    if (!s.standstill.empty()) return QString::fromStdString(s.standstill);
-    if (!s.trouble.empty()) return QString::fromStdString(s.trouble);
-    if (s.missing > 0) {
-        return AgentTable::tr("%1 of %2 simplexes have come")
-            .arg(s.simplexes - s.missing)
-            .arg(s.simplexes);
-    }
-    return {};
-}
+constexpr int nameRole = Qt::UserRole, startedColumn = 4;
+constexpr std::array numberColumns{3, 5, 6, 7, 8, 9};  // from the age to the samples that were lost
 
-// Of its period, and what it reaches where that is less.
-QString rateOf(const comms::AgentStatus& s) {
-    if (s.period <= 0) return {};
-    const double wanted = 1e9 / static_cast<double>(s.period);
-    if (!s.overloaded || s.rate <= 0) return AgentTable::tr("%1 Hz").arg(wanted, 0, 'g', 6);
-    return AgentTable::tr("%1 of %2 Hz").arg(s.rate, 0, 'g', 4).arg(wanted, 0, 'g', 6);
+QStringList textsOf(const AgentFrame& agent) {
+    const comms::AgentStatus& s = agent.status;
+    const QStringList troubles = troublesOf(s);
+    return {QString::fromStdString(s.name),
+            QString::fromStdString(s.host),
+            stateWord(s),
+            ageText(s.age),
+            shownTimeText(s.epoch * 1000, "yyyy-MM-dd HH:mm:ss"),
+            rateText(s),
+            QString::number(s.cycle),
+            QString::number(s.simplexes),
+            QString::number(s.types),
+            QString::number(s.loss),
+            QString::fromStdString(s.security),
+            troubles.isEmpty() ? missedText(agent) : troubles.front()};
 }
 
 }  // namespace
@@ -37,35 +41,60 @@ AgentTable::AgentTable(QWidget* parent) : QTreeWidget{parent} {
     setUpRows(*this);
     setRootIsDecorated(false);
     setAccessibleName(tr("Agents"));
-    setHeaderLabels({tr("Agent"), tr("Host"), tr("State"), tr("Age"), tr("Started (UTC)"),
-                     tr("Rate"), tr("Cycle"), tr("Simplexes"), tr("Types"), tr("Lost samples"),
-                     tr("Security"), tr("Trouble")});
-    setWidths(*this, {28.0, 34.0, 24.0, 18.0, 40.0, 20.0, 24.0, 20.0, 16.0, 26.0, 28.0});
+    setHeaderLabels({tr("Agent"), tr("Host"), tr("State"), tr("Age"), QString{}, tr("Rate"),
+                     tr("Cycle"), tr("Simplexes"), tr("Types"), tr("Lost samples"), tr("Security"),
+                     tr("Trouble")});
+    keepWidths(*this, {28.0, 34.0, 24.0, 18.0, 44.0, 20.0, 24.0, 20.0, 16.0, 26.0, 28.0});
+    connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* now) {
+        if (filling_ || now == nullptr) return;
+        chosen_ = now->data(0, nameRole).toString().toStdString();
+        Q_EMIT chosen(chosen_);
+    });
+}
+
+void AgentTable::choose(const std::string& agent) {
+    chosen_ = agent;
+    mark();
+}
+
+// The row of the agent that is chosen, wherever it stands now.
+void AgentTable::mark() {
+    filling_ = true;
+    QTreeWidgetItem* wanted = nullptr;
+    for (int i = 0; i < topLevelItemCount(); ++i) {
+        if (topLevelItem(i)->data(0, nameRole).toString().toStdString() == chosen_)
+            wanted = topLevelItem(i);
+    }
+    if (wanted != currentItem()) setCurrentItem(wanted);
+    filling_ = false;
 }
 
 void AgentTable::refresh(const Frame& frame) {
-    while (topLevelItemCount() > static_cast<int>(frame.agents.size())) delete takeTopLevelItem(0);
-    while (topLevelItemCount() < static_cast<int>(frame.agents.size())) new QTreeWidgetItem{this};
+    const QString started = tr("Started (%1)").arg(zoneName(frame.utc));
+    if (headerItem()->text(startedColumn) != started) headerItem()->setText(startedColumn, started);
+    filling_ = true;
+    const int count = static_cast<int>(frame.agents.size());
+    const bool other = topLevelItemCount() != count;
+    while (topLevelItemCount() > count) delete takeTopLevelItem(topLevelItemCount() - 1);
+    while (topLevelItemCount() < count) new QTreeWidgetItem{this};
     for (int i = 0; i < topLevelItemCount(); ++i) {
         const AgentFrame& agent = frame.agents[static_cast<std::size_t>(i)];
-        const comms::AgentStatus& s = agent.status;
-        const auto started = QDateTime::fromMSecsSinceEpoch(s.epoch / 1000, QTimeZone::utc());
-        const QStringList texts{QString::fromStdString(s.name),
-                                QString::fromStdString(s.host),
-                                s.ended ? tr("ended") : QString::fromStdString(s.state),
-                                ageText(s.age),
-                                started.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss")),
-                                rateOf(s),
-                                QString::number(s.cycle),
-                                QString::number(s.simplexes),
-                                QString::number(s.types),
-                                QString::number(s.loss),
-                                QString::fromStdString(s.security),
-                                troubleOf(agent)};
+        const QStringList texts = textsOf(agent);
+        topLevelItem(i)->setData(0, nameRole, QString::fromStdString(agent.status.name));
         for (int column = 0; column < texts.size(); ++column) {
             setCell(*topLevelItem(i), column, texts[column]);
         }
     }
+    filling_ = false;
+    for (const int column : numberColumns) growToFit(*this, column);
+    mark();
+    if (other) updateGeometry();
 }
 
-}  // namespace cortex::explorer
+int AgentTable::wholeHeight() const {
+    const int rows = std::max(topLevelItemCount(), 1);
+    return header()->sizeHint().height() + rows * gui::rowHeight() +
+           horizontalScrollBar()->sizeHint().height();
+}
+
+}  // namespace cortex::gui

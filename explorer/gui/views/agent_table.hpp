@@ -4,8 +4,9 @@
 #include "session/frame.hpp"
 
 #include <QTreeWidget>
+#include <string>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // One row for each agent of the domain: where it runs, how it is, what is wrong with it.
 class AgentTable : public QTreeWidget {
@@ -13,6 +14,17 @@ class AgentTable : public QTreeWidget {
 public:
     explicit AgentTable(QWidget* parent = nullptr);
     void refresh(const Frame& frame);
+    void choose(const std::string& agent);  // its row, as soon as there is one
+    int wholeHeight() const;                // with all rows
+
+Q_SIGNALS:
+    void chosen(const std::string& agent);  // by the user
+
+private:
+    void mark();
+
+    std::string chosen_;
+    bool filling_ = false;  // what changes is not the user's choice
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/base_view.hpp"
 
+#include "model/plotted_items.hpp"
 #include "model/value_text.hpp"
 #include "plugin/plugins.hpp"
 #include "views/command_list.hpp"
@@ -11,6 +12,7 @@
 #include "views/relation_table.hpp"
 #include "views/simplex_header.hpp"
 #include "views/type_page.hpp"
+#include "views/view_host.hpp"
 #include "widgets/item_table.hpp"
 #include "widgets/text_label.hpp"
 
@@ -20,7 +22,7 @@
 #include <algorithm>
 #include <array>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -31,17 +33,16 @@ constexpr std::array<std::string_view, TabCount> partNames{"own", "data", "relat
 
 }  // namespace
 
-BaseView::BaseView(Commands& commands, const StateTimes& times, QWidget* parent)
+BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, QWidget* parent)
     : QWidget{parent},
       whole_{new QStackedWidget},
       emptyTitle_{new TextLabel{TextSize::Empty}},
       emptyText_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
-      outcome_{new TextLabel{TextSize::Text}},
       lifeCycle_{new LifeCycleBar{commands}},
       header_{new SimplexHeader{lifeCycle_, times}},
       tabs_{new QTabBar},
       pages_{new QStackedWidget},
-      own_{new OwnView},
+      own_{new OwnView{host}},
       table_{new ItemTable{items_}},
       edits_{new EditBar{commands, items_}},
       relations_{new RelationTable},
@@ -52,12 +53,7 @@ BaseView::BaseView(Commands& commands, const StateTimes& times, QWidget* parent)
     header->setSpacing(Look::units(2));
 
     header->addWidget(header_);
-    header->addWidget(outcome_);
-    outcome_->hide();
-    connect(lifeCycle_, &LifeCycleBar::told, this, [this](const QString& text) {
-        outcome_->show(text);
-        outcome_->setVisible(!text.isEmpty());
-    });
+    connect(lifeCycle_, &LifeCycleBar::told, header_, &SimplexHeader::tell);
 
     pages_->setMinimumHeight(1);  // what is above them is never cut
     for (int i = 0; i < TabCount; ++i) tabs_->addTab({});
@@ -71,7 +67,12 @@ BaseView::BaseView(Commands& commands, const StateTimes& times, QWidget* parent)
     dataRows->addWidget(table_, 1);
     dataRows->addWidget(edits_);
     addItemActions(*table_, items_, commands.network());
+    connect(table_, &ItemTable::plotWanted, this, &BaseView::plotWanted);
+    connect(table_, &ItemTable::placesWanted, this, &BaseView::placesWanted);
+    connect(table_, &ItemTable::compareWanted, this, &BaseView::compareWanted);
+    connect(table_, &ItemTable::unitsChanged, this, &BaseView::unitsChanged);
     connect(table_, &ItemTable::submitted, edits_, &EditBar::submit);
+    connect(edits_, &EditBar::pressed, table_, qOverload<>(&QWidget::setFocus));
     auto* undo = new QShortcut{QKeySequence::Undo, this};
     connect(undo, &QShortcut::activated, edits_, &EditBar::undo);
     for (QWidget* page :
@@ -82,6 +83,7 @@ BaseView::BaseView(Commands& commands, const StateTimes& times, QWidget* parent)
     connect(tabs_, &QTabBar::tabBarClicked, this, [this](int tab) { wanted_ = tab; });
     connect(relations_, &RelationTable::opened, this, &BaseView::opened);
     connect(own_, &OwnView::opened, this, &BaseView::opened);
+    connect(own_, &OwnView::selected, this, &BaseView::selected);
     connect(header_, &SimplexHeader::dismissed, this, &BaseView::dismissed);
     connect(header_, &SimplexHeader::typeWanted, this, &BaseView::openType);
 
@@ -117,6 +119,16 @@ void BaseView::show(const std::string& path) {
     items_.show(path);
     lifeCycle_->show(path);
     edits_->show(path);
+}
+
+std::vector<RecordedItem> BaseView::chosenItems() const {
+    const bool inTable = tabs_->currentIndex() == DataTab && table_->currentIndex().isValid();
+    return plottedItems(items_, inTable ? table_->currentIndex() : items_.index(0, 0));
+}
+
+void BaseView::setUnits(const ShownUnits& units) {
+    items_.setUnits(units);
+    Q_EMIT unitsChanged();
 }
 
 void BaseView::openPart(const std::string& name) {
@@ -215,4 +227,4 @@ void BaseView::showOwnView(const Type& type, const TypeModel& types) {
     tabs_->setCurrentIndex(wanted_ == OwnTab && own == nullptr ? DataTab : wanted_);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

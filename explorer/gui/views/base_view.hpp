@@ -4,6 +4,7 @@
 #include "model/item_model.hpp"
 #include "session/commands.hpp"
 
+#include <QMenu>
 #include <QTabBar>
 #include <QWidget>
 #include <memory>
@@ -12,7 +13,7 @@
 
 class QStackedWidget;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class ItemTable;
 class OwnView;
@@ -24,20 +25,32 @@ class TypePage;
 class SimplexHeader;
 class StateTimes;
 class TextLabel;
+class ViewHost;
 
 // What can be said of every simplex, whatever its type: state, data, relationships, commands, type.
 class BaseView : public QWidget {
     Q_OBJECT
 public:
-    BaseView(Commands& commands, const StateTimes& times, QWidget* parent = nullptr);
+    BaseView(Commands& commands, ViewHost& host, const StateTimes& times,
+             QWidget* parent = nullptr);
 
     void show(const std::string& path);
     const std::string& path() const { return path_; }
     void refresh(const std::shared_ptr<const Frame>& frame);
     void openPart(const std::string& name);  // "data", "relationships", "commands", "type"
+    const ShownUnits& units() const { return items_.units(); }  // of the table of data
+    void setUnits(const ShownUnits& units);
+    // The row of data that is chosen, otherwise all numbers of its own type that are not constant.
+    std::vector<RecordedItem> chosenItems() const;
+    OwnView& own() { return *own_; }  // of a plug-in, where there is one
 
 Q_SIGNALS:
-    void opened(const std::string& path);      // the user followed a link
+    void opened(const std::string& path);    // the user followed a link
+    void selected(const std::string& path);  // in the view of a plug-in
+    void plotWanted(const std::vector<RecordedItem>& items);
+    void placesWanted(QMenu* menu, const std::vector<RecordedItem>& items);
+    void compareWanted(const QString& item);
+    void unitsChanged();
     void dismissed(const std::string& agent);  // a lost agent may go
 
 private:
@@ -52,7 +65,6 @@ private:
     ItemModel items_;
     QStackedWidget* whole_;
     TextLabel *emptyTitle_, *emptyText_;
-    TextLabel* outcome_;
     LifeCycleBar* lifeCycle_;
     SimplexHeader* header_;
     std::shared_ptr<const Structure> types_;  // of what is shown
@@ -67,4 +79,4 @@ private:
     TypePage* type_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

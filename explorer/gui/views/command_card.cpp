@@ -5,6 +5,7 @@
 #include "model/permission.hpp"
 #include "model/shell_text.hpp"
 #include "model/value_text.hpp"
+#include "views/run_question.hpp"
 #include "widgets/text_label.hpp"
 #include "widgets/value_field.hpp"
 
@@ -13,14 +14,13 @@
 #include <QClipboard>
 #include <QGridLayout>
 #include <QKeyEvent>
-#include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -140,8 +140,9 @@ void CommandCard::addParameter(QGridLayout& grid, const DataItem& item) {
 }
 
 void CommandCard::refresh(const Frame& frame, Place place) {
-    whyNot_ = comms::isControlCommand(command_.name) ? tr("the window does this itself: Ctrl+T")
-                                                     : whyNotNow(frame, place, command_.available);
+    whyNot_ = comms::isControlCommand(command_.name)
+                  ? tr("the window does this itself: Ctrl+T")
+                  : whyNotNow(frame, place, command_.available, command_.name);
     showOutcomes();
     decide();
     if (command_.isLong) refreshProgress(frame.agents[place.agent], place.simplex);
@@ -210,24 +211,8 @@ void CommandCard::run() {
         send();
 }
 
-// Cancel has the focus, so that Enter does not run it.
 void CommandCard::ask() {
-    auto* question = new QMessageBox{this};
-    question->setAttribute(Qt::WA_DeleteOnClose);
-    question->setTextFormat(Qt::PlainText);
-    const QString name = QString::fromStdString(command_.name);
-    question->setText(tr("%1 on %2?").arg(name, QString::fromStdString(path_)));
-    QString details = QString::fromStdString(command_.description);
-    for (const auto& [parameter, value] : arguments()) {
-        details +=
-            QStringLiteral("\n%1 = %2")
-                .arg(QString::fromStdString(parameter), QString::fromStdString(toText(value)));
-    }
-    question->setInformativeText(details);
-    auto* yes = question->addButton(tr("Run %1").arg(name), QMessageBox::AcceptRole);
-    question->setDefaultButton(question->addButton(QMessageBox::Cancel));
-    connect(yes, &QAbstractButton::clicked, this, &CommandCard::send);
-    question->open();
+    askToRun(this, path_, command_, arguments(), [this] { send(); });
 }
 
 void CommandCard::send() {
@@ -273,4 +258,4 @@ void CommandCard::keyPressEvent(QKeyEvent* event) {
         QWidget::keyPressEvent(event);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -11,7 +11,7 @@ class QLabel;
 class QProgressBar;
 class QPushButton;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class TextLabel;
 class ValueField;
@@ -57,4 +57,4 @@ private:
     QLabel *outcome_, *cancelled_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

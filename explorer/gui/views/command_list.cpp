@@ -7,7 +7,7 @@
 
 #include <QVBoxLayout>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 CommandList::CommandList(Commands& commands, QWidget* parent)
     : QScrollArea{parent}, commands_{commands} {
@@ -45,4 +45,4 @@ void CommandList::refresh(const Frame& frame, Place place) {
     for (CommandCard* each : cards_) each->refresh(frame, place);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

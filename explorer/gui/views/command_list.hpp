@@ -6,7 +6,7 @@
 #include <QScrollArea>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class CommandCard;
 
@@ -25,4 +25,4 @@ private:
     std::vector<CommandCard*> cards_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

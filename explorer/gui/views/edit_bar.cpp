@@ -4,6 +4,7 @@
 #include "model/outcome_text.hpp"
 #include "model/permission.hpp"
 #include "model/plain_text.hpp"
+#include "model/value_text.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QHBoxLayout>
@@ -12,7 +13,7 @@
 #include <iterator>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -48,8 +49,13 @@ EditBar::EditBar(Commands& commands, ItemModel& items, QWidget* parent)
     connect(set_, &QPushButton::clicked, this, &EditBar::submit);
     connect(discard_, &QPushButton::clicked, this, &EditBar::discard);
     connect(undo_, &QPushButton::clicked, this, &EditBar::undo);
-    connect(&items_, &ItemModel::refused, this,
-            [this](const QString& why) { say(why, &Tokens::warnText); });
+    for (QPushButton* each : {undo_, discard_, set_})
+        connect(each, &QPushButton::clicked, this, &EditBar::pressed);
+    connect(&items_, &ItemModel::refused, this, [this](const QString& why) {
+        say(why, &Tokens::warnText);
+        saysWhyNot_ = false;
+        refusedAt_ = items_.edits();
+    });
     hide();
 }
 
@@ -57,12 +63,14 @@ void EditBar::show(const std::string& path) {
     if (path == path_) return;
     path_ = path;
     frame_ = nullptr;
+    refusedAt_.reset();
     items_.clearEdits();
     sayLast();
 }
 
 // What became of the last set here, also of one that another view has sent.
 void EditBar::sayLast() {
+    saysWhyNot_ = false;
     if (const auto found = outcomes_.find(path_); found != outcomes_.end()) {
         say(found->second.text, found->second.colour);
         return;
@@ -76,10 +84,16 @@ void EditBar::sayLast() {
 void EditBar::refresh(const std::shared_ptr<const Frame>& frame, Place place) {
     frame_ = frame;
     place_ = place;
+    forgetWhatChanged();
     const auto edits = items_.edits();
     const int count = static_cast<int>(edits.size());
     const QString why = whyNot(edits);
-    if (count > 0 && (!why.isEmpty() || told_->text().isEmpty())) {
+    if (refusedAt_ && *refusedAt_ != edits) {  // what was wrong stands until something is entered
+        refusedAt_.reset();
+        saysWhyNot_ = true;
+    }
+    if (count > 0 && (!why.isEmpty() || told_->text().isEmpty() || saysWhyNot_)) {
+        saysWhyNot_ = true;
         say(why.isEmpty() ? tr("Not sent yet.") : tr("Not sent: %1").arg(why), &Tokens::ink);
     }
     set_->setText(tr("Set %n items", nullptr, count));
@@ -90,6 +104,19 @@ void EditBar::refresh(const std::shared_ptr<const Frame>& frame, Place place) {
     undo_->setVisible(last != done_.end() && count == 0);
     if (last != done_.end()) undo_->setToolTip(tipText(textOf(*last)));
     setVisible(count > 0 || !told_->text().isEmpty());
+}
+
+// "Set: …" goes once somebody has set another value.
+void EditBar::forgetWhatChanged() {
+    const auto said = outcomes_.find(path_);
+    if (said == outcomes_.end() || said->second.holds.empty()) return;
+    const bool holds = std::ranges::all_of(said->second.holds, [this](const auto& each) {
+        return valueNow(*frame_, path_, each.first) == each.second;
+    });
+    if (holds) said->second.held = true;
+    if (holds || !said->second.held) return;
+    outcomes_.erase(said);
+    told_->show({});
 }
 
 QString EditBar::whyNot(const comms::Mirror::Arguments& items) const {
@@ -174,19 +201,34 @@ void EditBar::answered(const Done& change, bool undoes, const CommandOutcome& ou
     }
     tell(change.path, (undoes ? tr("Undone: %1") : tr("Set: %1")).arg(textOf(change)),
          &Tokens::ink);
+    outcomes_[change.path].holds = change.after;
 }
 
-QString EditBar::textOf(const Done& change) {
+// As the table shows it; where that is not the unit of the model, with its unit.
+QString EditBar::textOf(const std::string& path, const std::string& item,
+                        const Value& value) const {
+    const auto place = frame_ ? frame_->find(path) : std::nullopt;
+    const DataItem* known = place ? frame_->type(*place).findData(item) : nullptr;
+    const auto shown = known != nullptr ? items_.units().of(*known) : nullptr;
+    if (!shown) return QString::fromStdString(toText(value));
+    return shownEntry(shown.get(), *known, value) + ' ' + unitText(shown->item.unit);
+}
+
+QString EditBar::textOf(const Done& change) const {
     QStringList parts;
     for (const auto& [name, value] : change.after) {
         const auto before = change.before.find(name);
-        const std::string was = before != change.before.end() ? toText(before->second) : "?";
-        parts << QString::fromStdString(name + " " + was + " → " + toText(value));
+        const QString was = before != change.before.end()
+                                ? textOf(change.path, name, before->second)
+                                : QStringLiteral("?");
+        parts << QStringLiteral("%1 %2 → %3")
+                     .arg(QString::fromStdString(name), was, textOf(change.path, name, value));
     }
     return parts.join(QStringLiteral(", "));
 }
 
 void EditBar::tell(const std::string& path, const QString& text, QColor Tokens::* colour) {
+    if (path == path_) saysWhyNot_ = false;
     outcomes_[path] = {text, colour};
     if (path == path_) say(text, colour);
 }
@@ -196,4 +238,4 @@ void EditBar::say(const QString& text, QColor Tokens::* colour) {
     QWidget::show();
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -6,13 +6,14 @@
 
 #include <QWidget>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 class QPushButton;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class TextLabel;
 
@@ -31,6 +32,9 @@ public:
     // what setting needs; without it, it can be undone later.
     void undo();
 
+Q_SIGNALS:
+    void pressed();  // one of its buttons, which goes then: the keyboard goes back to the table
+
 private:
     // Items that were set, as they were before and as they are now.
     struct Done {
@@ -40,6 +44,8 @@ private:
     struct Told {
         QString text;
         QColor Tokens::* colour;
+        comms::Mirror::Arguments holds{};  // what is said is true while these are the values
+        bool held = false;                 // they have been
     };
     using Changes = std::vector<Done>;
 
@@ -51,10 +57,14 @@ private:
     void tell(const std::string& path, const QString& text, QColor Tokens::* colour);
     void say(const QString& text, QColor Tokens::* colour);
     void sayLast();
-    static QString textOf(const Done& change);
+    void forgetWhatChanged();
+    QString textOf(const Done& change) const;
+    QString textOf(const std::string& path, const std::string& item, const Value& value) const;
 
     Commands& commands_;
     ItemModel& items_;
+    bool saysWhyNot_ = false;  // of what was not sent, which changes by itself
+    std::optional<comms::Mirror::Arguments> refusedAt_;  // the edits when an entry was refused
     std::shared_ptr<const Frame> frame_;
     Place place_;
     std::string path_;
@@ -65,4 +75,4 @@ private:
     QPushButton *set_, *discard_, *undo_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -7,7 +7,7 @@
 
 #include <array>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -58,4 +58,4 @@ void EventChips::refresh() {
     routine_->setVisible(counts.routine > 0 || events_.showsRoutine());
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

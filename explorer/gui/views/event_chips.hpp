@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class Chip;
 
@@ -30,4 +30,4 @@ private:
     Chip* routine_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

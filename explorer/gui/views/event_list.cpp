@@ -9,7 +9,7 @@
 #include <QHeaderView>
 #include <QVBoxLayout>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 EventList::EventList(EventFilter& events, QWidget* parent)
     : QWidget{parent},
@@ -61,4 +61,4 @@ void EventList::tellCount() {
     count_->show(countOf(events_));
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

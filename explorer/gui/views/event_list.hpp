@@ -5,7 +5,7 @@
 
 #include <QWidget>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class EventTable;
 class TextLabel;
@@ -29,4 +29,4 @@ private:
     TextLabel *filter_, *count_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -9,7 +9,7 @@
 #include <QPainter>
 #include <QPushButton>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -107,4 +107,4 @@ void EventPanel::paintEvent(QPaintEvent* /*event*/) {
     QPainter{this}.fillRect(QRect{0, 0, width(), 1}, Look::colours().line);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

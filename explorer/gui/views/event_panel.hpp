@@ -11,7 +11,7 @@
 
 class QPushButton;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class StateMark;
 class TextLabel;
@@ -47,4 +47,4 @@ private:
     std::array<std::pair<TextLabel*, TextLabel*>, 12> pairs_{};  // name and text
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

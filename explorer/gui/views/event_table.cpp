@@ -12,7 +12,7 @@
 #include <array>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -36,7 +36,7 @@ public:
         const Shape shape = row.isGap() ? Shape::Bad : shapeOf(row.event.severity);
         if (index.column() == EventModel::SeverityColumn) {
             const int size = Look::units(3);
-            explorer::paint(*painter, markBox(box.left(), box, size), shape, c);
+            gui::paint(*painter, markBox(box.left(), box, size), shape, c);
             box.setLeft(box.left() + size + Look::units(1.5));
         }
         const bool times = index.column() == EventModel::Times;
@@ -91,7 +91,7 @@ EventTable::EventTable(EventFilter& events, QWidget* parent) : QTableView{parent
     verticalHeader()->hide();
     verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
     verticalHeader()->setMinimumSectionSize(1);
-    verticalHeader()->setDefaultSectionSize(explorer::rowHeight());
+    verticalHeader()->setDefaultSectionSize(gui::rowHeight());
     horizontalHeader()->setHighlightSections(false);
     horizontalHeader()->setSectionResizeMode(QHeaderView::Fixed);
     connect(&events, &QAbstractItemModel::rowsInserted, this,
@@ -206,7 +206,7 @@ void EventTable::keyPressEvent(QKeyEvent* event) {
 void EventTable::changeEvent(QEvent* event) {
     QTableView::changeEvent(event);
     if (event->type() == QEvent::StyleChange) {
-        verticalHeader()->setDefaultSectionSize(explorer::rowHeight());
+        verticalHeader()->setDefaultSectionSize(gui::rowHeight());
         fitColumns();
     }
 }
@@ -220,6 +220,9 @@ void EventTable::resizeEvent(QResizeEvent* event) {
 // When it is narrow the agent goes first, then the kind, then the path is cut.
 void EventTable::fitColumns() {
     auto widths = eventWidths;
+    const auto unit = static_cast<double>(Look::units(1));
+    const double time = textWidth(QStringLiteral("00:00:00.000"), false) / unit;
+    widths[EventModel::Time] = std::max(widths[EventModel::Time], time + 5);
     double left = viewport()->width() / static_cast<double>(Look::units(1)) - leastTextWidth;
     for (const double each : widths) left -= each;
     for (const int column : {EventModel::Agent, EventModel::Kind}) {
@@ -236,4 +239,4 @@ void EventTable::fitColumns() {
     }
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // The events that are shown, as rows: a table, as a tree lays all rows out for each new one. It
 // follows the newest unless somebody has scrolled up; F and End follow again. Right opens a row of
@@ -50,4 +50,4 @@ private:
     std::optional<std::uint64_t> before_;  // selected, while the model is reset
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -16,7 +16,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -155,4 +155,4 @@ void EventView::exportTo(const QString& file) {
                     why.isEmpty() ? &Tokens::ink2 : &Tokens::warnText);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

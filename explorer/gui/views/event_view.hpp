@@ -10,7 +10,7 @@
 class QLineEdit;
 class QPushButton;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class EventChips;
 class EventPanel;
@@ -50,4 +50,4 @@ private:
     std::optional<std::uint64_t> shown_;  // row of the details, by its serial number
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -12,7 +12,7 @@
 #include <map>
 #include <optional>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -140,7 +140,7 @@ void GraphCanvas::mark() {
     std::vector<bool> lost(graph_.nodes.size());
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         const NodeMarks marks = marksOf(*frame_, graph_.nodes[i]);
-        lost[i] = marks.trouble == cortex::explorer::Shape::Lost;
+        lost[i] = marks.trouble == cortex::gui::Shape::Lost;
         nodes_[i]->mark(marks.shape, marks.trouble);
     }
     for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -283,4 +283,4 @@ void GraphCanvas::changeEvent(QEvent* event) {
     if (look && frame_) build(), mark();
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class GraphEdgeItem;
 class GraphNodeItem;
@@ -59,4 +59,4 @@ private:
     bool fitted_ = true;    // all of it is shown, until the user zooms
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

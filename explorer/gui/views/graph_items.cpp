@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -87,8 +87,8 @@ void GraphNodeItem::paint(QPainter* painter, const QStyleOptionGraphicsItem* /*o
     const double size = std::min(Look::length(3.5), box.height() * 0.8);
     const double gap = std::min(Look::length(2), size / 2);
     const auto mark = [&](double left, Shape shape) {
-        cortex::explorer::paint(*painter, {left, box.center().y() - size / 2, size, size}, shape,
-                                colours);
+        cortex::gui::paint(*painter, {left, box.center().y() - size / 2, size, size}, shape,
+                           colours);
     };
     double left = box.left() + gap, right = box.right() - gap;
     mark(left, shape_);
@@ -162,4 +162,4 @@ void GraphEdgeItem::paint(QPainter* painter, const QStyleOptionGraphicsItem* /*o
     if (chosen_) paintRules(*painter, label_, rules_);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -9,7 +9,7 @@
 #include <optional>
 
 // What stands in the drawing of a graph.
-namespace cortex::explorer {
+namespace cortex::gui {
 
 QSizeF graphNodeSize();
 
@@ -53,4 +53,4 @@ private:
     bool delayed_, chosen_ = false, lost_ = false;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

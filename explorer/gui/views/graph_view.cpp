@@ -9,7 +9,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 GraphView::GraphView(QWidget* parent)
     : QWidget{parent},
@@ -62,4 +62,4 @@ void GraphView::tell() {
     text_->show(text);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class GraphCanvas;
 class TextLabel;
@@ -33,4 +33,4 @@ private:
     TextLabel* text_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -3,13 +3,13 @@
 
 #include "cortex/comms/network_options.hpp"
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class ItemModel;
 class ItemTable;
 
-// The menu of a value, and its keys: copy it, its path, or the command line that shows or sets it;
-// set it.
-void addItemActions(ItemTable& table, const ItemModel& items, const comms::NetworkOptions& network);
+// The menu of a value, and its keys: plot it; copy it, its path, or the command line that shows or
+// sets it; set it; the units of all.
+void addItemActions(ItemTable& table, ItemModel& items, const comms::NetworkOptions& network);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -10,7 +10,7 @@
 #include <QPushButton>
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -72,7 +72,7 @@ void LifeCycleBar::refresh(const Frame& frame, Place place) {
         const auto command = std::ranges::find(type.commands, each.command, &Command::name);
         const QString why = command == type.commands.end()
                                 ? tr("its type has no %1").arg(each.button->text())
-                                : whyNotNow(frame, place, command->available);
+                                : whyNotNow(frame, place, command->available, each.command);
         each.button->setEnabled(why.isEmpty());
         each.reason->show(why);
         each.reason->setToolTip(tipText(why));
@@ -99,4 +99,4 @@ void LifeCycleBar::tell() {
     Q_EMIT told(text);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

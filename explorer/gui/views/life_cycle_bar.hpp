@@ -8,7 +8,7 @@
 
 class QPushButton;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class TextLabel;
 
@@ -40,4 +40,4 @@ private:
     int width_ = 0;  // of each button, px
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -9,7 +9,7 @@
 #include <QTextBlock>
 #include <QVariant>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -77,4 +77,4 @@ QString ManualView::sectionOf(const QWidget* widget) {
     return {};
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -3,7 +3,7 @@
 
 #include <QTextBrowser>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // The page docs/explorer.md, which is built in. A widget names the section about itself and what
 // lies in it with helpOf(); F1 opens the page there.
@@ -24,4 +24,4 @@ private:
     QString section_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

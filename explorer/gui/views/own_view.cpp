@@ -8,10 +8,11 @@
 #include <exception>
 #include <stdexcept>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
-OwnView::OwnView(QWidget* parent)
+OwnView::OwnView(explorer::Host& host, QWidget* parent)
     : QStackedWidget{parent},
+      host_{host},
       title_{new TextLabel{TextSize::Empty}},
       text_{new TextLabel{TextSize::Text, false, &Tokens::ink2}} {
     auto* empty = new QWidget;
@@ -35,7 +36,9 @@ void OwnView::show(const ViewType& type, const std::string& path) {
         if (view_ == nullptr) throw std::runtime_error{"there is no view"};
     });
     if (view_ == nullptr) return;
+    view_->setHost(&host_);
     connect(view_, &View::opened, this, &OwnView::opened);
+    connect(view_, &View::selected, this, &OwnView::selected);
     addWidget(view_);
     setCurrentWidget(view_);
 }
@@ -45,15 +48,43 @@ void OwnView::clear() {
     view_ = nullptr;
     type_ = nullptr;
     path_.clear();
+    watches_.clear();
     bound_ = 0;
 }
 
 void OwnView::refresh(const Frame& frame) {
     if (view_ == nullptr || !isVisible()) return;
     const SystemNow now{frame};
-    if (bound_ != frame.structures) guarded([&] { view_->bind(now); });
+    if (bound_ != frame.structures) {
+        guarded([&] {
+            view_->bind(now);
+            watches_ = view_->watches();
+        });
+    }
     bound_ = frame.structures;
     if (view_ != nullptr) guarded([&] { view_->refresh(now); });
+}
+
+bool OwnView::select(const std::string& path) {
+    bool shows = false;
+    if (view_ != nullptr) guarded([&] { shows = view_->select(path); });
+    return shows;
+}
+
+bool OwnView::settled() {
+    bool settled = true;
+    if (view_ != nullptr && isVisible()) guarded([&] { settled = view_->settled(); });
+    return settled;
+}
+
+QJsonObject OwnView::saved() {
+    QJsonObject saved;
+    if (view_ != nullptr) guarded([&] { saved = view_->saved(); });
+    return saved;
+}
+
+void OwnView::restore(const QJsonObject& saved) {
+    if (view_ != nullptr) guarded([&] { view_->restore(saved); });
 }
 
 void OwnView::guarded(const std::function<void()>& call) {
@@ -74,4 +105,4 @@ void OwnView::close(const QString& why) {
     text_->show(tr("The other tabs show the same simplex."));
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

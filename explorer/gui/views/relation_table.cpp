@@ -5,7 +5,7 @@
 #include "model/value_text.hpp"
 #include "widgets/rows.hpp"
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -51,7 +51,7 @@ void RelationTable::add(QTreeWidgetItem* group, const Frame& frame, const Edge& 
                                       details(edge, structure.simplexes[edge.target])}};
     item->setData(StateColumn, simplexRole, other.simplex);
     item->setData(StateColumn, agentRole, other.agent);
-    item->setToolTip(RuleColumn, QString::fromStdString(edge.rule->description).toHtmlEscaped());
+    item->setToolTip(RuleColumn, tipText(QString::fromStdString(edge.rule->description)));
     ++count_;
 }
 
@@ -115,4 +115,4 @@ void RelationTable::refresh(const Frame& frame) {
     }
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -6,7 +6,7 @@
 #include <QTreeWidget>
 #include <string>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // The relationships of a simplex, and those of others to it, also of simplexes of other agents.
 class RelationTable : public QTreeWidget {
@@ -28,4 +28,4 @@ private:
     int count_ = 0;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/simplex_header.hpp"
 
+#include "model/item_of.hpp"
+#include "model/plain_text.hpp"
 #include "model/value_text.hpp"
 #include "model/why_text.hpp"
 #include "widgets/link.hpp"
@@ -12,7 +14,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -29,15 +31,6 @@ std::vector<std::string> chainOf(const Type& type, const TypeModel& types) {
 // Nothing of it changes by itself, so that its age says nothing.
 bool neverChanges(const SimplexInfo& info) {
     return info.role != Role::Active && info.writers.empty();
-}
-
-template <class T>
-std::optional<T> itemOf(const AgentFrame& agent, std::uint32_t simplex, std::string_view item) {
-    const ItemLayout* layout = agent.structure->simplexes[simplex].layout->find(item);
-    if (layout == nullptr) return std::nullopt;
-    const auto value = agent.value(simplex, *layout);
-    const auto* all = value ? std::get_if<std::vector<T>>(&*value) : nullptr;
-    return all == nullptr || all->empty() ? std::nullopt : std::optional<T>{all->front()};
 }
 
 // What comes from outside is text: what cannot be printed is a blank.
@@ -80,6 +73,7 @@ SimplexHeader::SimplexHeader(QWidget* lifeCycle, const StateTimes& times, QWidge
       mark_{new StateMark{8}},
       state_{new TextLabel{TextSize::Title, true}},
       since_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
+      outcome_{new TextLabel{TextSize::Text}},
       fault_{wrapped(TextSize::Text, true, &Tokens::ink)},
       path_{new TextLabel{TextSize::Title, true}},
       type_{new TextLabel{TextSize::Text}},
@@ -110,7 +104,7 @@ void SimplexHeader::layOut() {
     states->setSpacing(0);
     title_ = new QVBoxLayout;
     title_->setSpacing(0);
-    for (QWidget* each : {state_, since_}) title_->addWidget(each, 0, Qt::AlignLeft);
+    for (QWidget* each : {state_, since_, outcome_}) title_->addWidget(each, 0, Qt::AlignLeft);
     states->addLayout(title_);
     states->addWidget(fault_);
     states->addStretch(1);
@@ -157,7 +151,9 @@ void SimplexHeader::fit() {
     const bool one = state + wide(*lifeCycle_) <= width();
     first_->setDirection(one ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
     title_->setDirection(one ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
-    title_->setAlignment(since_, one ? Qt::AlignLeft : Qt::AlignRight | Qt::AlignVCenter);
+    title_->setSpacing(one ? 0 : Look::units(3));
+    title_->setAlignment(since_, one ? Qt::AlignLeft : Qt::AlignLeft | Qt::AlignVCenter);
+    title_->setAlignment(outcome_, one ? Qt::AlignLeft : Qt::AlignRight | Qt::AlignVCenter);
     first_->setAlignment(lifeCycle_, one ? Qt::AlignTop : Qt::AlignTop | Qt::AlignLeft);
     const int names = wide(*path_) + wide(*type_);
     const int facts = wide(*agent_) + wide(*quality_) + wide(*task_);
@@ -192,9 +188,12 @@ void SimplexHeader::show(const Frame& frame, Place place) {
         ancestors_->layout()->addWidget(link);
         names << QString::fromStdString(each);
     }
-    type_->setToolTip(names.join(QStringLiteral(" ‹ ")).toHtmlEscaped());
+    type_->setToolTip(tipText(names.join(QStringLiteral(" ‹ "))));
     refresh(frame, place);
 }
+
+// It has room of its own, so that nothing moves when it comes or goes.
+void SimplexHeader::tell(const QString& outcome) { outcome_->show(outcome); }
 
 void SimplexHeader::refresh(const Frame& frame, Place place) {
     refreshState(frame, place);
@@ -214,6 +213,7 @@ void SimplexHeader::refreshState(const Frame& frame, Place place) {
     const Type& type = frame.type(place);
     const bool states = type.active() && !type.isA("Agent");
     since_->setVisible(states && !agent.lost());
+    outcome_->setVisible(states);
     if (since_->isVisibleTo(this)) since_->show(times_.text(frame, place));
     if (type.isA("Agent")) {  // it has commands, but no state of its own
         mark_->show(agent.status.ended ? Shape::Ended : agent.lost() ? Shape::Lost : Shape::Agent);
@@ -293,4 +293,4 @@ void SimplexHeader::refreshNotice(const Frame& frame, Place place) {
     dismiss_->setVisible(agent.lost());
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -8,7 +8,7 @@
 class QBoxLayout;
 class QPushButton;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class StateMark;
 class TextLabel;
@@ -23,6 +23,7 @@ public:
 
     void show(const Frame& frame, Place place);  // another simplex, or its structure has changed
     void refresh(const Frame& frame, Place place);
+    void tell(const QString& outcome);  // what became of a command of the life cycle
 
 Q_SIGNALS:
     void dismissed(const std::string& agent);  // a lost agent may go
@@ -42,7 +43,7 @@ private:
     const StateTimes& times_;
     QWidget* lifeCycle_;
     StateMark* mark_;
-    TextLabel *state_, *since_, *fault_;
+    TextLabel *state_, *since_, *outcome_, *fault_;
     TextLabel *path_, *type_;
     QWidget* ancestors_;
     TextLabel *agent_, *quality_, *task_;
@@ -52,4 +53,4 @@ private:
     std::string agentName_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/system_tree.hpp"
 
+#include "model/plotted_items.hpp"
 #include "style/glyphs.hpp"
+#include "widgets/item_drag.hpp"
 #include "widgets/rows.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QAction>
+#include <QDrag>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QKeyEvent>
 #include <QLineEdit>
+#include <QMouseEvent>
 #include <QScopedValueRollback>
 #include <QStyledItemDelegate>
 #include <QVBoxLayout>
 #include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -38,7 +43,7 @@ public:
         const int size = markSize(), gap = Look::units(2);
         QRect box = option.rect.adjusted(Look::units(1), 0, -Look::units(3), 0);
         const auto mark = [&](Shape shape, int left) {
-            explorer::paint(*painter, markBox(left, box, size), shape, drawn);
+            gui::paint(*painter, markBox(left, box, size), shape, drawn);
         };
         mark(marks.shape, box.left());
         box.setLeft(box.left() + size + gap);
@@ -82,10 +87,15 @@ private:
 };
 
 // Knows whether a person is acting just now: rows that come and go move the current row, too.
+// A press may begin a drag: what is chosen by the mouse is told when the button is up again.
 class TreeRows : public QTreeView {
 public:
-    using QTreeView::QTreeView;
+    explicit TreeRows(const SystemModel& model) : items_{model} {
+        setDragEnabled(true);
+        setDragDropMode(DragOnly);
+    }
     bool acts() const { return acts_; }
+    bool presses() const { return presses_; }
 
 protected:
     void keyPressEvent(QKeyEvent* event) override {
@@ -93,8 +103,17 @@ protected:
         QTreeView::keyPressEvent(event);
     }
     void mousePressEvent(QMouseEvent* event) override {
+        if (event->button() == Qt::RightButton) return;  // its menu chooses nothing first
         const QScopedValueRollback act{acts_, true};
+        const QScopedValueRollback press{presses_, true};
         QTreeView::mousePressEvent(event);
+    }
+    void startDrag(Qt::DropActions /*actions*/) override {
+        const auto dragged = plottedItems(items_.frame(), items_.path(currentIndex()));
+        if (dragged.empty()) return;
+        auto* drag = new QDrag{this};
+        drag->setMimeData(mimeOf(dragged));
+        drag->exec(Qt::CopyAction);
     }
     void drawRow(QPainter* painter, const QStyleOptionViewItem& option,
                  const QModelIndex& index) const override {
@@ -110,7 +129,8 @@ protected:
     }
 
 private:
-    bool acts_ = false;
+    const SystemModel& items_;
+    bool acts_ = false, presses_ = false;
 };
 
 }  // namespace
@@ -129,7 +149,7 @@ SystemTree::SystemTree(QWidget* parent)
     head->addStretch(1);
     head->addWidget(count_);
 
-    filter_->setPlaceholderText(tr("Filter: name, type, is:Axis, state:Fault"));
+    filter_->setPlaceholderText(tr("Filter: name, is:AxisConcept, fault"));
     filter_->setAccessibleName(tr("Filter"));
     filter_->setClearButtonEnabled(true);
     filter_->setTextMargins(Look::units(1), 0, Look::units(1), 0);
@@ -139,6 +159,8 @@ SystemTree::SystemTree(QWidget* parent)
     box->setSpacing(Look::units(1));
     box->addWidget(filter_);
     box->addWidget(trouble_);
+    trouble_->setWordWrap(true);
+    trouble_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Minimum);
     trouble_->hide();
 
     tree_->setItemDelegate(new TreeDelegate{model_, tree_});
@@ -146,6 +168,8 @@ SystemTree::SystemTree(QWidget* parent)
     tree_->setHeaderHidden(true);
     tree_->setAccessibleName(tr("Simplexes"));
     tree_->setExpandsOnDoubleClick(false);
+    tree_->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(tree_, &QTreeView::customContextMenuRequested, this, &SystemTree::askMenu);
 
     auto* rows = new QVBoxLayout{this};
     rows->setContentsMargins(0, 0, 0, 0);
@@ -155,21 +179,33 @@ SystemTree::SystemTree(QWidget* parent)
     rows->addWidget(tree_, 1);
 
     connect(filter_, &QLineEdit::textChanged, this, &SystemTree::useFilter);
+    // Also the row that is chosen already, which may be behind another tab.
+    connect(tree_, &QTreeView::clicked, this, [this](const QModelIndex& index) {
+        if (model_.place(index) && model_.path(index) == current_) Q_EMIT chosen(current_);
+    });
     connect(tree_, &QTreeView::activated, this, [this](const QModelIndex& index) {
         if (model_.place(index)) Q_EMIT pinned(model_.path(index));
     });
 }
 
 QTreeView* SystemTree::makeRows() {
-    auto* rows = new TreeRows;
+    auto* rows = new TreeRows{model_};
     rows->setModel(&model_);
     connect(rows->selectionModel(), &QItemSelectionModel::currentChanged, this,
             [this, rows](const QModelIndex& now) {
                 if (!rows->acts() || !now.isValid()) return;
                 current_ = model_.path(now);
-                if (model_.place(now)) Q_EMIT chosen(std::string{current_});
+                if (model_.place(now) && !rows->presses()) Q_EMIT chosen(std::string{current_});
             });
     return rows;
+}
+
+// By a key the menu is that of the current row.
+void SystemTree::askMenu(const QPoint& at) {
+    QModelIndex index = tree_->indexAt(at);
+    if (!index.isValid()) index = tree_->currentIndex();
+    if (!index.isValid()) return;
+    Q_EMIT menuWanted(model_.path(index), tree_->viewport()->mapToGlobal(at));
 }
 
 void SystemTree::refresh(std::shared_ptr<const Frame> frame) {
@@ -216,6 +252,11 @@ void SystemTree::choose(const std::string& path) {
     tree_->scrollTo(index);
 }
 
+std::string SystemTree::part() const {
+    const QModelIndex index = current_.empty() ? QModelIndex{} : model_.indexOf(current_);
+    return index.isValid() && !model_.place(index) ? current_ : std::string{};
+}
+
 void SystemTree::filter(const QString& text) { filter_->setText(text); }
 
 void SystemTree::focusFilter() {
@@ -225,7 +266,6 @@ void SystemTree::focusFilter() {
 
 void SystemTree::useFilter() {
     Query query{filter_->text()};
-    wrong_ = query.trouble();
     filtered_ = !query.empty();
     model_.setFilter(std::move(query));
     if (filtered_) tree_->expandAll();
@@ -235,7 +275,7 @@ void SystemTree::useFilter() {
 
 // What is wrong with the filter, or that it finds nothing, for as long as that is true.
 void SystemTree::tellTrouble() {
-    QString trouble = wrong_;
+    QString trouble = model_.filter().troubleIn(model_.frame());
     if (trouble.isEmpty() && filtered_ && model_.simplexes() > 0 && model_.rowCount() == 0) {
         trouble = tr("Nothing matches \"%1\".").arg(filter_->text());
     }
@@ -243,4 +283,4 @@ void SystemTree::tellTrouble() {
     trouble_->setVisible(!trouble.isEmpty());
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -10,7 +10,7 @@
 class QLineEdit;
 class QTreeView;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class TextLabel;
 
@@ -23,18 +23,22 @@ public:
     void refresh(std::shared_ptr<const Frame> frame);
     void choose(const std::string& path);  // opens what is above it, as soon as it is there
     const SystemModel& model() const { return model_; }
+    // The path of the current row where that is no simplex, but a part of the plant.
+    std::string part() const;
     void filter(const QString& text);
     void focusFilter();
 
 Q_SIGNALS:
-    void chosen(const std::string& path);  // shown in the current tab
-    void pinned(const std::string& path);  // in a tab of its own
+    void chosen(const std::string& path);                        // shown in the current tab
+    void pinned(const std::string& path);                        // in a tab of its own
+    void menuWanted(const std::string& path, const QPoint& at);  // on the screen
 
 private:
     QTreeView* makeRows();
     void openFirstLevels();
     void useFilter();
     void keepCurrent();
+    void askMenu(const QPoint& at);
     void tellTrouble();
 
     SystemModel model_;
@@ -44,8 +48,7 @@ private:
     bool opened_ = false;
     std::string wanted_;   // to be chosen as soon as it is there
     std::string current_;  // row that a person went to, or that was chosen, also while it is gone
-    QString wrong_;        // with the filter
     bool filtered_ = false;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

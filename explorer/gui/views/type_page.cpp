@@ -3,7 +3,7 @@
 
 #include "widgets/rows.hpp"
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -58,4 +58,4 @@ void TypePage::show(const Type& type, const TypeModel& types) {
     setWidths(*this, {56.0, 72.0, 44.0});
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

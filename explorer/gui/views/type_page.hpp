@@ -5,7 +5,7 @@
 
 #include <QTreeWidget>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // A type as it is written: what it is, its items, commands and rules, and which ancestor each comes
 // from.
@@ -16,4 +16,4 @@ public:
     void show(const Type& type, const TypeModel& types);
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -7,7 +7,7 @@
 #include <QFontMetrics>
 #include <QPainter>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -66,8 +66,7 @@ void Chip::paintEvent(QPaintEvent* /*event*/) {
     QRect box = rect().adjusted(Look::units(2), 0, 0, 0);
     if (mark_) {
         const int size = Look::units(3.5);
-        explorer::paint(painter, QRectF(box.left(), (height() - size) / 2.0, size, size), *mark_,
-                        c);
+        gui::paint(painter, QRectF(box.left(), (height() - size) / 2.0, size, size), *mark_, c);
         box.setLeft(box.left() + markWidth());
     }
     painter.setPen(isChecked() ? c.ink : c.ink2);
@@ -78,4 +77,4 @@ void Chip::paintEvent(QPaintEvent* /*event*/) {
     painter.drawText(box, Qt::AlignVCenter, rest());
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

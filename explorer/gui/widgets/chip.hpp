@@ -6,7 +6,7 @@
 #include <QAbstractButton>
 #include <optional>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // A kind of rows with their number: on while they are shown. Off, its word is struck through and
 // says so.
@@ -30,4 +30,4 @@ private:
     std::optional<Shape> mark_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 FlowLayout::FlowLayout(double gapUnits) : gap_{gapUnits} { setContentsMargins(0, 0, 0, 0); }
 
@@ -46,4 +46,4 @@ int FlowLayout::place(const QRect& rect, bool moves) const {
     return y + high - rect.y();
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

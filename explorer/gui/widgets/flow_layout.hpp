@@ -4,7 +4,7 @@
 #include <QLayout>
 #include <QList>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // Widgets beside one another; those that do not fit go to the next row.
 class FlowLayout : public QLayout {
@@ -31,4 +31,4 @@ private:
     QList<QLayoutItem*> items_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -3,24 +3,39 @@
 
 #include "model/item_model.hpp"
 #include "model/plain_text.hpp"
+#include "model/plotted_items.hpp"
 #include "model/value_text.hpp"
 #include "style/explorer_style.hpp"
+#include "widgets/entry_hint.hpp"
+#include "widgets/item_drag.hpp"
 #include "widgets/range_bar.hpp"
 #include "widgets/rows.hpp"
+#include "widgets/text_label.hpp"
 
+#include <QDrag>
+#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QStyledItemDelegate>
 #include <algorithm>
 #include <array>
+#include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
+constexpr double leastTrack = 20, leastRemark = 24, mostLimit = 36;  // units
 constexpr int mostOpenRows = 20;  // of a related simplex; one with more is closed at first
 constexpr std::array<double, ItemModel::ColumnCount> itemWidths{52, 28, 16, 52, 32, 40};  // units
+
+// As the column of ranges shows them.
+std::pair<QString, QString> limitsOf(const ItemModel::Row& row) {
+    const DataItem& item = row.asShown();
+    return {row.min ? numberText(item, *row.min) : QStringLiteral("−∞"),
+            row.max ? numberText(item, *row.max) : QStringLiteral("∞")};
+}
 
 class ItemDelegate : public QStyledItemDelegate {
 public:
@@ -70,12 +85,16 @@ public:
     QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& /*option*/,
                           const QModelIndex& index) const override {
         auto* field = new QLineEdit{parent};
-        const DataItem item = ItemModel::entryItem(items_.row(index));
-        field->setAccessibleName(QString::fromStdString(item.name));
-        connect(field, &QLineEdit::textChanged, field, [field, item] {
+        const ItemModel::Row row = items_.row(index);
+        const QString name = QString::fromStdString(ItemModel::entryItem(row).name);
+        field->setAccessibleName(row.unit.isEmpty() ? name
+                                                    : name + QStringLiteral(", ") + row.unit);
+        if (isWide(row) && !row.unit.isEmpty()) putUnitInside(*field, row.unit);
+        auto* hint = new EntryHint{*field};
+        connect(field, &QLineEdit::textChanged, hint, [this, field, hint, row] {
             QString why;
-            field->setProperty(wrongInput, !enteredValue(item, field->text(), why));
-            field->setToolTip(tipText(why));
+            field->setProperty(wrongInput, !items_.entered(row, field->text(), why));
+            hint->say(why);
             field->update();
         });
         return field;
@@ -94,15 +113,30 @@ public:
     void updateEditorGeometry(QWidget* editor, const QStyleOptionViewItem& option,
                               const QModelIndex& index) const override {
         const ItemModel::Row& row = items_.row(index);
-        const bool wide = (row.whole && row.item->length > 1) || row.item->kind == Kind::String;
         QRect box = option.rect;
-        if (wide)
+        if (isWide(row))
             box.setWidth(Look::units(itemWidths[ItemModel::Value] + itemWidths[ItemModel::Unit] +
                                      itemWidths[ItemModel::Range]));
         editor->setGeometry(box);
     }
 
 private:
+    // Its field lies over the columns beside it.
+    static bool isWide(const ItemModel::Row& row) {
+        return (row.whole && row.item->length > 1) || row.item->kind == Kind::String;
+    }
+
+    // Such a field covers the column of units.
+    static void putUnitInside(QLineEdit& field, const QString& unit) {
+        auto* label = new TextLabel{TextSize::Text, false, &Tokens::ink2};
+        label->show(unit);
+        auto* across = new QHBoxLayout{&field};
+        across->setContentsMargins(0, 0, Look::units(2), 0);
+        across->addStretch(1);
+        across->addWidget(label);
+        field.setTextMargins(0, 0, textWidth(unit) + Look::units(3), 0);
+    }
+
     // Whether the event ends what is entered, other than by giving it up.
     static bool ends(const QEvent& event) {
         if (event.type() == QEvent::FocusOut) return true;
@@ -136,14 +170,10 @@ private:
                              const ItemModel::Row& row) {
         if (!row.min && !row.max) return;
         const QColor ink = rowInk(option, Look::colours().ink2);
-        const int side = box.width() * 3 / 10;
-        const auto bound = [&](const std::optional<double>& number) {
-            return number ? numberText(*row.item, *number) : QStringLiteral("∞");
-        };
-        paintText(painter, {box.left(), box.top(), side, box.height()},
-                  row.min ? bound(row.min) : QStringLiteral("−∞"), ink, Qt::AlignRight);
-        paintText(painter, {box.right() - side, box.top(), side, box.height()}, bound(row.max),
-                  ink);
+        const int side = std::max((box.width() - Look::units(leastTrack)) / 2, 0);
+        const auto& [least, most] = limitsOf(row);
+        paintText(painter, {box.left(), box.top(), side, box.height()}, least, ink, Qt::AlignRight);
+        paintText(painter, {box.right() - side, box.top(), side, box.height()}, most, ink);
         if (!row.min || !row.max) return;
         paintRange(painter, box.adjusted(side, 0, -side, 0),
                    {*row.min, *row.max, row.number, isLive(row)});
@@ -161,7 +191,7 @@ private:
             return;
         }
         const int size = markSize();
-        cortex::explorer::paint(painter, markBox(box.left(), box, size), *row.mark, c);
+        cortex::gui::paint(painter, markBox(box.left(), box, size), *row.mark, c);
         box.setLeft(box.left() + size + Look::units(1.5));
         paintText(painter, box, word(*row.mark), rowInk(option, textColour(*row.mark, c)),
                   Qt::AlignLeft, true);
@@ -178,10 +208,24 @@ ItemTable::ItemTable(ItemModel& model, QWidget* parent) : QTreeView{parent}, ite
     setUpRows(*this);
     setAccessibleName(tr("Data"));
     setSelectionBehavior(SelectRows);
+    setDragEnabled(true);
+    setDragDropMode(DragOnly);
     setEditTriggers(DoubleClicked | EditKeyPressed);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     connect(&model, &QAbstractItemModel::modelReset, this, &ItemTable::openGroups);
+    connect(&model, &QAbstractItemModel::dataChanged, this, [this] {
+        if (items_.units() != units_) fitColumns();
+    });
     openGroups();
+}
+
+// To a plot, or as text to another program.
+void ItemTable::startDrag(Qt::DropActions /*actions*/) {
+    const auto dragged = plottedItems(items_, currentIndex());
+    if (dragged.empty()) return;
+    auto* drag = new QDrag{this};
+    drag->setMimeData(mimeOf(dragged));
+    drag->exec(Qt::CopyAction);
 }
 
 // Whatever column the cursor is in: it is the value that is edited. Tab goes on to the next one.
@@ -226,11 +270,25 @@ void ItemTable::resizeEvent(QResizeEvent* event) {
 // The description gives way first, then the range, which becomes a line under the value. A mark
 // keeps its word.
 void ItemTable::fitColumns() {
-    double left = viewport()->width() / static_cast<double>(Look::units(1));
+    units_ = items_.units();
+    const double unit = Look::units(1);
+    double left = viewport()->width() / unit;
+    // What the numbers of the ranges need beyond the usual width is taken from the remarks.
+    constexpr auto rangeWidth = itemWidths[ItemModel::Range];
+    constexpr auto remarkWidth = itemWidths[ItemModel::Remark];
+    const double fixed =
+        itemWidths[ItemModel::Name] + itemWidths[ItemModel::Value] + itemWidths[ItemModel::Unit];
+    const double needed =
+        std::clamp(2 * widestLimit() / unit + leastTrack + 4, rangeWidth, 2 * mostLimit + 24);
+    const double range = std::clamp(left - fixed - leastRemark, rangeWidth, needed);
+    const double remark = std::clamp(left - fixed - range, leastRemark, remarkWidth);
     bool all = true;
     for (const int column : {ItemModel::Name, ItemModel::Value, ItemModel::Unit, ItemModel::Remark,
                              ItemModel::Range, ItemModel::Description}) {
-        const double width = itemWidths[static_cast<std::size_t>(column)];
+        const double width = column == ItemModel::Range ? range
+                             : column == ItemModel::Remark
+                                 ? remark
+                                 : itemWidths[static_cast<std::size_t>(column)];
         const bool fits = column <= ItemModel::Unit || (all && left >= width);
         all = all && fits;
         setColumnHidden(column, !fits);
@@ -239,6 +297,20 @@ void ItemTable::fitColumns() {
             left -= width;
         }
     }
+}
+
+int ItemTable::widestLimit() const {
+    int widest = 0;
+    for (int i = 0; i < items_.rowCount(); ++i) {
+        const QModelIndex group = items_.index(i, 0);
+        for (int row = 0; row < items_.rowCount(group); ++row) {
+            const ItemModel::Row& each = items_.row(items_.index(row, 0, group));
+            if (each.item == nullptr || (!each.min && !each.max)) continue;
+            const auto& [least, most] = limitsOf(each);
+            widest = std::max({widest, textWidth(least), textWidth(most)});
+        }
+    }
+    return widest;
 }
 
 void ItemTable::drawRow(QPainter* painter, const QStyleOptionViewItem& option,
@@ -261,4 +333,4 @@ void ItemTable::drawRow(QPainter* painter, const QStyleOptionViewItem& option,
     paintText(*painter, box, row.note, rowInk(whole, c.ink2));
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <QAbstractItemDelegate>
-#include <QTreeView>
+#include "model/shown_units.hpp"
+#include "record/recorded_item.hpp"
 
-namespace cortex::explorer {
+#include <QAbstractItemDelegate>
+#include <QMenu>
+#include <QTreeView>
+#include <vector>
+
+namespace cortex::gui {
 
 class ItemModel;
 
 // The data of a simplex: name, value, unit, range bar, remark, description. Columns give way when
-// it is narrow: first the description, then the remark, then the range.
+// it is narrow: first the description, then the remark, then the range. The numbers of the ranges
+// are whole where there is room.
 class ItemTable : public QTreeView {
     Q_OBJECT
 public:
@@ -17,8 +23,14 @@ public:
 
 Q_SIGNALS:
     void submitted();  // Enter in a field
+    void plotWanted(const std::vector<RecordedItem>& items);
+    // A menu of places for these is about to open.
+    void placesWanted(QMenu* menu, const std::vector<RecordedItem>& items);
+    void compareWanted(const QString& item);
+    void unitsChanged();
 
 protected:
+    void startDrag(Qt::DropActions actions) override;
     bool edit(const QModelIndex& index, EditTrigger trigger, QEvent* event) override;
     void closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) override;
     void resizeEvent(QResizeEvent* event) override;
@@ -28,8 +40,10 @@ protected:
 private:
     void openGroups();
     void fitColumns();
+    int widestLimit() const;  // of all rows, in pixels
 
     ItemModel& items_;
+    ShownUnits units_;  // for which the columns are fitted
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

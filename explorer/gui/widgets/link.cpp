@@ -7,7 +7,7 @@
 #include <QKeyEvent>
 #include <QPainter>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 Link::Link(const QString& text, QWidget* parent) : QAbstractButton{parent} {
     setText(text);
@@ -43,4 +43,4 @@ void Link::keyPressEvent(QKeyEvent* event) {
     }
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -3,7 +3,7 @@
 
 #include <QAbstractButton>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // A text in the colour of links that is pressed, by pointer or by key.
 class Link : public QAbstractButton {
@@ -17,4 +17,4 @@ protected:
     void keyPressEvent(QKeyEvent* event) override;  // Enter, besides the blank
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

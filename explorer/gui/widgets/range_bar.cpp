@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -78,4 +78,4 @@ void paintRange(QPainter& painter, const QRect& box, const RangeShown& range) {
     painter.restore();
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -5,7 +5,7 @@
 #include <QRect>
 #include <optional>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // A number within its range: a track with a needle, and an arrow beyond the end when it is outside.
 struct RangeShown {
@@ -18,4 +18,4 @@ void paintRange(QPainter& painter, const QRect& box, const RangeShown& range);
 // The same where there is no room: a thin line with its needle along the lower edge.
 void paintRangeLine(QPainter& painter, const QRect& box, const RangeShown& range);
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

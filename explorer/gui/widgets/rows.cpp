@@ -1,10 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "widgets/rows.hpp"
 
+#include "model/plain_text.hpp"
+
+#include <QEvent>
 #include <QFontMetrics>
 #include <QHeaderView>
+#include <algorithm>
+#include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
+
+namespace {
+
+class WidthKeeper : public QObject {
+public:
+    WidthKeeper(QTreeView& view, std::vector<double> units)
+        : QObject{&view}, view_{view}, units_{std::move(units)} {}
+
+    bool eventFilter(QObject* /*object*/, QEvent* event) override {
+        if (event->type() == QEvent::StyleChange || event->type() == QEvent::FontChange)
+            setWidths(view_, units_);
+        return false;
+    }
+
+private:
+    QTreeView& view_;
+    const std::vector<double> units_;
+};
+
+}  // namespace
 
 void paintRow(QPainter& painter, const QStyleOptionViewItem& option, const QColor& plain) {
     const Tokens& c = Look::colours();
@@ -49,9 +74,28 @@ void setUpRows(QTreeView& view) {
     view.viewport()->setBackgroundRole(QPalette::Window);
 }
 
-void setWidths(QTreeView& view, std::initializer_list<double> units) {
+void setWidths(QTreeView& view, std::span<const double> units) {
     int column = 0;
-    for (const double each : units) view.header()->resizeSection(column++, Look::units(each));
+    const QAbstractItemModel& titles = *view.model();
+    for (const double each : units) {
+        const QString title = titles.headerData(column, Qt::Horizontal).toString();
+        const int least = textWidth(title, false) + Look::units(5);
+        view.header()->resizeSection(column++, std::max(Look::units(each), least));
+    }
+}
+
+void keepWidths(QTreeView& view, std::vector<double> units) {
+    setWidths(view, units);
+    view.installEventFilter(new WidthKeeper{view, std::move(units)});
+}
+
+void growToFit(QTreeWidget& tree, int column) {
+    int width = tree.columnWidth(column);
+    for (int row = 0; row < tree.topLevelItemCount(); ++row) {
+        const QString text = tree.topLevelItem(row)->text(column);
+        width = std::max(width, textWidth(text) + Look::units(5));
+    }
+    if (width > tree.columnWidth(column)) tree.setColumnWidth(column, width);
 }
 
 QTreeWidgetItem* addGroup(QTreeWidget& tree, const QString& title) {
@@ -64,16 +108,16 @@ QTreeWidgetItem* addGroup(QTreeWidget& tree, const QString& title) {
 void setCell(QTreeWidgetItem& row, int column, const QString& text) {
     if (row.text(column) == text) return;
     row.setText(column, text);
-    row.setToolTip(column, text.toHtmlEscaped());
+    row.setToolTip(column, tipText(text));
 }
 
 void tellWhole(QTreeWidget& tree) {
     for (QTreeWidgetItemIterator each{&tree}; *each != nullptr; ++each) {
         for (int column = 0; column < tree.columnCount(); ++column) {
             if (!(*each)->toolTip(column).isEmpty()) continue;
-            (*each)->setToolTip(column, (*each)->text(column).toHtmlEscaped());
+            (*each)->setToolTip(column, tipText((*each)->text(column)));
         }
     }
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -9,8 +9,10 @@
 #include <QTreeView>
 #include <QTreeWidget>
 #include <initializer_list>
+#include <span>
+#include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // What all rows of tables and trees share.
 
@@ -27,7 +29,14 @@ int textWidth(const QString& text, bool strong = false);
 void setUpRows(QTreeView& view);
 
 // The widths of the first columns, in units; the last takes what is left.
-void setWidths(QTreeView& view, std::initializer_list<double> units);
+void setWidths(QTreeView& view, std::span<const double> units);
+inline void setWidths(QTreeView& view, std::initializer_list<double> units) {
+    setWidths(view, std::span{units.begin(), units.size()});
+}
+// The same, and again whenever the size of texts changes.
+void keepWidths(QTreeView& view, std::vector<double> units);
+// Makes a column wider where one of its texts would be cut; it becomes narrower no more.
+void growToFit(QTreeWidget& tree, int column);
 // A strong row under which others stand.
 QTreeWidgetItem* addGroup(QTreeWidget& tree, const QString& title);
 
@@ -44,4 +53,4 @@ inline QRectF markBox(int left, const QRect& row, int size) {
 }
 inline int markSize() { return Look::units(3.5); }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

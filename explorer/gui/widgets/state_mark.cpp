@@ -5,7 +5,7 @@
 
 #include <QPainter>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 StateMark::StateMark(double units, QWidget* parent) : QWidget{parent}, units_{units} {
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
@@ -23,7 +23,7 @@ QSize StateMark::sizeHint() const { return {Look::units(units_), Look::units(uni
 
 void StateMark::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter{this};
-    explorer::paint(painter, rect().adjusted(1, 1, -1, -1), shape_, Look::colours());
+    gui::paint(painter, rect().adjusted(1, 1, -1, -1), shape_, Look::colours());
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

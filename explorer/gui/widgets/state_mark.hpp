@@ -5,7 +5,7 @@
 
 #include <QWidget>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // A shape as a widget, named for screen readers by its word.
 class StateMark : public QWidget {
@@ -23,4 +23,4 @@ private:
     Shape shape_ = Shape::Unknown;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

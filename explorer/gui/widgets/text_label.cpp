@@ -6,8 +6,9 @@
 #include <QEvent>
 #include <QFontMetrics>
 #include <QPainter>
+#include <QTextOption>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 TextLabel::TextLabel(TextSize size, bool strong, QColor Tokens::* colour, QWidget* parent)
     : QLabel{parent}, size_{size}, strong_{strong}, colour_{colour} {
@@ -48,12 +49,34 @@ void TextLabel::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter{this};
     painter.setPen(Look::colours().*colour_);
     if (wordWrap()) {
-        painter.drawText(rect(), static_cast<int>(alignment()) | Qt::TextWordWrap, text());
+        paintLines(painter);
         return;
     }
     const QString shown = fontMetrics().elidedText(text(), Qt::ElideRight, width());
     setToolTip(shown == text() ? QString{} : tipText(text()));
     painter.drawText(rect(), static_cast<int>(alignment()) | Qt::TextSingleLine, shown);
+}
+
+// Long names break anywhere; what has no room in all lines is cut with an ellipsis.
+void TextLabel::paintLines(QPainter& painter) {
+    QTextOption lines{alignment()};
+    lines.setWrapMode(QTextOption::WrapAtWordBoundaryOrAnywhere);
+    const auto fits = [&](const QString& shown) {
+        return painter.boundingRect(QRectF{rect()}, shown, lines).height() <= height() + 1;
+    };
+    if (fits(text())) {
+        painter.drawText(QRectF{rect()}, text(), lines);
+        return;
+    }
+    const auto cut = [this](int length) {
+        return text().left(length).trimmed() + QStringLiteral("…");
+    };
+    int shown = 0;
+    for (int tooLong = text().size(); tooLong - shown > 1;) {  // halved, as texts may be very long
+        const int half = (shown + tooLong) / 2;
+        (fits(cut(half)) ? shown : tooLong) = half;
+    }
+    painter.drawText(QRectF{rect()}, cut(shown), lines);
 }
 
 void TextLabel::changeEvent(QEvent* event) {
@@ -71,4 +94,4 @@ void TextLabel::dress() {
     dressing_ = false;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

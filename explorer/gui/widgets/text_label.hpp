@@ -5,7 +5,7 @@
 
 #include <QLabel>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // One line of plain text in a size and a colour of the tokens. What does not fit ends with "…" and
 // is whole in the tooltip; markup in it is text. With setWordWrap() it takes more lines instead.
@@ -28,6 +28,7 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
+    void paintLines(QPainter& painter);
     void dress();  // in the look that applies now
 
     TextSize size_;
@@ -36,4 +37,4 @@ private:
     bool dressing_ = false, whole_ = false;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

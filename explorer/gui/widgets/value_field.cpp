@@ -13,7 +13,7 @@
 #include <QStyle>
 #include <QWheelEvent>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -61,11 +61,12 @@ void ValueField::addChoices() {
         return;
     }
     buttons_ = new QButtonGroup{this};
-    for (const QString& each : choices) {
-        auto* button = new QPushButton{each};
+    for (int i = 0; i < choices.size(); ++i) {
+        // Without this an "&" would be a key, and not be shown.
+        auto* button = new QPushButton{QString{choices[i]}.replace('&', QStringLiteral("&&"))};
         button->setCheckable(true);
-        button->setChecked(each == first);
-        buttons_->addButton(button);
+        button->setChecked(choices[i] == first);
+        buttons_->addButton(button, i);
         layout()->addWidget(button);
     }
     static_cast<QHBoxLayout*>(layout())->addStretch(1);
@@ -95,17 +96,15 @@ void ValueField::addField() {
 QString ValueField::text() const {
     if (field_ != nullptr) return field_->text();
     if (list_ != nullptr) return list_->currentText();
-    const QAbstractButton* chosen = buttons_->checkedButton();
-    return chosen != nullptr ? chosen->text() : QString{};
+    return choicesOf(item_).value(buttons_->checkedId());
 }
 
 void ValueField::setText(const QString& text) {
     if (field_ != nullptr) field_->setText(text);
     if (list_ != nullptr) list_->setCurrentText(text);
     if (buttons_ == nullptr) return;
-    for (QAbstractButton* each : buttons_->buttons()) {
-        if (each->text() == text) each->setChecked(true);
-    }
+    const int chosen = choicesOf(item_).indexOf(text);
+    if (chosen >= 0) buttons_->button(chosen)->setChecked(true);
     Q_EMIT changed();
 }
 
@@ -122,4 +121,4 @@ QString ValueField::problem() const {
     return why;
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

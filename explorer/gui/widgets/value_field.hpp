@@ -10,7 +10,7 @@ class QButtonGroup;
 class QComboBox;
 class QLineEdit;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // Where the value of an item is entered: buttons for up to four labels and for true and false, a
 // list for more labels, otherwise a field that says while typing what is wrong. The wheel changes
@@ -41,4 +41,4 @@ private:
     QButtonGroup* buttons_ = nullptr;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -4,10 +4,13 @@
 #include "style/look.hpp"
 
 #include <QCoreApplication>
+#include <QJsonArray>
 #include <QPushButton>
 #include <QSplitter>
+#include <algorithm>
+#include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -16,48 +19,132 @@ bool isTooSmall(QSize window) {
     return window.width() < Look::units(256) || window.height() < Look::units(175);
 }
 
+QString arranged(const char* name) { return QLatin1String{name}; }
+
 }  // namespace
 
-Arrangement::Arrangement(QSplitter& across, QSplitter& down)
+Arrangement::Arrangement(QSplitter& across, QSplitter& down, std::function<void()> changed)
     : across_{across},
       down_{down},
+      tree_{across, 0, 76},
+      events_{down, 1, 25},
+      changed_{std::move(changed)},
       treeButton_{new QPushButton{QCoreApplication::translate("Arrangement", "Tree ▸")}} {
     treeButton_->setToolTip(QCoreApplication::translate("Arrangement", "All simplexes (Ctrl+B)"));
     treeButton_->hide();
     QObject::connect(treeButton_, &QPushButton::clicked, treeButton_, [this] { toggleTree(); });
+    for (const QSplitter* each : {&across_, &down_}) {
+        QObject::connect(each, &QSplitter::splitterMoved, treeButton_, [this] {
+            noteSizes();
+            changed_();
+        });
+    }
 }
 
-QWidget& Arrangement::tree() const { return *across_.widget(0); }
+QWidget& Arrangement::Part::widget() const { return *splitter.widget(index); }
+
+// So small that nothing in it can be read is taken for unknown: a hidden part was saved so.
+int Arrangement::Part::sizeOr(int pixels) const { return size < pixels * 2 / 5 ? pixels : size; }
 
 bool Arrangement::fit(QSize window) {
     const bool narrow = isTooSmall(window);
     if (fitted_ && narrow == narrow_) return false;
+    if (fitted_) noteSizes();
     narrow_ = narrow;
     fitted_ = true;
+    eventsWhileNarrow_ = false;
     treeButton_->setVisible(narrow);
-    tree().setVisible(!narrow);
     down_.show();
-    if (!narrow) share(window);
+    tree_.widget().setVisible(!narrow && tree_.shown);
+    events_.widget().setVisible(seesEvents());
+    if (!narrow) {
+        place(tree_, window.width());
+        place(events_, window.height());
+    }
     return true;
 }
 
-void Arrangement::share(QSize window) {
-    across_.setSizes({Look::units(76), window.width() - Look::units(76)});
-    down_.setSizes({window.height() - Look::units(42), Look::units(25)});
+void Arrangement::place(const Part& part, int whole) {
+    const int size = part.sizeOr(Look::units(part.usual));
+    QList<int> sizes{size, std::max(whole - size, size)};
+    if (part.index == 1) sizes.swapItemsAt(0, 1);
+    part.splitter.setSizes(sizes);
+}
+
+void Arrangement::noteSizes() {
+    if (narrow_ || !fitted_) return;
+    for (Part* each : {&tree_, &events_}) {
+        if (!each->widget().isHidden()) each->size = each->splitter.sizes()[each->index];
+    }
+}
+
+// What was hidden from the start has no size of its own: it gets its last one.
+void Arrangement::show(Part& part, bool shown) {
+    if (part.widget().isHidden() != shown) return;
+    noteSizes();
+    part.widget().setVisible(shown);
+    const int whole = part.splitter.orientation() == Qt::Horizontal ? part.splitter.width()
+                                                                    : part.splitter.height();
+    if (shown && fitted_ && !narrow_) place(part, whole);
+}
+
+QJsonObject Arrangement::saved() const {
+    const auto sizesOf = [this](const Part& part) {
+        const bool isSeen = fitted_ && !narrow_ && !part.widget().isHidden();
+        QList<int> sizes = part.splitter.sizes();
+        if (!isSeen) sizes[part.index] = part.size;
+        return QJsonArray{sizes[0], sizes[1]};
+    };
+    return {{arranged("across"), sizesOf(tree_)},
+            {arranged("down"), sizesOf(events_)},
+            {arranged("tree"), tree_.shown}};
+}
+
+void Arrangement::restore(const QJsonObject& saved, bool wantsEvents) {
+    tree_.size = saved[arranged("across")].toArray()[0].toInt();
+    events_.size = saved[arranged("down")].toArray()[1].toInt();
+    tree_.shown = saved[arranged("tree")].toBool(true);
+    events_.shown = wantsEvents;
+    if (!fitted_ || narrow_) return;
+    tree_.widget().setVisible(tree_.shown);
+    events_.widget().setVisible(seesEvents());
+    place(tree_, across_.width());
+    place(events_, down_.height());
 }
 
 void Arrangement::toggleTree() {
-    const bool shows = tree().isHidden();
-    tree().setVisible(shows);
+    const bool shows = tree_.widget().isHidden();
+    show(tree_, shows);
     down_.setVisible(!narrow_ || !shows);
+    if (narrow_) return;
+    tree_.shown = shows;
+    changed_();
 }
 
 void Arrangement::showTree() {
-    if (tree().isHidden()) toggleTree();
+    if (tree_.widget().isHidden()) toggleTree();
 }
 
 void Arrangement::leaveTree() {
-    if (narrow_ && !tree().isHidden()) toggleTree();
+    if (narrow_ && !tree_.widget().isHidden()) toggleTree();
 }
 
-}  // namespace cortex::explorer
+void Arrangement::toggleEvents() {
+    bool& shown = narrow_ ? eventsWhileNarrow_ : events_.shown;
+    shown = !shown;
+    showEvents();
+    if (!narrow_) changed_();
+}
+
+void Arrangement::giveWay(bool elsewhere) {
+    eventsElsewhere_ = elsewhere;
+    showEvents();
+}
+
+bool Arrangement::seesEvents() const {
+    return (narrow_ ? eventsWhileNarrow_ : events_.shown) && !eventsElsewhere_;
+}
+
+void Arrangement::showEvents() { show(events_, seesEvents()); }
+
+}  // namespace cortex::gui

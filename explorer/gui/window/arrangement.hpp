@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QJsonObject>
 #include <QSize>
+#include <functional>
 
 class QPushButton;
 class QSplitter;
 class QWidget;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // How the tree, the views and the events share the window. Where it is narrow, the views have all
 // of it: the tree is a button before the tabs, and takes their place.
 class Arrangement {
 public:
-    // `across` holds the tree and `down`; `down` holds the views and the events.
-    Arrangement(QSplitter& across, QSplitter& down);
+    // `across` holds the tree and `down`; `down` holds the views and the events. The user has
+    // changed something that is saved: `changed` is called.
+    Arrangement(QSplitter& across, QSplitter& down, std::function<void()> changed = [] {});
 
     QPushButton& treeButton() { return *treeButton_; }  // shown while narrow
     bool fit(QSize window);  // after it was resized or scaled; true: it is narrow now, or was
@@ -22,15 +25,37 @@ public:
     void toggleTree();
     void showTree();
     void leaveTree();  // something was chosen in it: the views have the place again
+    void toggleEvents();
+    void giveWay(bool elsewhere);  // the events do while a tab shows them
+    // For a layout. What was restored before the window has its size is there when it has.
+    QJsonObject saved() const;
+    bool wantsEvents() const { return events_.shown; }
+    void restore(const QJsonObject& saved, bool wantsEvents = true);
 
 private:
-    QWidget& tree() const;
-    void share(QSize window);
+    // What the views share the window with, as it is wanted where the window is wide.
+    struct Part {
+        QSplitter& splitter;
+        int index;
+        int usual;     // units
+        int size = 0;  // pixels; 0: the usual
+        bool shown = true;
 
-    QSplitter& across_;
-    QSplitter& down_;
+        QWidget& widget() const;
+        int sizeOr(int pixels) const;
+    };
+    void show(Part& part, bool shown);
+    void place(const Part& part, int whole);
+    void noteSizes();
+    bool seesEvents() const;
+    void showEvents();
+
+    QSplitter &across_, &down_;
+    Part tree_, events_;
+    std::function<void()> changed_;
     QPushButton* treeButton_;
     bool narrow_ = false, fitted_ = false;
+    bool eventsWhileNarrow_ = false, eventsElsewhere_ = false;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

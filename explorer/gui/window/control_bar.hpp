@@ -10,8 +10,9 @@
 
 class QPushButton;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
+class ControlNotice;
 class TextLabel;
 
 // Whether this window may command, and what: "Read-only" with "Take control…", or "You control /arm
@@ -25,41 +26,45 @@ public:
     // `path`: the simplex that is shown, which the scopes are made from.
     void refresh(const std::shared_ptr<const Frame>& frame, const std::string& path);
     void setNarrow(bool narrow);
-    void choose();  // opens the popover
+    void choose();                           // opens the popover
+    void choose(const std::string& prefix);  // the same, with this path chosen
     void release();
     void chooseHandOver();  // opens the popover
-    void takeAgain();       // what was held last
     bool holds() const { return !prefix_.empty(); }
     const std::string& prefix() const { return prefix_; }
     QString text() const;
-    QWidget* notice() { return notice_; }  // the row; its place is the window's matter
-    QString noticeText() const;
+    ControlNotice& notice() { return *notice_; }  // its place is the window's matter
     ControlPanel* panel() { return panel_; }
     HandOverPanel* handOverPanel() { return handOverPanel_; }
-    QPushButton& takeAgainButton() { return *again_; }
 
 Q_SIGNALS:
-    void changed();  // what is held
+    void changed();   // what is held
+    void declined();  // the popover was closed without taking
 
 protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    void makeNotice();
+    QString ofSome(const std::string& prefix) const;
+    QString refusal();
+    void refreshNotice();
+    void closeNotice();
+    void take(const std::string& prefix);
     void showBelow(QWidget& popover);
 
     Session& session_;
     std::shared_ptr<const Frame> frame_;
     std::string path_, prefix_;
-    bool narrow_ = false;
-    QString told_;  // the notice that was closed
+    bool narrow_ = false, took_ = false;
+    std::string said_, closed_;    // the session's notice; the one that the user has read
+    std::string asked_, refused_;  // prefixes; the second one is what the notice is about
+    QString others_;               // who held a part of it when it was refused
+    std::string remedy_;           // the prefix that the notice offers
     TextLabel* label_;
     QPushButton *handOver_, *button_;
-    QWidget* notice_;
-    TextLabel* noticeText_;
-    QPushButton* again_;
+    ControlNotice* notice_;
     QPointer<ControlPanel> panel_;
     QPointer<HandOverPanel> handOverPanel_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -7,19 +7,18 @@
 #include "model/value_text.hpp"
 #include "session/lease.hpp"
 #include "style/look.hpp"
-#include "widgets/text_label.hpp"
 
 #include <QButtonGroup>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
-#include <QPainter>
 #include <QPushButton>
 #include <QRadioButton>
+#include <QVBoxLayout>
 #include <algorithm>
 #include <map>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -27,9 +26,13 @@ namespace {
 QString onLossText(const AgentFrame& agent, const std::string& prefix) {
     std::map<OnLeaseLost, int> counts;
     int all = 0;
-    for (const SimplexInfo& info : agent.structure->simplexes) {
+    for (std::uint32_t each = 0; each < agent.structure->simplexes.size(); ++each) {
+        const SimplexInfo& info = agent.structure->simplexes[each];
         const Type& type = *info.layout->type;
-        if (info.remote || !type.active() || !isAtOrBelow(info.path, prefix)) continue;
+        if (info.remote || !type.active() || type.isA("Agent") || !isAtOrBelow(info.path, prefix))
+            continue;
+        const auto state = agent.state(each);
+        if (!state || *state == State::Standby) continue;
         ++counts[type.onLeaseLost];
         ++all;
     }
@@ -44,35 +47,29 @@ QString onLossText(const AgentFrame& agent, const std::string& prefix) {
 
 ControlPanel::ControlPanel(std::shared_ptr<const Frame> frame, const std::string& path,
                            QWidget* parent)
-    : QFrame{parent, Qt::Popup},
+    : Popover{tr("Take control of"), parent},
       frame_{std::move(frame)},
       buttons_{new QButtonGroup{this}},
       holders_{new QLabel},
       cancel_{new QPushButton{tr("Cancel")}},
       take_{new QPushButton} {
-    setAttribute(Qt::WA_DeleteOnClose);
     for (std::string each = path; each.size() > 1; each.resize(each.rfind('/'))) {
         scopes_.push_back(each);
     }
     scopes_.emplace_back("/");
 
-    auto* rows = new QVBoxLayout{this};
-    rows->setContentsMargins(Look::units(5), Look::units(4), Look::units(5), Look::units(4));
-    auto* title = new TextLabel{TextSize::Value, true};
-    title->show(tr("Take control of"));
-    rows->addWidget(title);
     for (std::size_t i = 0; i < scopes_.size(); ++i) {
         auto* button = new QRadioButton{scopeText(scopes_[i])};
         buttons_->addButton(button, static_cast<int>(i));
-        rows->addWidget(button);
+        rows().addWidget(button);
     }
     holders_->setTextFormat(Qt::PlainText);
-    rows->addWidget(holders_);
+    rows().addWidget(holders_);
     auto* last = new QHBoxLayout;
     last->addStretch(1);
     last->addWidget(cancel_);
     last->addWidget(take_);
-    rows->addLayout(last);
+    rows().addLayout(last);
     connect(cancel_, &QPushButton::clicked, this, &QWidget::close);
     connect(take_, &QPushButton::clicked, this, [this] {
         Q_EMIT taken(chosen());
@@ -83,7 +80,6 @@ ControlPanel::ControlPanel(std::shared_ptr<const Frame> frame, const std::string
     // The part of the plant that the simplex belongs to, where one is chosen.
     buttons_->button(static_cast<int>(std::max<std::size_t>(scopes_.size(), 2) - 2))
         ->setChecked(true);
-    setAccessibleName(title->text());
     refresh(frame_);
 }
 
@@ -112,7 +108,7 @@ void ControlPanel::keyPressEvent(QKeyEvent* event) {
             close();
             break;
         default:
-            QFrame::keyPressEvent(event);
+            Popover::keyPressEvent(event);
     }
 }
 
@@ -146,14 +142,11 @@ QString ControlPanel::describe() const {
         if (others) lines << tr("    They must release it or hand it over; nobody can take it.");
         lines << QStringLiteral("    ") + onLossText(agent, chosen());
     }
-    return lines.isEmpty() ? tr("Nobody who is heard has anything there.") : lines.join('\n');
+    if (lines.isEmpty()) lines << tr("Nobody who is heard has anything there.");
+    if (!frame_->control.self.empty())
+        lines
+            << tr("To others this window is %1.").arg(QString::fromStdString(frame_->control.self));
+    return lines.join('\n');
 }
 
-void ControlPanel::paintEvent(QPaintEvent* /*event*/) {
-    QPainter painter{this};
-    painter.fillRect(rect(), Look::colours().raised);
-    painter.setPen(QPen{Look::colours().border, static_cast<double>(Look::lineWidth())});
-    painter.drawRect(rect().adjusted(0, 0, -1, -1));
-}
-
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

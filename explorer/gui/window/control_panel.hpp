@@ -2,19 +2,19 @@
 #pragma once
 
 #include "session/frame.hpp"
+#include "widgets/popover.hpp"
 
-#include <QFrame>
 #include <string>
 
 class QButtonGroup;
 class QLabel;
 class QPushButton;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // Which part to take control of, and who holds what of it now. Arrows choose the part, Enter takes
-// it. A popover: a click beside it, or Esc, closes it.
-class ControlPanel : public QFrame {
+// it.
+class ControlPanel : public Popover {
     Q_OBJECT
 public:
     // The scopes offered: the path, all above it, and everything.
@@ -31,7 +31,6 @@ Q_SIGNALS:
 
 protected:
     void keyPressEvent(QKeyEvent* event) override;
-    void paintEvent(QPaintEvent* event) override;
 
 private:
     const std::string& chosen() const;
@@ -45,4 +44,4 @@ private:
     QPushButton *cancel_, *take_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

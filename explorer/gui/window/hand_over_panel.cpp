@@ -4,18 +4,17 @@
 #include "model/permission.hpp"
 #include "session/lease.hpp"
 #include "style/look.hpp"
-#include "widgets/text_label.hpp"
 
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
-#include <QPainter>
 #include <QPushButton>
 #include <QSignalBlocker>
+#include <QVBoxLayout>
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -42,27 +41,26 @@ QLabel* line(const QString& text) {
 }  // namespace
 
 HandOverPanel::HandOverPanel(std::shared_ptr<const Frame> frame, QWidget* parent)
-    : QFrame{parent, Qt::Popup},
+    : Popover{tr("Hand over control of %1").arg(scopeText(frame->control.prefix)), parent},
+      nobody_{line(
+          tr("Nobody else holds anything now, so no name is known here. Let the other one take "
+             "control of a part that is free, and its name stands here. Another window "
+             "shows its own name below “Take control…”."))},
       others_{new QListWidget},
       name_{new QLineEdit},
       handOver_{new QPushButton{tr("Hand over")}} {
-    setAttribute(Qt::WA_DeleteOnClose);
-    auto* rows = new QVBoxLayout{this};
-    rows->setContentsMargins(Look::units(5), Look::units(4), Look::units(5), Look::units(4));
-    auto* title = new TextLabel{TextSize::Value, true};
-    title->show(tr("Hand over control of %1").arg(scopeText(frame->control.prefix)));
-    rows->addWidget(title);
-    rows->addWidget(line(tr("To whoever holds something now, or to a name as a tool says it:")));
-    rows->addWidget(others_);
-    rows->addWidget(name_);
-    rows->addWidget(
+    rows().addWidget(line(tr("To whoever holds something now, or to a name as a tool says it:")));
+    rows().addWidget(nobody_);
+    rows().addWidget(others_);
+    rows().addWidget(name_);
+    rows().addWidget(
         line(tr("They must renew it within 2 s; another window and a shell do so by themselves.")));
     auto* last = new QHBoxLayout;
     last->addStretch(1);
     auto* cancel = new QPushButton{tr("Cancel")};
     last->addWidget(cancel);
     last->addWidget(handOver_);
-    rows->addLayout(last);
+    rows().addLayout(last);
     others_->setAccessibleName(tr("Who holds control of something"));
     name_->setAccessibleName(tr("Name of an agent or tool"));
     name_->setPlaceholderText(tr("cortex@host.1234-5e1f0a"));
@@ -75,7 +73,6 @@ HandOverPanel::HandOverPanel(std::shared_ptr<const Frame> frame, QWidget* parent
         Q_EMIT chosen(name_->text().trimmed().toStdString());
         close();
     });
-    setAccessibleName(title->text());
     refresh(std::move(frame));
     decide();
 }
@@ -88,26 +85,25 @@ QStringList HandOverPanel::offered() const {
     return names;
 }
 
+QString HandOverPanel::whyNobody() const {
+    return nobody_->isHidden() ? QString{} : nobody_->text();
+}
+
 // What was chosen stays chosen.
 void HandOverPanel::refresh(std::shared_ptr<const Frame> frame) {
     frame_ = std::move(frame);
     const QStringList names = holdersIn(*frame_);
-    if (names == offered() && !others_->isHidden()) return;
+    if (shown_ && names == offered()) return;
+    shown_ = true;
     const QString typed = name_->text();
     const QSignalBlocker silent{others_};
     others_->clear();
     others_->addItems(names);
     others_->setVisible(!names.isEmpty());
+    nobody_->setVisible(names.isEmpty());
     others_->setMaximumHeight(Look::units(6) * std::min<int>(others_->count(), 6) + Look::units(2));
     name_->setText(typed);
     adjustSize();
 }
 
-void HandOverPanel::paintEvent(QPaintEvent* /*event*/) {
-    QPainter painter{this};
-    painter.fillRect(rect(), Look::colours().raised);
-    painter.setPen(QPen{Look::colours().border, static_cast<double>(Look::lineWidth())});
-    painter.drawRect(rect().adjusted(0, 0, -1, -1));
-}
-
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

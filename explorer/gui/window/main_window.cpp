@@ -2,24 +2,28 @@
 #include "window/main_window.hpp"
 
 #include "model/permission.hpp"
-#include "style/glyphs.hpp"
+#include "model/plotted_items.hpp"
+#include "model/shown_time.hpp"
 #include "style/look.hpp"
-#include "views/agent_table.hpp"
-#include "views/base_view.hpp"
 #include "views/event_list.hpp"
 #include "views/event_view.hpp"
-#include "views/graph_view.hpp"
 #include "views/system_tree.hpp"
-#include "widgets/text_label.hpp"
+#include "widgets/focus_edge.hpp"
 #include "window/control_bar.hpp"
+#include "window/control_notice.hpp"
+#include "window/find_panel.hpp"
+#include "window/layout_keeper.hpp"
+#include "window/start_all.hpp"
 #include "window/status_bar.hpp"
 #include "window/stop_button.hpp"
+#include "window/top_bar.hpp"
+#include "window/tree_menu.hpp"
+#include "window/window_menu.hpp"
+#include "window/window_size.hpp"
+#include "window/workspace.hpp"
 
-#include <QAction>
-#include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
-#include <QHBoxLayout>
 #include <QMenu>
 #include <QMessageBox>
 #include <QPainter>
@@ -28,20 +32,18 @@
 #include <QScopedValueRollback>
 #include <QShortcut>
 #include <QSplitter>
-#include <QStackedWidget>
 #include <QTabBar>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <array>
+#include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
-constexpr int framePeriod = 33;  // ms
-constexpr std::array scales{1.0, 1.25, 1.5};
-constexpr int controlLine = 3;  // px, along the top edge
-constexpr int fixedTabs = 3;    // at the end: graph, agents and events
+constexpr int framePeriod = 33;        // ms
+constexpr int controlLine = 3;         // px, along the top edge
+constexpr std::uint32_t treeRate = 5;  // Hz, of what only the tree and the counters show
 
 }  // namespace
 
@@ -50,40 +52,24 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       session_{session},
       commands_{session},
       tree_{new SystemTree},
-      tabs_{new QTabBar},
-      views_{new QStackedWidget},
-      graph_{new GraphView},
-      agents_{new AgentTable},
-      eventView_{new EventView{eventFilter_}},
+      workspace_{new Workspace{{session, commands_, host_, times_, eventFilter_}}},
       eventList_{new EventList{eventFilter_}},
       across_{new QSplitter{Qt::Horizontal}},
       down_{new QSplitter{Qt::Vertical}},
       status_{new StatusBar},
-      menu_{new QPushButton{tr("Menu")}},
-      title_{new TextLabel{TextSize::Value, true}},
+      layout_{new LayoutKeeper{
+          Layouts{},
+          {[this] { return saved(); }, [this](const auto& each) { restore(each); }},
+          this}},
       stop_{new StopButton{session}},
+      start_{new StartAll{session, this}},
+      edge_{new FocusEdge{this}},
       control_{new ControlBar{session}},
-      arrangement_{*across_, *down_} {
+      bar_{new TopBar{*control_, *stop_}},
+      arrangement_{*across_, *down_, [this] { layout_->noteChange(); }} {
     setWindowTitle(tr("CorteX Explorer"));
-    tabs_->setExpanding(false);
-    tabs_->setDrawBase(false);
-    tabs_->setTabsClosable(false);
-    tabs_->setElideMode(Qt::ElideNone);
-    tabs_->setUsesScrollButtons(true);
-    tabs_->setAccessibleName(tr("Views"));
-
-    auto* workspace = new QWidget;
-    auto* column = new QVBoxLayout{workspace};
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
-    auto* top = new QHBoxLayout;
-    top->setSpacing(Look::units(2));
-    top->addWidget(&arrangement_.treeButton());
-    top->addWidget(tabs_, 1);
-    column->addLayout(top);
-    column->addWidget(views_, 1);
-
-    down_->addWidget(workspace);
+    workspace_->panes()[0]->addLeft(arrangement_.treeButton());
+    down_->addWidget(workspace_);
     down_->addWidget(eventList_);
     down_->setStretchFactor(0, 1);
     down_->setChildrenCollapsible(false);
@@ -95,84 +81,67 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     auto* rows = new QVBoxLayout{this};
     rows->setContentsMargins(0, controlLine, 0, 0);
     rows->setSpacing(0);
-    rows->addWidget(makeBar());
-    rows->addWidget(control_->notice());
+    bar_->setMenu(*makeMenu());
+    rows->addWidget(bar_);
+    rows->addWidget(&control_->notice());
     rows->addWidget(across_, 1);
     rows->addWidget(status_);
 
-    addView({}, false);
-    views_->addWidget(graph_);
-    tabs_->addTab(tr("System"));
-    views_->addWidget(agents_);
-    tabs_->addTab(tr("Agents"));
-    views_->addWidget(eventView_);
-    tabs_->addTab(tr("Events"));
-    connect(tabs_, &QTabBar::currentChanged, views_, &QStackedWidget::setCurrentIndex);
-    connect(tabs_, &QTabBar::currentChanged, this, &MainWindow::showStrip);
-    connect(tree_, &SystemTree::chosen, this, &MainWindow::open);
+    connect(workspace_, &Workspace::changed, layout_, &LayoutKeeper::noteChange);
+    connect(layout_, &LayoutKeeper::told, this, &MainWindow::tell);
+    connect(workspace_, &Workspace::currentChanged, this, &MainWindow::showStrip);
+    connect(workspace_, &Workspace::chosen, tree_, &SystemTree::choose);
+    connect(tree_, &SystemTree::chosen, this, &MainWindow::choose);
     connect(tree_, &SystemTree::pinned, this, &MainWindow::openTab);
+    connect(tree_, &SystemTree::menuWanted, this, &MainWindow::openTreeMenu);
     connect(tree_, &SystemTree::chosen, this, [this] { arrangement_.leaveTree(); });
     connect(tree_, &SystemTree::pinned, this, [this] { arrangement_.leaveTree(); });
     connect(eventList_, &EventList::opened, this, &MainWindow::open);
-    connect(eventView_, &EventView::opened, this, &MainWindow::open);
-    connect(graph_, &GraphView::opened, this, &MainWindow::open);
     connect(status_, &StatusBar::nextWanted, this,
             [this](Abnormal::Kind kind) { openAbnormal(false, kind); });
+    connect(&host_, &ViewHost::controlWanted, this,
+            [this](const std::string& prefix) { control_->choose(prefix); });
     connect(control_, &ControlBar::changed, this, qOverload<>(&QWidget::update));
+    connect(bar_, &TopBar::findWanted, this, &MainWindow::find);
+    connect(stop_, &StopButton::begun, start_, &StartAll::forget);
+    connect(start_, &StartAll::controlWanted, this,
+            [this](const std::string& prefix) { control_->choose(prefix); });
+    connect(control_, &ControlBar::declined, start_, &StartAll::forget);
     addKeys();
+    const auto& [left, right] = workspace_->panes();
+    regions_.set({bar_, &control_->notice(), tree_, &left->tabs(), &left->content(), &right->tabs(),
+                  &right->content(), eventList_, status_});
     ManualView::helpOf(*tree_, tr("Finding something"));
     ManualView::helpOf(*control_, tr("Control and commands"));
     ManualView::helpOf(*stop_, tr("Stop"));
 
     setMinimumSize(800, 600);
     resize(1280, 800);
-    session_.view({"/"});  // states and qualities of all are in the tree
     connect(&timer_, &QTimer::timeout, this, &MainWindow::refresh);
     timer_.start(framePeriod);
 }
 
-QWidget* MainWindow::makeBar() {
-    auto* bar = new QWidget;
-    auto* row = new QHBoxLayout{bar};
-    barRow_ = row;
-    menu_->setAccessibleName(tr("Menu"));
-    auto* entries = new QMenu{menu_};
-    entries->addAction(tr("Next theme"), this, [this] { setTheme(1); });
-    for (const double scale : scales) {
-        entries->addAction(tr("Text %1 %").arg(scale * 100), this,
-                           [this, scale] { setScale(scale); });
-    }
-    addRates(*entries->addMenu(tr("Values")));
-    entries->addSeparator();
-    entries->addAction(tr("Hand over control…"), this, [this] { control_->chooseHandOver(); });
-    entries->addAction(tr("Manual"), this, &MainWindow::openManual);
-    entries->addAction(tr("Join again"), this, [this] { session_.joinAgain(); });
-    entries->addAction(tr("Quit"), this, &QWidget::close);
-    menu_->setMenu(entries);
-    row->addWidget(menu_);
-    title_->show(tr("CorteX Explorer"));
-    row->addWidget(title_);
-    row->addStretch(1);
-    auto* stopped = new TextLabel{TextSize::Text};
-    connect(stop_, &StopButton::told, stopped, qOverload<const QString&>(&TextLabel::show));
-    row->addWidget(stopped);
-    row->addWidget(control_);
-    row->addWidget(stop_);
-    return bar;
+QMenu* MainWindow::makeMenu() {
+    return makeWindowMenu(
+        {session_, *stop_, *control_, [this] { setTheme(1); },
+         [this](double scale) { setScale(scale); }, [this](bool local) { setLocalTime(local); },
+         [this] { openManual(); }, [this] { close(); }, [this] { find(); },
+         [this](const QString& kind) { openKind(kind); }, [this] { workspace_->split(); },
+         [this] { workspace_->reopenTab(); }, [this] { workspace_->newPlot({}); },
+         [this] { plotChosen(); }, [this] { return workspace_->units(); }, *layout_},
+        &bar_->menuButton());
 }
 
-// How often values are taken; the tick follows the session, which the command line may have set.
-void MainWindow::addRates(QMenu& menu) {
-    auto* choices = new QActionGroup{&menu};
-    for (const std::uint32_t rate : Session::rates) {
-        QAction* choice =
-            menu.addAction(rate == 0 ? tr("In every cycle") : tr("%1 times a second").arg(rate));
-        choice->setCheckable(true);
-        choices->addAction(choice);
-        connect(choice, &QAction::triggered, this, [this, rate] { session_.setRate(rate); });
-        connect(&menu, &QMenu::aboutToShow, choice,
-                [this, choice, rate] { choice->setChecked(session_.frame()->rate == rate); });
-    }
+void MainWindow::openTreeMenu(const std::string& path, const QPoint& at) {
+    const bool isSimplex = session_.frame()->find(path).has_value();
+    const TreeActions actions{
+        [this](const std::string& of) { open(of); },
+        [this](const std::string& of) { openTab(of); },
+        [this](const std::string& of) { control_->choose(of); },
+        [this](const std::string& of) { start_->begin(of); },
+        [this](const std::string& of) { stop_->stop(of); },
+    };
+    makeTreeMenu(path, isSimplex, actions, this)->popup(at);
 }
 
 void MainWindow::addKeys() {
@@ -181,16 +150,17 @@ void MainWindow::addKeys() {
                 action);
     };
     key("Ctrl+F", [this] {
-        if (current() == eventView_) return eventView_->focusFilter();
+        if (auto* events = qobject_cast<EventView*>(current())) return events->focusFilter();
         arrangement_.showTree();
         tree_->focusFilter();
     });
+    key("Ctrl+G", [this] { plotChosen(); });
+    key("Ctrl+K", [this] { find(); });
     key("Ctrl+B", [this] { arrangement_.toggleTree(); });
-    key("Ctrl+E", [this] {
-        strip_ = !strip_;
-        showStrip();
-    });
-    key("Ctrl+W", [this] { closeTab(tabs_->currentIndex()); });
+    key("Ctrl+E", [this] { arrangement_.toggleEvents(); });
+    key("Ctrl+W", [this] { workspace_->closeTab(); });
+    key("Ctrl+Shift+W", [this] { workspace_->reopenTab(); });
+    key("Ctrl+\\", [this] { workspace_->split(); });
     key("Ctrl+Shift+L", [this] { setTheme(1); });
     key("Ctrl+0", [this] { setScale(1); });
     key("Ctrl++", [this] { setScale(std::min(Look::scale() + 0.25, 1.5)); });
@@ -198,88 +168,114 @@ void MainWindow::addKeys() {
     key("Ctrl+T", [this] { control_->choose(); });
     key("Ctrl+Shift+T", [this] { control_->release(); });
     key("F1", [this] { openManual(); });
+    key("F6", [this] { regions_.walk(false); });
+    key("Shift+F6", [this] { regions_.walk(true); });
     key("F8", [this] { openAbnormal(false); });
     key("Shift+F8", [this] { openAbnormal(true); });
     key("F11", [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
     for (int i = 1; i <= 9; ++i) {
         const std::string keys = "Ctrl+" + std::to_string(i);
-        key(keys.c_str(), [this, i] {
-            if (i <= tabs_->count()) tabs_->setCurrentIndex(i - 1);
-        });
+        key(keys.c_str(), [this, i] { workspace_->chooseTab(i - 1); });
     }
 }
 
-BaseView* MainWindow::addView(const std::string& path, bool closable) {
-    auto* view = new BaseView{commands_, times_};
-    view->show(path);
-    connect(view, &BaseView::opened, this, &MainWindow::open);
-    connect(view, &BaseView::dismissed, this,
-            [this](const std::string& agent) { session_.dismiss(agent); });
-    // Views stand before the graph, the agents and the events.
-    const int at = closable ? tabs_->count() - fixedTabs : 0;
-    views_->insertWidget(at, view);
-    tabs_->insertTab(at, path.empty() ? tr("Simplex") : QString::fromStdString(path));
-    return view;
-}
-
-QWidget* MainWindow::current() const { return views_->currentWidget(); }
+QWidget* MainWindow::current() const { return workspace_->current(); }
 
 void MainWindow::open(const std::string& path) {
-    auto* view = qobject_cast<BaseView*>(views_->widget(0));
-    tabs_->setCurrentIndex(0);
-    tabs_->setTabText(0, QString::fromStdString(path));
-    if (view->path() != path) view->show(path);
-    tree_->choose(path);
+    workspace_->open(path);
     refresh();
+}
+
+// A view that shows the whole system may show it itself.
+void MainWindow::choose(const std::string& path) {
+    if (!workspace_->select(path)) open(path);
 }
 
 void MainWindow::openTab(const std::string& path) {
-    addView(path, true);
-    tabs_->setCurrentIndex(tabs_->count() - fixedTabs - 1);
+    workspace_->openTab(path);
     refresh();
 }
 
-void MainWindow::openAgents() { tabs_->setCurrentIndex(tabs_->count() - fixedTabs + 1); }
+void MainWindow::openKind(const QString& kind) {
+    workspace_->openKind(kind);
+    refresh();
+}
 
-void MainWindow::openEvents() { tabs_->setCurrentIndex(tabs_->count() - 1); }
+FindPanel* MainWindow::findPanel() const { return find_; }
 
-void MainWindow::showStrip() { eventList_->setVisible(strip_ && current() != eventView_); }
+void MainWindow::find() {
+    if (find_) return;
+    find_ = openFindPanel(*session_.frame(), pageKinds(), bar_->findButton());
+    connect(find_, &FindPanel::chosen, this, &MainWindow::openFound);
+}
+
+void MainWindow::openFound(const Found& found, bool beside) {
+    if (found.kind == FoundKind::View) return openKind(QString::fromStdString(found.path));
+    if (found.kind == FoundKind::Item && beside) {
+        const auto items = plottedItems(*session_.frame(), found.path, found.name);
+        return items.empty() ? tell(tr("A text cannot be plotted."), false) : openPlot(items);
+    }
+    beside ? workspace_->openTab(found.path, true) : workspace_->open(found.path);
+    refresh();
+    if (found.kind == FoundKind::Item) openPart("data");
+    if (found.kind == FoundKind::Command) openPart("commands");
+}
+
+void MainWindow::tell(const QString& text, bool trouble) {
+    comms::AgentEvent event;
+    event.agent = "cortex-explorer";
+    event.wallClock = session_.frame()->utc;
+    event.severity = trouble ? Severity::Warning : Severity::Info;
+    event.kind = "message";
+    event.path = "/";
+    event.text = text.toStdString();
+    events_.add({std::move(event)});
+}
+
+QJsonObject MainWindow::saved() const {
+    return {{QStringLiteral("workspace"), workspace_->saved()},
+            {QStringLiteral("window"), arrangement_.saved()},
+            {QStringLiteral("events"), arrangement_.wantsEvents()},
+            {QStringLiteral("size"), savedSize(*this)},
+            {QStringLiteral("localTime"), showsLocalTime()}};
+}
+
+void MainWindow::restore(const QJsonObject& saved) {
+    workspace_->restore(saved[QStringLiteral("workspace")].toObject());
+    restoreSize(*this, saved[QStringLiteral("size")].toObject());
+    arrangement_.restore(saved[QStringLiteral("window")].toObject(),
+                         saved[QStringLiteral("events")].toBool(true));
+    showStrip();
+    setLocalTime(saved[QStringLiteral("localTime")].toBool());
+}
+
+void MainWindow::showStrip() { arrangement_.giveWay(workspace_->shows(QStringLiteral("events"))); }
 
 void MainWindow::openManual() {
     const QString section = ManualView::sectionOf(QApplication::focusWidget());
-    if (!manual_) {
-        manual_ = new ManualView;
-        const int at = tabs_->count() - fixedTabs;
-        views_->insertWidget(at, manual_);
-        tabs_->insertTab(at, tr("Manual"));
-    }
-    tabs_->setCurrentIndex(views_->indexOf(manual_));
+    manual_ = qobject_cast<ManualView*>(workspace_->openKind(QStringLiteral("manual")));
+    if (!manual_) return;
     manual_->openAt(section.isEmpty() ? tr("What it shows") : section);
     manual_->setFocus();
 }
 
 // The next one that is in Fault, outside of its limits or lost, or the one before.
 void MainWindow::openAbnormal(bool back, std::optional<Abnormal::Kind> kind) {
-    const auto* shown = qobject_cast<BaseView*>(current());
-    const std::string next =
-        abnormal_.next(shown != nullptr ? shown->path() : std::string{}, back, kind);
+    const std::string next = abnormal_.next(workspace_->path(), back, kind);
     if (!next.empty()) open(next);
 }
 
-void MainWindow::openGraph() { tabs_->setCurrentIndex(tabs_->count() - fixedTabs); }
-
-void MainWindow::openPart(const std::string& name) {
-    if (auto* view = qobject_cast<BaseView*>(current())) view->openPart(name);
+void MainWindow::openPlot(const std::vector<RecordedItem>& items) {
+    workspace_->openPlot(items);
+    refresh();
+}
+void MainWindow::plotChosen() {
+    const auto items = workspace_->chosenItems();
+    if (items.empty()) return tell(tr("Nothing is chosen that can be plotted."), false);
+    openPlot(items);
 }
 
-// The first tab and the last ones stay.
-void MainWindow::closeTab(int tab) {
-    if (tab <= 0 || tab >= tabs_->count() - fixedTabs) return;
-    QWidget* view = views_->widget(tab);
-    views_->removeWidget(view);
-    tabs_->removeTab(tab);
-    view->deleteLater();
-}
+void MainWindow::openPart(const std::string& name) { workspace_->openPart(name); }
 
 // A view may open another one while it is refreshed; that is seen in the next frame.
 void MainWindow::refresh() {
@@ -295,20 +291,31 @@ void MainWindow::refresh() {
     status_->refresh(*frame, abnormal_);
     const auto outcomes = session_.takeOutcomes();
     commands_.deliver(outcomes);
+    host_.refresh();
     stop_->refresh(*frame, outcomes);
-    const auto* shown = qobject_cast<BaseView*>(current());
-    control_->refresh(frame, shown != nullptr ? shown->path() : std::string{});
-    if (auto* view = qobject_cast<BaseView*>(current())) view->refresh(frame);
-    if (current() == graph_) graph_->refresh(frame);
-    if (current() == agents_) agents_->refresh(*frame);
-    if (current() == eventView_) eventView_->refresh();
+    start_->refresh(*frame, outcomes);
+    bar_->tell(start_->text().isEmpty() ? stop_->progress() : start_->text());
+    layout_->refresh(*frame);
+    const std::string part = tree_->part();
+    control_->refresh(frame, part.empty() ? workspace_->path() : part);
+    session_.recorder().take();
+    workspace_->refresh(frame);
+    Wanted wanted = workspace_->wanted(*frame);
+    std::vector<comms::Viewed> others{{{"/"}, treeRate}};
+    for (explorer::Watch& each : wanted.own) {
+        others.push_back({std::move(each.prefixes), each.rate});
+    }
+    session_.view(std::move(wanted.usual), std::move(others));
+    edge_->fit();
 }
 
 bool MainWindow::ready() const {
     const auto frame = session_.frame();
     if (!frame->joined || frame->agents.empty()) return false;
     return std::ranges::all_of(frame->agents, [](const AgentFrame& agent) {
-        return agent.lost() || (agent.structure && agent.status.missing == 0 && agent.came(0));
+        if (agent.lost()) return true;
+        const bool described = agent.structure && agent.status.missing == 0;
+        return described && agent.came(0) && (agent.own() == noSimplex || agent.came(agent.own()));
     });
 }
 
@@ -324,9 +331,18 @@ void MainWindow::setScale(double scale) {
     restyle();
 }
 
+void MainWindow::setLocalTime(bool wanted) {
+    if (wanted == showsLocalTime()) return;
+    showLocalTime(wanted);
+    for (QWidget* each : findChildren<QWidget*>()) each->update();
+    layout_->noteChange();
+    refresh();
+}
+
 void MainWindow::restyle() {
     for (QWidget* each : findChildren<QWidget*>()) each->updateGeometry();
     if (manual_) manual_->restyle();
+    workspace_->restyle();
     update();
 }
 
@@ -339,6 +355,7 @@ void MainWindow::paintEvent(QPaintEvent* /*event*/) {
 // Nothing but what the user asked for ends control: the end of the program releases it.
 void MainWindow::closeEvent(QCloseEvent* event) {
     if (!control_->holds() || leaves_) {
+        layout_->save();
         event->accept();
         return;
     }
@@ -360,28 +377,24 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 void MainWindow::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     arrange();
+    if (isVisible()) layout_->noteSize();
+}
+
+bool MainWindow::focusNextPrevChild(bool next) {
+    return regions_.step(!next) || QWidget::focusNextPrevChild(next);
 }
 
 void MainWindow::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
     const bool sized = event->type() == QEvent::ApplicationFontChange ||
                        event->type() == QEvent::StyleChange || event->type() == QEvent::FontChange;
-    if (sized && barRow_ != nullptr) arrange();
+    if (sized && bar_ != nullptr) arrange();
 }
 
-// The bar gives way before the lease or Stop would be cut.
 void MainWindow::arrange() {
-    if (arrangement_.fit(size())) strip_ = !arrangement_.isNarrow();
+    arrangement_.fit(size());
     showStrip();
-    const bool narrow = arrangement_.isNarrow();
-    const int side = Look::units(narrow ? 1.5 : 3), size = Look::units(4);
-    barRow_->setContentsMargins(side, Look::units(2), side, Look::units(2));
-    barRow_->setSpacing(side);
-    title_->setVisible(!narrow);
-    menu_->setText(narrow ? QString{} : tr("Menu"));
-    menu_->setIconSize({size, size});
-    menu_->setIcon(narrow ? icon(Glyph::Menu, Look::colours().ink, size) : QIcon{});
-    control_->setNarrow(narrow);
+    bar_->setNarrow(arrangement_.isNarrow());
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

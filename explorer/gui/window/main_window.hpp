@@ -3,36 +3,37 @@
 
 #include "model/abnormal.hpp"
 #include "model/event_filter.hpp"
+#include "model/find_index.hpp"
 #include "model/state_times.hpp"
 #include "session/commands.hpp"
 #include "views/manual_view.hpp"
+#include "views/view_host.hpp"
 #include "window/arrangement.hpp"
+#include "window/regions.hpp"
 
 #include <QPointer>
 #include <QTimer>
 #include <QWidget>
 #include <optional>
 #include <string>
+#include <vector>
 
-class QBoxLayout;
 class QMenu;
-class QPushButton;
 class QSplitter;
-class QStackedWidget;
-class QTabBar;
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
-class AgentTable;
-class BaseView;
 class ControlBar;
 class EventList;
-class EventView;
-class GraphView;
+class FindPanel;
+class LayoutKeeper;
 class StatusBar;
+class FocusEdge;
+class StartAll;
 class StopButton;
 class SystemTree;
-class TextLabel;
+class TopBar;
+class Workspace;
 
 // The window: the tree of simplexes, tabs with views, events, status. It takes the newest frame of
 // the session 30 times a second and waits for nothing.
@@ -41,15 +42,20 @@ class MainWindow : public QWidget {
 public:
     explicit MainWindow(Session& session, QWidget* parent = nullptr);
 
-    void open(const std::string& path);     // in the current tab, or in one of its own
+    void open(const std::string& path);     // where what is chosen is shown
     void openTab(const std::string& path);  // in one of its own
-    void openAgents();
+    void openKind(const QString& kind);     // "system", "agents", "events", "view:NAME", …
+    void openPlot(const std::vector<RecordedItem>& items);  // in the last plot, or a new one
+    void plotChosen();                                      // in the view in front
     void openManual();  // at what is said about what has the keyboard
     ManualView* manual() { return manual_; }
-    void openGraph();
-    void openEvents();
     void openPart(const std::string& name);  // of the simplex that is shown
+    Workspace& workspace() { return *workspace_; }
+    void find();                   // opens the field that finds everything
+    FindPanel* findPanel() const;  // null: it is not open
+    LayoutKeeper& layouts() { return *layout_; }
     StopButton& stopButton() { return *stop_; }
+    StartAll& startAll() { return *start_; }
     ControlBar& control() { return *control_; }
     bool ready() const;  // everything has come, with the values that are shown
     void refresh();      // with the newest frame
@@ -61,47 +67,51 @@ protected:
     void paintEvent(QPaintEvent* event) override;
     void closeEvent(QCloseEvent* event) override;  // asks first while it is in control
     void resizeEvent(QResizeEvent* event) override;
-    void changeEvent(QEvent* event) override;  // another size of text
+    bool focusNextPrevChild(bool next) override;  // in reading order
+    void changeEvent(QEvent* event) override;     // another size of text
 
 private:
-    QWidget* makeBar();
-    void addRates(QMenu& menu);
+    QMenu* makeMenu();
+    void openTreeMenu(const std::string& path, const QPoint& at);
     void addKeys();
-    BaseView* addView(const std::string& path, bool closable);
-    void closeTab(int tab);
     void openAbnormal(bool back, std::optional<Abnormal::Kind> kind = {});
     void setTheme(int step);
     void setScale(double scale);
+    void setLocalTime(bool wanted);
     void restyle();
     void arrange();
-    void showStrip();  // unless the tab of events is in front
+    void openFound(const Found& found, bool beside);
+    void tell(const QString& text, bool trouble);  // among the events
+    QJsonObject saved() const;
+    void restore(const QJsonObject& saved);
+    void choose(const std::string& path);  // in the tree
+    void showStrip();                      // unless the tab of events is in front
 
     Session& session_;
     Commands commands_;
+    ViewHost host_{commands_};
     EventModel events_;
     EventFilter eventFilter_{events_};  // one for all that show events
     StateTimes times_;
     Abnormal abnormal_;
     SystemTree* tree_;
-    QTabBar* tabs_;
-    QStackedWidget* views_;
-    GraphView* graph_;
-    AgentTable* agents_;
+    Workspace* workspace_;
     QPointer<ManualView> manual_;
-    EventView* eventView_;
     EventList* eventList_;
     QSplitter *across_, *down_;
     StatusBar* status_;
-    QPushButton* menu_;
-    QBoxLayout* barRow_ = nullptr;
-    TextLabel* title_;
+    QPointer<FindPanel> find_;
+    LayoutKeeper* layout_;
+    Regions regions_;
     StopButton* stop_;
-    bool strip_ = true;        // wanted
+    StartAll* start_;
+    FocusEdge* edge_;
     bool leaves_ = false;      // the user said so
     bool refreshing_ = false;  // just now
     ControlBar* control_;
+    TopBar* bar_ = nullptr;
     Arrangement arrangement_;
     QTimer timer_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window/status_bar.hpp"
 
+#include "model/agent_text.hpp"
 #include "model/value_text.hpp"
 #include "style/shapes.hpp"
 #include "widgets/text_label.hpp"
@@ -10,13 +11,11 @@
 #include <QPainter>
 #include <algorithm>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
 constexpr int agentsShown = 3;
-
-QString hertz(double rate) { return QString::number(rate, 'g', 4); }
 
 // One agent in few words: the worst that can be said of it.
 QString shortText(const AgentFrame& agent) {
@@ -25,17 +24,8 @@ QString shortText(const AgentFrame& agent) {
     if (s.ended) return StatusBar::tr("%1 ended").arg(name);
     if (agent.lost()) return StatusBar::tr("%1 lost for %2").arg(name, ageText(s.age));
     if (!s.standstill.empty()) return name + ' ' + QString::fromStdString(s.standstill);
-    if (s.missing > 0) {
-        return StatusBar::tr("%1 incomplete: %2 of %3")
-            .arg(name)
-            .arg(s.simplexes - s.missing)
-            .arg(s.simplexes);
-    }
-    const double rate = s.period > 0 ? 1e9 / static_cast<double>(s.period) : 0;
-    if (s.overloaded && s.rate > 0) {
-        return StatusBar::tr("%1 overloaded: %2 of %3 Hz").arg(name, hertz(s.rate), hertz(rate));
-    }
-    return StatusBar::tr("%1 %2 Hz").arg(name, hertz(rate));
+    if (s.missing > 0) return StatusBar::tr("%1 incomplete: %2").arg(name, cameText(s));
+    return name + ' ' + (s.overloaded ? overloadText(s) : rateText(s));
 }
 
 // Where it stands in the order of the worst first.
@@ -96,8 +86,8 @@ protected:
             marks.fault = marks.data = marks.warnEdge = c.border;
             marks.onFault = c.window;
         }
-        explorer::paint(painter, QRectF(Look::units(1.5), (height() - size) / 2.0, size, size),
-                        dress_.shape, marks);
+        gui::paint(painter, QRectF(Look::units(1.5), (height() - size) / 2.0, size, size),
+                   dress_.shape, marks);
         painter.setFont(Look::font(TextSize::Note, any));
         painter.setPen(any ? c.*dress_.ink : c.ink2);
         painter.drawText(rect().adjusted(Look::units(6), 0, 0, 0), Qt::AlignVCenter, text());
@@ -146,12 +136,35 @@ void StatusBar::refresh(const Frame& frame, const Abnormal& abnormal) {
         return std::make_pair(trouble(*each), std::string_view{each->status.name});
     });
     QStringList texts;
-    for (std::size_t i = 0; i < std::min<std::size_t>(agents.size(), agentsShown); ++i) {
-        texts << shortText(*agents[i]);
+    for (const AgentFrame* each : agents) texts << shortText(*each);
+    fit(texts);
+}
+
+// What has no room is left out, not cut: security first, then the agents that are well.
+void StatusBar::fit(const QStringList& agents) {
+    const int gap = layout()->spacing();
+    const QMargins margins = layout()->contentsMargins();
+    int room = width() - margins.left() - margins.right();
+    for (const Counter* each : counters_) room -= each->sizeHint().width() + gap;
+    room -= domain_->sizeHint().width() + gap;
+    const auto all = static_cast<int>(agents.size());
+    const auto textOf = [&](int count) {
+        QStringList shown = agents.mid(0, count);
+        if (all > count) shown << QStringLiteral("+%1").arg(all - count);
+        return shown.join(QStringLiteral("   "));
+    };
+    const QFontMetrics metrics{agents_->font()};
+    const int security = security_->sizeHint().width() + gap;
+    for (const bool withSecurity : {true, false}) {
+        const int left = room - (withSecurity ? security : 0);
+        int count = std::min(all, agentsShown);
+        const int least = withSecurity ? count : 0;
+        while (count > least && metrics.horizontalAdvance(textOf(count)) + gap > left) --count;
+        if (withSecurity && metrics.horizontalAdvance(textOf(count)) + gap > left) continue;
+        agents_->show(textOf(count));
+        security_->setVisible(withSecurity);
+        return;
     }
-    if (agents.size() > agentsShown)
-        texts << QStringLiteral("+%1").arg(agents.size() - agentsShown);
-    agents_->show(texts.join(QStringLiteral("   ")));
 }
 
 void StatusBar::paintEvent(QPaintEvent* /*event*/) {
@@ -160,4 +173,4 @@ void StatusBar::paintEvent(QPaintEvent* /*event*/) {
     painter.fillRect(QRect{0, 0, width(), 1}, Look::colours().line);
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -3,9 +3,10 @@
 
 #include "model/abnormal.hpp"
 
+#include <QStringList>
 #include <QWidget>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 class TextLabel;
 
@@ -25,8 +26,10 @@ protected:
 
 private:
     class Counter;
+    void fit(const QStringList& agents);
+
     std::array<Counter*, Abnormal::KindCount> counters_;
     TextLabel *domain_, *agents_, *security_;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

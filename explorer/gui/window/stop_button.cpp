@@ -8,8 +8,9 @@
 #include <QKeyEvent>
 #include <QPainter>
 #include <QTimer>
+#include <utility>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 namespace {
 
@@ -19,14 +20,14 @@ const std::string everything{"/"};
 }  // namespace
 
 StopButton::StopButton(Session& session, QWidget* parent)
-    : QAbstractButton{parent}, order_{session} {
+    : QAbstractButton{parent}, order_{session, Order::Stop} {
     showScope();
     setToolTip(
         tipText(tr("Shuts down every simplex below the path that stands on it, of every agent that "
                    "is known. It is no emergency stop: the network, and the agents, must work.")));
     setFocusPolicy(Qt::StrongFocus);
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
-    connect(this, &QAbstractButton::clicked, this, &StopButton::stop);
+    connect(this, &QAbstractButton::clicked, this, [this] { stop(prefix_); });
     QApplication::instance()->installEventFilter(this);
 }
 
@@ -43,11 +44,11 @@ bool StopButton::eventFilter(QObject* watched, QEvent* event) {
 
 void StopButton::pressedByKey() {
     if (inControl_ || (armed_.isValid() && !armed_.hasExpired(secondPress))) {
-        stop();
+        stop(prefix_);
         return;
     }
     armed_.start();
-    setText(tr("F12 again: stop %1").arg(scopeWord()));
+    setText(tr("F12 again: stop %1").arg(scopeWord(prefix_)));
     QTimer::singleShot(secondPress, this, [this] {
         if (armed_.isValid() && !armed_.hasExpired(secondPress - 1)) return;  // pressed again
         armed_.invalidate();
@@ -55,40 +56,37 @@ void StopButton::pressedByKey() {
     });
 }
 
-QString StopButton::scopeWord() const {
-    return prefix_ == "/" ? tr("all") : QString::fromStdString(prefix_);
-}
-
 void StopButton::showScope() {
-    setText(tr("Stop %1").arg(scopeWord()));
-    setAccessibleName(tr("Stop %1, F12").arg(scopeWord()));
+    setText((chosen_ ? tr("Stop always %1") : tr("Stop %1")).arg(scopeWord(prefix_)));
+    setAccessibleName(tr("Stop %1, F12").arg(scopeWord(prefix_)));
     update();
 }
 
-void StopButton::stop() {
+void StopButton::stop(const std::string& prefix) {
     armed_.invalidate();
     showScope();
-    order_.begin(prefix_, scopeWord());
-    tell();
+    Q_EMIT begun();
+    order_.begin(prefix);
+}
+
+void StopButton::setScope(std::optional<std::string> prefix) {
+    chosen_ = std::move(prefix);
+    if (chosen_) prefix_ = *chosen_;
+    armed_.invalidate();
+    showScope();
 }
 
 void StopButton::refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes) {
     // It never follows what is selected: the same key must not mean something else after a click.
     inControl_ = !frame.control.prefix.empty();
-    const std::string scope = inControl_ ? frame.control.common() : everything;
+    const std::string own = inControl_ ? frame.control.common() : everything;
+    const std::string scope = chosen_.value_or(own);
     if (scope != prefix_) {
         prefix_ = scope;
         armed_.invalidate();
         showScope();
     }
     order_.refresh(frame, outcomes);
-    tell();
-}
-
-void StopButton::tell() {
-    if (told_ == order_.text()) return;
-    told_ = order_.text();
-    Q_EMIT told(told_);
 }
 
 void StopButton::paintEvent(QPaintEvent* /*event*/) {
@@ -110,7 +108,8 @@ void StopButton::paintEvent(QPaintEvent* /*event*/) {
     painter.setFont(Look::font(TextSize::Text, true));
     const QRect inner = rect().adjusted(Look::units(3), 0, -Look::units(3), 0);
     if (armed_.isValid()) {
-        painter.drawText(inner, Qt::AlignCenter, text());
+        const bool fits = painter.fontMetrics().horizontalAdvance(text()) <= inner.width();
+        painter.drawText(inner, Qt::AlignCenter, fits ? text() : tr("F12 again"));
         return;
     }
     const int room = inner.width() - Look::units(10);
@@ -119,4 +118,4 @@ void StopButton::paintEvent(QPaintEvent* /*event*/) {
     painter.drawText(inner, int{Qt::AlignVCenter} | int{Qt::AlignRight}, QStringLiteral("F12"));
 }
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -2,14 +2,15 @@
 #pragma once
 
 #include "session/session.hpp"
-#include "window/stop_order.hpp"
+#include "window/order.hpp"
 
 #include <QAbstractButton>
 #include <QElapsedTimer>
+#include <optional>
 #include <string>
 #include <vector>
 
-namespace cortex::explorer {
+namespace cortex::gui {
 
 // Stops what this window controls, otherwise everything that is known: every agent is told to shut
 // down its simplexes there. A click does it at once. F12 does it wherever the focus is, in dialogs,
@@ -22,10 +23,15 @@ public:
 
     void refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes);
     const QString& progress() const { return order_.text(); }
+    const std::string& scope() const { return prefix_; }
+    // Stops this path from now on, whatever is controlled; none: as above.
+    void setScope(std::optional<std::string> prefix);
+    const std::optional<std::string>& chosenScope() const { return chosen_; }
+    void stop(const std::string& prefix);  // this path, once
     QSize sizeHint() const override;
 
 Q_SIGNALS:
-    void told(const QString& progress);
+    void begun();
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
@@ -33,16 +39,13 @@ protected:
 
 private:
     void pressedByKey();
-    QString scopeWord() const;  // "all", "/arm"
     void showScope();
-    void stop();
-    void tell();
 
-    StopOrder order_;
-    QString told_;
+    Order order_;
     QElapsedTimer armed_;      // since F12
     std::string prefix_{"/"};  // at and below which it stops
+    std::optional<std::string> chosen_;
     bool inControl_ = false;
 };
 
-}  // namespace cortex::explorer
+}  // namespace cortex::gui

@@ -14,6 +14,7 @@ static int usage(void) {
         stderr,
         "client DOMAIN list                         path, type, role and agent of each simplex\n"
         "client DOMAIN values PREFIX [BLOCKS]       values at and below PREFIX\n"
+        "client DOMAIN summary PREFIX               quality and state at and below PREFIX\n"
         "client DOMAIN call PATH COMMAND [NAME=V,V…]…\n");
     return 2;
 }
@@ -109,6 +110,50 @@ static int values(Tool* tool, const Models* models, const char* prefix, int bloc
         if (count > 0) dds_return_loan(tool->blocks, samples, count);
     }
     return blocks == 0 ? 0 : 3;
+}
+
+// --- summary -------------------------------------------------------------------------------------
+
+static bool isSummaryOf(const cortex_Summary* summary, const Agent* agent) {
+    return memcmp(summary->agent, idOf(agent->name, NULL, NULL).octets, 16) == 0 &&
+           summary->epoch == agent->epoch &&
+           memcmp(summary->structureHash, agent->structureHash, 16) == 0 &&
+           summary->marks._length == agent->simplexes;
+}
+
+static int printMarks(const cortex_Summary* summary, const Models* models, const Agent* agent,
+                      const char* prefix) {
+    static const char* const qualities[] = {"good", "stale", "bad", "lost"};
+    static const char* const states[] = {"-",      "Standby",      "StartingUp",
+                                         "Active", "ShuttingDown", "Fault"};
+    for (uint32_t i = 0; i < summary->marks._length; ++i) {
+        const cortex_SimplexModel* simplex = simplexOf(models, agent, i);
+        const uint8_t mark = summary->marks._buffer[i];
+        const unsigned state = mark >> 2 & 7;
+        if (simplex == NULL || state > 5) return 1;
+        if (!isBelow(simplex->path, prefix)) continue;
+        printf("%s %s %s%s\n", simplex->path, qualities[mark & 3], states[state],
+               (mark & 0x20) != 0 ? " outside" : "");
+    }
+    return 0;
+}
+
+static int summary(Tool* tool, const Models* models, const char* prefix) {
+    const Agent* agent = ownerOf(tool, models, prefix);
+    viewSummary(tool);
+    int result = 3;
+    for (const int64_t end = now() + 20 * second; result == 3 && now() < end;) {
+        step(tool);
+        void* samples[16] = {NULL};
+        dds_sample_info_t infos[16];
+        const int count = dds_take(tool->summaries, samples, infos, 16, 16);
+        for (int i = 0; i < count && result == 3; ++i) {
+            if (!infos[i].valid_data || !isSummaryOf(samples[i], agent)) continue;
+            result = printMarks(samples[i], models, agent, prefix);
+        }
+        if (count > 0) dds_return_loan(tool->summaries, samples, count);
+    }
+    return result;
 }
 
 // --- commands ------------------------------------------------------------------------------------
@@ -239,6 +284,8 @@ int main(int count, char** words) {
         result = list(&tool, &models);
     } else if (strcmp(verb, "values") == 0 && (count == 4 || count == 5)) {
         result = values(&tool, &models, words[3], count == 5 ? atoi(words[4]) : 1);
+    } else if (strcmp(verb, "summary") == 0 && count == 4) {
+        result = summary(&tool, &models, words[3]);
     } else if (strcmp(verb, "call") == 0 && count >= 5) {
         result = call(&tool, &models, count - 3, words + 3);
     } else {

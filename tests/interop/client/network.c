@@ -42,6 +42,8 @@ static const TopicRow presenceTopic = {"cortex/presence", &cortex_Presence_desc,
 static const TopicRow modelTopic = {"cortex/1/model", &cortex_Model_desc, true, true, 1};
 static const TopicRow interestTopic = {"cortex/1/interest", &cortex_Interest_desc, true, true, 1};
 static const TopicRow viewTopic = {"cortex/1/view/30", &cortex_Block_desc, false, false, 1};
+static const TopicRow summaryTopic = {"cortex/1/view/summary", &cortex_Summary_desc, false, false,
+                                      1};
 static const TopicRow commandTopic = {"cortex/1/command", &cortex_Command_desc, true, false, 64};
 // Each sender of commands has one of its own: its id follows.
 static const TopicRow answerTopic = {"cortex/1/answer/", &cortex_Answer_desc, true, false, 64};
@@ -79,6 +81,7 @@ void join(Tool* tool, dds_domainid_t domain) {
     tool->interests = endpoint(tool, &interestTopic, true);
     tool->modelReader = endpoint(tool, &modelTopic, false);
     tool->blocks = endpoint(tool, &viewTopic, false);
+    tool->summaries = endpoint(tool, &summaryTopic, false);
     tool->commands = endpoint(tool, &commandTopic, true);
     char name[64];
     snprintf(name, sizeof name, "%s%.1s", answerTopic.name,
@@ -169,6 +172,15 @@ void view(Tool* tool, const char* prefix) {
     cortex_Interest interest = {.name = (char*)tool->name,
                                 .epoch = tool->epoch,
                                 .views = {._length = 1, ._buffer = &wanted}};
+    memcpy(interest.agent, idOf(tool->name, NULL, NULL).octets, 16);
+    dds_write(tool->interests, &interest);
+}
+
+void viewSummary(Tool* tool) {
+    cortex_Extra wanted = {.name = "summary", .value = "1"};
+    cortex_Interest interest = {.name = (char*)tool->name,
+                                .epoch = tool->epoch,
+                                .extras = {._length = 1, ._buffer = &wanted}};
     memcpy(interest.agent, idOf(tool->name, NULL, NULL).octets, 16);
     dds_write(tool->interests, &interest);
 }

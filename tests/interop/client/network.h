@@ -11,8 +11,8 @@ enum { mostAgents = 64 };
 typedef struct {
     char name[64];
     int64_t epoch;
-    dds_entity_t participant, presences, presenceReader, interests, modelReader, blocks, commands,
-        answers;
+    dds_entity_t participant, presences, presenceReader, interests, modelReader, blocks, summaries,
+        commands, answers;
     int64_t presenceDue;  // ns
     Agent agents[mostAgents];
     int agentCount;
@@ -32,3 +32,5 @@ void letGo(const Tool* tool, Models* models);
 
 // Says what the tool wants from now on: values at and below a path, 30 times a second.
 void view(Tool* tool, const char* prefix);
+// Or how all simplexes of all agents are, five times a second.
+void viewSummary(Tool* tool);

@@ -28,6 +28,8 @@ public:
     std::uint64_t rejected() const;
     std::string lastRejection() const;
     std::map<std::string, std::uint64_t> rejections() const;  // the same number, by reason
+    // Whether another start of this agent's name was there first, so that this one is silent.
+    bool isSecond() const;
     // How many samples of linked simplexes were sent and did not arrive; until close().
     std::uint64_t lost() const;
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/error.hpp"
+
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,10 +21,34 @@ std::string defaultSecurity();
 // The environment variable CORTEX_DISCOVERY_SERVER, empty where it is not set.
 std::string defaultDiscoveryServer();
 
-// Whether there are participants of the domain on this machine and all keep to the loopback
-// interface, where one that uses the other interfaces does not meet them. `sockets`: as Linux lists
-// them.
-bool onlyOnLoopback(int domain, const std::string& sockets = "/proc/net/udp");
+// How many participants of the domain on this machine keep to the loopback interface, where one
+// that uses the other interfaces does not meet them. `sockets`: as Linux lists them.
+enum class OnLoopback { None, Some, All };
+OnLoopback onLoopback(int domain, const std::string& sockets = "/proc/thread-self/net/udp");
+
+// Domains of which this machine has participants, from its UDP sockets, as Linux lists them.
+std::vector<int> domainsHere(const std::string& sockets = "/proc/thread-self/net/udp");
+
+struct NetworkOptions;
+// For a tool that is told no interface, peer or server: all interfaces, that of the loopback named
+// with them, so that it meets who keeps to it. Throws Error if the
+// interfaces cannot be listed.
+void alsoOnLoopback(NetworkOptions& options);
+// Why nobody at all can be heard with these options, with the remedy; empty: somebody may be.
+std::string networkTrouble(const NetworkOptions& options);
+
+// What an agent does where another start of its name was there first.
+enum class OnSecondStart {
+    Silent,   // it runs, and says nothing until the other has ended
+    Refused,  // it does not start: SecondStart
+    Waits     // it starts when the other has ended
+};
+
+// Another start of the agent's name is there.
+class SecondStart : public Error {
+public:
+    using Error::Error;
+};
 
 // The network that an agent or a tool joins. Joining throws Error if an option cannot be fulfilled.
 struct NetworkOptions {
@@ -38,6 +65,11 @@ struct NetworkOptions {
     bool sharedMemory = false;
     // A folder made by `cortex security create-agent`. Empty: no security.
     std::string security = defaultSecurity();
+    // Of an agent. Refused and Waits first listen for 0.1 to 2 s, before devices are opened.
+    OnSecondStart onSecondStart = OnSecondStart::Silent;
+    // Of Waits, on the thread that starts: waits until `ended` is true. False: it waits no longer,
+    // which throws SecondStart. None given: the wait has no other end.
+    std::function<bool(const std::function<bool()>& ended)> waitForFirst;
 };
 
 }  // namespace cortex::comms

@@ -17,6 +17,8 @@ struct AgentRights {
     std::string until;                         // UTC, 2027-11-20T12:00:00Z
     // Hosts whose process may carry it, for versions to come: known, and without effect today.
     std::vector<std::string> carriedBy{};
+    // It is linked and commanded only at and below these paths; none: what it has first.
+    std::vector<std::string> owns{};
 };
 
 inline constexpr int authorityDays = 3650, agentDays = 365;

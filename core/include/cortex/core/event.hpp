@@ -50,7 +50,9 @@ public:
     EventText& operator<<(std::string_view text) CORTEX_REALTIME;
     EventText& operator<<(const char* text) CORTEX_REALTIME;
     EventText& operator<<(std::int64_t number) CORTEX_REALTIME;
-    EventText& operator<<(double number) CORTEX_REALTIME;
+    EventText& operator<<(double number) CORTEX_REALTIME;  // six digits, or whole as it is
+    // With as many digits as tell it from the other.
+    EventText& apart(double number, double other) CORTEX_REALTIME;
     template <std::integral T>
     EventText& operator<<(T number) CORTEX_REALTIME {
         return *this << static_cast<std::int64_t>(number);
@@ -173,7 +175,7 @@ private:
     std::int64_t lastCycle_ = 0, lastTime_ = 0;
 };
 
-// One line without its end; `wallClock`: UTC ns of the event. Control characters become '?'.
+// One line without its end; `wallClock`: UTC ns of the event. Control characters are escaped.
 // "2026-11-20T10:00:00.123Z warning /arm/axis1 position clamped to 2.96 rad"
 std::string lineOf(const Event& event, const Structure& structure, std::int64_t wallClock);
 

@@ -24,6 +24,7 @@ struct SystemDescription {
     struct Setting {
         std::string data, value;
         Place place;
+        bool escaped = false;  // in the file; `value` is what it stands for
     };
     struct SimplexEntry {
         std::string path, type;

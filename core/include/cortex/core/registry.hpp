@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/header_hash.hpp"
 #include "cortex/core/simplex.hpp"
 
 #include <filesystem>
@@ -13,7 +14,7 @@
 
 namespace cortex {
 
-inline constexpr int pluginAbi = 2;
+inline constexpr int pluginAbi = 3;
 
 // C++ classes of active types, by type name; also from shared-object plug-ins. Setup phase.
 class ClassRegistry {
@@ -27,11 +28,16 @@ public:
     }
     void addFactory(std::string_view type, Factory factory);  // throws Error if the type has one
     const Factory* find(std::string_view type) const;
+    // The types whose class a simplex of this type may run: itself, or else its nearest ancestors
+    // with a class, none of which extends another. One: that class is used. Several: none is, as
+    // only a class of its own can say how they go together.
+    std::vector<std::string> classesFor(const Type& type, const TypeModel& types) const;
     std::vector<std::string> names() const;
 
     // Loads a plug-in for good and registers its classes. Throws Error in words when its ABI
-    // number, compiler or standard library differ, when it changed the floating-point mode, or when
-    // the hash of a type it implements differs from ours.
+    // number, compiler, standard library or headers differ, when it changed the floating-point
+    // mode, when the hash of a type it implements differs from ours, or when what it registers is
+    // not what it states.
     void loadPlugin(const std::filesystem::path& file, const TypeModel& types);
 
 private:
@@ -43,6 +49,7 @@ struct PluginDescription {
     int abi;
     const char* compiler;         // __VERSION__
     const char* standardLibrary;  // name and version of the C++ library
+    const char* headers;          // CORTEX_HEADER_HASH: of the public headers of cortex
     // Types implemented and their hashes (hex, as printed by `cortex types NAME`), "" where the
     // plug-in does not care; ended by a null name.
     struct ImplementedType {
@@ -55,6 +62,7 @@ struct PluginDescription {
 
 const char* compilerOfThisBuild();
 const char* standardLibraryOfThisBuild();
+const char* headersOfThisBuild();
 
 }  // namespace cortex
 
@@ -67,7 +75,8 @@ const char* standardLibraryOfThisBuild();
         static const cortex::PluginDescription::ImplementedType types[] = {__VA_ARGS__,         \
                                                                            {nullptr, nullptr}}; \
         static const cortex::PluginDescription description{                                     \
-            cortex::pluginAbi, __VERSION__, CORTEX_STANDARD_LIBRARY, types, registerFunction};  \
+            cortex::pluginAbi,  __VERSION__, CORTEX_STANDARD_LIBRARY,                           \
+            CORTEX_HEADER_HASH, types,       registerFunction};                                 \
         return &description;                                                                    \
     }
 

@@ -27,6 +27,7 @@ struct ItemAccess {
     Kind kind;
     bool array, write;
     std::string_view unit{};  // UCUM, as the code assumes it; empty: any
+    bool accepted = false;    // as it went out in the cycle before, of a demand
 };
 
 // What a simplex may touch of one that it is related to; got in populate(). Through an input data
@@ -46,6 +47,15 @@ public:
     const Simplex& simplex() const;
     bool isDelayed() const;  // what is sent arrives in the next cycle
     bool isRemote() const;   // it belongs to another agent
+    // What it is joined to itself under one of its rules of either direction, in order; what counts
+    // for the rule by `refines` too. Structure only: a world learns which axes form a manipulator.
+    // Of a simplex of another agent nothing is known, so it has none. Setup phase. Throws Error
+    // where its type has no such rule.
+    struct Joined {
+        std::string path;
+        const Type* type;
+    };
+    std::vector<Joined> related(std::string_view rule) const;
 
 protected:
     void* cell(std::string_view item, const ItemAccess& access, std::size_t& length) const;
@@ -107,6 +117,23 @@ public:
         std::size_t length = 0;
         void* first = cell(item, {kindFor<T>(), true, !std::is_const_v<T>, unit}, length);
         return {static_cast<typename StorageOf<T>::type*>(first), length};
+    }
+    // Of a demand, in hooks: the value that went out in the cycle before, after the choice among
+    // its writers, its limits and safe values. Before the first start it is what a device sees.
+    // data() is what this simplex wants alone; this is where every controller begins. It is no
+    // input: no order of tasks follows. Throws Error where the target is no demand.
+    template <class T>
+    Data<const T> accepted(std::string_view item, std::string_view unit = {}) const {
+        std::size_t length = 1;
+        return Data<const T>{static_cast<typename StorageOf<const T>::type*>(
+            cell(item, {kindFor<T>(), false, false, unit, true}, length))};
+    }
+    template <class T>
+    typename ArrayOf<const T>::type acceptedArray(std::string_view item,
+                                                  std::string_view unit = {}) const {
+        std::size_t length = 0;
+        void* first = cell(item, {kindFor<T>(), true, false, unit, true}, length);
+        return {static_cast<typename StorageOf<const T>::type*>(first), length};
     }
     // Whether a start value was given for the item; see Simplex::hasValue().
     bool hasValue(std::string_view item) const;

@@ -41,9 +41,10 @@ const char* name(OnLeaseLost onLeaseLost);
 std::optional<Role> roleFromName(std::string_view text);
 
 // What a modification item is set to when no writer is Active: a value, the last value (hold), or
-// the item of the same name in the simplex that the writer's counterpart rule names (observed).
+// the item of the same name in the simplex that the writer's counterpart rule names (observed). An
+// item and its derivative may stop: the derivative goes to 0 at its rate, the item with it (stop).
 struct Safe {
-    enum class Kind : std::uint8_t { None, Given, Hold, Observed };
+    enum class Kind : std::uint8_t { None, Given, Hold, Observed, Stop };
     Kind kind = Kind::None;
     Value value;
     bool operator==(const Safe&) const = default;
@@ -62,6 +63,7 @@ struct DataItem {
     std::string unit;             // UCUM text, canonical; empty: no dimension stated
     std::optional<Number> min, max;
     std::optional<double> rate;  // largest change of a demand, unit per second
+    std::string derivativeOf;    // the item of the type whose change per second this one is
     Value initial;               // the XML attribute `default`
     bool hasDefault = false;     // false: `initial` is zero, false or "" moved into the range
     std::map<std::int64_t, std::string> labels;
@@ -80,6 +82,10 @@ struct DataItem {
     Place place;
     bool operator==(const DataItem&) const = default;
 };
+
+// Whether a demand of it takes the observed value on startup. A derivative that stops does not: it
+// begins at 0.
+bool latchesObservation(const DataItem& item);
 
 // A command of a type, with its parameters.
 struct Command {

@@ -39,6 +39,7 @@ struct AgentOptions {
     std::int64_t period = 1'000'000;      // ns, nominal
     std::int64_t epoch = 0;               // of this start, UTC microseconds; 0: now
     bool realTime = false;                // false: stepped, so that only nominal time counts
+    std::string files{};                  // folder of what simplexes read and write; "": none
 };
 
 // One agent at run time: structure, tables, mailboxes, images, events and the two ends of a cycle.

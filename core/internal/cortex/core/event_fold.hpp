@@ -12,8 +12,10 @@
 namespace cortex {
 
 // Hands the first of equal events on at once, and counts those that follow: each second one event
-// says how many there were. Texts that differ only in numbers are equal. Faults, errors, changes of
-// state, and commands are never folded. Numbers what it hands on. One thread at a time.
+// says how many there were. Texts that differ only in numbers are equal. So are commands of one
+// sender to one simplex that are done and differ only in numbers, and any two of them that set
+// items. Faults, errors, changes of state, and commands that fail are never folded. Numbers what it
+// hands on. One thread at a time.
 class EventFold {
 public:
     using Out = std::function<void(const Event&)>;

@@ -15,6 +15,10 @@ namespace cortex {
 // lists the labels where the text is neither.
 std::optional<Value> parseItemValue(const DataItem& item, std::string_view text, std::string& why);
 
+// The text with the nearest label in the place of each word that is none and no number; "" where
+// one of them has none that is near.
+std::string withNearestLabels(const DataItem& item, std::string_view text);
+
 // What speaks against an item having a value of its kind and length: "is out of the range 0 to 1";
 // "" if nothing does.
 std::string valueError(const DataItem& item, const Value& value);

@@ -5,6 +5,7 @@
 #include "cortex/core/structure.hpp"
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <span>
 #include <utility>
@@ -44,13 +45,21 @@ public:
     // What edge() gives, also where it was given up: only to compare addresses.
     Slice seen(std::uint32_t index) const { return viewOf(index).seen; }
 
+    // A demand as it went out in the cycle before. Of several writers that is the live one until
+    // the last of them has run; for a sole one a copy is made here, which the loop fills. Setup.
+    Slice accepted(std::uint32_t simplex);
+    // That copy; its state is null where nobody asked for one.
+    Slice acceptedCopy(std::uint32_t simplex) const;
+    // The live demands count as those that went out last. Between cycles, after live ones were set.
+    void acceptLive();
+
     // Copies every simplex that has delayed readers; at the start of a cycle.
     void latch() CORTEX_REALTIME;
     // End of setup: what nobody asked for through edge() or edgeSource() is latched no longer and
     // takes no memory, as where a delayed relationship only carries commands. From now on edge()
     // and edgeSource() write nothing: any thread of the loop may call them.
     void giveUpUnusedLatches();
-    std::size_t copies() const { return extra_.size(); }  // latches, candidates, held copies
+    std::size_t copies() const { return extra_.size(); }  // besides the live ones
 
     std::span<const std::byte> arena() const { return {arena_.get(), arenaSize_}; }
     // Where the texts are in it: an offset and a number of bytes.
@@ -89,9 +98,10 @@ private:
     std::shared_ptr<const Structure> structure_;
     Memory arena_, constants_;
     std::size_t arenaSize_ = 0, constantSize_ = 0;
-    std::vector<Memory> extra_;   // latches, candidates, held copies
+    std::vector<Memory> extra_;   // latches, candidates, held and accepted copies
     std::vector<Latch> latches_;  // by the address of the copy's state
     bool gaveUp_ = false;
+    std::map<std::uint32_t, Slice> accepted_;  // by simplex
     // An index into views_; noSimplex: the live slice; givenUp: nobody asked for it in time.
     static constexpr std::uint32_t givenUp = noSimplex - 1;
     std::vector<std::uint32_t> viewOfEdge_;

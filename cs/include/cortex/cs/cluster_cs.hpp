@@ -50,6 +50,9 @@ struct ClusterOptions {
     // Tells this start from others of its name, UTC microseconds; 0: now. A replay gives that of
     // the start that it repeats.
     std::int64_t epoch = 0;
+    // The folder below which simplexes may read and write files, such as taught points; "": they
+    // may not.
+    std::string files{};
 };
 
 // What heartbeat functions get, after each cycle on the loop thread, and from the watchdog.
@@ -131,6 +134,13 @@ private:
 // ignores or handles them. Call blockStopSignals() before start() makes threads.
 void blockStopSignals();
 bool waitForInterrupt(double seconds = 0, const std::function<bool()>& done = {});
+
+// For a program that defines exit() itself, as cortex-agent does: where code of a plug-in calls it,
+// standard error says where, all is shut down as after a signal for the end, and the program is to
+// end with exit code 3. Before and after that the process ends at once with this code. It returns
+// where no plug-in called.
+void refuseExit(int code);
+bool exitWasRefused();
 
 // What a program does outside of its loop, while the object lives: clusters have such steps for
 // what they do, and a program may add its own. Once blockStopSignals() was called, standard error

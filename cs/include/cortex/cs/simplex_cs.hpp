@@ -83,6 +83,9 @@ protected:
     static constexpr std::int64_t thisCycle = std::numeric_limits<std::int64_t>::min();
     // In a hook: an event of this simplex.
     void event(Severity severity, const EventText& text) CORTEX_REALTIME;
+    // How far an exchange is: not all of those wanted are Active; they are, but others still run;
+    // only they run; one of them is in Fault or refused to start, so those before it go on.
+    enum class HandOver : std::uint8_t { Starting, Stopping, Done, Failed };
     // In a hook: the life-cycle commands of a related simplex. Along an output relationship they
     // are taken in the same cycle, along an input or a delayed one in the next. To a simplex of
     // another agent each goes as a command does, once: again only when the last was answered.
@@ -103,13 +106,40 @@ protected:
         // Of a simplex of another agent: how the last one ended. None: none was, or of this agent.
         const AnswerHead& answer() const;
 
+        // In a hook, in every cycle: exchanges controllers without a gap. `to` starts, and this one
+        // is shut down in the cycle after that in which `to` became Active. In one cycle both are,
+        // and their shared demands follow the later one. A start that was refused is asked for
+        // again after half a second. Throws Error where this simplex does not manage both.
+        HandOver handOver(LifeCycleSender& to, const Tick& tick) CORTEX_REALTIME;
+        // The same of groups: of `all`, those for which wanted(place) is true start, and the others
+        // are shut down once all of those are Active. A group that fails is shut down again where
+        // others run. Of a wanted one that another has replaced meanwhile, the start begins anew.
+        template <class Wanted>
+        static HandOver handOver(std::span<LifeCycleSender> all, const Wanted& wanted,
+                                 const Tick& tick) CORTEX_REALTIME {
+            for (std::size_t i = 0; i < all.size(); ++i) all[i].wanted_ = wanted(i);
+            return exchange(all, tick);
+        }
+        // What an exchange leaves to the next cycle; for keep() of whoever has this handle.
+        void keep(Archive& archive) { archive & askedAt_ & askedIn_ & activeSince_; }
+
     private:
         friend class SimplexCS;
+        static HandOver exchange(std::span<LifeCycleSender> all, const Tick& tick) CORTEX_REALTIME;
+        template <class Each>
+        static HandOver exchangeEach(const Each& each, const Tick& tick) CORTEX_REALTIME;
+        void look(const Tick& tick) CORTEX_REALTIME;
+        bool refuses(const Tick& tick) CORTEX_REALTIME;
+        bool replaces(const LifeCycleSender& other) const CORTEX_REALTIME;
         void post(LifeCycle command) CORTEX_REALTIME;
         AgentRuntime& bound() const CORTEX_REALTIME;  // throws UnboundHandle
+        static constexpr std::int64_t never = -1;
         AgentRuntime* runtime_ = nullptr;
         std::uint32_t target_ = noSimplex;
-        bool isDelayed_ = false;
+        bool isDelayed_ = false, isManaged_ = false, wanted_ = false;
+        std::int64_t askedAt_ = never;      // ns: for its start, while it is in Standby
+        std::int64_t askedIn_ = never;      // cycle of that
+        std::int64_t activeSince_ = never;  // cycle in which an exchange saw it Active first
         Data<const std::int64_t> state_;
         struct Remote;
         std::shared_ptr<Remote> remote_;  // null: of this agent
@@ -118,6 +148,8 @@ protected:
     // leave it to it. The target must then be one of this agent.
     LifeCycleSender lifeCycle(const RelatedSimplex& target, bool manage = false);
 
+    // Below it files may be read and written (cortex/cs/slow_work.hpp); "": none. From start() on.
+    const std::string& filesFolder() const;
     // In populate(): on<&Jog::zero>("zero"), with `Outcome zero(Call& call)`.
     template <auto Method>
     void on(std::string_view command) {

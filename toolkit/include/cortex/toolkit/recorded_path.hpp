@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/toolkit/serial_chain.hpp"
+#include "cortex/mechanics/serial_chain.hpp"
 
 #include <string>
 #include <string_view>
@@ -11,7 +11,7 @@ namespace cortex::toolkit {
 
 // What a path has at one time.
 struct PathSample {
-    Pose pose;
+    mechanics::Pose pose;
     bool trigger = false;
 };
 

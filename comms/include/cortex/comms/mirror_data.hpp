@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a mirror tells of agents (mirror.hpp).
+#pragma once
+
+#include "cortex/comms/simplex_mark.hpp"
+#include "cortex/core/image.hpp"
+#include "cortex/core/program_interface.hpp"
+#include "cortex/core/report.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cortex::comms {
+
+// An agent on the network, as of its last message.
+struct AgentStatus {
+    std::string name, host;
+    std::int64_t epoch = 0;  // UTC microseconds
+    std::string state;       // "running", "overloaded", "standstill", "incomplete", "lost"
+    bool ended = false;      // lost, as it said itself or as another start of it took its place
+    // When it was heard first, by a clock that only grows; 0: it was there before this mirror.
+    std::int64_t since = 0;
+    double age = 0;                          // s since its newest cycle
+    std::uint32_t types = 0, simplexes = 0;  // as it announces them
+    std::uint32_t missing = 0;               // those that have not come yet
+    std::uint32_t missingTypes = 0;          // as many of them are types
+    std::vector<std::string> missingNames;   // a few of these types, as others name them
+    std::int64_t cycle = 0;                  // newest
+    std::int64_t period = 0;                 // ns
+    // Blocks and events that did not come; of a view of every cycle, cycles and events.
+    std::uint64_t loss = 0;
+    std::string security;
+    std::string trouble;      // the contradiction in its model that keeps it incomplete
+    std::string standstill;   // of its loop: "hangs in /ctl.stateActive for 8.5 s"
+    double rate = 0;          // Hz, what its loop reached of late; 0: not said
+    bool overloaded = false;  // its loop misses more than a tenth of its ticks
+    std::string dropped;      // datagrams, by reason: "12 as a submessage is out of bounds; 3 as …"
+    std::string otherSelf;    // who else speaks in its name, in words; empty: nobody
+    bool summarises = false;  // it can say how all its simplexes are (Mirror::viewSummary)
+    std::string refused;      // messages: "4: a command with a wrong id", the reason of the last
+};
+
+// Paths, with all simplexes below, and how many images of them a second are wanted.
+struct Viewed {
+    std::vector<std::string> prefixes;
+    std::uint32_t rate = 30;  // at least; 0: every cycle
+};
+
+// A path that several agents have, or one without a right to it.
+struct Contested {
+    std::string path;
+    std::vector<std::string> agents;
+    std::string owner;  // that is shown, linked and commanded; empty: none
+    std::string why;    // "which was there first"
+    std::string text;   // all of it in one sentence
+    bool operator==(const Contested&) const = default;
+};
+
+// An event of an agent, as it was published.
+struct AgentEvent {
+    std::string agent;
+    std::int64_t epoch = 0;
+    std::uint64_t number = 0;  // per agent and epoch, from 1
+    std::int64_t cycle = 0;
+    std::int64_t wallClock = 0;  // UTC ns
+    Severity severity = Severity::Info;
+    std::string kind, path, text;
+    // Number among the events that the same input causes again; 0: it came from measured times.
+    // None: its agent does not say so.
+    std::optional<std::uint64_t> repeatable{};
+};
+
+// The answer to a command, with the time that it took.
+struct CommandAnswer : CallResult {
+    std::chrono::nanoseconds latency{};  // in the agent, from reading it to its end
+};
+
+// An image of another agent. It keeps its structure and its tables even after the agent is gone.
+class AgentImage {
+public:
+    AgentImage() = default;
+    AgentImage(std::shared_ptr<const void> keeps, Image image, std::vector<bool> came,
+               bool lost = false, std::vector<bool> behind = {})
+        : keeps_{std::move(keeps)},
+          image_{std::move(image)},
+          came_{std::move(came)},
+          behind_{std::move(behind)},
+          lost_{lost} {}
+    AgentImage(AgentImage&&) noexcept = default;
+    AgentImage& operator=(AgentImage&& other) noexcept {
+        image_ = std::move(other.image_);  // releases the image before the memory that it lies in
+        keeps_ = std::move(other.keeps_);
+        came_ = std::move(other.came_);
+        behind_ = std::move(other.behind_);
+        lost_ = other.lost_;
+        return *this;
+    }
+
+    explicit operator bool() const { return static_cast<bool>(image_); }
+    const Image& operator*() const { return image_; }
+    const Image* operator->() const { return &image_; }
+    // Whether the agent ever sent this simplex. Such a simplex may be `lost` because an input of it
+    // is, or its agent; without it, `lost` means that only its constants are known.
+    bool came(std::uint32_t simplex) const { return simplex < came_.size() && came_[simplex]; }
+    // Whether its values are of a cycle before that of the image, as of one that is viewed at a
+    // lower rate.
+    bool isBehind(std::uint32_t simplex) const {
+        return simplex < behind_.size() && behind_[simplex];
+    }
+    // Whether the agent was not heard any longer. Then its values are the last ones that came.
+    bool lost() const { return lost_; }
+
+private:
+    std::shared_ptr<const void> keeps_;
+    Image image_;  // ends first
+    std::vector<bool> came_, behind_;
+    bool lost_ = false;
+};
+
+}  // namespace cortex::comms

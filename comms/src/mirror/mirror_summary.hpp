@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/comms/simplex_mark.hpp"
+
+#include "peers/moment.hpp"
+#include "wire/messages.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cortex::comms {
+
+// How the simplexes of one agent are, as its newest summary says.
+class MirrorSummary {
+public:
+    // Of an agent with so many simplexes of its own. False: it is refused, whole.
+    bool take(const Summary& summary, std::size_t own, Moment when);
+    bool any() const { return !octets_.empty(); }
+    // By index; those of other agents are lost. `limit`: what came before it is stale.
+    std::vector<SimplexMark> marks(std::size_t simplexes, bool lost, Moment limit) const;
+
+private:
+    std::vector<std::uint8_t> octets_;
+    std::int64_t cycle_ = 0;
+    Moment when_{};
+};
+
+}  // namespace cortex::comms

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/agent_text.hpp"
+
+#include "model/item_of.hpp"
+#include "model/plain_text.hpp"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <cstdint>
+
+namespace cortex::gui {
+
+namespace {
+
+QString words(const char* text) { return QCoreApplication::translate("AgentText", text); }
+
+// "38 of 40 types and 0 of 4 simplexes have come; lacking: Axis, Drive".
+QString missingText(const comms::AgentStatus& agent) {
+    const std::uint32_t types = std::min({agent.missingTypes, agent.types, agent.missing});
+    const std::uint32_t simplexes = std::min(agent.missing - types, agent.simplexes);
+    QString text = words("%1 of %2 types and %3 of %4 simplexes have come")
+                       .arg(agent.types - types)
+                       .arg(agent.types)
+                       .arg(agent.simplexes - simplexes)
+                       .arg(agent.simplexes);
+    if (agent.missingNames.empty()) return text;
+    QStringList names;
+    for (const std::string& each : agent.missingNames) names << plainText(each);
+    if (names.size() < static_cast<int>(types)) names << QStringLiteral("…");
+    return words("%1; lacking: %2").arg(text, names.join(QStringLiteral(", ")));
+}
+
+double nominalRate(const comms::AgentStatus& agent) {
+    return agent.period > 0 ? 1e9 / static_cast<double>(agent.period) : 0;
+}
+
+// As the agent judges it itself.
+bool isSlow(const comms::AgentStatus& agent) {
+    return agent.rate > 0 && agent.rate < 0.9 * nominalRate(agent);
+}
+
+// Never with an exponent.
+QString hertz(double rate) {
+    return rate < 1000 ? QString::number(rate, 'g', 4) : QString::number(rate, 'f', 0);
+}
+
+}  // namespace
+
+QString rateText(const comms::AgentStatus& agent) {
+    if (agent.period <= 0) return {};
+    const QString wanted = hertz(nominalRate(agent));
+    if (!agent.overloaded || !isSlow(agent)) return words("%1 Hz").arg(wanted);
+    return words("%1 of %2 Hz").arg(hertz(agent.rate), wanted);
+}
+
+QString overloadText(const comms::AgentStatus& agent) {
+    if (!agent.overloaded) return {};
+    if (agent.rate <= 0) return words("overloaded");
+    return isSlow(agent) ? words("overloaded: %1").arg(rateText(agent))
+                         : words("overloaded until just now");
+}
+
+QString stateWord(const comms::AgentStatus& agent) {
+    return agent.ended ? words("ended") : plainText(agent.state);
+}
+
+QString cameText(const comms::AgentStatus& agent) {
+    const std::uint32_t all = agent.types + agent.simplexes;
+    return words("%1 of %2").arg(all - std::min(agent.missing, all)).arg(all);
+}
+
+QString missedText(const AgentFrame& agent) {
+    QString text = overloadText(agent.status);
+    const std::uint32_t own = agent.own();
+    if (text.isEmpty() || own == noSimplex || !agent.came(own)) return text;
+    const auto missed = itemOf<std::int64_t>(agent, own, "overflowCount");
+    return missed ? words("%1; %2 ticks missed since its start").arg(text).arg(*missed) : text;
+}
+
+QStringList troublesOf(const comms::AgentStatus& agent) {
+    QStringList found;
+    if (!agent.standstill.empty()) found << plainText(agent.standstill);
+    if (!agent.trouble.empty()) found << plainText(agent.trouble);
+    if (agent.missing > 0) found << missingText(agent);
+    if (!agent.otherSelf.empty())
+        found << words("not alone with its name: %1").arg(plainText(agent.otherSelf));
+    if (!agent.dropped.empty())
+        found << words("dropped datagrams: %1").arg(plainText(agent.dropped));
+    if (!agent.refused.empty())
+        found << words("refused messages: %1").arg(plainText(agent.refused));
+    return found;
+}
+
+}  // namespace cortex::gui

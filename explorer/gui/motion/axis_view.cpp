@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion/axis_view.hpp"
+
+#include "cortex/explorer/small_plot.hpp"
+
+#include "motion/axis_plots.hpp"
+#include "motion/choices.hpp"
+#include "motion/demand_bar.hpp"
+#include "motion/labels.hpp"
+#include "motion/motion_bar.hpp"
+
+#include <QBoxLayout>
+#include <QPushButton>
+#include <QScrollArea>
+#include <algorithm>
+#include <array>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr double wideUnits = 195;   // from here on the plot stands beside the axes
+constexpr double settledAfter = 5;  // s, of the plot
+constexpr std::array modes{"Hold", "Position", "Velocity", "Step"};
+
+QScrollArea* scrolled(const QString& name) {
+    auto* area = new QScrollArea;
+    area->setWidgetResizable(true);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    area->setFocusPolicy(Qt::NoFocus);
+    area->setMinimumHeight(1);  // the lines below are never cut
+    area->setAccessibleName(name);
+    return area;
+}
+
+}  // namespace
+
+AxisView::AxisView(std::string path)
+    : path_{std::move(path)},
+      rows_{new AxisRows},
+      left_{scrolled(tr("Axes"))},
+      right_{scrolled(tr("The last seconds"))},
+      side_{new QWidget},
+      plots_{new AxisPlots},
+      demands_{new DemandBar},
+      jogging_{new Plate},
+      ended_{new Sentence{Tone::Quiet}},
+      hint_{new Sentence{Tone::Quiet}},
+      jog_{new Jog{path_,
+                   [this](QWidget& held, const HeldOrder& order) { return hold(held, order); },
+                   this}} {}
+
+// Once it is known what the controller is.
+void AxisView::build() {
+    bar_ = new MotionBar{jogs_};
+    auto* top = new QVBoxLayout{this};
+    top->setContentsMargins(0, units(2), 0, units(2));
+    top->setSpacing(units(1));
+    auto* table = new QWidget;
+    auto* column = new QVBoxLayout{table};
+    column->setContentsMargins(0, 0, 0, 0);
+    column->addWidget(bar_);
+    column->addWidget(rows_);
+    column->addWidget(demands_);
+    column->addStretch(1);
+    left_->setWidget(table);
+    auto* side = new QVBoxLayout{side_};
+    side->setContentsMargins(units(3), 0, units(4), 0);
+    side->addWidget(plots_);
+    auto* body = new QHBoxLayout;
+    body->setSpacing(0);
+    body->addWidget(left_, 4);
+    body->addWidget(right_, 3);
+    top->addLayout(body, 1);
+
+    auto* lines = new QVBoxLayout;
+    lines->setContentsMargins(units(4), 0, units(4), 0);
+    lines->setSpacing(units(0.5));
+    for (QWidget* each : std::initializer_list<QWidget*>{jogging_, ended_, hint_})
+        lines->addWidget(each);
+    top->addLayout(lines);
+    connectParts();
+    arrange();
+}
+
+void AxisView::connectParts() {
+    connect(rows_, &AxisRows::chosen, this, &AxisView::choose);
+    connect(rows_, &AxisRows::pressed, this, &AxisView::press);
+    connect(rows_, &AxisRows::edited, this, &AxisView::enter);
+    connect(bar_, &MotionBar::shareChanged, this, [this] {
+        if (jog_->runs()) jog_->change(jog_->direction() * speedOf(jog_->axis()));
+    });
+    connect(&bar_->modes(), &Choices::wanted, this, &AxisView::setMode);
+    for (Choices* each : {&bar_->angles(), &bar_->lengths()}) {
+        connect(each, &Choices::wanted, this,
+                [this](const QString& unit) { chooseUnit(unit.toStdString()); });
+    }
+    connect(&demands_->copyButton(), &QPushButton::clicked, this, &AxisView::copyCurrent);
+    connect(&demands_->discardButton(), &QPushButton::clicked, this,
+            [this] { demands_->discard(); });
+    connect(&demands_->moveButton(), &QPushButton::clicked, this, &AxisView::move);
+    connect(&demands_->haltButton(), &QPushButton::clicked, this, [this] {
+        send({path_, jogs_ ? "halt" : "cancel"}, [this](const Answer& answer) {
+            if (!answer.done) demands_->say(answer.text);  // otherwise the motion tells it
+        });
+    });
+}
+
+// Beside the axes where there is room, otherwise below them.
+void AxisView::arrange() {
+    if (bar_ == nullptr) return;
+    left_->setMinimumWidth(units(leastRowUnits + 4));  // with its scroll bar
+    const bool wide = width() >= units(wideUnits);
+    if (wide == (right_->widget() == side_)) return;
+    if (wide) {
+        right_->setWidget(side_);
+    } else {
+        if (right_->widget() == side_) right_->takeWidget();
+        auto* column = qobject_cast<QBoxLayout*>(left_->widget()->layout());
+        column->insertWidget(column->count() - 1, side_);
+    }
+    right_->setVisible(wide);
+    side_->show();
+}
+
+void AxisView::resizeEvent(QResizeEvent* /*event*/) { arrange(); }
+
+void AxisView::bind(const SystemNow& now) {
+    const Type* type = now.at(path_).type();
+    if (type == nullptr) return;
+    jogs_ = type->isA("JogController");
+    item_ = jogs_ ? "demandPosition" : "pose";
+    if (bar_ == nullptr) build();
+    const DataItem* item = type->findData(item_);
+    sent_.assign(item != nullptr ? item->length : 0, 0.0);
+    auto axes = axesOf(now, path_);
+    // What is held down must outlast what comes and goes elsewhere.
+    const bool same = std::ranges::equal(
+        axes, axes_, [](const auto& one, const auto& other) { return one.isSame(other); });
+    if (same && bound_) return;
+    bound_ = true;
+    axes_ = std::move(axes);
+    rows_->make(axes_, jogs_ ? RowPart::Jog : RowPart::Demand, jogs_);
+    demands_->forget(axes_.size());
+    plots_->forget(axes_.size());
+    const auto has = [&](bool linear) {
+        return std::ranges::any_of(axes_,
+                                   [&](const auto& each) { return each.isLinear() == linear; });
+    };
+    bar_->angles().setVisible(has(false));
+    bar_->lengths().setVisible(has(true));
+}
+
+std::vector<Watch> AxisView::watches() const {
+    Watch watch{{path_}};
+    for (const MotionAxis& each : axes_) {
+        for (const std::string& path : {each.axis, each.demand, each.device}) {
+            if (!path.empty()) watch.prefixes.push_back(path);
+        }
+    }
+    return {watch};
+}
+
+bool AxisView::settled() const { return axes_.empty() || plots_->length() >= settledAfter; }
+
+void AxisView::takeIn(const SystemNow& now) {
+    const SimplexNow controller = now.at(path_);
+    for (MotionAxis& each : axes_) explorer::refresh(each, now);
+    for (std::size_t i = 0; i < sent_.size(); ++i) {
+        sent_[i] = controller.number(item_, i).value_or(sent_[i]);
+    }
+    holdTime_ = controller.number("holdTime").value_or(0);
+    remaining_ = controller.number("remaining");
+    const auto mode = controller.number("mode");
+    const auto known = mode ? static_cast<std::size_t>(*mode) : modes.size();
+    mode_ = known < modes.size() ? QLatin1String{modes[known]} : QString{};
+    whyNot_ = whyNot(path_, jogs_ ? "jog" : "moveTo");
+}
+
+void AxisView::refresh(const SystemNow& now) {
+    if (bar_ == nullptr) return;
+    takeIn(now);
+    if (jog_->runs() && axis(jog_->axis()).isAtLimit(jog_->direction())) {
+        jog_->end(axis(jog_->axis()).limitText());
+    }
+    if (jogs_) {
+        rows_->setPart(mode_ == QLatin1String{"Position"} ? RowPart::Demand : RowPart::Jog);
+        bar_->modes().show(mode_);
+        bar_->modes().setWhyNot(whyNot_);
+    }
+    showTitles();
+    showRows();
+    showDemands();
+    showLines();
+    plots_->add(axes_, SmallPlot::clock());
+    if (rows_->count() == 0) return;
+    const MotionAxis& chosen = axis(rows_->selected());
+    plots_->show(chosen, static_cast<std::size_t>(rows_->selected()), positionOf(chosen),
+                 velocityOf(chosen));
+}
+
+}  // namespace cortex::explorer

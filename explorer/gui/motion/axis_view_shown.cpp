@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the view of axes shows of them.
+#include "motion/axis_view.hpp"
+#include "motion/choices.hpp"
+#include "motion/demand_bar.hpp"
+#include "motion/labels.hpp"
+#include "motion/motion_bar.hpp"
+
+#include <QPushButton>
+#include <cmath>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr double lowUnits = 80;
+
+bool isDemands(const QString& mode) { return mode == QLatin1String{"Position"}; }
+
+}  // namespace
+
+ShownNumber AxisView::positionOf(const MotionAxis& axis) const {
+    return shownNumber(shownUnit(axis.positionUnit));
+}
+
+ShownNumber AxisView::velocityOf(const MotionAxis& axis) const {
+    return shownNumber(shownUnit(axis.velocityUnit));
+}
+
+std::optional<double> AxisView::demandOf(int axis) const {
+    const auto index = static_cast<std::size_t>(axis);
+    if (demands_->isEdited(index)) return demands_->entered(index);
+    return index < sent_.size() ? std::optional{sent_[index]} : std::nullopt;
+}
+
+// In the titles where all axes have one unit.
+void AxisView::showTitles() {
+    QString unit;
+    bool one = true;
+    for (const MotionAxis& each : axes_) {
+        const QString its = positionOf(each).unit.text;
+        one = one && (unit.isEmpty() || unit == its);
+        unit = its;
+    }
+    const QString behind = one && !unit.isEmpty() ? QStringLiteral(" (%1)").arg(unit) : QString{};
+    const bool demands = !jogs_ || isDemands(mode_);
+    unitsInRows_ = behind.isEmpty();
+    rows_->setTitles(tr("Value") + behind, tr("Target") + behind,
+                     demands ? tr("Demand") + behind : tr("Hold to jog"));
+    bar_->angles().show(shownUnit("rad").factor == 1 ? QStringLiteral("rad")
+                                                     : QStringLiteral("deg"));
+    bar_->lengths().show(shownUnit("m").factor == 1 ? QStringLiteral("m") : QStringLiteral("mm"));
+}
+
+void AxisView::showRows() {
+    for (int i = 0; i < rows_->count(); ++i) showRow(i);
+    bar_->saySpeed(speedText());
+}
+
+void AxisView::showRow(int index) {
+    const MotionAxis& each = axis(index);
+    RowLook look{positionOf(each), velocityOf(each)};
+    look.nameWidth = rows_->nameWidth();
+    look.unitInRow = unitsInRows_;
+    look.selected = index == rows_->selected();
+    look.focused = rows_->hasFocus();
+    look.held = jog_->runs() && jog_->axis() == index ? jog_->direction() : 0;
+    look.whyNot = whyNoJog(index);
+    look.edited = demands_->isEdited(static_cast<std::size_t>(index));
+    look.entered = demandOf(index);
+    rows_->row(index).show(each, look);
+}
+
+QString AxisView::speedText() const {
+    if (rows_->count() == 0) return {};
+    const int index = jog_->runs() ? jog_->axis() : rows_->selected();
+    const auto most = rows_->row(index).most();
+    if (!most) return {};
+    const ShownNumber velocity = velocityOf(axis(index));
+    return tr("%1: %2 of %3")
+        .arg(axis(index).name, velocity.text(*most * bar_->share()), velocity.withUnit(*most));
+}
+
+QString AxisView::limitSentence() const {
+    QStringList all;
+    for (int i = 0; i < rows_->count(); ++i) {
+        const MotionAxis& each = axis(i);
+        for (const int direction : {1, -1}) {
+            if (!each.isAtLimit(direction)) continue;
+            const QString limit = positionOf(each).withUnit(direction > 0 ? *each.max : *each.min);
+            all << (direction > 0
+                        ? tr("%1 is at its upper limit of %2: + is off until it has left it.")
+                        : tr("%1 is at its lower limit of %2: − is off until it has left it."))
+                       .arg(each.name, limit);
+        }
+    }
+    return all.join(' ');
+}
+
+void AxisView::showLines() {
+    const bool jogs = jogs_ && !isDemands(mode_);
+    if (jog_->runs()) {
+        const MotionAxis& each = axis(jog_->axis());
+        jogging_->say(tr("Jogging %1 at %2. It ends %3 s after you let go.")
+                          .arg(each.name, velocityOf(each).withSign(jog_->velocity()))
+                          .arg(jog_->holdTime()));
+    } else {
+        jogging_->say({});
+    }
+    const QString ended = jog_->said();
+    ended_->say(ended);
+    ended_->setVisible(!ended.isEmpty());
+    const QString limits = jogs ? limitSentence() : QString{};
+    if (!whyNot_.isEmpty() && !jog_->runs()) {
+        hint_->say(whyNot_, Tone::Quiet);
+    } else if (!limits.isEmpty()) {
+        hint_->say(limits, Tone::Limit);
+    } else if (jogs && rows_->count() > 0) {
+        hint_->say(tr("← → jog %1 while they are held, ↑ ↓ choose the axis.")
+                       .arg(axis(rows_->selected()).name),
+                   Tone::Quiet);
+    } else {
+        hint_->say({});
+    }
+    // Where there is little room, one of them at a time.
+    const bool crowded = height() < units(lowUnits) && (jog_->runs() || !ended.isEmpty());
+    hint_->setVisible(!crowded && !hint_->text().isEmpty());
+    if (!jogs_) return;
+    const bool usual = mode_ == QLatin1String{"Velocity"} || isDemands(mode_) || mode_.isEmpty();
+    bar_->sayMode(!usual              ? tr("It is %1. To jog, press Velocity.").arg(mode_)
+                  : whyNot_.isEmpty() ? QString{}
+                                      : tr("It is %1.").arg(mode_));
+}
+
+void AxisView::showDemands() {
+    const bool shown = !jogs_ || isDemands(mode_);
+    demands_->setVisible(shown);
+    if (!shown || rows_->count() == 0) return;
+    const QString action = jogs_ ? tr("Move %1").arg(axis(rows_->selected()).name) : tr("Move");
+    const QString why = !whyNot_.isEmpty()    ? whyNot_
+                        : demands_->isWrong() ? tr("What was entered is no number")
+                                              : QString{};
+    const int share = qRound(bar_->share() * 100);
+    QString note = tr("%1 not sent").arg(demands_->edited()) + tr(", %1 % of the speed").arg(share);
+    if (remaining_ && *remaining_ > 0) note += tr(", there in %1 s").arg(*remaining_, 0, 'f', 1);
+    demands_->show(action, why, note);
+    const QString whyNoHalt = whyNot(path_, jogs_ ? "halt" : "cancel");
+    demands_->haltButton().setEnabled(whyNoHalt.isEmpty());
+}
+
+}  // namespace cortex::explorer

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/explorer/view.hpp"
+
+#include <QObject>
+#include <QPointer>
+#include <QString>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace cortex::explorer {
+
+// One axis that is jogged while something is held, and what is said about it.
+class Jog : public QObject {
+    Q_OBJECT
+public:
+    using Begin = std::function<Hold*(QWidget& held, const HeldOrder& order)>;
+
+    // `begin`: how the view repeats an order.
+    Jog(std::string controller, Begin begin, QObject* parent = nullptr);
+
+    // Repeats the command with this velocity until `held` is let go, and sends 0 once then.
+    void start(QWidget& held, int axis, double velocity, double holdTime);
+    void change(double velocity);
+    void end(const QString& why);
+    bool runs() const { return hold_ && hold_->runs(); }
+    int axis() const { return axis_; }
+    int direction() const { return runs() ? (velocity_ > 0 ? 1 : -1) : 0; }
+    double velocity() const { return velocity_; }
+    double holdTime() const { return holdTime_; }
+    // Why the last one ended, for five seconds: "Ended: let go". Empty: it runs, or it is long ago.
+    QString said() const;
+    void say(const QString& text);  // instead of beginning
+
+private:
+    Arguments argumentsOf(double velocity) const;
+
+    std::string controller_;
+    Begin begin_;
+    QPointer<Hold> hold_;
+    int axis_ = 0;
+    double velocity_ = 0, holdTime_ = 0;
+    QString said_;
+    std::chrono::steady_clock::time_point since_;
+};
+
+}  // namespace cortex::explorer

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QString>
+#include <QWidget>
+
+class QLabel;
+class QSlider;
+
+namespace cortex::explorer {
+
+class Choices;
+class Sentence;
+
+// Above the axes: the share of the greatest speed, the units, and the mode of a JogController.
+class MotionBar : public QWidget {
+    Q_OBJECT
+public:
+    MotionBar(bool hasModes, QWidget* parent = nullptr);
+
+    double share() const;  // 0.01 to 1; 0.1 at the beginning, always
+    QSlider& slider() const { return *slider_; }
+    Choices& modes() const { return *modes_; }
+    Choices& angles() const { return *angles_; }
+    Choices& lengths() const { return *lengths_; }
+    void saySpeed(const QString& text);
+    void sayMode(const QString& text);  // empty: there is nothing to say
+
+Q_SIGNALS:
+    void shareChanged();
+
+private:
+    void layOut(bool hasModes);
+
+    QSlider* slider_;
+    QLabel* percent_;
+    Sentence* speed_;
+    Choices *angles_, *lengths_, *modes_;
+    QLabel* modeName_;
+    Sentence* mode_;
+};
+
+}  // namespace cortex::explorer

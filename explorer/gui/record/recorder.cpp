@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace cortex::gui {
+
+namespace {
+
+constexpr double second = 1e9;  // ns
+
+Ring shortened(const Ring& ring, std::size_t capacity) {
+    Ring result{capacity};
+    const auto kept = static_cast<std::int64_t>(capacity);
+    for (std::int64_t i = std::max(ring.begin(), ring.end() - kept); i < ring.end(); ++i) {
+        result.put(i, ring.value(i), ring.quality(i));
+    }
+    return result;
+}
+
+}  // namespace
+
+double AgentTime::secondsAt(std::int64_t index) const {
+    return static_cast<double>(table.utcAt(index) - clock.shift()) / second;
+}
+
+double AgentTime::indexAt(double seconds) const {
+    return table.indexAt(seconds * second + static_cast<double>(clock.shift()));
+}
+
+std::int64_t AgentTime::cycleAt(std::int64_t index) const {
+    const auto after = std::ranges::upper_bound(starts, index, {}, &RecordedStart::first);
+    return after == starts.begin() ? index : index - (after - 1)->offset;
+}
+
+void Recorder::record(const void* viewer, std::vector<RecordedItem> items) {
+    if (items.empty()) {
+        wanted_.erase(viewer);
+    } else {
+        wanted_[viewer] = std::move(items);
+    }
+    std::vector<RecordedItem> all = wanted();
+    std::erase_if(rings_,
+                  [&](const auto& each) { return !std::ranges::binary_search(all, each.first); });
+    std::erase_if(times_, [&](const auto& each) {
+        return std::ranges::none_of(all, [&](const auto& of) { return of.agent == each.first; });
+    });
+    pending_.record(std::move(all));
+    fit();
+}
+
+std::vector<RecordedItem> Recorder::wanted() const {
+    std::set<RecordedItem> all;
+    for (const auto& [who, wanted] : wanted_) all.insert(wanted.begin(), wanted.end());
+    return {all.begin(), all.end()};
+}
+
+// The oldest samples of all lines give way, in whole blocks, so that all together fit.
+void Recorder::fit() {
+    const std::size_t lines = std::max<std::size_t>(wanted().size(), 1);
+    const std::size_t sample = Ring::bytesOfASample;
+    const std::size_t blocks = limit_ / lines / sample / Ring::block;
+    allowed_ = std::max(blocks, std::size_t{1}) * Ring::block;
+    for (auto& [item, ring] : rings_) {
+        if (ring.capacity() > capacity()) ring = gui::shortened(ring, capacity());
+    }
+}
+
+void Recorder::take() {
+    const auto rows = pending_.take();
+    if (rows.empty()) return;
+    for (const PendingRows& each : rows) add(each);
+    texts_ = pending_.texts();
+}
+
+// Cycles are counted on from those before, so that a later start lies behind the earlier one by as
+// many cycles as would have fitted between them.
+std::int64_t Recorder::indexOf(AgentTime& time, const PendingRows& rows, std::size_t row) {
+    const std::int64_t cycle = rows.cycles[row], utc = rows.utc[row];
+    if (time.starts.empty() || time.starts.back().epoch != rows.epoch) {
+        std::int64_t first = cycle;
+        if (!time.starts.empty()) {
+            const std::int64_t late = (utc - time.table.last()) / time.table.period();
+            first = time.end + std::max<std::int64_t>(late, 1);
+        }
+        time.starts.push_back({first, first - cycle, rows.epoch});
+        time.table.startAnew(first, utc, 0);
+    }
+    return cycle + time.starts.back().offset;
+}
+
+void Recorder::add(const PendingRows& rows) {
+    AgentTime& time = times_[rows.agent];
+    std::vector<Ring*> rings;
+    for (const RecordedItem& each : rows.items) {
+        auto found = rings_.find(each);
+        const bool wanted = std::ranges::any_of(wanted_, [&](const auto& viewer) {
+            return std::ranges::find(viewer.second, each) != viewer.second.end();
+        });
+        if (found == rings_.end() && wanted) found = rings_.try_emplace(each, capacity()).first;
+        rings.push_back(wanted ? &found->second : nullptr);
+    }
+    for (std::size_t row = 0; row < rows.cycles.size(); ++row) {
+        const bool other = time.starts.empty() || time.starts.back().epoch != rows.epoch;
+        const std::int64_t index = indexOf(time, rows, row);
+        const std::int64_t cycles = rows.cycles[row] - time.lastCycle;
+        if (!other && cycles <= 0) continue;
+        if (!other) {
+            time.skipped += static_cast<std::uint64_t>(cycles - 1);
+            time.table.add(index, rows.utc[row], (rows.nominal[row] - time.lastNominal) / cycles);
+        }
+        time.clock.add(rows.utc[row], rows.came[row]);
+        time.lastCycle = rows.cycles[row];
+        time.lastNominal = rows.nominal[row];
+        time.end = index + 1;
+        for (std::size_t i = 0; i < rings.size(); ++i) {
+            const std::size_t at = row * rings.size() + i;
+            Ring* ring = rings[i];
+            const bool begins = ring != nullptr && ring->begin() == ring->end();
+            if (ring == nullptr || (begins && std::isnan(rows.values[at]))) continue;
+            ring->put(index, rows.values[at], rows.qualities[at]);
+        }
+    }
+    time.table.forgetBefore(time.end - static_cast<std::int64_t>(capacity()));
+}
+
+const Ring* Recorder::ring(const RecordedItem& item) const {
+    const auto found = rings_.find(item);
+    return found == rings_.end() ? nullptr : &found->second;
+}
+
+const AgentTime* Recorder::time(const std::string& agent) const {
+    const auto found = times_.find(agent);
+    return found == times_.end() ? nullptr : &found->second;
+}
+
+std::string Recorder::text(double number) const {
+    if (!(number >= 0) || number >= static_cast<double>(texts_.size())) return {};
+    return texts_[static_cast<std::size_t>(number)];
+}
+
+std::size_t Recorder::bytes() const {
+    std::size_t sum = 0;
+    for (const auto& [item, ring] : rings_) sum += ring.bytes();
+    return sum;
+}
+
+}  // namespace cortex::gui

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "window/order.hpp"
+
+#include "cortex/core/path.hpp"
+
+#include "model/shown_time.hpp"
+#include "session/lease.hpp"
+#include "session/utc_now.hpp"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <chrono>
+
+namespace cortex::gui {
+
+namespace {
+
+constexpr int patience = 10'000;     // ms, with agents that do not answer
+constexpr int betweenTries = 100;    // ms
+constexpr int lastValues = 1000;     // ms after the last answer, until states are told too
+constexpr int mostNotFollowing = 3;  // that are named
+constexpr std::chrono::milliseconds limit = std::chrono::seconds{70};  // it may take a minute
+
+struct Words {
+    const char *command, *doing, *done, *nobody;
+    State goal;
+};
+constexpr Words words[] = {
+    // in the order of Order::Kind
+    {"shutdown", "Stopping %1: %2 of %3 in Standby", "%1 in Standby, %2 s",
+     "Nobody is heard: nothing was stopped.", State::Standby},
+    {"startup", "Starting %1: %2 of %3 Active", "%1 Active, %2 s",
+     "Nobody is heard: nothing was started.", State::Active},
+};
+
+QString say(const char* text) { return QCoreApplication::translate("Order", text); }
+
+bool isMeant(const SimplexInfo& info, const std::string& prefix) {
+    const Type& type = *info.layout->type;
+    return !info.remote && type.active() && !type.isA("Agent") && isAtOrBelow(info.path, prefix);
+}
+
+// Whether the agent itself has said what became of it.
+bool isAnswer(const CommandOutcome& outcome) {
+    const CallResult& answer = outcome.answer;
+    return outcome.problem.empty() && answer.outcome != Outcome::Unknown &&
+           answer.outcome != Outcome::Expired && answer.reason != Reason::Restarted;
+}
+
+}  // namespace
+
+QString scopeWord(const std::string& prefix) {
+    return prefix == "/" ? say("all") : QString::fromStdString(prefix);
+}
+
+void Order::begin(const std::string& prefix) {
+    prefix_ = prefix;
+    told_.clear();
+    paths_.clear();
+    refusals_.clear();
+    ended_.clear();
+    since_.start();
+    answered_.start();
+    const auto frame = session_.frame();
+    for (const AgentFrame& agent : frame->agents) {
+        if (agent.structure && !hasBelow(agent, prefix_)) continue;
+        if (kind_ == Start && agent.lost()) continue;
+        told_.push_back({agent.status.name});
+        send(told_.back());
+        if (!agent.structure) continue;
+        for (const SimplexInfo& info : agent.structure->simplexes) {
+            if (isMeant(info, prefix_)) paths_.push_back(info.path);
+        }
+    }
+    active_ = !told_.empty();
+    text_ = say(words[kind_].nobody);
+    if (active_) count(*frame);
+}
+
+void Order::forget() {
+    active_ = false;
+    ended_.clear();
+    text_.clear();
+}
+
+bool Order::repeats() const { return kind_ == Stop && !since_.hasExpired(patience); }
+
+void Order::send(Told& told) {
+    told.number =
+        session_.send("/" + told.agent, words[kind_].command, {{"prefix", prefix_}}, limit);
+    told.sent.start();
+}
+
+void Order::refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes) {
+    if (!active_) {
+        if (!agrees(frame)) text_.clear();
+        return;
+    }
+    for (const CommandOutcome& each : outcomes) take(each);
+    const bool goesOn = repeats();
+    for (Told& each : told_) {
+        if (goesOn && !each.answered && each.number == 0 && each.sent.hasExpired(betweenTries)) {
+            send(each);
+        }
+    }
+    const bool waits = std::ranges::any_of(
+        told_, [&](const Told& each) { return !each.answered && (goesOn || each.number != 0); });
+    if (waits) answered_.restart();
+    const bool follows = std::ranges::all_of(paths_, [&](const std::string& path) {
+        return !wasReached(frame, path) || stateOf(frame, path) == words[kind_].goal;
+    });
+    if (!waits && (follows || answered_.hasExpired(lastValues)))
+        finish(frame);
+    else
+        count(frame);
+}
+
+void Order::take(const CommandOutcome& outcome) {
+    const auto told = std::ranges::find(told_, outcome.number, &Told::number);
+    if (outcome.number == 0 || told == told_.end()) return;
+    told->number = 0;
+    told->answered = isAnswer(outcome);
+    if (!told->answered || outcome.answer.done()) return;
+    refusals_ << say("%1: %2").arg(QString::fromStdString(told->agent),
+                                   QString::fromStdString(outcome.answer.text()));
+}
+
+std::ptrdiff_t Order::followers(const Frame& frame) const {
+    return std::ranges::count_if(
+        paths_, [&](const std::string& path) { return stateOf(frame, path) == words[kind_].goal; });
+}
+
+// While it is on its way.
+void Order::count(const Frame& frame) {
+    const auto standing = followers(frame);
+    text_ = say(words[kind_].doing).arg(scopeWord(prefix_)).arg(standing).arg(paths_.size());
+    const QStringList lost = unanswered(frame, true);
+    if (!lost.isEmpty()) text_ += say("; not heard: %1").arg(lost.join(", "));
+}
+
+// What followed, what did not and why, and when that was. What a start leaves in Standby may be
+// meant to stay there: agents say what they could not start.
+void Order::finish(const Frame& frame) {
+    active_ = false;
+    for (const std::string& each : paths_) ended_[each] = stateOf(frame, each);
+    const QString others = kind_ == Stop ? notFollowed(frame) : QString{};
+    const QStringList unreached = unanswered(frame, false);
+    QStringList parts;
+    if (!unreached.isEmpty()) parts << say("Not reached: %1").arg(unreached.join(", "));
+    if (!others.isEmpty()) parts << others;
+    parts << refusals_;
+    const double seconds = static_cast<double>(since_.elapsed()) / 1000;
+    const auto followed = followers(frame);
+    const bool all = parts.isEmpty() && followed == std::ssize(paths_);
+    const QString of = prefix_ == "/" ? QString{} : say(" of %1").arg(scopeWord(prefix_));
+    const QString count = all ? say("All %1").arg(followed) + of
+                              : say("%1 of %2").arg(followed).arg(paths_.size()) + of;
+    parts.prepend(say(words[kind_].done).arg(count).arg(seconds, 0, 'f', 1));
+    text_ = parts.join(QStringLiteral("; "));
+    text_ += ", " + shownTimeText(utcNow(), "HH:mm:ss");
+}
+
+QString Order::notFollowed(const Frame& frame) const {
+    QStringList named;
+    int all = 0;
+    for (const std::string& path : paths_) {
+        const State state = stateOf(frame, path);
+        if (!wasReached(frame, path) || state == words[kind_].goal) continue;
+        if (++all > mostNotFollowing) continue;
+        named << say("%1 (%2)").arg(
+            QString::fromStdString(path),
+            state ? QString{QLatin1String{name(*state)}} : say("not heard"));
+    }
+    if (all > mostNotFollowing) named << QStringLiteral("…");
+    return all == 0 ? QString{} : say("%1 did not follow: %2").arg(all).arg(named.join(", "));
+}
+
+QStringList Order::unanswered(const Frame& frame, bool lostOnly) const {
+    QStringList names;
+    for (const Told& each : told_) {
+        const auto agent = std::ranges::find(frame.agents, each.agent,
+                                             [](const AgentFrame& one) { return one.status.name; });
+        const bool lost = agent == frame.agents.end() || agent->lost();
+        if (!each.answered && (lost || !lostOnly)) names << QString::fromStdString(each.agent);
+    }
+    return names;
+}
+
+Order::State Order::stateOf(const Frame& frame, const std::string& path) const {
+    const auto place = frame.find(path);
+    if (!place || frame.agents[place->agent].lost()) return std::nullopt;
+    return frame.agents[place->agent].state(place->simplex);
+}
+
+bool Order::wasReached(const Frame& frame, const std::string& path) const {
+    const auto place = frame.find(path);
+    return !place || std::ranges::any_of(told_, [&](const Told& each) {
+        return each.answered && each.agent == frame.agents[place->agent].status.name;
+    });
+}
+
+bool Order::agrees(const Frame& frame) const {
+    return std::ranges::all_of(ended_, [&](const auto& each) {
+        const State now = stateOf(frame, each.first);
+        return each.second ? !now || now == each.second : now != words[kind_].goal;
+    });
+}
+
+}  // namespace cortex::gui

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/session.hpp"
+
+#include <QElapsedTimer>
+#include <QString>
+#include <QStringList>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cortex::gui {
+
+QString scopeWord(const std::string& prefix);  // "all", "/arm"
+
+// One stop or one start of everything at and below a path, by a command to every agent that has
+// something there. A stop also goes to an agent that is not heard just now: again until it answers,
+// for at most ten seconds. A start is sent once, as nothing may start long after it was asked for.
+class Order {
+public:
+    enum Kind { Stop, Start };
+    Order(Session& session, Kind kind) : session_{session}, kind_{kind} {}
+
+    void begin(const std::string& prefix);
+    void forget();
+    void refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes);
+    // "Stopping all: 9 of 14 in Standby", "All 14 in Standby, 0.4 s, 12:05:07", "2 did not follow:
+    // …", "Not reached: robot". Empty before the first, and once states no longer agree with it.
+    const QString& text() const { return text_; }
+
+private:
+    struct Told {
+        std::string agent;
+        std::uint64_t number = 0;  // of the command that is on its way; 0: none
+        bool answered = false;
+        QElapsedTimer sent{};
+    };
+    using State = std::optional<cortex::State>;  // none: it is not known now
+
+    void send(Told& told);
+    void take(const CommandOutcome& outcome);
+    void count(const Frame& frame);
+    void finish(const Frame& frame);
+    std::ptrdiff_t followers(const Frame& frame) const;
+    QString notFollowed(const Frame& frame) const;
+    QStringList unanswered(const Frame& frame, bool lostOnly) const;
+    State stateOf(const Frame& frame, const std::string& path) const;
+    bool wasReached(const Frame& frame, const std::string& path) const;
+    bool agrees(const Frame& frame) const;
+    bool repeats() const;  // whether it is still sent to agents that have not answered
+
+    Session& session_;
+    const Kind kind_;
+    std::string prefix_;
+    QString text_;
+    bool active_ = false;             // until it is known what followed
+    QElapsedTimer since_, answered_;  // since it began, since the last answer
+    std::vector<Told> told_;
+    std::vector<std::string> paths_;      // that are to reach Standby, or Active
+    QStringList refusals_;                // "robot: …"
+    std::map<std::string, State> ended_;  // the states that its result is about
+};
+
+}  // namespace cortex::gui

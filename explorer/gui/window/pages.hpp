@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "model/event_filter.hpp"
+#include "model/state_times.hpp"
+#include "views/view_host.hpp"
+#include "window/pane.hpp"
+
+#include <QJsonObject>
+#include <QString>
+#include <functional>
+#include <string>
+#include <vector>
+
+class QMenu;
+
+namespace cortex::gui {
+
+// What pages are made from.
+struct PageParts {
+    Session& session;
+    Commands& commands;
+    ViewHost& host;
+    const StateTimes& times;
+    EventFilter& events;
+    std::function<void(const std::string&)> open{}, select{};  // a simplex, from within a page
+    std::function<void(const std::vector<RecordedItem>&)> plot{};
+    std::function<void(QMenu*, const std::vector<RecordedItem>&)> places{};  // to plot in
+    std::function<void(const QString&)> compare{};  // an item of all simplexes
+    std::function<void()> changed{};                // something that a layout keeps
+};
+
+// A kind of page that has one tab at most.
+struct PageKind {
+    QString kind, title;
+};
+
+// Those that can be opened by name: of the window, and the views of plug-ins for a whole system.
+std::vector<PageKind> pageKinds();
+
+// A page of this kind, with its title. A view that is not installed is a page that says so.
+std::pair<Page, QString> makePage(const PageParts& parts, const QString& kind,
+                                  const QJsonObject& saved);
+Page makeSimplexPage(const PageParts& parts, const std::string& path);
+// The simplex that a page shows; empty: it shows none.
+std::string pathOf(const Page& page);
+
+}  // namespace cortex::gui

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/session.hpp"
+#include "window/order.hpp"
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <string>
+#include <vector>
+
+namespace cortex::gui {
+
+// Starts everything at and below a path. That needs control, so control is asked for first; nothing
+// starts if it is not given within a quarter of a minute.
+class StartAll : public QObject {
+    Q_OBJECT
+public:
+    explicit StartAll(Session& session, QObject* parent = nullptr);
+
+    void begin(const std::string& prefix);
+    void forget();  // what waits, and what became of it
+    void refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes);
+    QString text() const;
+
+Q_SIGNALS:
+    void controlWanted(const std::string& prefix);
+
+private:
+    bool holds(const Frame& frame) const;
+
+    Session& session_;
+    Order order_;
+    std::string waits_;  // for control of this path; empty: for nothing
+    QElapsedTimer waiting_;
+};
+
+}  // namespace cortex::gui

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "window/top_bar.hpp"
+
+#include "style/glyphs.hpp"
+#include "style/look.hpp"
+#include "widgets/text_label.hpp"
+#include "window/control_bar.hpp"
+#include "window/stop_button.hpp"
+
+#include <QHBoxLayout>
+#include <QMenu>
+#include <QPushButton>
+
+namespace cortex::gui {
+
+TopBar::TopBar(ControlBar& control, StopButton& stop, QWidget* parent)
+    : QWidget{parent},
+      control_{control},
+      row_{new QHBoxLayout{this}},
+      menu_{new QPushButton{tr("Menu")}},
+      find_{new QPushButton{tr("Find…  Ctrl+K")}},
+      title_{new TextLabel{TextSize::Value, true}},
+      told_{new TextLabel{TextSize::Text}} {
+    menu_->setAccessibleName(tr("Menu"));
+    menu_->setFocusPolicy(Qt::TabFocus);  // the mouse leaves the keyboard where it was
+    row_->addWidget(menu_);
+    title_->show(tr("CorteX Explorer"));
+    row_->addWidget(title_);
+    find_->setAccessibleName(tr("Find a simplex, item, command or view"));
+    find_->setFocusPolicy(Qt::TabFocus);
+    connect(find_, &QPushButton::clicked, this, &TopBar::findWanted);
+    row_->addWidget(find_);
+    row_->addStretch(1);
+    row_->addWidget(told_);
+    row_->addWidget(&control_);
+    row_->addWidget(&stop);
+}
+
+void TopBar::setMenu(QMenu& menu) { menu_->setMenu(&menu); }
+
+void TopBar::tell(const QString& text) { told_->show(text); }
+
+void TopBar::setNarrow(bool narrow) {
+    const int side = Look::units(narrow ? 1.5 : 3), size = Look::units(4);
+    row_->setContentsMargins(side, Look::units(narrow ? 1 : 2), side, Look::units(narrow ? 0 : 1));
+    row_->setSpacing(side);
+    title_->setVisible(!narrow);
+    find_->setText(narrow ? QString{} : tr("Find…  Ctrl+K"));
+    find_->setIconSize({size, size});
+    find_->setIcon(narrow ? icon(Glyph::Find, Look::colours().ink, size) : QIcon{});
+    menu_->setText(narrow ? QString{} : tr("Menu"));
+    menu_->setIconSize({size, size});
+    menu_->setIcon(narrow ? icon(Glyph::Menu, Look::colours().ink, size) : QIcon{});
+    control_.setNarrow(narrow);
+}
+
+}  // namespace cortex::gui

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QString>
+#include <QWidget>
+
+class QBoxLayout;
+class QMenu;
+class QPushButton;
+
+namespace cortex::gui {
+
+class ControlBar;
+class StopButton;
+class TextLabel;
+
+// The bar along the top: menu, title, find, what became of a stop or start, control, Stop. Where it
+// is narrow, it gives way before the lease or Stop would be cut.
+class TopBar : public QWidget {
+    Q_OBJECT
+public:
+    TopBar(ControlBar& control, StopButton& stop, QWidget* parent = nullptr);
+
+    void setMenu(QMenu& menu);
+    void setNarrow(bool narrow);
+    void tell(const QString& text);  // what became of a stop or start
+    QPushButton& menuButton() { return *menu_; }
+    QPushButton& findButton() { return *find_; }
+
+Q_SIGNALS:
+    void findWanted();
+
+private:
+    ControlBar& control_;
+    QBoxLayout* row_;
+    QPushButton *menu_, *find_;
+    TextLabel *title_, *told_;
+};
+
+}  // namespace cortex::gui

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "window/workspace.hpp"
+
+#include "plots/plot_view.hpp"
+#include "views/base_view.hpp"
+#include "views/compare_view.hpp"
+#include "views/own_view.hpp"
+
+#include <QApplication>
+#include <QSplitter>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace cortex::gui {
+
+namespace {
+
+constexpr std::size_t mostClosed = 20;
+constexpr auto keptFor = std::chrono::minutes{5};
+
+QString key(const char* name) { return QLatin1String{name}; }
+
+QJsonObject savedPage(const Page& page) {
+    QJsonObject saved{{key("kind"), page.kind}};
+    if (page.saved) saved[key("state")] = page.saved();
+    if (page.pinned) saved[key("pinned")] = true;
+    return saved;
+}
+
+}  // namespace
+
+Workspace::Workspace(PageParts parts, QWidget* parent)
+    : QWidget{parent},
+      parts_{std::move(parts)},
+      sides_{new QSplitter{Qt::Horizontal}},
+      panes_{new Pane{tr("Views")}, new Pane{tr("Views on the right")}} {
+    parts_.open = [this](const std::string& path) { open(path); };
+    parts_.plot = [this](const std::vector<RecordedItem>& items) { openPlot(items); };
+    parts_.places = [this](QMenu* menu, const std::vector<RecordedItem>& items) {
+        addPlaces(*menu, items);
+    };
+    parts_.compare = [this](const QString& item) {
+        qobject_cast<CompareView*>(openKind(key("compare")))->compare(item.toStdString());
+    };
+    parts_.changed = [this] { Q_EMIT changed(); };
+    release_.setSingleShot(true);
+    connect(&release_, &QTimer::timeout, this,
+            [this] { parts_.session.recorder().record(this, {}); });
+    parts_.select = [this](const std::string& path) { Q_EMIT chosen(path); };
+    sides_->setChildrenCollapsible(false);
+    auto* rows = new QVBoxLayout{this};
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->addWidget(sides_);
+    for (std::size_t i = 0; i < panes_.size(); ++i) connectPane(i);
+    clear();
+    for (const char* kind : {"system", "agents", "events"}) {
+        auto [page, title] = makePage(parts_, key(kind), {});
+        panes_[0]->add(std::move(page), title, panes_[0]->count());
+    }
+    panes_[0]->choose(0);
+    hideEmpty();
+    connect(qApp, &QApplication::focusChanged, this, [this](QWidget*, QWidget* now) {
+        for (std::size_t i = 0; i < panes_.size(); ++i) {
+            if (now != nullptr && panes_[i]->isAncestorOf(now)) active_ = i;
+        }
+    });
+}
+
+void Workspace::connectPane(std::size_t index) {
+    Pane* pane = panes_[index];
+    sides_->addWidget(pane);
+    connect(pane, &Pane::changed, this, &Workspace::changed);
+    connect(pane, &Pane::currentChanged, this, &Workspace::currentChanged);
+    connect(pane, &Pane::touched, this, [this, index] { active_ = index; });
+    connect(pane, &Pane::closing, this, [this, index](int tab) { remember(index, tab); });
+    connect(pane, &Pane::moveWanted, this, [this, index](int tab) { move(index, tab); });
+    connect(pane, &Pane::changed, this, &Workspace::hideEmpty);
+    connect(pane, &Pane::itemsDropped, this,
+            [this, index](const std::vector<RecordedItem>& items, int tab) {
+                active_ = index;
+                if (tab < 0) return newPlot(items);
+                plotIn(*qobject_cast<PlotView*>(panes_[index]->page(tab).widget), items, -1);
+            });
+}
+
+void Workspace::hideEmpty() {
+    panes_[1]->setVisible(panes_[1]->count() > 0);
+    if (panes_[1]->count() == 0) active_ = 0;
+}
+
+// Only the tab that stays.
+void Workspace::clear() {
+    for (Pane* pane : panes_) {
+        while (pane->count() > 0) pane->discard(0);
+    }
+    Page first = makeSimplexPage(parts_, {});
+    first.stays = true;
+    panes_[0]->add(std::move(first), tr("Simplex"), 0);
+}
+
+// Before the views that are there from the start.
+int Workspace::place(const Pane& pane) const {
+    int at = pane.count();
+    while (at > 0 && !pane.page(at - 1).closable && !pane.page(at - 1).stays) --at;
+    return at;
+}
+
+// The tab that shows what is chosen: the one in front, otherwise the first; -1: all are pinned.
+int Workspace::follower(const Pane& pane) const {
+    const auto follows = [&](int tab) {
+        return tab >= 0 && pane.page(tab).kind == key("simplex") && !pane.page(tab).pinned;
+    };
+    if (follows(pane.chosen())) return pane.chosen();
+    for (int tab = 0; tab < pane.count(); ++tab) {
+        if (follows(tab)) return tab;
+    }
+    return -1;
+}
+
+void Workspace::open(const std::string& path) {
+    if (follower(pane()) < 0) active_ = 0;
+    const int tab = follower(pane());
+    if (tab < 0) return openTab(path);
+    pane().choose(tab);
+    auto* view = qobject_cast<BaseView*>(pane().page(tab).widget);
+    if (view->path() != path) view->show(path);
+    pane().setTitle(tab, QString::fromStdString(path));
+    Q_EMIT chosen(path);
+}
+
+bool Workspace::select(const std::string& path) {
+    const Page* page = pane().current();
+    auto* own = page != nullptr ? qobject_cast<OwnView*>(page->widget) : nullptr;
+    return own != nullptr && own->select(path);
+}
+
+void Workspace::openTab(const std::string& path, bool beside) {
+    if (beside) active_ = 1 - active_;
+    Page page = makeSimplexPage(parts_, path);
+    page.pinned = true;
+    const int tab = pane().add(std::move(page), QString::fromStdString(path), place(pane()));
+    pane().choose(tab);
+    Q_EMIT chosen(path);
+}
+
+QWidget* Workspace::openKind(const QString& kind) {
+    for (std::size_t i = 0; i < panes_.size(); ++i) {
+        const int tab = panes_[i]->find(kind);
+        if (tab < 0) continue;
+        active_ = i;
+        panes_[i]->choose(tab);
+        return current();
+    }
+    auto [page, title] = makePage(parts_, kind, {});
+    const int at = page.closable ? place(pane()) : pane().count();
+    pane().choose(pane().add(std::move(page), title, at));
+    return current();
+}
+
+// "Plot", "Plot 2", …
+QString Workspace::freeTitle(const QString& title) const {
+    const auto isTaken = [this](const QString& text) {
+        return std::ranges::any_of(panes_, [&](const Pane* each) {
+            for (int tab = 0; tab < each->count(); ++tab) {
+                if (each->title(tab) == text) return true;
+            }
+            return false;
+        });
+    };
+    QString text = title;
+    for (int number = 2; isTaken(text); ++number) text = tr("%1 %2").arg(title).arg(number);
+    return text;
+}
+
+std::vector<OpenPlot> Workspace::plots() const {
+    std::vector<OpenPlot> all;
+    for (const Pane* each : panes_) {
+        for (int tab = 0; tab < each->count(); ++tab) {
+            if (auto* view = qobject_cast<PlotView*>(each->page(tab).widget)) {
+                all.push_back({view, each->title(tab)});
+            }
+        }
+    }
+    return all;
+}
+
+void Workspace::plotIn(PlotView& plot, const std::vector<RecordedItem>& items, int panel) {
+    for (std::size_t i = 0; i < panes_.size(); ++i) {
+        for (int tab = 0; tab < panes_[i]->count(); ++tab) {
+            if (panes_[i]->page(tab).widget != &plot) continue;
+            active_ = i;
+            panes_[i]->choose(tab);
+        }
+    }
+    lastPlot_ = &plot;
+    plot.add(items, panel, panel >= 0 && panel >= plot.lines().panels());
+    plot.setFocus();
+}
+
+void Workspace::openPlot(const std::vector<RecordedItem>& items) {
+    const auto open = plots();
+    if (open.empty()) return newPlot(items);
+    const auto last = std::ranges::find(open, lastPlot_.data(), &OpenPlot::view);
+    plotIn(*(last != open.end() ? last->view : open.front().view), items, -1);
+}
+
+void Workspace::newPlot(const std::vector<RecordedItem>& items) {
+    auto [page, title] = makePage(parts_, key("plot"), {});
+    auto& plot = *qobject_cast<PlotView*>(page.widget);
+    pane().choose(pane().add(std::move(page), freeTitle(title), place(pane())));
+    plotIn(plot, items, -1);
+}
+
+void Workspace::addPlaces(QMenu& menu, const std::vector<RecordedItem>& items) {
+    if (items.empty()) {
+        menu.addAction(tr("Nothing here is a value"))->setEnabled(false);
+        return;
+    }
+    fillPlotMenu(menu, plots(), [this, items](PlotView* plot, int panel) {
+        plot == nullptr ? newPlot(items) : plotIn(*plot, items, panel);
+    });
+}
+
+std::vector<RecordedItem> Workspace::chosenItems() const {
+    const Page* page = pane().current();
+    return page != nullptr && page->chosen ? page->chosen() : std::vector<RecordedItem>{};
+}
+
+void Workspace::openPart(const std::string& name) {
+    if (auto* view = qobject_cast<BaseView*>(current())) view->openPart(name);
+}
+
+void Workspace::closeTab() { pane().close(pane().chosen()); }
+
+void Workspace::remember(std::size_t index, int tab) {
+    closed_.push_back({index, savedPage(panes_[index]->page(tab))});
+    if (closed_.size() > mostClosed) closed_.erase(closed_.begin());
+}
+
+void Workspace::reopenTab() {
+    if (closed_.empty()) return;
+    const Closed last = std::move(closed_.back());
+    closed_.pop_back();
+    active_ = last.pane;
+    addPages(pane(), {last.page});
+}
+
+void Workspace::split() {
+    const int tab = pane().chosen();
+    if (tab < 0) return;
+    if (pane().page(tab).stays) {
+        openTab(pathOf(pane().page(tab)), true);
+    } else {
+        move(active_, tab);
+    }
+}
+
+void Workspace::move(std::size_t from, int tab) {
+    const QString title = panes_[from]->title(tab);
+    Page page = panes_[from]->take(tab);
+    active_ = 1 - from;
+    pane().choose(pane().add(std::move(page), title, place(pane())));
+}
+
+void Workspace::chooseTab(int number) {
+    if (number < pane().count()) pane().choose(number);
+}
+
+QWidget* Workspace::current() const {
+    const Page* page = pane().current();
+    return page != nullptr ? page->widget : nullptr;
+}
+
+std::string Workspace::path() const {
+    const Page* page = pane().current();
+    return page != nullptr ? pathOf(*page) : std::string{};
+}
+
+UnitsOfView Workspace::units() const {
+    const Page* page = pane().current();
+    return page != nullptr ? page->units : UnitsOfView{};
+}
+
+bool Workspace::shows(const QString& kind) const {
+    return std::ranges::any_of(panes_, [&](const Pane* each) {
+        const Page* page = each->current();
+        return page != nullptr && page->kind == kind;
+    });
+}
+
+bool Workspace::settled() const {
+    return std::ranges::all_of(findChildren<OwnView*>(),
+                               [](OwnView* each) { return each->settled(); });
+}
+
+Wanted Workspace::wanted(const Frame& frame) const {
+    Wanted all;
+    for (const Pane* each : panes_) {
+        const Page* page = each->current();
+        if (page == nullptr || !page->wanted) continue;
+        const Wanted wanted = page->wanted(frame);
+        all.usual.insert(all.usual.end(), wanted.usual.begin(), wanted.usual.end());
+        all.own.insert(all.own.end(), wanted.own.begin(), wanted.own.end());
+    }
+    return all;
+}
+
+void Workspace::refresh(const std::shared_ptr<const Frame>& frame) {
+    if (auto* plot = qobject_cast<PlotView*>(current())) lastPlot_ = plot;
+    for (const Pane* each : panes_) {
+        for (int tab = 0; tab < each->count(); ++tab) {
+            const Page& page = each->page(tab);
+            if (page.refresh && (page.goesOn || tab == each->chosen())) page.refresh(frame);
+        }
+    }
+}
+
+void Workspace::restyle() {
+    for (Pane* each : panes_) each->restyle();
+}
+
+QJsonObject Workspace::saved() const {
+    QJsonArray panes;
+    for (const Pane* each : panes_) {
+        QJsonArray pages;
+        for (int tab = 0; tab < each->count(); ++tab) pages.append(savedPage(each->page(tab)));
+        panes.append(QJsonObject{{key("tabs"), pages}, {key("front"), each->chosen()}});
+    }
+    QJsonArray sizes;
+    for (const int each : sides_->sizes()) sizes.append(each);
+    return {{key("panes"), panes}, {key("sizes"), sizes}};
+}
+
+void Workspace::addPages(Pane& pane, const QJsonArray& pages) {
+    for (const QJsonValue each : pages) {
+        const QJsonObject saved = each.toObject();
+        auto [page, title] =
+            makePage(parts_, saved[key("kind")].toString(), saved[key("state")].toObject());
+        page.pinned = saved[key("pinned")].toBool();
+        const bool first = &pane == panes_[0] && pane.count() == 1 && page.kind == key("simplex") &&
+                           !page.pinned && pathOf(pane.page(0)).empty();
+        if (first) {  // it is there already
+            const std::string path = pathOf(page);
+            pane.page(0).units.choose(page.units.now());
+            page.widget->deleteLater();
+            if (!path.empty()) open(path);
+            continue;
+        }
+        const int at = page.closable ? place(pane) : pane.count();
+        const bool plot = page.kind == key("plot");
+        pane.choose(pane.add(std::move(page), plot ? freeTitle(title) : title, at));
+    }
+}
+
+Workspace::~Workspace() { parts_.session.recorder().record(this, {}); }
+
+// What was recorded goes on for a while: the next layout may have it as well, or this one may come
+// back.
+void Workspace::keepRecording() {
+    Recorder& recorder = parts_.session.recorder();
+    recorder.record(this, recorder.wanted());
+    release_.start(keptFor);
+}
+
+void Workspace::restore(const QJsonObject& saved) {
+    const QJsonArray panes = saved[key("panes")].toArray();
+    keepRecording();
+    clear();
+    for (std::size_t i = 0; i < panes_.size(); ++i) {
+        const QJsonObject pane = panes.at(static_cast<int>(i)).toObject();
+        active_ = i;
+        addPages(*panes_[i], pane[key("tabs")].toArray());
+        panes_[i]->choose(
+            std::clamp(pane[key("front")].toInt(), 0, std::max(panes_[i]->count() - 1, 0)));
+    }
+    active_ = 0;
+    hideEmpty();
+    QList<int> sizes;
+    for (const QJsonValue each : saved[key("sizes")].toArray()) sizes << each.toInt();
+    if (sizes.size() == 2) sides_->setSizes(sizes);
+    Q_EMIT currentChanged();
+}
+
+}  // namespace cortex::gui

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cli/controlled_agent.hpp"
+#include "cli/on_terminal.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+
+// `cortex shell` on a terminal of its own, on the network of this test.
+struct TypedShell : OnTerminal {
+    explicit TypedShell(const ModelFolder& folder)  // its home
+        : OnTerminal{std::vector<std::string>{"/usr/bin/env", "HOME=" + folder.path().string()} +
+                     cortexCommand({"shell"})} {
+        EXPECT_TRUE(shows("cortex> ")) << output();
+        const std::size_t begin = output().find("you are ") + 8;
+        name = output().substr(begin, output().find(' ', begin) - begin);
+    }
+    // Types a line and waits for what it prints, or for the prompt that follows.
+    void run(const std::string& line, const std::string& expected) {
+        mark();
+        type(line + "\r");
+        EXPECT_TRUE(shows(expected)) << output();
+        const bool prompt = expected.starts_with("cortex");
+        EXPECT_TRUE(prompt || shows("> ")) << output();
+    }
+
+    std::string name;
+};
+
+}  // namespace cortex::test

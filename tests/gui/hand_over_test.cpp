@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// Control that somebody else has, gives or gets, with a real agent over DDS.
+#include "gui/controlling.hpp"
+
+#include <QLineEdit>
+#include <QMenu>
+#include <QPushButton>
+
+namespace cortex::test {
+namespace {
+
+TEST_F(Controlling, SaysWhoHoldsItAndTakesItWhenTheyAreGone) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    {
+        Session other{ownNetwork()};
+        ASSERT_TRUE(comes([&] {
+            const auto frame = other.frame();
+            return frame->find("/drive").has_value();
+        }));
+        other.isAlive();
+        other.takeControl("/drive");
+        const auto isHeld = [&] {
+            other.isAlive();
+            return !other.frame()->control.prefix.empty();
+        };
+        ASSERT_TRUE(comes(isHeld));
+        const QString holder = QString::fromStdString(other.frame()->control.self);
+        EXPECT_TRUE(comes([&] { return isHeld() && says("held by " + holder + " since "); }));
+        window.control().choose();
+        window.control().panel()->choose("/");
+        window.control().panel()->takeButton().click();
+        EXPECT_TRUE(comes([&] { return isHeld() && !window.control().notice().text().isEmpty(); }));
+        EXPECT_EQ(window.control().notice().text(), "Control of / was not taken. mixer: " + holder +
+                                                        " holds /drive, and must release it or "
+                                                        "hand it over.");
+        EXPECT_FALSE(window.control().holds());
+    }
+    EXPECT_TRUE(comes([this] { return says("read-only"); })) << "its end releases";
+    EXPECT_TRUE(takes("/"));
+    EXPECT_TRUE(window.control().notice().text().isEmpty());
+}
+
+// What was refused for the sake of others, and is theirs no more, is said so, and is offered.
+TEST_F(Controlling, ARefusalFollowsTheLeasesOfOthers) {
+    ASSERT_TRUE(everythingComes());
+    Colleague first, second;
+    ASSERT_TRUE(comes([&] { return first.sees("/drive") && second.sees("/drive"); }));
+    first.control();
+    first.session.takeControl("/drive");
+    ASSERT_TRUE(comes([&] { return !first.control().prefix.empty(); }));
+    window.control().choose();
+    window.control().panel()->choose("/");
+    window.control().panel()->takeButton().click();
+    const ControlNotice& notice = window.control().notice();
+    const auto isSaid = [&](const std::string& text) {
+        return comes([&] {
+            first.control();
+            second.control();
+            return notice.text().contains(QString::fromStdString(text));
+        });
+    };
+    EXPECT_TRUE(isSaid(first.control().self + " holds /drive"));
+    first.session.handOver(second.control().self);
+    EXPECT_TRUE(isSaid(second.control().self + " holds /drive")) << notice.text().toStdString();
+    ASSERT_TRUE(comes([&] { return !second.control().prefix.empty(); }));
+    second.session.releaseControl();
+    EXPECT_TRUE(isSaid("Nobody else holds a part of it any longer."));
+    EXPECT_EQ(window.control().notice().remedy().text(), "Take everything");
+    window.control().notice().remedy().click();
+    EXPECT_TRUE(comes([this] { return window.control().prefix() == "/"; }));
+    EXPECT_TRUE(comes([&] { return notice.text().isEmpty(); }));
+}
+
+TEST_F(Controlling, HandsControlOverAndTakesItAgain) {
+    ASSERT_TRUE(everythingComes());
+    Colleague other;
+    ASSERT_TRUE(comes([&] { return other.sees("/drive"); }));
+    window.open("/drive");
+    ASSERT_TRUE(takes("/drive"));
+    window.control().chooseHandOver();
+    auto* panel = window.control().handOverPanel();
+    ASSERT_NE(panel, nullptr);
+    EXPECT_FALSE(panel->handOverButton().isEnabled()) << "nobody is named";
+    const QString name = QString::fromStdString(other.control().self);
+    panel->nameField().setText(name);
+    panel->handOverButton().click();
+    ASSERT_TRUE(comes([&] { return other.control().prefix == "/drive"; }));
+    ASSERT_TRUE(comes([&] { return !window.control().holds(); }));
+    EXPECT_EQ(window.control().notice().text(),
+              "Control of /drive was handed over to " + name + ".");
+    EXPECT_TRUE(comes([&] { return other.control().held.size() == 1 && says("held by " + name); }));
+    other.session.releaseControl();
+    ASSERT_TRUE(comes([&] { return other.control().prefix.empty() && says("read-only"); }));
+    EXPECT_EQ(window.control().notice().remedy().text(), "Take /drive again");
+    window.control().notice().remedy().click();
+    EXPECT_TRUE(comes([&] { return window.control().prefix() == "/drive"; }));
+}
+
+TEST_F(Controlling, KeepsWhatIsHandedOverToIt) {
+    ASSERT_TRUE(everythingComes());
+    Colleague other;
+    ASSERT_TRUE(comes([&] { return other.sees("/drive"); }));
+    other.control();
+    other.session.takeControl("/drive");
+    ASSERT_TRUE(comes([&] { return other.control().prefix == "/drive"; }));
+    other.session.handOver(session.frame()->control.self);
+    ASSERT_TRUE(comes([&] { return window.control().prefix() == "/drive"; }));
+    EXPECT_EQ(window.control().notice().text(), "Control of /drive of agent mixer is yours now.");
+    // An agent ends a lease 2 s after its last renewal: 3,000 cycles of 1 ms are longer.
+    const auto cycle = [this] { return session.frame()->agents.front().status.cycle; };
+    const std::int64_t then = cycle();
+    EXPECT_TRUE(comes([&] { return cycle() > then + 3000; }));
+    EXPECT_EQ(window.control().prefix(), "/drive");
+    EXPECT_NE(leases().find("/drive"), std::string::npos);
+}
+
+TEST_F(Controlling, ANameThatNobodyHasEndsControlAndIsTold) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    ASSERT_TRUE(takes("/drive"));
+    session.handOver("nobody@nowhere.1-000000");
+    EXPECT_TRUE(comes([&] { return !window.control().notice().text().isEmpty(); }));
+    EXPECT_TRUE(comes([] { return leases().find("nobody@") == std::string::npos; }));
+}
+
+TEST_F(Controlling, WhereNobodyHoldsAnythingHandingOverSaysWhatToDo) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    auto* menu = window.findChild<QMenu*>();
+    ASSERT_NE(menu, nullptr);
+    const auto entry = [menu] {
+        Q_EMIT menu->aboutToShow();
+        for (const QAction* each : menu->actions()) {
+            if (each->text().startsWith("Hand over control")) return each;
+        }
+        throw std::runtime_error{"no such entry"};
+    };
+    EXPECT_FALSE(entry()->isEnabled());
+    EXPECT_EQ(entry()->text(), "Hand over control: you hold nothing");
+    ASSERT_TRUE(takes("/drive"));
+    EXPECT_TRUE(entry()->isEnabled());
+    window.control().chooseHandOver();
+    auto* panel = window.control().handOverPanel();
+    ASSERT_NE(panel, nullptr);
+    EXPECT_TRUE(panel->whyNobody().startsWith("Nobody else holds anything now"));
+    Colleague other;
+    ASSERT_TRUE(comes([&] { return other.sees("/controller"); }));
+    other.control();
+    other.session.takeControl("/controller");
+    EXPECT_TRUE(
+        comes([&] { return !other.control().prefix.empty() && !panel->offered().empty(); }));
+    EXPECT_EQ(panel->whyNobody(), "");
+}
+
+}  // namespace
+}  // namespace cortex::test

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Demands that are entered for axes, in the window, with a real agent over DDS.
+#include "gui/motion_fixture.hpp"
+#include "model/shown_units.hpp"
+#include "window/workspace.hpp"
+
+#include <QLineEdit>
+#include <cmath>
+
+namespace cortex::test {
+namespace {
+
+class Demands : public MotionWindow {
+protected:
+    bool isAt(const std::string& path, double position) {
+        return comes([&] { return std::abs(number(path, "position") - position) < 1e-6; });
+    }
+    bool canMove(const QString& text) {
+        return comes([&] { return named(text).isEnabled(); });
+    }
+};
+
+TEST_F(Demands, AnotherModeIsAskedForByAButtonAndThenFieldsStandInThePlaceOfButtons) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+    EXPECT_TRUE(button(0, 1).isVisible());
+    named("Position").click();
+    EXPECT_TRUE(comes([this] { return row(0).field().isVisible(); })) << said().toStdString();
+    EXPECT_FALSE(button(0, 1).isVisible());
+    rows().setFocus();
+    QTest::keyPress(&rows(), Qt::Key_Right);
+    EXPECT_FALSE(said().contains("Jogging"));
+    QTest::keyRelease(&rows(), Qt::Key_Right);
+    named("Velocity").click();
+    EXPECT_TRUE(comes([this] { return button(0, 1).isVisible(); }));
+}
+
+TEST_F(Demands, AJogControllerGoesToWhatWasEntered) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+    named("Position").click();
+    ASSERT_TRUE(comes([this] { return row(0).field().isVisible(); }));
+    speed().setValue(100);
+    enter(0, "0,25");
+    EXPECT_TRUE(says("1 not sent, 100 % of the speed")) << said().toStdString();
+    ASSERT_TRUE(canMove("Move A1"));
+    named("Move A1").click();
+    EXPECT_TRUE(isAt("/arm/axes/1", 0.25)) << said().toStdString();
+    EXPECT_TRUE(says("Done")) << said().toStdString();
+    EXPECT_TRUE(says("0 not sent"));
+}
+
+TEST_F(Demands, ADemandBeyondALimitIsRefusedInTheWordsOfTheController) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+    named("Position").click();
+    ASSERT_TRUE(comes([this] { return row(0).field().isVisible(); }));
+    enter(0, "9");
+    ASSERT_TRUE(canMove("Move A1"));
+    named("Move A1").click();
+    EXPECT_TRUE(says("demandPosition[0] is 9, above 2.6, the limit of /arm/demands/1"))
+        << said().toStdString();
+}
+
+TEST_F(Demands, WhatIsNoNumberIsNotSent) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/pose"));
+    enter(0, "left");
+    EXPECT_TRUE(says("What was entered is no number")) << said().toStdString();
+    EXPECT_FALSE(named("Move").isEnabled());
+    named("Discard").click();
+    EXPECT_TRUE(canMove("Move"));
+}
+
+TEST_F(Demands, APoseIsCollectedAndAllAxesMoveTogether) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/pose"));
+    EXPECT_FALSE(button(0, 1).isVisible()) << "it has no command that jogs";
+    speed().setValue(100);
+    enter(0, "0.2");
+    enter(1, "0.03");
+    EXPECT_TRUE(says("2 not sent, 100 % of the speed")) << said().toStdString();
+    EXPECT_EQ(number("/arm/demands/1", "position"), 0) << "nothing is sent yet";
+    ASSERT_TRUE(canMove("Move"));
+    named("Move").click();
+    EXPECT_TRUE(isAt("/arm/axes/1", 0.2)) << said().toStdString();
+    EXPECT_TRUE(isAt("/arm/axes/2", 0.03));
+}
+
+TEST_F(Demands, CopyCurrentEntersWhereTheAxesAreInTheUnitThatIsShown) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/pose"));
+    named("deg").click();
+    EXPECT_TRUE(comes([this] { return saidOf(0).contains("°"); })) << saidOf(0).toStdString();
+    speed().setValue(100);
+    enter(0, "30");
+    ASSERT_TRUE(canMove("Move"));
+    named("Move").click();
+    EXPECT_TRUE(isAt("/arm/axes/1", 30 * std::acos(-1) / 180)) << said().toStdString();
+    EXPECT_TRUE(comes([this] { return saidOf(0).contains("value 30.00°"); }));
+    enter(0, "12");
+    named("Copy current").click();
+    EXPECT_EQ(row(0).field().text(), "30.00");
+    named("mm").click();
+    EXPECT_TRUE(comes([this] { return saidOf(1).contains("0.0 mm"); })) << saidOf(1).toStdString();
+}
+
+TEST_F(Demands, AMotionIsEndedByHalt) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/pose"));
+    enter(0, "2");
+    ASSERT_TRUE(canMove("Move"));
+    named("Move").click();
+    ASSERT_TRUE(comes([this] { return number("/arm/axes/1", "position") > 0.01; }));
+    named("Halt").click();
+    EXPECT_TRUE(says("ancelled")) << said().toStdString();
+    EXPECT_LT(number("/arm/axes/1", "position"), 1.5);
+}
+
+}  // namespace
+}  // namespace cortex::test

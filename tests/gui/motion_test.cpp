@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jogging in the window, with a real agent over DDS: how it begins, and each way in which it ends.
+#include "gui/motion_fixture.hpp"
+
+#include <QLineEdit>
+#include <QMenu>
+
+namespace cortex::test {
+namespace {
+
+class Jogging : public MotionWindow {
+protected:
+    void holdsButton() {
+        ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+        QTest::mousePress(&button(0, 1), Qt::LeftButton);
+        ASSERT_TRUE(comes([this] { return jogs() && number("/arm/axes/1", "position") > 0.01; }))
+            << said().toStdString();
+        ASSERT_TRUE(said().contains("Jogging A1 at +0.100 rad/s. It ends 0.25 s after you let go."))
+            << said().toStdString();
+    }
+    void holdsKey() {
+        ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+        rows().setFocus();
+        QTest::keyPress(&rows(), Qt::Key_Left);
+        ASSERT_TRUE(comes([this] { return jogs() && number("/arm/axes/1", "position") < -0.01; }))
+            << said().toStdString();
+    }
+    // Says why, and is over in the agent, too; nothing begins anew.
+    void ends(const QString& why) {
+        EXPECT_TRUE(says("Ended: " + why)) << said().toStdString();
+        EXPECT_TRUE(comes([this] { return !jogs(); }));
+        const std::int64_t then = cycle();
+        bool again = false;
+        EXPECT_TRUE(comes([&] {
+            again = again || jogs();
+            return cycle() > then + 200;
+        }));
+        EXPECT_FALSE(again);
+    }
+};
+
+TEST_F(Jogging, TheAxisMovesWhileAButtonIsHeldAndStopsWhenItIsLetGo) {
+    ASSERT_NO_FATAL_FAILURE(holdsButton());
+    QTest::mouseRelease(&button(0, 1), Qt::LeftButton);
+    ends("let go");
+}
+
+TEST_F(Jogging, AnArrowKeyJogsTheChosenAxisWhileItIsHeld) {
+    ASSERT_NO_FATAL_FAILURE(holdsKey());
+    EXPECT_TRUE(button(0, -1).isDown());
+    QTest::keyRelease(&rows(), Qt::Key_Left);
+    ends("let go");
+    EXPECT_TRUE(comes([this] { return !button(0, -1).isDown(); }));
+    QTest::keyClick(&rows(), Qt::Key_Down);
+    EXPECT_EQ(rows().selected(), 1);
+    QTest::keyPress(&rows(), Qt::Key_Right);
+    EXPECT_TRUE(comes([this] { return number("/arm/axes/2", "position") > 0.002; }));
+    QTest::keyRelease(&rows(), Qt::Key_Right);
+    ends("let go");
+}
+
+TEST_F(Jogging, AKeyThatRepeatsItselfBeginsNothing) {
+    ASSERT_NO_FATAL_FAILURE(holdsKey());
+    QTest::keyClick(&rows(), Qt::Key_Escape);
+    EXPECT_TRUE(says("Ended: Esc"));
+    QKeyEvent again{QEvent::KeyPress, Qt::Key_Left, Qt::NoModifier, {}, true};
+    QApplication::sendEvent(&rows(), &again);
+    ends("Esc");
+}
+
+TEST_F(Jogging, EndsWithEscape) {
+    ASSERT_NO_FATAL_FAILURE(holdsButton());
+    QTest::keyClick(&window, Qt::Key_Escape);
+    ends("Esc");
+}
+
+TEST_F(Jogging, APointerThatLeavesAndComesBackBeginsNothing) {
+    ASSERT_NO_FATAL_FAILURE(holdsButton());
+    QWidget& held = button(0, 1);
+    const auto moveTo = [&](QPoint place) {
+        QMouseEvent move{QEvent::MouseMove, place,          held.mapToGlobal(place),
+                         Qt::NoButton,      Qt::LeftButton, Qt::NoModifier};
+        QApplication::sendEvent(&held, &move);
+    };
+    moveTo({-50, 5});
+    moveTo({5, 5});
+    ends("the pointer left the button");
+}
+
+TEST_F(Jogging, EndsWhenTheFocusGoesElsewhere) {
+    ASSERT_NO_FATAL_FAILURE(holdsKey());
+    speed().setFocus();
+    ends("focus left");
+}
+
+TEST_F(Jogging, EndsWhenAnotherWindowIsActive) {
+    ASSERT_NO_FATAL_FAILURE(holdsButton());
+    QWidget other;
+    other.show();
+    QApplication::setActiveWindow(&other);
+    ends("focus left");
+}
+
+TEST_F(Jogging, EndsWhenAMenuOpens) {
+    ASSERT_NO_FATAL_FAILURE(holdsKey());
+    QMenu menu;
+    menu.addAction("anything");
+    menu.popup({10, 10});
+    ends("focus left");
+}
+
+TEST_F(Jogging, EndsWhenTheProgramIsNotInFront) {
+    ASSERT_NO_FATAL_FAILURE(holdsButton());
+    QApplicationStateChangeEvent change{Qt::ApplicationInactive};  // as of a locked screen
+    QApplication::sendEvent(qApp, &change);
+    ends("focus left the program");
+}
+
+TEST_F(Jogging, EndsWhenAnotherAxisIsChosen) {
+    ASSERT_NO_FATAL_FAILURE(holdsKey());
+    QTest::keyPress(&rows(), Qt::Key_Down);
+    ends("another axis was chosen");
+}
+
+TEST_F(Jogging, EndsWithControlAndSaysSo) {
+    ASSERT_NO_FATAL_FAILURE(holdsButton());
+    window.control().release();
+    ends("control was lost");
+    EXPECT_TRUE(says("read-only: take control of /jog")) << said().toStdString();
+    EXPECT_FALSE(button(0, 1).isEnabled());
+}
+
+TEST_F(Jogging, EndsWhenControlIsHandedOver) {
+    ASSERT_NO_FATAL_FAILURE(holdsButton());
+    session.handOver("somebody@else.1-000000");
+    ends("control was lost");
+}
+
+TEST_F(Jogging, EndsWhenTheWindowHangs) {
+    ASSERT_NO_FATAL_FAILURE(holdsButton());
+    EXPECT_TRUE(comesWithoutEvents([this] { return !jogs(); }));
+    ends("the window hung");
+}
+
+TEST_F(Jogging, TheSpeedChangesWhileItIsHeld) {
+    ASSERT_NO_FATAL_FAILURE(holdsKey());
+    speed().setValue(30);
+    EXPECT_TRUE(says("Jogging A1 at −0.300 rad/s")) << said().toStdString();
+    EXPECT_TRUE(comes([this] { return number("/arm/demands/1", "velocity") < -0.29; }));
+    QTest::keyRelease(&rows(), Qt::Key_Left);
+    ends("let go");
+}
+
+TEST_F(Jogging, WithoutControlNothingIsSentAlthoughTheAgentIsOpen) {
+    ASSERT_NO_FATAL_FAILURE(opens("/jog"));
+    EXPECT_TRUE(says("read-only: take control of /jog")) << said().toStdString();
+    EXPECT_FALSE(button(0, 1).isEnabled());
+    const double executed = number("/robot", "commandCount");
+    QTest::mousePress(&button(0, 1), Qt::LeftButton);
+    rows().setFocus();
+    QTest::keyPress(&rows(), Qt::Key_Right);
+    EXPECT_TRUE(says("Not jogged: read-only: take control of /jog")) << said().toStdString();
+    const std::int64_t then = cycle();
+    EXPECT_TRUE(comes([&] { return cycle() > then + 200; }));
+    EXPECT_EQ(number("/robot", "commandCount"), executed);
+    EXPECT_FALSE(jogs());
+}
+
+TEST_F(Jogging, NearALimitTheAxisSlowsDownStopsAndTheRowSaysSo) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+    speed().setValue(40);
+    QTest::mousePress(&button(1, 1), Qt::LeftButton);
+    EXPECT_TRUE(says("Ended: at its upper limit")) << said().toStdString();
+    EXPECT_TRUE(comes([this] { return saidOf(1).contains("at its upper limit"); }));
+    EXPECT_TRUE(says("A2 is at its upper limit of 0.050 m: + is off until it has left it."))
+        << said().toStdString();
+    EXPECT_FALSE(button(1, 1).isEnabled());
+    EXPECT_TRUE(button(1, -1).isEnabled());
+    EXPECT_LE(number("/arm/demands/2", "position"), 0.05);
+    QTest::mouseRelease(&button(1, 1), Qt::LeftButton);
+    QTest::mousePress(&button(1, -1), Qt::LeftButton);
+    EXPECT_TRUE(comes([this] { return !saidOf(1).contains("limit"); }));
+    QTest::mouseRelease(&button(1, -1), Qt::LeftButton);
+}
+
+TEST_F(Jogging, AnAxisWithoutAStatedSpeedAsksForOneAndSaysWhy) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+    EXPECT_TRUE(said().contains("Unstated states no greatest speed.")) << said().toStdString();
+    EXPECT_FALSE(button(2, 1).isEnabled());
+    QLineEdit* field = nullptr;
+    for (auto* each : row(2).findChildren<QLineEdit*>()) {
+        if (each->accessibleName() == "Greatest speed of A3") field = each;
+    }
+    ASSERT_NE(field, nullptr);
+    QTest::keyClicks(field, "0,5");
+    EXPECT_TRUE(comes([this] { return button(2, 1).isEnabled(); }));
+    QTest::mousePress(&button(2, 1), Qt::LeftButton);
+    EXPECT_TRUE(says("Jogging A3 at +0.050 rad/s")) << said().toStdString();
+    EXPECT_TRUE(comes([this] { return number("/arm/axes/3", "position") > 0.005; }));
+    QTest::mouseRelease(&button(2, 1), Qt::LeftButton);
+    ends("let go");
+}
+
+TEST_F(Jogging, ADriveThatIsNotActiveIsNotJogged) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+    EXPECT_TRUE(saidOf(0).contains("drive Active")) << saidOf(0).toStdString();
+    ASSERT_TRUE(comes([this] { return button(0, 1).isEnabled(); }));
+    session.send("/drives/1", "shutdown");
+    EXPECT_TRUE(comes([this] { return saidOf(0).contains("drive Standby"); }));
+    EXPECT_TRUE(comes([this] { return !button(0, 1).isEnabled(); }));
+    EXPECT_TRUE(button(1, 1).isEnabled());
+}
+
+TEST_F(Jogging, TheSpeedStartsAtATenthEachTime) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+    speed().setValue(80);
+    window.open("/arm/axes/1");
+    window.open("/jog");
+    ASSERT_TRUE(comes([this] { return window.current()->findChild<MotionBar*>() != nullptr; }));
+    EXPECT_EQ(speed().value(), 10);
+}
+
+}  // namespace
+}  // namespace cortex::test

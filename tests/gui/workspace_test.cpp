@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tabs in two panes, what finds everything, and layouts of tabs that come back.
+#include "window/workspace.hpp"
+
+#include "gui/workspace_fixture.hpp"
+#include "model/plotted_items.hpp"
+#include "plots/plot_view.hpp"
+#include "views/base_view.hpp"
+#include "views/event_list.hpp"
+#include "widgets/text_label.hpp"
+#include "window/find_panel.hpp"
+#include "window/layout_keeper.hpp"
+
+#include <QDir>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QLabel>
+#include <QLineEdit>
+#include <QTabBar>
+#include <QTemporaryDir>
+#include <QTreeView>
+#include <QTreeWidget>
+#include <algorithm>
+
+#include <QtTest/QTest>
+
+namespace cortex::test {
+namespace {
+
+TEST_F(Workspaces, APinnedTabKeepsItsSimplexWhileTheFirstFollows) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/axis/observed");
+    window.openTab("/drive");
+    EXPECT_EQ(titles(0), (QStringList{"/axis/observed", "/drive", "System", "Agents", "Events"}));
+
+    window.open("/controller");
+
+    EXPECT_EQ(titles(0), (QStringList{"/controller", "/drive", "System", "Agents", "Events"}));
+}
+
+TEST_F(Workspaces, TabsAreSeenAlsoWhereAViewIsOpenedBeforeTheWindow) {
+    MainWindow another{session};
+    another.openKind("compare");
+    another.show();
+    QApplication::processEvents();
+    EXPECT_GE(another.workspace().panes()[0]->tabs().height(), Look::units(7));
+}
+
+TEST_F(Workspaces, AClosedTabComesBackWithWhatItShowed) {
+    ASSERT_TRUE(everythingComes());
+    window.openTab("/drive");
+    press("Ctrl+W");
+    EXPECT_EQ(titles(0), (QStringList{"Simplex", "System", "Agents", "Events"}));
+    press("Ctrl+W");
+    EXPECT_EQ(titles(0), (QStringList{"Simplex", "System", "Agents", "Events"}))
+        << "the first one stays";
+
+    press("Ctrl+Shift+W");
+
+    EXPECT_EQ(titles(0), (QStringList{"Simplex", "/drive", "System", "Agents", "Events"}));
+    EXPECT_EQ(window.workspace().path(), "/drive");
+}
+
+TEST_F(Workspaces, TwoPanesShowTwoSimplexesSideBySide) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/axis/observed");
+    window.openTab("/drive");
+    EXPECT_FALSE(window.workspace().panes()[1]->isVisible());
+
+    press("Ctrl+\\");
+
+    EXPECT_EQ(titles(1), QStringList{"/drive"});
+    const auto shown = window.workspace().findChildren<BaseView*>();
+    EXPECT_EQ(std::ranges::count_if(shown, [](const auto* each) { return each->isVisible(); }), 2);
+    press("Ctrl+W");
+    EXPECT_FALSE(window.workspace().panes()[1]->isVisible()) << "an empty pane goes";
+}
+
+TEST_F(Workspaces, AViewOfAPlugInForTheWholeSystemHasATab) {
+    ASSERT_TRUE(everythingComes());
+    window.openKind("view:looks");
+    EXPECT_TRUE(comes([this] { return said().startsWith("0.5|") && said().endsWith("later"); }))
+        << said().toStdString();
+    EXPECT_EQ(titles(0).back(), "Events");
+    EXPECT_TRUE(said().contains("|/drive|none|")) << said().toStdString();
+
+    window.tree().choose("/drive");
+    Q_EMIT window.tree().chosen("/axis/demanded");
+
+    EXPECT_TRUE(comes([this] { return said().endsWith("/axis/demanded later"); }))
+        << "it shows what is chosen itself: " << said().toStdString();
+}
+
+TEST_F(Workspaces, FindOpensItemsCommandsAndViewsByAFewLetters) {
+    ASSERT_TRUE(everythingComes());
+    finds("drive damp");
+    EXPECT_EQ(firstFound(), "/drive.dampingRatio");
+    QTest::keyClick(&window.findPanel()->field(), Qt::Key_Return);
+    EXPECT_EQ(window.workspace().path(), "/drive");
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+
+    finds("events");
+    EXPECT_EQ(firstFound(), "Events");
+    QTest::keyClick(&window.findPanel()->field(), Qt::Key_Return);
+    EXPECT_TRUE(window.workspace().shows("events"));
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+
+    finds("no such thing");
+    EXPECT_EQ(window.findPanel()->list().topLevelItemCount(), 0);
+}
+
+TEST_F(Workspaces, FindPlotsAnItemByCtrlEnter) {
+    ASSERT_TRUE(everythingComes());
+    finds("axis/observed position");
+    ASSERT_EQ(firstFound(), "/axis/observed.position");
+    QTest::keyClick(&window.findPanel()->field(), Qt::Key_Return, Qt::ControlModifier);
+    const auto* plot = qobject_cast<PlotView*>(window.current());
+    ASSERT_NE(plot, nullptr);
+    EXPECT_TRUE(comes([&] { return plot->drawn().size() == 1; }));
+}
+
+TEST_F(Workspaces, ASimplexIsDraggedFromTheTreeAsItsNumbersThatAreNotConstant) {
+    ASSERT_TRUE(everythingComes());
+    const auto all = plottedItems(*session.frame(), "/axis/observed");
+    EXPECT_EQ(std::ranges::count(all, "position", &RecordedItem::item), 1);
+    EXPECT_EQ(std::ranges::count(all, "state", &RecordedItem::item), 0);
+    const Type& type = session.frame()->type(*session.frame()->find("/axis/observed"));
+    for (const RecordedItem& each : all)
+        EXPECT_FALSE(type.findData(each.item)->constant) << each.item;
+    EXPECT_TRUE(tree().flags(tree().indexOf("/axis/observed")).testFlag(Qt::ItemIsDragEnabled));
+}
+
+TEST_F(Workspaces, APressInTheTreeMayBeginADragAndChoosesNothingBeforeItsEnd) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    auto* rows = window.tree().findChild<QTreeView*>();
+    rows->expandAll();
+    const QPoint at = rows->visualRect(tree().indexOf("/axis/observed")).center();
+    QTest::mousePress(rows->viewport(), Qt::LeftButton, Qt::NoModifier, at);
+    EXPECT_EQ(window.workspace().path(), "/drive");
+    QTest::mouseRelease(rows->viewport(), Qt::LeftButton, Qt::NoModifier, at);
+    EXPECT_EQ(window.workspace().path(), "/axis/observed");
+}
+
+class KeptLayouts : public Workspaces {
+protected:
+    LayoutKeeper keeper() {
+        return {Layouts{folder.path()},
+                {[this] { return window.workspace().saved(); },
+                 [this](const QJsonObject& each) { window.workspace().restore(each); }}};
+    }
+    QStringList files() { return QDir{folder.path()}.entryList(QDir::Files); }
+    QTemporaryDir folder;
+};
+
+TEST_F(KeptLayouts, AreRestoredBeforeAnythingHasCome) {
+    ASSERT_TRUE(everythingComes());
+    {
+        auto first = keeper();
+        first.begin(7);
+        window.openTab("/drive");
+        window.openKind("view:looks");
+        press("Ctrl+\\");
+        first.noteChange();
+        ASSERT_TRUE(comes([&] {
+            first.refresh(*session.frame());
+            return session.frame()->complete;
+        }));
+        first.save();
+    }
+    ASSERT_EQ(files().size(), 1);
+    const QStringList left = titles(0), right = titles(1);
+    Session elsewhere{ownNetwork()};
+    MainWindow another{elsewhere};
+    LayoutKeeper second{Layouts{folder.path()},
+                        {[&] { return another.workspace().saved(); },
+                         [&](const QJsonObject& each) { another.workspace().restore(each); }}};
+
+    second.begin(7);
+
+    EXPECT_EQ(another.workspace().panes()[0]->count(), left.size());
+    EXPECT_EQ(another.workspace().panes()[1]->title(0), right.front());
+    EXPECT_EQ(another.workspace().panes()[0]->title(1), "/drive");
+}
+
+TEST_F(KeptLayouts, ThatAreBrokenAreSetAsideWithWords) {
+    for (const char* text : {"{", "[]", "{\"version\": 99}", "{\"version\":1,\"layout\":3}"}) {
+        QFile file{folder.path() + "/domain-7-0123456789ab.json"};
+        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+        file.write(text);
+        file.close();
+        auto broken = keeper();
+        QString told;
+        QObject::connect(&broken, &LayoutKeeper::told, [&](const QString& each) { told = each; });
+
+        broken.begin(7);
+
+        EXPECT_TRUE(told.contains("It was set aside as ")) << told.toStdString();
+        EXPECT_FALSE(QFile::exists(file.fileName()));
+        EXPECT_EQ(titles(0), (QStringList{"Simplex", "System", "Agents", "Events"}));
+    }
+    EXPECT_EQ(files().size(), 4) << "nothing is lost";
+}
+
+TEST_F(KeptLayouts, OfSomebodyElseKeepThePlaceOfAViewThatIsNotInstalled) {
+    const QJsonObject state{{"zoom", 3}};
+    const QJsonArray tabs{QJsonObject{{"kind", "view:boom-overview"}, {"state", state}},
+                          QJsonObject{{"kind", 12}}, "nonsense"};
+    window.workspace().restore({{"panes", QJsonArray{QJsonObject{{"tabs", tabs}}}}});
+
+    EXPECT_TRUE(titles(0).contains("boom-overview"));
+    const QByteArray kept = QJsonDocument{window.workspace().saved()}.toJson();
+    EXPECT_TRUE(kept.contains("\"zoom\": 3")) << kept.toStdString();
+}
+
+TEST_F(KeptLayouts, AreResetAndComeBack) {
+    ASSERT_TRUE(everythingComes());
+    auto layout = keeper();
+    layout.begin(7);
+    window.openTab("/drive");
+    layout.reset();
+    EXPECT_FALSE(titles(0).contains("/drive"));
+    layout.goBack();
+    EXPECT_TRUE(titles(0).contains("/drive"));
+}
+
+}  // namespace
+}  // namespace cortex::test

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tip of the LBR, and that of a gantry, jogged by hand.
+#include "rig.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+namespace cortex::toolkit::test {
+namespace {
+
+// Axes with every limit and their drives, one after the other as a chain, and its controller.
+class JoggedTip : public Rig {
+public:
+    explicit JoggedTip(const Pairs& settings = {}) {
+        constexpr std::array directions{"0 0 1", "0 1 0", "0 0 1", "0 -1 0",
+                                        "0 0 1", "0 1 0", "0 0 1"};
+        constexpr std::array heights{"0", "0.36", "0", "0.42", "0", "0.4", "0"};
+        constexpr std::array start{"0", "0.6", "0", "-1.4", "0", "1.1", "0"};
+        Pairs relates;
+        for (std::size_t i = 0; i < directions.size(); ++i) {
+            const std::string number = std::to_string(i + 1);
+            const std::string origin = std::string{"0 0 "} + heights[i];
+            const Pairs geometry{{"originPosition", origin}, {"direction", directions[i]}};
+            add("/axis" + number, "LimitedAxis", {}, geometry);
+            add("/demand" + number, "LimitedAxis", {}, geometry);
+            add("/drive" + number, "SimulatedAxis",
+                {{"demand", "/demand" + number}, {"observation", "/axis" + number}},
+                {{"startPosition", start[i]}});
+            relates.emplace_back("axes", "/axis" + number);
+            relates.emplace_back("demands", "/demand" + number);
+        }
+        add("/tip", "CartesianObservation");
+        Pairs kinematics{{"tip", "/tip"}};
+        for (std::size_t i = 1; i <= 7; ++i)
+            kinematics.emplace_back("axes", "/demand" + std::to_string(i));
+        add("/forward", "ForwardKinematics", kinematics);
+        add("/jog", "CartesianJogController", relates, settings);
+        start_();
+    }
+    void jog(const std::vector<double>& linear, const std::vector<double>& angular = {0, 0, 0}) {
+        cluster().send("/jog", "jog", {{"linear", linear}, {"angular", angular}});
+    }
+    // Repeated as a person's window does, ten times a second.
+    void jogFor(int cycles, const std::vector<double>& linear,
+                const std::vector<double>& angular = {0, 0, 0}) {
+        for (int i = 0; i < cycles; ++i) {
+            if (i % 100 == 0) jog(linear, angular);
+            stepJudged();
+        }
+    }
+    void stepJudged() {
+        step();
+        for (std::size_t i = 0; i < last_.size(); ++i) judge(i);
+    }
+    void rest() {
+        for (int i = 0; i < 1500; ++i) stepJudged();
+    }
+    std::vector<double> tip() { return array("/tip", "position"); }
+    std::vector<double> tipVelocity() { return array("/tip", "linearVelocity"); }
+    double demand(std::size_t axis, const std::string& item) {
+        return get<double>("/demand" + std::to_string(axis + 1), item);
+    }
+    std::int64_t heldBack() { return get<std::int64_t>("/jog", "heldBack"); }
+
+    double mostOfLimits = 0;  // changes in a cycle, as a share of what the limits allow
+
+private:
+    struct Last {
+        double position = 0, velocity = 0, acceleration = 0;
+    };
+    void start_() {
+        Rig::start();
+        step(50);
+        startUp();
+        for (std::size_t i = 0; i < last_.size(); ++i)
+            last_[i] = {demand(i, "position"), demand(i, "velocity"), demand(i, "acceleration")};
+    }
+    void judge(std::size_t i) {
+        constexpr double cycle = 1e-3;
+        const Last now{demand(i, "position"), demand(i, "velocity"), demand(i, "acceleration")};
+        const auto include = [&](double change, double limit) {
+            mostOfLimits = std::max(mostOfLimits, std::abs(change) / (limit * cycle));
+        };
+        include(now.position - last_[i].position, 2);
+        include(now.velocity - last_[i].velocity, 10);
+        include(now.acceleration - last_[i].acceleration, 100);
+        last_[i] = now;
+    }
+
+    std::array<Last, 7> last_{};
+};
+
+TEST(ATipThatIsJogged, GoesAlongTheAxesOfTheBase) {
+    JoggedTip arm;
+    const std::vector<double> before = arm.tip();
+    arm.jogFor(1000, {0.05, 0, 0});
+    EXPECT_NEAR(arm.tipVelocity()[0], 0.05, 1e-4);
+    EXPECT_NEAR(arm.tipVelocity()[1], 0, 1e-4);
+    arm.rest();
+
+    const std::vector<double> after = arm.tip();
+    EXPECT_GT(after[0] - before[0], 0.03);
+    EXPECT_NEAR(after[1], before[1], 1e-3);
+    EXPECT_NEAR(after[2], before[2], 1e-3);
+    EXPECT_LE(arm.mostOfLimits, 1 + 1e-9);
+}
+
+TEST(ATipThatIsJogged, GoesAlongItsOwnAxesWhereTheFrameIsTheTip) {
+    JoggedTip arm;
+    EXPECT_EQ(arm.call("/jog", "set", {{"frame", std::int64_t{1}}}).outcome, Outcome::Done);
+    const std::vector<double> rotation = arm.array("/tip", "rotation");
+    const Eigen::Quaterniond turned{rotation[3], rotation[0], rotation[1], rotation[2]};
+    arm.jogFor(800, {0, 0, 0.05});
+
+    const Eigen::Vector3d expected = turned * Eigen::Vector3d{0, 0, 0.05};
+    const std::vector<double> velocity = arm.tipVelocity();
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(velocity[static_cast<std::size_t>(i)], expected[i], 1e-3) << i;
+}
+
+TEST(ATipThatIsJogged, EndsByItselfAfterTheHoldTime) {
+    JoggedTip arm;
+    arm.jog({0.05, 0, 0});
+    arm.step(100);
+    EXPECT_TRUE(arm.get<bool>("/jog", "jogging"));
+    arm.step(152);
+    EXPECT_FALSE(arm.get<bool>("/jog", "jogging"));
+    arm.rest();
+    for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(arm.demand(i, "velocity"), 0) << i;
+}
+
+TEST(ATipThatIsJogged, IsJoggedNoMoreWhereItsControllerIsNotActive) {
+    JoggedTip arm;
+    arm.jog({0.05, 0, 0});
+    arm.step(20);
+    EXPECT_TRUE(arm.get<bool>("/jog", "jogging"));
+    arm.cluster().send("/jog", "shutdown");
+    arm.step(2);
+    EXPECT_FALSE(arm.get<bool>("/jog", "jogging"));
+}
+
+TEST(ATipThatIsJogged, KeepsEveryAxisWithinItsLimitsAllTheWayOut) {
+    JoggedTip arm;
+    arm.jogFor(15'000, {0.25, 0, 0.1});
+    EXPECT_NE(arm.heldBack(), 0) << "the arm is stretched, or at a limit";
+    arm.rest();
+    arm.jogFor(15'000, {-0.25, 0, -0.25}, {0.5, 0.5, 0.5});
+    EXPECT_LE(arm.mostOfLimits, 1 + 1e-9);
+    for (std::size_t i = 0; i < 7; ++i) EXPECT_LE(std::abs(arm.demand(i, "position")), 3) << i;
+    arm.rest();
+    for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(arm.demand(i, "velocity"), 0) << i;
+}
+
+TEST(AnElbowThatIsJogged, TurnsWhileTheTipStays) {
+    JoggedTip arm;
+    const std::vector<double> before = arm.tip();
+    const double elbow = arm.demand(2, "position");
+    for (int i = 0; i < 1500; ++i) {
+        if (i % 100 == 0) arm.cluster().send("/jog", "elbow", {{"velocity", 0.3}});
+        arm.stepJudged();
+    }
+    arm.rest();
+
+    EXPECT_GT(std::abs(arm.demand(2, "position") - elbow), 0.05);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(arm.tip()[i], before[i], 1e-3) << i;
+    EXPECT_LE(arm.mostOfLimits, 1 + 1e-9);
+}
+
+// Three linear axes: fewer than six directions.
+struct Gantry : Rig {
+    explicit Gantry(const std::string& directions) {
+        Pairs relates;
+        for (const auto& [number, direction] :
+             {std::pair{"1", "1 0 0"}, {"2", "0 1 0"}, {"3", "0 0 1"}}) {
+            const std::string axis = std::string{"/axis"} + number;
+            const std::string demand = std::string{"/demand"} + number;
+            add(axis, "LinearAxisObservation", {}, {{"direction", direction}});
+            add(demand, "LinearAxisConcept", {}, {{"direction", direction}});
+            relates.emplace_back("axes", axis);
+            relates.emplace_back("demands", demand);
+        }
+        add("/jog", "CartesianJogController", relates, {{"directions", directions}});
+    }
+};
+
+TEST(ATipThatIsJogged, MovesByFewerThanSixAxesInTheDirectionsThatCount) {
+    Gantry gantry{"true true true false false false"};
+    gantry.start();
+    gantry.startUp();
+    for (int i = 0; i < 1000; ++i) {
+        if (i % 100 == 0) {
+            gantry.cluster().send("/jog", "jog", {{"linear", std::vector{0.1, -0.05, 0.02}}});
+        }
+        gantry.step();
+    }
+    EXPECT_NEAR(gantry.get<double>("/demand1", "velocity"), 0.1, 1e-9);
+    EXPECT_NEAR(gantry.get<double>("/demand2", "velocity"), -0.05, 1e-9);
+    EXPECT_NEAR(gantry.get<double>("/demand3", "velocity"), 0.02, 1e-9);
+
+    const CallResult turned = gantry.call("/jog", "jog", {{"angular", std::vector{0.1, 0.0, 0.0}}});
+    EXPECT_EQ(turned.outcome, Outcome::Rejected);
+    const CallResult elbow = gantry.call("/jog", "elbow", {{"velocity", 0.1}});
+    EXPECT_EQ(elbow.outcome, Outcome::Rejected);
+    EXPECT_NE(elbow.text().find("no axis is to spare"), std::string::npos) << elbow.text();
+}
+
+TEST(ATipThatIsJogged, IsRefusedAtTheStartWhereTheAxesAreTooFew) {
+    Gantry gantry{"true true true true true true"};
+    try {
+        gantry.start();
+        ADD_FAILURE() << "three axes took six directions";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string{error.what()}.find("3 axes cannot follow 6 directions"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace cortex::toolkit::test

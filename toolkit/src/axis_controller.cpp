@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cortex/toolkit/axis_controller.hpp"
+
+#include "handles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cortex::toolkit {
+namespace {
+
+using mechanics::MotionState;
+
+// Farther from what was written than by rounding.
+bool differs(double accepted, double written) {
+    return !(std::abs(accepted - written) <= 1e-9 * (1 + std::abs(written)));
+}
+
+bool differs(const MotionState& accepted, const MotionState& written) {
+    return differs(accepted.position, written.position) ||
+           differs(accepted.velocity, written.velocity);
+}
+
+}  // namespace
+
+MotionState AxisController::Axis::accepted() const {
+    return {acceptedPosition, acceptedVelocity, acceptedAcceleration};
+}
+
+void AxisController::Axis::write(const MotionState& state) {
+    position = std::clamp(state.position, limits.min, limits.max);  // rounding is no excess
+    velocity = state.velocity;
+    acceleration = state.acceleration;
+}
+
+void AxisController::populate() {
+    const auto demands = outputs("demands");
+    requireSameCount(*this, inputs("axes").size(), demands.size(), "demands");
+    for (const OutputSimplex& demand : demands) {
+        axes_.push_back({demand.path(), AxisLimits{demand.type()},
+                         demand.accepted<double>("position"), demand.accepted<double>("velocity"),
+                         demand.accepted<double>("acceleration"), demand.data<double>("position"),
+                         demand.data<double>("velocity"), demand.data<double>("acceleration"),
+                         demand.data<double>("effort")});
+    }
+    demands_.resize(axes_.size());
+}
+
+bool AxisController::stateStartingUp(const Tick&) {
+    takesOver_ = true;
+    return true;
+}
+
+void AxisController::stateActive(const Tick& tick) {
+    bool changed = takesOver_;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        const MotionState accepted = axes_[i].accepted();
+        changed = changed || differs(accepted, demands_[i]);
+        demands_[i] = accepted;
+        axes_[i].effort = 0.0;  // unless move() sets it
+    }
+    takesOver_ = false;
+    if (changed) takeOver(tick);
+    move(tick);
+    for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].write(demands_[i]);
+}
+
+bool AxisController::inRange(Call& call, std::string_view item, std::size_t axis,
+                             double position) const {
+    const AxisLimits& limits = axes_[axis].limits;
+    if (limits.inRange(position)) return true;
+    const double limit = position > limits.max ? limits.max : limits.min;
+    EventText why;
+    why << item << "[" << axis << "] is ";
+    why.apart(position, limit) << (position > limit ? ", above " : ", below ");
+    why.apart(limit, position) << ", the limit of " << axes_[axis].path;
+    call.reject(Reason::Range, why.view());
+    return false;
+}
+
+void AxisController::keep(Archive& archive) {
+    archive.version("AxisController", 1);
+    archive & demands_ & takesOver_;
+}
+
+}  // namespace cortex::toolkit

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "process/rate_limiter.hpp"
+
+#include <algorithm>
+
+namespace cortex::toolkit {
+
+void RateLimiter::populate() {
+    const std::string item = itemName(*this, "item");
+    source_ = input("source").data<double>(item);
+    result_ = ScalarOutput{output("result"), item};
+    rate_ = data<const double>("rate");
+    limiting_ = data<bool>("limiting");
+}
+
+void RateLimiter::stateActive(const Tick& tick) {
+    const double step = rate_ * tick.elapsedSeconds();
+    const double before = result_.before();
+    const double result = std::clamp<double>(source_, before - step, before + step);
+    limiting_ = result != source_;
+    result_.write(result);
+}
+
+}  // namespace cortex::toolkit

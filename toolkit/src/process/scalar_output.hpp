@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/simplex.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace cortex::toolkit {
+
+// Name of the item that a block works on, as its own text item says. Setup phase.
+inline std::string itemName(Simplex& block, std::string_view item) {
+    return std::string{block.data<const std::string_view>(item).get()};
+}
+
+// One number that a block writes, and what of it went out in the cycle before. An observation goes
+// out as it was written.
+class ScalarOutput {
+public:
+    ScalarOutput() = default;
+    ScalarOutput(const OutputSimplex& output, std::string_view item)
+        : value_{output.data<double>(item)},
+          before_{output.type().role == Role::Observation ? output.data<const double>(item)
+                                                          : output.accepted<double>(item)} {}
+
+    double before() const CORTEX_REALTIME { return before_; }
+    void write(double value) CORTEX_REALTIME { value_ = value; }
+
+private:
+    Data<double> value_;
+    Data<const double> before_;
+};
+
+}  // namespace cortex::toolkit
