@@ -40,13 +40,12 @@ quick() {
     formatFiles "${changed[@]}"
     python3 tools/rooms.py
     if ((${#folders[@]})); then
-        build dev -- "${folders[@]/#/tests-of-}"
+        build gate -- "${folders[@]/#/tests-of-}"
         prepareLocale
         say "testing ${folders[*]}"
-        ctest --preset dev -j "$jobs" --no-tests=error -E '^Shards/' \
+        ctest --preset gate -j "$jobs" --no-tests=error \
             -L "^(unit|concurrent)-($(IFS='|'; echo "${folders[*]}"))(-|$)" 2>&1 | ctestOutput
     fi
-    say "left out: tests of other folders than: ${folders[*]:-none}; tests of programs, networks and
-   real time; the thousand random systems of determinism; sanitizers, coverage, clang-tidy, docs.
-   All of that: ./run test"
+    say "left out: tests of other folders than: ${folders[*]:-none}; tests of programs and networks,
+   and the product (./run test); what judges time or takes minutes, tidy, docs … (./run test all)"
 }

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # The stages of `./run test`, and the other commands that run tests or tools. Sourced by `./run`.
-stages=(format tidy coverage tsan fuzz realtime package debian instructions profiler docs)
+gateStages=(format checks product)
+otherStages=(tidy coverage tsan long timed fuzz realtime package debian instructions profiler docs)
 
 # --- what a stage reports ---------------------------------------------------------------------
 
 minutes() { printf '%3d.%d' $(($1 / 60)) $(($1 % 60 / 6)); }
 note() { printf '%s; ' "$*" >>"$logs/${stage:-test}.note"; }
 
-# What a reader wants to see of ctest: all on a terminal, else every 100th test that passed.
+# What an interactive ctest prints, or every 100th test that passed.
 ctestOutput() {
     if [[ -t 1 ]]; then cat; else
         awk '/^ *Start +[0-9]+:/ || /^\[ (RUN     |      OK) \]/ {next}
@@ -15,43 +16,14 @@ ctestOutput() {
     fi
 }
 
-# runTests PRESET [ctest option…]: fails on a failure and, where CI=true, on a test that was skipped.
+# runTests PRESET FOLDER [ctest option…]: judged by tools/run_tests.py.
 runTests() {
-    local preset=$1 folder=build/$1 log=$logs/ctest-$1.log status=0
-    [[ $preset == realtime ]] && folder=build/release
-    shift
+    local preset=$1 folder=$2
+    shift 2
     prepareLocale
     say "testing $folder"
-    ctest --preset "$preset" -j "$jobs" --no-tests=error "$@" 2>&1 | tee "$log" | ctestOutput ||
-        status=$?
-    countPassed "$log" "$folder/Testing/Temporary/LastTest.log" >>"$logs/${stage:-soak}.closing"
-    tellSkipped "$log" "$folder/Testing/Temporary/LastTest.log" || status=$?
-    return "$status"
-}
-
-# countPassed CTEST-LOG TEST-LOG: a process runs many tests, and says how many of them passed.
-countPassed() {
-    awk 'FILENAME == ARGV[1] && /^\[  PASSED  \]/ {tests += $4}
-        / tests? failed out of / {failed = $4; all = $NF}
-        END {printf "%d tests passed; %d of %d processes failed\n", tests, failed, all}' "$2" "$1"
-}
-
-# tellSkipped CTEST-LOG TEST-LOG: keeps the name and the reason of each test that did not run.
-tellSkipped() {
-    local list=$logs/${stage:-soak}.skipped count
-    awk '/^[0-9]+\/[0-9]+ Testing: / {name = substr($0, index($0, "Testing: ") + 9)}
-        /^\[ RUN      \] / {name = substr($0, 14)}
-        /: Skipped$/ {if ((getline why) > 0) reason[name] = why}
-        /^not run: / {reason[name] = substr($0, 10)}
-        FILENAME == ARGV[2] && /\*\*\*(Skipped|Not Run)/ {
-            sub(/^.*Test +#[0-9]+: /, ""); sub(/ *\.+ *\*\*\*.*$/, "")
-            if (!($0 in reason)) reason[$0] = "did not run"
-        }
-        END {for (name in reason) printf "%s: %s\n", name, reason[name]}' "$2" "$1" |
-        sort >"$list"
-    count=$(wc -l <"$list")
-    note "$count skipped"
-    [[ ${CI:-} != true ]] || ((count == 0))
+    python3 tools/run_tests.py ${CORTEX_NOTHING_SKIPPED:+--must-run} "${stage:-soak}" "$folder" \
+        --preset "$preset" -j "$jobs" --no-tests=error "$@"
 }
 
 # A locale with a decimal comma: numbers must be read and written the same under it.
@@ -90,10 +62,44 @@ stage_tidy() {
     note "${#files[@]} files"
 }
 
+# Every test but those that judge time, and those that need minutes.
+stage_checks() {
+    build gate
+    runTests gate build/gate
+}
+
+# What users get: the programs and their manual, installed; a program of one's own; the demo.
+stage_product() {
+    local prefix=$PWD/build/product/installed example=$PWD/build/product/e01_two_simplexes
+    buildPrograms cortex-man
+    say "installing to build/product, building an example against it"
+    rm -rf build/product
+    cmake --install build/release --prefix "$prefix" >"$logs/install.log"
+    cmake -S examples/e01_two_simplexes -B "$example" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+        >"$logs/configure-e01.log"
+    cmake --build "$example"
+    source tests/support/own_domain.sh
+    export CORTEX_DOMAIN=$ownDomain CORTEX_INTERFACE=lo
+    (cd "$example" && ./e01_two_simplexes >/dev/null)
+    tools/example.sh lbr_teleop --seconds 5
+}
+
+# What the gate leaves out because it takes minutes; in the gate's build.
+stage_long() {
+    build gate
+    runTests long build/gate
+}
+
+# What judges time, each alone, in the build that users get.
+stage_timed() {
+    buildRelease
+    runTests timed build/release -j 1
+}
+
 stage_coverage() {
     find build/coverage -name '*.gcda' -delete 2>/dev/null || true
     build coverage
-    runTests coverage
+    runTests coverage build/coverage
     measureCoverage
 }
 
@@ -145,20 +151,20 @@ stage_fuzz() {
 
 stage_tsan() {
     build tsan -- tests-concurrent
-    runTests tsan
+    runTests tsan build/tsan
 }
 
-# The build of the stages that look at what users get, with the tests that need an optimised one. It
-# compiles each file by itself, so that a missing include is found.
+# The build of the stages that look at what users get, with all tests. It compiles each file by
+# itself, so that a missing include is found.
 buildRelease() {
     build release -DCORTEX_BENCH=ON -DCORTEX_TESTS=ON -- all all_verify_interface_header_sets \
-        tests-realtime
+        tests-unit tests-concurrent tests-integration tests-realtime
 }
 
 # Tests that no sanitizer may slow down or hide the allocator from.
 stage_realtime() {
     buildRelease
-    runTests realtime
+    runTests realtime build/release
 }
 
 stage_package() {
@@ -213,7 +219,7 @@ stage_profiler() {
 stage_docs() {
     [[ -d build/package ]] || stage_package
     say "taking the pictures of docs/explorer.md"
-    build release -- cortex-agent cortex-cli cortex-explorer
+    buildPrograms
     tools/pictures.sh build/pictures
     say "cutting the tutorials out of docs/, building and running them"
     /usr/bin/python3 tests/docs/tutorials.py docs build/tutorials build/package
@@ -222,35 +228,59 @@ stage_docs() {
 
 # --- commands ---------------------------------------------------------------------------------
 
-# Every stage in its own shell, so that one that fails does not hide what the others find.
+# The gate, all stages, or those that are named; each in a shell of its own, so that one that fails
+# does not hide what the others find. build/logs/passed holds the id of the tree that the gate passed.
 command_test() {
-    local name begin failed=0 result table="" closing="" skipped=""
-    (($#)) || set -- "${stages[@]}"
+    local name begin failed=() result table=""
+    (($#)) || set -- "${gateStages[@]}"
+    if [[ $* == all ]]; then
+        set -- "${gateStages[@]}" "${otherStages[@]}"
+        [[ ${CI:-} != true ]] || export CORTEX_NOTHING_SKIPPED=yes
+    fi
     mkdir -p "$logs"
+    rm -f "$logs/passed"
     for name in "$@"; do
-        [[ " ${stages[*]} " == *" $name "* ]] ||
-            die "no stage '$name'; there are: ${stages[*]}"
+        [[ " ${gateStages[*]} ${otherStages[*]} " == *" $name "* ]] ||
+            die "no stage '$name'; there are: ${gateStages[*]} (the gate), ${otherStages[*]}; all"
     done
-    ensure "${testPackages[@]}"
     for name in "$@"; do
-        rm -f "$logs/$name".{note,closing,skipped}
+        rm -f "$logs/$name".{note,closing,skipped,unsteady,red}
+        ensurePackagesOf "$name"
         say "stage $name"
         begin=$SECONDS
         result=ok
-        bash ./run stage "$name" || { result=FAILED; failed=1; }
+        bash ./run stage "$name" || { result=FAILED; failed+=("$name"); }
         table+=$(printf '%-12s %s min  %-6s  %s' "$name" "$(minutes $((SECONDS - begin)))" \
             "$result" "$(cat "$logs/$name.note" 2>/dev/null)")$'\n'
-        skipped+=$(sed "s/^/  ($name) /" "$logs/$name.skipped" 2>/dev/null || true)
-        [[ -z $skipped || $skipped == *$'\n' ]] || skipped+=$'\n'
-        if [[ -s $logs/$name.closing ]]; then
-            closing+=$(<"$logs/$name.closing")"   ($name)"$'\n'
-        fi
     done
     say "summary"
     printf '%s' "$table"
-    if [[ $skipped ]]; then printf 'what did not run, and why:\n%s' "$skipped"; fi
-    printf '%-12s %s min on %s cores\n%s' total "$(minutes "$SECONDS")" "$jobs" "$closing"
-    return "$failed"
+    tellOf skipped 'what did not run, and why' "$@"
+    tellOf unsteady 'unsteady' "$@"
+    tellOf red 'red' "$@"
+    printf '%-12s %s min on %s cores\n' total "$(minutes "$SECONDS")" "$jobs"
+    for name in "$@"; do cat "$logs/$name.closing" 2>/dev/null || true; done
+    if [[ " $* " == *" ${gateStages[*]} "* && " ${failed[*]} " != *\ @(format|checks|product)\ * ]]; then
+        [[ $(git status --porcelain) ]] || git rev-parse 'HEAD^{tree}' >"$logs/passed"
+    fi
+    ((${#failed[@]} == 0))
+}
+
+# tellOf KIND TITLE STAGE…: what these stages have written of that kind.
+tellOf() {
+    local kind=$1 title=$2 name lines=""
+    shift 2
+    for name in "$@"; do lines+=$(sed "s/^/  ($name) /" "$logs/$name.$kind" 2>/dev/null || true); done
+    [[ -z $lines ]] || printf '%s:\n%s\n' "$title" "$lines"
+}
+
+ensurePackagesOf() {
+    case $1 in
+        format) ensure "${formatPackages[@]}" ;;
+        checks | long) ensure "${checksPackages[@]}" ;;
+        product) ensure "${productPackages[@]}" ;;
+        *) ensure "${testPackages[@]}" ;;
+    esac
 }
 
 command_stage() {
@@ -276,7 +306,7 @@ command_baseline() {
 command_soak() {
     ensure "${testPackages[@]}"
     build soak -- tests-soak
-    runTests soak
+    runTests soak build/soak
 }
 
 command_coverage() {
@@ -288,7 +318,7 @@ command_coverage() {
 
 command_pictures() {
     ensure "${buildPackages[@]}"
-    build release -- cortex-agent cortex-cli cortex-explorer
+    buildPrograms
     say "taking the pictures of docs/explorer.md"
     tools/pictures.sh "$@"
 }

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What tools/run_tests.py makes of tests that fail once, twice or always, hang, crash, or start a
+program that a sanitizer stops. The argument is a compiler that knows AddressSanitizer."""
+import datetime
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+COMPILER = sys.argv.pop(1)
+TODAY = datetime.date.today()
+
+# CASE TIMES: prints as GoogleTest does, and fails at the first TIMES starts.
+FAILS = """#!/bin/sh
+case=$1
+echo "[ RUN      ] $case"
+count=$(cat "$case" 2>/dev/null || echo 0)
+echo $((count + 1)) >"$case"
+[ "$count" -ge "$2" ] && { echo "[       OK ] $case (0 ms)"; echo "[  PASSED  ] 1 test."; exit 0; }
+echo "what $case saw"
+echo "[  FAILED  ] $case (0 ms)"
+exit 1
+"""
+
+
+class RunTests(unittest.TestCase):
+    def setUp(self):
+        kept = tempfile.TemporaryDirectory()
+        self.addCleanup(kept.cleanup)
+        self.folder = pathlib.Path(kept.name)
+        self.program("fails", FAILS)
+        self.tests = []
+
+    def program(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        path.chmod(0o755)
+        return path
+
+    def add(self, name, *command, label="unit", timeout=60):
+        self.tests += [f'add_test([=[{name}]=] {" ".join(f"[=[{word}]=]" for word in command)})',
+                       f'set_tests_properties([=[{name}]=] PROPERTIES LABELS "{label}" '
+                       f'TIMEOUT {timeout} WORKING_DIRECTORY "{self.folder}")']
+
+    def fails(self, case, times, label="unit"):
+        self.add(case, self.folder / "fails", case, times, label=label)
+
+    def run_tests(self, unsteady="", *more):
+        """The exit code, and what the summary of all stages will tell, by its kind."""
+        (self.folder / "CTestTestfile.cmake").write_text("\n".join(self.tests))
+        (self.folder / "unsteady.txt").write_text(unsteady)
+        ended = subprocess.run(
+            [sys.executable, ROOT / "tools/run_tests.py", "--logs", self.folder / "logs", "--unsteady",
+             self.folder / "unsteady.txt", *more, "sabotage", self.folder, "--test-dir", self.folder],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        self.output = ended.stdout
+        told = {kind: (self.folder / f"logs/sabotage.{kind}").read_text()
+                for kind in ("red", "unsteady", "skipped", "closing", "note")}
+        return ended.returncode, told
+
+    def test_one_that_fails_the_first_time_only_is_green_and_named(self):
+        self.fails("A.Once", 1)
+        self.fails("A.Never", 0)
+        code, told = self.run_tests()
+        self.assertEqual(code, 0, self.output)
+        self.assertIn("A.Once: failed once, passed alone", told["unsteady"])
+        self.assertIn("what A.Once saw", told["unsteady"])
+        self.assertNotIn("A.Never", told["unsteady"])
+        self.assertEqual(told["closing"], "sabotage: 2 passed, 0 failed, 0 skipped\n")
+
+    def test_one_that_passes_at_the_third_try_only_is_green_and_named(self):
+        self.fails("A.Twice", 2)
+        code, told = self.run_tests()
+        self.assertEqual(code, 0, self.output)
+        self.assertIn("A.Twice", told["unsteady"])
+
+    def test_one_that_fails_three_times_is_red(self):
+        self.fails("A.Thrice", 3)
+        self.fails("A.Once", 1)
+        code, told = self.run_tests()
+        self.assertEqual(code, 1)
+        self.assertEqual(told["red"], "A.Thrice failed each time\n")
+        self.assertIn("A.Once", told["unsteady"])
+        self.assertEqual(told["closing"], "sabotage: 1 passed, 1 failed, 0 skipped\n")
+
+    def test_an_exact_one_that_fails_once_is_red_and_not_run_again(self):
+        self.fails("A.Exact", 1, label="unit-cs-exact")
+        code, told = self.run_tests()
+        self.assertEqual(code, 1)
+        self.assertIn("A.Exact is exact", told["red"])
+        self.assertEqual((self.folder / "A.Exact").read_text(), "1\n", "it was started once")
+
+    def test_a_report_of_a_sanitizer_in_a_program_that_a_test_started_is_red(self):
+        source = self.folder / "agent.cpp"
+        source.write_text("int main() { int* p = new int{1}; delete p; return *p; }\n")
+        subprocess.run([COMPILER, "-fsanitize=address", source, "-o", self.folder / "agent"], check=True)
+        self.add("starts-an-agent", "sh", "-c", "./agent; true")
+        code, told = self.run_tests()
+        self.assertEqual(code, 1, self.output)
+        self.assertIn("heap-use-after-free", told["red"])
+
+    def test_a_hang_is_ended_and_red_with_the_case_that_had_begun(self):
+        self.add("hangs", "sh", "-c", "echo '[ RUN      ] A.Hang'; sleep 60", timeout=1)
+        code, told = self.run_tests()
+        self.assertEqual(code, 1)
+        self.assertEqual(told["red"], "A.Hang failed each time\n")
+
+    def test_a_crash_names_the_case_that_had_begun(self):
+        self.add("crashes", "sh", "-c",
+                 "[ -e crashed ] && exit; : >crashed; echo '[ RUN      ] A.Crash'; kill -9 $$")
+        code, told = self.run_tests()
+        self.assertEqual(code, 0, self.output)
+        self.assertIn("A.Crash", told["unsteady"])
+
+    def test_six_unsteady_cases_are_red_unless_the_list_names_one(self):
+        for number in range(6):
+            self.fails(f"A.Once{number}", 1)
+        code, told = self.run_tests()
+        self.assertEqual(code, 1)
+        self.assertIn("6 cases are unsteady", told["red"])
+        for number in range(6):
+            (self.folder / f"A.Once{number}").unlink()
+        code, told = self.run_tests(f"A.Once3  {TODAY}  seen here\n")
+        self.assertEqual(code, 0, self.output)
+        self.assertIn("A.Once3 (in the list)", told["unsteady"])
+
+    def test_a_line_of_the_list_that_is_old_or_says_nothing_is_red(self):
+        self.fails("A.Never", 0)
+        old = TODAY - datetime.timedelta(days=90)
+        code, told = self.run_tests(f"A.Old  {old}  seen here\n\n# a comment\nA.Nameless\n")
+        self.assertEqual(code, 1)
+        self.assertIn("unsteady.txt:1: A.Old stands there for", told["red"])
+        self.assertIn("unsteady.txt:4: not 'NAME YYYY-MM-DD what was seen'", told["red"])
+        code, told = self.run_tests("".join(f"A.B{n}  {TODAY}  seen\n" for n in range(11)))
+        self.assertIn("has 11 lines, of at most 10", told["red"])
+
+    def test_a_skipped_case_is_named_with_its_reason_and_red_where_all_must_run(self):
+        self.add("needs-a-device", "sh", "-c", "echo '[ RUN      ] A.Needs'; echo 'a.cpp:1: Skipped'; "
+                 "echo 'no device'; echo '[  SKIPPED ] A.Needs (0 ms)'")
+        code, told = self.run_tests()
+        self.assertEqual((code, told["skipped"]), (0, "A.Needs: no device\n"), self.output)
+        code, told = self.run_tests("", "--must-run")
+        self.assertEqual(code, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
