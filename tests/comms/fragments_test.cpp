@@ -248,21 +248,103 @@ TEST(PiecesTest, ASampleThatIsCutArrivesAsItWas) {
     EXPECT_EQ(rtps::piecesOf(all, 0x203).size(), 2U) << "of another writer";
 }
 
-// The transport of Fast DDS writes statistics into the last bytes of whatever looks like them.
-TEST(PiecesTest, EachPieceEndsWithTheStatisticsOfTheWhole) {
-    const Datagram statistics = submessage(0x80, 0, Datagram(56, 7));
-    const Datagram longOne = data(1, anyWriter, 4, Datagram(3'000));
-    Datagram two = header() + longOne + heartbeat(1, 1) + statistics;
-    EXPECT_EQ(rtps::piecesOf(two), (std::vector{header() + longOne + statistics,
-                                                header() + heartbeat(1, 1) + statistics}));
-    const auto cut = rtps::piecesOf(two, anyWriter);
-    ASSERT_EQ(cut.size(), 3U);
-    for (const Datagram& piece : cut) {
-        EXPECT_LE(piece.size(), rtps::onePacket);
-        EXPECT_TRUE(std::equal(statistics.rbegin(), statistics.rend(), piece.rbegin()));
+// --- the statistics behind what is sent ----------------------------------------------------------
+
+const Datagram statistics = submessage(0x80, 0, Datagram(56, 7));
+const Datagram destination = submessage(0x0e, 0, Datagram(12, 3));
+const Datagram timestamp = submessage(0x09, 0, Datagram(8));
+
+// Fast DDS would take its end for statistics, wherever it is cut.
+Datagram sampleOf80(int number, std::size_t size) {
+    return data(number, anyWriter, 4, Datagram(size, 0x80));
+}
+
+// The transport of Fast DDS writes into the last 56 bytes where these are not its own.
+testing::AssertionResult endWithStatistics(const std::vector<Datagram>& pieces) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (!std::equal(statistics.rbegin(), statistics.rend(), pieces[i].rbegin()))
+            return testing::AssertionFailure() << "piece " << i << " of " << pieces.size();
     }
-    Datagram one = header() + longOne + statistics;
-    EXPECT_TRUE(rtps::piecesOf(one).empty()) << "what has one part beside them is sent as it is";
+    return testing::AssertionSuccess();
+}
+
+// As every message of a handshake and every large block is.
+TEST(PiecesTest, OneLargeSampleStaysWholeWithItsStatistics) {
+    Datagram one = header() + timestamp + sampleOf80(1, 3'000) + statistics;
+    EXPECT_TRUE(rtps::piecesOf(one).empty());
+}
+
+TEST(PiecesTest, EachPieceEndsWithTheStatisticsOfTheWhole) {
+    Datagram three = header() + destination + timestamp + sampleOf80(1, 600) + timestamp +
+                     sampleOf80(2, 600) + timestamp + sampleOf80(3, 600) + statistics;
+    EXPECT_EQ(rtps::piecesOf(three),
+              (std::vector{header() + destination + timestamp + sampleOf80(1, 600) + timestamp +
+                               sampleOf80(2, 600) + statistics,
+                           header() + destination + timestamp + timestamp + sampleOf80(3, 600) +
+                               statistics}));
+    Datagram two = header() + sampleOf80(1, 3'000) + heartbeat(1, 1) + statistics;
+    EXPECT_EQ(rtps::piecesOf(two), (std::vector{header() + sampleOf80(1, 3'000) + statistics,
+                                                header() + heartbeat(1, 1) + statistics}));
+}
+
+TEST(PiecesTest, EachFragmentEndsWithThemWithinOnePacket) {
+    const Datagram key = parameter(0x70, Datagram(16, 5)) + endOfList;
+    const auto keyed = [&](std::size_t size) {
+        return data(1, anyWriter, 6, key + Datagram(size, 0x80));
+    };
+    for (const Datagram& last : {Datagram{}, heartbeat(1, 1)}) {
+        Datagram all = header() + destination + timestamp + keyed(3'000) + last + statistics;
+        const auto pieces = rtps::piecesOf(all, anyWriter);
+        EXPECT_EQ(pieces.size(), 3U);
+        EXPECT_TRUE(endWithStatistics(pieces));
+        for (const Datagram& piece : pieces) EXPECT_LE(piece.size(), rtps::onePacket);
+    }
+    // 1,400 bytes, with 96 in front of the sample and 60 behind it; then one word more.
+    const Datagram front = header() + destination + timestamp;
+    constexpr std::size_t fits = rtps::onePacket - 20 - 16 - 12 - 24 - 24 - 60;
+    Datagram full = front + keyed(fits) + statistics, over = front + keyed(fits + 4) + statistics;
+    EXPECT_EQ(full.size(), rtps::onePacket);
+    EXPECT_TRUE(rtps::piecesOf(full, anyWriter).empty());
+    EXPECT_EQ(rtps::piecesOf(over, anyWriter).size(), 2U);
+    EXPECT_TRUE(endWithStatistics(rtps::piecesOf(over, anyWriter)));
+}
+
+TEST(PiecesTest, AreFilledUpToTheStatistics) {
+    const Datagram first = sampleOf80(1, 600);
+    const std::size_t left = rtps::onePacket - (header() + first + statistics + data(2)).size();
+    for (const std::size_t more : {0U, 4U}) {
+        Datagram all = header() + first + sampleOf80(2, 8 + left + more) + first + statistics;
+        const auto pieces = rtps::piecesOf(all);
+        EXPECT_EQ(pieces.size(), more == 0 ? 2U : 3U);
+        EXPECT_TRUE(endWithStatistics(pieces));
+        for (const Datagram& piece : pieces) EXPECT_LE(piece.size(), rtps::onePacket);
+    }
+}
+
+TEST(PiecesTest, BytesThatLookLikeStatisticsAreNone) {
+    const Datagram otherSize = submessage(0x80, 0, Datagram(52, 7)),
+                   otherKind = submessage(0x81, 0, Datagram(56, 7));
+    for (const Datagram& end : {Datagram{}, otherSize, otherKind}) {
+        Datagram two = header() + sampleOf80(1, 800) + sampleOf80(2, 800) + end;
+        EXPECT_EQ(rtps::piecesOf(two), (std::vector{header() + sampleOf80(1, 800),
+                                                    header() + sampleOf80(2, 800) + end}));
+    }
+}
+
+TEST(PiecesTest, WhatWouldBeTakenForStatisticsGetsSome) {
+    const auto ended = [](Datagram piece) {
+        rtps::endWithStatistics(piece);
+        return piece;
+    };
+    const Datagram none = submessage(0x80, 0, Datagram(56));
+    const Datagram taken = header() + sampleOf80(1, 800);
+    EXPECT_EQ(ended(taken), taken + none);
+    const Datagram shortest = header() + Datagram{0x80, 1, 56, 0} + Datagram(56);
+    for (const Datagram& as :
+         {taken + statistics, taken + none, shortest, header() + data(1),
+          header() + data(1, anyWriter, 4, Datagram(800, 0x7f)), header() + sampleOf80(1, 32)}) {
+        EXPECT_EQ(ended(as), as) << as.size();
+    }
 }
 
 TEST(PiecesTest, WhatIsShortOneOrSignedStaysAsItIs) {
@@ -271,10 +353,12 @@ TEST(PiecesTest, WhatIsShortOneOrSignedStaysAsItIs) {
     const Datagram postfix = submessage(0x34, 0, Datagram(20));
     Datagram brief = header() + data(1) + data(2), one = header() + time + longOne;
     Datagram isSigned = header() + submessage(0x33, 0, Datagram(20)) + longOne + longOne + postfix;
+    Datagram counted = isSigned + statistics;
     Datagram lying = header() + longOne + longOne + Datagram{1, 1, 255, 255};
     EXPECT_TRUE(rtps::piecesOf(brief).empty());
     EXPECT_TRUE(rtps::piecesOf(one).empty());
     EXPECT_TRUE(rtps::piecesOf(isSigned).empty());
+    EXPECT_TRUE(rtps::piecesOf(counted).empty());
     EXPECT_TRUE(rtps::piecesOf(lying).empty());
 }
 

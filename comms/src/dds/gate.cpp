@@ -47,12 +47,21 @@ public:
 
     transport::TransportDescriptorInterface* get_configuration() override { return lower_.get(); }
 
+    // **Invariant:** each datagram that goes to the transport of Fast DDS ends with its statistics
+    // submessage. That transport looks at one byte, 60 before the end. If it is 0x80, it writes
+    // destination, time and counters over the 56 bytes behind it, whatever they are. Fast DDS ends
+    // each datagram so, a signed one behind its end, and piecesOf() each piece. A piece of one that
+    // has none gets an empty one if that byte is 0x80. Nothing is put behind what is sent whole.
+    // Without FASTDDS_STATISTICS there are no such submessages, and nothing is written over.
     bool send(fastrtps::SenderResource* lower, const fastrtps::octet* octets, std::uint32_t size,
               fastrtps::LocatorsIterator* begin, fastrtps::LocatorsIterator* end,
               const std::chrono::steady_clock::time_point& timeout) override {
         const rtps::Bytes datagram{const_cast<fastrtps::octet*>(octets), size};  // only read
         gate_->filter.noteSent(datagram, monotonicNow());
         std::vector<rtps::Message> pieces = rtps::piecesOf(datagram, gate_->cutWriter);
+#ifdef FASTDDS_STATISTICS
+        for (rtps::Message& each : pieces) rtps::endWithStatistics(each);
+#endif
         if (gate_->repeatsEndpoints && rtps::isAboutEndpoints(datagram)) {
             if (pieces.empty()) pieces.emplace_back(octets, octets + size);
             const std::size_t once = pieces.size();

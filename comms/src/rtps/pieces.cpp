@@ -4,9 +4,13 @@
 #include "rtps/submessages.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cortex::comms::rtps {
 namespace {
+
+constexpr std::size_t statisticsSize = 60;                // with their header
+constexpr std::size_t room = onePacket - statisticsSize;  // of a piece, in front of them
 
 // A gap counts with what its writer sends behind it, see DatagramFilter.
 bool goesWithNext(Kind kind) {
@@ -26,14 +30,14 @@ Bytes firstPart(Bytes rest) {
     return {};
 }
 
-// What Fast DDS sends of its statistics at the end. Its transport writes them into the last 60
-// bytes of whatever it sends, if they begin as these do; so each piece ends with them.
+// The statistics of Fast DDS at the end of a datagram. Bytes of a sample may look like them.
 Bytes statisticsIn(Bytes datagram) {
     for (std::size_t at = headerSize; at < datagram.size();) {
         const auto [submessage, refusal] = cutSubmessage(datagram.subspan(at));
         if (refusal != Refusal::None) return {};
         at += submessage.whole.size();
-        if (submessage.kind >= Kind::FirstOfVendors && at == datagram.size())
+        if (at == datagram.size() && submessage.kind == Kind::FirstOfVendors &&
+            submessage.whole.size() == statisticsSize)
             return submessage.whole;
     }
     return {};
@@ -63,7 +67,7 @@ void put(std::vector<std::uint8_t>& to, std::uint32_t value, std::size_t bytes) 
 
 // The DATA at the end of a part, if it is a sample of a writer that is to be cut.
 Bytes toCut(Bytes part, std::uint32_t writer) {
-    for (std::size_t at = 0; at < part.size() && part.size() > onePacket;) {
+    for (std::size_t at = 0; at < part.size();) {
         const Submessage submessage = cutSubmessage(part.subspan(at)).submessage;
         const Bytes body = submessage.body;
         const bool hasData = submessage.little() && (submessage.flags & 4) != 0;
@@ -75,14 +79,17 @@ Bytes toCut(Bytes part, std::uint32_t writer) {
 }
 
 // The fragments that a sample becomes, each behind `front`: RTPS 2.3, 9.4.5.4.
-void appendFragments(std::vector<std::vector<std::uint8_t>>& pieces, Bytes front, Bytes data) {
+void appendFragments(std::vector<std::vector<std::uint8_t>>& pieces,
+                     const std::vector<std::uint8_t>& front, Bytes data) {
     constexpr std::size_t fragment = 1'200;
+    constexpr std::size_t destination = 16, time = 12, before = 36, key = 24;
+    static_assert(headerSize + destination + time + before + key + fragment <= room);
     const Submessage submessage = cutSubmessage(data).submessage;
     const auto [parameters, payload] = partsOf(submessage);
     std::uint32_t number = 0;
     for (Bytes rest = payload; !rest.empty();) {
         const Bytes content = rest.first(std::min(fragment, rest.size()));
-        std::vector<std::uint8_t>& piece = pieces.emplace_back(front.begin(), front.end());
+        std::vector<std::uint8_t>& piece = pieces.emplace_back(front);
         piece.push_back(static_cast<std::uint8_t>(Kind::DataFragments));
         piece.push_back(submessage.flags & 3);  // the byte order, and whether parameters are there
         put(piece, static_cast<std::uint32_t>(32 + parameters.size() + content.size()), 2);
@@ -106,32 +113,41 @@ std::vector<std::vector<std::uint8_t>> piecesOf(Bytes datagram, std::uint32_t cu
     if (datagram.size() <= onePacket || !hasHeader(datagram)) return pieces;
     const Bytes statistics = statisticsIn(datagram);
     datagram = datagram.first(datagram.size() - statistics.size());
-    const std::size_t room = onePacket - std::min(onePacket, statistics.size());
     Context context;
+    const auto front = [&] {
+        std::vector<std::uint8_t> bytes{datagram.begin(), datagram.begin() + headerSize};
+        append(bytes, context.destination);
+        append(bytes, context.time);
+        return bytes;
+    };
     for (Bytes rest = datagram.subspan(headerSize); !rest.empty();) {
         const Bytes part = firstPart(rest);
         if (part.empty()) return {};
-        const Context before = context;
+        std::vector<std::uint8_t> piece = front();
         context.take(part);
-        const Bytes sample = cut != 0 ? toCut(part, cut) : Bytes{};
+        const bool isLong = piece.size() + part.size() > room;
+        const Bytes sample = isLong && cut != 0 ? toCut(part, cut) : Bytes{};
         if (sample.empty() && part.size() == datagram.size() - headerSize) return {};
         rest = rest.subspan(part.size());
         if (!sample.empty()) {
-            std::vector<std::uint8_t> front{datagram.begin(), datagram.begin() + headerSize};
-            append(front, context.destination);
-            append(front, context.time);
-            appendFragments(pieces, front, sample);
+            appendFragments(pieces, front(), sample);
             continue;
         }
-        if (pieces.empty() || pieces.back().size() + part.size() > room) {
-            append(pieces.emplace_back(), datagram.first(headerSize));
-            append(pieces.back(), before.destination);
-            append(pieces.back(), before.time);
-        }
+        if (pieces.empty() || pieces.back().size() + part.size() > room)
+            pieces.push_back(std::move(piece));
         append(pieces.back(), part);
     }
     for (std::vector<std::uint8_t>& piece : pieces) append(piece, statistics);
     return pieces;
+}
+
+void endWithStatistics(std::vector<std::uint8_t>& piece) {
+    constexpr auto kind = static_cast<std::uint8_t>(Kind::FirstOfVendors);
+    constexpr std::uint8_t bodySize = statisticsSize - 4;
+    if (piece.size() < headerSize + statisticsSize) return;
+    if (piece[piece.size() - statisticsSize] != kind || !statisticsIn(piece).empty()) return;
+    piece.insert(piece.end(), {kind, 1, bodySize, 0});  // 1: little endian
+    piece.resize(piece.size() + bodySize);
 }
 
 bool isAboutEndpoints(Bytes datagram) {

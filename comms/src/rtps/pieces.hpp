@@ -15,9 +15,12 @@ inline constexpr std::size_t onePacket = 1400;
 
 // The datagrams, of one packet each as far as their submessages allow it, that say what a longer
 // one of our own says. Samples of `cut`, the id of a writer, become fragments of one packet; 0:
-// of none. The statistics of Fast DDS at the end of the datagram end each of them. Empty: it is to
-// be sent as it is, because it is short, has one part beside statistics, or is signed.
+// of none. Each ends with the statistics of Fast DDS that the whole ends with. Empty: it is to be
+// sent as it is, because it is short, has one part beside statistics, or is signed.
 std::vector<std::vector<std::uint8_t>> piecesOf(Bytes datagram, std::uint32_t cut = 0);
+
+// Ends a piece with empty statistics if Fast DDS would take its own last 60 bytes for them.
+void endWithStatistics(std::vector<std::uint8_t>& piece);
 
 // Whether a datagram of our own speaks of endpoints, unless it is encrypted.
 bool isAboutEndpoints(Bytes datagram);
