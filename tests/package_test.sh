@@ -22,12 +22,16 @@ built e01_two_simplexes
 echo 'the example of two agents: the follower follows'
 built e02_two_agents
 agent=$outside/e02_two_agents/build/e02_two_agents
-export CORTEX_DOMAIN=$ownDomain
-timeout 4 "$agent" mover >/dev/null &
-(timeout 3 "$agent" follower || true) >"$outside/follower"
-wait
+export CORTEX_DOMAIN=$ownDomain CORTEX_INTERFACE=lo
+timeout 60 "$agent" mover >/dev/null & mover=$!
+timeout 60 "$agent" follower >"$outside/follower" & follower=$!
+until awk '$1 != 0 {moved = 1} END {exit !moved}' "$outside/follower"; do
+    kill -0 "$follower"  # it runs still
+    sleep 0.1
+done
+kill "$mover" "$follower"
+wait || true
 tail -3 "$outside/follower"
-awk '$1 != 0 {moved = 1} END {exit !moved}' "$outside/follower"
 
 echo 'the example of three agents: both start, and when one ends the other is stopped'
 built e03_supervisor

@@ -13,16 +13,10 @@ comms::NetworkOptions ownNetwork() {
     return options;
 }
 
-void replace(std::string& text, const std::string& old, const std::string& with) {
-    const std::size_t place = text.find(old);
-    if (place == std::string::npos) throw std::runtime_error{"no '" + old + "' in the system"};
-    text.replace(place, old.size(), with);
-}
-
 }  // namespace
 
 bool becomesTrue(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+    const auto end = std::chrono::steady_clock::now() + patience;
     while (!condition()) {
         if (std::chrono::steady_clock::now() > end) return false;
     }
@@ -47,7 +41,7 @@ bool hasEvent(const std::string& text) { return contains(live({"events"}).output
 std::int64_t cycleOfAgent() { return liveJson({"agents"}, "agents")[0]["cycle"]; }
 
 Holder::Holder(const std::string& prefix) : prefix_{prefix}, mirror_{"desk", ownNetwork()} {
-    mirror_.waitForOwner("/mixer", std::chrono::seconds{20});
+    mirror_.waitForOwner("/mixer", patience);
     const comms::CommandAnswer answer = ask("takeControl");
     EXPECT_TRUE(answer.done()) << answer.text();
     thread_ = std::thread{[this] {
@@ -75,8 +69,7 @@ comms::CommandAnswer Holder::ask(const std::string& command, const std::string& 
 }
 
 CortexControl::CortexControl() {
-    const Outcome made = cortex({"new-system", "mixer"});
-    std::string system = made.output;
+    std::string system = mixerSystem(20);  // inputs are lost after three cycles
     replace(system, "<cluster name=\"mixer\"", "<cluster name=\"mixer\" control=\"required\"");
     replace(system, "\"HoldAxisController\"", "\"AxisPoseController\"");
     file = folder.write("mixer.xml", system).string();

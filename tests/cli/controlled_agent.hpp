@@ -14,7 +14,7 @@
 
 namespace cortex::test {
 
-bool becomesTrue(const std::function<bool()>& condition);  // within 20 s
+bool becomesTrue(const std::function<bool()>& condition);  // while patience lasts
 
 // `cortex` on the network of this test.
 std::vector<std::string> cortexCommand(const std::vector<std::string>& arguments);

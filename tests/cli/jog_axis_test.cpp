@@ -32,9 +32,11 @@ struct JogAxis : testing::Test {
     JogAxis()
         : agent{agentCommand(CORTEX_SOURCE_DIR "/examples/jog_axis/jog_axis.xml") +
                 Words{"--startup", "--priority", "0", "--frequency", std::to_string(frequency)}} {
-        const json state = lookUntil([] { return valueOf("/drive", "state"); },
-                                     [](const json& now) { return now == active; });
-        EXPECT_EQ(state, active) << "of /drive, after 20 s";
+        for (const char* each : {"/drive", "/jog"}) {
+            const json state = lookUntil([each] { return valueOf(each, "state"); },
+                                         [](const json& now) { return now == active; });
+            EXPECT_EQ(state, active) << "of " << each;
+        }
     }
     static json valueOf(const std::string& path, const std::string& item) {
         const json shown = json::parse(live({"show", path, "--json"}).output, nullptr, false);
@@ -117,7 +119,7 @@ public:
             changed_.notify_all();
         });
         mirror_.view({"/jog", "/turntable"}, 0);
-        EXPECT_TRUE(mirror_.waitForValues(std::chrono::seconds{20}));
+        EXPECT_TRUE(mirror_.waitForValues(patience));
     }
     bool show(const std::function<bool(const All&)>& condition, std::chrono::milliseconds limit) {
         std::unique_lock lock{mutex_};
@@ -138,7 +140,7 @@ private:
 TEST_F(JogAxis, EndsWithinItsTimeWhereWhoeverJogsIsKilled) {
     const ModelFolder home;
     TypedShell shell{home};
-    shell.run("take /jog", "you control /jog");
+    shell.run("take /jog --timeout 60", "you control /jog");
     EachCycle cycles;
 
     double asked = 0.5;  // each jog asks for a speed of its own, so that it is known when it came
@@ -155,7 +157,7 @@ TEST_F(JogAxis, EndsWithinItsTimeWhereWhoeverJogsIsKilled) {
         [&](const EachCycle::All& all) {
             return std::ranges::any_of(all, isOfLastJog) && all.back().velocity == 0;
         },
-        std::chrono::seconds{20}));
+        patience));
 
     const EachCycle::All all = cycles.all();
     const auto came = std::ranges::find_if(all, isOfLastJog);

@@ -28,14 +28,18 @@ std::vector<std::string> operator+(std::vector<std::string> left,
 }
 
 Outcome live(const std::vector<std::string>& arguments) {
-    return cortex(arguments + network + std::vector<std::string>{"--timeout", "20"});
+    return cortex(arguments + network +
+                  std::vector<std::string>{"--timeout", std::to_string(patience.count())});
 }
 
-json liveJson(const std::vector<std::string>& arguments, const std::string& schema, int exit) {
-    const Outcome outcome = live(arguments + std::vector<std::string>{"--json"});
+json jsonOf(const Outcome& outcome, const std::string& schema, int exit) {
     EXPECT_EQ(outcome.exit, exit) << outcome.output << outcome.errors;
     EXPECT_EQ(violationsOf(schema, outcome.output), "") << outcome.output;
     return json::parse(outcome.output, nullptr, false);
+}
+
+json liveJson(const std::vector<std::string>& arguments, const std::string& schema, int exit) {
+    return jsonOf(live(arguments + std::vector<std::string>{"--json"}), schema, exit);
 }
 
 std::vector<std::string> linesOf(const std::string& text) {
@@ -87,12 +91,22 @@ std::vector<std::string> agentCommand(const std::string& file) {
     return std::vector<std::string>{CORTEX_BINARY_DIR "/bin/cortex-agent", file} + network;
 }
 
-CortexLive::CortexLive(const std::string& controller) {
-    const std::string usual = "HoldAxisController";
+void replace(std::string& text, const std::string& old, const std::string& with) {
+    const std::size_t place = text.find(old);
+    if (place == std::string::npos) throw std::runtime_error{"no '" + old + "' in the system"};
+    text.replace(place, old.size(), with);
+}
+
+std::string mixerSystem(int hertz) {
     std::string system = cortex({"new-system", "mixer"}).output;
-    const std::size_t place = system.find(usual);
-    if (place == std::string::npos) throw std::runtime_error("no " + usual + " in the system");
-    folder.write("mixer.xml", system.replace(place, usual.size(), controller));
+    replace(system, "frequency=\"1000\"", "frequency=\"" + std::to_string(hertz) + "\"");
+    return system;
+}
+
+CortexLive::CortexLive(const std::string& controller) {
+    std::string system = mixerSystem();
+    replace(system, "HoldAxisController", controller);
+    folder.write("mixer.xml", system);
     start();
 }
 

@@ -3,6 +3,7 @@
 
 #include "cli/cortex_process.hpp"
 #include "core/model_folder.hpp"
+#include "support/patience.hpp"
 
 #include <chrono>
 #include <optional>
@@ -25,7 +26,9 @@ std::vector<std::string> operator+(std::vector<std::string> left,
 
 // `cortex` on that network, with time enough.
 Outcome live(const std::vector<std::string>& arguments);
-// The same with --json: its output follows that schema.
+// What it printed with --json, which follows that schema.
+nlohmann::json jsonOf(const Outcome& outcome, const std::string& schema, int exit = 0);
+// Both of it.
 nlohmann::json liveJson(const std::vector<std::string>& arguments, const std::string& schema,
                         int exit = 0);
 
@@ -52,17 +55,23 @@ std::string systemFile(const ModelFolder& folder, const std::string& agent,
 // An agent with a system file, on that network.
 std::vector<std::string> agentCommand(const std::string& file);
 
-// Looks again until it is so; 20 s at most.
+// Looks again until it is so, while patience lasts. A look that asserts would fail at the first
+// one.
 template <class Look, class Condition>
 auto lookUntil(Look look, Condition condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+    const auto end = std::chrono::steady_clock::now() + patience;
     auto seen = look();
     while (!condition(seen) && std::chrono::steady_clock::now() < end) seen = look();
     return seen;
 }
 
-// The system that `cortex new-system` makes: one simulated axis that a controller of this type
-// moves or holds.
+// Puts one text in the place of another, which must be there.
+void replace(std::string& text, const std::string& old, const std::string& with);
+// The system that `cortex new-system` makes, with so many cycles a second that a busy machine runs
+// it, too.
+std::string mixerSystem(int hertz = 100);
+
+// That system: one simulated axis that a controller of this type moves or holds.
 class CortexLive : public testing::Test {
 protected:
     explicit CortexLive(const std::string& controller = "HoldAxisController");

@@ -37,7 +37,9 @@ TEST_F(CortexLive, TopPrintsOneMomentOfEverything) {
     EXPECT_EQ(below["agents"][0]["states"]["Active"], 1);
     EXPECT_TRUE(below["agents"][0]["loop"].is_object()) << "whatever the prefix";
 
-    const Outcome text = live({"top", "--once"});
+    const Outcome text =
+        lookUntil([] { return live({"top", "--once"}); },
+                  [](const Outcome& seen) { return contains(seen.output, "running"); });
     EXPECT_EQ(text.exit, 0) << text.errors;
     EXPECT_TRUE(contains(text.output, "late us")) << text.output;
     EXPECT_TRUE(contains(text.output, "running")) << text.output;
@@ -157,8 +159,7 @@ TEST_F(CortexLive, RestoresNothingWhereSomethingIsWrongAndSaysAllOfIt) {
 // A settable text, which no shipped type has.
 TEST(CortexSave, BringsTextBackAsItWas) {
     const ModelFolder folder;
-    ASSERT_EQ(cortex({"new-system", "mixer", "-o", (folder.path() / "mixer.xml").string()}).exit,
-              0);
+    const std::string system = folder.write("mixer.xml", mixerSystem()).string();
     folder.copyOntology();
     std::string ontology = folder.read("robotics.xml");
     const std::string place = "<data name=\"naturalFrequency\"";
@@ -170,7 +171,7 @@ TEST(CortexSave, BringsTextBackAsItWas) {
     <data name="mode" kind="int" labels="0:Off 1:On" settable="always" description="Two."/>
     )");
     folder.write("robotics.xml", ontology);
-    const Background agent{agentCommand((folder.path() / "mixer.xml").string())};
+    const Background agent{agentCommand(system)};
     const std::string file = (folder.path() / "saved.xml").string();
     const std::string label = "it's \"left\" & <right>,\n\tüber";
     const std::string words = "\"a b\" c";
@@ -222,7 +223,7 @@ TEST(CortexGraph, JoinsWhatAgentsHaveOfEachOther) {
                    "<relate rule=\"manipulator\" to=\"/front/lbr\" remote=\"true\"/>"
                    "<relate rule=\"gripper\" to=\"/front/gripper\" remote=\"true\"/></simplex>"))};
     json graph;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+    const auto end = std::chrono::steady_clock::now() + patience;
     do {  // the second may not have begun
         graph = liveJson({"graph"}, "graph");
     } while (graph["simplexes"].size() < 20 && std::chrono::steady_clock::now() < end);

@@ -38,8 +38,8 @@ OnTerminal::~OnTerminal() {
     close(terminal_);
 }
 
-bool OnTerminal::shows(const std::string& text) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+bool OnTerminal::shows(const std::string& text, std::chrono::seconds within) {
+    const auto end = std::chrono::steady_clock::now() + within;
     std::array<char, 4096> buffer{};
     while (output_.find(text, from_) == std::string::npos) {
         pollfd file{terminal_, POLLIN, 0};
@@ -60,10 +60,10 @@ void OnTerminal::type(const std::string& keys) {
 void OnTerminal::signal(int number) { kill(child_, number); }
 
 int OnTerminal::exit(const std::string& keys) {
-    constexpr int patience = 20;  // s
     std::array<char, 4096> buffer{};
-    for (int second = 0; child_ > 0 && waitpid(child_, &status_, WNOHANG) == 0; ++second) {
-        if (second == patience) {
+    for (std::chrono::seconds waited{0}; child_ > 0 && waitpid(child_, &status_, WNOHANG) == 0;
+         ++waited) {
+        if (waited == patience) {
             ADD_FAILURE() << "it does not end; it is killed. It said: " << output_;
             kill(child_, SIGKILL);
             waitpid(child_, &status_, 0);

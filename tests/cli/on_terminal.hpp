@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "support/patience.hpp"
+
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -17,15 +20,15 @@ public:
     OnTerminal(const OnTerminal&) = delete;
     OnTerminal& operator=(const OnTerminal&) = delete;
 
-    // Reads until it has written this since the last mark, has ended, or 20 s are over. It looks
-    // for the next text behind this one.
-    bool shows(const std::string& text);
+    // Reads until it has written this since the last mark, has ended, or that time is over. It
+    // looks for the next text behind this one.
+    bool shows(const std::string& text, std::chrono::seconds within = patience);
     void mark() { from_ = output_.size(); }
     void type(const std::string& keys);
     void signal(int number);
-    // Waits for its end, at most 20 s, and gives its code, or minus the signal that ended it. It
-    // types the keys each second: what is typed while a line editor changes the terminal's mode is
-    // lost.
+    // Waits for its end, while patience lasts, and gives its code, or minus the signal that ended
+    // it. It types the keys each second: what is typed while a line editor changes the terminal's
+    // mode is lost.
     int exit(const std::string& keys = {});
     const std::string& output() const { return output_; }
 

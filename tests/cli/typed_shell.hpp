@@ -20,10 +20,19 @@ struct TypedShell : OnTerminal {
         const std::size_t begin = output().find("you are ") + 8;
         name = output().substr(begin, output().find(' ', begin) - begin);
     }
-    // Types a line and waits for what it prints, or for the prompt that follows.
+    // Types a line again each second until it is echoed: what comes while the line editor changes
+    // the terminal's mode is lost. Control-U begins it anew.
+    void enter(const std::string& line) {
+        for (std::chrono::seconds waited{0}; waited < patience; ++waited) {
+            mark();
+            type("\x15" + line);
+            if (shows(line, std::chrono::seconds{1})) break;
+        }
+        type("\r");
+    }
+    // Enters a line and waits for what it prints, or for the prompt that follows.
     void run(const std::string& line, const std::string& expected) {
-        mark();
-        type(line + "\r");
+        enter(line);
         EXPECT_TRUE(shows(expected)) << output();
         const bool prompt = expected.starts_with("cortex");
         EXPECT_TRUE(prompt || shows("> ")) << output();

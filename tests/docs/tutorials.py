@@ -8,6 +8,7 @@ Fenced blocks of a Markdown file are its steps, in order:
     ```sh run=2                     the same, must end with exit status 2
     ```text expect                  each line must occur, in this order, in the output of the last run
 Blocks without these words are prose. Every file with at least one run block gets its own folder.
+They run on the loopback interface, in a domain that nobody else uses, whichever number they name.
 """
 import os
 import pathlib
@@ -17,7 +18,16 @@ import subprocess
 import sys
 
 FENCE = re.compile(r"^```(\w*)[ \t]*([^\n`]*)\n(.*?)^```[ \t]*$", re.MULTILINE | re.DOTALL)
+DOMAIN = re.compile(r"(--domain |CORTEX_DOMAIN=)\d+")
 TIMEOUT_SECONDS = 300
+
+
+def own_domain():
+    """Of tests/support/own_domain.sh, in a shell that holds its lock until this process ends."""
+    script = pathlib.Path(__file__).resolve().parents[1] / "support/own_domain.sh"
+    shell = subprocess.Popen(["bash", "-c", f"source '{script}'; echo $ownDomain; read -r _"],
+                             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    return shell, shell.stdout.readline().strip()
 
 
 def blocks(text):
@@ -26,18 +36,21 @@ def blocks(text):
         yield text.count("\n", 0, match.start()) + 1, match.group(2).strip(), match.group(3)
 
 
-def environment(prefix):
+def environment(prefix, domain):
     """A reader's environment: the installed programs, and cmake and pkg-config see the package."""
     result = dict(os.environ)
     result["PATH"] = f"{prefix}/bin:{result['PATH']}"
     result["CMAKE_PREFIX_PATH"] = str(prefix)
     result["PKG_CONFIG_PATH"] = f"{prefix}/lib/pkgconfig"
     result["LD_LIBRARY_PATH"] = f"{prefix}/lib"
+    result["CORTEX_DOMAIN"] = domain
+    result["CORTEX_INTERFACE"] = "lo"
     result.pop("CORTEX_PATH", None)
     return result
 
 
 def run(folder, script, status, env, place):
+    script = DOMAIN.sub(r"\g<1>" + env["CORTEX_DOMAIN"], script)
     done = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=folder, env=env,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           timeout=TIMEOUT_SECONDS, check=False)
@@ -80,7 +93,8 @@ def follow(tutorial, folder, env):
 
 def main():
     docs, work, prefix = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
-    env = environment(prefix)
+    lock, domain = own_domain()
+    env = environment(prefix, domain)
     total = 0
     for tutorial in sorted(docs.glob("*.md")):
         if not any(info.startswith("run") for _, info, _ in blocks(tutorial.read_text("utf-8"))):
@@ -88,6 +102,7 @@ def main():
         files, runs = follow(tutorial, work / tutorial.stem, env)
         print(f"{tutorial.name}: {files} files cut out, {runs} commands run")
         total += runs
+    lock.communicate()
     if total == 0:
         sys.exit(f"no tutorial in {docs} has a run block")
 

@@ -28,7 +28,7 @@ public:
             if (image->get<bool>("/jog", "jogging")) seen_.jogged = seen_.cycle;
         });
         mirror_.view({"/jog"}, 0);
-        EXPECT_TRUE(mirror_.waitForValues(std::chrono::seconds{20}));
+        EXPECT_TRUE(mirror_.waitForValues(patience));
     }
     struct Seen {
         std::int64_t cycle = 0, jogged = 0, executed = 0;

@@ -2,6 +2,9 @@
 // The program `cortex-explorer` as it is started, without a display.
 #include "gui/window_fixture.hpp"
 
+#include <cstdlib>
+#include <string>
+
 #include <QFile>
 #include <QImage>
 #include <QJsonDocument>
@@ -14,8 +17,10 @@ Outcome explorerWith(std::vector<std::string> arguments) {
     // A path may stand behind an interface.
     arguments.insert(arguments.begin(), {"--domain", domain, "--interface", "127.0.0.1"});
     // Qt's offscreen platform leaves parts of its screen behind when it ends.
+    const char* const given = std::getenv("ASAN_OPTIONS");
     return runProgram(CORTEX_BINARY_DIR "/bin/cortex-explorer", arguments,
-                      {{"ASAN_OPTIONS", "detect_leaks=0:new_delete_type_mismatch=0"}});
+                      {{"ASAN_OPTIONS", std::string{given ? given : ""} +
+                                            ":detect_leaks=0:new_delete_type_mismatch=0"}});
 }
 
 class Program : public CortexLive {
@@ -34,7 +39,7 @@ TEST_F(Program, MakesAPictureOfEveryViewInTheSizeThatWasAskedFor) {
 
 TEST_F(Program, MakesAPictureOfAPlotAndMeasuresIt) {
     const Outcome made = explorerWith(
-        {"--screenshot", file(), "--timeout", "30", "--plot", "/drive.position", "/drive.state"});
+        {"--screenshot", file(), "--timeout", "60", "--plot", "/drive.position", "/drive.state"});
     EXPECT_EQ(made.exit, 0) << made.errors;
     EXPECT_FALSE(QImage(QString::fromStdString(file())).isNull());
     const Outcome measured =

@@ -4,6 +4,7 @@
 #include "cli/live_agent.hpp"
 #include "model/item_model.hpp"
 #include "model/system_model.hpp"
+#include "support/patience.hpp"
 #include "views/system_tree.hpp"
 #include "widgets/item_table.hpp"
 #include "window/main_window.hpp"
@@ -11,6 +12,8 @@
 #include <QAbstractItemModelTester>
 #include <QApplication>
 #include <QElapsedTimer>
+#include <QTimer>
+#include <chrono>
 #include <functional>
 #include <string>
 
@@ -18,7 +21,7 @@ namespace cortex::test {
 
 using namespace gui;
 
-inline constexpr qint64 longEnough = 30'000;  // ms; no test waits so long unless it fails
+inline constexpr qint64 longEnough = std::chrono::milliseconds{patience}.count();
 
 inline comms::NetworkOptions ownNetwork() {
     comms::NetworkOptions options;
@@ -30,6 +33,8 @@ inline comms::NetworkOptions ownNetwork() {
 inline bool comes(const std::function<bool()>& condition) {
     QElapsedTimer timer;
     timer.start();
+    QTimer events;  // it ends also where nothing else is an event
+    events.start(100);
     while (!condition()) {
         if (timer.elapsed() > longEnough) return false;
         QApplication::processEvents(QEventLoop::WaitForMoreEvents);

@@ -50,6 +50,7 @@ void AgentProcess::start() {
     arguments.push_back(nullptr);
     pid_ = fork();
     if (pid_ < 0) throw std::runtime_error("cannot fork");
+    pids_.push_back(pid_);
     if (pid_ > 0) return;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
@@ -57,8 +58,6 @@ void AgentProcess::start() {
     dup2(out, STDOUT_FILENO);
     dup2(out, STDERR_FILENO);
     setenv("CORTEX_PATH", CORTEX_SOURCE_DIR "/ontology", 1);
-    // Fast DDS deletes a reader with another size than it was allocated with.
-    setenv("ASAN_OPTIONS", "new_delete_type_mismatch=0", 1);
     execv(arguments.front(), arguments.data());
     _exit(127);
 }

@@ -30,13 +30,15 @@ public:
     int waitForEnd();                      // that comes by itself
 
     pid_t pid() const { return pid_; }
-    pid_t releasePid() { return std::exchange(pid_, 0); }  // somebody else waits for its end
-    std::string output() const;                            // of all its starts
+    const std::vector<pid_t>& pids() const { return pids_; }  // of all its starts
+    pid_t releasePid() { return std::exchange(pid_, 0); }     // somebody else waits for its end
+    std::string output() const;                               // of all its starts
 
 private:
     std::vector<std::string> command_;
     std::filesystem::path output_;
     pid_t pid_ = 0;
+    std::vector<pid_t> pids_;
 };
 
 // What a process holds.

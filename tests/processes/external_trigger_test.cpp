@@ -2,6 +2,7 @@
 // An agent whose cycles come from a UDP port: a system file says so, and this test sends the ticks.
 #include "core/model_folder.hpp"
 #include "processes/agent_process.hpp"
+#include "support/own_domain.hpp"
 
 #include <array>
 #include <cstdint>
@@ -18,18 +19,9 @@
 namespace cortex::test {
 namespace {
 
-// A port that was free a moment ago.
-int freePort() {
-    const int probe = socket(AF_INET, SOCK_DGRAM, 0);
-    sockaddr_in place{};
-    place.sin_family = AF_INET;
-    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof place;
-    bind(probe, reinterpret_cast<const sockaddr*>(&place), size);
-    getsockname(probe, reinterpret_cast<sockaddr*>(&place), &size);
-    close(probe);
-    return ntohs(place.sin_port);
-}
+// The last of the 250 ports of this test's domain, which nobody else uses: the agent takes the
+// first.
+int ownPort() { return 7400 + 250 * (ownDomain() + 1) - 1; }
 
 void sendTick(int port) {
     const int sender = socket(AF_INET, SOCK_DGRAM, 0);
@@ -50,7 +42,7 @@ std::filesystem::path plant(const ModelFolder& folder, const std::string& trigge
 
 TEST(ExternallyTriggeredAgent, RunsByTheDatagramsOfAPortAndEndsInOrder) {
     const ModelFolder folder;
-    const int port = freePort();
+    const int port = ownPort();
     AgentProcess agent{
         folder, plant(folder, "triggerFrom='udp:" + std::to_string(port) + "'"), {"--startup"}};
 

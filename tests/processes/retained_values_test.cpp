@@ -66,8 +66,9 @@ protected:
     }
     static Outcome tool(std::vector<std::string> arguments) {
         const comms::NetworkOptions network = comms::loopback();
-        arguments.insert(arguments.end(), {"--domain", std::to_string(network.domain),
-                                           "--interface", network.interfaces.front()});
+        arguments.insert(arguments.end(),
+                         {"--domain", std::to_string(network.domain), "--interface",
+                          network.interfaces.front(), "--timeout", "60"});
         return cortex(arguments);
     }
     std::string write(const std::string& name, const std::string& items) const {

@@ -2,16 +2,12 @@
 #include "processes/station.hpp"
 
 #include "comms/inbox.hpp"
+#include "support/patience.hpp"
 
 #include <algorithm>
 #include <chrono>
 
 namespace cortex::test {
-namespace {
-
-constexpr std::chrono::seconds longEnough{20};
-
-}  // namespace
 
 Station::Station() : mirror_{"station", comms::loopback()} {
     mirror_.onEvent([this](const AgentEvent& event) {
@@ -22,7 +18,7 @@ Station::Station() : mirror_{"station", comms::loopback()} {
 }
 
 bool Station::waitFor(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + longEnough;
+    const auto end = std::chrono::steady_clock::now() + patience;
     while (!condition()) {
         if (std::chrono::steady_clock::now() > end) return false;
         images_ = mirror_.waitForImage(images_, std::chrono::milliseconds{20});

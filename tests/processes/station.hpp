@@ -21,7 +21,7 @@ class Station {
 public:
     Station();
 
-    // Waits for it; false after 20 s.
+    // Waits for it; false when patience is over.
     bool waitFor(const std::function<bool()>& condition);
     bool hears(const std::string& agent) const {
         const std::string state = stateOf(agent);

@@ -52,4 +52,9 @@ int ownDomain() {
     return domain;
 }
 
+int secondDomain() {
+    static const int domain = (ownDomain(), freeDomain());
+    return domain;
+}
+
 }  // namespace cortex::test

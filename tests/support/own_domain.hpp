@@ -7,5 +7,6 @@ namespace cortex::test {
 // test has locked its file, as this process does until it ends. The same at each call of a process.
 // Ports of these domains are below those that the system hands out.
 int ownDomain();
+int secondDomain();  // another one
 
 }  // namespace cortex::test
