@@ -142,7 +142,7 @@ TEST_F(TwoClusters, ExecuteCommandsFromTheNetworkInTheirCycle) {
 
 TEST(ClusterOnTwoNetworks, ServesToolsOfBothAndTheirCommandsTogether) {
     NetworkOptions office = loopback();
-    office.domain += 100;
+    office.domain = test::secondDomain();
     ProbeCluster cluster{{}, "robot"};
     Probe& probe = cluster.probe("/probe");
     int pokes = 0;

@@ -16,7 +16,7 @@
 
 namespace cortex::comms {
 
-inline constexpr std::chrono::seconds longEnough{10};
+inline constexpr std::chrono::seconds longEnough{60};  // no test that passes waits so long
 
 // A domain of this process alone, on the loopback interface.
 inline NetworkOptions loopback() {

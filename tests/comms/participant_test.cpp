@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -275,8 +276,12 @@ TEST(Participant, CallsNobodyBackOnceAReaderIsDestroyed) {
     Participant agent{loopback(), "agent"}, tool{loopback(), "tool"};
     const auto writer = agent.writer<Block>(topics::linkOf("agent"));
     std::atomic<bool> stop = false;
+    // No more than 10,000 samples a second, as a reader drops what comes without a pause.
     std::thread writing{[&] {
-        while (!stop) writer->write(Block{});
+        while (!stop) {
+            writer->write(Block{});
+            std::this_thread::sleep_for(std::chrono::microseconds{100});
+        }
     }};
     bool called = true;
     for (int round = 0; round < 20 && called; ++round) {

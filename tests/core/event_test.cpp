@@ -5,6 +5,7 @@
 #include "cortex/core/event_fold.hpp"
 #include "cortex/core/event_sinks.hpp"
 
+#include "core/model_folder.hpp"
 #include "support/small_structure.hpp"
 
 #include <clocale>
@@ -486,8 +487,8 @@ TEST(EventSinks, PrintTheSameInEveryLocale) {
 }
 
 TEST(EventSinks, AppendToALogFile) {
-    const auto file = std::filesystem::path{::testing::TempDir()} / "cortex-event-test.log";
-    std::filesystem::remove(file);
+    const test::ModelFolder folder;
+    const auto file = folder.path() / "log";
     for (std::int64_t cycle = 1; cycle <= 2; ++cycle) {
         EventLog log{test::makePlant().structure, 1, 4};
         log.addSink(logEvents(file));
@@ -497,14 +498,14 @@ TEST(EventSinks, AppendToALogFile) {
     std::ifstream in{file};
     std::stringstream text;
     text << in.rdbuf();
-    std::filesystem::remove(file);
     EXPECT_EQ(text.str(),
               "1970-01-01T00:00:00.001Z info /robot 1.0.0\n"
               "1970-01-01T00:00:00.002Z info /robot 2.0.0\n");
 }
 
 TEST(EventSinks, RefuseALogFileThatCannotBeWritten) {
-    EXPECT_THROW(logEvents(::testing::TempDir() + "no such folder/log"), Error);
+    const test::ModelFolder folder;
+    EXPECT_THROW(logEvents(folder.path() / "no such folder/log"), Error);
 }
 
 TEST(EventSinks, SayOnceThatALogFileCannotBeWrittenAnyMore) {
@@ -524,10 +525,8 @@ TEST(EventSinks, SayOnceThatALogFileCannotBeWrittenAnyMore) {
 
 TEST(EventSinks, GoOnWithALogFileThatCanBeWrittenAgainAndSayWhatIsMissing) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "/dev/full is missing";
-    const std::filesystem::path folder = ::testing::TempDir();
-    const auto name = folder / "cortex-log", real = folder / "cortex-real-log";
-    std::filesystem::remove(name);
-    std::filesystem::remove(real);
+    const test::ModelFolder folder;
+    const auto name = folder.path() / "log", real = folder.path() / "real-log";
     std::filesystem::create_symlink("/dev/full", name);
     EventLog log{test::makePlant().structure, 1, 4};
     log.addSink(logEvents(name));

@@ -13,8 +13,9 @@
 namespace cortex::cs {
 namespace {
 
-// CPUs that no machine has, so that loops of other tests claim none of them.
-const std::vector<int> unusedCpus{70'001, 70'002, 70'003};
+// CPUs that no machine has. Claims hold for the whole machine, so each process names its own.
+const int firstCpu = 70'000 + 3 * getpid();
+const std::vector<int> unusedCpus{firstCpu, firstCpu + 1, firstCpu + 2};
 
 struct FilesOfUnusedCpus : testing::Environment {
     void TearDown() override {
@@ -29,8 +30,8 @@ const auto* const removedAtTheEnd = testing::AddGlobalTestEnvironment(new FilesO
 
 TEST(CpuClaims, AreFreeOnesFirst) {
     CpuClaims one, other;
-    EXPECT_EQ(one.take(unusedCpus, 1), (std::vector{70'001}));
-    EXPECT_EQ(other.take(unusedCpus, 2), (std::vector{70'002, 70'003}));
+    EXPECT_EQ(one.take(unusedCpus, 1), (std::vector{firstCpu}));
+    EXPECT_EQ(other.take(unusedCpus, 2), (std::vector{firstCpu + 1, firstCpu + 2}));
 }
 
 // As a process does that has a network of its own: it does not see the sockets of others.
@@ -69,15 +70,16 @@ TEST(CpuClaims, HoldAcrossTheNetworkNamespacesOfAMachine) {
 
 TEST(CpuClaims, NeedNoFolderThatCanBeWritten) {
     CpuClaims one{{"/nowhere"}}, other{{"/nowhere"}};
-    EXPECT_EQ(one.take(unusedCpus, 1), (std::vector{70'001}));
-    EXPECT_EQ(other.take(unusedCpus, 1), (std::vector{70'002}));
+    EXPECT_EQ(one.take(unusedCpus, 1), (std::vector{firstCpu}));
+    EXPECT_EQ(other.take(unusedCpus, 1), (std::vector{firstCpu + 1}));
 }
 
 TEST(CpuClaims, AreAllOrNone) {
     CpuClaims one, other, third;
     one.take(unusedCpus, 2);
     EXPECT_TRUE(other.take(unusedCpus, 2).empty());
-    EXPECT_EQ(third.take(unusedCpus, 1), (std::vector{70'003})) << "the one before kept nothing";
+    EXPECT_EQ(third.take(unusedCpus, 1), (std::vector{firstCpu + 2}))
+        << "the one before kept nothing";
 }
 
 TEST(CpuClaims, EndWithTheirOwner) {

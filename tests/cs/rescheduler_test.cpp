@@ -2,10 +2,10 @@
 #include "loop/rescheduler.hpp"
 
 #include "cortex/core/agent.hpp"
-#include "cortex/core/clock.hpp"
+#include "cortex/core/framework_item.hpp"
 
 #include "cs/graphs.hpp"
-#include "support/probe.hpp"
+#include "support/agent_rig.hpp"
 
 #include <atomic>
 #include <memory>
@@ -32,40 +32,26 @@ TEST(Rescheduler, ExpectsEachThreadToRunItsShareAfterWhatItWaitsFor) {
     EXPECT_NEAR(expectedMicroseconds(two, costs), 250, 30);  // and the wake of a thread
 }
 
-// Two hundred tasks of a few microseconds each on one thread, and what a look at them offers: two
-// threads are better, unless one task alone was timed while the machine did something else.
+// Two hundred tasks on one thread, each of which states that it costs a second, and what a look
+// at them offers: two threads are better.
 class ReschedulerTest : public testing::Test {
 protected:
     ReschedulerTest() {
-        for (int i = 0; i < 200; ++i) {
-            cluster_.probe("/p" + std::to_string(1000 + i)).onLoopStart = [](auto&, const Tick&) {
-                const std::int64_t end = monotonicNow() + 5'000;
-                while (monotonicNow() < end) {
-                }
-            };
+        for (int i = 0; i < 200; ++i) rig_.hand("/p" + std::to_string(1000 + i));
+        rig_.start();
+        for (std::uint32_t i = 0; i < agent().structure().simplexes.size(); ++i) {
+            if (!agent().structure().simplexes[i].path.starts_with("/p")) continue;
+            frameworkItem<double>(agent(), i, "taskTime") = 1'000'000;
         }
-        cluster_.start();
-        do cluster_.step(10);  // each was timed
-        while (longestTask() > 100);
+        rig_.step();
         for (const SimplexInfo& info : agent().structure().simplexes) {
             graph_.nodes.push_back({info.path, info.path.starts_with("/p"), 1, 0});
         }
         plan = std::make_unique<Plan>(Plan{schedule(1), nullptr});
         rescheduler = std::make_unique<Rescheduler>(agent(), plan->schedule, maker());
     }
-    double longestTask() {  // us
-        const Image image = agent().images().newest();
-        double longest = 0;
-        const auto& simplexes = agent().structure().simplexes;
-        for (std::uint32_t i = 0; i < simplexes.size(); ++i) {
-            if (!simplexes[i].path.starts_with("/p")) continue;
-            const ItemLayout* item = simplexes[i].layout->find("taskTime");
-            longest = std::max(longest, image.slice(i).floats[item->offset]);
-        }
-        return longest;
-    }
     ~ReschedulerTest() override { rescheduler.reset(); }  // it may still look at the agent
-    AgentRuntime& agent() { return cluster_.cluster->agent(); }
+    AgentRuntime& agent() { return *rig_.agent; }
     Schedule schedule(std::uint32_t count) const {
         return makeSchedule(graph_, {.threads = count, .chunkSize = 10, .force = true});
     }
@@ -79,7 +65,7 @@ protected:
         return exchanged;
     }
 
-    bool told(const std::string& event) { return cluster_.hasEvent(event); }
+    bool told(const std::string& event) { return rig_.hasEvent(event); }
 
     std::atomic<std::uint32_t> threads{2};  // of the schedule that it is made; 2 are better
     std::unique_ptr<Plan> plan;
@@ -93,7 +79,7 @@ private:
                 }};
     }
 
-    test::ProbeCluster cluster_;
+    test::AgentRig rig_{"test"};
     TaskGraph graph_;
 };
 

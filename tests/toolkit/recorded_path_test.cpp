@@ -3,6 +3,7 @@
 
 #include "cortex/core/error.hpp"
 
+#include "core/model_folder.hpp"
 #include "toolkit/allocation_counter.hpp"
 
 #include <clocale>
@@ -273,13 +274,11 @@ TEST(RecordedPath, RefusesWhatIsNoReadableFile) {
 }
 
 TEST(RecordedPath, RefusesAHugeFileWithoutReadingIt) {
-    const auto file = std::filesystem::temp_directory_path() / "cortex_recorded_path_huge.csv";
-    std::ofstream(file) << Header;
+    const cortex::test::ModelFolder folder;
+    const auto file = folder.write("huge.csv", Header);
     std::filesystem::resize_file(file, 65ULL << 20);
 
     EXPECT_THROW(RecordedPath::load(file.string()), Error);
-
-    std::filesystem::remove(file);
 }
 
 TEST(RecordedPath, AllocatesNothingWhileSampling) {
