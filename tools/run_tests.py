@@ -150,8 +150,8 @@ def cases_of(test):
     command = test.get("command", [])
     if len(command) != 2 or not command[1].startswith("--gtest_filter="):
         return 1
-    told = subprocess.run([*command, "--gtest_list_tests"], stdout=subprocess.PIPE, text=True,
-                          check=False)
+    told = subprocess.run([*command, "--gtest_list_tests"], stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, text=True, check=False)
     return sum(line.startswith("  ") for line in told.stdout.splitlines())
 
 

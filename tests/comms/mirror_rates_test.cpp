@@ -68,8 +68,6 @@ protected:
 };
 
 TEST_F(MirrorRates, EachSetOfPathsHasItsOwnRate) {
-    // In its first 32 cycles the image may go back to cycles that the agent has kept for a view.
-    for (int i = 0; i < 40; ++i) step();
     mirror.view({Viewed{{"/arm"}, 0}, Viewed{{"/"}, 5}});
     ASSERT_TRUE(stepsUntil([&] {
         const std::lock_guard lock{mutex};

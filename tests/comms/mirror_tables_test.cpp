@@ -341,6 +341,18 @@ TEST_F(MirrorTablesOfTwoStreams, KeepTheCycleOfTheFastestAlsoWhereAViewBeginsAne
     EXPECT_GT(tables->newest().cycle(), before);
 }
 
+TEST_F(MirrorTablesTest, DoNotGoBackToTheKeptCyclesOfAYoungAgent) {
+    const Block kept = agent.block(1);
+    agent.rig.step();
+    tables->restart(viewOf({{{"/work"}, 0}, {{"/"}, 5}}));
+    ASSERT_TRUE(tables->apply(agent.block(1), at5, begin));
+    const std::int64_t before = tables->newest().cycle();
+    ASSERT_LT(before, 32);
+
+    tables->apply(kept, every, begin);
+    EXPECT_EQ(tables->newest().cycle(), before);
+}
+
 TEST(MirrorView, LeavesOutWhatAFasterOneCovers) {
     const MirrorView view = viewOf({{{"/", "/arm/axis"}, 5}, {{"/arm"}, 0}, {{"/arm"}, 30}});
 

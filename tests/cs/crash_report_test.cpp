@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/crash_on_purpose.hpp"
 #include "support/probe.hpp"
 
 #include <csignal>
@@ -6,7 +7,6 @@
 #include <exception>
 
 #include <sys/mman.h>
-#include <sys/wait.h>
 
 #include <gtest/gtest.h>
 
@@ -14,15 +14,11 @@ namespace cortex::test {
 
 namespace {
 
-using CrashReportDeathTest = testing::Test;
+struct CrashReportDeathTest : testing::Test {
+    CrashReportDeathTest() { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
 
-// A sanitizer makes an exit code of the signal.
-auto endedBy(int signal) {
-    return [signal](int status) {
-        return testing::KilledBySignal(signal)(status) ||
-               (WIFEXITED(status) && WEXITSTATUS(status) != 0);
-    };
-}
+    const CrashOnPurpose unreported;
+};
 
 void crashIn(Probe::Hook Probe::* hook, const Probe::Hook& crash) {
     ProbeCluster cluster;
@@ -36,8 +32,7 @@ int deeper(volatile int* above) {
     return here < 0 ? 0 : deeper(&here) + here;  // its frame is needed until it returns: never
 }
 
-TEST(CrashReportDeathTest, NamesTheHookThatReadsWhatIsNotThere) {
-    GTEST_FLAG_SET(death_test_style, "threadsafe");
+TEST_F(CrashReportDeathTest, NamesTheHookThatReadsWhatIsNotThere) {
     EXPECT_EXIT(crashIn(&Probe::onLoopStart,
                         [](Probe&, const Tick&) {
                             constexpr std::size_t page = 4096;
@@ -45,30 +40,27 @@ TEST(CrashReportDeathTest, NamesTheHookThatReadsWhatIsNotThere) {
                                 mmap(nullptr, page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
                             *static_cast<volatile char*>(nothing) = 1;
                         }),
-                endedBy(SIGSEGV),
+                testing::KilledBySignal(SIGSEGV),
                 "cortex: SIGSEGV in loopStart of /arm/crashing; the process ends");
 }
 
-TEST(CrashReportDeathTest, NamesTheHookThatDividesByZero) {
-    GTEST_FLAG_SET(death_test_style, "threadsafe");
+TEST_F(CrashReportDeathTest, NamesTheHookThatDividesByZero) {
     EXPECT_EXIT(crashIn(&Probe::onStandby, [](Probe&, const Tick&) { raise(SIGFPE); }),
-                endedBy(SIGFPE), "cortex: SIGFPE in stateStandby of /arm/crashing");
+                testing::KilledBySignal(SIGFPE), "cortex: SIGFPE in stateStandby of /arm/crashing");
 }
 
-TEST(CrashReportDeathTest, NamesTheHookThatTerminates) {
-    GTEST_FLAG_SET(death_test_style, "threadsafe");
+TEST_F(CrashReportDeathTest, NamesTheHookThatTerminates) {
     EXPECT_EXIT(crashIn(&Probe::onLoopEnd, [](Probe&, const Tick&) { std::terminate(); }),
-                endedBy(SIGABRT), "cortex: SIGABRT in loopEnd of /arm/crashing");
+                testing::KilledBySignal(SIGABRT), "cortex: SIGABRT in loopEnd of /arm/crashing");
 }
 
-TEST(CrashReportDeathTest, NamesTheHookThatOverflowsItsStack) {
-    GTEST_FLAG_SET(death_test_style, "threadsafe");
+TEST_F(CrashReportDeathTest, NamesTheHookThatOverflowsItsStack) {
     EXPECT_EXIT(crashIn(&Probe::onLoopStart,
                         [](Probe&, const Tick&) {
                             volatile int top = 1;
                             deeper(&top);
                         }),
-                endedBy(SIGSEGV), "cortex: SIGSEGV in loopStart of /arm/crashing");
+                testing::KilledBySignal(SIGSEGV), "cortex: SIGSEGV in loopStart of /arm/crashing");
 }
 
 }  // namespace

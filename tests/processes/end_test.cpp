@@ -2,6 +2,7 @@
 // A signal for the end ends the process, whatever hangs in it.
 #include "processes/agent_process.hpp"
 #include "processes/station.hpp"
+#include "support/crash_on_purpose.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -118,6 +119,7 @@ TEST_F(EarlyEndOfAProcess, ByExitWhileItsLoopRunsComesAfterTheShutdown) {
 }
 
 TEST_F(EarlyEndOfAProcess, ByACrashOutsideOfHooksNamesThePluginAndThePhase) {
+    const CrashOnPurpose unreported;
     endOfOneThat("crash load");
     EXPECT_TRUE(says("cortex: SIGSEGV in loading the plug-in " CORTEX_BINARY_DIR
                      "/lib/plugins/ends-early.so; the process ends"));

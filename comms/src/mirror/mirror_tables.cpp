@@ -51,7 +51,7 @@ bool MirrorTables::apply(const Block& block, std::size_t stream, Moment now) {
 // When a view begins, cycles that were kept may come after a newer one on a slower stream. Without
 // them the cycles of the images do not go back.
 bool MirrorTables::isFromBefore(const Block& block, std::size_t stream) const {
-    if (stream != fastest_ || streams_.at(stream).last != 0 || cycle_ < mostKept) return false;
+    if (stream != fastest_ || streams_.at(stream).last != 0) return false;
     return block.cycle < cycle_ && block.cycle >= cycle_ - mostKept;
 }
 
