@@ -5,6 +5,7 @@
 # `exact`: they compare, without clock or chance; what fails once is not run again.
 set(exact_comms-tests CdrTest.* Cdr/* FragmentsTest.* PiecesTest.*)
 set(exact_comms-order-tests *)
+set(exact_comms-network-tests Wire.*)
 set(exact_cs-tests *SafeDemands* *SafeStop* *DemandsAtRest.* *DemandQuality.* *AcceptedDemands.*
     *HandOver*)
 set(exact_determinism-tests Shards/*)
@@ -20,8 +21,9 @@ set(long_integration-tests LbrTeleop/FlippedJoint.*/1 LbrTeleop/FlippedJoint.*/2
     LbrTeleop/FlippedJoint.*/3 LbrTeleop/FlippedJoint.*/4 LbrTeleop/FlippedJoint.*/5
     LbrTeleop/FlippedJoint.*/6 LbrTeleop.FollowReplacedByHold*)
 
-# `timed`: they judge time, or need CPUs that nobody else uses.
-set(timed_cs-tests *CostlyTasks.* ClusterCS.SharesCostlyTasks* ClusterCS.GivesItsPriority*)
+# `timed`: they judge time, or need CPUs that nobody else uses, or take them all with a priority.
+set(timed_cs-tests *CostlyTasks.* ClusterCS.SharesCostlyTasks* ClusterCS.GivesItsPriority*
+    ThreadPool.EndsEveryCycleWithMoreRealtimeThreadsThanCpus*)
 set(timed_gui-session-tests Session.TakesValues*)
 set(timed_network-tests AttackedPlant.* TwoHosts.* Stations.*)
 set(timed_process-tests EndOfAProcess.* TwoAgents.*Killed* TwoAgents.*Hold*
