@@ -2,13 +2,12 @@
 // The program `cortex-explorer` as it is started, without a display.
 #include "gui/window_fixture.hpp"
 
-#include <cstdlib>
-#include <string>
-
 #include <QFile>
 #include <QImage>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <cstdlib>
+#include <string>
 
 namespace cortex::test {
 namespace {
