@@ -57,8 +57,7 @@ TEST_F(SmallWindow, HasItsStateLeaseAndStopWhole) {
     session.isAlive();
     session.takeControl("/drive");
     EXPECT_TRUE(comes([this] { return window.control().holds(); }));
-    QApplication::processEvents();
-    EXPECT_TRUE(hasWhole("You control /drive"));
+    EXPECT_TRUE(comes([this] { return hasWhole("You control /drive"); }));
     EXPECT_GE(window.stopButton().width(), window.stopButton().sizeHint().width());
     EXPECT_LE(window.minimumSizeHint().width(), 800) << "nothing is pushed out of it";
 }
