@@ -3,7 +3,7 @@
 # kind is added to their label.
 
 # `exact`: they compare, without clock or chance; what fails once is not run again.
-set(exact_comms-tests CdrTest.* Cdr/* FragmentsTest.* PiecesTest.*)
+set(exact_comms-tests Cdr/* FragmentsTest.* PiecesTest.*)
 set(exact_comms-order-tests *)
 set(exact_comms-network-tests Wire.*)
 set(exact_cs-tests *SafeDemands* *SafeStop* *DemandsAtRest.* *DemandQuality.* *AcceptedDemands.*
@@ -15,7 +15,7 @@ set(long_core-tests TypeModel.BoundsWhatInheritanceMultiplies HostileXml.ManyUnk
 set(long_core-command-tests *LeaseFight.*)
 set(long_cli-tests FindingsPage.ExplainsEveryRuleThatASourceNames
     CortexTypes.PrintsEveryTypeAsJsonOfTheCommittedSchema CortexNewType.MakesFiles*)
-set(long_determinism-tests Shards/*/2 Shards/*/3)
+set(long-exact_determinism-tests Shards/*/2 Shards/*/3)
 set(long_gui-tests EventRows.ARowOfManyOpensToEachOfThem)
 set(long_integration-tests LbrTeleop/FlippedJoint.*/1 LbrTeleop/FlippedJoint.*/2
     LbrTeleop/FlippedJoint.*/3 LbrTeleop/FlippedJoint.*/4 LbrTeleop/FlippedJoint.*/5

@@ -29,11 +29,11 @@ PASSED = re.compile(r" Passed +[0-9.]+ sec$")
 
 def reports_environment(reports):
     """Sanitizers write their reports into files there, those of child processes too."""
-    common = f"log_path={reports}/report:log_exe_name=1:print_suppressions=0"
+    common = f'log_path="{reports}/report":log_exe_name=1:print_suppressions=0'
     symbolizer = shutil.which("llvm-symbolizer-19")
     if symbolizer:
         common += f":external_symbolizer_path={symbolizer}"
-    own = dict(os.environ)
+    own = {name: value for name, value in os.environ.items() if not name.startswith("GTEST_")}
     for name in ("ASAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS", "LSAN_OPTIONS"):
         own[name] = ":".join(part for part in (own.get(name), common) if part)
     return own
@@ -92,9 +92,29 @@ def failed_cases(lines):
             begun = None
         elif begun:
             text.append(line)
+        listed = re.fullmatch(rf"\[  FAILED  \] ({CASE})(, where .*)?", line)
+        if listed:  # at the end, where no child prints any more
+            cases.setdefault(listed[1], [])
     if begun:
         cases[begun] = text
     return cases
+
+
+def untold(printed, failed):
+    """What ctest holds for passed, although cases failed, or have not run."""
+    found = []
+    for name, lines in printed.items():
+        text = "\n".join(lines)
+        text = text[max(text.rfind("[==========] Running "), 0):]
+        if name in failed or not text.startswith("[==========] Running "):
+            continue
+        if not re.search(r"\[={10}\] \d+ tests? from .* ran\.", text):
+            found.append(f"{name} ended with 0 before all of its cases had run")
+        elif " Running 0 tests" in text and "This is test shard" not in "\n".join(lines):
+            found.append(f"{name} has run no case")
+        found += [f"{case} failed, although {name} ended with 0"
+                  for case in failed_cases(text.splitlines())]
+    return found
 
 
 def cases_that_failed(processes, printed):
@@ -105,14 +125,15 @@ def cases_that_failed(processes, printed):
 
 def first_words(lines):
     """The first three lines that say something."""
-    dull = re.compile(r"Command:|Directory:|-{20}|Output:|\".*(start|end) time|Test (time|Passed|Failed)")
+    dull = re.compile(r"Command:|Directory:|-{20}|Output:|<end of output>|\".*\" (start|end|time)|"
+                      r"Test (time|Passed|Failed)|End testing|\d+/\d+ Test:")
     return [line.strip() for line in lines if line.strip() and not dull.match(line)][:3]
 
 
 def passed_cases(lines):
-    """How many passed; of a program that has no cases, nothing is known."""
-    return [int(count) for count in
-            re.findall(r"^\[  PASSED  \] (\d+) test", "\n".join(lines), re.M)]
+    """How many passed at the last try; None for a program that has no cases."""
+    counts = re.findall(r"^\[  PASSED  \] (\d+) test", "\n".join(lines), re.M)
+    return int(counts[-1]) if counts else None
 
 
 def skipped_cases(log, found):
@@ -155,10 +176,11 @@ def cases_of(test):
     return sum(line.startswith("  ") for line in told.stdout.splitlines())
 
 
-def outside(tests):
+def outside(tests, ran):
     counts = []
     for label in ("long", "timed"):
-        ours = [test for test in tests if re.search(rf"\b{label}\b", labels(test))]
+        ours = [test for test in tests if re.search(rf"\b{label}\b", labels(test))
+                and test["name"] not in ran]
         counts.append(f"{sum(map(cases_of, ours))} {label}")
     return " and ".join(counts)
 
@@ -174,7 +196,13 @@ def unsteady_list(path, date):
             wrong.append(f"{path.name}:{number}: not 'NAME YYYY-MM-DD what was seen'")
             continue
         names.append(entry[1])
-        age = (date - datetime.date.fromisoformat(entry[2])).days
+        try:
+            age = (date - datetime.date.fromisoformat(entry[2])).days
+        except ValueError:
+            wrong.append(f"{path.name}:{number}: {entry[2]} is no date")
+            continue
+        if age < min(0, (date - datetime.date.today()).days):
+            wrong.append(f"{path.name}:{number}: {entry[1]}: {entry[2]} is yet to come")
         if age > LONGEST_DAYS:
             wrong.append(f"{path.name}:{number}: {entry[1]} stands there for {age} days, of at most "
                          f"{LONGEST_DAYS}: find its cause")
@@ -204,10 +232,16 @@ def sanitizer_reports(reports):
 
 class Verdict:
     """Of all runs: what is red, and why; cases that failed; those that passed alone, with what they
-    printed first; how many passed at once; what each process printed first."""
+    printed first; how many passed; what each process printed first."""
 
     def __init__(self):
         self.red, self.failed, self.unsteady, self.passed, self.outputs = [], [], {}, 0, {}
+
+
+def count_passed(printed, failed):
+    """Of a program without cases, the one that it is."""
+    counts = {name: passed_cases(lines) for name, lines in printed.items()}
+    return sum(name not in failed if count is None else count for name, count in counts.items())
 
 
 def judge(arguments, folder, logs, reports):
@@ -219,11 +253,10 @@ def judge(arguments, folder, logs, reports):
     shutil.copy(last, logs / f"ctest-{stage}-outputs.log")
     verdict.outputs = outputs(last)
     processes = failed_processes(folder)
-    verdict.passed = sum(sum(passed_cases(lines) or [name not in processes])
-                         for name, lines in verdict.outputs.items())
+    verdict.passed = count_passed(verdict.outputs, processes)
     cases = cases_that_failed(processes, verdict.outputs)
     exact = {test["name"] for test in all_tests(folder) if re.search(r"\bexact\b", labels(test))}
-    verdict.red = sanitizer_reports(reports)
+    verdict.red = sanitizer_reports(reports) + untold(verdict.outputs, processes)
     if status != 0 and not processes:
         verdict.red.append(f"ctest ended with {status}")
     verdict.red += [f"{case} is exact, so it is not run again"
@@ -235,6 +268,8 @@ def judge(arguments, folder, logs, reports):
     status = ctest([*options, "-j1", "--rerun-failed", "--repeat", "until-pass:2"],
                    logs / f"ctest-{stage}-again.log", environment)
     still, again = failed_processes(folder) if status else [], outputs(last)
+    shutil.copy(last, logs / f"ctest-{stage}-again-outputs.log")
+    verdict.passed = count_passed({**verdict.outputs, **again}, still)
     verdict.failed = [case for failed in cases_that_failed(still, again).values() for case in failed]
     if status and not still:
         verdict.red.append(f"ctest ended with {status} at the second try")
@@ -244,7 +279,7 @@ def judge(arguments, folder, logs, reports):
             if case not in verdict.failed:
                 verdict.unsteady.setdefault(case, text)
     verdict.red += [f"{case} failed each time" for case in verdict.failed]
-    verdict.red += sanitizer_reports(reports)
+    verdict.red += sanitizer_reports(reports) + untold(again, still)
     return verdict
 
 
@@ -265,6 +300,7 @@ def main():
     reports = logs / f"reports-{stage}"
     shutil.rmtree(reports, ignore_errors=True)
     reports.mkdir(parents=True)
+    reports.chmod(0o1777)  # a child may have become another user
     known, wrong = unsteady_list(arguments.unsteady, commit_date())
     verdict = judge(arguments, folder, logs, reports)
     verdict.red += wrong
@@ -278,7 +314,7 @@ def main():
     tell(logs, stage, verdict, known, skipped)
     with open(logs / f"{stage}.note", "a", encoding="utf-8") as note:
         note.write(f"{len(skipped)} skipped; {len(verdict.unsteady)} unsteady; {len(known)} known to "
-                   f"be; {outside(all_tests(folder))} stand outside; ")
+                   f"be; {outside(all_tests(folder), verdict.outputs)} stand outside; ")
     return 1 if verdict.red else 0
 
 
@@ -287,12 +323,12 @@ def tell(logs, stage, verdict, known, skipped):
     unsteady = []
     for case, text in verdict.unsteady.items():
         of_list = " (in the list)" if case in known else ""
-        unsteady += [f"{case}{of_list}: failed once, passed alone"]
+        unsteady += [f"{case}{of_list}: failed, then passed alone"]
         unsteady += [f"    {word}" for word in first_words(text)]
     for name, lines in (("skipped", skipped), ("unsteady", unsteady), ("red", verdict.red)):
         (logs / f"{stage}.{name}").write_text("".join(f"{line}\n" for line in lines))
     (logs / f"{stage}.closing").write_text(
-        f"{stage}: {verdict.passed + len(verdict.unsteady)} passed, {len(verdict.failed)} failed, "
+        f"{stage}: {verdict.passed} passed, {len(verdict.failed)} failed, "
         f"{len(skipped)} skipped\n")
     for line in verdict.red:
         print(f"red: {line}")

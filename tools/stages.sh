@@ -231,7 +231,7 @@ stage_docs() {
 # The gate, all stages, or those that are named; each in a shell of its own, so that one that fails
 # does not hide what the others find. build/logs/passed holds the id of the tree that the gate passed.
 command_test() {
-    local name begin failed=() result table=""
+    local name begin failed=() result table="" tree
     (($#)) || set -- "${gateStages[@]}"
     if [[ $* == all ]]; then
         set -- "${gateStages[@]}" "${otherStages[@]}"
@@ -239,6 +239,7 @@ command_test() {
     fi
     mkdir -p "$logs"
     rm -f "$logs/passed"
+    tree=$(cleanTree)
     for name in "$@"; do
         [[ " ${gateStages[*]} ${otherStages[*]} " == *" $name "* ]] ||
             die "no stage '$name'; there are: ${gateStages[*]} (the gate), ${otherStages[*]}; all"
@@ -261,9 +262,14 @@ command_test() {
     printf '%-12s %s min on %s cores\n' total "$(minutes "$SECONDS")" "$jobs"
     for name in "$@"; do cat "$logs/$name.closing" 2>/dev/null || true; done
     if [[ " $* " == *" ${gateStages[*]} "* && " ${failed[*]} " != *\ @(format|checks|product)\ * ]]; then
-        [[ $(git status --porcelain) ]] || git rev-parse 'HEAD^{tree}' >"$logs/passed"
+        [[ -z $tree || $tree != "$(cleanTree)" ]] || echo "$tree" >"$logs/passed"
     fi
     ((${#failed[@]} == 0))
+}
+
+# The id of the tree, if nothing stands in the folder that is not committed.
+cleanTree() {
+    [[ $(git status --porcelain --untracked-files=normal 2>&1) ]] || git rev-parse 'HEAD^{tree}'
 }
 
 # tellOf KIND TITLE STAGE…: what these stages have written of that kind.

@@ -66,7 +66,7 @@ class RunTests(unittest.TestCase):
         self.fails("A.Never", 0)
         code, told = self.run_tests()
         self.assertEqual(code, 0, self.output)
-        self.assertIn("A.Once: failed once, passed alone", told["unsteady"])
+        self.assertIn("A.Once: failed, then passed alone", told["unsteady"])
         self.assertIn("what A.Once saw", told["unsteady"])
         self.assertNotIn("A.Never", told["unsteady"])
         self.assertEqual(told["closing"], "sabotage: 2 passed, 0 failed, 0 skipped\n")
@@ -115,6 +115,26 @@ class RunTests(unittest.TestCase):
         self.assertEqual(code, 0, self.output)
         self.assertIn("A.Crash", told["unsteady"])
 
+    def test_one_that_ends_with_0_before_its_last_case_is_red(self):
+        self.add("leaves", "sh", "-c", "echo '[==========] Running 2 tests from 1 test suite.'; "
+                 "echo '[ RUN      ] A.Leaves'")
+        code, told = self.run_tests()
+        self.assertEqual(code, 1)
+        self.assertIn("leaves ended with 0 before all of its cases had run", told["red"])
+
+    def test_one_whose_filter_matches_nothing_is_red(self):
+        self.add("empty", "sh", "-c", "echo '[==========] Running 0 tests from 0 test suites.'; "
+                 "echo '[==========] 0 tests from 0 test suites ran. (0 ms total)'")
+        code, told = self.run_tests()
+        self.assertEqual((code, told["red"]), (1, "empty has run no case\n"))
+
+    def test_a_case_that_failed_is_red_also_where_its_program_ends_with_0(self):
+        self.add("hides", "sh", "-c", "echo '[==========] Running 1 test from 1 test suite.'; "
+                 "echo '[ RUN      ] A.Hidden'; echo '[  FAILED  ] A.Hidden (0 ms)'; "
+                 "echo '[==========] 1 test from 1 test suite ran. (0 ms total)'")
+        code, told = self.run_tests()
+        self.assertEqual((code, told["red"]), (1, "A.Hidden failed, although hides ended with 0\n"))
+
     def test_six_unsteady_cases_are_red_unless_the_list_names_one(self):
         for number in range(6):
             self.fails(f"A.Once{number}", 1)
@@ -134,6 +154,9 @@ class RunTests(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertIn("unsteady.txt:1: A.Old stands there for", told["red"])
         self.assertIn("unsteady.txt:4: not 'NAME YYYY-MM-DD what was seen'", told["red"])
+        code, told = self.run_tests("A.Later  2999-01-01  seen\nA.Never  2026-13-45  seen\n")
+        self.assertIn("unsteady.txt:1: A.Later: 2999-01-01 is yet to come", told["red"])
+        self.assertIn("unsteady.txt:2: 2026-13-45 is no date", told["red"])
         code, told = self.run_tests("".join(f"A.B{n}  {TODAY}  seen\n" for n in range(11)))
         self.assertIn("has 11 lines, of at most 10", told["red"])
 
