@@ -248,9 +248,10 @@ def judge(arguments, folder, logs, reports):
     stage, options = arguments.stage, arguments.options
     environment, verdict = reports_environment(reports), Verdict()
     last = folder / "Testing/Temporary/LastTest.log"
-    (folder / "Testing/Temporary/LastTestsFailed.log").unlink(missing_ok=True)
+    for name in ("LastTest.log", "LastTestsFailed.log"):
+        (last.parent / name).unlink(missing_ok=True)
     status = ctest(options, logs / f"ctest-{stage}.log", environment)
-    shutil.copy(last, logs / f"ctest-{stage}-outputs.log")
+    (logs / f"ctest-{stage}-outputs.log").write_text(read(last))
     verdict.outputs = outputs(last)
     processes = failed_processes(folder)
     verdict.passed = count_passed(verdict.outputs, processes)
@@ -268,7 +269,7 @@ def judge(arguments, folder, logs, reports):
     status = ctest([*options, "-j1", "--rerun-failed", "--repeat", "until-pass:2"],
                    logs / f"ctest-{stage}-again.log", environment)
     still, again = failed_processes(folder) if status else [], outputs(last)
-    shutil.copy(last, logs / f"ctest-{stage}-again-outputs.log")
+    (logs / f"ctest-{stage}-again-outputs.log").write_text(read(last))
     verdict.passed = count_passed({**verdict.outputs, **again}, still)
     verdict.failed = [case for failed in cases_that_failed(still, again).values() for case in failed]
     if status and not still:
