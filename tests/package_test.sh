@@ -97,3 +97,8 @@ export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
 g++ -std=c++20 "$outside"/e01_two_simplexes/*.cpp -o "$outside/e01" \
     $(pkg-config --cflags --libs cortex)
 (cd "$outside" && LD_LIBRARY_PATH=$prefix/lib ./e01 | tail -1)
+
+echo 'every installed header can be included; those of the window need Qt'
+(cd "$prefix/include" && find cortex -name '*.hpp' ! -path 'cortex/explorer/*') | sort |
+    sed 's/.*/#include "&"/' >"$outside/headers.cpp"
+g++ -std=c++20 -fsyntax-only "$outside/headers.cpp" $(pkg-config --cflags cortex eigen3)

@@ -51,6 +51,29 @@ TEST_F(CortexShell, RunsTheLinesOfAFileWithOneParticipant) {
     EXPECT_FALSE(hasEvent("no longer has control"));
 }
 
+// Below the path of its agent, which the shell views all the time.
+TEST(CortexShellFile, ShowsAfterACommandWhatItHasDone) {
+    const ModelFolder folder;
+    const std::string system =
+        std::regex_replace(mixerSystem(), std::regex{"\"/drive\""}, "\"/mixer/drive\"");
+    const Background agent{agentCommand(folder.write("mixer.xml", system).string())};
+    std::string lines = "list --timeout 60\n";
+    for (int i = 5; i < 15; ++i) {
+        lines += "set /mixer/drive naturalFrequency=" + std::to_string(i) +
+                 "\nshow /mixer/drive --json\n";
+    }
+    const Outcome outcome = lookUntil(
+        [&] { return cortex(Words{"shell", folder.write("lines.txt", lines).string()} + network); },
+        [](const Outcome& each) { return each.exit == 0; });
+    const std::regex shown{R"("naturalFrequency": \{[^}]*"value": ([0-9.]+))"};
+    int expected = 5;
+    for (std::sregex_iterator each{outcome.output.begin(), outcome.output.end(), shown}, end;
+         each != end; ++each) {
+        EXPECT_EQ(std::stod((*each)[1]), expected++) << outcome.output;
+    }
+    EXPECT_EQ(expected, 15) << outcome.output << outcome.errors;
+}
+
 TEST_F(CortexShell, StopsAtTheFirstLineThatFailsUnlessToldToGoOn) {
     const std::string lines = "list --timeout 60\nshow /drvie\ncall /drive startup\nlist\n";
 

@@ -44,6 +44,12 @@ void Session::view(std::vector<std::string> prefixes, std::uint32_t rate) {
         const std::lock_guard lock{viewMutex_};
         wanted_ = std::move(prefixes);
         rate_ = rate;
+        // What is viewed all the time comes anew, too: what it was before is older than the answer
+        // to the command that a verb before this one has sent.
+        if (!wanted_.empty()) {
+            viewed_.clear();
+            mirror_.view(viewed_);
+        }
     }
     applyView();
 }
