@@ -92,10 +92,11 @@ class Client:
     def __init__(self, number):
         self.domain = domain(number)
 
+    # Its output; any code will do where None is expected.
     def run(self, *words, exits=0):
         ran = subprocess.run([self.program, str(self.domain), *words], text=True,
                              capture_output=True, timeout=60)
-        if ran.returncode != exits:
+        if exits not in (None, ran.returncode):
             raise AssertionError(f"{words} ended with {ran.returncode}:\n{ran.stdout}{ran.stderr}")
         return ran.stdout.splitlines()
 
@@ -158,7 +159,10 @@ class CycloneClient(unittest.TestCase):
         with self.demo():
             client = Client(0)
             owner = next(each[3] for each in client.list() if each[0] == "/drives/1")
-            self.assertEqual(client.run("call", f"/{owner}", "startup", "prefix=/"), ["Done none "])
+            startup = ("call", f"/{owner}", "startup", "prefix=/")
+            while client.run(*startup, exits=None) == ["Rejected busy startup is running"]:
+                pass  # that of its own start
+            self.assertEqual(client.run(*startup), ["Done none "])
             answer, = client.run("call", "/drives/1", "startup", exits=1)
             self.assertEqual(answer, "Rejected state startup needs Standby, is Active")
             answer, = client.run("call", "/drives/1", "strtup", exits=1)
