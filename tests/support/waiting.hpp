@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "support/patience.hpp"
+
+#include <chrono>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+
+// Waits with patience until the condition is true. A failure says what was waited for and what
+// `last` saw at the end. A condition that can no longer come true throws why, and fails at once.
+inline testing::AssertionResult comesTrue(const std::string& what,
+                                          const std::function<bool()>& condition,
+                                          const std::function<std::string()>& last = {}) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    std::string why = "did not come in " + std::to_string(patience.count()) + " s";
+    try {
+        do {
+            if (condition()) return testing::AssertionSuccess();
+            std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        } while (std::chrono::steady_clock::now() < end);
+    } catch (const std::exception& error) {
+        why = std::string{"can no longer come: "} + error.what();
+    }
+    auto failure = testing::AssertionFailure() << what << " " << why;
+    if (last) failure << "; seen last: " << last();
+    return failure;
+}
+
+// The same for a helper outside of a test's body: it throws what the failure says.
+inline void waitUntil(const std::string& what, const std::function<bool()>& condition,
+                      const std::function<std::string()>& last = {}) {
+    const auto came = comesTrue(what, condition, last);
+    if (!came) throw std::runtime_error(came.message());
+}
+
+}  // namespace cortex::test
