@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The agent program from outside: exit codes and what it prints.
+#include "cli/cortex_process.hpp"
 #include "teleop.hpp"
 
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <regex>
 
 #include <sys/stat.h>
-#include <sys/wait.h>
 
 #include <gtest/gtest.h>
 
@@ -21,30 +19,15 @@ struct Ended {
 };
 
 Ended agent(const std::string& arguments) {
-    const std::string command = std::string{CORTEX_BINARY_DIR} + "/bin/cortex-agent --offline " +
-                                arguments + " 2>&1 < /dev/null";
-    Ended ended{-1, ""};
-    FILE* pipe = popen(command.c_str(), "r");  // NOLINT: a test runs a program
-    if (pipe == nullptr) return ended;
-    std::array<char, 4096> text{};
-    while (fgets(text.data(), text.size(), pipe) != nullptr) ended.output += text.data();
-    const int status = pclose(pipe);
-    ended.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return ended;
+    const Outcome outcome = runProgram(
+        "sh",
+        {"-c", "exec " CORTEX_BINARY_DIR "/bin/cortex-agent --offline " + arguments + " 2>&1"});
+    return {outcome.exit, outcome.output};
 }
 
-// The same with --startup; it is told to end once all of it is started, however long that takes.
+// The same with --startup, which ends right after that.
 Ended startedAgent(const TeleopFile& file, const std::string& arguments) {
-    const std::string printed = (file.path().parent_path() / "printed.txt").string();
-    const std::string command =
-        "'" + std::string{CORTEX_BINARY_DIR} + "/bin/cortex-agent' --offline --startup '" +
-        file.path().string() + "' --seconds 60 " + arguments + " </dev/null >'" + printed +
-        "' 2>&1 & until grep -s 'all active simplexes are started' '" + printed +
-        "' >/dev/null || ! kill -0 $!; do sleep 0.05; done; kill $!; wait $!";
-    const int status = std::system(command.c_str());  // NOLINT: a test runs a program
-    std::ifstream in{printed};
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1,
-            std::string{std::istreambuf_iterator<char>{in}, {}}};
+    return agent(file.path().string() + " --startup --seconds 0.001 " + arguments);
 }
 
 bool says(const Ended& ended, const std::string& text) {
@@ -65,11 +48,22 @@ TEST(CortexAgent, RunsTheCaseStudyAndPrintsMetricsAndMonitors) {
         << "what the stop executes counts: " << ended.output;
 }
 
+// Each level of the start-up takes a cycle at least.
+TEST(CortexAgent, CountsItsSecondsFromTheEndOfTheStartUp) {
+    const TeleopFile file;
+
+    const Ended ended = startedAgent(file, "--priority 0 --frequency 30");
+
+    EXPECT_EQ(ended.exitCode, 0) << ended.output;
+    EXPECT_TRUE(says(ended, "all active simplexes are started")) << ended.output;
+    EXPECT_TRUE(says(ended, "ShuttingDown -> Standby")) << ended.output;
+}
+
 TEST(CortexAgent, NamesWhatItsStartupWaitsForAtOnceAndAtTheEndAndEndsWithFour) {
     const std::string robot = CORTEX_SOURCE_DIR "/examples/lbr_teleop/robot.xml";
 
     const Ended ended =
-        agent(robot + " --priority 0 --startup --seconds 2.5 --frequency 100 --log /dev/null");
+        agent(robot + " --priority 0 --startup --seconds 0.001 --frequency 100 --log /dev/null");
 
     EXPECT_EQ(ended.exitCode, 4) << ended.output;
     const std::string waits =
@@ -110,7 +104,7 @@ TEST(CortexAgent, EndsWithThreeWhereACycleBeganLaterThanTheFileAllows) {
     const TeleopFile file{{{"<cluster ", "<cluster warnLateness=\"0\" haltLateness=\"0.001\" "}}};
 
     const Ended ended =
-        agent(file.path().string() + " --priority 0 --startup --seconds 2 --frequency 200");
+        agent(file.path().string() + " --priority 0 --startup --seconds 0.2 --frequency 200");
 
     EXPECT_EQ(ended.exitCode, 3) << ended.output;
     EXPECT_TRUE(says(ended, "more than the haltLateness of 0.001 % allows")) << ended.output;

@@ -3,15 +3,11 @@
 
 #include "cortex/toolkit/classes.hpp"
 
-#include "core/model_folder.hpp"
 #include "mechanics/lbr_chain.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <stdexcept>
-
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -43,27 +39,17 @@ ClassRegistry classes(const std::function<void(ClassRegistry&)>& more) {
 }  // namespace
 
 TeleopFile::TeleopFile(const Replacements& replacements, const std::string& ontology) {
-    static int count = 0;
     const std::filesystem::path source{CORTEX_SOURCE_DIR};
-    folder_ = std::filesystem::temp_directory_path() /
-              ("cortex-teleop-" + std::to_string(getpid()) + "-" + std::to_string(++count));
-    std::filesystem::create_directories(folder_);
     std::string text = caseStudy();
     for (const auto& [from, to] : replacements) replace(text, from, to);
     replace(text, "synthetic_hand_path.csv",
             (source / "examples/lbr_teleop/synthetic_hand_path.csv").string());
     if (!ontology.empty()) {
         replace(text, "<morphology", "<ontology file=\"test.xml\"/>\n  <morphology");
-        std::ofstream{folder_ / "test.xml"}
-            << "<ontology name=\"test\"><include file=\"robotics.xml\"/>" << ontology
-            << "</ontology>";
+        folder_.write("test.xml", "<ontology name=\"test\"><include file=\"robotics.xml\"/>" +
+                                      ontology + "</ontology>");
     }
-    std::ofstream{path()} << text;
-}
-
-TeleopFile::~TeleopFile() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
+    folder_.write("system.xml", text);
 }
 
 Teleop::Teleop(Set set)

@@ -5,6 +5,8 @@
 #include "cortex/cs/cluster_cs.hpp"
 #include "cortex/mechanics/serial_chain.hpp"
 
+#include "core/model_folder.hpp"
+
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -24,14 +26,11 @@ using Replacements = std::vector<std::pair<std::string, std::string>>;
 class TeleopFile {
 public:
     explicit TeleopFile(const Replacements& replacements = {}, const std::string& ontology = "");
-    ~TeleopFile();
-    TeleopFile(const TeleopFile&) = delete;
-    TeleopFile& operator=(const TeleopFile&) = delete;
 
-    std::filesystem::path path() const { return folder_ / "system.xml"; }
+    std::filesystem::path path() const { return folder_.path() / "system.xml"; }
 
 private:
-    std::filesystem::path folder_;
+    ModelFolder folder_;
 };
 
 // The case study at 1 kHz on a manual trigger. `watch` runs on the loop's thread after each cycle.

@@ -124,18 +124,21 @@ SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry, Retaine
 
 using Clock = std::chrono::steady_clock;
 
-// Seconds that are left of those asked for; 0: there is no end.
-double left(const CommandLine& line, Clock::time_point began) {
-    const std::chrono::duration<double> used = Clock::now() - began;
-    return line.seconds > 0 ? std::max(1e-3, line.seconds - used.count()) : 0;
+// Says when --seconds are over, which count from now or, if there is one, the end of the start-up.
+std::function<bool()> countdown(double seconds, const std::optional<StartUp>& startUp) {
+    const std::chrono::duration<double> length{seconds};
+    auto began = startUp ? std::nullopt : std::optional{Clock::now()};
+    return [length, &startUp, began]() mutable {
+        if (!began && startUp->isOver()) began = Clock::now();
+        return length.count() > 0 && began && Clock::now() - *began >= length;
+    };
 }
 
 // Until the end is asked for, the loop ends, or `look` says so.
-void watch(cs::ClusterCS& cluster, const std::string& name, double seconds,
-           const std::function<bool()>& look) {
+void watch(cs::ClusterCS& cluster, const std::string& name, const std::function<bool()>& look) {
     const bool terminal = isatty(STDOUT_FILENO) != 0;
     auto next = Clock::now();
-    cs::waitForInterrupt(seconds, [&] {
+    cs::waitForInterrupt(0, [&] {
         if (look()) return true;
         if (terminal && Clock::now() >= next) {
             next += std::chrono::seconds{1};
@@ -187,7 +190,6 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     ClusterSettings settings = clusterSettings(tree.description(), line);
     const bool retains = RetainedFile::hasItems(tree);
     if (retains) ++settings.options.imageReaders;
-    const auto began = Clock::now();
     cs::ClusterCS cluster{settings.name, settings.options};
     cluster.addSimplexTree(tree);
     cluster.useClasses(registry);
@@ -209,11 +211,12 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     if (retains) retained.keep(cluster);
     printStart(line, cluster, settings, tree.simplexes().size());
     const auto isSecond = [&] { return !line.wait && network != nullptr && network->isSecond(); };
-    watch(cluster, settings.name, left(line, began), [&] {
+    const auto isOver = countdown(line.seconds, startUp);
+    watch(cluster, settings.name, [&] {
         hookCheck.look();
         if (isSecond()) return true;
         startUp ? startUp->look() : notStarted->look();
-        return false;
+        return isOver();
     });
     if (isSecond()) {
         std::cerr << "another start of " << settings.name << " is there; this one ends"

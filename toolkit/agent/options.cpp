@@ -190,7 +190,8 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
         ->type_name("FOLDER");
     addLoop(app, line);
     app.add_option("--seconds", line.seconds,
-                   "ends after this time; otherwise with SIGINT or SIGTERM")
+                   "ends so long after the start, with --startup after the end of the start-up; "
+                   "otherwise with SIGINT or SIGTERM")
         ->type_name("S")
         ->check(aNumber)
         ->check(CLI::Range(1e-3, 1e9));

@@ -13,6 +13,8 @@ namespace {
 
 // Agents that are started together see each other within this time.
 constexpr std::chrono::seconds grace{1};
+// A start-up without an answer, as no tick comes or a transition takes long, is over after this.
+constexpr std::chrono::seconds longest{60};
 constexpr std::string_view notLinked = "is not linked: ";  // as the links of an agent say it
 
 }  // namespace
@@ -46,6 +48,8 @@ StartUp::StartUp(cs::ClusterCS& cluster, std::string agentName)
 
 void StartUp::look() {
     if (complete_ || !cluster_.running()) return;
+    if (!began_) began_ = Clock::now();
+    if (!over_ && Clock::now() - *began_ > longest) tellOverdue();
     if (answerIsDue_) {
         CallResult answer;
         if (!cluster_.program().poll(sent_, answer)) return;
@@ -56,7 +60,7 @@ void StartUp::look() {
     const MissingLinks missing = missingLinks(image);
     if (missing == missing_ && sent_ != 0) return;
     if (!missing.empty() && !std::exchange(told_, true)) std::cerr << missingText(missing);
-    if (!missing.empty() && Clock::now() - began_ < grace) return;
+    if (!missing.empty() && Clock::now() - *began_ < grace) return;
     missing_ = missing;
     const std::string stopped = shutDownSince(image);
     if (stopped.empty()) return send(image);
@@ -84,6 +88,7 @@ void StartUp::tell(const CallResult& answer) {
     const Image image = cluster_.image();
     started_ = activeIn(image);
     complete_ = missing_.empty();
+    over_ = true;
     notFollowed_ = answer.done() ? "" : "startup: " + answer.text() + "\n";
     const std::string faults = faultLines(image);
     if (!answer.done())
@@ -92,6 +97,13 @@ void StartUp::tell(const CallResult& answer) {
         std::cout << "all active simplexes are started" << std::endl;
     else
         std::cerr << "started, but not all went on:\n" << faults << std::flush;
+}
+
+void StartUp::tellOverdue() {
+    over_ = true;
+    notFollowed_ =
+        "startup: did not come to its end in " + std::to_string(longest.count()) + " s\n";
+    std::cerr << notFollowed_ << std::flush;
 }
 
 std::vector<std::string> StartUp::activeIn(const Image& image) const {

@@ -25,6 +25,8 @@ public:
     StartUp& operator=(const StartUp&) = delete;
 
     void look();  // again and again, while the loop runs
+    // Who is there has followed or not, or it takes longer than anyone waits for.
+    bool isOver() const { return over_; }
     // At the end: who was not started, and what is not there; "" if all were started.
     std::string endText() const;
 
@@ -36,14 +38,15 @@ private:
     std::string missingText(const MissingLinks& missing) const;
     void send(const Image& image);
     void tell(const CallResult& answer);
+    void tellOverdue();
     std::vector<std::string> activeIn(const Image& image) const;
     std::string shutDownSince(const Image& image) const;
 
     cs::ClusterCS& cluster_;
     std::string path_;
-    Clock::time_point began_ = Clock::now();
+    std::optional<Clock::time_point> began_;  // the first look
     std::uint64_t sent_ = 0;
-    bool answerIsDue_ = false, told_ = false, complete_ = false;
+    bool answerIsDue_ = false, told_ = false, complete_ = false, over_ = false;
     MissingLinks missing_;              // when the command was sent last
     std::vector<std::string> started_;  // by it
     std::string notFollowed_;           // what it was answered
