@@ -40,9 +40,10 @@ PATH=$prefix/bin:$PATH
 stateOf() { cortex show "$1" --timeout 2 2>/dev/null | grep -m1 -w state || true; }
 # STATE PATH: waits until the simplex is in that state.
 becomes() {
-    local tries
-    for ((tries = 0; tries < 20; ++tries)); do
+    local end=$((SECONDS + 60))
+    while ((SECONDS < end)); do
         [[ $(stateOf "$2") == *"$1"* ]] && return
+        sleep 0.1
     done
     echo "error: $2 does not become $1: $(stateOf "$2")" >&2
     return 1
@@ -61,7 +62,7 @@ echo 'the example of a device: its plug-in talks to the simulated oven'
 built e04_device
 "$outside/e04_device/build/simulated_oven" "$outside/oven" &
 oven=$!
-"$prefix/bin/cortex-agent" "$outside/e04_device/oven.xml" --offline --startup --seconds 2 \
+"$prefix/bin/cortex-agent" "$outside/e04_device/oven.xml" --offline --startup --seconds 1 \
     --plugin "$outside/e04_device/build/oven.so" --set "/oven.port=$outside/oven" \
     >"$outside/bakery" 2>&1
 kill "$oven"

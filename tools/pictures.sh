@@ -7,7 +7,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 bin=${BIN:-build/release/bin} folder=${1:-} pids=()
-export CORTEX_DOMAIN=${CORTEX_DOMAIN:-43} CORTEX_INTERFACE=lo
+source tests/support/own_domain.sh
+export CORTEX_DOMAIN=$ownDomain CORTEX_INTERFACE=lo
 
 # folder of the page, name, size, then the options of the window
 teleop=(

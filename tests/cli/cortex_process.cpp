@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cortex_process.hpp"
 
-#include <cerrno>
+#include "support/waiting.hpp"
+
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -27,6 +28,12 @@ std::string contentOf(std::FILE* file) {
         content.append(buffer, count);
     }
     return content;
+}
+
+std::string inOneLine(const std::vector<std::string>& command) {
+    std::string text;
+    for (const std::string& each : command) text += (text.empty() ? "" : " ") + each;
+    return text;
 }
 
 }  // namespace
@@ -57,11 +64,15 @@ Outcome runProgram(const std::string& program, const std::vector<std::string>& a
         if (chdir(folder.c_str()) == 0) execvp(program.c_str(), pointers.data());
         _exit(127);
     }
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    const auto status = statusOf(child);
+    Outcome outcome{-1, contentOf(output.get()), contentOf(errors.get())};
+    if (status && WIFEXITED(*status)) outcome.exit = WEXITSTATUS(*status);
+    if (!status) {
+        outcome.errors += "killed, as it hung for " + std::to_string(longestRun.count()) + " s\n";
+        ADD_FAILURE() << inOneLine(copies) << " hung and was killed; it printed: " << outcome.output
+                      << outcome.errors;
     }
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(output.get()),
-            contentOf(errors.get())};
+    return outcome;
 }
 
 Outcome cortex(const std::vector<std::string>& arguments,

@@ -6,6 +6,7 @@
 #include "cortex/core/clock.hpp"
 
 #include "support/probe.hpp"
+#include "support/waiting.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -18,7 +19,7 @@ struct HungAgent::Implementation {
     std::atomic<bool> hangs{false}, slow{false};
     std::atomic<int> hooks{0};  // begun
 
-    bool standsStill() { return cluster.cluster->agent().standstill().get().has_value(); }
+    bool standsStill() const { return cluster.cluster->agent().standstill().get().has_value(); }
 };
 
 HungAgent::HungAgent(int domain) : implementation_{std::make_unique<Implementation>()} {
@@ -45,21 +46,22 @@ HungAgent::~HungAgent() {
 
 // The second cycle has begun, so that the tools have the values of the first.
 void HungAgent::hang() {
-    while (implementation_->hooks.load() < 2) std::this_thread::yield();
+    const Implementation& self = *implementation_;
+    waitUntil("the second cycle", [&] { return self.hooks.load() >= 2; });
     implementation_->hangs.store(true);
-    while (!implementation_->standsStill()) std::this_thread::yield();
+    waitUntil("that the watchdog sees a loop that hangs", [&] { return self.standsStill(); });
 }
 
 void HungAgent::overload() {
     implementation_->slow.store(true);
-    while (!implementation_->cluster.cluster->agent().pace().overloaded()) {
-        std::this_thread::yield();
-    }
+    auto& agent = implementation_->cluster.cluster->agent();
+    waitUntil("that a slow loop says so", [&] { return agent.pace().overloaded(); });
 }
 
 void HungAgent::release() {
     implementation_->hangs.store(false);
-    while (implementation_->standsStill()) std::this_thread::yield();
+    waitUntil("that the watchdog sees a loop that goes on",
+              [this] { return !implementation_->standsStill(); });
 }
 
 }  // namespace cortex::test

@@ -48,11 +48,11 @@ std::vector<int> claimedInAnotherNetwork(std::size_t count) {
         (void)!write(ready[1], &number, sizeof number);
         _exit(0);
     }
+    close(ready[1]);
     int number = -1;
     (void)!read(ready[0], &number, sizeof number);
     waitpid(child, nullptr, 0);
     close(ready[0]);
-    close(ready[1]);
     return number < 0 ? std::vector{-1} : std::vector(static_cast<std::size_t>(number), 0);
 }
 
@@ -103,6 +103,7 @@ TEST(CpuClaims, OfAKilledProcessAreFree) {
         pause();
         _exit(0);
     }
+    close(ready[1]);
     char taken = 'n';
     ASSERT_EQ(read(ready[0], &taken, 1), 1);
     EXPECT_EQ(taken, 'y');
@@ -112,7 +113,6 @@ TEST(CpuClaims, OfAKilledProcessAreFree) {
     waitpid(child, nullptr, 0);
     EXPECT_EQ(claims.take(unusedCpus, 3), unusedCpus);
     close(ready[0]);
-    close(ready[1]);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "cortex/cs/trigger_source.hpp"
 
 #include "support/probe.hpp"
+#include "support/waiting.hpp"
 
 #include <array>
 #include <chrono>
@@ -58,6 +59,13 @@ std::string whyRefused(int descriptor) {
     return {};
 }
 
+testing::AssertionResult ranUpTo(std::int64_t cycle, const ProbeCluster& probes) {
+    const auto seen = [&] { return probes.cluster->image().cycle(); };
+    return comesTrue(
+        "cycle " + std::to_string(cycle), [&] { return seen() >= cycle; },
+        [&] { return std::to_string(seen()); });
+}
+
 TEST(DescriptorTrigger, RunsACycleOfAClusterForEachDatagram) {
     const int receiver = cs::DescriptorTrigger::openUdp("127.0.0.1", 0);
     const TickSender sender{receiver};
@@ -69,7 +77,7 @@ TEST(DescriptorTrigger, RunsACycleOfAClusterForEachDatagram) {
 
     for (std::int64_t cycle = 1; cycle <= 20; ++cycle) {
         sender.send();
-        while (probes.cluster->image().cycle() < cycle) std::this_thread::yield();
+        ASSERT_TRUE(ranUpTo(cycle, probes));
         const Image image = probes.cluster->image();
         EXPECT_EQ(image.cycle(), cycle);
         EXPECT_EQ(image.nominalTime(), (cycle - 1) * 10'000'000);
@@ -91,7 +99,7 @@ TEST(DescriptorTrigger, KeepsClustersInStepThatGetTheSameTicks) {
         toFirst.send();
         toSecond.send();
         for (ProbeCluster* each : {&one, &two}) {
-            while (each->cluster->image().cycle() < cycle) std::this_thread::yield();
+            ASSERT_TRUE(ranUpTo(cycle, *each));
         }
         EXPECT_EQ(one.cluster->image().nominalTime(), two.cluster->image().nominalTime());
     }
@@ -194,7 +202,7 @@ TEST(DescriptorTrigger, EndsTheLoopWhenItsSenderIsGone) {
 
     close(ends[1]);
 
-    while (probes.cluster->running()) std::this_thread::yield();
+    EXPECT_TRUE(comesTrue("the end of the loop", [&] { return !probes.cluster->running(); }));
     EXPECT_EQ(probes.cluster->ended(), cs::Ended::Stopped);
     EXPECT_TRUE(probes.cluster->stop());
     EXPECT_TRUE(probes.hasEvent("the trigger threw: whoever sent the ticks has closed its end"));

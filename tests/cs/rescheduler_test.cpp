@@ -6,6 +6,7 @@
 
 #include "cs/graphs.hpp"
 #include "support/agent_rig.hpp"
+#include "support/waiting.hpp"
 
 #include <atomic>
 #include <memory>
@@ -58,14 +59,17 @@ protected:
     // Looks are done; what they offer is taken. False: nothing was.
     bool exchanged() {
         bool exchanged = false;
-        while (rescheduler->isLooking()) {
+        EXPECT_TRUE(test::comesTrue("the end of the look", [&] {
+            if (!rescheduler->isLooking()) return true;
             exchanged = rescheduler->exchange(plan) || exchanged;
-            std::this_thread::yield();
-        }
+            return false;
+        }));
         return exchanged;
     }
 
-    bool told(const std::string& event) { return rig_.hasEvent(event); }
+    testing::AssertionResult isTold(const std::string& event) {
+        return test::comesTrue("'" + event + "'", [&] { return rig_.hasEvent(event); });
+    }
 
     std::atomic<std::uint32_t> threads{2};  // of the schedule that it is made; 2 are better
     std::unique_ptr<Plan> plan;
@@ -150,12 +154,10 @@ TEST_F(ReschedulerTest, TellsWhatCameOfALookAlsoOfOneThatIsUnderWay) {
     rescheduler->look();
     rescheduler->lookAndTell();
     ASSERT_TRUE(exchanged());
-    while (!told("/test: reschedule: takes a better plan with 2 threads")) {
-    }
+    EXPECT_TRUE(isTold("/test: reschedule: takes a better plan with 2 threads"));
     rescheduler->lookAndTell();
     EXPECT_FALSE(exchanged());
-    while (!told("/test: reschedule: stays with 2 threads, no other plan is better")) {
-    }
+    EXPECT_TRUE(isTold("/test: reschedule: stays with 2 threads, no other plan is better"));
 }
 
 TEST_F(ReschedulerTest, EndsWhileItLooksOrOffers) {

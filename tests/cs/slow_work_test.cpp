@@ -3,6 +3,8 @@
 
 #include "cortex/core/error.hpp"
 
+#include "support/waiting.hpp"
+
 #include <atomic>
 #include <future>
 #include <memory>
@@ -16,7 +18,7 @@ namespace cortex::test {
 namespace {
 
 void waitFor(const cs::SlowWork& work) {
-    while (work.isRunning()) std::this_thread::yield();
+    waitUntil("the end of the work", [&] { return !work.isRunning(); });
 }
 
 TEST(SlowWork, IsDoneOnAnotherThreadAndAgainWhenAskedAgain) {

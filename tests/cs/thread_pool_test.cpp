@@ -4,6 +4,7 @@
 #include "cortex/core/agent.hpp"
 
 #include "cs/graphs.hpp"
+#include "support/patience.hpp"
 #include "threads/realtime_thread.hpp"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <chrono>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <thread>
 #include <tuple>
 
@@ -25,7 +27,11 @@ using namespace std::chrono_literals;
 using Indices = std::vector<std::uint32_t>;
 
 void waitUntil(const auto& condition) {
-    while (!condition()) std::this_thread::yield();
+    const auto end = std::chrono::steady_clock::now() + test::patience;
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > end) throw std::runtime_error("waits in vain");
+        std::this_thread::yield();
+    }
 }
 
 /// Calls its function with (chunk, worker).

@@ -4,6 +4,7 @@
 
 #include "loop/running_time.hpp"
 #include "support/probe.hpp"
+#include "support/waiting.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -46,11 +47,12 @@ TEST(Watchdog, NamesTheHookThatDoesNotReturnAndTheLoopResumesWhenItDoes) {
     blocker.block.store(true);
 
     std::thread stepping{[&] { cluster.step(); }};
-    while (!reported.load()) std::this_thread::yield();
+    EXPECT_TRUE(comesTrue("the report", [&] { return reported.load(); }));
     const auto standstill = cluster.cluster->agent().standstill().get();
     blocker.released.store(true);
     stepping.join();
-    while (cluster.cluster->agent().standstill().get()) std::this_thread::yield();
+    EXPECT_TRUE(comesTrue("the end of the standstill",
+                          [&] { return !cluster.cluster->agent().standstill().get(); }));
 
     ASSERT_TRUE(standstill);
     EXPECT_EQ(standstill->why, "hangs in /a.loopStart");
@@ -86,11 +88,15 @@ struct ToldLoop {
     void tick() {
         const std::int64_t before = cycle();
         trigger->notify();
-        while (cycle() == before) std::this_thread::yield();
+        waitUntil("a cycle", [&] { return cycle() != before; });
     }
     void startup(const std::string& path) {
         cluster.cluster->send(path, "startup");
-        while (cluster.state(path) != State::Active) tick();
+        waitUntil("the start-up of " + path, [&] {
+            if (cluster.state(path) == State::Active) return true;
+            tick();
+            return false;
+        });
     }
 };
 
@@ -99,7 +105,7 @@ TEST(Watchdog, TellsThatNoTickComesUntilOneDoes) {
     loop.cluster.probe("/a");
     loop.cluster.start();
     loop.startup("/a");
-    while (!loop.dead.load()) std::this_thread::yield();
+    ASSERT_TRUE(comesTrue("the report", [&] { return loop.dead.load(); }));
     AgentRuntime& agent = loop.cluster.cluster->agent();
 
     EXPECT_EQ(loop.hung, "/test: the trigger");
@@ -109,7 +115,11 @@ TEST(Watchdog, TellsThatNoTickComesUntilOneDoes) {
     EXPECT_EQ(loop.cluster.state("/a"), State::Active);
     loop.tick();
     EXPECT_FALSE(loop.cluster.cluster->image().get<bool>("/test", "alive"));
-    while (agent.standstill().get()) loop.tick();
+    EXPECT_TRUE(comesTrue("the end of the standstill", [&] {
+        if (!agent.standstill().get()) return true;
+        loop.tick();
+        return false;
+    }));
     EXPECT_TRUE(loop.cluster.cluster->image().get<bool>("/test", "alive"));
 }
 
@@ -127,11 +137,12 @@ TEST(Watchdog, FaultsAllThatIsActiveWhenNoTickComesWithinTheTimeout) {
     loop.cluster.start();
     loop.cluster.cluster->send("/a", "startup");
     bool wasActive = false;
-    while (loop.cluster.state("/a") != State::Fault) {
+    ASSERT_TRUE(comesTrue("the fault", [&] {
+        if (loop.cluster.state("/a") == State::Fault) return true;
         if (!wasActive) loop.tick();
         wasActive = wasActive || loop.cluster.state("/a") == State::Active;
-        std::this_thread::yield();
-    }
+        return false;
+    }));
 
     EXPECT_EQ(loop.cluster.integer("/a", "faultCode"), -7);
     EXPECT_EQ(loop.cluster.number("/d", "velocity"), 0) << "the safe demand";
@@ -169,7 +180,7 @@ TEST(WatchdogDeathTest, StopGivesUpNamesTheHookAndEndsTheProcess) {
             cluster.start();
             cluster.step();
             std::thread stepping{[&] { cluster.step(); }};
-            while (!hanging.load()) std::this_thread::yield();
+            waitUntil("a hook that hangs", [&] { return hanging.load(); });
             cluster.cluster->stop();
         },
         testing::ExitedWithCode(3), "cluster test does not stop: /a does not return from loopEnd");

@@ -3,6 +3,7 @@
 
 #include "cortex/core/agent.hpp"
 
+#include "support/patience.hpp"
 #include "threads/thread_pool.hpp"
 
 #include <algorithm>
@@ -105,7 +106,7 @@ bool HandMadeLoop::dropDependency(std::uint64_t seed) {
 
 void HandMadeLoop::runChunk(std::uint32_t chunk, std::uint32_t worker) {
     if (dropped_ && chunk == dropped_->predecessor) {
-        const auto giveUp = std::chrono::steady_clock::now() + std::chrono::seconds{2};
+        const auto giveUp = std::chrono::steady_clock::now() + test::patience;
         while (ranIn_ != tick_.cycle && std::chrono::steady_clock::now() < giveUp) {
             std::this_thread::yield();
         }

@@ -5,12 +5,12 @@
 #include "cortex/core/simplex_tree.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 
+#include "core/model_folder.hpp"
+#include "support/waiting.hpp"
+
 #include <chrono>
 #include <csignal>
 #include <cstdint>
-#include <cstdlib>
-#include <filesystem>
-#include <functional>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -56,9 +56,6 @@ protected:
         return SimplexTree::load(file("oven.xml"), &registry);
     }
     void SetUp() override {
-        char made[] = "/tmp/cortex-oven-XXXXXX";
-        ASSERT_NE(mkdtemp(made), nullptr);
-        folder = made;
         tree.at("/oven").set("port", port());
         bakery.addSimplexTree(tree);
         bakery.setTriggerSource<cs::InternalClock>(10ms);
@@ -68,14 +65,8 @@ protected:
         });
         bakery.start();
     }
-    void TearDown() override {
-        bakery.stop();
-        std::filesystem::remove_all(folder);
-    }
-    std::string port() const { return folder + "/oven"; }
-    static void waitUntil(const std::function<bool()>& condition) {
-        cs::waitForInterrupt(0, condition);
-    }
+    void TearDown() override { bakery.stop(); }
+    std::string port() const { return (folder.path() / "oven").string(); }
     double value(const std::string& path, const std::string& item) {
         return bakery.image().get<double>(path, item);
     }
@@ -83,14 +74,17 @@ protected:
         const Image image = bakery.image();
         return image.state(image.structure().find("/inside")).quality;
     }
-    bool says(const std::string& text) {
-        const std::lock_guard lock{mutex};
-        return events.find(text) != std::string::npos;
+    void waitForEvent(const std::string& text) {
+        const auto seen = [this] {
+            const std::lock_guard lock{mutex};
+            return events;
+        };
+        waitUntil("'" + text + "'", [&] { return contains(seen(), text); }, seen);
     }
 
     ClassRegistry registry;
     SimplexTree tree = load();
-    std::string folder;
+    ModelFolder folder;
     std::mutex mutex;
     std::string events;
     cs::ClusterCS bakery{"bakery"};
@@ -98,48 +92,48 @@ protected:
 
 TEST_F(Bakery, HeatsThroughTheLineWhenItsControllerIsActive) {
     const OvenProcess oven{port()};
-    waitUntil([&] { return quality() == Quality::Good; });
+    waitUntil("a good value", [&] { return quality() == Quality::Good; });
     EXPECT_NEAR(value("/inside", "temperature"), 20, 0.01);
 
     bakery.call("/controller", "startup");
 
-    waitUntil([&] { return value("/inside", "temperature") > 21; });
-    EXPECT_GT(value("/heater", "power"), 1500);
+    waitUntil("an oven that is warm", [&] { return value("/inside", "temperature") > 21; });
+    waitUntil("a heater that is on", [&] { return value("/heater", "power") > 1500; });
 }
 
 TEST_F(Bakery, SaysThatTheOvenIsGoneHeatsNoMoreAndConnectsAnew) {
     {
         const OvenProcess oven{port()};
-        waitUntil([&] { return quality() == Quality::Good; });
+        waitUntil("a good value", [&] { return quality() == Quality::Good; });
         bakery.call("/controller", "startup");
-        waitUntil([&] { return value("/inside", "temperature") > 20.5; });
+        waitUntil("an oven that gets warm", [&] { return value("/inside", "temperature") > 20.5; });
     }
-    waitUntil([&] { return quality() == Quality::Lost; });
-    waitUntil([&] { return value("/heater", "power") == 0; });
-    waitUntil([&] { return says("the device is lost: " + port()); });
+    waitUntil("a lost value", [&] { return quality() == Quality::Lost; });
+    waitUntil("a heater that is off", [&] { return value("/heater", "power") == 0; });
+    waitForEvent("the device is lost: " + port());
     EXPECT_GT(value("/inside", "temperature"), 20.5) << "the last one, known to be lost";
 
     const OvenProcess another{port()};
-    waitUntil([&] { return quality() == Quality::Good; });
-    waitUntil([&] { return says("the device is back"); });
-    waitUntil([&] { return value("/heater", "power") > 1500; });
+    waitUntil("a good value", [&] { return quality() == Quality::Good; });
+    waitForEvent("the device is back");
+    waitUntil("a heater that is on", [&] { return value("/heater", "power") > 1500; });
 }
 
 TEST_F(Bakery, SaysThatTheOvenDoesNotAnswerAndGoesOnWhenItDoes) {
     const OvenProcess oven{port()};
-    waitUntil([&] { return quality() == Quality::Good; });
+    waitUntil("a good value", [&] { return quality() == Quality::Good; });
 
     oven.signal(SIGSTOP);
-    waitUntil([&] { return quality() == Quality::Lost; });
-    waitUntil([&] { return says("the device is lost: " + port() + ": no answer for 200 ms"); });
+    waitUntil("a lost value", [&] { return quality() == Quality::Lost; });
+    waitForEvent("the device is lost: " + port() + ": no answer for 200 ms");
     oven.signal(SIGCONT);
 
-    waitUntil([&] { return quality() == Quality::Good; });
-    waitUntil([&] { return says("the device is back"); });
+    waitUntil("a good value", [&] { return quality() == Quality::Good; });
+    waitForEvent("the device is back");
 }
 
 TEST_F(Bakery, WithoutAnOvenSaysWhichPortIsMissingAndDoesNotFault) {
-    waitUntil([&] { return says("the device is lost: " + port() + ": No such file"); });
+    waitForEvent("the device is lost: " + port() + ": No such file");
 
     EXPECT_EQ(bakery.image().get<std::int64_t>("/oven", "state"), 0);
     EXPECT_EQ(quality(), Quality::Lost);

@@ -2,6 +2,7 @@
 #include "processes/agent_process.hpp"
 
 #include "comms/inbox.hpp"
+#include "support/waiting.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -75,9 +76,28 @@ int AgentProcess::endInOrder(int signal) {
 }
 
 int AgentProcess::waitForEnd() {
-    int status = 0;
-    waitpid(std::exchange(pid_, 0), &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    const auto status = statusOf(std::exchange(pid_, 0));
+    EXPECT_TRUE(status) << command_[1] << " did not end in " << longestRun.count()
+                        << " s, and was killed; it printed: " << output();
+    return status && WIFEXITED(*status) ? WEXITSTATUS(*status) : -1;
+}
+
+bool AgentProcess::hasEnded() const {
+    siginfo_t end{};
+    waitid(P_PID, static_cast<id_t>(pid_), &end, WEXITED | WNOHANG | WNOWAIT);
+    return end.si_pid == pid_;
+}
+
+testing::AssertionResult AgentProcess::prints(const std::string& text) const {
+    return comesTrue(
+        "the output '" + text + "'",
+        [&] {
+            const bool ended = hasEnded();
+            if (contains(output(), text)) return true;
+            if (ended) throw std::runtime_error("the agent has ended");
+            return false;
+        },
+        [this] { return output(); });
 }
 
 std::string AgentProcess::output() const {

@@ -11,6 +11,8 @@
 
 #include <sys/types.h>
 
+#include <gtest/gtest.h>
+
 namespace cortex::test {
 
 // `cortex-agent` as a process, on the network of this test. It is killed with its object, and with
@@ -27,7 +29,9 @@ public:
     void start();                          // again, after an end
     void kill9();                          // and waits for the end
     int endInOrder(int signal = SIGTERM);  // the exit code, -1 after a signal
-    int waitForEnd();                      // that comes by itself
+    int waitForEnd();                      // that comes by itself; one that hangs is killed
+    bool hasEnded() const;
+    testing::AssertionResult prints(const std::string& text) const;  // sooner or later
 
     pid_t pid() const { return pid_; }
     const std::vector<pid_t>& pids() const { return pids_; }  // of all its starts

@@ -3,6 +3,7 @@
 #include "processes/agent_process.hpp"
 #include "processes/station.hpp"
 #include "support/crash_on_purpose.hpp"
+#include "support/waiting.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -54,10 +55,7 @@ protected:
     int endOfOneThatHangsIn(const char* where) {
         setenv("NEVER_RETURNS_FROM", where, 1);
         AgentProcess agent{folder, system, options()};
-        while (agent.output().find("longer than a second: ") == std::string::npos &&
-               fs::exists("/proc/" + std::to_string(agent.pid()))) {
-            std::this_thread::yield();
-        }
+        EXPECT_TRUE(agent.prints("longer than a second: "));
         const auto asked = Clock::now();
         const int code = agent.endInOrder();
         EXPECT_LT(Clock::now() - asked, longestEnd);
@@ -166,12 +164,16 @@ bool hold(pid_t thread) {
 // Its exit code, when the thread that is held has been waited for too; -1 after a signal.
 int endOf(pid_t process) {
     int status = 0;
-    for (;;) {
+    const auto ended = comesTrue("the end of the process whose thread is held", [&] {
         int each = 0;
-        const pid_t ended = waitpid(-1, &each, __WALL);
-        if (ended < 0) break;
-        if (ended == process && (WIFEXITED(each) || WIFSIGNALED(each))) status = each;
-    }
+        pid_t child = 0;
+        while ((child = waitpid(-1, &each, __WALL | WNOHANG)) > 0) {
+            if (child == process && (WIFEXITED(each) || WIFSIGNALED(each))) status = each;
+        }
+        return child < 0;
+    });
+    EXPECT_TRUE(ended);
+    if (!ended) kill(process, SIGKILL);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 

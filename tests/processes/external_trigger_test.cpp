@@ -3,9 +3,12 @@
 #include "core/model_folder.hpp"
 #include "processes/agent_process.hpp"
 #include "support/own_domain.hpp"
+#include "support/waiting.hpp"
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <stdexcept>
 #include <string>
 
 #include <fcntl.h>
@@ -40,6 +43,19 @@ std::filesystem::path plant(const ModelFolder& folder, const std::string& trigge
                             trigger + "/></system>");
 }
 
+// Once it has had so many ticks as it takes.
+testing::AssertionResult isStarted(const AgentProcess& agent, const std::function<void()>& tick) {
+    return comesTrue(
+        "the start-up",
+        [&] {
+            if (contains(agent.output(), "all active simplexes are started")) return true;
+            if (agent.hasEnded()) throw std::runtime_error("the agent has ended");
+            tick();
+            return false;
+        },
+        [&] { return agent.output(); });
+}
+
 TEST(ExternallyTriggeredAgent, RunsByTheDatagramsOfAPortAndEndsInOrder) {
     const ModelFolder folder;
     const int port = ownPort();
@@ -47,14 +63,23 @@ TEST(ExternallyTriggeredAgent, RunsByTheDatagramsOfAPortAndEndsInOrder) {
         folder, plant(folder, "triggerFrom='udp:" + std::to_string(port) + "'"), {"--startup"}};
 
     // Without cycles nothing answers the startup; who sends ticks makes it answer.
-    while (!contains(agent.output(), "all active simplexes are started")) {
-        ASSERT_FALSE(contains(agent.output(), "error")) << agent.output();
-        sendTick(port);
-        usleep(1000);
-    }
+    ASSERT_TRUE(isStarted(agent, [&] { sendTick(port); }));
 
     EXPECT_EQ(agent.endInOrder(), 0);
     EXPECT_TRUE(contains(agent.output(), "1 simplexes at 50 Hz as /plant")) << agent.output();
+}
+
+// Its seconds count from the end of the start-up, which is over after a minute in any case.
+TEST(ExternallyTriggeredAgent, EndsWithFourWhereNoTickComesForItsStartUp) {
+    const ModelFolder folder;
+    AgentProcess agent{folder,
+                       plant(folder, "triggerFrom='udp:" + std::to_string(ownPort()) + "'"),
+                       {"--startup", "--seconds", "0.001"}};
+
+    EXPECT_EQ(agent.waitForEnd(), 4);
+
+    EXPECT_TRUE(contains(agent.output(), "startup: did not come to its end in 60 s"))
+        << agent.output();
 }
 
 TEST(ExternallyTriggeredAgent, SaysWithFileAndLineWhatItCannotOpen) {
@@ -89,10 +114,7 @@ TEST(ExternallyTriggeredAgent, RunsByAnInheritedPipeAndEndsWithThreeWhenItsSende
     const ModelFolder folder;
     AgentProcess agent{folder, plant(folder, "triggerFrom='fd:60'"), {"--startup"}};
     close(inherited);
-    while (!contains(agent.output(), "all active simplexes are started")) {
-        ASSERT_EQ(write(ends[1], "x", 1), 1);
-        usleep(1000);
-    }
+    ASSERT_TRUE(isStarted(agent, [&] { EXPECT_EQ(write(ends[1], "x", 1), 1); }));
 
     close(ends[1]);
 

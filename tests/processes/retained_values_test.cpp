@@ -120,9 +120,7 @@ TEST_F(RetainedValues, LoseAtMostTheLastSecondWhenTheAgentIsKilled) {
         // One second, and what writing and a busy machine take.
         EXPECT_GE(kept, seen - 2 * secondOfCycles);
         agent.start();
-        ASSERT_TRUE(station.waitFor([&] {
-            return contains(agent.output(), "/counter.count 0 -> " + std::to_string(kept) + "\n");
-        })) << agent.output();
+        ASSERT_TRUE(agent.prints("/counter.count 0 -> " + std::to_string(kept) + "\n"));
     }
 }
 
@@ -136,8 +134,7 @@ TEST_F(RetainedValues, KeepTheirLastGoodValueWhereTheNewOneIsNoNumber) {
     EXPECT_TRUE(contains(retainedText(), good)) << retainedText();
 
     agent.start();
-    ASSERT_TRUE(
-        station.waitFor([&] { return contains(agent.output(), "/counter.share 0 -> 0.25\n"); }));
+    ASSERT_TRUE(agent.prints("/counter.share 0 -> 0.25\n"));
     EXPECT_EQ(agent.endInOrder(), 0) << agent.output();
     EXPECT_TRUE(contains(retainedText(), good)) << "it was good before the restart";
 }
@@ -255,12 +252,11 @@ TEST_F(RetainedValues, CannotBeWrittenWhichIsToldOnceWhileTheAgentGoesOn) {
 TEST_F(RetainedValues, AreWrittenOnceTheirFolderIsThereWhichIsTold) {
     const std::filesystem::path late = folder.path() / "late";
     AgentProcess agent{folder, system, options({"--retain", (late / "r.xml").string()})};
-    ASSERT_TRUE(comms::comesTrue([&] { return contains(agent.output(), "is missing: mkdir"); }));
+    ASSERT_TRUE(agent.prints("is missing: mkdir"));
 
     std::filesystem::create_directory(late);
 
-    EXPECT_TRUE(comms::comesTrue(
-        [&] { return contains(agent.output(), "retained items are written again: "); }));
+    EXPECT_TRUE(agent.prints("retained items are written again: "));
     EXPECT_TRUE(std::filesystem::exists(late / "r.xml"));
 }
 

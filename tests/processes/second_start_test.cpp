@@ -32,10 +32,8 @@ protected:
     }
     std::unique_ptr<AgentProcess> startWaiting() {
         auto agent = startAgain({"--wait"});
-        EXPECT_TRUE(station.waitFor([&] {
-            return says(*agent,
-                        "another start of its name is there; this one waits until it has ended\n");
-        }));
+        EXPECT_TRUE(agent->prints(
+            "another start of its name is there; this one waits until it has ended\n"));
         return agent;
     }
     static fs::path file(const ModelFolder& in) {

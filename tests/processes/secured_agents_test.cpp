@@ -45,7 +45,7 @@ protected:
     }
     // A tool with the keys of that folder; "": with none.
     Outcome tool(Words arguments, const std::string& name = "station",
-                 const std::string& timeout = "20") const {
+                 const std::string& timeout = "60") const {
         const comms::NetworkOptions network = comms::loopback();
         for (const std::string& each :
              {std::string{"--domain"}, std::to_string(network.domain), std::string{"--interface"},
@@ -55,7 +55,8 @@ protected:
         return cortex(arguments, {{"CORTEX_SECURITY", name.empty() ? "" : keys(name)}});
     }
     json shown(const std::string& path) const {
-        const json simplex = json::parse(tool({"show", path, "--json"}).output, nullptr, false);
+        const Outcome seen = tool({"show", path, "--json"}, "station", "20");  // and again
+        const json simplex = json::parse(seen.output, nullptr, false);
         return simplex.is_object() ? simplex : json::object();
     }
     json value(const std::string& path, const std::string& item) const {

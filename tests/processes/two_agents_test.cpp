@@ -264,11 +264,8 @@ TEST_F(TwoAgents, ASecondStartOfAnAgentIsSilentUntilTheFirstEnds) {
     ASSERT_TRUE(follows()) << outputs();
     const std::int64_t first = station.epochOf("robot");
     AgentProcess second{folder, example("robot.xml"), options({"--wait"})};
-    const auto says = [&](const std::string& words) {
-        return station.waitFor([&] { return second.output().find(words) != std::string::npos; });
-    };
-    EXPECT_TRUE(says("another start of its name is there; this one waits until it has ended"))
-        << second.output();
+    EXPECT_TRUE(
+        second.prints("another start of its name is there; this one waits until it has ended"));
     EXPECT_TRUE(station.waitFor(
         [&] { return station.hasEvent("/robot", "another start of robot is heard"); }));
     EXPECT_TRUE(follows());
@@ -276,7 +273,7 @@ TEST_F(TwoAgents, ASecondStartOfAnAgentIsSilentUntilTheFirstEnds) {
 
     robot.kill9();
 
-    EXPECT_TRUE(says("the other start of robot has ended; this one speaks again"));
+    EXPECT_TRUE(second.prints("the other start of robot has ended; this one speaks again"));
     EXPECT_TRUE(station.waitFor([&] { return station.epochOf("robot") > first; }));
     EXPECT_TRUE(follows()) << second.output();
 }

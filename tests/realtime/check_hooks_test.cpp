@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // `cortex-agent --check-hooks` from outside: what it says of plug-ins.
+#include "cli/cortex_process.hpp"
 #include "core/model_folder.hpp"
 
-#include <array>
-#include <cstdio>
 #include <fstream>
 #include <regex>
 #include <string>
-
-#include <sys/wait.h>
 
 #include <gtest/gtest.h>
 
@@ -23,18 +20,15 @@ struct Checked {
 };
 
 Checked check(const std::string& arguments) {
-    const std::string command = CORTEX_BINARY_DIR
+    const Outcome outcome =
+        runProgram("sh", {"-c", "exec " CORTEX_BINARY_DIR
                                 "/bin/cortex-agent --offline --check-hooks --startup " +
-                                arguments + " 2>&1 < /dev/null";
+                                    arguments + " 2>&1"});
     Checked checked;
-    FILE* pipe = popen(command.c_str(), "r");  // NOLINT: a test runs a program
-    std::array<char, 4096> text{};
-    while (fgets(text.data(), text.size(), pipe) != nullptr) checked.output += text.data();
-    const int status = pclose(pipe);
     // What addr2line leaves out where something was inlined into the function.
     checked.output =
-        std::regex_replace(checked.output, std::regex{"in (Misdeeds|Thrower)::"}, "in ");
-    checked.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        std::regex_replace(outcome.output, std::regex{"in (Misdeeds|Thrower)::"}, "in ");
+    checked.exitCode = outcome.exit;
     return checked;
 }
 

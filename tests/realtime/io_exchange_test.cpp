@@ -63,7 +63,9 @@ TEST(BlockingDevice, DisturbsNoTickWhateverItsThreadDoes) {
     cluster.start();
     runCycles(cluster, 100);
     const auto killAndClear = [&](int deaths) {
-        while (drive.throws < deaths) runCycles(cluster, 10);
+        waitUntil(
+            std::to_string(deaths) + " throws", [&] { return drive.throws >= deaths; },
+            [&] { return std::to_string(drive.throws); });
         runCycles(cluster, 10);
         EXPECT_EQ(cluster.image().get<std::int64_t>("/drive", "state"), 4);
         EXPECT_EQ(cluster.call("/drive", "clearFaults").outcome, Outcome::Done);

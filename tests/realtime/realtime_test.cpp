@@ -135,7 +135,7 @@ TEST_P(MisbehavingHook, IsNamedWithItsPathTypeHookAndLine) {
     ASSERT_EQ(violations(), "");
     static_cast<void>(checker().newViolations());
     armed = true;
-    while (!done) std::this_thread::sleep_for(1ms);
+    ASSERT_TRUE(comesTrue("what the hook does", [&] { return done.load(); }));
     runCycles(cluster, 2);
 
     const auto found = checker().newViolations();

@@ -5,6 +5,8 @@
 #include "cortex/cs/hook_checker.hpp"
 #include "cortex/cs/testing.hpp"
 
+#include "support/waiting.hpp"
+
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -72,9 +74,11 @@ inline std::uint64_t mostFutexCalls(std::int64_t cycles, std::uint32_t threads) 
 
 // Waits until the cluster has run so many cycles more.
 inline void runCycles(cs::ClusterCS& cluster, std::int64_t cycles) {
-    const std::int64_t last = cluster.image().cycle() + cycles;
-    while (cluster.image().cycle() < last)
-        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    const auto cycle = [&] { return cluster.image().cycle(); };
+    const std::int64_t last = cycle() + cycles;
+    waitUntil(
+        "cycle " + std::to_string(last), [&] { return cycle() >= last; },
+        [&] { return std::to_string(cycle()); });
 }
 
 }  // namespace cortex::test

@@ -4,10 +4,14 @@
 #include "support/patience.hpp"
 
 #include <chrono>
+#include <csignal>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
+
+#include <sys/wait.h>
 
 #include <gtest/gtest.h>
 
@@ -38,6 +42,18 @@ inline void waitUntil(const std::string& what, const std::function<bool()>& cond
                       const std::function<std::string()>& last = {}) {
     const auto came = comesTrue(what, condition, last);
     if (!came) throw std::runtime_error(came.message());
+}
+
+// The status of a child, once it has ended. None: it did not in longestRun, and was killed.
+inline std::optional<int> statusOf(pid_t child) {
+    const auto end = std::chrono::steady_clock::now() + longestRun;
+    int status = 0;
+    while (child > 0 && std::chrono::steady_clock::now() < end) {
+        if (waitpid(child, &status, WNOHANG) != 0) return status;
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    }
+    if (child > 0 && kill(child, SIGKILL) == 0) waitpid(child, nullptr, 0);
+    return std::nullopt;
 }
 
 }  // namespace cortex::test

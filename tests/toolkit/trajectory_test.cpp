@@ -2,46 +2,19 @@
 // Teach and repeat, with files.
 #include "cortex/cs/cluster_cs.hpp"
 
+#include "core/model_folder.hpp"
 #include "rig.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
-
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
 namespace cortex::toolkit::test {
 namespace {
-
-// A folder of its own that goes with the test.
-class Folder {
-public:
-    Folder()
-        : path_{std::filesystem::temp_directory_path() /
-                ("cortex-points-" + std::to_string(::getpid()))} {
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    std::string path() const { return path_.string(); }
-    std::string read(const std::string& name) const {
-        std::ostringstream text;
-        text << std::ifstream{path_ / name}.rdbuf();
-        return text.str();
-    }
-    void write(const std::string& name, const std::string& text) const {
-        std::filesystem::create_directories((path_ / name).parent_path());
-        std::ofstream{path_ / name} << text;
-    }
-
-private:
-    std::filesystem::path path_;
-};
 
 // Three limited axes with drives, and a controller that is taught.
 class Taught {
@@ -268,17 +241,17 @@ TEST(ATrajectory, HasRoomFor64Points) {
 }
 
 TEST(FilesOfPoints, AreReadByAnotherStart) {
-    const Folder folder;
+    const cortex::test::ModelFolder folder;
     std::vector<double> first;
     {
-        Taught arm{folder.path(), "arm"};
+        Taught arm{folder.path().string(), "arm"};
         arm.teachThree();
         EXPECT_EQ(arm.call("save", {{"name", std::string{"pick_1"}}}).outcome, Outcome::Done);
     }
     EXPECT_EQ(folder.read("arm/pick_1.csv").find("/axis1 rad,/axis2 rad,/axis3 rad\n"), 0U)
         << folder.read("arm/pick_1.csv");
 
-    Taught arm{folder.path(), "arm"};
+    Taught arm{folder.path().string(), "arm"};
     EXPECT_EQ(arm.call("load", {{"name", std::string{"pick_1"}}}).outcome, Outcome::Done);
 
     EXPECT_EQ(arm.count(), 3);
@@ -288,7 +261,7 @@ TEST(FilesOfPoints, AreReadByAnotherStart) {
 }
 
 TEST(FilesOfPoints, AreRefusedInWords) {
-    const Folder folder;
+    const cortex::test::ModelFolder folder;
     folder.write("other.csv", "/other rad\n1\n");
     folder.write("words.csv", "/axis1 rad,/axis2 rad,/axis3 rad\n1,2,three\n");
     folder.write("few.csv", "/axis1 rad,/axis2 rad,/axis3 rad\n1,2\n");
@@ -296,7 +269,7 @@ TEST(FilesOfPoints, AreRefusedInWords) {
     std::string many = "/axis1 rad,/axis2 rad,/axis3 rad\n";
     for (int i = 0; i < 65; ++i) many += "1,2,3\n";
     folder.write("many.csv", many);
-    Taught arm{folder.path()};
+    Taught arm{folder.path().string()};
     arm.call("teach");
     const std::pair<const char*, const char*> cases[] = {
         {"none", "there is no file"},      {"other", "it is for other axes"},
