@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dds/participant.hpp"
+#include "support/looking.hpp"
 #include "support/own_domain.hpp"
 
 #include <chrono>
@@ -15,8 +16,6 @@
 #include <unistd.h>
 
 namespace cortex::comms {
-
-inline constexpr std::chrono::seconds longEnough{60};  // no test that passes waits so long
 
 // A domain of this process alone, on the loopback interface.
 inline NetworkOptions loopback() {
@@ -38,18 +37,26 @@ public:
         };
     }
 
-    // The first time that the condition holds; false after a long time, or that time.
+    // The first time that the condition holds; false where patience, or that time, is over.
     bool waitUntil(const std::function<bool(const std::vector<T>&)>& condition,
-                   std::chrono::milliseconds within = longEnough) {
+                   std::chrono::milliseconds within = test::patience) {
         std::unique_lock lock{mutex_};
         return changed_.wait_for(lock, within, [&] { return condition(elements_); });
     }
-    bool waitFor(std::size_t count) {
-        return waitUntil([count](const auto& elements) { return elements.size() >= count; });
+    bool waitFor(std::size_t count, const test::Place& place = test::Place::current()) {
+        if (waitUntil([count](const auto& all) { return all.size() >= count; })) return true;
+        ADD_FAILURE_AT(place.file_name(), static_cast<int>(place.line()))
+            << elements().size() << " of " << count << " came in " << test::patience.count()
+            << " s";
+        return false;
     }
     std::vector<T> elements() const {
         const std::lock_guard lock{mutex_};
         return elements_;
+    }
+    std::vector<T> take() {
+        const std::lock_guard lock{mutex_};
+        return std::exchange(elements_, {});
     }
 
 private:
@@ -58,13 +65,9 @@ private:
     std::vector<T> elements_;
 };
 
-inline bool comesTrue(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + longEnough;
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() > end) return false;
-        std::this_thread::yield();
-    }
-    return true;
+inline bool comesTrue(const std::function<bool()>& condition,
+                      const test::Place& place = test::Place::current()) {
+    return test::looksUntil(condition, std::this_thread::yield, place);
 }
 
 }  // namespace cortex::comms

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
+#include <memory>
 #include <random>
 #include <string>
 #include <utility>
@@ -138,6 +139,59 @@ TEST_F(Wire, CarriesRandomBlocksAsTheyAre) {
         blocks.push_back(block(static_cast<std::uint64_t>(i), std::move(values)));
     }
     EXPECT_EQ(changed(topics::linkOf("to"), blocks), 0U);
+}
+
+TEST_F(Wire, WritesNothingOfAMessageWithATextThatIsTooLong) {
+    Inbox<EventMessage> inbox;
+    const auto reader = to.reader<EventMessage>(topics::event, inbox.push());
+    const auto writer = from.writer<EventMessage>(topics::event);
+    EXPECT_FALSE(writer->write(event(std::string(maxTextLength + 1, 'x'))));
+    const EventMessage longest = event(std::string(maxTextLength - 1'000, 'x'));
+    EXPECT_TRUE(writer->write(longest));
+    ASSERT_TRUE(inbox.waitFor(1));
+    EXPECT_EQ(compare(inbox, std::vector{longest}), 0U);
+}
+
+TEST_F(Wire, CountsAndNamesWhatIsTooLarge) {
+    const std::string reason =
+        "datagrams: they are fragments of what is never sent in fragments, or of too much";
+    EventMessage large = event(text80);
+    for (int i = 0; i < 30; ++i) large.extras.push_back({text80, text80});
+    Inbox<EventMessage> events;
+    const auto reader = to.reader<EventMessage>(topics::event, events.push());
+    const auto writer = from.writer<EventMessage>(topics::event);
+    EXPECT_TRUE(writer->write(large));
+    EXPECT_TRUE(comesTrue([&] { return to.refusals().contains(reason); }));
+    EXPECT_TRUE(events.elements().empty());
+}
+
+// What discovery says of a participant and of its endpoints. Fast DDS takes no longer names of
+// topics.
+TEST(WireOfAnyNames, FindsParticipantsAndEndpoints) {
+    std::mt19937_64 random{4711};
+    const auto name = [&](std::size_t most) {
+        std::string name(1 + random() % most, '\x80');
+        for (char& each : name) {
+            if (random() % 2 == 0) each = static_cast<char>(1 + random() % 255);
+        }
+        return name;
+    };
+    for (int round = 0; round < 4; ++round) {
+        Participant from{loopback(), name(255)}, to{loopback(), name(255)};
+        std::vector<std::unique_ptr<Reader<EventMessage>>> readers;
+        std::vector<std::unique_ptr<Writer<EventMessage>>> writers;
+        std::vector<Inbox<EventMessage>> inboxes(12);
+        for (Inbox<EventMessage>& each : inboxes) {
+            const Topic topic{name(251), Qos::Log};
+            readers.push_back(to.reader<EventMessage>(topic, each.push()));
+            writers.push_back(from.writer<EventMessage>(topic));
+            EXPECT_TRUE(writers.back()->write(event(topic.name)));
+        }
+        for (std::size_t i = 0; i < inboxes.size(); ++i) {
+            EXPECT_TRUE(inboxes[i].waitFor(1)) << "endpoint " << i << " of round " << round;
+            EXPECT_EQ(readers[i]->writers(), 1U);
+        }
+    }
 }
 
 }  // namespace
