@@ -17,14 +17,21 @@ namespace {
 // what restore finds wrong.
 std::set<std::string> rulesIn(const std::string& text) {
     static const std::array patterns{
-        std::regex{R"re((?:\berror|\bwarning)\(\s*[^,;]*,\s*"([a-z]+(?:-[a-z]+)*)",)re"},
-        std::regex{R"re(\bwrong\("([a-z]+(?:-[a-z]+)*)",)re"},
-        std::regex{R"re(\bwrong\([^;"]*\? "([a-z-]+)" : )re"},
-        std::regex{R"re(\bwrong\([^;"]*\? "[a-z-]+" : "([a-z-]+)")re"}};
+        std::regex{R"re((?:error|warning)\(\s*[^,;]*,\s*"([a-z]+(?:-[a-z]+)*)",)re"},
+        std::regex{R"re(wrong\("([a-z]+(?:-[a-z]+)*)",)re"},
+        std::regex{R"re(wrong\([^;"]*\? "([a-z-]+)" : )re"},
+        std::regex{R"re(wrong\([^;"]*\? "[a-z-]+" : "([a-z-]+)")re"}};
+    const auto here = std::regex_constants::match_continuous;
     std::set<std::string> rules;
-    for (const std::regex& pattern : patterns) {
-        for (std::sregex_iterator each{text.begin(), text.end(), pattern}, end; each != end; ++each)
-            rules.insert((*each)[1]);
+    for (const std::string call : {"error(", "warning(", "wrong("}) {
+        for (auto at = text.find(call); at != std::string::npos; at = text.find(call, at + 1)) {
+            const auto begin = text.begin() + static_cast<std::ptrdiff_t>(at);
+            for (const std::regex& pattern : patterns) {
+                std::smatch found;
+                if (std::regex_search(begin, text.end(), found, pattern, here))
+                    rules.insert(found[1]);
+            }
+        }
     }
     return rules;
 }

@@ -2,6 +2,7 @@
 #include "cli/cortex_process.hpp"
 #include "cli/json_schema.hpp"
 #include "core/model_folder.hpp"
+#include "support/share.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -60,8 +61,8 @@ TEST(CortexNewType, MakesFilesThatAreValidAsTheyAreAndWithTheirExamplesForEveryT
     ASSERT_GT(types.size(), 40U);
 
     std::vector<std::string> ontologies, morphologies;
-    for (const json& type : types) {
-        const std::string parent = type["name"];
+    for (std::size_t i = 0; i < types.size(); i += isWhole() ? 1 : 10) {
+        const std::string parent = types[i]["name"];
         ontologies.push_back("my-" + parent + ".xml");
         morphologies.push_back("my-" + parent + "-morphology.xml");
         const Outcome made =

@@ -2,6 +2,7 @@
 #include "cli/cortex_process.hpp"
 #include "cli/json_schema.hpp"
 #include "core/model_folder.hpp"
+#include "support/share.hpp"
 
 #include <gtest/gtest.h>
 
@@ -44,9 +45,11 @@ TEST(CortexTypes, ListsAllAsJsonOfTheCommittedSchema) {
 TEST(CortexTypes, PrintsEveryTypeAsJsonOfTheCommittedSchema) {
     const ModelFolder folder;
     const json list = json::parse(cortex({"types", "--json", "--file", robotics}).output)["types"];
-    ASSERT_FALSE(list.empty());
+    const std::size_t step = isWhole() ? 1 : 10;
+    ASSERT_GT(list.size(), step);
 
-    for (const json& each : list) {
+    for (std::size_t i = 0; i < list.size(); i += step) {
+        const json& each = list[i];
         const Outcome outcome =
             cortex({"types", each["name"].get<std::string>(), "--json", "--file", robotics});
         EXPECT_EQ(outcome.exit, 0);

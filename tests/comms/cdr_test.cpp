@@ -2,6 +2,7 @@
 #include "wire/cdr.hpp"
 
 #include "sample_messages.hpp"
+#include "support/share.hpp"
 
 #include <algorithm>
 
@@ -124,12 +125,14 @@ TYPED_TEST(Cdr, RefusesEveryTruncation) {
     }
 }
 
-// What is accepted is a message of the same length that can be sent and read again.
+// What is accepted is a message of the same length that can be sent and read again. In the gate
+// each octet is changed to 26 others.
 TYPED_TEST(Cdr, RefusesAMutatedOctetOrReadsAPossibleMessage) {
     const Octets payload = encoded(sample<TypeParam>().message);
     Octets mutated = payload;
+    const std::size_t step = test::isWhole() ? 1 : 10;
     for (std::size_t place = 0; place < payload.size(); ++place) {
-        for (unsigned change = 1; change < 256; ++change) {
+        for (std::size_t change = 1 + place % step; change < 256; change += step) {
             TypeParam read, again;
             mutated[place] = static_cast<std::uint8_t>(payload[place] ^ change);
             if (!decode(mutated, read)) continue;

@@ -3,6 +3,7 @@
 #include "views/event_list.hpp"
 
 #include "gui/events_fixture.hpp"
+#include "support/share.hpp"
 #include "views/event_panel.hpp"
 #include "views/event_table.hpp"
 #include "views/event_view.hpp"
@@ -43,25 +44,25 @@ protected:
     }
     EventTable& rows() { return *list.findChild<EventTable*>(); }
 
-    EventModel events;
+    EventModel events{share(EventModel{}.kept())};
     EventFilter shown{events};
     EventList list{shown};
 };
 
 TEST_F(Events, FollowAgainAfterTheSelectedRowDroppedOut) {
-    events.add(changes(1, EventModel::kept));
+    events.add(changes(1, events.kept()));
     rows().setCurrentIndex(rows().model()->index(0, 0));
     rows().scrollToBottom();
     ASSERT_TRUE(isAtTheEnd(rows()));
-    events.add(changes(EventModel::kept + 1, 10));
+    events.add(changes(events.kept() + 1, 10));
     EXPECT_TRUE(isAtTheEnd(rows()));
     EXPECT_FALSE(rows().currentIndex().isValid()) << "nothing else is selected by itself";
 }
 
 TEST_F(Events, SayHowManyAreNoLongerKept) {
-    events.add(changes(1, EventModel::kept));
+    events.add(changes(1, events.kept()));
     EXPECT_FALSE(says(list, "no longer kept"));
-    events.add(changes(EventModel::kept + 1, 1'010));
+    events.add(changes(events.kept() + 1, 1'010));
     EXPECT_TRUE(says(list, "the oldest 1,010 are no longer kept"));
 }
 
@@ -147,7 +148,7 @@ TEST_F(EventTab, ShowsTheDetailsOfTheSelectedRowAlsoWhenItDropsOut) {
     events.add({limit(3, "position limited from -2.75 to -2 rad")});
     view.refresh();
     EXPECT_TRUE(says(view, "3 in 0.0 s")) << "they go on";
-    events.add(changes(4, EventModel::kept));
+    events.add(changes(4, events.kept()));
     view.refresh();
     EXPECT_TRUE(says(view, "no longer kept"));
     EXPECT_TRUE(says(view, "/arm/demands/4"));

@@ -2,6 +2,7 @@
 // Which events are one row, and which rows are shown.
 #include "gui/events_fixture.hpp"
 #include "model/event_details.hpp"
+#include "support/share.hpp"
 
 #include <QAbstractItemModelTester>
 #include <clocale>
@@ -24,7 +25,7 @@ protected:
         return shown.rowCount();
     }
 
-    EventModel events;
+    EventModel events{share(EventModel{}.kept())};
     EventFilter shown{events};
     QAbstractItemModelTester tester{&shown, QAbstractItemModelTester::FailureReportingMode::Fatal};
 };
@@ -157,7 +158,7 @@ TEST_F(EventRows, ARowOfManyOpensToEachOfThem) {
     shown.search("");
     EXPECT_EQ(shown.rowCount(), 3);
     shown.open(shown.serial(0));
-    events.add(changes(6, EventModel::kept));
+    events.add(changes(6, events.kept()));
     EXPECT_FALSE(shown.isMember(0)) << "it dropped out";
 }
 

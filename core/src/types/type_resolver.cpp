@@ -116,13 +116,14 @@ std::vector<Item> TypeResolver::mergeItems(std::vector<Item> Type::* list,
                                            const TypeDeclaration& declaration, const char* what,
                                            std::string (*prefix)(std::string_view),
                                            const char* duplicate, Merge merge) {
+    const auto stating = ownItems(own, declaration.name, what, duplicate, report_);
+    if (tooLarge_) return {};
     std::map<std::string, std::vector<FromParent<Item>>> inherited;
     for (const std::string& parent : graph_.parents(declaration.name)) {
         for (const Item& each : types_.find(parent)->second.*list) {
             inherited[each.name].push_back({&each, parent});
         }
     }
-    const auto stating = ownItems(own, declaration.name, what, duplicate, report_);
     for (const auto& [name, item] : stating) inherited[name];
     TypeContext type{
         declaration.name, declaration.place, report_,

@@ -99,7 +99,7 @@ void EventModel::append(std::vector<EventRow> fresh) {
 
 void EventModel::drop() {
     std::size_t gone = 0;
-    while (held_ > kept && gone + 1 < rows_.size()) {
+    while (held_ > kept_ && gone + 1 < rows_.size()) {
         const EventRow& row = rows_[gone++];
         held_ -= heldBy(row);
         dropped_ += row.isGap() ? 0 : row.times;

@@ -21,9 +21,9 @@ class EventModel : public QAbstractTableModel {
     Q_OBJECT
 public:
     enum Column { Time, SeverityColumn, Kind, Path, Agent, Text, Times, ColumnCount };
-    static constexpr std::size_t kept = 100'000;  // events
 
-    using QAbstractTableModel::QAbstractTableModel;
+    explicit EventModel(std::size_t kept = 100'000, QObject* parent = nullptr)
+        : QAbstractTableModel{parent}, kept_{kept} {}
 
     void add(std::vector<comms::AgentEvent> events);
     void search(EventQuery query);  // sets EventRow::matches; says nothing
@@ -32,6 +32,7 @@ public:
     const EventRow& at(int row) const { return rows_[static_cast<std::size_t>(row)]; }
     std::uint64_t first() const { return first_; }  // serial number of the first row; others follow
     const std::vector<std::string>& kinds() const { return kinds_; }
+    std::size_t kept() const { return kept_; }          // events, at most
     std::uint64_t count() const { return count_; }      // of all that came
     std::uint64_t dropped() const { return dropped_; }  // of those, no longer kept
 
@@ -49,6 +50,7 @@ private:
     void drop();
     std::size_t kindOf(const std::string& kind);
 
+    const std::size_t kept_;
     EventQuery query_;
     std::deque<EventRow> rows_;
     std::uint64_t first_ = 0;                              // serial number of the first row
