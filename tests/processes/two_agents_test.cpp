@@ -187,7 +187,9 @@ TEST_F(TwoAgents, TheArmFollowsTheHandOfTheOtherAgent) {
     ASSERT_TRUE(follows()) << outputs();
     ASSERT_TRUE(station.waitFor([&] { return station.real("/tracking", "time") > 2; }));
 
-    EXPECT_LT(station.real("/tracking", "rmsPosition"), 10);
+    // A loop that stood still for a moment counts less with time.
+    EXPECT_TRUE(station.waitFor([&] { return station.real("/tracking", "rmsPosition") < 10; }))
+        << station.real("/tracking", "rmsPosition");
     EXPECT_GT(station.real("/tracking", "rmsSpeed"), 0.05);
     EXPECT_EQ(operator_.endInOrder(SIGHUP), 0) << outputs();
     EXPECT_EQ(robot.endInOrder(SIGPIPE), 0) << outputs();
