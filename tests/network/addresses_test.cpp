@@ -3,17 +3,15 @@
 // loopback interface.
 #include "network/hand_and_robot.hpp"
 #include "network/host.hpp"
+#include "support/waiting.hpp"
 
-#include <functional>
 #include <optional>
-#include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 namespace cortex::test {
 namespace {
-
-using namespace std::chrono_literals;
 
 struct LateAddress : testing::Test {
     void SetUp() override {
@@ -25,17 +23,10 @@ struct LateAddress : testing::Test {
         hosts->second.within([&] { robot.emplace(""); });
         hosts->first.within([&] { station.emplace(network("")); });
     }
-    static bool comesTrue(const std::function<bool()>& condition) {
-        for (const auto end = Clock::now() + 20s; Clock::now() < end;) {
-            if (condition()) return true;
-            std::this_thread::sleep_for(5ms);
-        }
-        return false;
-    }
-    // Both sides have newer data of the other than now.
-    bool becomesWhole() {
+    testing::AssertionResult becomesWhole() {
         const std::int64_t cycle = station->cycleOfRobot(), written = robot->newest();
-        return comesTrue([&] { return robot->newest() > written && station->sees(cycle); });
+        return comesTrue("newer data of the other on both sides",
+                         [&] { return robot->newest() > written && station->sees(cycle); });
     }
 
     std::optional<TwoHosts> hosts;
@@ -73,7 +64,7 @@ TEST(LoopbackOnly, AnAgentThatKeepsToTheLoopbackInterfaceIsSeenByAToolThatLooksO
         comms::NetworkOptions all = network("");
         comms::alsoOnLoopback(all);
         comms::Mirror mirror{"tool", all};
-        EXPECT_TRUE(LateAddress::comesTrue([&] {
+        EXPECT_TRUE(comesTrue("both agents", [&] {
             agents = mirror.agents();
             return agents.size() == 2 && mirror.structure("hand") && mirror.structure("robot");
         }));
@@ -93,10 +84,10 @@ TEST(LoopbackOnly, AnAgentThatIsToldNoInterfaceMeetsThoseThatKeepToItAndOtherHos
     });
     hosts.first.within([&] { robot.emplace(""); });
     const std::int64_t written = robot->newest();
-    EXPECT_TRUE(LateAddress::comesTrue([&] { return robot->newest() > written; }));
+    EXPECT_TRUE(comesTrue("data of the hand", [&] { return robot->newest() > written; }));
     hosts.second.within([&] {
         const comms::Mirror mirror{"tool", network("")};
-        EXPECT_TRUE(LateAddress::comesTrue([&] { return mirror.structure("robot") != nullptr; }));
+        EXPECT_TRUE(comesTrue("the robot", [&] { return mirror.structure("robot") != nullptr; }));
     });
 }
 

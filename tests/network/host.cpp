@@ -75,7 +75,7 @@ void setUpCards(const Host& first, const Host& second) {
     second.command("ip address add 10.77.0.2/24 dev eth0 && ip link set eth0 up");
     for (const Host* host : {&first, &second}) {
         host->command(
-            "timeout 10 sh -c 'until ip -br link show up dev eth0 | grep -q LOWER_UP &&"
+            "timeout 60 sh -c 'until ip -br link show up dev eth0 | grep -q LOWER_UP &&"
             " ip -br link show dev eth0 | grep -qE \" (UP|UNKNOWN) \"; do sleep 0.02; done'");
     }
 }

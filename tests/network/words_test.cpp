@@ -47,30 +47,36 @@ TEST_F(NetworkWords, AToolWhoseInterfaceIsDownNamesItAndItsRemedy) {
               "cortex: interface lo is down: ip link set lo up\n");
 }
 
-// `agent` stands for the program and its system file in what the shell of the host does.
+// `agent` stands for the program and its system file in what the shell of the host does, in a
+// folder of its own. The agent that it started last is ended.
 std::string withAgent(const Host& host, const std::string& script) {
     const ModelFolder folder;
     const std::string file = (folder.path() / "mixer.xml").string();
     return host.command(
         "export CORTEX_DOMAIN=0 CORTEX_PATH=" CORTEX_SOURCE_DIR "/ontology PATH=" CORTEX_BINARY_DIR
         "/bin:$PATH; cortex new-system mixer -o " +
-        file + " && agent() { exec timeout 30 cortex-agent " + file +
-        " --frequency 100 --priority 0 \"$@\"; }; " + script + "; kill $! && wait $! || true");
+        file + " && cd " + folder.path().string() + " && agent() { exec timeout 60 cortex-agent " +
+        file + " --frequency 100 --priority 0 \"$@\"; }; " + script +
+        "; kill $! && wait $! || true");
 }
 
 TEST_F(NetworkWords, AnAgentThatBeganWithoutAnyInterfaceJoinsTheLoopbackInterfaceWhenItComes) {
     host->command("ip link delete eth7 && ip link set lo down");
-    const std::string said = withAgent(
-        *host, "agent & until cortex list --timeout 1 | grep /drive; do ip link set lo up; done");
+    const std::string said = withAgent(*host,
+                                       "agent & until cortex list --timeout 1 | grep /drive || ! "
+                                       "kill -0 $!; do ip link set lo up; "
+                                       "done");
     EXPECT_NE(said.find("/drive "), std::string::npos) << said;
 }
 
 TEST_F(NetworkWords, AnAgentThatKeepsToTheLoopbackInterfaceSaysThatOthersAreNotOnIt) {
     host->command("ip link set eth7 up && ip link set far up");
     const std::string said = withAgent(*host,
-                                       "(agent --log /dev/null) & timeout 20 sh -c 'until grep -q "
-                                       ":1CF3 /proc/net/udp; do true; done'; "
-                                       "(agent --interface lo --seconds 1.5) || true");
+                                       "agent --log /dev/null & first=$!; "
+                                       "until grep -q :1CF3 /proc/net/udp || ! kill -0 $!; "
+                                       "do sleep 0.01; done; agent --interface lo >said 2>&1 & "
+                                       "until grep 'keeps to the loopback' said || ! kill -0 $!; "
+                                       "do sleep 0.01; done; kill $first");
     EXPECT_NE(said.find("keeps to the loopback interface, on which others of domain 0 are not: "
                         "leave --interface (CORTEX_INTERFACE) out"),
               std::string::npos)
