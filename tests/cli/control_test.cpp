@@ -78,6 +78,27 @@ TEST_F(CortexControl, ShutdownNeedsNoLease) {
     EXPECT_EQ(outcome.exit, 0) << outcome.errors;
 }
 
+// As `cortex new-system` writes it, at 1 kHz: agents of other tests run slower.
+TEST(CortexShipped, KeepsItsPaceAndItsHolderForLongerThanALease) {
+    const ModelFolder folder;
+    const std::string file = folder.write("mixer.xml", mixerSystem(1000)).string();
+    const Background agent{agentCommand(file) + Words{"--startup"}};
+    const auto isActive = [] {
+        return liveJson({"list", "/drive"}, "list")[0]["state"] == "Active";
+    };
+    ASSERT_TRUE(becomesTrue(isActive));
+    const Holder holder{"/"};
+    const std::int64_t then = cycleOfAgent();
+
+    ASSERT_TRUE(becomesTrue([&] { return cycleOfAgent() > then + 3000; })) << "longer than 2 s";
+
+    EXPECT_EQ(liveJson({"agents"}, "agents")[0]["state"], "running");
+    EXPECT_TRUE(isActive());
+    ASSERT_TRUE(leasesShow("/"));
+    EXPECT_EQ(leases()[0]["holder"], holder.name());
+    EXPECT_FALSE(hasEvent("no longer has control"));
+}
+
 // A call whose move lasts minutes, once its progress is shown. Again, where the agent was silent
 // for a second as control was taken: nothing was executed then.
 std::unique_ptr<OnTerminal> longCall() {
@@ -127,7 +148,7 @@ TEST_F(CortexControl, ProgressOfALongCommandIsShownOnStandardErrorWhileItRuns) {
 
     ASSERT_EQ(live({"set", "/controller", startPose, "--take"}).exit, 0);
     const auto onTerminal = [&] {
-        return std::make_unique<OnTerminal>(cortexCommand(move + Words{"--timeout", "60"}));
+        return std::make_unique<OnTerminal>(cortexCommand(move + Words{"--timeout", patient}));
     };
     const auto terminal = lookUntil(onTerminal, [&](const std::unique_ptr<OnTerminal>& call) {
         return call->shows("\r\033[KDone") || !isLost(call->output());

@@ -15,12 +15,8 @@ comms::NetworkOptions ownNetwork() {
 
 }  // namespace
 
-bool becomesTrue(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + patience;
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() > end) return false;
-    }
-    return true;
+bool becomesTrue(const std::function<bool()>& condition, const Place& place) {
+    return looksUntil(condition, std::this_thread::yield, place);
 }
 
 std::vector<std::string> cortexCommand(const std::vector<std::string>& arguments) {
@@ -29,11 +25,13 @@ std::vector<std::string> cortexCommand(const std::vector<std::string>& arguments
 
 nlohmann::json leases() { return liveJson({"leases"}, "leases"); }
 
-bool leasesShow(const std::string& prefix) {
-    return becomesTrue([&] {
-        const nlohmann::json shown = leases();
-        return shown.size() == 1 && shown[0]["prefix"] == prefix;
-    });
+bool leasesShow(const std::string& prefix, const Place& place) {
+    return becomesTrue(
+        [&] {
+            const nlohmann::json shown = leases();
+            return shown.size() == 1 && shown[0]["prefix"] == prefix;
+        },
+        place);
 }
 
 bool hasEvent(const std::string& text) { return contains(live({"events"}).output, text); }
@@ -65,7 +63,7 @@ Holder::~Holder() {
 comms::CommandAnswer Holder::ask(const std::string& command, const std::string& to) {
     comms::Mirror::Arguments arguments{{"prefix", prefix_}};
     if (!to.empty()) arguments["to"] = std::vector<std::string>{to};
-    return mirror_.call("/mixer", command, arguments);
+    return mirror_.call("/mixer", command, arguments, patience);
 }
 
 CortexControl::CortexControl() {

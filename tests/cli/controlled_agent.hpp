@@ -14,14 +14,15 @@
 
 namespace cortex::test {
 
-bool becomesTrue(const std::function<bool()>& condition);  // while patience lasts
+// While patience lasts.
+bool becomesTrue(const std::function<bool()>& condition, const Place& place = Place::current());
 
 // `cortex` on the network of this test.
 std::vector<std::string> cortexCommand(const std::vector<std::string>& arguments);
 
 // Who holds what, by `cortex leases`.
 nlohmann::json leases();
-bool leasesShow(const std::string& prefix);  // waits for it
+bool leasesShow(const std::string& prefix, const Place& place = Place::current());  // in the end
 bool hasEvent(const std::string& text);
 std::int64_t cycleOfAgent();
 

@@ -140,7 +140,7 @@ private:
 TEST_F(JogAxis, EndsWithinItsTimeWhereWhoeverJogsIsKilled) {
     const ModelFolder home;
     TypedShell shell{home};
-    shell.run("take /jog --timeout 60", "you control /jog");
+    shell.run("take /jog --timeout " + patient, "you control /jog");
     EachCycle cycles;
 
     double asked = 0.5;  // each jog asks for a speed of its own, so that it is known when it came

@@ -4,19 +4,40 @@
 #include "cli/json_schema.hpp"
 #include "support/own_domain.hpp"
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdlib>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace cortex::test {
 
 using nlohmann::json;
+
+namespace {
+
+std::set<const Background*>& running() {
+    static std::set<const Background*> all;
+    return all;
+}
+
+std::string whyOneFailed() {
+    for (const Background* each : running()) {
+        if (std::string why = each->whyItFailed(); !why.empty()) return why;
+    }
+    return {};
+}
+
+}  // namespace
 
 const std::string domain = std::to_string(ownDomain());
 const std::vector<std::string> network{"--domain", domain, "--interface", "127.0.0.1"};
@@ -28,8 +49,13 @@ std::vector<std::string> operator+(std::vector<std::string> left,
 }
 
 Outcome live(const std::vector<std::string>& arguments) {
-    return cortex(arguments + network +
-                  std::vector<std::string>{"--timeout", std::to_string(patience.count())});
+    if (const std::string why = whyOneFailed(); !why.empty()) return {-1, "", why};
+    Outcome outcome = cortex(arguments + network + std::vector<std::string>{"--timeout", patient});
+    seenLast = [words = testing::PrintToString(arguments), outcome] {
+        return words + " ended with " + std::to_string(outcome.exit) + ":\n" + outcome.output +
+               outcome.errors;
+    };
+    return outcome;
 }
 
 json jsonOf(const Outcome& outcome, const std::string& schema, int exit) {
@@ -49,12 +75,18 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
-Background::Background(std::vector<std::string> command) : child_{fork()} {
+Background::Background(std::vector<std::string> command, bool mustRun)
+    : child_{0}, said_{memfd_create("said", MFD_CLOEXEC)}, name_{testing::PrintToString(command)} {
+    child_ = fork();
     if (child_ < 0) throw std::runtime_error("cannot fork");
-    if (child_ > 0) return;
+    if (child_ > 0) {
+        if (mustRun) running().insert(this);
+        hopeless = whyOneFailed;
+        return;
+    }
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const int null = open("/dev/null", O_RDWR);
-    for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, file);
+    dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+    for (const int file : {STDOUT_FILENO, STDERR_FILENO}) dup2(said_, file);
     setenv("CORTEX_PATH", CORTEX_SOURCE_DIR "/ontology", 1);
     std::vector<char*> pointers;
     for (std::string& each : command) pointers.push_back(each.data());
@@ -63,10 +95,14 @@ Background::Background(std::vector<std::string> command) : child_{fork()} {
     _exit(127);
 }
 
-Background::~Background() { end(SIGTERM); }
+Background::~Background() {
+    end(SIGTERM);
+    close(said_);
+}
 
 void Background::end(int signal) {
     if (child_ == 0) return;
+    running().erase(this);
     kill(child_, signal);
     kill(child_, SIGCONT);  // what was stopped ends, too
     waitpid(child_, nullptr, 0);
@@ -75,6 +111,18 @@ void Background::end(int signal) {
 
 void Background::send(int signal) {
     if (child_ != 0) kill(child_, signal);
+}
+
+std::string Background::whyItFailed() const {
+    const std::string how = howItEnded(child_);
+    if (how.empty() || how == "ended with code 0") return {};
+    std::array<char, 4096> last{};
+    struct stat file{};
+    fstat(said_, &file);
+    const auto count = pread(said_, last.data(), last.size(),
+                             std::max<off_t>(file.st_size - static_cast<off_t>(last.size()), 0));
+    return name_ + " " + how + ": " +
+           std::string(last.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
 }
 
 std::string systemFile(const ModelFolder& folder, const std::string& agent,

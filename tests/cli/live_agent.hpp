@@ -3,11 +3,11 @@
 
 #include "cli/cortex_process.hpp"
 #include "core/model_folder.hpp"
-#include "support/patience.hpp"
+#include "support/looking.hpp"
 
-#include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sys/types.h>
@@ -19,6 +19,7 @@ namespace cortex::test {
 
 // A network of this test's own: a domain that follows from its process, on loopback.
 extern const std::string domain;
+inline const std::string patient = std::to_string(patience.count());  // s, for --timeout
 extern const std::vector<std::string> network;
 
 std::vector<std::string> operator+(std::vector<std::string> left,
@@ -34,10 +35,11 @@ nlohmann::json liveJson(const std::vector<std::string>& arguments, const std::st
 
 std::vector<std::string> linesOf(const std::string& text);
 
-// A program that runs until it is destroyed, or killed.
+// A program that runs until it is destroyed, or killed. Once one has failed that must run, no wait
+// goes on.
 class Background {
 public:
-    explicit Background(std::vector<std::string> command);
+    explicit Background(std::vector<std::string> command, bool mustRun = true);
     ~Background();
     Background(const Background&) = delete;
     Background& operator=(const Background&) = delete;
@@ -45,8 +47,13 @@ public:
     void end(int signal);   // and waits for its end
     void send(int signal);  // such as SIGSTOP and SIGCONT
 
+    bool runs() const { return howItEnded(child_).empty(); }
+    std::string whyItFailed() const;  // with what it said last; empty: it has not
+
 private:
     pid_t child_;
+    int said_;  // a file of what it writes
+    std::string name_;
 };
 
 // A system file of one agent at 200 Hz, with these simplexes.
@@ -58,10 +65,9 @@ std::vector<std::string> agentCommand(const std::string& file);
 // Looks again until it is so, while patience lasts. A look that asserts would fail at the first
 // one.
 template <class Look, class Condition>
-auto lookUntil(Look look, Condition condition) {
-    const auto end = std::chrono::steady_clock::now() + patience;
+auto lookUntil(Look look, Condition condition, const Place& place = Place::current()) {
     auto seen = look();
-    while (!condition(seen) && std::chrono::steady_clock::now() < end) seen = look();
+    looksUntil([&] { return condition(seen); }, [&] { seen = look(); }, place);
     return seen;
 }
 

@@ -16,7 +16,8 @@ namespace {
 // Each burst begins when the last cycle of the one before is printed.
 TEST(CortexCycles, WatchPrintsEachToWhoAsksForEveryCycle) {
     SteppedRobot robot{std::stoi(domain)};
-    std::string command = "exec timeout 60 " CORTEX_BINARY_DIR
+    std::string command = "exec timeout " + patient +
+                          " " CORTEX_BINARY_DIR
                           "/bin/cortex watch /signal.count --csv --rate 0 --count 300";
     for (const std::string& each : network) command += " " + each;
     FILE* output = popen(command.c_str(), "re");

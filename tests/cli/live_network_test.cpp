@@ -224,7 +224,8 @@ TEST_F(CortexLive, WatchGoesOnWithTheNextStartOfAnAgentAndSaysSo) {
     for (const Format& format : {Format{"", "12 Hz", "new start of agent mixer"},
                                  Format{"--json", "\"value\":12", "\"restarted\":[\"mixer\"]"},
                                  Format{"--csv", ",good,good,", ",mixer\n"}}) {
-        std::string command = "exec timeout 60 " CORTEX_BINARY_DIR
+        std::string command = "exec timeout " + patient +
+                              " " CORTEX_BINARY_DIR
                               "/bin/cortex watch "
                               "/drive.naturalFrequency /mixer.cycleDurationMean " +
                               format.option;
@@ -269,7 +270,7 @@ TEST_F(CortexLive, LabelsAreShownBesideTheirNumbers) {
 
 TEST_F(CortexLive, AnAgentThatKeepsToLoopbackIsListedWithTheVariableThatTheDemoPrints) {
     const Outcome outcome =
-        cortex({"list", "--domain", domain, "--timeout", "60"}, {{"CORTEX_INTERFACE", "lo"}});
+        cortex({"list", "--domain", domain, "--timeout", patient}, {{"CORTEX_INTERFACE", "lo"}});
 
     EXPECT_EQ(outcome.exit, 0) << outcome.errors;
     EXPECT_TRUE(contains(outcome.output, "/drive")) << outcome.output;
@@ -277,7 +278,7 @@ TEST_F(CortexLive, AnAgentThatKeepsToLoopbackIsListedWithTheVariableThatTheDemoP
 
 TEST_F(CortexLive, AnAgentThatKeepsToLoopbackIsListedWithoutAnyOption) {
     ASSERT_EQ(live({"list"}).exit, 0) << "it is there";
-    const Outcome outcome = cortex({"list", "--domain", domain, "--timeout", "60"});
+    const Outcome outcome = cortex({"list", "--domain", domain, "--timeout", patient});
 
     EXPECT_EQ(outcome.exit, 0) << outcome.errors;
     EXPECT_TRUE(contains(outcome.output, "/drive")) << outcome.output;

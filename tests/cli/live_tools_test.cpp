@@ -222,11 +222,9 @@ TEST(CortexGraph, JoinsWhatAgentsHaveOfEachOther) {
                    "<simplex path=\"/back/arm\" type=\"Arm\">"
                    "<relate rule=\"manipulator\" to=\"/front/lbr\" remote=\"true\"/>"
                    "<relate rule=\"gripper\" to=\"/front/gripper\" remote=\"true\"/></simplex>"))};
-    json graph;
-    const auto end = std::chrono::steady_clock::now() + patience;
-    do {  // the second may not have begun
-        graph = liveJson({"graph"}, "graph");
-    } while (graph["simplexes"].size() < 20 && std::chrono::steady_clock::now() < end);
+    const json graph =  // the second may not have begun
+        lookUntil([] { return liveJson({"graph"}, "graph"); },
+                  [](const json& seen) { return seen["simplexes"].size() >= 20; });
 
     ASSERT_EQ(graph["simplexes"].size(), 20U) << graph;
     for (const json& each : graph["simplexes"]) {
@@ -234,10 +232,9 @@ TEST(CortexGraph, JoinsWhatAgentsHaveOfEachOther) {
         const std::string path = each["path"];
         EXPECT_EQ(each["agent"], path.starts_with("/front") ? "front" : "back") << each;
     }
-    Outcome text;
-    do {
-        text = live({"graph"});
-    } while (!contains(text.output, "(front)") && std::chrono::steady_clock::now() < end);
+    const Outcome text =
+        lookUntil([] { return live({"graph"}); },
+                  [](const Outcome& seen) { return contains(seen.output, "(front)"); });
     EXPECT_TRUE(contains(text.output, "manipulator  <- /front/lbr (front)")) << text.output;
 
     front->end(SIGTERM);

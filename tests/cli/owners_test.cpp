@@ -263,7 +263,7 @@ struct SplitOwners : CortexOwners {
     Outcome tool(const Words& arguments) const override {
         Outcome outcome;
         looksFrom->within(
-            [&] { outcome = cortex(arguments + Words{"--domain", domain, "--timeout", "60"}); });
+            [&] { outcome = cortex(arguments + Words{"--domain", domain, "--timeout", patient}); });
         return outcome;
     }
     void expectThatAllGoesTo(const std::string& owner, const std::string& other,

@@ -42,7 +42,7 @@ protected:
 };
 
 TEST_F(MirrorSummaries, TellHowAllSimplexesAreOfWhichNothingIsViewed) {
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
     EXPECT_TRUE(mirror.agents().front().summarises);
     EXPECT_TRUE(mirror.summary("robot").empty()) << "nobody has asked";
 
@@ -68,9 +68,9 @@ TEST_F(MirrorSummaries, ComeWhileSomebodyAsksForThem) {
     Participant other{loopback(), "other"};
     const auto ours = other.writer<Summary>(topics::summary);
     const auto theirs = other.reader<Summary>(topics::summary, [](Summary&&) {});
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
     mirror.view({"/"}, 30);
-    ASSERT_TRUE(mirror.waitForValues(longEnough));
+    ASSERT_TRUE(mirror.waitForValues(test::patience));
     EXPECT_EQ(theirs->writers(), 1U) << "our own: a view of values asks for no summary";
     EXPECT_EQ(ours->readers(), 1U);
 

@@ -55,10 +55,8 @@ TEST(Mirror, KnowsEveryAgentWithAllItHas) {
     const Mirror mirror{"test", loopback()};
 
     // Agents that have just started need not know each other yet.
-    const auto end = std::chrono::steady_clock::now() + longEnough;
-    do {
-        ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
-    } while (mirror.agents().size() < 2 && std::chrono::steady_clock::now() < end);
+    ASSERT_TRUE(comesTrue(
+        [&] { return mirror.waitUntilComplete(test::patience) && mirror.agents().size() == 2; }));
 
     ASSERT_EQ(mirror.agents().size(), 2U);
     const AgentStatus status = mirror.agents().front();
@@ -90,13 +88,13 @@ TEST(Mirror, ShowsTheValuesThatAreViewed) {
     const auto agent = robot();
     agent->run();
     Mirror mirror{"test", loopback()};
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
     EXPECT_FALSE(mirror.image("robot"));
 
     mirror.view({"/arm"}, 100);
 
     ASSERT_TRUE(comesTrue([&] { return static_cast<bool>(mirror.image("robot")); }));
-    ASSERT_TRUE(mirror.waitForValues(longEnough));
+    ASSERT_TRUE(mirror.waitForValues(test::patience));
     agent->change([&] { arm(*agent).data<std::string_view>("title") = "drill"; });
     EXPECT_TRUE(comesTrue(
         [&] { return mirror.image("robot")->get<std::string_view>("/arm", "title") == "drill"; }));
@@ -127,7 +125,7 @@ TEST(Mirror, ReportsEveryImageInOrderToWhoAskedForEveryCycle) {
         }
         mayGoOn.wait();
     });
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
     mirror.view({"/arm"}, 0);
     const auto told = [&] {
         const std::lock_guard lock{mutex};
@@ -189,10 +187,10 @@ TEST(Mirror, TellsTheAgesOfAllSimplexesOfAnAgentAtOnce) {
     const auto agent = robot();
     agent->run();
     Mirror mirror{"test", loopback()};
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
     EXPECT_TRUE(mirror.ages("robot").empty()) << "nothing is viewed";
     mirror.view({"/arm"}, 100);
-    ASSERT_TRUE(mirror.waitForValues(longEnough));
+    ASSERT_TRUE(mirror.waitForValues(test::patience));
 
     const auto ages = mirror.ages("robot");
 
@@ -208,8 +206,8 @@ TEST(Mirror, CallsStaleWhatAnAgentThatHangsNoLongerSays) {
     agent->run();
     Mirror mirror{"test", loopback()};
     mirror.view({"/"}, 30);
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
-    ASSERT_TRUE(mirror.waitForValues(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
+    ASSERT_TRUE(mirror.waitForValues(test::patience));
 
     agent->change([&] {
         EXPECT_TRUE(
@@ -227,8 +225,8 @@ TEST(Mirror, ShowsALoopThatStandsStillToAllWhoBeginToLook) {
         for (int i = 0; i < 3; ++i) {
             Mirror mirror{"test", loopback()};
             mirror.view({i == 2 ? "/hand" : "/arm"}, 30);
-            ASSERT_TRUE(mirror.waitForOwner("/arm", longEnough));
-            EXPECT_TRUE(mirror.waitForValues(longEnough)) << i;
+            ASSERT_TRUE(mirror.waitForOwner("/arm", test::patience));
+            EXPECT_TRUE(mirror.waitForValues(test::patience)) << i;
         }
     });
 }
@@ -275,19 +273,19 @@ TEST(Mirror, CallsCommandsAndSaysWhatCameOfThem) {
     const auto agent = robot();
     agent->run();
     Mirror mirror{"test", loopback()};
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
 
     CommandAnswer answer =
-        mirror.call("/arm", "add", {{"amount", Value{std::vector{2.0}}}}, longEnough);
+        mirror.call("/arm", "add", {{"amount", Value{std::vector{2.0}}}}, test::patience);
     EXPECT_EQ(answer.outcome, Outcome::Done) << answer.text();
     EXPECT_EQ(answer.response.at("sum"), Value(std::vector{3.0}));
-    answer = mirror.call("/arm", "add", {{"amount", Value{std::vector{200.0}}}}, longEnough);
+    answer = mirror.call("/arm", "add", {{"amount", Value{std::vector{200.0}}}}, test::patience);
     EXPECT_EQ(answer.outcome, Outcome::Rejected);
     EXPECT_EQ(answer.reason, Reason::Range) << answer.text();
-    answer = mirror.call("/arm", "poke", {}, longEnough);
+    answer = mirror.call("/arm", "poke", {}, test::patience);
     EXPECT_EQ(answer.outcome, Outcome::Failed);
     EXPECT_EQ(answer.why, "it hurts");
-    answer = mirror.call("/arm", "set", {{"gain", Value{std::vector{4.0}}}}, longEnough);
+    answer = mirror.call("/arm", "set", {{"gain", Value{std::vector{4.0}}}}, test::patience);
     EXPECT_EQ(answer.outcome, Outcome::Done) << answer.text();
     agent->change([&] { EXPECT_EQ(double{arm(*agent).data<double>("gain")}, 4.0); });
     EXPECT_TRUE(agent->rig.hasEvent(mirror.name())) << "the agent says who commanded";
@@ -311,16 +309,16 @@ TEST(Mirror, PreparesCommandsWithEachAgentBeforeTheFirstOne) {
     const auto commands = other.reader<Command>(topics::command, [](Command&&) {});
     Mirror looks{"test", loopback()};
     looks.view({"/"}, 30);
-    ASSERT_TRUE(looks.waitUntilComplete(longEnough));
-    ASSERT_TRUE(looks.waitForValues(longEnough));
+    ASSERT_TRUE(looks.waitUntilComplete(test::patience));
+    ASSERT_TRUE(looks.waitForValues(test::patience));
     EXPECT_EQ(writers(), 0U) << "one that only looks costs no answers";
     Mirror mirror{"test", loopback()};
 
     mirror.prepareCommands();
 
     EXPECT_TRUE(comesTrue([&] { return writers() == 1 && commands->writers() == 1; }));
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
-    EXPECT_EQ(mirror.call("/arm", "poke", {}, longEnough).outcome, Outcome::Failed);
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
+    EXPECT_EQ(mirror.call("/arm", "poke", {}, test::patience).outcome, Outcome::Failed);
     EXPECT_EQ(writers(), 1U);
 }
 
@@ -328,7 +326,7 @@ TEST(Mirror, NamesTheNearestPathOfAnUnknownOne) {
     const auto agent = robot();
     agent->run();
     Mirror mirror{"test", loopback()};
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
 
     try {
         mirror.call("/amr", "poke");
@@ -375,8 +373,8 @@ TEST(Mirror, LosesAnAgentThatEndsAndTakesItsNextStart) {
     agent->run();
     Mirror mirror{"test", loopback()};
     mirror.view({"/"}, 100);
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
-    ASSERT_TRUE(mirror.waitForValues(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
+    ASSERT_TRUE(mirror.waitForValues(test::patience));
     const auto before = mirror.structure("robot");
     const AgentImage kept = mirror.image("robot");
 
@@ -394,7 +392,7 @@ TEST(Mirror, LosesAnAgentThatEndsAndTakesItsNextStart) {
     }));
     EXPECT_GT(mirror.structure("robot")->epoch, before->epoch);
     EXPECT_EQ(kept->get<double>("/arm", "gain"), 1.0);
-    EXPECT_EQ(mirror.call("/arm", "poke", {}, longEnough).outcome, Outcome::Failed);
+    EXPECT_EQ(mirror.call("/arm", "poke", {}, test::patience).outcome, Outcome::Failed);
 }
 
 TEST(Mirror, LosesAnAgentThatFallsSilentWithoutAWord) {
@@ -421,8 +419,8 @@ TEST(Mirror, SurvivesWhatNoAgentWouldSay) {
     Mirror mirror{"test", loopback()};
     mirror.view({"/"}, 30);
     mirror.onEvent([](const AgentEvent&) {});
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
-    ASSERT_TRUE(mirror.waitForValues(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
+    ASSERT_TRUE(mirror.waitForValues(test::patience));
     Participant other{loopback(), "liar"};
     const auto models = other.writer<Model>(topics::model);
     const auto blocks = other.writer<Block>(topics::view30);

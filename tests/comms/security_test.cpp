@@ -80,20 +80,20 @@ struct Secured : testing::Test {
 
 TEST_F(Secured, AgentIsSeenAndCommanded) {
     Mirror mirror{"cortex", secured(plant.make("station", {"/cell"}))};
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
 
     EXPECT_EQ(mirror.name().substr(0, 8), "station@");
     EXPECT_EQ(mirror.agents().at(0).name, "robot");
     EXPECT_EQ(mirror.agents().at(0).security, "authenticated, encrypted");
-    EXPECT_EQ(mirror.call("/cell/arm", "poke", {}, longEnough).outcome, Outcome::Done);
+    EXPECT_EQ(mirror.call("/cell/arm", "poke", {}, test::patience).outcome, Outcome::Done);
     EXPECT_EQ(pokes, 1);
     EXPECT_EQ(mirror.refused(), 0U);
 }
 
 TEST_F(Secured, CommandOutsideThePrefixIsRefusedAndReported) {
     Mirror mirror{"cortex", secured(plant.make("station", {"/cell"}))};
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
-    const CommandAnswer answer = mirror.call("/belt", "poke", {}, longEnough);
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
+    const CommandAnswer answer = mirror.call("/belt", "poke", {}, test::patience);
 
     EXPECT_EQ(answer.outcome, Outcome::Rejected);
     EXPECT_EQ(answer.reason, Reason::Authority);
@@ -104,10 +104,10 @@ TEST_F(Secured, CommandOutsideThePrefixIsRefusedAndReported) {
 
 TEST_F(Secured, ControlIsTakenWithinThePrefixOnly) {
     Mirror mirror{"cortex", secured(plant.make("station", {"/cell"}))};
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
     const auto take = [&](const std::string& prefix) {
         return mirror.call("/robot", "takeControl",
-                           {{"prefix", Value{std::vector<std::string>{prefix}}}}, longEnough);
+                           {{"prefix", Value{std::vector<std::string>{prefix}}}}, test::patience);
     };
     EXPECT_EQ(take("/cell").outcome, Outcome::Done);
     EXPECT_EQ(take("/").reason, Reason::Authority);
@@ -118,9 +118,9 @@ TEST_F(Secured, ControlIsTakenWithinThePrefixOnly) {
 
 TEST_F(Secured, CommandOfAReaderIsRefusedAndReported) {
     Mirror mirror{"cortex", secured(plant.make("display", {}))};
-    ASSERT_TRUE(mirror.waitUntilComplete(longEnough));
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
 
-    EXPECT_EQ(mirror.call("/cell/arm", "poke", {}, longEnough).why, "it may only look");
+    EXPECT_EQ(mirror.call("/cell/arm", "poke", {}, test::patience).why, "it may only look");
     EXPECT_TRUE(reports("refused: it may only look"));
     EXPECT_EQ(pokes, 0);
 }
@@ -131,10 +131,10 @@ TEST_F(Secured, ALateToolHearsHundredsOfEventsAtOnce) {
     const std::string folder = plant.make("station", {"/cell"});
     {
         Mirror early{"cortex", secured(folder)};
-        ASSERT_TRUE(early.waitUntilComplete(longEnough));
+        ASSERT_TRUE(early.waitUntilComplete(test::patience));
         const Mirror::Arguments one{{"amount", Value{std::vector{1.0}}}};
         for (std::size_t i = 0; i < count; ++i) {  // each that fails is an event
-            ASSERT_EQ(early.call("/cell/arm", "add", one, longEnough).outcome, Outcome::Failed);
+            ASSERT_EQ(early.call("/cell/arm", "add", one, test::patience).outcome, Outcome::Failed);
         }
     }
     // How they are packed is a matter of luck. All stay: see docs/security.md on who leaves early.

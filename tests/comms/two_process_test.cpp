@@ -33,6 +33,10 @@ public:
         }
         close(input[0]);
         input_ = input[1];
+        test::hopeless = [child = process_] {
+            const std::string how = test::howItEnded(child);
+            return how.empty() ? how : "far-agent " + how;
+        };
     }
     ~FarAgent() {
         if (process_ > 0) kill();
@@ -43,6 +47,7 @@ public:
     }
     // Its exit code; ThreadSanitizer's is not 0 where it found something.
     int end() {
+        test::hopeless = {};
         close(input_);
         int status = 0;
         waitpid(process_, &status, 0);
@@ -78,10 +83,10 @@ TEST_F(TwoProcesses, LinkAndCommandAndEndInOrder) {
     EXPECT_EQ(near.number("/axis", "position"), 2.0);
     Mirror tool{"tool", loopback()};
     tool.view({"/"}, 100);
-    EXPECT_TRUE(tool.waitForOwner("/probe", longEnough));
-    EXPECT_TRUE(tool.waitForValues(longEnough));
+    EXPECT_TRUE(tool.waitForOwner("/probe", test::patience));
+    EXPECT_TRUE(tool.waitForValues(test::patience));
     for (int i = 0; i < 10; ++i) {
-        const CommandAnswer answer = tool.call("/probe", "poke", {}, longEnough);
+        const CommandAnswer answer = tool.call("/probe", "poke", {}, test::patience);
         EXPECT_EQ(answer.outcome, Outcome::Done) << answer.why;
     }
 

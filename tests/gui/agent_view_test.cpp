@@ -6,6 +6,7 @@
 
 #include "core/model_folder.hpp"
 #include "gui/measured_agent.hpp"
+#include "gui/waiting.hpp"
 #include "views/agent_table.hpp"
 #include "views/agreement_table.hpp"
 #include "views/counter_table.hpp"
@@ -133,7 +134,7 @@ TEST_F(Agents, AnItemThatContradictsOrDiffersHasARow) {
     view.choose("robot");
     const auto frame = frameOf({other.now(), robot.now()});
     auto* table = view.findChild<AgreementTable*>();
-    ASSERT_TRUE(QTest::qWaitFor([&] {
+    ASSERT_TRUE(comes([&] {
         view.refresh(*frame);
         return table->count().has_value();
     }));
@@ -148,7 +149,7 @@ TEST_F(Agents, TypesThatAgreeAreSaidToAgree) {
     MadeAgent robot = clusterNamed("robot"), other = clusterNamed("other");
     const auto frame = frameOf({other.now(), robot.now()});
     view.findChild<QTabBar*>()->setCurrentIndex(3);
-    EXPECT_TRUE(QTest::qWaitFor([&] {
+    EXPECT_TRUE(comes([&] {
         view.refresh(*frame);
         return says("Compared with 1 other agent: all types that both have agree.");
     }));
@@ -190,7 +191,7 @@ TEST_F(Agents, ACounterSaysHowMuchItGrewAndSinceWhen) {
     robot.put("/robot", "overflowCount", std::int64_t{1'207});
     frame = frameOf({robot.now()});
     frame->seconds = 12;
-    EXPECT_TRUE(QTest::qWaitFor([&] {
+    EXPECT_TRUE(comes([&] {
         view.refresh(*frame);
         return row<CounterTable>(0)[2] == "+3 in 12 s";
     })) << row<CounterTable>(0)[2].toStdString();

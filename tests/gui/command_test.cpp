@@ -50,12 +50,19 @@ protected:
     bool movesForLong() {
         EXPECT_EQ(live({"call", "/mixer", "startup"}).exit, 0);
         EXPECT_EQ(live({"set", "/controller", longWay}).exit, 0);
-        other.emplace(std::vector<std::string>{CORTEX_BINARY_DIR "/bin/cortex", "call",
-                                               "/controller", "moveTo", "speedShare=0.01",
-                                               "--timeout", "100"} +
-                      network);
+        const auto moveTo = std::vector<std::string>{CORTEX_BINARY_DIR "/bin/cortex",
+                                                     "call",
+                                                     "/controller",
+                                                     "moveTo",
+                                                     "speedShare=0.01",
+                                                     "--timeout",
+                                                     "100"} +
+                            network;
         shows("/controller", "commands");
-        return comes([this] { return button(card("moveTo"), "Cancel").isVisible(); });
+        return comes([&] {  // called again, where the agent was silent for a second
+            if (!other || !other->runs()) other.emplace(moveTo, false);
+            return button(card("moveTo"), "Cancel").isVisible();
+        });
     }
     // Some frames after this one.
     bool goesOn() {

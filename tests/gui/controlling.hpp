@@ -48,11 +48,20 @@ protected:
         const auto place = frame->find(path);
         return place && frame->agents[place->agent].state(place->simplex) == state;
     }
-    static std::string leases() { return live({"leases"}).output; }
+    static std::string leases() {
+        return lookUntil([] { return live({"leases"}); },
+                         [](const Outcome& seen) { return seen.exit == 0; })
+            .output;
+    }
 };
 
-// Another window of the same person or of a colleague, without a screen.
+// Another window of the same person or of a colleague, without a screen. It goes on while that of
+// the test does.
 struct Colleague {
+    Colleague() {
+        QObject::connect(&alive, &QTimer::timeout, [this] { session.isAlive(); });
+        alive.start(100);
+    }
     bool sees(const char* path) const { return session.frame()->find(path).has_value(); }
     const Control& control() {
         session.isAlive();
@@ -61,6 +70,7 @@ struct Colleague {
     }
     Session session{ownNetwork()};
     Control now;
+    QTimer alive;
 };
 
 }  // namespace cortex::test

@@ -8,6 +8,7 @@
 #include "views/simplex_header.hpp"
 #include "widgets/text_label.hpp"
 
+#include <QElapsedTimer>
 #include <QImage>
 #include <chrono>
 #include <cstdlib>
@@ -28,7 +29,7 @@ protected:
     void SetUp() override {
         if (const std::string why = whyNoHosts(); !why.empty()) GTEST_SKIP() << why;
         hosts.emplace();
-        folder.write("mixer.xml", cortex({"new-system", "mixer"}).output);
+        folder.write("mixer.xml", mixerSystem());
         const std::string file = (folder.path() / "mixer.xml").string();
         agent.emplace(std::vector<std::string>{"/usr/bin/nsenter", "--net=" + hosts->second.path(),
                                                CORTEX_BINARY_DIR "/bin/cortex-agent", file,
@@ -103,34 +104,26 @@ protected:
     const Ring* ring() const {
         return session->recorder().ring({"mixer", "/mixer", item.toStdString(), 0});
     }
-    // The window goes on meanwhile.
-    static void passes(std::chrono::milliseconds time) {
-        QElapsedTimer timer;
-        timer.start();
-        while (timer.elapsed() < time.count())
-            QApplication::processEvents(QEventLoop::WaitForMoreEvents);
-    }
 
     void isNotHeardWhileCutFor(std::chrono::milliseconds time) {
         ASSERT_EQ(lostPixels(), 0);
         QElapsedTimer timer;
         timer.start();
         hosts->cut();
-        ASSERT_TRUE(comes([this] { return isLost() && isInBrackets(); })) << value().toStdString();
-        EXPECT_TRUE(says("quality lost"));
+        // Of one frame of the window: that of the session may be a later one.
+        ASSERT_TRUE(comes([this] { return says("quality lost") && isInBrackets(); }));
         EXPECT_TRUE(says("mixer is not heard for"));
         EXPECT_TRUE(says("Values are the last ones, in brackets."));
         EXPECT_TRUE(says(" old"));
         EXPECT_GT(lostPixels(), 0) << "the value has the colour of what is lost";
         const QString last = value(), before = notice();
         EXPECT_TRUE(comes([&] { return notice() != before; })) << "the age grows";
-        if (timer.elapsed() < time.count()) passes(time - timer.elapsed() * 1ms);
+        ASSERT_TRUE(comes([&] { return timer.elapsed() >= time.count(); }));
         EXPECT_TRUE(isLost());
         EXPECT_EQ(value(), last) << "the last value stays as it was";
 
         hosts->join();
         EXPECT_TRUE(isLiveAgain()) << value().toStdString();
-        EXPECT_FALSE(isLost());
         EXPECT_FALSE(says("is not heard"));
         EXPECT_FALSE(says("quality lost"));
         EXPECT_EQ(lostPixels(), 0);
@@ -153,7 +146,9 @@ TEST_F(CutLink, APlotHasAGapAsLongAsTheCutAndNoValueInIt) {
     ASSERT_TRUE(comes([this] { return isLost(); }));
     ASSERT_TRUE(comes([&] { return !gaps().empty() && gaps().back().to >= plot->kept().to; }));
     const std::int64_t end = ring()->end();
-    passes(500ms);
+    QElapsedTimer timer;
+    timer.start();
+    ASSERT_TRUE(comes([&] { return timer.elapsed() >= 500; }));
     EXPECT_EQ(ring()->end(), end) << "nothing is appended while nothing comes";
     hosts->join();
     ASSERT_TRUE(comes([&] { return ring()->end() > end; }));

@@ -37,8 +37,8 @@ TEST_F(Program, MakesAPictureOfEveryViewInTheSizeThatWasAskedFor) {
 }
 
 TEST_F(Program, MakesAPictureOfAPlotAndMeasuresIt) {
-    const Outcome made = explorerWith(
-        {"--screenshot", file(), "--timeout", "60", "--plot", "/drive.position", "/drive.state"});
+    const Outcome made = explorerWith({"--screenshot", file(), "--timeout", patient, "--plot",
+                                       "/drive.position", "/drive.state"});
     EXPECT_EQ(made.exit, 0) << made.errors;
     EXPECT_FALSE(QImage(QString::fromStdString(file())).isNull());
     const Outcome measured =

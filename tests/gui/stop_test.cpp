@@ -4,6 +4,7 @@
 #include "widgets/text_label.hpp"
 #include "window/stop_button.hpp"
 
+#include <QElapsedTimer>
 #include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
@@ -32,6 +33,18 @@ protected:
             return isIn("/drive", State::Standby) && isIn("/controller", State::Standby);
         });
     }
+    // Again, where a busy machine made more than a second of it.
+    void presses12Twice(QWidget& widget) {
+        QElapsedTimer between;
+        do {
+            window.stopButton().setScope(std::nullopt);  // as before the first press
+            QTest::keyClick(&widget, Qt::Key_F12);
+            between.start();
+            EXPECT_EQ(window.stopButton().text(), "F12 again: stop all");
+            EXPECT_TRUE(window.stopButton().progress().isEmpty()) << "the first press does nothing";
+            QTest::keyClick(&widget, Qt::Key_F12);
+        } while (between.elapsed() >= 900);
+    }
     bool says(const QString& text) {
         return comes([&] { return window.stopButton().progress().contains(text); });
     }
@@ -52,10 +65,7 @@ TEST_F(Stopping, F12StopsAtItsSecondPressFromATextField) {
     ASSERT_TRUE(everythingRuns());
     window.tree().focusFilter();
     auto* field = window.findChild<QLineEdit*>();
-    QTest::keyClick(field, Qt::Key_F12);
-    EXPECT_EQ(window.stopButton().text(), "F12 again: stop all");
-    EXPECT_TRUE(window.stopButton().progress().isEmpty()) << "the first press does nothing";
-    QTest::keyClick(field, Qt::Key_F12);
+    presses12Twice(*field);
     EXPECT_TRUE(everythingStops());
     EXPECT_TRUE(field->text().isEmpty());
 }
@@ -65,8 +75,7 @@ TEST_F(Stopping, F12WorksWhileAMenuIsOpen) {
     QMenu menu;
     menu.addAction("anything");
     menu.popup({});
-    QTest::keyClick(&menu, Qt::Key_F12);
-    QTest::keyClick(&menu, Qt::Key_F12);
+    presses12Twice(menu);
     EXPECT_TRUE(everythingStops());
     menu.close();
 }

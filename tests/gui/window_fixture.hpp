@@ -2,54 +2,28 @@
 #pragma once
 
 #include "cli/live_agent.hpp"
+#include "gui/waiting.hpp"
 #include "model/item_model.hpp"
 #include "model/system_model.hpp"
-#include "support/patience.hpp"
 #include "views/system_tree.hpp"
 #include "widgets/item_table.hpp"
 #include "window/main_window.hpp"
 
 #include <QAbstractItemModelTester>
-#include <QApplication>
-#include <QElapsedTimer>
-#include <QTimer>
 #include <chrono>
-#include <functional>
+#include <future>
 #include <string>
+#include <vector>
 
 namespace cortex::test {
 
 using namespace gui;
-
-inline constexpr qint64 longEnough = std::chrono::milliseconds{patience}.count();
 
 inline comms::NetworkOptions ownNetwork() {
     comms::NetworkOptions options;
     options.domain = std::stoi(domain);
     options.interfaces = {"127.0.0.1"};
     return options;
-}
-
-inline bool comes(const std::function<bool()>& condition) {
-    QElapsedTimer timer;
-    timer.start();
-    QTimer events;  // it ends also where nothing else is an event
-    events.start(100);
-    while (!condition()) {
-        if (timer.elapsed() > longEnough) return false;
-        QApplication::processEvents(QEventLoop::WaitForMoreEvents);
-    }
-    return true;
-}
-
-// The same while the window handles no event at all.
-inline bool comesWithoutEvents(const std::function<bool()>& condition) {
-    QElapsedTimer timer;
-    timer.start();
-    while (!condition()) {
-        if (timer.elapsed() > longEnough) return false;
-    }
-    return true;
 }
 
 // The system of `cortex new-system` in a window.
@@ -68,6 +42,13 @@ protected:
         const bool ready = comes([this] { return window.ready(); });
         window.refresh();  // what has come is shown, too
         return ready;
+    }
+    // A tool runs while the window goes on: one that stands still loses its control.
+    static Outcome live(const std::vector<std::string>& arguments) {
+        auto outcome = std::async(std::launch::async, [&] { return test::live(arguments); });
+        const auto now = std::chrono::seconds{0};
+        comes([&] { return outcome.wait_for(now) == std::future_status::ready; });
+        return outcome.get();
     }
     const SystemModel& tree() { return window.tree().model(); }
     // What the table of data shows of an item.

@@ -27,6 +27,8 @@ SOURCE, BINARY, *SYSTEMS = (pathlib.Path(each).resolve() for each in sys.argv[1:
 LINE = re.compile(r'^(/\S*)\.([\w-]+) =(.*?)(?: \[([^]]*)\] (good|stale|bad|lost))?$')
 
 
+PATIENCE = 60  # s; no test that passes waits so long
+AGENTS = []  # that must run
 LOCKS = []  # held until this process ends
 
 
@@ -53,6 +55,16 @@ def domain(number):
                 if free(each))
 
 
+def until(look, wanted):
+    """What is seen once it is what is wanted."""
+    end = time.monotonic() + PATIENCE
+    while not wanted(seen := look()):
+        ended = [each.args for each in AGENTS if each.poll() is not None]
+        if ended or time.monotonic() > end:
+            raise AssertionError(f"it did not come; ended: {ended}; seen last: {seen}")
+    return seen
+
+
 def build(folder):
     """The client, made in `folder` of what a stranger has."""
     for each in (SOURCE / "tests/interop/client").iterdir():
@@ -75,12 +87,14 @@ def agent(system, number, *options):
     with tempfile.TemporaryFile("w+") as output:
         process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL,
                                    stdout=output, stderr=subprocess.STDOUT)
+        AGENTS.append(process)
         try:
             yield process
             if process.poll() is not None:
                 output.seek(0)
                 raise AssertionError(f"{system} ended: {output.read()}")
         finally:
+            AGENTS.remove(process)
             process.terminate()
             process.wait()
 
@@ -95,7 +109,7 @@ class Client:
     # Its output; any code will do where None is expected.
     def run(self, *words, exits=0):
         ran = subprocess.run([self.program, str(self.domain), *words], text=True,
-                             capture_output=True, timeout=60)
+                             capture_output=True, timeout=PATIENCE)
         if exits not in (None, ran.returncode):
             raise AssertionError(f"{words} ended with {ran.returncode}:\n{ran.stdout}{ran.stderr}")
         return ran.stdout.splitlines()
@@ -125,12 +139,9 @@ def same(printed, elements):
 class CycloneClient(unittest.TestCase):
     def test_lists_what_the_command_line_lists(self):
         with self.demo():
-            listed = subprocess.run(
-                [BINARY / "bin/cortex", "list", "--json", "--domain", str(domain(0)), "--interface",
-                 "127.0.0.1", "--timeout", "20"], capture_output=True, check=True).stdout
-            expected = {(each["path"], each["type"], each["role"], each["agent"])
-                        for each in json.loads(listed)}
-            self.assertEqual(Client(0).list(), expected)
+            # Again, while one of the agents is not heard yet.
+            _, expected = until(lambda: (Client(0).list(), self.listed()),
+                                lambda seen: seen[0] == seen[1])
             self.assertGreater(len(expected), 40)
 
     def test_prints_live_values(self):
@@ -148,9 +159,8 @@ class CycloneClient(unittest.TestCase):
             client = Client(0)
             listed = client.list()
             owner = next(each[3] for each in listed if each[0] == "/drives/1")
-            marks = {}
-            while marks.get("/drives/1") != "good Active":  # it is started up meanwhile
-                marks = dict(line.split(" ", 1) for line in client.run("summary", "/drives/1"))
+            until(lambda: client.run("summary", "/drives/1"),  # it is started up meanwhile
+                  lambda seen: seen == ["/drives/1 good Active"])
             marks = dict(line.split(" ", 1) for line in client.run("summary", "/"))
             self.assertEqual(sorted(marks), sorted(each[0] for each in listed if each[3] == owner))
             self.assertEqual(len(client.run("summary", "/drives/1")), 1)
@@ -160,8 +170,8 @@ class CycloneClient(unittest.TestCase):
             client = Client(0)
             owner = next(each[3] for each in client.list() if each[0] == "/drives/1")
             startup = ("call", f"/{owner}", "startup", "prefix=/")
-            while client.run(*startup, exits=None) == ["Rejected busy startup is running"]:
-                pass  # that of its own start
+            until(lambda: client.run(*startup, exits=None),  # after that of its own start
+                  lambda seen: seen != ["Rejected busy startup is running"])
             self.assertEqual(client.run(*startup), ["Done none "])
             answer, = client.run("call", "/drives/1", "startup", exits=1)
             self.assertEqual(answer, "Rejected state startup needs Standby, is Active")
@@ -174,6 +184,14 @@ class CycloneClient(unittest.TestCase):
         with concurrent.futures.ThreadPoolExecutor(4) as pool:
             for _ in pool.map(self.checkModel, range(1, int(os.environ.get("MODELS", "12")) + 1)):
                 pass
+
+    def listed(self):
+        """What the command line lists."""
+        listed = subprocess.run(
+            [BINARY / "bin/cortex", "list", "--json", "--domain", str(domain(0)), "--interface",
+             "127.0.0.1", "--timeout", str(PATIENCE)], capture_output=True, check=True).stdout
+        return {(each["path"], each["type"], each["role"], each["agent"])
+                for each in json.loads(listed)}
 
     @contextlib.contextmanager
     def demo(self):
@@ -201,9 +219,7 @@ class CycloneClient(unittest.TestCase):
 
     def compare(self, client, model):
         # A value that is late is stale: it is looked at again.
-        end = time.monotonic() + 60
-        while "stale" in str(values := client.values("/")) and time.monotonic() < end:
-            pass
+        values = until(lambda: client.values("/"), lambda seen: "stale" not in str(seen))
         for path, items in model.values.items():
             for name, elements in items.items():
                 printed, unit, quality = values[path][name]
