@@ -107,6 +107,8 @@ TEST(DataItem, HasARangeOfItsKind) {
     EXPECT_TRUE(finds(item("kind='int' max='1.5'"), "range-kind", "A", 2, "whole number"));
     EXPECT_TRUE(finds(item("kind='int' max='99999999999999999999'"), "range-kind", "A", 2));
     EXPECT_TRUE(finds(item("kind='float' min='2' max='1'"), "range-empty", "A", 2, "2 to 1"));
+    EXPECT_EQ(toText(*item("kind='float' min='-0.0'").data("A", "x").min), "0")
+        << "a whole number, which is how another agent reads it";
     EXPECT_TRUE(finds(item("kind='float' min='nan'"), "attribute-value", "A", 2));
     EXPECT_TRUE(finds(item("kind='float' max='1e999'"), "attribute-value", "A", 2));
     EXPECT_TRUE(finds(item("kind='float' max='inf'"), "attribute-value", "A", 2));
@@ -143,6 +145,7 @@ TEST(DataItem, HasStepsAndRatesOnlyAsNumber) {
 TEST(DataItem, HasLabelsOnlyAsInt) {
     EXPECT_TRUE(finds(item("kind='float' labels='0:A'"), "labels", "A", 2));
     EXPECT_TRUE(finds(item("kind='int' min='0' max='1' labels='0:A 2:B'"), "labels", "A", 2));
+    EXPECT_TRUE(finds(item("kind='int' labels='0:A 1:-5'"), "labels", "A", 2, "a number, too"));
     for (const char* labels : {"", "A", "0", "0:", "x:A", "0:A 0:B", "0:A 1:A"}) {
         EXPECT_TRUE(finds(item("kind='int' labels='" + std::string{labels} + "'"),
                           "attribute-value", "A", 2))

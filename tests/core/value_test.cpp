@@ -135,6 +135,20 @@ TEST(Value, TakesTheWholeTextAsOneString) {
     EXPECT_EQ(toText(*value), " \"quoted\" and more ");
 }
 
+TEST(Value, TakesNoTextThatWouldEndElsewhereOrIsNone) {
+    std::string why;
+    EXPECT_FALSE(parseValue(Kind::String, 1, {"a\0b", 3}, why));
+    EXPECT_EQ(why, "the text has the octet 0");
+    EXPECT_FALSE(parseValue(Kind::String, 1, "\xff", why));
+    EXPECT_EQ(why, "the text is not UTF-8");
+    DataItem item;
+    item.kind = Kind::String;
+    const auto text = [](std::string one) { return Value{std::vector{std::move(one)}}; };
+    EXPECT_EQ(valueError(item, text({"a\0b", 3})), "has the octet 0");
+    EXPECT_EQ(valueError(item, text("\xff")), "is not UTF-8");
+    EXPECT_EQ(valueError(item, text("ab")), "");
+}
+
 TEST(Value, QuotesElementsOfStringArraysWhereBlanksWouldDivideThem) {
     const Value value{std::vector<std::string>{"plain", "two words", "", "a \"b\" \\c"}};
     const std::string text = toText(value);

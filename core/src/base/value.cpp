@@ -95,8 +95,8 @@ std::optional<Value> parseElements(std::size_t length, std::string_view text, Co
 
 std::optional<Value> parseStrings(std::size_t length, std::string_view text, std::string& why) {
     std::vector<std::string> parts;
-    if (!isUtf8(text)) {
-        why = "the text is not UTF-8";
+    if (!isUtf8(text) || text.find('\0') != std::string_view::npos) {
+        why = isUtf8(text) ? "the text has the octet 0" : "the text is not UTF-8";
         return std::nullopt;
     }
     if (length == 1) {

@@ -42,6 +42,8 @@ void fitBound(std::optional<Number>& bound, const char* attribute, Kind kind,
         bound.reset();
     } else if (!real && kind == Kind::Float) {
         bound = static_cast<double>(std::get<std::int64_t>(*bound));
+    } else if (real && *real == 0) {
+        bound = 0.0;  // "-0" would be read again as a whole number, which has no such zero
     }
 }
 
@@ -72,6 +74,7 @@ std::string elementError(const DataItem& item, const T& element) {
         if (element.size() > item.capacity) {
             return "is longer than the capacity of " + std::to_string(item.capacity) + " octets";
         }
+        if (element.find('\0') != std::string::npos) return "has the octet 0";
         return isUtf8(element) ? "" : "is not UTF-8";
     } else if constexpr (std::is_same_v<T, std::int64_t> || std::is_same_v<T, double>) {
         const Number number{element};
@@ -162,6 +165,10 @@ void checkLabels(DataItem& item, const DataItem* own, const ItemContext& context
             context.error(finding::labels,
                           "has the label " + inQuotes(label) + ", which is no word",
                           "write one without blanks, such as not-ready");
+        } else if (toInt(label)) {
+            context.error(finding::labels,
+                          "has the label " + inQuotes(label) + ", which is a number, too",
+                          "write a word, such as step-" + label);
         }
         const auto [known, added] = numbers.emplace(label, number);
         if (added) continue;

@@ -123,7 +123,7 @@ private:
         why = refusal(table, item, *value);
         if (!why.empty()) return wrong("out-of-range", why);
         const Value now = image.value(simplex.index, *layout);
-        if (now == *value) {
+        if (toText(now) == toText(*value)) {  // 0 and -0 are two values
             ++plan_.same;
             return;
         }
