@@ -231,6 +231,23 @@ TEST(Mirror, ShowsALoopThatStandsStillToAllWhoBeginToLook) {
     });
 }
 
+TEST(Mirror, LooksForAPathUntilNobodyNewHasComeForAsLongAsItIsTold) {
+    const auto first = robot();
+    first->run();
+    const Mirror mirror{"test", loopback()};
+    ASSERT_TRUE(mirror.waitUntilComplete(test::patience));
+    EXPECT_EQ(mirror.waitForOwner("/stick", test::patience), std::nullopt);
+    EXPECT_FALSE(mirror.waitUntilComplete(0ms, 1h));
+
+    auto found = std::async(std::launch::async,
+                            [&] { return mirror.waitForOwner("/stick", test::patience, 1h); });
+    SteppedAgent second{"station"};
+    second.rig.hand("/stick");
+    second.run();
+
+    EXPECT_EQ(found.get(), "station");
+}
+
 TEST(Mirror, SpeaksLessOftenTheMoreListen) {
     Participant other{loopback(), "other"};
     Inbox<Presence> heard;

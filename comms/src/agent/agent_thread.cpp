@@ -308,8 +308,8 @@ void AgentThread::reportRefusals() {
 
 std::map<std::string, std::uint64_t> AgentThread::rejections() const {
     const std::lock_guard lock{joining_};
-    auto counts = participant_.refusals();
-    counts.merge(self_.rejections.byReason());
+    auto counts = self_.rejections.byReason();
+    for (const auto& [reason, refused] : participant_.refusals()) counts[reason] += refused.count;
     return counts;
 }
 

@@ -330,17 +330,18 @@ std::uint64_t Participant::refused() const {
     return impl_->gate->filter.dropped() + (impl_->guard ? impl_->guard->refused() : 0);
 }
 
-std::map<std::string, std::uint64_t> Participant::refusals() const {
-    std::map<std::string, std::uint64_t> counts{
-        {"a sample could not be decoded", malformed()},
-        {"security refused their sender", impl_->guard ? impl_->guard->refused() : 0}};
+std::map<std::string, Refused> Participant::refusals() const {
+    std::map<std::string, Refused> all{
+        {"a sample could not be decoded", {malformed(), ""}},
+        {"security refused their sender", {impl_->guard ? impl_->guard->refused() : 0, ""}}};
+    const rtps::DatagramFilter& filter = impl_->gate->filter;
     for (std::size_t i = 0; i < rtps::refusals; ++i) {
         const auto reason = static_cast<rtps::Refusal>(i);
-        counts[std::string{"datagrams: "} + rtps::wordsOf(reason)] =
-            impl_->gate->filter.dropped(reason);
+        all[std::string{"datagrams: "} + rtps::wordsOf(reason)] = {filter.dropped(reason),
+                                                                   filter.lastSender(reason)};
     }
-    std::erase_if(counts, [](const auto& each) { return each.second == 0; });
-    return counts;
+    std::erase_if(all, [](const auto& each) { return each.second.count == 0; });
+    return all;
 }
 std::string Participant::dropped() const { return impl_->gate->filter.summary(); }
 

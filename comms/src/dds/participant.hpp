@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/comms/mirror_data.hpp"
 #include "cortex/comms/network_options.hpp"
 
 #include "dds/topics.hpp"
@@ -95,8 +96,8 @@ public:
     // how often since the start.
     std::vector<std::string> takeRefusals();
     std::uint64_t refused() const;
-    // How often for each reason: refused() and malformed().
-    std::map<std::string, std::uint64_t> refusals() const;
+    // By reason what refused() and malformed() count.
+    std::map<std::string, Refused> refusals() const;
     std::string dropped() const;    // datagrams, by reason, in words; empty: none
     std::uint32_t pending() const;  // others that are not authenticated yet
     std::uint32_t secured() const;  // others that ask for security

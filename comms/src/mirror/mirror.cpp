@@ -60,9 +60,9 @@ std::uint32_t Mirror::unheard() const {
     return implementation_->thread.read([](MirrorState& state) { return state.agents.unheard(); });
 }
 
-bool Mirror::waitUntilComplete(Milliseconds limit) const {
+bool Mirror::waitUntilComplete(Milliseconds limit, Milliseconds quiet) const {
     return implementation_->thread.waitFor(
-        limit, [](MirrorState& state) { return state.everybodyIsHere(); });
+        limit, [&](MirrorState& state) { return state.everybodyIsHere(quiet); });
 }
 
 std::uint32_t Mirror::nameless() const {
@@ -91,11 +91,12 @@ std::optional<std::string> Mirror::ownerOf(std::string_view path) const {
     });
 }
 
-std::optional<std::string> Mirror::waitForOwner(std::string_view path, Milliseconds limit) const {
+std::optional<std::string> Mirror::waitForOwner(std::string_view path, Milliseconds limit,
+                                                Milliseconds quiet) const {
     bool owned = false;
     implementation_->thread.waitFor(limit, [&](MirrorState& state) {
         owned = state.isOwned(path);
-        return owned || state.everybodyIsHere();
+        return owned || state.everybodyIsHere(quiet);
     });
     return owned ? ownerOf(path) : std::nullopt;
 }
@@ -239,7 +240,7 @@ bool Mirror::eventsComplete() const {
 
 std::uint64_t Mirror::refused() const { return implementation_->thread.refused(); }
 
-std::map<std::string, std::uint64_t> Mirror::refusals() const {
+std::map<std::string, Refused> Mirror::refusals() const {
     return implementation_->thread.refusals();
 }
 

@@ -33,7 +33,7 @@ public:
     }
     SecurityIdentity* identity() const { return participant_.identity(); }
     std::uint64_t malformed() const { return participant_.malformed() + participant_.refused(); }
-    std::map<std::string, std::uint64_t> refusals() const { return participant_.refusals(); }
+    std::map<std::string, Refused> refusals() const { return participant_.refusals(); }
 
 private:
     void speak();

@@ -12,7 +12,6 @@
 namespace cortex::comms {
 namespace {
 
-constexpr std::chrono::milliseconds quiet{100};
 constexpr std::chrono::milliseconds tick{20};
 constexpr std::chrono::milliseconds shortTick{5};  // while something is waited for
 
@@ -31,7 +30,7 @@ constexpr std::chrono::milliseconds shortTick{5};  // while something is waited 
 
 }  // namespace
 
-bool MirrorState::everybodyIsHere() const {
+bool MirrorState::everybodyIsHere(Mirror::Milliseconds quiet) const {
     return std::chrono::steady_clock::now() - news >= quiet && agents.complete() &&
            agents.present() >= speakers && agents.unheard() == 0;
 }

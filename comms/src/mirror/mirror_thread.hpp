@@ -30,8 +30,8 @@ struct MirrorState {
           commands{tool} {}
 
     // Whether all participants that were found, or that another one hears, have sent everything,
-    // and no new one was found for a while.
-    bool everybodyIsHere() const;
+    // and no new one was found for that time.
+    bool everybodyIsHere(Mirror::Milliseconds quiet = Mirror::usualQuiet) const;
     // Whether the path has an owner, and nobody who was found may come before it.
     bool isOwned(std::string_view path);
 
@@ -63,7 +63,7 @@ public:
                        const Mirror::Arguments& arguments, Mirror::Milliseconds budget);
     std::uint64_t refused() const;  // messages not believed or dropped, since the start
     // Those that never got as far as to be read, by the reason.
-    std::map<std::string, std::uint64_t> refusals() const { return endpoints_.refusals(); }
+    std::map<std::string, Refused> refusals() const { return endpoints_.refusals(); }
 
     // Calls `function` with the state, under the mutex.
     template <class Function>

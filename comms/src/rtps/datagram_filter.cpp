@@ -293,6 +293,11 @@ std::uint64_t DatagramFilter::dropped(Refusal reason) const {
     return dropped_[static_cast<std::size_t>(reason)].count;
 }
 
+std::string DatagramFilter::lastSender(Refusal reason) const {
+    const std::lock_guard lock{mutex_};
+    return textOf(dropped_[static_cast<std::size_t>(reason)].address);
+}
+
 std::uint64_t DatagramFilter::dropped() const {
     const std::lock_guard lock{mutex_};
     std::uint64_t all = 0;

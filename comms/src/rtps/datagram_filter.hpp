@@ -41,8 +41,9 @@ public:
     void allowFragments(const WriterGuid& writer, bool comesAgain, std::int64_t now);
 
     std::uint64_t dropped(Refusal reason) const;
-    std::uint64_t dropped() const;  // for any reason
-    std::string summary() const;    // by reason, in words; empty: nothing was dropped
+    std::string lastSender(Refusal reason) const;  // address of the last that was dropped
+    std::uint64_t dropped() const;                 // for any reason
+    std::string summary() const;  // by reason, in words; empty: nothing was dropped
     // A sentence for each reason for which something was dropped, at most one a second.
     std::vector<std::string> takeReports(std::int64_t now);
 

@@ -26,6 +26,7 @@ class Mirror {
 public:
     using Arguments = ProgramInterface::Arguments;
     using Milliseconds = std::chrono::milliseconds;
+    static constexpr Milliseconds usualQuiet{100};  // in which nobody new appears
 
     // Host and process are appended to the name, so that each instance has its own. Throws Error
     // with a remedy if the network cannot be used.
@@ -40,16 +41,18 @@ public:
     // Participants with security that were found, while this mirror has none: it cannot see more.
     std::uint32_t closed() const;
     // Waits until at least one agent is present, everything of all has come, all whom they hear are
-    // known here, and no new one appears. False: not within `limit`.
-    bool waitUntilComplete(Milliseconds limit) const;
+    // known here, and no new one has appeared for a while. False: not within `limit`.
+    bool waitUntilComplete(Milliseconds limit, Milliseconds quiet = usualQuiet) const;
     // Null until everything of the agent has come. A later start has a structure of its own.
     std::shared_ptr<const Structure> structure(const std::string& agent) const;
     // The agent that owns this simplex: of several by signed right, otherwise the one that was
     // there first (docs/protocol.md). One that is heard comes before those that are lost.
     std::optional<std::string> ownerOf(std::string_view path) const;
     // The same as soon as nobody else who is heard may own it, 2 s later at most. None: everything
-    // has come and nobody who is heard owns it, or `limit` is over.
-    std::optional<std::string> waitForOwner(std::string_view path, Milliseconds limit) const;
+    // has come, nobody new has appeared for a while and nobody who is heard owns it, or `limit` is
+    // over.
+    std::optional<std::string> waitForOwner(std::string_view path, Milliseconds limit,
+                                            Milliseconds quiet = usualQuiet) const;
     std::vector<Contested> contested() const;  // sorted by path
 
     // Receives from now on the values of all simplexes at and below these paths, at this rate or
@@ -112,7 +115,7 @@ public:
 
     std::uint64_t refused() const;  // samples that were malformed or impossible
     // What this mirror's own gate has not let in, by the reason: "datagrams: a submessage …".
-    std::map<std::string, std::uint64_t> refusals() const;
+    std::map<std::string, Refused> refusals() const;
 
 private:
     struct Implementation;

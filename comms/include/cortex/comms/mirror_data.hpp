@@ -45,6 +45,12 @@ struct AgentStatus {
     std::string refused;      // messages: "4: a command with a wrong id", the reason of the last
 };
 
+// What was not let in for one reason.
+struct Refused {
+    std::uint64_t count = 0;
+    std::string lastFrom;  // the address of the last sender; empty: it is not known
+};
+
 // Paths, with all simplexes below, and how many images of them a second are wanted.
 struct Viewed {
     std::vector<std::string> prefixes;
