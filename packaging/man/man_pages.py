@@ -18,6 +18,7 @@ ENVIRONMENT = {
     "CORTEX_INTERFACE": "Address or name of a network interface, as with --interface.",
     "CORTEX_DISCOVERY_SERVER": "Fast DDS Discovery Server, as with --discovery-server.",
     "CORTEX_SECURITY": "Folder of keys and rights, as with --security.",
+    "CORTEX_TIMEOUT": "Seconds to wait for agents, as with --timeout.",
     "CORTEX_PATH": "Folders, separated by colons, in which files of models are looked for before "
                    "the installed ones.",
 }

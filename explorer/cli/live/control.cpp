@@ -4,9 +4,11 @@
 #include "cortex/core/path.hpp"
 
 #include "live/lease_text.hpp"
+#include "text/interrupts.hpp"
 
 #include <algorithm>
 #include <set>
+#include <thread>
 
 namespace cortex::cli {
 namespace {
@@ -38,9 +40,16 @@ std::string holdersText(Live& live, const Lease& key) {
     return text;
 }
 
+// No refusal: the agent was not heard, or its loop did not go on. To take control again does no
+// harm.
+bool isSilence(const comms::CommandAnswer& answer) {
+    return answer.outcome == Outcome::Unknown || answer.outcome == Outcome::Expired ||
+           answer.outcome == Outcome::MailboxFull;
+}
+
 [[noreturn]] void failToTake(Live& live, const Lease& key, const comms::CommandAnswer& answer) {
     const std::string start = "no control of " + key.prefix + " of agent " + key.agent + ": ";
-    if (answer.outcome == Outcome::Unknown) throw Failure{NotFound, start + answer.text()};
+    if (isSilence(answer)) throw Failure{NotFound, start + answer.text()};
     const std::string holders = lacksControl(answer) ? holdersText(live, key) : "";
     if (holders.empty()) throw Failure{No, start + answer.text()};
     throw Failure{No, start + holders +
@@ -60,6 +69,24 @@ std::set<std::string> agentsBelow(Live& live, const std::string& prefix) {
                                     "; 'cortex list' shows what there is"};
     }
     return agents;
+}
+
+// Tries again while an agent is silent and time is left. A refusal is final.
+void takeFrom(Live& live, const std::string& prefix, const std::vector<std::string>& agents) {
+    comms::LeaseClient& leases = live.leases();
+    for (;;) {
+        const comms::LeaseClient::Answers answers = leases.wait(leases.take(prefix, agents));
+        const comms::LeaseClient::Answer* silent = nullptr;
+        for (const auto& each : answers) {
+            if (each.answer.done()) continue;
+            if (!isSilence(each.answer)) failToTake(live, {each.agent, prefix}, each.answer);
+            silent = &each;
+        }
+        if (silent == nullptr) return;
+        if (live.over()) failToTake(live, {silent->agent, prefix}, silent->answer);
+        throwIfInterrupted();
+        std::this_thread::sleep_for(std::min(live.left(), interruptSlice));
+    }
 }
 
 // Throws Failure unless we hold exactly this prefix.
@@ -93,11 +120,7 @@ void takeControl(Live& live, const std::string& prefix) {
     for (const Lease& each : live.leases().held()) {
         if (each.prefix == wanted) agents.erase(each.agent);
     }
-    comms::LeaseClient& leases = live.leases();
-    for (const auto& [agent, answer] :
-         leases.wait(leases.take(wanted, {agents.begin(), agents.end()}))) {
-        if (!answer.done()) failToTake(live, {agent, wanted}, answer);
-    }
+    takeFrom(live, wanted, {agents.begin(), agents.end()});
 }
 
 void releaseControl(Live& live, const std::string& prefix) {
@@ -144,9 +167,7 @@ std::string authorityHint(const comms::CommandAnswer& answer) {
 BriefControl::BriefControl(Live& live, const std::string& agent, const std::string& prefix)
     : leases_{live.leases()}, agent_{agent}, prefix_{prefix} {
     if (leases_.covers(agent, prefix)) return;
-    for (const auto& [name, answer] : leases_.wait(leases_.take(prefix, {agent}))) {
-        if (!answer.done()) failToTake(live, {name, prefix}, answer);
-    }
+    takeFrom(live, prefix, {agent});
     taken_ = true;
 }
 

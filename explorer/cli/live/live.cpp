@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/live.hpp"
 
+#include "cortex/core/error.hpp"
 #include "cortex/core/nearest_names.hpp"
 #include "cortex/core/path.hpp"
 #include "cortex/core/simplex_tree.hpp"
+#include "cortex/core/value.hpp"
 
 #include "live/loop_text.hpp"
 #include "text/interrupts.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <ranges>
 #include <tuple>
@@ -21,6 +24,18 @@ using Milliseconds = std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t mostContests = 8;  // that are printed one by one
+// Agents that start together are found one after the other, those of other hosts later.
+constexpr Milliseconds nobodyNew{1000};
+
+double defaultTimeout() {
+    const char* text = std::getenv("CORTEX_TIMEOUT");
+    if (text == nullptr) return usualTimeout;
+    const std::optional<double> seconds = toFloat(text);
+    if (seconds && *seconds >= shortestTimeout && *seconds <= longestTimeout) return *seconds;
+    throw Error{"CORTEX_TIMEOUT is '" + std::string{text} + "'; set it to seconds, a number from " +
+                toText(shortestTimeout) + " to " + std::to_string(std::llround(longestTimeout)) +
+                ", or unset it for " + toText(usualTimeout) + " s"};
+}
 
 comms::NetworkOptions optionsOf(const NetworkArguments& arguments) {
     comms::NetworkOptions options;
@@ -30,6 +45,13 @@ comms::NetworkOptions optionsOf(const NetworkArguments& arguments) {
     if (arguments.discoveryServer) options.discoveryServer = *arguments.discoveryServer;
     if (arguments.security) options.security = *arguments.security;
     return options;
+}
+
+// Of a verb in a shell, that of the shell.
+Milliseconds timeoutOf(const NetworkArguments& arguments) {
+    if (!arguments.timeout && arguments.session) return arguments.session->timeout();
+    const double seconds = arguments.timeout ? *arguments.timeout : defaultTimeout();
+    return Milliseconds{std::llround(seconds * 1000)};
 }
 
 }  // namespace
@@ -52,6 +74,7 @@ void checkPrefix(const std::string& prefix) {
 }
 
 std::shared_ptr<Session> makeSession(const NetworkArguments& arguments) {
+    const Milliseconds timeout = timeoutOf(arguments);
     comms::NetworkOptions options = optionsOf(arguments);
     const bool chosen =
         !options.interfaces.empty() || !options.peers.empty() || !options.discoveryServer.empty();
@@ -65,11 +88,11 @@ std::shared_ptr<Session> makeSession(const NetworkArguments& arguments) {
     if (!chosen && there == comms::OnLoopback::Some) comms::alsoOnLoopback(options);
     if (const std::string trouble = comms::networkTrouble(options); !trouble.empty())
         throw Failure{NotFound, trouble};
-    return std::make_shared<Session>(options, optionsOf(arguments).interfaces);
+    return std::make_shared<Session>(options, optionsOf(arguments).interfaces, timeout);
 }
 
 Live::Live(const NetworkArguments& arguments)
-    : timeout_{std::llround(arguments.timeout * 1000)},
+    : timeout_{timeoutOf(arguments)},
       end_{Clock::now() + timeout_},
       session_{arguments.session ? arguments.session : makeSession(arguments)} {}
 
@@ -105,8 +128,8 @@ bool Live::waitForValues() {
 std::optional<std::string> Live::waitForOwner(const std::string& path) {
     std::optional<std::string> owner;
     waitInSlices([&](Milliseconds limit) {
-        owner = mirror().waitForOwner(path, limit);
-        return owner || mirror().waitUntilComplete(Milliseconds{0});
+        owner = mirror().waitForOwner(path, limit, nobodyNew);
+        return owner || mirror().waitUntilComplete(Milliseconds{0}, nobodyNew);
     });
     return owner ? owner : mirror().ownerOf(path);  // it may have come after it was asked for
 }
@@ -132,7 +155,7 @@ std::vector<int> Live::otherDomains() const {
 std::uint64_t Live::strangers() const {
     const auto refusals = mirror().refusals();
     const auto found = refusals.find("security refused their sender");
-    return found != refusals.end() ? found->second : 0;
+    return found != refusals.end() ? found->second.count : 0;
 }
 
 void Live::failWithNobody() const {
@@ -170,8 +193,10 @@ std::string Live::incomplete() const {
 
 std::string Live::refusedHere() const {
     std::vector<std::string> parts;
-    for (const auto& [reason, count] : mirror().refusals()) {
-        parts.push_back(std::to_string(count) + " (" + reason + ")");
+    for (const auto& [reason, refused] : mirror().refusals()) {
+        const std::string from = refused.lastFrom.empty() ? "" : ", the last from ";
+        parts.push_back(std::to_string(refused.count) + " (" + reason + from + refused.lastFrom +
+                        ")");
     }
     return parts.empty() ? "" : "this tool itself refused messages: " + joined(parts);
 }
@@ -198,7 +223,7 @@ FoundSimplex Live::find(const std::string& path) {
     if (const auto contest = contestOf(path)) throw Failure{NotFound, printable(contest->text)};
     if (mirror().agents().empty()) failWithNobody();
     const std::string nearest = nearestNames(path, paths());
-    const bool all = mirror().waitUntilComplete(Milliseconds{0});
+    const bool all = mirror().waitUntilComplete(Milliseconds{0}, nobodyNew);
     throw Failure{NotFound, (all ? "no agent has a simplex " + path + elsewhere()
                                  : path + " was not found within " + limitText() +
                                        ", which does not mean that it is not there: " + heard()) +

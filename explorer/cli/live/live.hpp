@@ -18,13 +18,15 @@
 
 namespace cortex::cli {
 
+inline constexpr double usualTimeout = 3, shortestTimeout = 0.001, longestTimeout = 1e6;  // s
+
 // Which network to look at, and for how long to wait for it.
 struct NetworkArguments {
     std::optional<int> domain;  // none: CORTEX_DOMAIN, or 0
     std::vector<std::string> interfaces, peers;
     std::optional<std::string> discoveryServer;  // none: CORTEX_DISCOVERY_SERVER
     std::optional<std::string> security;         // folder; none: CORTEX_SECURITY
-    double timeout = 3;                          // s
+    std::optional<double> timeout;               // s; none: that of its shell, CORTEX_TIMEOUT or 3
     std::shared_ptr<Session> session;            // that of a shell; none: one of its own
 };
 
@@ -73,13 +75,14 @@ public:
     comms::AgentStatus statusOf(const std::string& agent) const;
     // "incomplete: 37 of 44 from robot", or "" when all is here.
     std::string incomplete() const;
-    // "this tool itself has refused 12: …, 3: …", or "" where it let everything in.
+    // "this tool itself refused messages: 12 (…, the last from 127.0.0.1), …", or "" where it let
+    // everything in.
     std::string refusedHere() const;
     FoundSimplex find(const std::string& path);  // throws Failure naming the nearest
     std::optional<std::string> ownerOf(const std::string& path) const {
         return mirror().ownerOf(path);
     }
-    // Waits until its agent is heard, or nobody is left who may be it.
+    // Waits until its agent is heard, or nobody is left who may be it and nobody new comes.
     std::optional<std::string> waitForOwner(const std::string& path);
     std::vector<FoundSimplex> below(const std::string& prefix) const;  // by path
     // Its newest values; waits for them. Throws Failure if they do not come.
@@ -88,6 +91,7 @@ public:
     std::chrono::milliseconds left() const;  // of the time to wait; 1 ms when it is over
     bool over() const { return std::chrono::steady_clock::now() >= end_; }
     std::chrono::milliseconds timeout() const { return timeout_; }
+    std::string limitText() const;  // "3 s"
     int domain() const { return session_->domain(); }
     Trouble nobody() const;                    // why no agent is heard, with what to try
     [[noreturn]] void failWithNobody() const;  // throws that as Failure
@@ -96,7 +100,6 @@ private:
     template <class Wait>
     bool waitInSlices(Wait wait);
     std::vector<std::string> paths() const;
-    std::string limitText() const;  // "3 s"
     std::string heard() const;
     std::string elsewhere() const;
     std::vector<int> otherDomains() const;

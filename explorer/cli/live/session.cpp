@@ -13,9 +13,11 @@ constexpr std::size_t keptEvents = 1000;
 
 }  // namespace
 
-Session::Session(const comms::NetworkOptions& options, std::vector<std::string> named)
+Session::Session(const comms::NetworkOptions& options, std::vector<std::string> named,
+                 Milliseconds timeout)
     : domain_{options.domain},
       named_{std::move(named)},
+      timeout_{timeout},
       mirror_{"cortex", options},
       leases_{mirror_} {}
 

@@ -21,13 +21,15 @@ public:
     using Milliseconds = std::chrono::milliseconds;
     using Listener = std::function<void(const comms::AgentEvent&)>;
 
-    // `named`: interfaces that its user named.
-    explicit Session(const comms::NetworkOptions& options, std::vector<std::string> named = {});
+    // `named`: interfaces that its user named; `timeout`: of a verb in it that names none.
+    Session(const comms::NetworkOptions& options, std::vector<std::string> named,
+            Milliseconds timeout);
 
     comms::Mirror& mirror() { return mirror_; }
     comms::LeaseClient& leases() { return leases_; }
     int domain() const { return domain_; }
     const std::vector<std::string>& named() const { return named_; }
+    Milliseconds timeout() const { return timeout_; }
     // As the mirror does, but an interrupt ends it; `meanwhile` is called ten times a second.
     comms::CommandAnswer call(const std::string& path, const std::string& command,
                               const comms::Mirror::Arguments& arguments, Milliseconds limit,
@@ -46,6 +48,7 @@ private:
 
     int domain_;
     std::vector<std::string> named_;
+    Milliseconds timeout_;
     std::mutex viewMutex_;
     std::vector<std::string> wanted_, viewed_;
     std::uint32_t rate_ = slowRate, viewedRate_ = slowRate;

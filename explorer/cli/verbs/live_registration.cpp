@@ -230,10 +230,12 @@ Examples:
 
 void addNetwork(CLI::App& verb, NetworkArguments& network,
                 const std::shared_ptr<Session>& session) {
-    verb.add_option("--timeout", network.timeout, "How long to wait for agents; 3 s if not given")
+    const std::string otherwise = session ? "that of the shell" : "CORTEX_TIMEOUT or 3 s";
+    verb.add_option("--timeout", network.timeout,
+                    "How long to wait for agents; " + otherwise + " if not given")
         ->type_name("S")
         ->check(ofSeconds)
-        ->check(CLI::Range(0.001, 1e6));
+        ->check(CLI::Range(shortestTimeout, longestTimeout));
     network.session = session;
     if (session) return;
     verb.add_option("--domain", network.domain,

@@ -340,8 +340,7 @@ Exit watchValues(const WatchOptions& options) {
     const bool all = std::ranges::find(options.what, "/") != options.what.end();
     live.view(all ? std::vector<std::string>{"/"} : pathsOf(watched), options.rate);
     if (!live.waitForValues()) {
-        throw Failure{NotFound, "not all of the values came within " +
-                                    toText(options.network.timeout) + " s"};
+        throw Failure{NotFound, "not all of the values came within " + live.limitText()};
     }
     ImagePrinter printer{options, watched};
     printer.head();
