@@ -23,6 +23,7 @@ OnTerminal::OnTerminal(std::vector<std::string> command, unsigned short columns,
     if (child_ != 0) return;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     setenv("TERM", "xterm", 1);
+    setenv("CORTEX_TIMEOUT", std::to_string(patience.count()).c_str(), 1);
     setenv("CORTEX_PATH", CORTEX_SOURCE_DIR "/ontology", 1);
     unsetenv("NO_COLOR");
     std::vector<char*> pointers;

@@ -14,17 +14,20 @@ namespace {
 using nlohmann::json;
 using Words = std::vector<std::string>;
 
+const std::map<std::string, std::string> withPatience{
+    {"CORTEX_TIMEOUT", std::to_string(patience.count())}};
+
 struct CortexShell : CortexControl {
     Outcome runsFile(const std::string& lines, const Words& options = {}) {
-        return cortex(Words{"shell", folder.write("lines.txt", lines).string()} + options +
-                      network);
+        return cortex(Words{"shell", folder.write("lines.txt", lines).string()} + options + network,
+                      withPatience);
     }
 };
 
 TEST_F(CortexShell, RunsTheLinesOfAFileWithOneParticipant) {
     const Outcome outcome = runsFile(
         "# in the morning\n\n"
-        "take /drive --timeout 60\n"
+        "take /drive\n"
         "set /drive naturalFrequency=8  # slowly\n"
         "cortex call /drive startup\n"
         "list '/drive'\n"
@@ -57,13 +60,16 @@ TEST(CortexShellFile, ShowsAfterACommandWhatItHasDone) {
     const std::string system =
         std::regex_replace(mixerSystem(), std::regex{"\"/drive\""}, "\"/mixer/drive\"");
     const Background agent{agentCommand(folder.write("mixer.xml", system).string())};
-    std::string lines = "list --timeout 60\n";
+    std::string lines = "list\n";
     for (int i = 5; i < 15; ++i) {
         lines += "set /mixer/drive naturalFrequency=" + std::to_string(i) +
                  "\nshow /mixer/drive --json\n";
     }
     const Outcome outcome = lookUntil(
-        [&] { return cortex(Words{"shell", folder.write("lines.txt", lines).string()} + network); },
+        [&] {
+            return cortex(Words{"shell", folder.write("lines.txt", lines).string()} + network,
+                          withPatience);
+        },
         [](const Outcome& each) { return each.exit == 0; });
     const std::regex shown{R"("naturalFrequency": \{[^}]*"value": ([0-9.]+))"};
     int expected = 5;
@@ -75,7 +81,7 @@ TEST(CortexShellFile, ShowsAfterACommandWhatItHasDone) {
 }
 
 TEST_F(CortexShell, StopsAtTheFirstLineThatFailsUnlessToldToGoOn) {
-    const std::string lines = "list --timeout 60\nshow /drvie\ncall /drive startup\nlist\n";
+    const std::string lines = "list\nshow /drvie\ncall /drive startup\nlist\n";
 
     const Outcome stopped = runsFile(lines);
     EXPECT_EQ(stopped.exit, 3);
@@ -87,7 +93,7 @@ TEST_F(CortexShell, StopsAtTheFirstLineThatFailsUnlessToldToGoOn) {
     EXPECT_EQ(all.exit, 3) << "of the first that failed";
     EXPECT_TRUE(contains(all.errors, "lines.txt:3: 'call /drive startup' ended with exit code 1"))
         << all.errors;
-    EXPECT_EQ(runsFile("list --timeout 60\nquit\nnonsense\n").exit, 0);
+    EXPECT_EQ(runsFile("list\nquit\nnonsense\n").exit, 0);
     EXPECT_EQ(runsFile("set /drive 'a\n").exit, 2);
     EXPECT_EQ(cortex({"shell", folder.path().string()}).exit, 3) << "no file";
     EXPECT_EQ(cortex({"shell", "no-such-file"}).exit, 3);
@@ -112,10 +118,11 @@ TEST_F(CortexShell, HelpListsAndExplainsItsVerbs) {
 }
 
 TEST_F(CortexShell, RunsLinesOfAPipe) {
-    std::string command = "printf 'list /drive --timeout 60\\nnonsense\\n' | exec \"$0\" shell";
+    std::string command = "printf 'list /drive\\nnonsense\\n' | exec \"$0\" shell";
     for (const std::string& each : network) command += " " + each;
 
-    const Outcome outcome = runProgram("sh", {"-c", command, CORTEX_BINARY_DIR "/bin/cortex"});
+    const Outcome outcome =
+        runProgram("sh", {"-c", command, CORTEX_BINARY_DIR "/bin/cortex"}, withPatience);
 
     EXPECT_EQ(outcome.exit, 2);
     EXPECT_TRUE(contains(outcome.output, "SimulatedAxis")) << outcome.output;
@@ -124,7 +131,7 @@ TEST_F(CortexShell, RunsLinesOfAPipe) {
 
 TEST_F(CortexShell, ControlIsKeptWhileAPersonThinksAndReleasedAtTheEnd) {
     TypedShell shell{folder};
-    shell.run("take /drive --timeout 60", "cortex [/drive]");
+    shell.run("take /drive", "cortex [/drive]");
     ASSERT_TRUE(leasesShow("/drive"));
     const std::int64_t taken = cycleOfAgent();
     ASSERT_TRUE(becomesTrue([&] { return cycleOfAgent() > taken + 60; })) << "3 s";
@@ -146,14 +153,14 @@ TEST_F(CortexShell, ControlIsKeptWhileAPersonThinksAndReleasedAtTheEnd) {
 
 TEST_F(CortexShell, AnInterruptEndsAVerbAndClearsALineAndLeavesTheShell) {
     TypedShell shell{folder};
-    shell.enter("watch /mixer.commandCount --timeout 60");
+    shell.enter("watch /mixer.commandCount");
     ASSERT_TRUE(shell.shows("Z  /mixer.commandCount")) << shell.output();
 
     shell.type("\x03");
     EXPECT_TRUE(shell.shows("interrupted")) << shell.output();
     EXPECT_TRUE(shell.shows("cortex> ")) << shell.output();
-    shell.mark();
-    shell.type("nonsense\x03");
+    shell.typeLine("nonsense");
+    shell.type("\x03");
     EXPECT_TRUE(shell.shows("\n")) << shell.output();
     shell.run("list /drive", "SimulatedAxis");
     EXPECT_FALSE(contains(shell.output(), "there is no verb")) << shell.output();
@@ -169,7 +176,7 @@ TEST_F(CortexShell, AnInterruptEndsAVerbAndClearsALineAndLeavesTheShell) {
 
 TEST_F(CortexShell, ARequestToEndReleasesControl) {
     TypedShell shell{folder};
-    shell.run("take /drive --timeout 60", "cortex [/drive]");
+    shell.run("take /drive", "cortex [/drive]");
 
     shell.signal(SIGTERM);
 
@@ -181,11 +188,11 @@ TEST_F(CortexShell, ARequestToEndReleasesControl) {
 
 TEST_F(CortexShell, CompletesVerbsPathsCommandsAndParameters) {
     TypedShell shell{folder};
-    shell.run("list --timeout 60", "/mixer");
+    shell.run("list", "/mixer");
     // The terminal gets what is added to the line.
     const auto completes = [&](const std::string& typed, const std::string& shown) {
-        shell.mark();
-        shell.type(typed + "\t");
+        shell.typeLine(typed);
+        shell.type("\t");
         EXPECT_TRUE(shell.shows(shown)) << typed << shell.output();
         shell.type("\x03");
         EXPECT_TRUE(shell.shows("> ")) << shell.output();
@@ -198,8 +205,8 @@ TEST_F(CortexShell, CompletesVerbsPathsCommandsAndParameters) {
     completes("call /controller moveTo sp", "eedShare=");
     completes("set /drive da", "mpingRatio=");
     completes("call /drive --ti", "meout ");
-    shell.mark();
-    shell.type("show /axis/\t");
+    shell.typeLine("show /axis/");
+    shell.type("\t");
     EXPECT_TRUE(shell.shows("/axis/demanded")) << "several" << shell.output();
     EXPECT_TRUE(shell.shows("/axis/observed")) << shell.output();
 }
@@ -207,34 +214,30 @@ TEST_F(CortexShell, CompletesVerbsPathsCommandsAndParameters) {
 TEST_F(CortexShell, RemembersLinesAlsoOfTheLastShell) {
     {
         TypedShell shell{folder};
-        shell.run("list /drive --timeout 60", "SimulatedAxis");
-        shell.mark();
-        shell.type("\033[A\r");
-        EXPECT_TRUE(shell.shows("SimulatedAxis")) << shell.output();
+        shell.run("list /drive", "SimulatedAxis");
+        shell.typeUntil("\033[A\r", "SimulatedAxis");
         shell.enter("quit");
         EXPECT_EQ(shell.exit(), 0);
     }
     TypedShell next{folder};
-    next.mark();
-    next.type("\033[A\033[A\r");
-    EXPECT_TRUE(next.shows("SimulatedAxis")) << next.output();
+    next.typeUntil("\033[A\033[A\r", "SimulatedAxis");
 }
 
 TEST_F(CortexShell, TellsAtThePromptThatALeaseWasLost) {
     TypedShell shell{folder};
-    shell.run("take /drive --timeout 60", "cortex [/drive]");
+    shell.run("take /drive", "cortex [/drive]");
     shell.mark();
 
     agent->end(SIGKILL);
     EXPECT_TRUE(shell.shows("control of /drive of agent mixer was lost")) << shell.output();
 
     start();
-    shell.run("take /drive --timeout 60", "cortex [/drive]");
+    shell.run("take /drive", "cortex [/drive]");
 }
 
 TEST_F(CortexShell, ShowsTheLastValuesOfALostAgentInBrackets) {
     TypedShell shell{folder};
-    shell.run("show /drive --timeout 60", "Standby");
+    shell.run("show /drive", "Standby");
     shell.run("take /drive", "cortex [/drive]");
     shell.mark();
     agent->end(SIGKILL);
@@ -248,9 +251,9 @@ TEST_F(CortexShell, ShowsTheLastValuesOfALostAgentInBrackets) {
 
 TEST_F(CortexShell, HandsControlOverToAnotherShellThatKeepsIt) {
     TypedShell one{folder}, other{folder};
-    one.run("take /drive --timeout 60", "cortex [/drive]");
+    one.run("take /drive", "cortex [/drive]");
     ASSERT_TRUE(leasesShow("/drive"));
-    other.run("take / --timeout 60", "on host");
+    other.run("take /", "on host");
     other.mark();
 
     one.run("handover /drive " + other.name, "cortex> ");

@@ -20,14 +20,19 @@ struct TypedShell : OnTerminal {
         const std::size_t begin = output().find("you are ") + 8;
         name = output().substr(begin, output().find(' ', begin) - begin);
     }
-    // Types a line again each second until it is echoed: what comes while the line editor changes
-    // the terminal's mode is lost. Control-U begins it anew.
-    void enter(const std::string& line) {
+    // Types keys again each second until they have this effect: what comes while the line editor
+    // changes the terminal's mode is lost. Control-U begins the line anew.
+    void typeUntil(const std::string& keys, const std::string& shown) {
+        mark();
         for (std::chrono::seconds waited{0}; waited < patience; ++waited) {
-            mark();
-            type("\x15" + line);
-            if (shows(line, std::chrono::seconds{1})) break;
+            type("\x15" + keys);
+            if (shows(shown, std::chrono::seconds{1})) return;
         }
+        ADD_FAILURE() << "it does not show " << shown << ": " << output();
+    }
+    void typeLine(const std::string& line) { typeUntil(line, line); }  // until it is echoed
+    void enter(const std::string& line) {
+        typeLine(line);
         type("\r");
     }
     // Enters a line and waits for what it prints, or for the prompt that follows.
