@@ -175,6 +175,16 @@ inline void sign(EventMessage& message) {
     message.name = anySender;
 }
 
+// A writer of states keeps one message of each key.
+inline Id& keyOf(Presence& message) { return message.agent; }
+inline Id& keyOf(Model& message) { return message.id; }
+inline Id& keyOf(Interest& message) { return message.agent; }
+inline Id& keyOf(Block& message) { return message.structureHash; }
+inline Id& keyOf(Summary& message) { return message.structureHash; }
+inline Id& keyOf(Command& message) { return message.link; }
+inline Id& keyOf(Answer& message) { return message.link; }
+inline Id& keyOf(EventMessage& message) { return message.agent; }
+
 // A message of 0 to `most` octets, as often of 100 to 1,000 as of 1,000 to 10,000. Beyond 64 kB it
 // is about as large as `most` says.
 template <class M>
@@ -182,6 +192,7 @@ M anyMessage(std::uint64_t seed, std::size_t most) {
     std::mt19937_64 random{seed};
     M message;
     if (random() % 8 != 0) RandomFields{random()}(message);
+    RandomFields{random()}(keyOf(message));
     sign(message);
     const double share = std::uniform_real_distribution<double>{}(random);
     const bool large = most > mostOfOneDatagram;

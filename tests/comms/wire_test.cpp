@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What one participant writes, another one gets, byte for byte, over real DDS. Fast DDS writes its
 // statistics over the end of what it takes for them: of what has the byte 0x80 at one place.
+#include "comms/any_messages.hpp"
 #include "comms/inbox.hpp"
 #include "wire/cdr.hpp"
 
@@ -120,6 +121,22 @@ TEST_F(Wire, CarriesManyTextsAtOnceAsTheyAre) {
     std::vector<Model> models;
     for (std::uint8_t i = 0; i < 20; ++i) models.push_back(model(utf80.substr(0, 600), i));
     EXPECT_EQ(changedForLateReaders(topics::model, models), 0U);
+}
+
+template <class M>
+std::vector<M> anyMessages(std::uint64_t seed) {
+    std::vector<M> messages;
+    for (int i = 0; i < 20; ++i) messages.push_back(anyMessage<M>(seed++, 4'000));
+    return messages;
+}
+
+TEST_F(Wire, CarriesManyMessagesOfAnyContentAtOnceAsTheyAre) {
+    for (std::uint64_t seed = 0; seed < 100; seed += 20) {
+        EXPECT_EQ(changedForLateReaders(topics::event, anyMessages<EventMessage>(seed)), 0U);
+        EXPECT_EQ(changedForLateReaders(topics::model, anyMessages<Model>(seed)), 0U);
+        EXPECT_EQ(changedForLateReaders(topics::interest, anyMessages<Interest>(seed)), 0U);
+        EXPECT_EQ(changedForLateReaders(topics::presence, anyMessages<Presence>(seed)), 0U);
+    }
 }
 
 TEST_F(Wire, CarriesABlockOfAnyNumbersAsItIs) {
