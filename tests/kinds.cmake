@@ -9,6 +9,7 @@ set(exact_comms-network-tests Wire.* WireOf*)
 set(exact_cs-tests *SafeDemands* *SafeStop* *DemandsAtRest.* *DemandQuality.* *AcceptedDemands.*
     *HandOver*)
 set(exact_determinism-tests Shards/*)
+set(exact_text-tests *)
 
 # `whole`: dear. They do a share of their work in the gate, and all of it in stage `long`, with
 # CORTEX_WHOLE set (support/share.hpp).
@@ -21,6 +22,7 @@ set(whole_gui-tests EventRows.ARowOfMany* Events.FollowAgain* Events.SayHowMany*
 
 # `long`: the same each time, but dear. With a share of the work the gate has others like them.
 set(long-exact_determinism-tests Shards/*/2 Shards/*/3)
+set(long-exact_text-tests *TenThousand*)
 set(long_integration-tests LbrTeleop/FlippedJoint.*/1 LbrTeleop/FlippedJoint.*/2
     LbrTeleop/FlippedJoint.*/3 LbrTeleop/FlippedJoint.*/4 LbrTeleop/FlippedJoint.*/5
     LbrTeleop/FlippedJoint.*/6 LbrTeleop.FollowReplacedByHold*)
