@@ -135,6 +135,20 @@ class RunTests(unittest.TestCase):
         code, told = self.run_tests()
         self.assertEqual((code, told["red"]), (1, "A.Hidden failed, although hides ended with 0\n"))
 
+    def test_a_name_of_a_list_that_no_case_of_the_program_has_is_red(self):
+        listed = self.program("listed", """#!/bin/sh
+printf 'A.\\n  First\\n  Second\\nShards/B/1.  # TypeParam = int\\n  Holds/0  # GetParam() = 7\\n'
+""")
+        names = [sys.executable, ROOT / "tests/gate/names_test.py", listed]
+        told = subprocess.run([*names, "A.First", "A.Sec*", "Shards/B/?.*/0"], check=False)
+        self.assertEqual(told.returncode, 0)
+        told = subprocess.run([*names, "A.First", "A.Third", "Shards/*/1"], stdout=subprocess.PIPE,
+                              text=True, check=False)
+        self.assertEqual(told.returncode, 1)
+        self.assertIn("A.Third is no case of", told.stdout)
+        self.assertIn("Shards/*/1 is no case of", told.stdout)
+        self.assertNotIn("A.First", told.stdout)
+
     def test_six_unsteady_cases_are_red_unless_the_list_names_one(self):
         for number in range(6):
             self.fails(f"A.Once{number}", 1)
