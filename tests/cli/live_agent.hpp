@@ -3,7 +3,7 @@
 
 #include "cli/cortex_process.hpp"
 #include "core/model_folder.hpp"
-#include "support/looking.hpp"
+#include "support/waiting.hpp"
 
 #include <optional>
 #include <string>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dds/participant.hpp"
-#include "support/looking.hpp"
 #include "support/own_domain.hpp"
+#include "support/waiting.hpp"
 
 #include <chrono>
 #include <condition_variable>

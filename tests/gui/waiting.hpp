@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "support/looking.hpp"
+#include "support/waiting.hpp"
 
 #include <QApplication>
 #include <QLabel>
