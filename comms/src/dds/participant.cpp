@@ -330,7 +330,7 @@ std::uint64_t Participant::refused() const {
     return impl_->gate->filter.dropped() + (impl_->guard ? impl_->guard->refused() : 0);
 }
 
-std::map<std::string, Refused> Participant::refusals() const {
+std::map<std::string, Participant::Refused> Participant::refusals() const {
     std::map<std::string, Refused> all{
         {"a sample could not be decoded", {malformed(), ""}},
         {"security refused their sender", {impl_->guard ? impl_->guard->refused() : 0, ""}}};

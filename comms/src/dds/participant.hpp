@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cortex/comms/mirror_data.hpp"
 #include "cortex/comms/network_options.hpp"
 
 #include "dds/topics.hpp"
@@ -96,6 +95,10 @@ public:
     // how often since the start.
     std::vector<std::string> takeRefusals();
     std::uint64_t refused() const;
+    struct Refused {
+        std::uint64_t count = 0;
+        std::string lastFrom;  // the address of the last sender; empty: it is not known
+    };
     // By reason what refused() and malformed() count.
     std::map<std::string, Refused> refusals() const;
     std::string dropped() const;    // datagrams, by reason, in words; empty: none

@@ -33,7 +33,13 @@ public:
     }
     SecurityIdentity* identity() const { return participant_.identity(); }
     std::uint64_t malformed() const { return participant_.malformed() + participant_.refused(); }
-    std::map<std::string, Refused> refusals() const { return participant_.refusals(); }
+    std::map<std::string, Refused> refusals() const {
+        std::map<std::string, Refused> all;
+        for (const auto& [reason, each] : participant_.refusals()) {
+            all[reason] = {each.count, each.lastFrom};
+        }
+        return all;
+    }
 
 private:
     void speak();
