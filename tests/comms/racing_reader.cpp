@@ -18,7 +18,7 @@ int main() {
     std::jthread talker{[&](const std::stop_token& stop) {
         for (Presence presence; !stop.stop_requested(); ++presence.cycle) writer->write(presence);
     }};
-    const auto end = std::chrono::steady_clock::now() + test::patience;
+    const auto end = std::chrono::steady_clock::now() + cortex::test::patience;
     while (heard <= 1000 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
     const bool counted = heard > 1000;
     std::cerr << (counted ? "heard" : "nothing was heard") << '\n';
