@@ -147,7 +147,7 @@ protected:
         }
     }
 
-    const Network network;
+    const Network network{};
     const NetworkOptions writers = network.options(anySender), readers = network.options("to");
     AnyWriter writer{writers.security};
     Participant to{readers, "to"};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cortex/core/error.hpp"
+
 #include "support/probe.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window by keyboard alone, with a real agent over DDS.
 #include "gui/window_fixture.hpp"
+#include "views/base_view.hpp"
 #include "widgets/focus_edge.hpp"
 #include "window/control_bar.hpp"
 
