@@ -5,7 +5,7 @@
 #include "comms/inbox.hpp"
 #include "comms/secured_plant.hpp"
 #include "dds/participant.hpp"
-#include "support/patience.hpp"
+#include "support/waiting.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -25,6 +25,8 @@
 
 namespace cortex::comms {
 namespace {
+
+constexpr std::chrono::seconds slice{2};  // in which what is not lost has come
 
 std::uint64_t numberOf(const char* variable, std::uint64_t otherwise) {
     const char* const given = std::getenv(variable);
@@ -71,10 +73,10 @@ public:
         std::fprintf(input_, "%s %lu %zu %zu\n", kind.c_str(), seed, count, most);
         std::fflush(input_);
     }
-    // "; the process that writes has ended", or nothing.
+    // "; the process that writes ended with …", or nothing.
     std::string end() const {
-        const bool ended = waitpid(process_, nullptr, WNOHANG) != 0;
-        return ended ? "; the process that writes has ended" : "";
+        const std::string how = test::howItEnded(process_);
+        return how.empty() ? "" : "; the process that writes " + how;
     }
 
 private:
@@ -110,12 +112,13 @@ protected:
             for (std::size_t done = 0; done < count && !this->HasFailure();) {
                 const std::size_t together = mayBeLost ? 1 : 1 + random() % 8;
                 const std::uint64_t seed = random() >> 1;
-                std::size_t tries = mayBeLost ? 30 : 1;
+                writer.ask(kind, seed, together, most);
                 bool came = false;
-                while (!came && tries-- > 0) {
-                    writer.ask(kind, seed, together, most);
+                for (auto left = test::patience / slice; left > 0 && writer.end().empty(); --left) {
                     came = inbox.waitUntil([&](const auto& all) { return all.size() >= together; },
-                                           mayBeLost ? std::chrono::seconds{2} : test::patience);
+                                           slice);
+                    if (came) break;
+                    if (mayBeLost) writer.ask(kind, seed, together, most);
                 }
                 ASSERT_TRUE(came) << kind << " of seed " << seed << " and at most " << most
                                   << " octets: " << inbox.elements().size() << " of " << together

@@ -82,11 +82,7 @@ int AgentProcess::waitForEnd() {
     return status && WIFEXITED(*status) ? WEXITSTATUS(*status) : -1;
 }
 
-bool AgentProcess::hasEnded() const {
-    siginfo_t end{};
-    waitid(P_PID, static_cast<id_t>(pid_), &end, WEXITED | WNOHANG | WNOWAIT);
-    return end.si_pid == pid_;
-}
+bool AgentProcess::hasEnded() const { return pid_ == 0 || !howItEnded(pid_).empty(); }
 
 testing::AssertionResult AgentProcess::prints(const std::string& text) const {
     return comesTrue(

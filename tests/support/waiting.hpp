@@ -33,42 +33,43 @@ inline std::string howItEnded(pid_t child) {
            std::to_string(how.si_status);
 }
 
-// Looks until the condition holds, while patience lasts and it can still come. Otherwise the place
-// that waits fails with what it saw last.
+// Looks until the condition holds, while patience lasts and it can still come. Empty: it holds;
+// otherwise why it does not.
 template <class Condition, class Pause>
-bool looksUntil(Condition condition, Pause pause, const Place& place) {
+std::string whyNot(Condition condition, Pause pause) {
     const auto end = std::chrono::steady_clock::now() + patience;
     while (!condition()) {
-        std::string why = hopeless ? hopeless() : std::string{};
-        if (why.empty() && std::chrono::steady_clock::now() > end) {
-            why = "it did not come in " + std::to_string(patience.count()) + " s";
-        }
-        if (!why.empty()) {
-            ADD_FAILURE_AT(place.file_name(), static_cast<int>(place.line()))
-                << place.function_name() << " waits in vain: " << why
-                << (seenLast ? "\nSeen last: " + seenLast() : "");
-            return false;
-        }
+        if (std::string why = hopeless ? hopeless() : ""; !why.empty()) return why;
+        if (std::chrono::steady_clock::now() > end)
+            return "did not come in " + std::to_string(patience.count()) + " s";
         pause();
     }
-    return true;
+    return {};
 }
 
-// Waits with patience until the condition is true. A failure says what was waited for and what
-// `last` saw at the end. A condition that can no longer come true throws why, and fails at once.
+// The same, where the place that waits fails with what it saw last.
+template <class Condition, class Pause>
+bool looksUntil(Condition condition, Pause pause, const Place& place) {
+    const std::string why = whyNot(condition, pause);
+    if (why.empty()) return true;
+    ADD_FAILURE_AT(place.file_name(), static_cast<int>(place.line()))
+        << place.function_name() << " waits in vain: " << why
+        << (seenLast ? "\nSeen last: " + seenLast() : "");
+    return false;
+}
+
+// The same for what has a name. A failure says what `last` saw at the end. A condition that can no
+// longer come true throws why, and fails at once.
 inline testing::AssertionResult comesTrue(const std::string& what,
                                           const std::function<bool()>& condition,
                                           const std::function<std::string()>& last = {}) {
-    const auto end = std::chrono::steady_clock::now() + patience;
-    std::string why = "did not come in " + std::to_string(patience.count()) + " s";
+    std::string why;
     try {
-        do {
-            if (condition()) return testing::AssertionSuccess();
-            std::this_thread::sleep_for(std::chrono::milliseconds{1});
-        } while (std::chrono::steady_clock::now() < end);
+        why = whyNot(condition, [] { std::this_thread::sleep_for(std::chrono::milliseconds{1}); });
     } catch (const std::exception& error) {
         why = std::string{"can no longer come: "} + error.what();
     }
+    if (why.empty()) return testing::AssertionSuccess();
     auto failure = testing::AssertionFailure() << what << " " << why;
     if (last) failure << "; seen last: " << last();
     return failure;
