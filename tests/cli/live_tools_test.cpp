@@ -152,6 +152,8 @@ TEST_F(CortexLive, RestoresNothingWhereSomethingIsWrongAndSaysAllOfIt) {
                                                "not-settable", "unknown-path"}));
     EXPECT_EQ(outcome["findings"][0]["line"], 4);
     EXPECT_TRUE(outcome["results"].empty());
+    EXPECT_FALSE(contains(live({"restore", file}).output, "->")) << "what reads as a change made";
+    EXPECT_TRUE(contains(live({"restore", file, "--dry-run"}).output, "8 -> 9"));
     EXPECT_EQ(liveJson({"show", "/drive"}, "show")["data"]["naturalFrequency"]["value"], 8);
     EXPECT_EQ(live({"restore", (folder.path() / "none.xml").string()}).exit, 3);
 }

@@ -246,7 +246,7 @@ Exit restoreItems(const RestoreOptions& options) {
     for (const SavedSimplex& each : saved) planner.add(each);
     const bool good = plan.report.ok();
     const bool applies = good && !options.dryRun;
-    if (!options.json) printDifferences(plan);
+    if (!options.json && (good || options.dryRun)) printDifferences(plan);
     std::list<BriefControl> control;
     if (applies && options.take) control = controlOf(live, plan);
     const Exit exit = applies ? apply(live, plan) : good ? Yes : No;
