@@ -64,7 +64,9 @@ std::string Holds::whyNot(Held& held, const Frame& frame, Moment now, Moment ali
     comms::CommandAnswer answer;
     if (held.sent == 0 || !mirror_.poll(held.sent, answer)) return {};
     held.sent = 0;
-    return answer.done() ? "" : answer.text();
+    if (answer.done()) return {};
+    // The agent may tell of it before the leases that it shows do.
+    return answer.reason == Reason::Authority ? "control was lost: " + answer.why : answer.text();
 }
 
 // What stops it is sent also where control was lost: the agent decides. An agent that is gone has
