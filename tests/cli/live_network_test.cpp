@@ -65,6 +65,24 @@ TEST(CortexTimeout, SaysThatSomebodyWasFoundWhoDidNotSayWhoItIs) {
     EXPECT_TRUE(contains(outcome.errors, "--timeout")) << outcome.errors;
 }
 
+// Whoever does not say who it is may be the agent that is missed.
+TEST_F(CortexLive, ASilentParticipantIsNamedByWhateverTellsOfAllAgents) {
+    const Ghost ghost;
+    const std::string words = "1 participant of CorteX was found and did not say who it is";
+    const std::string file = (folder.path() / "saved.xml").string();
+    for (const Words& verb :
+         {Words{"list"}, Words{"list", "/arm"}, Words{"agents"}, Words{"save", file, "--force"}}) {
+        const Outcome outcome =
+            lookUntil([&] { return liveWithin("1.5", verb); },
+                      [&](const Outcome& seen) {
+                          return contains(seen.errors, words) && !contains(seen.errors, "no agent");
+                      });
+        EXPECT_EQ(outcome.exit, 3) << verb.front();
+        EXPECT_TRUE(contains(outcome.errors, words)) << verb.front() << outcome.errors;
+        EXPECT_FALSE(contains(outcome.errors, "no agent has")) << outcome.errors;
+    }
+}
+
 TEST(CortexTimeout, IsSharedByFindingTheAgentAndItsAnswer) {
     comms::NetworkAgent deaf{"deaf"};
     deaf.rig.hand("/worker");

@@ -117,6 +117,10 @@ TEST_F(CortexLive, SavesAndRestoresSettableItems) {
     EXPECT_EQ(live({"save", file}).exit, 1) << "the file exists";
     EXPECT_EQ(live({"save", file, "/drive", "--force"}).exit, 0);
     EXPECT_EQ(live({"save", file, "/axis", "--force"}).exit, 3) << "nothing settable";
+    const std::string link = (folder.path() / "link.xml").string();
+    std::filesystem::create_symlink(file, link);
+    EXPECT_TRUE(contains(live({"save", link, "--force"}).errors, "link.xml' is no regular file"));
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
     EXPECT_EQ(textOf(file).find("/drive") == std::string::npos, false);
 
     EXPECT_EQ(liveJson({"restore", file}, "restore")["same"], 2);
@@ -142,6 +146,7 @@ TEST_F(CortexLive, RestoresNothingWhereSomethingIsWrongAndSaysAllOfIt) {
     <set data="faultText" value="&quot;"/>
   </simplex>
   <simplex path="/drvie" type="SimulatedAxis"><set data="dampingRatio" value="1"/></simplex>
+  <simplex path="/controller" type="SimulatedAxis"><set data="dampingRatio" value="1"/></simplex>
 </system>)");
     ASSERT_EQ(live({"set", "/drive", "naturalFrequency=8"}).exit, 0);
 
@@ -149,7 +154,7 @@ TEST_F(CortexLive, RestoresNothingWhereSomethingIsWrongAndSaysAllOfIt) {
     std::vector<std::string> rules;
     for (const json& each : outcome["findings"]) rules.push_back(each["rule"]);
     EXPECT_EQ(rules, (std::vector<std::string>{"out-of-range", "unknown-item", "not-settable",
-                                               "not-settable", "unknown-path"}));
+                                               "not-settable", "unknown-path", "stored-type"}));
     EXPECT_EQ(outcome["findings"][0]["line"], 4);
     EXPECT_TRUE(outcome["results"].empty());
     EXPECT_FALSE(contains(live({"restore", file}).output, "->")) << "what reads as a change made";
@@ -192,6 +197,27 @@ TEST(CortexSave, BringsTextBackAsItWas) {
     const json data = liveJson({"show", "/drive"}, "show")["data"];
     EXPECT_EQ(data["label"]["value"], label);
     EXPECT_EQ(data["words"]["value"], (json{"a b", "c"}));
+}
+
+// More than fits into one datagram.
+TEST(CortexSave, ASetThatIsTooLargeIsRefusedBeforeItIsSent) {
+    const ModelFolder folder;
+    const std::string system = folder.write("mixer.xml", mixerSystem()).string();
+    folder.copyOntology();
+    std::string ontology = folder.read("robotics.xml");
+    ontology.insert(ontology.find("<data name=\"naturalFrequency\""), R"(
+    <data name="table" kind="float" length="8200" settable="always" description="Large."/>
+    )");
+    folder.write("robotics.xml", ontology);
+    const Background agent{agentCommand(system)};
+    std::string table = "table=";
+    for (int i = 0; i < 8200; ++i) table += "1 ";
+
+    const Outcome outcome = live({"set", "/drive", table});
+    const std::string said = outcome.output + outcome.errors;
+    EXPECT_EQ(outcome.exit, 1) << said;
+    EXPECT_TRUE(contains(said, "at most 64000 can be sent at once; nothing was sent")) << said;
+    EXPECT_EQ(live({"set", "/drive", "dampingRatio=0.8"}).exit, 0) << "its number was taken back";
 }
 
 TEST_F(CortexLive, ShowsTypesAndGraphAsFilesDo) {

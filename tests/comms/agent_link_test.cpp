@@ -2,6 +2,7 @@
 // Links between agents over real DDS on the loopback interface.
 #include "comms/network_agent.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace cortex::comms {
@@ -9,11 +10,13 @@ namespace {
 
 // Agent "near" links /far, which others have.
 struct NearAgent : NetworkAgent {
-    NearAgent() : NetworkAgent{"near"} {
-        rig.tree.relateRemote(rig.hand("/boss", "Boss"), "readings", "/far");
+    NearAgent() : NetworkAgent{"near"}, boss{rig.hand("/boss", "Boss")} {
+        rig.tree.relateRemote(boss, "readings", "/far");
     }
     Quality quality() { return rig.agent->images().newest().quality("/far"); }
     double value() { return rig.get<double>("/far", "a"); }
+
+    test::Hand& boss;
 };
 
 // Agent "away" has /far.
@@ -60,6 +63,21 @@ TEST(DdsLink, GoesLiveWithValueAndConstantsWhenTheReaderStartsFirst) {
               (Value{std::vector{1.0, 2.0, 3.0}}));
     EXPECT_TRUE(near.rig.hasEvent("/far: linked"));
     EXPECT_TRUE(near.rig.hasEvent("/near: agent away was found"));
+}
+
+TEST(DdsLink, AnAgentThatReadsMorePathsThanItCouldAskForIsRefusedInWords) {
+    NearAgent near;
+    for (int i = 0; i < 600; ++i) {
+        near.rig.tree.relateRemote(near.boss, "readings",
+                                   "/" + std::string(120, 'a') + std::to_string(i));
+    }
+    try {
+        near.rig.start();
+        FAIL() << "it was not refused";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("near reads 601 simplexes of other agents"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("at most 64000 can be asked for"));
+    }
 }
 
 TEST(DdsLink, GoesLiveWhenTheOwnerStartsFirst) {

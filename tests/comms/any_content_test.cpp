@@ -167,7 +167,7 @@ TYPED_TEST(WireOfTwoProcesses, CarriesAnyContentOfEachKindAsItIs) {
     std::printf("CORTEX_SEED=%lu CORTEX_MESSAGES=%zu\n", seedOfRun(), count);
     for (const char* kind : {"presence", "model", "interest", "view", "link", "summary", "command",
                              "answer", "event"}) {
-        this->compare(kind, count, mostOfOneDatagram);
+        this->compare(kind, count, maxInOneDatagram);
     }
 }
 

@@ -22,7 +22,6 @@
 namespace cortex::comms {
 
 inline constexpr const char* anySender = "from";  // whose messages they are, where that is proved
-inline constexpr std::size_t mostOfOneDatagram = 64'000;  // octets
 
 // All kinds of messages on their topics. Calls `f.operator()<M>(topic)` for the one of that name.
 template <class F>
@@ -195,7 +194,7 @@ M anyMessage(std::uint64_t seed, std::size_t most) {
     RandomFields{random()}(keyOf(message));
     sign(message);
     const double share = std::uniform_real_distribution<double>{}(random);
-    const bool large = most > mostOfOneDatagram;
+    const bool large = most > maxInOneDatagram;
     const auto size =
         large ? most : static_cast<std::size_t>(std::pow(static_cast<double>(most), share));
     Growth{random}(message, size);

@@ -3,9 +3,11 @@
 #include "cortex/core/clock.hpp"
 #include "cortex/cs/testing.hpp"
 
+#include "loop/pace_judge.hpp"
 #include "support/probe.hpp"
 #include "support/stepped_clock.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -177,6 +179,23 @@ TEST(Overflow, ALoopThatMissesMoreThanATenthOfItsTicksForTwoSecondsIsOverloaded)
     EXPECT_EQ(pace.rate(), 1000);
     EXPECT_TRUE(cluster.hasEvent("no longer overloaded: 1000 cycles a second"));
     EXPECT_FALSE(cluster.hasEvent("1000 cycles a second instead")) << "it is what is wanted";
+}
+
+// A count that began late was short by the clock, and its cycles were no more for that.
+TEST(Overflow, ALoopThatIsOverloadedNeverTellsOfMoreCyclesThanItWasToRun) {
+    constexpr std::int64_t period = 200'000'000;  // 5 Hz
+    cs::PaceJudge judge{period};
+    std::int64_t nominal = 0;
+    judge.add(nominal, 0);
+    double most = 0;
+    for (int count = 0; count < 6; ++count) {
+        const std::int64_t end = nominal + 10 * period;
+        for (int i = 0; i < 4; ++i) judge.add(nominal += period, end);
+        ASSERT_TRUE(judge.add(nominal = end, end + (count % 2 == 0 ? 8 * period : 0)));
+        most = std::max(most, judge.rate());
+    }
+    EXPECT_TRUE(judge.overloaded());
+    EXPECT_LT(most, 5);
 }
 
 TEST(Overflow, OneLongCycleIsNoOverload) {

@@ -4,6 +4,7 @@
 #include "cortex/core/clock.hpp"
 #include "cortex/core/error.hpp"
 
+#include "wire/cdr.hpp"
 #include "wire/ids.hpp"
 
 #include <algorithm>
@@ -56,6 +57,12 @@ AgentLinks::AgentLinks(AgentSelf& self) : self_{self} {
         if (!simplexes[i].remote) continue;
         links_.push_back(std::make_unique<Link>());
         links_.back()->simplex = i;
+    }
+    if (const std::size_t size = encodedSize(interest()); size > maxInOneDatagram) {
+        throw Error{self.name + " reads " + std::to_string(links_.size()) +
+                    " simplexes of other agents, whose paths take " + std::to_string(size) +
+                    " octets: at most " + std::to_string(maxInOneDatagram) +
+                    " can be asked for; use shorter paths, or divide the system among agents"};
     }
 }
 

@@ -42,8 +42,8 @@ namespace cortex::comms {
 //    communication thread.
 class AgentLinks {
 public:
-    explicit AgentLinks(AgentSelf& self);
-    ~AgentLinks();  // after the last read()
+    explicit AgentLinks(AgentSelf& self);  // throws Error if its interest could not be sent
+    ~AgentLinks();                         // after the last read()
 
     bool any() const { return !links_.empty(); }
     bool anyUnbound() const;

@@ -4,6 +4,7 @@
 #include "cortex/core/error.hpp"
 #include "cortex/core/record.hpp"
 
+#include "wire/cdr.hpp"
 #include "wire/ids.hpp"
 #include "wire/named_values.hpp"
 #include "wire/presence_extras.hpp"
@@ -40,6 +41,11 @@ std::int64_t untilOf(const CommandTarget& agent, std::chrono::nanoseconds budget
     const std::int64_t period =
         std::clamp(agent.model.presence()->period, std::int64_t{0}, longestPeriod);
     return agent.clock + (now - agent.clockHeard).count() + budget.count() + period;
+}
+
+std::string tooLarge(std::size_t size) {
+    return "the command takes " + std::to_string(size) + " octets, and at most " +
+           std::to_string(maxInOneDatagram) + " can be sent at once; nothing was sent";
 }
 
 }  // namespace
@@ -82,6 +88,11 @@ std::uint64_t SentCommands::send(const CommandTarget& agent, std::string_view pa
     message.command = command;
     message.arguments =
         namedValues(argumentsOf(tables.of(head.simplex), head.command, prepared.request()));
+    if (const std::size_t size = encodedSize(message); size > maxInOneDatagram) {
+        numbers_.at(next_).sequence =
+            target.client.takeBack(prepared, Outcome::Rejected, tooLarge(size));
+        return next_++;
+    }
     pending.next = now;
     pending.end = now + budget + grace;
     target.pending[head.sequence] = std::move(pending);

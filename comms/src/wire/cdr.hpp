@@ -16,6 +16,8 @@
 namespace cortex::comms {
 
 inline constexpr std::size_t maxTextLength = 64 * 1024;  // octets of a string
+// Octets of a message that is neither Block nor Model: it has to fit into one datagram.
+inline constexpr std::size_t maxInOneDatagram = 64'000;
 
 template <class Message>
 std::size_t encodedSize(const Message& message);  // with the 4 octets of encapsulation

@@ -18,7 +18,9 @@ bool PaceJudge::add(std::int64_t nominalTime, std::int64_t now) {
     }
     if (!first) {
         const std::int64_t due = (nominalTime - since_) / period_;
-        rate_ = static_cast<double>(cycles_) * 1e9 / static_cast<double>(now - sinceNow_);
+        // After a cycle that began late, less time has passed than the cycles stand for.
+        const std::int64_t passed = std::max(now - sinceNow_, nominalTime - since_);
+        rate_ = static_cast<double>(cycles_) * 1e9 / static_cast<double>(passed);
         const bool late = 10 * cycles_ < 9 * due;
         changed_ = late == before_ && late != overloaded_;
         if (changed_) overloaded_ = late;

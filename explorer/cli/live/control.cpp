@@ -114,7 +114,7 @@ void checkAnswers(const comms::LeaseClient::Answers& answers, const std::string&
 
 void takeControl(Live& live, const std::string& prefix) {
     checkPrefix(prefix);
-    live.waitForAll();
+    live.waitForAll(prefix);
     const std::string wanted = withoutEnd(prefix);
     std::set<std::string> agents = agentsBelow(live, prefix);
     for (const Lease& each : live.leases().held()) {

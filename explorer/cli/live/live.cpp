@@ -116,9 +116,12 @@ bool Live::waitInSlices(Wait wait) {
     return false;
 }
 
-void Live::waitForAll() {
+void Live::waitForAll(const std::string& prefix) {
     waitInSlices([&](Milliseconds limit) { return mirror().waitUntilComplete(limit); });
     if (mirror().agents().empty()) failWithNobody();
+    waitInSlices([&](Milliseconds limit) {
+        return !below(prefix).empty() || mirror().waitUntilComplete(limit, nobodyNew);
+    });
 }
 
 bool Live::waitForValues() {
@@ -188,6 +191,8 @@ std::string Live::incomplete() const {
         const std::size_t here = mirror().agents().size();
         parts.push_back(std::to_string(here) + " of " + std::to_string(here + unheard) + " agents");
     }
+    const std::string others = namelessText(mirror().nameless());
+    if (!others.empty()) parts.push_back(others);
     return parts.empty() ? "" : "incomplete: " + joined(parts);
 }
 
@@ -250,8 +255,6 @@ std::string Live::heard() const {
         if (each.state != "incomplete") continue;
         parts.push_back(each.name + " was heard, but its model did not come");
     }
-    const std::string others = namelessText(mirror().nameless());
-    if (!others.empty()) parts.push_back(others);
     const std::string lacking = incomplete();
     return joined(parts) + (lacking.empty() ? "" : "; " + lacking) + "; wait longer (--timeout)";
 }

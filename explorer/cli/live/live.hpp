@@ -65,15 +65,16 @@ public:
                               const std::function<void()>& meanwhile = {}) {
         return session_->call(path, command, arguments, left(), meanwhile);
     }
-    // Until everything of everybody is here; throws Failure if nobody is there.
-    void waitForAll();
+    // Until everything of everybody is here, and where nothing of it is at or below the prefix,
+    // until nobody new comes; throws Failure if nobody is there.
+    void waitForAll(const std::string& prefix = "/");
     // The path, if several agents have it.
     std::optional<comms::Contested> contestOf(const std::string& path) const;
     // These, agents whose loop is not well, and participants that cannot be seen without security,
     // on standard error.
     void printWarnings() const;
     comms::AgentStatus statusOf(const std::string& agent) const;
-    // "incomplete: 37 of 44 from robot", or "" when all is here.
+    // "incomplete: 37 of 44 from robot", or "" when all is here of everybody who was found.
     std::string incomplete() const;
     // "this tool itself refused messages: 12 (…, the last from 127.0.0.1), …", or "" where it let
     // everything in.

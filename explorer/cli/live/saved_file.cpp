@@ -48,6 +48,13 @@ std::string savedText(const std::vector<SavedSimplex>& simplexes, const std::str
 }
 
 void writeSaved(const fs::path& file, const std::string& text) {
+    std::error_code ignored;
+    const fs::file_status there = fs::symlink_status(file, ignored);
+    if (fs::exists(there) && !fs::is_regular_file(there)) {
+        throw Failure{No, "'" + file.string() +
+                              "' is no regular file, and would be replaced by "
+                              "one: name another file"};
+    }
     std::string name = file.string() + ".XXXXXX";
     const auto fail = [&] {
         throw Failure{No, "cannot write '" + file.string() + "': " + std::strerror(errno)};

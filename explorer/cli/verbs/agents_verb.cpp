@@ -14,6 +14,9 @@ Exit listAgents(const LiveOptions& options) {
     live.printWarnings();
     viewOwnSimplexes(live);
     const auto agents = live.mirror().agents();
+    const std::string others = namelessText(live.mirror().nameless());
+    const Failure incomplete{NotFound, others + "; wait longer (--timeout)"};
+    if (options.json && !others.empty()) throw incomplete;
     if (options.json) {
         Json list = Json::array();
         for (const auto& each : agents) {
@@ -42,6 +45,7 @@ Exit listAgents(const LiveOptions& options) {
         if (!each.refused.empty()) columns.addNote("refused messages: " + each.refused);
     }
     columns.print(std::cout);
+    if (!others.empty()) throw incomplete;
     return Yes;
 }
 

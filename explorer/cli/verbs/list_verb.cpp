@@ -99,7 +99,7 @@ Exit listSimplexes(const ListOptions& options) {
     checkPrefix(options.prefix);
     Live live{options.network};
     live.view({options.prefix}, 100);
-    live.waitForAll();
+    live.waitForAll(options.prefix);
     if (options.prefix != "/") live.view(viewedFor(live, options.prefix), 100);
     live.waitForValues();
     const std::string lacking = live.incomplete();

@@ -72,6 +72,14 @@ public:
     void add(const SavedSimplex& saved) {
         const auto found = find(saved);
         if (!found) return;
+        if (!saved.type.empty() && saved.type != found->type().name) {
+            plan_.report.error(saved.path, "stored-type", saved.place,
+                               "the values are of the type " + saved.type + ", the simplex is a " +
+                                   found->type().name,
+                               "take them out of the file, or write type=\"" + found->type().name +
+                                   "\" if they still hold");
+            return;
+        }
         const comms::AgentImage image = live_.mirror().image(found->agent);
         const bool same = image && &image->structure() == found->structure.get();
         if (!same || !isLive(image, found->index)) {
@@ -240,6 +248,7 @@ Exit restoreItems(const RestoreOptions& options) {
     Live live{options.network};
     live.view(paths, 100);
     live.waitForAll();
+    for (const std::string& each : paths) live.waitForOwner(each);
     live.waitForValues();
     Plan plan;
     Planner planner{live, plan};

@@ -53,7 +53,7 @@ Exit saveItems(const SaveOptions& options) {
     if (!options.force) checkAbsent(options.file);
     Live live{options.network};
     live.view({options.prefix}, 100);
-    live.waitForAll();
+    live.waitForAll(options.prefix);
     live.waitForValues();
     std::vector<SavedSimplex> saved;
     std::vector<std::string> missing;
