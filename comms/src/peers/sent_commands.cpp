@@ -45,7 +45,8 @@ std::int64_t untilOf(const CommandTarget& agent, std::chrono::nanoseconds budget
 
 std::string tooLarge(std::size_t size) {
     return "the command takes " + std::to_string(size) + " octets, and at most " +
-           std::to_string(maxInOneDatagram) + " can be sent at once; nothing was sent";
+           std::to_string(maxInOneDatagram) +
+           " can be sent at once; nothing was sent: set fewer items at a time";
 }
 
 }  // namespace
