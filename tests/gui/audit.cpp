@@ -7,6 +7,7 @@
 #include <QAbstractButton>
 #include <QAbstractItemView>
 #include <QAbstractScrollArea>
+#include <QCoreApplication>
 #include <QHeaderView>
 #include <QImage>
 #include <QLabel>
@@ -144,7 +145,9 @@ void auditTabs(const QWidget& window, QStringList& found) {
 
 }  // namespace
 
+// A frame may have come at the very end of the events before: it is laid out first.
 QStringList unreadableIn(QWidget& window) {
+    QCoreApplication::sendPostedEvents();
     QStringList found;
     const QImage image = window.grab().toImage().convertToFormat(QImage::Format_RGB32);
     auditTexts(window, image, found);
