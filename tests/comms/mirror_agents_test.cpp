@@ -86,6 +86,17 @@ TEST_F(MirrorAgentsTest, AreLostAfterASecondAndForgottenAfterAMinute) {
     EXPECT_EQ(agents.find("rig"), nullptr);
 }
 
+TEST_F(MirrorAgentsTest, AreNotLostWhileThisProcessStandsStill) {
+    tellAll();
+    agents.excuse(30s, begin + 30s);
+    agents.tick(nothing, begin + 30s);
+    EXPECT_EQ(status().state, "running");
+    EXPECT_EQ(lost, std::vector<std::string>{});
+
+    agents.tick(nothing, begin + 31001ms);
+    EXPECT_EQ(status().state, "lost") << "it was silent after it as well";
+}
+
 TEST_F(MirrorAgentsTest, KeepTheirLastValuesWhenTheyAreLost) {
     tellAll();
     agents.tick(everything, begin);

@@ -232,6 +232,10 @@ void MirrorAgents::lose(MirrorAgent& agent, const char* why) {
     onLost_(agent, why);
 }
 
+void MirrorAgents::excuse(std::chrono::nanoseconds still, Moment now) {
+    for (auto& [name, agent] : agents_) agent.heard = std::min(now, agent.heard + still);
+}
+
 void MirrorAgents::tick(const MirrorView& view, Moment now) {
     std::erase_if(tools_, [&](const auto& each) {
         return now - each.second > std::chrono::nanoseconds{shortestPatience};

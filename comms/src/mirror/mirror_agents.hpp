@@ -85,6 +85,8 @@ public:
     std::optional<AgentEvent> take(const EventMessage& message);
     void withdraw(const Id& agent);
     void tick(const MirrorView& view, Moment now);
+    // This process stood still for so long until now. It heard nobody meanwhile.
+    void excuse(std::chrono::nanoseconds still, Moment now);
     void view(const MirrorView& view);  // another one from now on
     void forgetSummaries();
 

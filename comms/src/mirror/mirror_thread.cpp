@@ -13,7 +13,8 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::chrono::milliseconds tick{20};
-constexpr std::chrono::milliseconds shortTick{5};  // while something is waited for
+constexpr std::chrono::milliseconds shortTick{5};      // while something is waited for
+constexpr std::chrono::milliseconds longestTurn{500};  // of a process that runs
 
 [[noreturn]] void throwNoSuchPath(const MirrorState& state, std::string_view path) {
     std::vector<std::string> paths;
@@ -118,6 +119,8 @@ const MirrorAgent* MirrorThread::take(const MirrorSample& sample, Moment now) {
 }
 
 void MirrorThread::serve(Moment now) {
+    const auto since = now - std::exchange(served_, now);
+    if (since > longestTurn) state_.agents.excuse(since, now);
     state_.agents.tick(state_.view, now);
     endpoints_.view(state_.view, state_.summarised);
     if (state_.commands.waiting() || state_.mayCommand) endpoints_.command();
