@@ -13,8 +13,8 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::chrono::milliseconds tick{20};
-constexpr std::chrono::milliseconds shortTick{5};      // while something is waited for
-constexpr std::chrono::milliseconds longestTurn{500};  // of a process that runs
+constexpr std::chrono::milliseconds shortTick{5};   // while something is waited for
+constexpr std::chrono::milliseconds mostLate{500};  // at which a process that runs wakes up
 
 [[noreturn]] void throwNoSuchPath(const MirrorState& state, std::string_view path) {
     std::vector<std::string> paths;
@@ -65,17 +65,22 @@ void MirrorThread::run() {
     changed_.notify_all();
 }
 
-// False: the mirror ends.
+// False: the mirror ends. What came while listeners ran is there; while the process stood still,
+// nothing came.
 bool MirrorThread::turn() {
     const auto pause = read([](MirrorState& state) {
         return state.commands.waiting() || !state.everybodyIsHere() ? shortTick : tick;
     });
-    const auto samples = inbox_.take(std::chrono::steady_clock::now() + pause);
+    const Moment due = std::chrono::steady_clock::now() + pause;
+    const auto samples = inbox_.take(due);
+    const auto late = std::chrono::steady_clock::now() - due;
     for (const MirrorSample& sample : samples) takeAndTell(sample);
     {
         const std::lock_guard lock{mutex_};
         if (state_.stopping) return false;
-        serve(std::chrono::steady_clock::now());
+        const Moment now = std::chrono::steady_clock::now();
+        if (late > mostLate) state_.agents.excuse(late, now);
+        serve(now);
     }
     changed_.notify_all();
     tellListeners();
@@ -119,8 +124,6 @@ const MirrorAgent* MirrorThread::take(const MirrorSample& sample, Moment now) {
 }
 
 void MirrorThread::serve(Moment now) {
-    const auto since = now - std::exchange(served_, now);
-    if (since > longestTurn) state_.agents.excuse(since, now);
     state_.agents.tick(state_.view, now);
     endpoints_.view(state_.view, state_.summarised);
     if (state_.commands.waiting() || state_.mayCommand) endpoints_.command();

@@ -105,7 +105,6 @@ private:
     MirrorState state_;
     std::vector<AgentEvent> events_;  // to tell the listeners
     MirrorEndpoints endpoints_;
-    Moment served_ = std::chrono::steady_clock::now();  // last
     std::thread thread_;
 };
 
