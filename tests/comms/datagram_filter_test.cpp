@@ -299,6 +299,29 @@ TEST_F(FilterTest, NobodyAcknowledgesMoreThanWasWritten) {
     EXPECT_EQ(refusal(header() + other + ackNack(44)), Refusal::None);
 }
 
+// What a participant sends that lost us, met us anew and got a heartbeat before it asked for all.
+TEST_F(FilterTest, WhoAsksAgainForOurEndpointsAsksForAllOfThem) {
+    constexpr int isFinal = 2;
+    for (const std::uint32_t each : {rtps::announcesWriters, rtps::announcesReaders}) {
+        const auto asks = [&](std::int64_t from, std::uint32_t bits, std::uint32_t count) {
+            return header() + ackNack(from, bits, (bits + 31) / 32, each, count, isFinal);
+        };
+        Datagram all = header() + ackNack(0, 0, 1, each, 9);
+        std::ranges::copy(Datagram{9, 0, 0, 0, 0, 0, 0, 0}, all.end() - 8);
+        EXPECT_EQ(admitted(asks(0, 0, 4)), asks(0, 0, 4));
+        EXPECT_EQ(admitted(asks(12, 0, 5)), asks(12, 0, 5)) << "it has all of them";
+        EXPECT_EQ(admitted(asks(1, 11, 4)), asks(1, 11, 4)) << "sent earlier";
+        EXPECT_EQ(admitted(asks(1, 11, 9)), all);
+        EXPECT_EQ(admitted(asks(1, 11, 10)), asks(1, 11, 10)) << "it is being told";
+        EXPECT_EQ(admitted(asks(12, 0, 11)), asks(12, 0, 11));
+    }
+    const auto ofUser = [&](std::int64_t from, std::uint32_t count) {
+        return header() + ackNack(from, 0, 0, anyWriter, count);
+    };
+    EXPECT_EQ(admitted(ofUser(12, 1)), ofUser(12, 1));
+    EXPECT_EQ(admitted(ofUser(1, 2)), ofUser(1, 2)) << "values are not told again";
+}
+
 TEST_F(FilterTest, WhatItSaidItselfOfItsEndpointsComesBackAndIsNotCounted) {
     Datagram front = header();
     std::ranges::copy(us, front.begin() + 8);

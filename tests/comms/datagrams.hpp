@@ -114,13 +114,14 @@ inline Datagram gap(std::int64_t start, std::int64_t base, std::uint32_t bits = 
 }
 
 inline Datagram ackNack(std::int64_t base, std::uint32_t bits = 0, std::size_t words = 0,
-                        std::uint32_t writer = anyWriter) {
+                        std::uint32_t writer = anyWriter, std::uint32_t count = 0, int flags = 0) {
     Datagram body(4);
     putEntity(body, writer);
     putNumber(body, base);
     put(body, bits, 4);
-    body.resize(body.size() + 4 * words + 4);
-    return submessage(0x06, 0, body);
+    body.resize(body.size() + 4 * words);
+    put(body, count, 4);
+    return submessage(0x06, flags, body);
 }
 
 }  // namespace cortex::comms::datagrams

@@ -168,8 +168,10 @@ Refusal DatagramFilter::judgeNumber(const Submessage& submessage, const Prefix& 
             return unless(admitsGap(submessage, sender, now));
         case Kind::AckNack: {
             const auto* const sent = sent_.find(guidOf(us_, body.subspan(4)));
-            return unless(sent == nullptr ||
-                          readNumber(body.subspan(8), little) <= sent->value + 1);
+            if (sent != nullptr && readNumber(body.subspan(8), little) > sent->value + 1)
+                return Refusal::Number;
+            askFromTheBeginning(submessage, sender, now);
+            return Refusal::None;
         }
         default:
             return Refusal::None;
@@ -257,6 +259,36 @@ bool DatagramFilter::admitsGap(const Submessage& gap, const Prefix& sender, std:
     }
     // It has no count: a gap that is said again after a while is another statement of it.
     return numbers_.admits(writer, end - 1, static_cast<std::uint32_t>(now / whileOfGap), now);
+}
+
+// Who lost us and meets us anew asks again for the announcements of our endpoints. To Fast DDS 2.9
+// they are acknowledged, and it sends them again only to who asks from number 0 on. Its reader does
+// so only if no heartbeat came first. It must answer, so the final flag goes.
+void DatagramFilter::askFromTheBeginning(const Submessage& ackNack, const Prefix& sender,
+                                         std::int64_t now) {
+    const Bytes body = ackNack.body, base = body.subspan(8), bits = body.subspan(16);
+    const std::uint32_t writer = readU32(body.subspan(4), false);
+    if (writer != announcesWriters && writer != announcesReaders) return;
+    const bool little = ackNack.little();
+    const Bytes countAt = bits.subspan(4 + (readU32(bits, little) + 31) / 32 * 4);
+    const std::uint32_t count = readU32(countAt, little);
+    const WriterGuid key = guidOf(sender, body.subspan(4));
+    const std::int64_t from = readNumber(base, little);
+    auto* const known = asked_.find(key);
+    if (known == nullptr) {
+        asked_.placeFor(key) = {key, now, {count, from}};
+        return;
+    }
+    Asked& last = known->value;
+    if (static_cast<std::int32_t>(count - last.count) <= 0) return;
+    const bool goesBack = from < last.base;
+    known->met = now;
+    last = {count, goesBack ? 0 : from};
+    if (!goesBack) return;
+    writeNumber(base, little, 0);
+    writeU32(bits, little, 0);
+    writeU32(bits.subspan(4), little, count);
+    ackNack.whole[1] &= static_cast<std::uint8_t>(~2);
 }
 
 void DatagramFilter::noteSent(Bytes datagram, std::int64_t now) {

@@ -57,6 +57,7 @@ private:
     void note(Refusal refusal, std::uint64_t count, std::uint32_t address);
     bool admitsHeartbeat(const Submessage& heartbeat, const Prefix& sender, std::int64_t now);
     bool admitsGap(const Submessage& gap, const Prefix& sender, std::int64_t now);
+    void askFromTheBeginning(const Submessage& ackNack, const Prefix& sender, std::int64_t now);
 
     const Prefix us_;
     mutable std::mutex mutex_;
@@ -64,6 +65,12 @@ private:
     WriterNumbers numbers_;
     RecentTable<WriterGuid, std::int64_t> sent_{256};  // the newest number of each of our writers
     RecentTable<WriterGuid, bool> fragmented_{4096};   // whether a lost sample comes again
+    struct Asked {
+        std::uint32_t count = 0;  // of the newest ACKNACK
+        std::int64_t base = 0;
+    };
+    // By participant and announcing writer of ours: from where on it asked last.
+    RecentTable<WriterGuid, Asked> asked_{1024};
     Fragments fragments_;
     EndpointLimits endpoints_;
     struct Dropped {
