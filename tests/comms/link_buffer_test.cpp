@@ -2,10 +2,12 @@
 #include "agent/agent_link_buffer.hpp"
 #include "support/small_structure.hpp"
 
-#include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -83,38 +85,65 @@ TEST_F(Values, OfConstantItemsStandInMemoryOfTheirOwn) {
     EXPECT_EQ(reinterpret_cast<const StringCell*>(constants.slice().strings)->view(), "S1");
 }
 
-TEST_F(Values, BufferHandsOutTheNewestOnce) {
-    LinkBuffer buffer{layout};
-    EXPECT_EQ(buffer.take(), nullptr);
-    for (const std::int64_t age : {1, 2}) {
-        buffer.writable().age = age;
-        buffer.publish();
+// Writes a sample of that number whose values say so as well.
+void write(LinkBuffer& buffer, std::size_t place, std::uint64_t number) {
+    LinkBuffer::Sample& sample = buffer.writable(place);
+    sample.number = number;
+    sample.values.slice().floats[0] = static_cast<double>(number);
+    sample.values.slice().state->cycle = static_cast<std::int64_t>(number);
+}
+// The numbers of all samples; 0 where the values are not those of the number.
+std::vector<std::uint64_t> numbers(const LinkBuffer::Samples& samples) {
+    std::vector<std::uint64_t> all;
+    for (const LinkBuffer::Sample& each : samples) {
+        const auto number = static_cast<std::uint64_t>(each.values.slice().floats[0]);
+        const auto cycle = static_cast<std::uint64_t>(each.values.slice().state->cycle);
+        all.push_back(number == each.number && cycle == number ? number : 0);
     }
-    const LinkBuffer::Sample* sample = buffer.take();
-
-    ASSERT_NE(sample, nullptr);
-    EXPECT_EQ(sample->age, 2);
-    EXPECT_EQ(buffer.take(), nullptr);
+    return all;
 }
 
-TEST_F(Values, BufferNeverHandsOutHalfASample) {
-    constexpr std::int64_t last = 20'000;
-    LinkBuffer buffer{layout};
+using Numbers = std::vector<std::uint64_t>;
+
+TEST_F(Values, BufferHandsOutTheNewestSampleOfEachSimplex) {
+    LinkBuffer buffer{{&layout, &layout, &layout}};
+    EXPECT_EQ(buffer.take()[0].number, 0U) << "nothing has come";
+    for (const std::uint64_t number : {1, 2}) {
+        for (std::size_t place = 0; place < 3; ++place) write(buffer, place, number);
+        buffer.publish();
+    }
+    EXPECT_EQ(numbers(buffer.take()), (Numbers{2, 2, 2}));
+    EXPECT_EQ(numbers(buffer.take()), (Numbers{2, 2, 2}));
+    write(buffer, 1, 3);
+    buffer.publish();
+    write(buffer, 2, 4);
+    EXPECT_EQ(numbers(buffer.take()), (Numbers{2, 3, 2})) << "it is not published yet";
+    buffer.publish();
+    write(buffer, 0, 5);
+    buffer.publish();
+    EXPECT_EQ(numbers(buffer.take()), (Numbers{5, 3, 4}));
+}
+
+// One simplex is written in each cycle, another in every second, the last in every fifth.
+TEST_F(Values, WhatTheBufferHandsOutIsOfOneCycle) {
+    constexpr std::uint64_t last = 20'000;
+    LinkBuffer buffer{{&layout, &layout, &layout}};
     std::thread writer{[&] {
-        for (std::int64_t number = 1; number <= last; ++number) {
-            LinkBuffer::Sample& sample = buffer.writable();
-            sample.age = number;
-            sample.values.slice().floats[0] = static_cast<double>(number);
+        for (std::uint64_t number = 10; number <= last; ++number) {
+            write(buffer, 0, number);
+            if (number % 2 == 0) write(buffer, 1, number);
+            if (number % 5 == 0) write(buffer, 2, number);
             buffer.publish();
         }
     }};
-    std::int64_t newest = 0;
-    while (newest < last) {
-        const LinkBuffer::Sample* sample = buffer.take();
-        if (sample == nullptr) continue;
-        ASSERT_GT(sample->age, newest);
-        ASSERT_EQ(sample->values.slice().floats[0], static_cast<double>(sample->age));
-        newest = sample->age;
+    std::uint64_t newest = 0;
+    while (newest < last && !HasFailure()) {
+        const LinkBuffer::Samples& samples = buffer.take();
+        const std::uint64_t number = samples[0].number;
+        if (number == 0) continue;
+        EXPECT_GE(number, newest);
+        EXPECT_EQ(numbers(samples), (Numbers{number, number - number % 2, number - number % 5}));
+        newest = number;
     }
     writer.join();
 }

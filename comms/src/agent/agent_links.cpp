@@ -28,35 +28,19 @@ std::uint32_t indexOf(const Structure* structure, const std::string& path) {
     return index == noSimplex || structure->simplexes[index].remote ? noSimplex : index;
 }
 
-// The constants of a simplex as its agent sets them.
-void storeConstants(const Structure& structure, std::uint32_t simplex, const Slice& to) {
-    for (const InitialValue& initial : structure.initial) {
-        if (initial.simplex != simplex || !initial.item->constant) continue;
-        const DataItem& item = *initial.item->item;
-        storeValue(item, initial.value, to.at(item.kind, initial.item->offset));
+std::vector<std::uint32_t> remoteSimplexes(const Structure& structure) {
+    std::vector<std::uint32_t> remote;
+    for (std::uint32_t i = 0; i < structure.simplexes.size(); ++i) {
+        if (structure.simplexes[i].remote) remote.push_back(i);
     }
+    return remote;
 }
 
 }  // namespace
 
-AgentLinks::Bound::Bound(std::uint64_t number, std::uint32_t ours, const std::string& owner,
-                         const Claim& claimed)
-    : serial{number},
-      simplex{ours},
-      agent{owner},
-      claim{claimed},
-      layout{*claimed.structure->simplexes[claimed.theirs].layout},
-      constants{layout, true},
-      buffer{layout} {
-    storeConstants(*claim.structure, claim.theirs, constants.slice());
-}
-
-AgentLinks::AgentLinks(AgentSelf& self) : self_{self} {
-    const auto& simplexes = self.structure().simplexes;
-    for (std::uint32_t i = 0; i < simplexes.size(); ++i) {
-        if (!simplexes[i].remote) continue;
-        links_.push_back(std::make_unique<Link>());
-        links_.back()->simplex = i;
+AgentLinks::AgentLinks(AgentSelf& self) : self_{self}, bound_{remoteSimplexes(self.structure())} {
+    for (const std::uint32_t simplex : remoteSimplexes(self.structure())) {
+        links_.emplace_back().simplex = simplex;
     }
     if (const std::size_t size = encodedSize(interest()); size > maxInOneDatagram) {
         throw Error{self.name + " reads " + std::to_string(links_.size()) +
@@ -69,7 +53,7 @@ AgentLinks::AgentLinks(AgentSelf& self) : self_{self} {
 AgentLinks::~AgentLinks() = default;
 
 bool AgentLinks::anyUnbound() const {
-    return std::ranges::any_of(links_, [](const auto& each) { return each->current == nullptr; });
+    return std::ranges::any_of(links_, [](const auto& each) { return each.current == nullptr; });
 }
 
 void AgentLinks::update(Peers& peers) {
@@ -77,25 +61,27 @@ void AgentLinks::update(Peers& peers) {
     for (auto& [name, peer] : peers) {
         if (hasAny(peer)) reportContradiction(peer);
     }
-    for (const auto& link : links_) {
-        std::erase_if(link->claims, [&](const auto& each) { return !peers.contains(each.first); });
-        for (auto& [name, peer] : peers) claim(*link, peer);
+    for (Link& link : links_) {
+        std::erase_if(link.claims, [&](const auto& each) { return !peers.contains(each.first); });
+        for (auto& [name, peer] : peers) claim(link, peer);
     }
-    for (const auto& link : links_) {
-        if (!link->claims.empty()) continue;
-        const std::string& path = self_.structure().simplexes[link->simplex].path;
+    for (const Link& link : links_) {
+        if (!link.claims.empty()) continue;
+        const std::string& path = self_.structure().simplexes[link.simplex].path;
         const std::string hint = misspelt_.hint(path, peers);
-        if (!hint.empty()) self_.event(Severity::Warning, link->simplex, "is not linked: " + hint);
+        if (!hint.empty()) self_.event(Severity::Warning, link.simplex, "is not linked: " + hint);
     }
     const std::lock_guard lock{mutex_};
-    for (const auto& link : links_) choose(*link);
+    bool isOther = false;
+    for (Link& link : links_) isOther = choose(link) || isOther;
+    if (isOther) offer();
     findOwners();
 }
 
 // Whether the peer has any simplex to be linked. Only then its model is compared and laid out.
 bool AgentLinks::hasAny(const Peer& peer) const {
     return peer.current && std::ranges::any_of(links_, [&](const auto& link) {
-               return peer.model().has(self_.structure().simplexes[link->simplex].path);
+               return peer.model().has(self_.structure().simplexes[link.simplex].path);
            });
 }
 
@@ -130,16 +116,16 @@ void AgentLinks::claim(Link& link, Peer& peer) {
     const auto theirs = peer.current->model.structure();
     const std::uint32_t index = indexOf(theirs.get(), path);
     if (index == noSimplex) return;
-    const Claim& made = link.claims[peer.name] = makeClaim(link, peer, index);
+    const LinkClaim& made = link.claims[peer.name] = makeClaim(link, peer, index);
     for (const Finding& finding : made.binding.findings.findings) {
         self_.event(finding.severity, link.simplex, peer.name + ": " + finding.text());
     }
 }
 
-AgentLinks::Claim AgentLinks::makeClaim(const Link& link, Peer& peer, std::uint32_t theirs) const {
+LinkClaim AgentLinks::makeClaim(const Link& link, Peer& peer, std::uint32_t theirs) const {
     const Presence& presence = *peer.model().presence();
     const Structure& ours = self_.structure();
-    Claim claim;
+    LinkClaim claim;
     claim.epoch = peer.epoch();
     claim.claimant = peer.current->claimTo(ours.simplexes[link.simplex].path);
     claim.theirs = theirs;
@@ -156,8 +142,8 @@ AgentLinks::Claim AgentLinks::makeClaim(const Link& link, Peer& peer, std::uint3
     return claim;
 }
 
-// Of several agents that have the path its owner is linked.
-void AgentLinks::choose(Link& link) {
+// Of several agents that have the path its owner is linked. Whether that is another one now.
+bool AgentLinks::choose(Link& link) {
     std::vector<Claimant> claimants;
     for (const auto& [agent, claim] : link.claims) {
         if (claim.heard && claim.binding.usable) claimants.push_back(claim.claimant);
@@ -173,45 +159,46 @@ void AgentLinks::choose(Link& link) {
             owner ? each.agent + " claims it as well; " + claimants[*owner].agent + " stays linked"
                   : each.agent + " is not linked: its signed list owns other paths");
     }
-    bind(link, owner ? &claimants[*owner].agent : nullptr);
+    return bind(link, owner ? &claimants[*owner].agent : nullptr);
 }
 
-void AgentLinks::bind(Link& link, const std::string* agent) {
-    const Claim* claim = agent != nullptr ? &link.claims.at(*agent) : nullptr;
+bool AgentLinks::bind(Link& link, const std::string* agent) {
+    const LinkClaim* claim = agent != nullptr ? &link.claims.at(*agent) : nullptr;
     const bool same = link.current == nullptr ? claim == nullptr
                                               : claim != nullptr && link.current->agent == *agent &&
                                                     link.current->claim.epoch == claim->epoch;
-    if (same) return;
-    link.current = nullptr;
+    if (same) return false;
+    link.current.reset();
     if (claim != nullptr) {
-        link.kept.push_back(std::make_unique<Bound>(++serial_, link.simplex, *agent, *claim));
-        link.current = link.kept.back().get();
+        link.current = std::make_shared<BoundLink>(++serial_, link.simplex, *agent, *claim);
         self_.event(Severity::Info, link.simplex, "linked to agent " + *agent);
     }
-    link.offered.store(link.current);
-    // From here on the loop can only begin to use the one that is offered.
-    const Bound* used = link.inUse.load();
-    std::erase_if(link.kept, [&](const auto& each) {
-        return each.get() != link.current && each.get() != used;
-    });
+    return true;
+}
+
+void AgentLinks::offer() {
+    std::vector<std::shared_ptr<BoundLink>> links;
+    for (const Link& link : links_) links.push_back(link.current);
+    bound_.offer(links);
 }
 
 void AgentLinks::findOwners() {
     std::map<Id, Owner> before;
     before.swap(owners_);
     if (delays_.size() > mostDelays) delays_.clear();
-    for (const auto& link : links_) {
-        if (link->current == nullptr) continue;
-        const Claim& claim = link->current->claim;
-        const Id id = agentId(link->current->agent);
-        Owner& owner = owners_[id];
-        owner.epoch = claim.epoch;
-        owner.structureHash = claim.structureHash;
-        owner.simplexes = claim.simplexes;
-        owner.bounds[claim.theirs] = link->current;
-        owner.patience = std::max({owner.patience, longestDetour, 3 * claim.binding.period});
-        const auto old = before.find(id);
-        if (old != before.end() && old->second.epoch == claim.epoch) {
+    for (const auto& group : bound_.groups()) {
+        const LinkClaim& first = group->links.front()->claim;
+        Owner& owner = owners_[agentId(group->agent())];
+        owner.epoch = first.epoch;
+        owner.structureHash = first.structureHash;
+        owner.simplexes = first.simplexes;
+        owner.group = group;
+        owner.patience = longestDetour;
+        for (const auto& link : group->links) {
+            owner.patience = std::max(owner.patience, 3 * link->claim.binding.period);
+        }
+        const auto old = before.find(agentId(group->agent()));
+        if (old != before.end() && old->second.epoch == first.epoch) {
             owner.newest = old->second.newest;
             owner.newestCame = old->second.newestCame;
             owner.newestCycle = old->second.newestCycle;
@@ -224,17 +211,14 @@ void AgentLinks::findOwners() {
 
 std::set<std::string> AgentLinks::owners() const {
     std::set<std::string> owners;
-    for (const auto& link : links_) {
-        if (link->current != nullptr) owners.insert(link->current->agent);
-    }
+    for (const auto& group : bound_.groups()) owners.insert(group->agent());
     return owners;
 }
 
 AgentLinks::OwnerOf AgentLinks::ownerOf(std::uint32_t simplex) const {
-    const auto found =
-        std::ranges::find(links_, simplex, [](const auto& each) { return each->simplex; });
-    if (found == links_.end() || (*found)->current == nullptr) return {};
-    const Bound& bound = *(*found)->current;
+    const auto found = std::ranges::find(links_, simplex, &Link::simplex);
+    if (found == links_.end() || found->current == nullptr) return {};
+    const BoundLink& bound = *found->current;
     return {bound.agent, bound.claim.epoch, bound.claim.structure};
 }
 
@@ -243,8 +227,8 @@ Interest AgentLinks::interest() const {
     interest.agent = self_.id;
     interest.name = self_.name;
     interest.epoch = self_.epoch;
-    for (const auto& link : links_) {
-        interest.links.push_back(self_.structure().simplexes[link->simplex].path);
+    for (const Link& link : links_) {
+        interest.links.push_back(self_.structure().simplexes[link.simplex].path);
     }
     return interest;
 }
@@ -313,57 +297,47 @@ void AgentLinks::take(const Block& block, std::int64_t came) {
     // The time that a block spent in queues or waiting for a thread adds to its age.
     const std::int64_t delay =
         block.wallClock > 0 ? delays_[block.agent].next(block.wallClock, came) : 0;
-    for (const SimplexData& data : block.simplexes) take(block, data, owner, came, delay);
+    ++newest_;
+    bool isNew = false;
+    for (const SimplexData& data : block.simplexes) {
+        LinkBuffer::Sample* const sample = take(data, owner);
+        if (sample == nullptr) continue;
+        sample->number = newest_;
+        sample->age = std::max(block.nominalTime - data.time, std::int64_t{0}) + delay;
+        sample->came = came;
+        isNew = true;
+    }
+    if (isNew) owner.group->buffer.publish();
 }
 
-void AgentLinks::take(const Block& block, const SimplexData& data, const Owner& owner,
-                      std::int64_t came, std::int64_t delay) {
-    if (data.index >= owner.simplexes) return self_.rejections.add("values of no simplex");
-    const auto found = owner.bounds.find(data.index);
-    if (found == owner.bounds.end()) return;
-    Bound& bound = *found->second;
+// Null: it is refused, or nobody wants it.
+LinkBuffer::Sample* AgentLinks::take(const SimplexData& data, const Owner& owner) {
+    if (data.index >= owner.simplexes) {
+        self_.rejections.add("values of no simplex");
+        return nullptr;
+    }
+    BoundGroup& group = *owner.group;
+    const auto found = group.places.find(data.index);
+    if (found == group.places.end()) return nullptr;
+    BoundLink& bound = *group.links[found->second];
     const std::string wrong = misfit(data, bound.layout);
-    if (!wrong.empty()) return refuse(bound, wrong);
-    LinkBuffer::Sample& sample = bound.buffer.writable();
+    if (!wrong.empty()) {
+        refuse(bound, wrong);
+        return nullptr;
+    }
+    LinkBuffer::Sample& sample = group.buffer.writable(found->second);
     storeValues(data, bound.layout, sample.values.slice());
-    sample.age = std::max(block.nominalTime - data.time, std::int64_t{0}) + delay;
-    sample.came = came;
-    bound.buffer.publish();
+    return &sample;
 }
 
 // Counted each time, and told on the simplex once for each reason.
-void AgentLinks::refuse(Bound& bound, const std::string& wrong) {
+void AgentLinks::refuse(BoundLink& bound, const std::string& wrong) {
     const std::string of = "values of " + bound.agent;
     const std::uint32_t simplex = bound.simplex;
     const std::string& path = self_.structure().simplexes[simplex].path;
     self_.rejections.add(of + " for " + path + ": " + wrong);
     if (bound.told.size() >= mostTold || !bound.told.insert(wrong).second) return;
     self_.event(Severity::Warning, simplex, of + " are refused: " + wrong);
-}
-
-void AgentLinks::read(Inbox& inbox) {
-    if (links_.empty()) return;
-    const std::int64_t now = monotonicNow();
-    for (const auto& link : links_) readLink(*link, inbox, now);
-}
-
-void AgentLinks::readLink(Link& link, Inbox& inbox, std::int64_t now) {
-    // The order matters: see the fourth invariant.
-    Bound* bound = link.offered.load();
-    link.inUse.store(bound);
-    if (link.offered.load() != bound) return;  // replaced just now; the next cycle looks again
-    const std::uint64_t serial = bound != nullptr ? bound->serial : 0;
-    const bool other = std::exchange(link.seen, serial) != serial;
-    if (other && std::exchange(link.live, false)) inbox.linkLost(link.simplex);
-    if (other && bound != nullptr) inbox.linkOffered(link.simplex);
-    const LinkBuffer::Sample* sample = bound != nullptr ? bound->buffer.take() : nullptr;
-    if (sample == nullptr) return;
-    const LinkBinding& binding = bound->claim.binding;
-    if (!std::exchange(link.live, true)) {
-        inbox.linkConstants(link.simplex, binding, bound->constants.slice());
-    }
-    const std::int64_t underway = std::max(now - sample->came, std::int64_t{0});
-    inbox.link(link.simplex, binding, sample->values.slice(), sample->age + underway);
 }
 
 }  // namespace cortex::comms

@@ -109,4 +109,9 @@ SliceMemory::SliceMemory(const TypeLayout& layout, bool constants) {
     }
 }
 
+void SliceMemory::copy(const SliceMemory& other) {
+    std::ranges::copy(other.memory_, memory_.begin());
+    state_ = other.state_;
+}
+
 }  // namespace cortex::comms

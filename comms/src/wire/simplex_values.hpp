@@ -32,6 +32,7 @@ public:
     SliceMemory& operator=(const SliceMemory&) = delete;
 
     const Slice& slice() const { return slice_; }
+    void copy(const SliceMemory& other);  // of the same layout
 
 private:
     std::vector<std::uint64_t> memory_;
