@@ -150,6 +150,7 @@ void AgentPeers::expire(std::int64_t now) {
     // A process that stood still (a debugger, a paused machine) heard nobody meanwhile.
     const std::int64_t since = now - std::exchange(looked_, now);
     const std::int64_t stood = since > longestLook && since < now ? since : 0;
+    stood_ = stood_ || stood > leaseOfParticipant / 2;
     for (auto& [name, peer] : peers_) {
         if (!peer.heard) continue;
         peer.lastHeard = std::min(now, peer.lastHeard + stood);

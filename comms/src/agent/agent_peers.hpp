@@ -73,6 +73,8 @@ public:
 
     // Whether anything became known or lost since the last call.
     bool takeChanged() { return std::exchange(changed_, false); }
+    // Whether this process stood still since the last call, so long that others may soon forget it.
+    bool takeStood() { return std::exchange(stood_, false); }
     bool isSecond() const { return name_.isSecond(); }  // another start of our name was first
     // Who else speaks in our name, in words; empty: nobody of late.
     std::string otherSelf(std::int64_t now) const { return name_.otherSelf(now); }
@@ -99,7 +101,7 @@ private:
     SecurityIdentity* identity_;
     FirstOfName name_{self_};
     std::int64_t looked_ = 0;  // expire() was called last
-    bool changed_ = false;
+    bool changed_ = false, stood_ = false;
     std::string early_;  // whose clock was last said to be ahead
 };
 

@@ -254,7 +254,7 @@ void AgentThread::step() {
     sendEvents();
     if (peers_.isSecond() != silent_) beSilent(!silent_);
     sendPresence(now);
-    if (links_.anyUnbound() || peers_.missesAny(now)) participant_.announce();
+    if (links_.anyUnbound() || peers_.missesAny(now) || peers_.takeStood()) participant_.announce();
 }
 
 void AgentThread::takeMessages(std::int64_t now) {

@@ -185,9 +185,7 @@ Reader<M>::~Reader() {
 
 template <class M>
 std::uint32_t Reader<M>::writers() const {
-    dds::SubscriptionMatchedStatus status;
-    impl_->reader->get_subscription_matched_status(status);
-    return static_cast<std::uint32_t>(status.current_count);
+    return impl_->receiver.writers(impl_->gate->filter);
 }
 
 // --- Participant --------------------------------------------------------------------------------
@@ -293,10 +291,11 @@ std::unique_ptr<Reader<M>> Participant::reader(const Topic& topic,
                    impl_->subscriber,
                    {std::move(onSample), std::move(onDisposed), impl_->malformed, impl_->guard},
                    nullptr}};
-    entity->reader = created(
-        impl_->subscriber->create_datareader(made, readerQos(topic.qos, impl_->othersOnHost),
-                                             &entity->receiver, dds::StatusMask::data_available()),
-        "a reader of topic '" + topic.name + "' of '" + impl_->name + "'");
+    entity->reader =
+        created(impl_->subscriber->create_datareader(
+                    made, readerQos(topic.qos, impl_->othersOnHost), &entity->receiver,
+                    dds::StatusMask::data_available() << dds::StatusMask::subscription_matched()),
+                "a reader of topic '" + topic.name + "' of '" + impl_->name + "'");
     return std::unique_ptr<Reader<M>>{new Reader<M>{std::move(entity)}};
 }
 

@@ -44,7 +44,7 @@ class Reader {
 public:
     ~Reader();
 
-    std::uint32_t writers() const;
+    std::uint32_t writers() const;  // without those that are silent
 
 private:
     friend class Participant;

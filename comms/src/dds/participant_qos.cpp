@@ -5,6 +5,7 @@
 
 #include "dds/network_address.hpp"
 #include "dds/security_guard.hpp"
+#include "wire/presence_interval.hpp"
 
 #include <algorithm>
 #include <array>
@@ -214,11 +215,12 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     BuiltinAttributes& builtin = qos.wire_protocol().builtin;
     builtin.use_WriterLivelinessProtocol = false;  // liveliness is our own
     builtin.mutation_tries = static_cast<std::uint32_t>(participantsPerHost);
-    // CorteX has its own presences, so leases may be long. An assertion of Fast DDS 2.9 ends the
-    // process where a lease ends just as its participant leaves. On a busy host with many
-    // participants, a lease that ended by mistake also causes more work, and so more delays.
+    // An assertion of Fast DDS 2.9 ends the process where a lease ends just as its participant
+    // leaves. On a busy host with many participants, a lease that ended by mistake also causes more
+    // work, and so more delays.
     const auto others = static_cast<std::uint32_t>(number);
-    builtin.discovery_config.leaseDuration = milliseconds(10'000 + 1'000 * others);
+    builtin.discovery_config.leaseDuration =
+        milliseconds(static_cast<std::uint32_t>(leaseOfParticipant / 1'000'000));
     builtin.discovery_config.leaseDuration_announcementperiod = milliseconds(3'000 + 150 * others);
     announceLoopback(qos.wire_protocol(), options.domain, udp->interfaceWhiteList);
     if (options.discoveryServer.empty()) {

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/clock.hpp"
+
 #include "dds/security_guard.hpp"
 #include "dds/topic_type.hpp"
+#include "rtps/datagram_filter.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <set>
 #include <utility>
 
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -36,6 +41,26 @@ public:
     // requested.
     void on_data_available(DataReader* reader) override {
         while (takeOne(*reader)) continue;
+    }
+
+    void on_subscription_matched(
+        DataReader*, const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override {
+        rtps::Prefix participant;
+        std::copy_n(status.last_publication_handle.value, participant.size(), participant.begin());
+        const std::lock_guard lock{mutex_};
+        if (status.current_count_change > 0) {
+            writers_.insert(participant);
+        } else if (const auto known = writers_.find(participant); known != writers_.end()) {
+            writers_.erase(known);
+        }
+    }
+
+    // DDS keeps those of participants that are silent for a while. They do not count.
+    std::uint32_t writers(const rtps::DatagramFilter& filter) const {
+        const std::lock_guard lock{mutex_};
+        const std::int64_t now = monotonicNow();
+        return static_cast<std::uint32_t>(std::ranges::count_if(
+            writers_, [&](const auto& each) { return !filter.isSilent(each, now); }));
     }
 
     void close() {
@@ -85,8 +110,9 @@ private:
     std::atomic<std::uint64_t>& malformed_;
     SecurityGuard* const guard_;
     Envelope<M> envelope_;  // keeps the memory that a callback leaves in it
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     bool closed_ = false;
+    std::multiset<rtps::Prefix> writers_;  // their participants
 };
 
 }  // namespace cortex::comms

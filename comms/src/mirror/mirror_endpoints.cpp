@@ -126,7 +126,8 @@ void MirrorEndpoints::announce(const MirrorAgents& agents, Moment now) {
         presence_->write(self_);
         spoke_ = now;
     }
-    if (agents.missesAny()) participant_.announce();
+    const bool stood = (now - std::exchange(announced_, now)).count() > leaseOfParticipant / 2;
+    if (agents.missesAny() || stood) participant_.announce();
 }
 
 }  // namespace cortex::comms

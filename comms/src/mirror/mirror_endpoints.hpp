@@ -58,7 +58,7 @@ private:
     std::unique_ptr<Reader<EventMessage>> events_;
     std::unique_ptr<Reader<Summary>> summaries_;
     Presence self_;
-    Moment spoke_{};
+    Moment spoke_{}, announced_ = std::chrono::steady_clock::now();
     MirrorView view_;  // the one that the agents know
 };
 

@@ -261,6 +261,11 @@ bool DatagramFilter::admitsGap(const Submessage& gap, const Prefix& sender, std:
     return numbers_.admits(writer, end - 1, static_cast<std::uint32_t>(now / whileOfGap), now);
 }
 
+bool DatagramFilter::isSilent(const Prefix& participant, std::int64_t now) const {
+    const std::lock_guard lock{mutex_};
+    return participants_.isSilent(participant, now);
+}
+
 // Who lost us and meets us anew asks again for the announcements of our endpoints. To Fast DDS 2.9
 // they are acknowledged, and it sends them again only to who asks from number 0 on. Its reader does
 // so only if no heartbeat came first. It must answer, so the final flag goes.

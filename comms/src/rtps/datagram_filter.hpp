@@ -34,6 +34,9 @@ public:
     // parameters that nobody needs become padding, and great steps of numbers become smaller.
     Admitted admit(Bytes datagram, std::uint32_t address, std::int64_t now);
 
+    // Whether the participant was heard, but not for a while.
+    bool isSilent(const Prefix& participant, std::int64_t now) const;
+
     // What is sent is noted: nobody can acknowledge more than our writers have written.
     void noteSent(Bytes datagram, std::int64_t now);
 

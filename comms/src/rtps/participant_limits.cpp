@@ -26,4 +26,9 @@ bool ParticipantLimits::isHeard(const Prefix& participant, std::int64_t now) con
     return known != nullptr && now - known->met <= patience;
 }
 
+bool ParticipantLimits::isSilent(const Prefix& participant, std::int64_t now) const {
+    const auto* const known = heard_.find(participant);
+    return known != nullptr && now - known->met > patience;
+}
+
 }  // namespace cortex::comms::rtps

@@ -19,7 +19,8 @@ public:
     static constexpr std::int64_t patience = 15'000'000'000;  // ns
 
     bool admits(const Prefix& participant, std::uint32_t address, std::int64_t now);
-    bool isHeard(const Prefix& participant, std::int64_t now) const;  // within that time
+    bool isHeard(const Prefix& participant, std::int64_t now) const;   // within that time
+    bool isSilent(const Prefix& participant, std::int64_t now) const;  // it was heard before
 
 private:
     RecentTable<Prefix, std::uint32_t> heard_{4 * most};  // addresses

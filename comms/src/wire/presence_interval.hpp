@@ -29,6 +29,10 @@ inline std::int64_t patienceWith(const Presence& presence, std::uint32_t crowd =
     return std::max(4 * std::max(said, intervalAmong(crowd)), shortestPatience);
 }
 
+// After so long a silence DDS forgets a participant, and learns of it anew. Presences tell earlier
+// that it is lost. So a process that stood still, or was cut off, is found again at once.
+inline constexpr std::int64_t leaseOfParticipant = 60'000'000'000;
+
 // What is heard within this time after a start was there before.
 inline constexpr std::int64_t timeToMeet = 2'000'000'000;
 
