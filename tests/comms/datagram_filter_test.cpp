@@ -307,7 +307,7 @@ TEST_F(FilterTest, WhoAsksAgainForOurEndpointsAsksForAllOfThem) {
             return header() + ackNack(from, bits, (bits + 31) / 32, each, count, isFinal);
         };
         Datagram all = header() + ackNack(0, 0, 1, each, 9);
-        std::ranges::copy(Datagram{9, 0, 0, 0, 0, 0, 0, 0}, all.end() - 8);
+        std::ranges::copy(Datagram{9, 0, 0, 0}, all.end() - 8);  // the count, then what is left
         EXPECT_EQ(admitted(asks(0, 0, 4)), asks(0, 0, 4));
         EXPECT_EQ(admitted(asks(12, 0, 5)), asks(12, 0, 5)) << "it has all of them";
         EXPECT_EQ(admitted(asks(1, 11, 4)), asks(1, 11, 4)) << "sent earlier";

@@ -108,7 +108,7 @@ using Numbers = std::vector<std::uint64_t>;
 TEST_F(Values, BufferHandsOutTheNewestSampleOfEachSimplex) {
     LinkBuffer buffer{{&layout, &layout, &layout}};
     EXPECT_EQ(buffer.take()[0].number, 0U) << "nothing has come";
-    for (const std::uint64_t number : {1, 2}) {
+    for (const std::uint64_t number : {1U, 2U}) {
         for (std::size_t place = 0; place < 3; ++place) write(buffer, place, number);
         buffer.publish();
     }

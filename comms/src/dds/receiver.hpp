@@ -45,9 +45,10 @@ public:
 
     void on_subscription_matched(
         DataReader*, const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override {
+        const auto guid = eprosima::fastrtps::rtps::iHandle2GUID(status.last_publication_handle);
         rtps::Prefix participant;
-        std::copy_n(status.last_publication_handle.value, participant.size(), participant.begin());
-        const std::lock_guard lock{mutex_};
+        std::ranges::copy(guid.guidPrefix.value, participant.begin());
+        const std::lock_guard lock{matched_};
         if (status.current_count_change > 0) {
             writers_.insert(participant);
         } else if (const auto known = writers_.find(participant); known != writers_.end()) {
@@ -57,7 +58,7 @@ public:
 
     // DDS keeps those of participants that are silent for a while. They do not count.
     std::uint32_t writers(const rtps::DatagramFilter& filter) const {
-        const std::lock_guard lock{mutex_};
+        const std::lock_guard lock{matched_};
         const std::int64_t now = monotonicNow();
         return static_cast<std::uint32_t>(std::ranges::count_if(
             writers_, [&](const auto& each) { return !filter.isSilent(each, now); }));
@@ -110,9 +111,10 @@ private:
     std::atomic<std::uint64_t>& malformed_;
     SecurityGuard* const guard_;
     Envelope<M> envelope_;  // keeps the memory that a callback leaves in it
-    mutable std::mutex mutex_;
+    std::mutex mutex_;
     bool closed_ = false;
-    std::multiset<rtps::Prefix> writers_;  // their participants
+    mutable std::mutex matched_;           // of its own: DDS has its locks where it reports a match
+    std::multiset<rtps::Prefix> writers_;  // their participants; `matched_` guards it
 };
 
 }  // namespace cortex::comms
