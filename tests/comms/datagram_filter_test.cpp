@@ -2,6 +2,7 @@
 #include "rtps/datagram_filter.hpp"
 
 #include "comms/datagrams.hpp"
+#include "wire/presence_interval.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -209,8 +210,8 @@ TEST_F(FilterTest, AWriterOfWhichMuchWasLostGoesOn) {
     EXPECT_EQ(refusal(header() + heartbeat(1, 2'000, 8)), Refusal::None);
     // Samples that are sent again are far below.
     EXPECT_EQ(refusal(header() + data(101)), Refusal::None);
-    // A minute of silence is many numbers of a quick writer, but not 10 million.
-    now += 60'000'000'000;
+    // A long silence is many numbers of a quick writer, but not 10 million.
+    now += 50'000'000'000;
     EXPECT_EQ(refusal(header() + data(60'000)), Refusal::Number);
     EXPECT_EQ(refusal(header() + data(60'001)), Refusal::None);
     EXPECT_EQ(refusal(header() + data(10'060'000)), Refusal::Number);
@@ -320,6 +321,23 @@ TEST_F(FilterTest, WhoAsksAgainForOurEndpointsAsksForAllOfThem) {
     };
     EXPECT_EQ(admitted(ofUser(12, 1)), ofUser(12, 1));
     EXPECT_EQ(admitted(ofUser(1, 2)), ofUser(1, 2)) << "values are not told again";
+}
+
+// Fast DDS must not meet it while it drops it.
+TEST_F(FilterTest, WhoWasSilentForALeaseIsHeardASecondAfterItsEnd) {
+    const auto isHeard = [&] { return !admitted(header() + data(1)).empty(); };
+    const std::int64_t tenth = 100'000'000, lease = leaseOfParticipant;
+    EXPECT_TRUE(isHeard());
+    now += lease - 11 * tenth;
+    EXPECT_TRUE(isHeard());
+    const std::int64_t end = now + lease;
+    for (now = end - 9 * tenth; now < end + 10 * tenth; now += tenth) EXPECT_FALSE(isHeard());
+    EXPECT_TRUE(isHeard());
+    now += 100 * lease;
+    const std::int64_t back = now;
+    for (; now < back + 10 * tenth; now += tenth) EXPECT_FALSE(isHeard());
+    EXPECT_TRUE(isHeard());
+    EXPECT_EQ(filter.dropped(), 0U) << "a network that works";
 }
 
 TEST_F(FilterTest, WhatItSaidItselfOfItsEndpointsComesBackAndIsNotCounted) {

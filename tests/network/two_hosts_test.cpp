@@ -4,6 +4,7 @@
 #include "network/host.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <functional>
 #include <iostream>
@@ -272,7 +273,8 @@ TEST(TwoHosts, AreWholeSoonAfterTheNetworkWorksAgain) {
     if (const std::string why = whyNoHosts(); !why.empty()) GTEST_SKIP() << why;
     Plant<TwoHosts> plant;
     ASSERT_NO_FATAL_FAILURE(plant.start("losses"));
-    for (const std::chrono::milliseconds time : {200ms, 200ms, 200ms, 3'000ms, 3'000ms}) {
+    for (const std::chrono::milliseconds time :
+         {200ms, 200ms, 200ms, 3'000ms, 12'000ms, 30'000ms}) {
         plant.hosts.loseAll();
         std::this_thread::sleep_for(time);
         plant.hosts.passAll();
@@ -282,6 +284,22 @@ TEST(TwoHosts, AreWholeSoonAfterTheNetworkWorksAgain) {
         EXPECT_LT(recovery, longestStart);
     }
     plant.check("losses");
+}
+
+TEST(TwoHosts, AreWholeSoonAfterOneOfThemStoodStill) {
+    if (const std::string why = whyNoHosts(); !why.empty()) GTEST_SKIP() << why;
+    Plant<TwoHosts> plant;
+    ASSERT_NO_FATAL_FAILURE(plant.start("standing still"));
+    for (const std::chrono::seconds time : {1s, 5s, 12s, 30s}) {
+        kill(plant.robot->pid(), SIGSTOP);
+        std::this_thread::sleep_for(time);
+        kill(plant.robot->pid(), SIGCONT);
+        const double recovery = plant.becomesWhole("after standing still");
+        std::cout << "stood still for " << time.count() << " s: whole "
+                  << static_cast<int>(recovery) << " ms later\n";
+        EXPECT_LT(recovery, longestStart);
+    }
+    plant.check("standing still");
 }
 
 }  // namespace

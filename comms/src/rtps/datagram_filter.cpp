@@ -75,7 +75,7 @@ DatagramFilter::Admitted DatagramFilter::admit(Bytes datagram, std::uint32_t add
     const std::lock_guard lock{mutex_};
     const Refusal refusal = judge(datagram, address, now);
     if (refusal != Refusal::None) {
-        if (refusal != Refusal::Echo) note(refusal, 1, address);
+        if (isCounted(refusal)) note(refusal, 1, address);
         return {};
     }
     const std::uint64_t before = fragments_.dropped();
@@ -113,8 +113,9 @@ Refusal DatagramFilter::judge(Bytes& datagram, std::uint32_t address, std::int64
     }
     if (order.isOpen()) return Refusal::Framing;
     const Prefix sender = prefixAt(datagram.subspan(senderAt));
-    if (!participants_.admits(sender, address, now)) return Refusal::Participants;
-    return order.isSigned() ? Refusal::None : judgeNumbers(datagram, sender, now);
+    const Refusal found = participants_.judge(sender, address, now);
+    if (found != Refusal::None || order.isSigned()) return found;
+    return judgeNumbers(datagram, sender, now);
 }
 
 // A gap that goes further than its writer did passes if the writer goes on behind it in the same

@@ -17,9 +17,15 @@ enum class Refusal : std::uint8_t {
     Participants,  // more participants than an address or the network may have
     Unfinished,    // fragments of a sample that was never complete, while others needed the room
     Endpoints,  // an announcement of one endpoint more than a participant or the network may have
-    Echo,       // what this participant itself has sent to a group of which it is; never counted
+    Echo,       // what this participant itself has sent to a group of which it is
+    Early,      // of one that was silent for a lease, a moment after it came back
 };
-inline constexpr std::size_t refusals = 10;
+inline constexpr std::size_t refusals = 11;
+
+// What belongs to a network that works is not.
+constexpr bool isCounted(Refusal refusal) {
+    return refusal != Refusal::Echo && refusal != Refusal::Early;
+}
 
 // What an event says of it, behind "N datagrams were dropped: ".
 constexpr const char* wordsOf(Refusal refusal) {
@@ -34,6 +40,7 @@ constexpr const char* wordsOf(Refusal refusal) {
         "they began more samples in fragments than there is room for",
         "they announce more endpoints than there is room for",
         "they are its own",
+        "their sender came back just now",
     };
     return words[static_cast<std::size_t>(refusal)];
 }
