@@ -30,8 +30,8 @@ std::size_t entriesOf(const fs::path& folder) {
 }  // namespace
 
 AgentProcess::AgentProcess(const ModelFolder& folder, fs::path system,
-                           std::vector<std::string> options)
-    : output_{folder.path() / (system.stem().string() + ".txt")} {
+                           std::vector<std::string> options, Outputs outputs)
+    : output_{folder.path() / (system.stem().string() + ".txt")}, outputs_{outputs} {
     const comms::NetworkOptions network = comms::loopback();
     command_ = {CORTEX_BINARY_DIR "/bin/cortex-agent",
                 system.string(),
@@ -56,8 +56,8 @@ void AgentProcess::start() {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     const int out = open(output_.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
-    dup2(out, STDOUT_FILENO);
-    dup2(out, STDERR_FILENO);
+    dup2(outputs_.standard >= 0 ? outputs_.standard : out, STDOUT_FILENO);
+    dup2(outputs_.errors >= 0 ? outputs_.errors : out, STDERR_FILENO);
     setenv("CORTEX_PATH", CORTEX_SOURCE_DIR "/ontology", 1);
     execv(arguments.front(), arguments.data());
     _exit(127);

@@ -19,9 +19,12 @@ namespace cortex::test {
 // the test.
 class AgentProcess {
 public:
-    // What it prints goes to a file in `folder`.
+    // What it prints goes to a file in `folder`, or where it is told.
+    struct Outputs {
+        int standard = -1, errors = -1;
+    };
     AgentProcess(const ModelFolder& folder, std::filesystem::path system,
-                 std::vector<std::string> options = {});
+                 std::vector<std::string> options = {}, Outputs outputs = {-1, -1});
     ~AgentProcess() { kill9(); }
     AgentProcess(const AgentProcess&) = delete;
     AgentProcess& operator=(const AgentProcess&) = delete;
@@ -41,6 +44,7 @@ public:
 private:
     std::vector<std::string> command_;
     std::filesystem::path output_;
+    Outputs outputs_;
     pid_t pid_ = 0;
     std::vector<pid_t> pids_;
 };

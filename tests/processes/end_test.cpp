@@ -10,12 +10,16 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fcntl.h>
 #include <sys/ptrace.h>
 #include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -140,6 +144,84 @@ TEST_F(EndOfAProcess, ComesWhileAConstructorOfAPlugInDoesNotReturn) {
     EXPECT_EQ(endOfOneThatHangsIn("constructor"), 3);
     EXPECT_NE(output.find("hangs in making the simplexes of " + system.string()), std::string::npos)
         << output;
+}
+
+TEST_F(EndOfAProcess, ComesWhileADestructorOfAPlugInDoesNotReturn) {
+    setenv("NEVER_RETURNS_FROM", "destructor", 1);
+    AgentProcess agent{folder, system, options()};
+    ASSERT_TRUE(agent.prints("100 Hz"));
+    const auto asked = Clock::now();
+    EXPECT_EQ(agent.endInOrder(), 3);
+    EXPECT_LT(Clock::now() - asked, longestEnd);
+    EXPECT_NE(agent.output().find("hangs in the destructors of the simplexes"), std::string::npos)
+        << agent.output();
+}
+
+// A pipe that is full, or a terminal that was told to wait, and nobody reads.
+class Unread {
+public:
+    enum Kind { Pipe, Terminal };
+    explicit Unread(Kind kind) { kind == Pipe ? makePipe() : makeTerminal(); }
+    ~Unread() {
+        close(read_);
+        close(write_);
+    }
+    int file() const { return write_; }
+    std::string read() const {  // all that is there
+        std::string all(1 << 21, 0);
+        const ssize_t size = ::read(read_, all.data(), all.size());
+        all.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+        return all;
+    }
+
+private:
+    void makePipe() {
+        int ends[2];
+        if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) throw std::runtime_error("no pipe");
+        read_ = ends[0];
+        write_ = ends[1];
+        const std::string much(1 << 20, '.');
+        while (write(write_, much.data(), much.size()) > 0) continue;
+        fcntl(write_, F_SETFL, 0);
+    }
+    void makeTerminal() {
+        read_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+        if (grantpt(read_) != 0 || unlockpt(read_) != 0) throw std::runtime_error("no terminal");
+        write_ = open(ptsname(read_), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        if (tcflow(write_, TCOOFF) != 0) throw std::runtime_error("it does not wait");
+    }
+
+    int read_ = -1, write_ = -1;
+};
+
+TEST_F(EndOfAProcess, ComesInOrderWhereNobodyReadsWhatItPrints) {
+    const Unread pipe{Unread::Pipe}, terminal{Unread::Terminal};
+    const int full = pipe.file(), waits = terminal.file();
+    for (const AgentProcess::Outputs outputs :
+         {AgentProcess::Outputs{full, -1}, {-1, full}, {full, full}, {waits, waits}}) {
+        AgentProcess agent{folder, system, options(), outputs};
+        {
+            Station station;
+            ASSERT_TRUE(station.waitFor([&] { return station.cycleOf("plant") > 5; }));
+        }
+        const auto asked = Clock::now();
+        EXPECT_EQ(agent.endInOrder(), 0) << outputs.standard << " " << outputs.errors;
+        EXPECT_LT(Clock::now() - asked, longestEnd);
+    }
+}
+
+TEST_F(EndOfAProcess, TellsWhoReadsAgainHowManyLinesAreMissing) {
+    const Unread pipe{Unread::Pipe};
+    AgentProcess agent{folder, system, options(), {pipe.file(), -1}};
+    {
+        Station station;
+        ASSERT_TRUE(station.waitFor([&] { return station.cycleOf("plant") > 5; }));
+    }
+    pipe.read();
+    EXPECT_EQ(agent.endInOrder(), 0);
+    const std::string said = pipe.read();
+    EXPECT_TRUE(said.starts_with("\n(lines missing here: 1)\n")) << said;
+    EXPECT_NE(said.find("cycles in "), std::string::npos) << said;
 }
 
 // The threads of a process by number, and what each is called.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plug-in whose simplex does not come back from where its file says: its constructor, populate(),
-// or never.
+// its destructor, or never.
 #include "cortex/core/registry.hpp"
 #include "cortex/cs/simplex_cs.hpp"
 
@@ -25,6 +25,10 @@ class NeverReturns final : public cortex::cs::SimplexCS {
 public:
     explicit NeverReturns(Identity identity) : SimplexCS{std::move(identity)} {
         if (isAsked("constructor")) hang();
+    }
+
+    ~NeverReturns() override {
+        if (isAsked("destructor")) hang();
     }
 
 private:

@@ -10,6 +10,7 @@
 
 #include "hook_check.hpp"
 #include "options.hpp"
+#include "patient_output.hpp"
 #include "retained_file.hpp"
 #include "start_up.hpp"
 #include "stored_values.hpp"
@@ -238,18 +239,30 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     return broken ? HooksBroke : Ended;
 }
 
+// A destructor of a plug-in may hang.
+void destroy(SimplexTree* tree) {
+    const cs::BoundedStep step{"the destructors of the simplexes"};
+    delete tree;
+}
+
 int run(int argc, char** argv) {
     int exitCode = Ended;
     const auto line = parseCommandLine(argc, argv, exitCode);
     if (!line) return exitCode;
+    std::optional<PatientOutput> out, errors;
+    if (!line->checkHooks) {  // which tells what hooks print with the library's own streams
+        out.emplace(std::cout, STDOUT_FILENO);
+        errors.emplace(std::cerr, STDERR_FILENO);
+    }
     HookCheck hookCheck{line->checkHooks, argv};
     cs::blockStopSignals();
     ClassRegistry registry;
     addClasses(registry);
     RetainedFile retained{retainFile(*line)};
-    SimplexTree tree = readSystem(*line, registry, retained);
+    const std::unique_ptr<SimplexTree, decltype(&destroy)> tree{
+        new SimplexTree{readSystem(*line, registry, retained)}, &destroy};
     try {
-        return runCluster(*line, registry, tree, retained, hookCheck);
+        return runCluster(*line, registry, *tree, retained, hookCheck);
     } catch (const comms::SecondStart& error) {
         std::cerr
             << error.what()
