@@ -108,6 +108,28 @@ TEST_F(AgentStreamsTest, ShowAsAGapInTheCyclesWhatTheyLeftOut) {
     EXPECT_EQ(tables.newest().cycle(), rig.tick.cycle);
 }
 
+TEST_F(AgentStreamsTest, SayTheLastBlockOfTheLinksAgain) {
+    EXPECT_FALSE(thread.streams->repeatLinks()) << "nobody has links";
+    reader = tool.reader<Block>(topics::linkOf(rig.agent->name()), blocks.push());
+    Peer peer;
+    peer.heard = true;
+    peer.current.emplace("other", 1).interest.links = {"/plate"};
+    thread.streams->update({{"other", peer}});
+    ASSERT_TRUE(comesTrue([&] { return reader->writers() == 1; }));
+    ASSERT_TRUE(comesTrue([&] {  // the writer may not have met the reader yet
+        rig.step();
+        send();
+        return !blocks.elements().empty();
+    }));
+    ASSERT_TRUE(comesTrue([&] { return blocks.elements().back().cycle == rig.tick.cycle; }));
+    const Block last = blocks.take().back();
+
+    EXPECT_TRUE(thread.streams->repeatLinks());
+
+    ASSERT_TRUE(blocks.waitFor(1));
+    EXPECT_EQ(blocks.take().back(), last);
+}
+
 TEST_F(AgentStreamsTest, SendTheNewestCycleAloneToSlowerViews) {
     view(100, topics::view100);
     const std::size_t before = blocks.elements().size();

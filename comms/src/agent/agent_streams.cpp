@@ -151,6 +151,13 @@ void AgentStreams::sayAgain(Stream& stream, std::int64_t now) {
     stream.againDue = now + again;
 }
 
+bool AgentStreams::repeatLinks() {
+    Stream& links = streams_.front();
+    if (!links.isWanted() || links.block.cycle == 0) return false;
+    links.writer->write(links.block);
+    return true;
+}
+
 void AgentStreams::write(Stream& stream, const Image& image, std::int64_t now) {
     Block& block = stream.block;
     ++block.sequenceNumber;

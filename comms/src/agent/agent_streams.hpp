@@ -28,6 +28,7 @@ public:
     bool everyCycle() const;          // whether somebody asks for every cycle
     std::int64_t due() const;         // of the other streams; far in the future: never
     void step(std::int64_t now);      // sends what is due
+    bool repeatLinks();               // sends their last block again; false: nobody has links
     void renew();  // before its participant is replaced; update() makes the writers anew
     void keep() CORTEX_REALTIME { kept_.keep(); }  // loop thread, after each cycle
 

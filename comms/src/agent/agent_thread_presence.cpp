@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::int64_t silentInterval = 1'000'000'000;  // ns
 constexpr std::size_t longestReason = 200;              // of a refusal, in a presence
-constexpr int timesStopping = 3;
+constexpr int timesLastBlock = 5, timesStopping = 3;
 constexpr std::chrono::milliseconds pauseStopping{10};
 
 }  // namespace
@@ -91,10 +91,15 @@ void AgentThread::beSilent(bool silent) {
 // Leaves the network after the last cycle. A silent agent disposes of nothing, because the keys
 // belong to the other start. The last presence is sent more than once: the end of the writer
 // travels through another socket. Under load it overtakes the last sample, which best-effort
-// readers do not get again.
+// readers do not get again. The last block has the values after the shutdown, which are safe. So it
+// comes before that, and more often: what loses one in five lost all of them in one of 15,000
+// stops.
 void AgentThread::leave() {
     step();
     if (silent_) return;
+    for (int said = 0; said < timesLastBlock && streams_.repeatLinks(); ++said) {
+        std::this_thread::sleep_for(pauseStopping);
+    }
     while (!events_.empty()) sendEvents();
     const Presence last = presence("stopping");
     for (int said = 1; said < timesStopping; ++said) {
