@@ -218,6 +218,20 @@ TEST_F(FilterTest, AWriterOfWhichMuchWasLostGoesOn) {
     EXPECT_EQ(refusal(header() + data(10'060'001)), Refusal::Number);
 }
 
+// A participant that announced itself often while it was not heard, and now says the last one
+// again.
+TEST_F(FilterTest, AnAnnouncementThatIsSaidAgainIsTakenAfterALongLoss) {
+    const auto announces = [](std::int64_t number) {
+        return header() + data(number, discoveryWriter, 4, Datagram{0, 3, 0, 0} + endOfList);
+    };
+    ASSERT_EQ(refusal(announces(1)), Refusal::None);
+    now += 50'000'000'000;
+    EXPECT_EQ(refusal(announces(600)), Refusal::Number);
+    EXPECT_EQ(refusal(announces(600)), Refusal::Number) << "at once: one datagram, twice";
+    now += 3'000'000'000;
+    EXPECT_EQ(refusal(announces(600)), Refusal::None);
+}
+
 // 1,000 numbers a second, of which 20 % are lost and the others take up to 20 ms.
 TEST_F(FilterTest, FollowsAWriterWhoseDatagramsAreLostAndOvertakeEachOther) {
     std::mt19937 chance{7};

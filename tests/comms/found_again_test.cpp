@@ -70,14 +70,20 @@ private:
     std::optional<Datagram> newest_;
 };
 
+// Where the submessage with an announcement begins.
+std::size_t placeOf(const Datagram& announcement) {
+    std::size_t at = 20;
+    while (announcement.at(at) != 0x15) {
+        at += 4U + announcement.at(at + 2) + 256U * announcement.at(at + 3);
+    }
+    return at;
+}
+
 // The header of an announcement, and that its participant is gone, with the next number.
 Datagram goodbyeOf(const Datagram& announcement) {
     const Datagram header(announcement.begin(), announcement.begin() + 20);
     const Datagram guid = Datagram(header.begin() + 8, header.end()) + Datagram{0, 0, 1, 0xc1};
-    auto at = header.size();
-    while (announcement.at(at) != 0x15) {
-        at += 4U + announcement.at(at + 2) + 256U * announcement.at(at + 3);
-    }
+    const std::size_t at = placeOf(announcement);
     Datagram body{0, 0, 16, 0, 0, 0, 0, 0};
     datagrams::putEntity(body, datagrams::discoveryWriter);
     std::int64_t number = 0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t interval = 1'000'000'000;  // ns, between two reports of one kind
 constexpr std::int64_t longestGap = 4096;         // Fast DDS takes memory for each number of it
-constexpr std::int64_t whileOfGap = 8'000'000;    // ns, within which a gap is said once
+constexpr std::int64_t whileOfOne = 8'000'000;    // ns, within which a sample or gap is said once
 
 // Of a DATA_FRAG whose content was judged.
 Fragment fragmentOf(const Submessage& submessage, const WriterGuid& writer, bool comesAgain) {
@@ -59,6 +59,10 @@ bool hasFragments(Bytes datagram) {
     }
     return has;
 }
+
+// A sample or a gap has no count: said again after a while, it is another statement. A participant
+// announces itself with the same number until something changes.
+std::uint32_t sayingOf(std::int64_t now) { return static_cast<std::uint32_t>(now / whileOfOne); }
 
 std::string textOf(std::uint32_t address) {
     std::string text;
@@ -152,7 +156,7 @@ Refusal DatagramFilter::judgeNumber(const Submessage& submessage, const Prefix& 
     switch (submessage.kind) {
         case Kind::Data:
             if (!numbers_.admits(guidOf(sender, body.subspan(8)),
-                                 readNumber(body.subspan(12), little), 0, now))
+                                 readNumber(body.subspan(12), little), sayingOf(now), now))
                 return Refusal::Number;
             return judgeEndpoint(submessage, sender, now);
         case Kind::DataFragments: {
@@ -258,8 +262,7 @@ bool DatagramFilter::admitsGap(const Submessage& gap, const Prefix& sender, std:
         writeNumber(base, little, start + longestGap);
         writeU32(bits, little, 0);
     }
-    // It has no count: a gap that is said again after a while is another statement of it.
-    return numbers_.admits(writer, end - 1, static_cast<std::uint32_t>(now / whileOfGap), now);
+    return numbers_.admits(writer, end - 1, sayingOf(now), now);
 }
 
 bool DatagramFilter::isSilent(const Prefix& participant, std::int64_t now) const {

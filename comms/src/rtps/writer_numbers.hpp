@@ -23,7 +23,7 @@ class WriterNumbers {
 public:
     // Whether a sample, or the end of a range that a writer states, may have this number. `saying`
     // tells two statements of one number apart: a count of heartbeats, the number of a fragment,
-    // the time of a gap.
+    // the time of a sample or gap.
     bool admits(const WriterGuid& writer, std::int64_t number, std::uint32_t saying,
                 std::int64_t now);
 
