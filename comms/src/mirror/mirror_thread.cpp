@@ -65,22 +65,22 @@ void MirrorThread::run() {
     changed_.notify_all();
 }
 
-// False: the mirror ends. What came while listeners ran is there; while the process stood still,
-// nothing came.
+// False: the mirror ends. Who is silent is judged at the moment when the samples were taken: what
+// comes while they are worked on, or while listeners run, comes with the next. While the process
+// stood still, nothing came.
 bool MirrorThread::turn() {
     const auto pause = read([](MirrorState& state) {
         return state.commands.waiting() || !state.everybodyIsHere() ? shortTick : tick;
     });
     const Moment due = std::chrono::steady_clock::now() + pause;
     const auto samples = inbox_.take(due);
-    const auto late = std::chrono::steady_clock::now() - due;
+    const Moment taken = std::chrono::steady_clock::now();
     for (const MirrorSample& sample : samples) takeAndTell(sample);
     {
         const std::lock_guard lock{mutex_};
         if (state_.stopping) return false;
-        const Moment now = std::chrono::steady_clock::now();
-        if (late > mostLate) state_.agents.excuse(late, now);
-        serve(now);
+        if (taken - due > mostLate) state_.agents.excuse(taken - due, taken);
+        serve(taken);
     }
     changed_.notify_all();
     tellListeners();
