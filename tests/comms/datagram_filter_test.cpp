@@ -232,6 +232,20 @@ TEST_F(FilterTest, AnAnnouncementThatIsSaidAgainIsTakenAfterALongLoss) {
     EXPECT_EQ(refusal(announces(600)), Refusal::None);
 }
 
+// As where a program of another domain has taken one of our ports.
+TEST_F(FilterTest, AParticipantThatNamesAnotherDomainIsDropped) {
+    DatagramFilter ofSeven{us, 7};
+    const auto passes = [&](const Datagram& parameters) {
+        Datagram datagram = header() + announcement(parameters + endOfList);
+        return ofSeven.admit(datagram, address, now).left > 0;
+    };
+    EXPECT_TRUE(passes(parameter(0x000f, {7, 0, 0, 0})));
+    EXPECT_TRUE(passes({})) << "Fast DDS 2.9 names none";
+    EXPECT_EQ(ofSeven.dropped(), 0U);
+    EXPECT_FALSE(passes(parameter(0x000f, {8, 0, 0, 0})));
+    EXPECT_EQ(ofSeven.dropped(Refusal::Domain), 1U);
+}
+
 // 1,000 numbers a second, of which 20 % are lost and the others take up to 20 ms.
 TEST_F(FilterTest, FollowsAWriterWhoseDatagramsAreLostAndOvertakeEachOther) {
     std::mt19937 chance{7};

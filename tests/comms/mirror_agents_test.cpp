@@ -437,6 +437,53 @@ TEST_F(MirrorCommandsTest, AreRepeatedAsTheyAreUntilTheyAreAnswered) {
     EXPECT_EQ(sent.size(), 2U);
 }
 
+TEST_F(MirrorCommandsTest, ThatRunAreAskedForSlowlyUntilTheirEndIsKnown) {
+    const std::uint64_t number = send("watch");
+    tick(begin);
+    commands.take(answer("Running"));
+    EXPECT_TRUE(commands.running(number));
+    std::vector<int> asked;  // ms
+    for (int i = 1; i <= 5000; ++i) {
+        tick(begin + i * 1ms);
+        if (sent.size() > asked.size() + 1) asked.push_back(i);
+        if (i == 700) commands.take(answer("Running"));
+    }
+    EXPECT_EQ(asked, (std::vector{200, 400, 800, 1600, 2600, 3600, 4600}));
+    EXPECT_EQ(sent.back(), sent.front()) << "its number and its time are what they were";
+    tick(begin + 1h);
+    EXPECT_FALSE(commands.poll(number, result)) << "its time of 100 ms was for its begin";
+
+    commands.take(answer("Cancelled"));
+    ASSERT_TRUE(commands.poll(number, result));
+    EXPECT_EQ(result.outcome, Outcome::Cancelled);
+    EXPECT_FALSE(commands.waiting());
+}
+
+TEST_F(MirrorCommandsTest, ThatRanAndOfWhichTheAgentKnowsNothingMoreAreUnknown) {
+    for (const Reason reason : {Reason::Authority, Reason::Window, Reason::UnknownCommand}) {
+        const std::uint64_t number = send("watch");
+        tick(begin);
+        commands.take(answer("Running"));
+        Answer refusal = answer("Rejected");
+        refusal.reason = name(reason);
+        refusal.why = "its list is over";
+        commands.take(refusal);
+
+        ASSERT_TRUE(commands.poll(number, result));
+        EXPECT_EQ(result.text(),
+                  "Unknown: it was running, and how it ended the agent does not say: its list is "
+                  "over");
+    }
+    const std::uint64_t number = send("watch");
+    tick(begin);
+    commands.take(answer("Running"));
+    Answer end = answer("Rejected");
+    end.reason = name(Reason::State);
+    commands.take(end);
+    ASSERT_TRUE(commands.poll(number, result));
+    EXPECT_EQ(result.outcome, Outcome::Rejected) << "an end that the agent itself gives";
+}
+
 // The agent lets all later ones wait for it.
 TEST_F(MirrorCommandsTest, OldestWithoutAnAnswerIsSentMostOften) {
     send("poke");
@@ -500,19 +547,6 @@ TEST_F(MirrorCommandsTest, AreNotSentToAnAgentThatIsNotHeard) {
     EXPECT_FALSE(commands.waiting());
     ASSERT_TRUE(commands.poll(number, result));
     EXPECT_EQ(result.outcome, Outcome::Expired);
-}
-
-TEST_F(MirrorCommandsTest, ThatRunAreNeitherRepeatedNorOver) {
-    const std::uint64_t number = send("work");
-    tick(begin);
-    commands.take(answer("Running"));
-
-    tick(begin + 1h);
-
-    EXPECT_EQ(sent.size(), 1U);
-    EXPECT_FALSE(commands.poll(number, result));
-    commands.take(answer("Done"));
-    EXPECT_TRUE(commands.poll(number, result));
 }
 
 TEST_F(MirrorCommandsTest, BelieveOnlyAnswersToWhatTheyAsked) {

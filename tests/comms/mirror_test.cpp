@@ -4,12 +4,15 @@
 #include "cortex/core/error.hpp"
 
 #include "comms/stepped_agent.hpp"
+#include "wire/presence_interval.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -74,6 +77,29 @@ TEST(Mirror, KnowsEveryAgentWithAllItHas) {
     EXPECT_EQ(mirror.ownerOf("/stick"), "station");
     EXPECT_EQ(mirror.ownerOf("/nothing"), std::nullopt);
     EXPECT_EQ(mirror.refused(), 0U);
+}
+
+// It stands still, as a busy tool does, or was killed.
+TEST(Mirror, KnowsWhoSaidOnceWhoItIsAndMissesWhoNeverDid) {
+    const auto agent = robot();
+    agent->run();
+    Participant other{loopback(), "other"};
+    const auto speaks = other.writer<Presence>(topics::presence);
+    const Mirror mirror{"test", loopback()};
+    ASSERT_TRUE(comesTrue([&] { return mirror.nameless() == 1; })) << "it has said nothing";
+    EXPECT_FALSE(mirror.waitUntilComplete(1ms));
+
+    Presence presence;
+    presence.agent = agentId("other");
+    presence.name = "other";
+    presence.epoch = 1;
+    presence.role = "tool";
+    presence.state = "running";
+    presence.interval = shortestInterval;
+    ASSERT_TRUE(comesTrue([&] { return speaks->write(presence) && mirror.nameless() == 0; }));
+    std::this_thread::sleep_for(std::chrono::nanoseconds{2 * shortestPatience});
+    EXPECT_EQ(mirror.nameless(), 0U);
+    EXPECT_TRUE(mirror.waitUntilComplete(test::patience));
 }
 
 TEST(Mirror, IsNotCompleteWhereNobodyIs) {

@@ -97,11 +97,12 @@ TEST(NetworkOptions, RefusesADomainThatDoesNotExist) {
 }
 
 TEST(NetworkOptions, RefusesADomainWhosePortsAreTaken) {
-    const TakenPorts ports{7410 + 250 * loopback().domain, 300};
+    const TakenPorts ports{7410 + 250 * loopback().domain, 120};
 
     const std::string text = joinRefusal(loopback());
 
     EXPECT_TRUE(contains(text, "no UDP port is free")) << text;
+    EXPECT_TRUE(contains(text, "120 participants of a domain at most")) << text;
 }
 
 TEST(NetworkOptions, TakesItsDomainFromTheEnvironment) {

@@ -17,6 +17,7 @@ namespace {
 constexpr std::int64_t longestWait = 450, slow = 10;         // cycles
 constexpr std::array paths{"/rig", "/a", "/b", "/c", "/d"};  // the first concerns all
 constexpr std::size_t slowOne = 2;
+constexpr const char* lostAgent = "it is lost";
 
 const TypeModel& types() {
     static const TypeModel model = [] {
@@ -28,7 +29,10 @@ const TypeModel& types() {
                      "<ontology name='t'><include file='base.xml'/>"
                      "<type name='Station' extends='Agent'><command name='act' available='always'>"
                      "<request name='number' kind='int'/></command></type>"
-                     "<type name='Machine' extends='Active'><command name='act' available='always'>"
+                     "<type name='Machine' extends='Active Activity'>"
+                     "<command name='act' available='always'>"
+                     "<request name='number' kind='int'/></command>"
+                     "<command name='work' available='always' long='true' onBusy='replace'>"
                      "<request name='number' kind='int'/></command></type></ontology>");
         return TypeModel::load(folder.path() / "m.xml");
     }();
@@ -55,13 +59,19 @@ private:
     std::function<void(const Answer&)> send_;
 };
 
-// One start of the agent. `begins`: with the number of each command that is executed.
+// What the agent tells of each command that it executes: its number, and how a long one ended.
+struct Executed {
+    std::function<void(std::size_t)> begins;
+    std::function<void(std::size_t, Outcome)> ends;
+};
+
+// One start of the agent.
 struct Plant {
     Plant(std::int64_t epoch, std::uint32_t room, std::function<void(const Answer&)> send,
-          const std::function<void(std::size_t)>& begins)
+          const Executed& tell)
         : network{std::move(send)},
           rig{types(), "rig", {.outsideCommands = room, .epoch = epoch}},
-          tables{(addHands(begins), network.self->access.structure)},
+          tables{(addHands(tell), network.self->access.structure)},
           model{"rig", epoch} {
         Presence presence;
         presence.agent = agentId("rig");
@@ -71,7 +81,7 @@ struct Plant {
         presence.interval = shortestInterval;
         model.add(presence);
     }
-    void addHands(const std::function<void(std::size_t)>& begins) {
+    void addHands(const Executed& tell) {
         rig.add(network);
         for (const char* path : paths) {
             hands.push_back(&rig.hand(path, hands.empty() ? "Station" : "Machine"));
@@ -79,14 +89,32 @@ struct Plant {
         rig.make();
         for (test::Hand* hand : hands) {
             const auto number = hand->argument<std::int64_t>("act", "number");
-            hand->on("act", [begins, number](Call& call) {
-                begins(static_cast<std::size_t>(call[number]));
+            hand->on("act", [tell, number](Call& call) {
+                tell.begins(static_cast<std::size_t>(call[number]));
                 return Outcome::Done;
             });
-            if (hand != hands.front()) hand->run = [this, hand] { changeState(*hand); };
+            if (hand == hands.front()) continue;
+            hand->run = [this, hand] { changeState(*hand); };
+            addWork(*hand, tell);
         }
         rig.start();
         for (std::size_t i = 1; i < hands.size(); ++i) rig.setState(*hands[i], State::Active);
+    }
+    // Takes up to 300 cycles; one of two fails, and a later one takes its place.
+    static void addWork(test::Hand& hand, const Executed& tell) {
+        const auto number = hand.argument<std::int64_t>("work", "number");
+        hand.on("work", [tell, number, left = 0](Call& call) mutable {
+            const auto id = static_cast<std::size_t>(call[number]);
+            if (call.first()) {
+                left = static_cast<int>(id * 7919 % 300);
+                tell.begins(id);
+            }
+            if (call.cancelling()) return tell.ends(id, Outcome::Cancelled), Outcome::Cancelled;
+            if (left-- > 0) return Outcome::Running;
+            const bool fails = id % 2 == 1;
+            tell.ends(id, fails ? Outcome::Failed : Outcome::Done);
+            return fails ? call.fail("its number is odd") : Outcome::Done;
+        });
     }
     void changeState(test::Hand& hand) {
         const LifeCycle command = rig.agent->takeLifeCycle(hand.index(), rig.agent->thread(0));
@@ -119,6 +147,7 @@ Faults chaos(std::uint64_t seed) {
     faults.agentKilled = 0.00003;
     faults.stands = 0.0002;
     faults.stops = 0.02;
+    faults.takesLong = 0.05;
     faults.wide = 0.03;
     faults.refused = 0.02;
     faults.notHeard = 0.01;
@@ -138,13 +167,10 @@ Counts Simulation::run(std::int64_t steps) {
     return counts_;
 }
 
-// One that runs is answered; its last answer may be lost.
 int Simulation::unanswered() const {
-    int count = 0;
-    for (const Station& each : senders_) {
-        for (const auto& [number, id] : each.open) count += each.commands->running(number) ? 0 : 1;
-    }
-    return count;
+    std::size_t count = 0;
+    for (const Station& each : senders_) count += each.open.size();
+    return static_cast<int>(count);
 }
 
 bool Simulation::happens(double share) {
@@ -171,7 +197,8 @@ void Simulation::startSender(std::size_t index) {
 void Simulation::startAgent() {
     plant_ = std::make_shared<Plant>(
         ++agentEpoch_, faults_.room, [this](const Answer& answer) { takeAnswer(answer); },
-        [this](std::size_t id) { executed_.push_back(id); });
+        Executed{[this](std::size_t id) { executed_.push_back(id); },
+                 [this](std::size_t id, Outcome how) { truths_[id].end = how; }});
 }
 
 void Simulation::step(bool faulty) {
@@ -200,7 +227,7 @@ void Simulation::stepSender(std::size_t index, bool faulty) {
     if (faulty && happens(faults_.cut)) self.cutUntil = now_ + between(100, 3'000);
     if (plant_ != nullptr && self.target != plant_ && happens(0.02)) {
         self.target = plant_;
-        self.commands->lose("rig", "it is lost");
+        self.commands->lose("rig", lostAgent);
     }
     if (plant_ != nullptr && now_ % 100 == 0 && now_ >= self.cutUntil) {
         Presence presence;
@@ -227,9 +254,11 @@ void Simulation::send(std::size_t index) {
     const bool wide = happens(faults_.wide), stop = !wide && happens(faults_.stops);
     truth.simplex = wide ? 0 : static_cast<std::size_t>(between(1, paths.size()));
     truth.lifeCycle = stop;
+    truth.isLong = !wide && !stop && happens(faults_.takesLong);
     CommandClient::Arguments arguments;
     if (!stop) arguments["number"] = Value{std::vector{static_cast<std::int64_t>(id)}};
-    const char* name = !stop ? "act" : happens(0.5) ? "shutdown" : "startup";
+    const char* name = truth.isLong ? "work" : "act";
+    if (stop) name = happens(0.5) ? "shutdown" : "startup";
     std::int64_t budget = 1'000;
     if (faults_.shortBudgets && happens(0.2)) {
         budget = happens(0.5) ? between(5, 100) : between(1'000, 5'000);
@@ -258,8 +287,10 @@ void Simulation::poll(std::size_t index) {
     Station& self = senders_[index];
     std::erase_if(self.open, [&](const auto& each) {
         CallResult result;
-        if (!self.commands->poll(each.first, result)) return false;
         Truth& truth = truths_[each.second];
+        truth.ran = truth.ran || self.commands->running(each.first);
+        if (!self.commands->poll(each.first, result)) return false;
+        judgeEnd(truth, result);
         truth.outcome = result.outcome;
         const bool ran = result.outcome == Outcome::Done && !truth.lifeCycle;
         // Where a clock went back, a copy of the earlier start can refuse a repeat of what has run.
@@ -273,6 +304,19 @@ void Simulation::poll(std::size_t index) {
         if (result.outcome == Outcome::Expired) ++counts_.expired;
         return true;
     });
+}
+
+// What its sender knew to run has its true end, whatever was lost.
+void Simulation::judgeEnd(const Truth& truth, const CallResult& result) {
+    const bool mayBeUnknown = result.why == lostAgent;
+    if (truth.ran && !mayBeUnknown) {
+        if (result.outcome == Outcome::Unknown) ++counts_.forgotten;
+        ++counts_.ended;
+    }
+    if (truth.isLong && truth.begun && result.outcome != truth.end &&
+        result.outcome != Outcome::Unknown) {
+        lie(truth, std::string{"ended "} + name(truth.end) + ", answered " + result.text());
+    }
 }
 
 void Simulation::write(std::size_t index, const Command& message) {
@@ -339,7 +383,8 @@ void Simulation::takeAnswer(const Answer& answer) {
     const std::size_t index = static_cast<std::size_t>(answer.sender.back() - '0');
     const auto& sequences = sequences_[{index, answer.senderEpoch}];
     const std::size_t id = sequences[answer.sequenceNumber - 1];
-    if (answer.outcome == "Running" && !truths_[id].begun) begin(id);
+    Truth& truth = truths_[id];
+    if (answer.outcome == "Running" && truth.lifeCycle && !truth.begun) begin(id);
     Packet packet;
     packet.sender = index;
     packet.answer = answer;

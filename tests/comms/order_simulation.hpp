@@ -27,6 +27,7 @@ struct Faults {
     double killed = 0, cut = 0;                             // senders, in a step
     double agentKilled = 0, stands = 0;                     // the agent, its loop
     double stops = 0, wide = 0, refused = 0, notHeard = 0;  // shares of the commands
+    double takesLong = 0;                                   // as well
     bool shortBudgets = false, wrongClocks = false;
     std::uint32_t room = 256;
 };
@@ -42,14 +43,19 @@ struct Truth {
     std::uint64_t sequence = 0;  // 0: not sent
     bool lifeCycle = false, refused = false, begun = false;
     Outcome outcome = Outcome::None;
+    bool isLong = false, ran = false;  // its sender knows that it runs
+    Outcome end = Outcome::None;       // of a long one
 };
 
 struct Counts {
     int twice = 0, disorder = 0, late = 0, lies = 0, gaps = 0, unanswered = 0, longWaits = 0;
     int sent = 0, begun = 0, expired = 0, waits = 0;
-    std::string lie;  // the last
+    int ended = 0, forgotten = 0;  // long ones that ran
+    std::string lie;               // the last
 
-    int wrong() const { return twice + disorder + late + lies + gaps + unanswered + longWaits; }
+    int wrong() const {
+        return twice + disorder + late + lies + gaps + unanswered + longWaits + forgotten;
+    }
     std::string text() const {
         const auto put = [](const char* name, int count) {
             return std::string{name} + " " + std::to_string(count) + ", ";
@@ -57,7 +63,8 @@ struct Counts {
         return put("twice", twice) + put("out of order", disorder) + put("late", late) +
                put("lies", lies) + put("gaps", gaps) + put("unanswered", unanswered) +
                put("waits too long", longWaits) + put("sent", sent) + put("begun", begun) +
-               put("expired", expired) + put("waits", waits) + lie;
+               put("expired", expired) + put("waits", waits) + put("ended", ended) +
+               put("forgotten", forgotten) + lie;
     }
 };
 
@@ -98,6 +105,7 @@ private:
     void send(std::size_t index);
     bool clockWentBack(std::size_t index) const;
     void poll(std::size_t index);
+    void judgeEnd(const Truth& truth, const CallResult& result);
     void write(std::size_t index, const Command& message);
     void put(Packet packet);
     void deliver(const Packet& packet);

@@ -26,6 +26,7 @@ TEST_P(OrderOfCommands, HoldsWhateverTheNetworkLosesOrRepeatsAndWhoeverIsKilled)
 
     EXPECT_EQ(counts.wrong(), 0) << "seed " << seed() << ": " << counts.text();
     EXPECT_GT(counts.begun, counts.sent / 4) << "seed " << seed() << ": " << counts.text();
+    EXPECT_GT(counts.ended, 0) << "seed " << seed() << ": " << counts.text();
 }
 
 TEST_P(OrderOfCommands, NoneWaitsLongerThanItMayWhenTheNetworkLosesSome) {

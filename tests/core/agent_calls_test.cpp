@@ -7,6 +7,7 @@
 #include "support/agent_rig.hpp"
 #include "toolkit/allocation_counter.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -279,6 +280,57 @@ TEST_F(AgentCalls, StartSimplexesOfTheOtherAgent) {
     away.begin();
     EXPECT_EQ(away.agent->takeLifeCycle(work.index(), away.agent->thread(0)), LifeCycle::Startup);
     away.end();
+}
+
+// A startup takes long, and the boss pokes on with all that its lane holds. The worker's task does
+// not run, so no poke is answered.
+TEST(AgentCallLane, TakesAShutdownWhileItIsFullAndAStartupRuns) {
+    LoopbackHub hub;
+    const std::unique_ptr<CommunicationInterface> nearInterface = hub.makeInterface();
+    const std::unique_ptr<CommunicationInterface> awayInterface = hub.makeInterface();
+    AgentRig near{"near"}, away{"away"};
+    Hand& boss = near.hand("/boss", "Boss");
+    Hand& work = away.hand("/work");
+    near.tree.relateRemote(boss, "peers", "/work");
+    near.add(*nearInterface);
+    away.add(*awayInterface);
+    near.make();
+    const InputSimplex peer = boss.input("peers");
+    CommandSender poke = peer.command("poke", 4), startup = peer.command("startup", 1);
+    CommandSender shutdown = peer.command("shutdown", 1), clear = peer.command("clearFaults", 1);
+    near.start();
+    away.start();
+    const auto takeLifeCycle = [&] {
+        return away.agent->takeLifeCycle(work.index(), away.agent->thread(0));
+    };
+    const auto cycle = [&](const std::function<void()>& task = {}) {
+        boss.run = task;
+        near.step();
+        hub.carry();
+        away.begin();
+        const LifeCycle taken = takeLifeCycle();
+        away.end();
+        hub.carry();
+        return taken;
+    };
+    away.setState(work, State::Standby);
+    cycle();
+    EXPECT_EQ(cycle([&] { startup.send(); }), LifeCycle::Startup);
+    away.setState(work, State::StartingUp);
+    cycle();
+    cycle();
+    EXPECT_EQ(startup.answer().outcome, Outcome::Running);
+    EXPECT_EQ(startup.answered(), startup.sent()) << "it holds up nothing";
+
+    const LifeCycle taken = cycle([&] {
+        for (int i = 0; i < 4; ++i) EXPECT_EQ(poke.send(), Outcome::None);
+        EXPECT_EQ(poke.send(), Outcome::MailboxFull);
+        EXPECT_EQ(clear.send(), Outcome::None) << "life-cycle commands have places of their own";
+        EXPECT_EQ(startup.send(), Outcome::None);
+        EXPECT_EQ(startup.send(), Outcome::MailboxFull);
+        EXPECT_EQ(shutdown.send(), Outcome::None) << "and a shutdown one that no other takes";
+    });
+    EXPECT_EQ(taken, LifeCycle::Shutdown);
 }
 
 }  // namespace

@@ -158,7 +158,7 @@ TEST_F(ProgramInterface, WindowOfUnansweredCommandsIsKept) {
     program.post("/resting", "mute");  // waits for a task that does not come
     CallResult result;
     std::uint64_t last = 0;
-    for (std::uint32_t i = 1; i < senderWindow; ++i) {
+    for (std::uint32_t i = 1; i < senderWindow - CommandClient::keptForUrgent; ++i) {
         last = program.post("/worker", "add");
         rig.step();
         ASSERT_TRUE(program.poll(last, result)) << i;
@@ -286,8 +286,23 @@ TEST_F(PreparedCommands, AreAnsweredByNames) {
     EXPECT_FALSE(client.poll(1, result));
 }
 
+TEST_F(PreparedCommands, ThatStopSomethingHavePlacesOfTheirOwn) {
+    while (prepare().open) continue;
+
+    const auto isOpen = [&](const char* command) {
+        return client.prepare(tables, "/worker", command, {}, {}).open;
+    };
+    EXPECT_FALSE(isOpen("startup"));
+    for (std::uint32_t i = 1; i < CommandClient::keptForUrgent; ++i) {
+        EXPECT_TRUE(isOpen("shutdown"));
+    }
+    EXPECT_TRUE(isOpen("cancel"));
+    EXPECT_FALSE(isOpen("shutdown"));
+}
+
 TEST_F(PreparedCommands, AreNotToBeSentWhenTooManyAreOnTheirWay) {
-    for (std::uint32_t i = 0; i < senderWindow; ++i) ASSERT_TRUE(prepare().open);
+    const std::uint32_t most = senderWindow - CommandClient::keptForUrgent;
+    for (std::uint32_t i = 0; i < most; ++i) ASSERT_TRUE(prepare().open);
 
     const PreparedCommand refused = prepare();
     EXPECT_FALSE(refused.open);

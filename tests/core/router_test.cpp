@@ -4,6 +4,7 @@
 #include "core/router_fixture.hpp"
 
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -110,6 +111,70 @@ TEST_F(Router, RepeatOfALongCommandIsAnsweredWithWhatItHasComeTo) {
 
     EXPECT_EQ(rig.outside.answers.size(), 4U);
     EXPECT_EQ(calls, 3);
+}
+
+TEST_F(Router, WhoKnowsOnlyThatALongCommandRunsIsToldHowItEnded) {
+    rig.make();
+    Outcome next = Outcome::Running;
+    const auto result = worker.result<std::int64_t>("work", "result");
+    worker.on("work", [&](Call& call) {
+        call[result] = 7;
+        return next;
+    });
+    worker.on("poke", [](Call&) { return Outcome::Done; });
+    rig.start();
+    const Message work{.path = "/worker", .command = "work"};
+    const auto poke = [this](std::uint64_t number) {
+        return answerTo(
+            {.path = "/worker", .command = "poke", .sequence = number, .answeredBelow = number});
+    };
+    EXPECT_EQ(answerTo(work).outcome, Outcome::Running);
+    poke(2);
+    EXPECT_EQ(answerTo(work).outcome, Outcome::Running) << "acknowledged, and runs on";
+
+    next = Outcome::Done;
+    rig.step();
+    const std::size_t answers = rig.outside.answers.size();
+    for (std::uint64_t number = 3; number < 300; ++number) poke(number);
+    const auto end = answerTo(work);
+    EXPECT_EQ(rig.outside.answers.size(), answers + 298);
+    EXPECT_EQ(end.outcome, Outcome::Done);
+    EXPECT_EQ(end.sequence, 1U);
+    ASSERT_EQ(end.response.size(), 8U);
+    EXPECT_EQ(*reinterpret_cast<const std::int64_t*>(end.response.data()), 7);
+}
+
+TEST_F(Router, WhoKnowsOnlyThatAStartupRunsIsToldHowItEnded) {
+    rig.make();
+    rig.start();
+    rig.setState(worker, State::Standby);
+    const Message startup{.path = "/worker", .command = "startup"};
+    EXPECT_EQ(answerTo(startup).outcome, Outcome::Running);
+    answerTo({.path = "/worker", .command = "poke", .sequence = 2, .answeredBelow = 2});
+    rig.setState(worker, State::Active);
+    rig.step();
+
+    EXPECT_EQ(answerTo(startup).outcome, Outcome::Done);
+}
+
+TEST_F(Router, AnEndThatAThousandOthersFollowedIsForgottenInWords) {
+    rig.make();
+    worker.on("rework",
+              [](Call& call) { return call.cancelling() ? Outcome::Cancelled : Outcome::Running; });
+    rig.start();
+    const auto rework = [this](std::uint64_t number) {
+        return answerTo(
+            {.path = "/worker", .command = "rework", .sequence = number, .answeredBelow = number});
+    };
+    for (std::uint64_t number = 1; number <= 1025; ++number) rework(number);
+    EXPECT_EQ(rework(1).outcome, Outcome::Cancelled) << "1,024 have ended";
+    rework(1026);
+
+    const auto first = rework(1);
+    EXPECT_EQ(first.outcome, Outcome::Unknown);
+    EXPECT_EQ(first.why, "how it ended is forgotten");
+    EXPECT_EQ(rework(2).outcome, Outcome::Cancelled);
+    EXPECT_EQ(rework(1026).outcome, Outcome::Running);
 }
 
 TEST_F(Router, RepeatInTheSameReadIsAnsweredOnce) {
@@ -308,6 +373,26 @@ TEST_F(Router, PoolOfAllSendersIsBounded) {
     EXPECT_EQ(full, 2);
     EXPECT_EQ(calls, 8);
     EXPECT_EQ(rig.agent->thread(0).rejected, 2U);
+}
+
+TEST(RouterOfMany, KeepsPlacesForWhatStopsSomething) {
+    test::AgentRig rig{"rig", {.outsideCommands = 32}};
+    test::Hand& worker = rig.hand("/worker");
+    rig.hand("/other");
+    rig.make();
+    rig.start();
+    rig.setState(worker, State::Active);
+    rig.order = {"/other"};  // what is sent to the worker stands in its queue
+    const auto send = [&](const char* command, std::uint64_t number) {
+        rig.outside.send({.path = "/worker", .command = command, .sequence = number});
+    };
+    for (std::uint64_t number = 1; number <= 33; ++number) send("poke", number);
+    send("shutdown", 34);
+    rig.step();
+
+    std::map<Outcome, int> outcomes;
+    for (const auto& answer : rig.outside.answers) ++outcomes[answer.outcome];
+    EXPECT_EQ(outcomes, (std::map<Outcome, int>{{Outcome::MailboxFull, 1}, {Outcome::Running, 1}}));
 }
 
 TEST_F(Router, TooManySendersAreRefusedUntilOneIsPastRepeating) {

@@ -247,7 +247,9 @@ void AgentThread::step() {
     if (peers_.takeChanged()) changed();
     meet(now);
     const std::uint32_t others = peers_.agents() + (silent_ ? 1 : 0);
-    if (network_.look(others, links_.anyUnbound(), now)) joinAnew();
+    const bool moved = network_.look(others, links_.anyUnbound(), now);
+    const bool hearsAny = peers_.heard() > 1;
+    if (rejoin_.isDue(hearsAny, participant_.findsUnproven(), now) || moved) joinAnew();
     if (links_.askAgain(now)) feed(now);
     commands_.step(now);
     calls_.step(peers_.all(), silent_);

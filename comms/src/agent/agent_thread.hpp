@@ -18,6 +18,7 @@
 #include "agent/agent_streams.hpp"
 #include "agent/agent_summary.hpp"
 #include "dds/participant.hpp"
+#include "peers/rejoin.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -83,6 +84,7 @@ private:
 
     AgentSelf self_;
     AgentNetwork network_;
+    Rejoin rejoin_;
     AgentModel model_;
     Participant participant_;
     EventCount signals_;  // wakes the communication thread

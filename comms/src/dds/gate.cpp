@@ -137,10 +137,10 @@ std::unique_lock<std::mutex> Gate::pass() {
     return passing;
 }
 
-std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos) {
+std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos, int domain) {
     rtps::Prefix us;
     std::copy_n(qos.wire_protocol().prefix.value, us.size(), us.begin());
-    auto gate = std::make_shared<Gate>(us);
+    auto gate = std::make_shared<Gate>(us, domain);
     auto& lower = qos.transport().user_transports.front();
     lower = std::make_shared<GatedTransportDescriptor>(lower, gate);
     return gate;

@@ -37,7 +37,7 @@ namespace cortex::comms {
 //    thread misses it.
 class Gate {
 public:
-    explicit Gate(const rtps::Prefix& us = {}) : filter{us} {}
+    explicit Gate(const rtps::Prefix& us = {}, int domain = 0) : filter{us, domain} {}
 
     void open();
     // Drops everything from now on.
@@ -72,6 +72,6 @@ private:
 // 3. An assertion ends the process when a participant leaves while its lease is checked. So a
 //    participant that leaves closes its gate first.
 // What is lost comes again with the next announcement, or after a second in a handshake.
-std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos);
+std::shared_ptr<Gate> addGate(eprosima::fastdds::dds::DomainParticipantQos& qos, int domain);
 
 }  // namespace cortex::comms

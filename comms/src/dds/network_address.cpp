@@ -95,15 +95,18 @@ void requireFiles() {
                 " to join the network: allow more (ulimit -n 1024)"};
 }
 
-int freeParticipant(int domain, int participants) {
+int freeParticipant(int domain) {
     const int first = 7410 + 250 * domain;  // as RTPS defines it: 2 for each participant
-    const int end = first + 2 * participants;
+    const int end = first + 2 * participantsOfDomain;
     for (int port = first; port < end; port += 2) {
         if (canBind(port)) return (port - first) / 2;
     }
     throw Error{"no UDP port is free for domain " + std::to_string(domain) + " (every other from " +
-                std::to_string(first) + " to " + std::to_string(end - 2) +
-                "); join another domain, or end programs that hold them (`ss -ulpn` lists them)"};
+                std::to_string(first) + " to " + std::to_string(end - 2) + "): a host has " +
+                std::to_string(participantsOfDomain) +
+                " participants of a domain at most, as the next ports are those of the next "
+                "domain; join another domain, or end programs that hold them (`ss -ulpn` lists "
+                "them)"};
 }
 
 Address addressOf(const std::string& text, const std::string& option) {

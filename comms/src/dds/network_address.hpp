@@ -19,10 +19,13 @@ std::vector<std::string> interfaceAddresses(const std::vector<std::string>& inte
 // Throws Error if this process may not open as many files as a participant needs.
 void requireFiles();
 
-// The lowest participant number of a domain whose port is free. Throws Error if the first
-// `participants` ports are taken, because others would not ask beyond them. Fast DDS itself never
-// uses a number twice in a process.
-int freeParticipant(int domain, int participants);
+// The participants of a domain that a host has at most: the ports behind theirs are those of the
+// next domain, whose participants they would meet.
+inline constexpr int participantsOfDomain = 120;
+
+// The lowest participant number of a domain whose port is free. Throws Error if all are taken. Fast
+// DDS itself never uses a number twice in a process.
+int freeParticipant(int domain);
 
 // "host" or "host:port"; throws Error that names `option`.
 Address addressOf(const std::string& text, const std::string& option);

@@ -188,6 +188,11 @@ std::uint32_t Reader<M>::writers() const {
     return impl_->receiver.writers(impl_->gate->filter);
 }
 
+template <class M>
+std::uint32_t Reader<M>::unheard() const {
+    return impl_->receiver.unheard(impl_->gate->filter);
+}
+
 // --- Participant --------------------------------------------------------------------------------
 
 Participant::Participant(const NetworkOptions& options, const std::string& name, Speaks speaks)
@@ -204,7 +209,7 @@ Participant::Participant(const NetworkOptions& options, const std::string& name,
     static std::mutex joining;  // Fast DDS looks up the user, which is not safe for two threads
     const std::lock_guard lock{joining};
     dds::DomainParticipantQos qos = participantQos(options, name);
-    impl_->gate = addGate(qos);
+    impl_->gate = addGate(qos, options.domain);
     impl_->listener->onWriter = [gate = impl_->gate](const auto& guid, std::string_view topic) {
         if (mayBeFragmented(topic)) {
             gate->filter.allowFragments(writerGuid(guid), topic == topics::model.name,
@@ -345,6 +350,7 @@ std::map<std::string, Participant::Refused> Participant::refusals() const {
 std::string Participant::dropped() const { return impl_->gate->filter.summary(); }
 
 std::uint32_t Participant::pending() const { return impl_->guard ? impl_->guard->pending() : 0; }
+bool Participant::findsUnproven() const { return impl_->guard && impl_->guard->findsUnproven(); }
 
 std::uint32_t Participant::secured() const { return impl_->listener->secured(); }
 

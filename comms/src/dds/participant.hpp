@@ -45,6 +45,7 @@ public:
     ~Reader();
 
     std::uint32_t writers() const;  // without those that are silent
+    std::uint32_t unheard() const;  // of those: nothing of them was passed on
 
 private:
     friend class Participant;
@@ -103,6 +104,7 @@ public:
     std::map<std::string, Refused> refusals() const;
     std::string dropped() const;    // datagrams, by reason, in words; empty: none
     std::uint32_t pending() const;  // others that are not authenticated yet
+    bool findsUnproven() const;     // one of them for longer than that takes
     std::uint32_t secured() const;  // others that ask for security
 
 private:

@@ -35,7 +35,6 @@ using eprosima::fastrtps::rtps::GuidPrefix_t;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 
-constexpr int participantsPerHost = 300;     // for which a free port is searched
 constexpr std::uint32_t peersPerHost = 100;  // ports asked on a peer without a port
 constexpr std::uint32_t askedOnLoopback = 8;
 constexpr std::uint32_t largestDatagram = 65536;
@@ -196,7 +195,7 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
                     "' does not exist; choose one from 0 to " + std::to_string(lastDomain)};
     }
     requireFiles();
-    const int number = freeParticipant(options.domain, participantsPerHost);
+    const int number = freeParticipant(options.domain);
     const auto udp = udpTransport(options);
     dds::DomainParticipantQos qos;
     qos.name(name);
@@ -214,7 +213,7 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
     qos.wire_protocol().prefix = newPrefix();
     BuiltinAttributes& builtin = qos.wire_protocol().builtin;
     builtin.use_WriterLivelinessProtocol = false;  // liveliness is our own
-    builtin.mutation_tries = static_cast<std::uint32_t>(participantsPerHost);
+    builtin.mutation_tries = static_cast<std::uint32_t>(participantsOfDomain);
     // An assertion of Fast DDS 2.9 ends the process where a lease ends just as its participant
     // leaves. On a busy host with many participants, a lease that ended by mistake also causes more
     // work, and so more delays.

@@ -45,14 +45,13 @@ public:
 
     void on_subscription_matched(
         DataReader*, const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override {
-        const auto guid = eprosima::fastrtps::rtps::iHandle2GUID(status.last_publication_handle);
-        rtps::Prefix participant;
-        std::ranges::copy(guid.guidPrefix.value, participant.begin());
+        const rtps::Prefix participant = participantOf(status.last_publication_handle);
         const std::lock_guard lock{matched_};
-        if (status.current_count_change > 0) {
-            writers_.insert(participant);
-        } else if (const auto known = writers_.find(participant); known != writers_.end()) {
+        if (status.current_count_change > 0) writers_.insert(participant);
+        if (status.current_count_change >= 0) return;
+        if (const auto known = writers_.find(participant); known != writers_.end()) {
             writers_.erase(known);
+            if (!writers_.contains(participant)) heard_.erase(participant);
         }
     }
 
@@ -62,6 +61,15 @@ public:
         const std::int64_t now = monotonicNow();
         return static_cast<std::uint32_t>(std::ranges::count_if(
             writers_, [&](const auto& each) { return !filter.isSilent(each, now); }));
+    }
+
+    // Of those, participants of which nothing was taken.
+    std::uint32_t unheard(const rtps::DatagramFilter& filter) const {
+        const std::lock_guard lock{matched_};
+        const std::int64_t now = monotonicNow();
+        return static_cast<std::uint32_t>(std::ranges::count_if(writers_, [&](const auto& each) {
+            return !heard_.contains(each) && !filter.isSilent(each, now);
+        }));
     }
 
     void close() {
@@ -91,9 +99,24 @@ private:
             const M& sample = envelope.incoming;
             if (guard_ && !guard_->admits(info.publication_handle, claimedName(sample))) return;
             onSample_(std::move(envelope.incoming));
+            hear(info);
         } else {
             ++malformed_;
         }
+    }
+
+    // After it was passed on: whoever counts it as heard finds its sample.
+    void hear(const SampleInfo& info) {
+        const rtps::Prefix participant = participantOf(info.publication_handle);
+        const std::lock_guard lock{matched_};
+        heard_.insert(participant);
+    }
+
+    static rtps::Prefix participantOf(const eprosima::fastrtps::rtps::InstanceHandle_t& writer) {
+        const auto guid = eprosima::fastrtps::rtps::iHandle2GUID(writer);
+        rtps::Prefix participant;
+        std::ranges::copy(guid.guidPrefix.value, participant.begin());
+        return participant;
     }
 
     void disposed(const SampleInfo& info) {
@@ -113,8 +136,10 @@ private:
     Envelope<M> envelope_;  // keeps the memory that a callback leaves in it
     std::mutex mutex_;
     bool closed_ = false;
-    mutable std::mutex matched_;           // of its own: DDS has its locks where it reports a match
-    std::multiset<rtps::Prefix> writers_;  // their participants; `matched_` guards it
+    mutable std::mutex matched_;  // of its own: DDS has its locks where it reports a match
+    // By their participants, and which of these were heard; `matched_` guards both.
+    std::multiset<rtps::Prefix> writers_;
+    std::set<rtps::Prefix> heard_;
 };
 
 }  // namespace cortex::comms

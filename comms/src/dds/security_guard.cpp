@@ -73,6 +73,14 @@ std::uint32_t SecurityGuard::pending() {
     }));
 }
 
+bool SecurityGuard::findsUnproven() {
+    const std::lock_guard lock{mutex_};
+    const auto now = Clock::now();
+    return std::ranges::any_of(found_, [now](const auto& each) {
+        return each.second.pending && now - each.second.since >= longestHandshake;
+    });
+}
+
 // A participant that refuses our certificate does not show its own. All that can be seen is that
 // the handshake does not end.
 std::vector<std::string> SecurityGuard::takeRefusals() {

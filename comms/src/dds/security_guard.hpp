@@ -48,6 +48,8 @@ public:
     // The number of participants that were found recently, are not refused, and have not sent a
     // name yet.
     std::uint32_t pending();
+    // Whether one was found that has not proven for 5 s who it is.
+    bool findsUnproven();
 
     // A claim is a name or the id of a name.
     template <class Claim>

@@ -66,10 +66,7 @@ bool Mirror::waitUntilComplete(Milliseconds limit, Milliseconds quiet) const {
 }
 
 std::uint32_t Mirror::nameless() const {
-    return implementation_->thread.read([](MirrorState& state) {
-        const std::uint32_t present = state.agents.present();
-        return state.speakers > present ? state.speakers - present : 0;
-    });
+    return implementation_->thread.read([](MirrorState& state) { return state.nameless; });
 }
 
 std::uint32_t Mirror::closed() const {

@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::size_t mostAgents = 10'000;
 constexpr std::chrono::seconds forgottenAfter{61};
-constexpr std::chrono::seconds silentPatience{4};  // a silent start says so each second
 
 // Visits those of an agent's own simplexes that a view shows.
 template <class Visit>
@@ -89,20 +88,10 @@ void MirrorAgents::forget(MirrorAgent& agent) {
 }
 
 void MirrorAgents::take(const Presence& presence, Moment now) {
-    if (presence.role != "agent") {
-        if (presence.state == "stopping") {
-            tools_.erase(presence.agent);
-        } else if (tools_.size() < mostAgents) {
-            tools_[presence.agent] = now;
-        }
-        return;
-    }
+    if (presence.role != "agent") return;
     MirrorAgent* const known = find(presence.name);
     const bool isOther = known != nullptr && known->model.epoch() != presence.epoch;
     if (presence.state != "running") {
-        if (presence.state == "silent" && silent_.size() < mostAgents) {
-            silent_[{presence.name, presence.epoch}] = now;
-        }
         if (known == nullptr || isOther) return;
         known->goodbye = presence.state == "silent" ? "another start of it was there first"
                                                     : "the agent has ended";
@@ -111,7 +100,6 @@ void MirrorAgents::take(const Presence& presence, Moment now) {
     MirrorAgent* agent = at(presence.name, presence.epoch, now);
     if (agent == nullptr || !agent->model.add(presence)) return;
     finish(*agent);
-    silent_.erase({presence.name, presence.epoch});
     agent->goodbye = nullptr;
     agent->seniority.take(presence, now.time_since_epoch().count());
     if (agent->lost) agent->since = sinceAt(now);
@@ -219,7 +207,6 @@ void MirrorAgents::finish(MirrorAgent& agent) {
 }
 
 void MirrorAgents::withdraw(const Id& agent) {
-    tools_.erase(agent);
     const auto name = names_.find(agent);
     MirrorAgent* found = name != names_.end() ? find(name->second) : nullptr;
     if (found != nullptr) found->goodbye = "the agent has ended";
@@ -237,10 +224,6 @@ void MirrorAgents::excuse(std::chrono::nanoseconds still, Moment now) {
 }
 
 void MirrorAgents::tick(const MirrorView& view, Moment now) {
-    std::erase_if(tools_, [&](const auto& each) {
-        return now - each.second > std::chrono::nanoseconds{shortestPatience};
-    });
-    std::erase_if(silent_, [&](const auto& each) { return now - each.second > silentPatience; });
     for (auto each = agents_.begin(); each != agents_.end();) {
         MirrorAgent& agent = each->second;
         if (!agent.lost && agent.goodbye != nullptr && agent.isGone(now)) {
@@ -283,15 +266,12 @@ MirrorAgent* MirrorAgents::find(std::string_view name) {
     return found != agents_.end() ? &found->second : nullptr;
 }
 
-std::uint32_t MirrorAgents::present() const {
-    const auto heard = std::ranges::count_if(
-        agents_, [](const auto& each) { return each.second.present() && !each.second.lost; });
-    return static_cast<std::uint32_t>(static_cast<std::size_t>(heard) + tools_.size() +
-                                      silent_.size());
-}
-
 bool MirrorAgents::missesAny() const {
     return std::ranges::any_of(agents_, [](const auto& each) { return each.second.missed; });
+}
+
+bool MirrorAgents::hearsAny() const {
+    return std::ranges::any_of(agents_, [](const auto& each) { return !each.second.lost; });
 }
 
 bool MirrorAgents::complete() const {

@@ -99,8 +99,8 @@ public:
     bool isOwned(std::string_view path, Moment now, bool allKnown);
     // Paths of several agents, or of one without a right to them.
     std::vector<Contested> contested();
-    std::uint32_t present() const;  // number of agents and tools
-    bool missesAny() const;         // lost without saying so
+    bool missesAny() const;  // lost without saying so
+    bool hearsAny() const;
     bool complete() const;          // at least one agent, and everything of all
     std::uint32_t unheard() const;  // agents that only another agent hears
     bool eventsComplete() const;    // all events of the present agents have come
@@ -128,8 +128,6 @@ private:
     Moment began_{};
     Map agents_;
     std::map<std::string, PeerModel, std::less<>> aside_;  // of a start that may be alive
-    std::map<Id, Moment> tools_;
-    std::map<std::pair<std::string, std::int64_t>, Moment> silent_;  // starts: name and epoch
     std::map<Id, std::string> names_;
     std::map<std::string, std::pair<std::int64_t, std::uint64_t>, std::less<>>
         newestEvents_;  // epoch and number, by agent

@@ -27,10 +27,13 @@ public:
 
     // The number of agents and tools, and with security of those that have yet to prove themselves.
     std::uint32_t speakers() const { return presences_->writers() + participant_.pending(); }
+    // Of those, the ones that did not say who they are.
+    std::uint32_t nameless() const { return presences_->unheard() + participant_.pending(); }
     // The number of participants with security, of which this tool without it learns nothing more.
     std::uint32_t closed() const {
         return participant_.identity() == nullptr ? participant_.secured() : 0;
     }
+    bool findsUnproven() const { return participant_.findsUnproven(); }
     SecurityIdentity* identity() const { return participant_.identity(); }
     std::uint64_t malformed() const { return participant_.malformed() + participant_.refused(); }
     std::map<std::string, Refused> refusals() const {

@@ -32,19 +32,19 @@ constexpr std::chrono::milliseconds mostLate{500};  // at which a process that r
 }  // namespace
 
 bool MirrorState::everybodyIsHere(Mirror::Milliseconds quiet) const {
-    return std::chrono::steady_clock::now() - news >= quiet && agents.complete() &&
-           agents.present() >= speakers && agents.unheard() == 0;
+    return std::chrono::steady_clock::now() - news >= quiet && agents.complete() && nameless == 0 &&
+           agents.unheard() == 0;
 }
 
 bool MirrorState::isOwned(std::string_view path) {
     const Moment now = std::chrono::steady_clock::now();
-    const bool known = agents.present() >= speakers && agents.unheard() == 0;
+    const bool known = nameless == 0 && agents.unheard() == 0;
     return agents.isOwned(path, now, known);
 }
 
 MirrorThread::MirrorThread(const std::string& name, const NetworkOptions& options)
-    : name_{name}, tool_{makeSender(name)}, state_{tool_}, endpoints_{options, tool_, inbox_} {
-    state_.agents.judgeBy(endpoints_.identity());
+    : name_{name}, options_{options}, tool_{makeSender(name)}, state_{tool_} {
+    join();
     const ServiceThreads named{"cortex-mirror"};
     thread_ = std::thread{[this] { run(); }};
 }
@@ -73,6 +73,8 @@ bool MirrorThread::turn() {
         return state.commands.waiting() || !state.everybodyIsHere() ? shortTick : tick;
     });
     const Moment due = std::chrono::steady_clock::now() + pause;
+    const std::uint32_t nameless =
+        endpoints_->nameless();  // before: their presence may be taken now
     const auto samples = inbox_.take(due);
     const Moment taken = std::chrono::steady_clock::now();
     for (const MirrorSample& sample : samples) takeAndTell(sample);
@@ -81,6 +83,7 @@ bool MirrorThread::turn() {
         if (state_.stopping) return false;
         if (taken - due > mostLate) state_.agents.excuse(taken - due, taken);
         serve(taken);
+        state_.nameless = std::max(nameless, endpoints_->nameless());
     }
     changed_.notify_all();
     tellListeners();
@@ -123,16 +126,25 @@ const MirrorAgent* MirrorThread::take(const MirrorSample& sample, Moment now) {
     return nullptr;
 }
 
+void MirrorThread::join() {
+    endpoints_.reset();  // it says goodbye first
+    endpoints_ = std::make_unique<MirrorEndpoints>(options_, tool_, inbox_);
+    state_.agents.judgeBy(endpoints_->identity());
+}
+
 void MirrorThread::serve(Moment now) {
     state_.agents.tick(state_.view, now);
-    endpoints_.view(state_.view, state_.summarised);
-    if (state_.commands.waiting() || state_.mayCommand) endpoints_.command();
-    if (!state_.listeners.empty()) endpoints_.listen();
-    endpoints_.announce(state_.agents, now);
-    state_.commands.tick(now, [&](const Command& command) { return endpoints_.write(command); });
-    if (endpoints_.speakers() != state_.speakers) state_.news = now;
-    state_.speakers = endpoints_.speakers();
-    state_.closed = endpoints_.closed();
+    const bool hearsAny = state_.agents.hearsAny();
+    if (rejoin_.isDue(hearsAny, endpoints_->findsUnproven(), now.time_since_epoch().count()))
+        join();
+    endpoints_->view(state_.view, state_.summarised);
+    if (state_.commands.waiting() || state_.mayCommand) endpoints_->command();
+    if (!state_.listeners.empty()) endpoints_->listen();
+    endpoints_->announce(state_.agents, now);
+    state_.commands.tick(now, [&](const Command& command) { return endpoints_->write(command); });
+    if (endpoints_->speakers() != state_.speakers) state_.news = now;
+    state_.speakers = endpoints_->speakers();
+    state_.closed = endpoints_->closed();
 }
 
 // The mutex is not held here, because a listener may call the mirror.
@@ -159,7 +171,7 @@ std::uint64_t MirrorThread::send(std::string_view path, std::string_view command
 std::uint64_t MirrorThread::refused() const {
     const std::lock_guard lock{mutex_};
     return state_.agents.refused() + state_.commands.refused() + inbox_.dropped() +
-           endpoints_.malformed();
+           endpoints_->malformed();
 }
 
 }  // namespace cortex::comms

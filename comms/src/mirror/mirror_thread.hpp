@@ -7,12 +7,14 @@
 #include "mirror/mirror_agents.hpp"
 #include "mirror/mirror_endpoints.hpp"
 #include "mirror/mirror_inbox.hpp"
+#include "peers/rejoin.hpp"
 #include "peers/sent_commands.hpp"
 
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -43,7 +45,8 @@ struct MirrorState {
     std::vector<std::function<void(const std::string&, const AgentImage&)>> imageListeners;
     // How many participants send presences, whether theirs has come already or not.
     std::uint32_t speakers = 0;
-    std::uint32_t closed = 0;  // those with security, while this mirror has none
+    std::uint32_t nameless = 0;  // of those: theirs has not come
+    std::uint32_t closed = 0;    // those with security, while this mirror has none
     Moment news = std::chrono::steady_clock::now();  // when the last of them was discovered
     bool mayCommand = false;                         // soon
     bool stopping = false;
@@ -63,7 +66,10 @@ public:
                        const Mirror::Arguments& arguments, Mirror::Milliseconds budget);
     std::uint64_t refused() const;  // messages not believed or dropped, since the start
     // Those that never got as far as to be read, by the reason.
-    std::map<std::string, Refused> refusals() const { return endpoints_.refusals(); }
+    std::map<std::string, Refused> refusals() const {
+        const std::lock_guard lock{mutex_};
+        return endpoints_->refusals();
+    }
 
     // Calls `function` with the state, under the mutex.
     template <class Function>
@@ -95,16 +101,19 @@ private:
     const MirrorAgent* take(const MirrorSample& sample, Moment now);
     void takeAndTell(const MirrorSample& sample);  // outside of the mutex
     void serve(Moment now);                        // sends what is due, finds who is lost
-    void tellListeners();                          // outside of the mutex
+    void join();
+    void tellListeners();  // outside of the mutex
 
     std::string name_;
+    const NetworkOptions options_;
     Sender tool_;
     MirrorInbox inbox_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     MirrorState state_;
-    std::vector<AgentEvent> events_;  // to tell the listeners
-    MirrorEndpoints endpoints_;
+    std::vector<AgentEvent> events_;              // to tell the listeners
+    std::unique_ptr<MirrorEndpoints> endpoints_;  // another one under the mutex only
+    Rejoin rejoin_;
     std::thread thread_;
 };
 

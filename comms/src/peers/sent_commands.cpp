@@ -18,8 +18,9 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::size_t keptNumbers = 1000;
-constexpr std::chrono::milliseconds firstPause{5}, longestPause{200};
+constexpr std::chrono::milliseconds firstPause{5}, longestPauseOfAny{200};
 constexpr std::chrono::milliseconds longestPauseOfOldest{40};
+constexpr std::chrono::milliseconds firstPauseOfRunning{200}, longestPauseOfRunning{1000};
 // After this time no answer can come any more: the agent has let the command expire, and its answer
 // was lost.
 constexpr std::chrono::seconds grace{1};
@@ -47,6 +48,14 @@ std::string tooLarge(std::size_t size) {
     return "the command takes " + std::to_string(size) + " octets, and at most " +
            std::to_string(maxInOneDatagram) +
            " can be sent at once; nothing was sent: set fewer items at a time";
+}
+
+// What the agent says of a command that it does not execute.
+bool refusesToAct(Outcome outcome, Reason reason) {
+    if (outcome == Outcome::MailboxFull || outcome == Outcome::Expired) return true;
+    return outcome == Outcome::Rejected &&
+           (reason == Reason::Authority || reason == Reason::Restarted ||
+            reason == Reason::Window || reason == Reason::UnknownCommand);
 }
 
 }  // namespace
@@ -143,10 +152,16 @@ void SentCommands::take(const Answer& answer) {
         ++refused_;
         return;
     }
-    pending->second.running = *outcome == Outcome::Running;
+    if (pending->second.running && refusesToAct(*outcome, *reason)) {
+        target.client.take(answer.sequenceNumber, Outcome::Unknown, Reason::None,
+                           "it was running, and how it ended the agent does not say: " + answer.why,
+                           0, {});
+        target.pending.erase(pending);
+        return;
+    }
     target.client.take(answer.sequenceNumber, *outcome, *reason, answer.why, answer.latencyCycles,
                        std::move(*response));
-    if (pending->second.running) return;
+    if (*outcome == Outcome::Running) return pending->second.run();
     target.pending.erase(pending);
     target.latencies[answer.sequenceNumber] = std::chrono::nanoseconds{answer.latency};
     if (target.latencies.size() > keptNumbers) target.latencies.erase(target.latencies.begin());
@@ -167,15 +182,26 @@ void SentCommands::tick(Target& target, Moment now, const Write& write) {
             continue;
         }
         ++each;
-        if (pending.running) continue;
-        if (std::exchange(first, false)) pending.becomeOldest();
+        if (!pending.running && std::exchange(first, false)) pending.becomeOldest();
         if (now < pending.next) continue;
         write(pending.message);
         pending.written = now;
-        pending.next = std::min(now + pending.pause, pending.end);
-        pending.pause =
-            std::min(2 * pending.pause, pending.oldest ? longestPauseOfOldest : longestPause);
+        pending.next = now + pending.pause;
+        if (!pending.running) pending.next = std::min(pending.next, pending.end);
+        pending.pause = std::min(2 * pending.pause, pending.longestPause());
     }
+}
+
+std::chrono::milliseconds SentCommands::Pending::longestPause() const {
+    if (running) return longestPauseOfRunning;
+    return oldest ? longestPauseOfOldest : longestPauseOfAny;
+}
+
+// Its end comes by itself, and may be lost: it is asked for.
+void SentCommands::Pending::run() {
+    if (std::exchange(running, true)) return;
+    pause = firstPauseOfRunning;
+    next = written + pause;
 }
 
 // All later ones may wait for it: its pauses begin anew and stay short.

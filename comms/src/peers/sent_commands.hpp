@@ -30,8 +30,8 @@ struct CommandTarget {
 
 // The commands of one sender, a tool or an agent, and their answers. A command is sent again,
 // unchanged, until it is answered: agents recognise its number and execute it once. The oldest one
-// without an answer is sent most often, because agents let later ones wait for it. One thread at a
-// time.
+// without an answer is sent most often, because agents let later ones wait for it. One that runs is
+// sent slowly, until its end is known. One thread at a time.
 class SentCommands {
 public:
     using Write = std::function<bool(const Command&)>;
@@ -65,6 +65,8 @@ private:
         bool oldest = false;  // of those without an answer
 
         void becomeOldest();
+        void run();
+        std::chrono::milliseconds longestPause() const;
     };
     struct Target {
         explicit Target(const Sender& sender) : client{sender} {}

@@ -8,7 +8,8 @@
 namespace cortex::comms::rtps {
 namespace {
 
-constexpr std::uint16_t endpointGuid = 0x005a, keyHash = 0x0070, statusInfo = 0x0071;
+constexpr std::uint16_t domainId = 0x000f, endpointGuid = 0x005a, keyHash = 0x0070,
+                        statusInfo = 0x0071;
 
 WriterGuid guidIn(Bytes bytes) {
     WriterGuid guid{};
@@ -37,6 +38,15 @@ Announcement announcementIn(const Submessage& data) {
         return {Announcement::IsGone, guidIn(parameterOf(parameters, data.little(), keyHash))};
     const bool hasData = (data.flags & 4) != 0;
     return hasData ? alive(payload) : Announcement{Announcement::Unclear, {}};
+}
+
+std::int64_t domainIn(const Submessage& data) {
+    const bool hasData = (data.flags & 4) != 0;
+    if (!hasData || readU32(data.body.subspan(8), false) != announcesParticipants) return -1;
+    const Bytes payload = partsOf(data).payload;
+    const bool little = (payload[1] & 1) != 0;
+    const Bytes named = parameterOf(payload.subspan(4), little, domainId);
+    return named.size() == 4 ? std::int64_t{readU32(named, little)} : -1;
 }
 
 }  // namespace cortex::comms::rtps

@@ -4,6 +4,8 @@
 #include "rtps/submessages.hpp"
 #include "rtps/writer_numbers.hpp"
 
+#include <cstdint>
+
 namespace cortex::comms::rtps {
 
 // What a DATA whose content was judged says of an endpoint.
@@ -14,5 +16,8 @@ struct Announcement {
 };
 
 Announcement announcementIn(const Submessage& data);
+
+// The domain that the announcement of a participant names, as RTPS 2.3 and later have it; -1: none.
+std::int64_t domainIn(const Submessage& data);
 
 }  // namespace cortex::comms::rtps

@@ -158,6 +158,8 @@ Refusal DatagramFilter::judgeNumber(const Submessage& submessage, const Prefix& 
             if (!numbers_.admits(guidOf(sender, body.subspan(8)),
                                  readNumber(body.subspan(12), little), sayingOf(now), now))
                 return Refusal::Number;
+            if (const std::int64_t named = domainIn(submessage); named >= 0 && named != domain_)
+                return Refusal::Domain;
             return judgeEndpoint(submessage, sender, now);
         case Kind::DataFragments: {
             const WriterGuid writer = guidOf(sender, body.subspan(8));

@@ -22,7 +22,7 @@ namespace cortex::comms::rtps {
 // It takes memory for fragments and for names of endpoints only, both within bounds. Any thread.
 class DatagramFilter {
 public:
-    explicit DatagramFilter(const Prefix& us) : us_{us} {}
+    explicit DatagramFilter(const Prefix& us, int domain = 0) : us_{us}, domain_{domain} {}
 
     struct Admitted {
         // The fragments of a sample that has all of them now, to be processed before the rest.
@@ -63,6 +63,7 @@ private:
     void askFromTheBeginning(const Submessage& ackNack, const Prefix& sender, std::int64_t now);
 
     const Prefix us_;
+    const std::int64_t domain_;
     mutable std::mutex mutex_;
     ParticipantLimits participants_;
     WriterNumbers numbers_;

@@ -18,9 +18,10 @@ enum class Refusal : std::uint8_t {
     Unfinished,    // fragments of a sample that was never complete, while others needed the room
     Endpoints,  // an announcement of one endpoint more than a participant or the network may have
     Echo,       // what this participant itself has sent to a group of which it is
+    Domain,     // a participant that says that it is of another domain
     Early,      // of one that was silent for a lease, a moment after it came back
 };
-inline constexpr std::size_t refusals = 11;
+inline constexpr std::size_t refusals = 12;
 
 // What belongs to a network that works is not.
 constexpr bool isCounted(Refusal refusal) {
@@ -40,6 +41,7 @@ constexpr const char* wordsOf(Refusal refusal) {
         "they began more samples in fragments than there is room for",
         "they announce more endpoints than there is room for",
         "they are its own",
+        "they announce participants of another domain, which uses our ports",
         "their sender came back just now",
     };
     return words[static_cast<std::size_t>(refusal)];

@@ -34,7 +34,8 @@ enum class Kind : std::uint8_t {
 };
 
 // The built-in writers that announce endpoints (RTPS 2.3, 8.5.4.2), unless they are encrypted.
-inline constexpr std::uint32_t announcesWriters = 0x000003c2, announcesReaders = 0x000004c2;
+inline constexpr std::uint32_t announcesParticipants = 0x000100c2, announcesWriters = 0x000003c2,
+                               announcesReaders = 0x000004c2;
 
 inline bool isOfSecurity(Kind kind) {
     return kind >= Kind::SecureBody && kind <= Kind::SignedPostfix;

@@ -6,19 +6,12 @@
 #include <algorithm>
 
 namespace cortex {
-namespace {
-
-// What waits in the lane, and one long command that was answered Running.
-std::uint32_t callsOf(const Lane& lane) { return lane.shape().capacity + 1U; }
-
-}  // namespace
-
 AgentCalls::AgentCalls(AgentRuntime& runtime, const LinkTable& links, std::span<Lane* const> lanes)
     : runtime_{runtime}, links_{links} {
     std::size_t calls = 0, octets = 0;
     for (const Lane* lane : lanes) {
-        calls += callsOf(*lane);
-        octets += std::size_t{callsOf(*lane)} * lane->shape().responseSize;
+        calls += lane->shape().underWay();
+        octets += std::size_t{lane->shape().underWay()} * lane->shape().responseSize;
     }
     calls_.resize(calls);
     responses_.resize(octets);
@@ -27,13 +20,13 @@ AgentCalls::AgentCalls(AgentRuntime& runtime, const LinkTable& links, std::span<
     for (Lane* lane : lanes) {
         Port& port = ports_.emplace_back();
         port.lane = lane;
-        port.calls = {call, callsOf(*lane)};
-        port.order.resize(callsOf(*lane));
+        port.calls = {call, lane->shape().underWay()};
+        port.order.resize(lane->shape().underWay());
         for (Call& each : port.calls) {
             each.response = response;
             response += lane->shape().responseSize;
         }
-        call += callsOf(*lane);
+        call += lane->shape().underWay();
     }
 }
 
@@ -100,8 +93,8 @@ void AgentCalls::release() {
         while (port.count > 0 && port.order[port.first]->settled) {
             Call& call = *port.order[port.first];
             const bool running = call.verdict.outcome == Outcome::Running;
-            // By our type it is not long: its slot waits for the end.
-            if (running && !port.lane->hasLong()) {
+            // By our type it is not long, or too many run: its slot waits for the end.
+            if (running && (!port.lane->hasLong() || port.running == port.lane->shape().running)) {
                 call.settled = false;
                 break;
             }
@@ -110,7 +103,10 @@ void AgentCalls::release() {
             --port.count;
             call.released = running;
             call.settled = false;
-            if (!running) call.ticket = 0;
+            if (running)
+                ++port.running;
+            else
+                call.ticket = 0;
         }
     }
 }
@@ -140,6 +136,7 @@ void AgentCalls::releaseFinal(Port& port, Call& call) {
     if (!call.verdict.good()) report(port, call);
     call.ticket = 0;
     call.settled = false;
+    --port.running;
 }
 
 void AgentCalls::report(Port& port, const Call& call) {

@@ -44,6 +44,7 @@ private:
         std::span<Call> calls;
         std::vector<Call*> order;  // a ring: those whose slots are not answered
         std::uint32_t first = 0, count = 0;
+        std::uint32_t running = 0;  // released, and not ended
     };
     Call* offer(Port& port) CORTEX_REALTIME;  // null: nothing waits, or too much is on its way
     void releaseSlot(Port& port, Call& call) CORTEX_REALTIME;

@@ -8,11 +8,14 @@
 #include "agent/router.hpp"
 #include "commands/command_port.hpp"
 #include "commands/lane_block.hpp"
+#include "commands/sender_state.hpp"
 #include "tables/lookup.hpp"
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -23,6 +26,31 @@ namespace {
 std::int64_t utcMicroseconds() {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+}
+
+bool isLifeCycle(const CommandSender::State& handle) {
+    return lifeCycleCommand(handle.table->entries[handle.command].name) != LifeCycle::None;
+}
+
+bool isShutdown(const CommandSender::State& handle) {
+    return lifeCycleCommand(handle.table->entries[handle.command].name) == LifeCycle::Shutdown;
+}
+
+// The places of life-cycle commands are theirs alone, and that of `shutdown` its own: one that is
+// full of others does not keep a simplex from being shut down.
+void keepPlaces(std::span<CommandSender::State* const> handles) {
+    constexpr std::uint32_t most = 3;  // one for each life-cycle command
+    std::uint32_t lifeCycle = 0, shutdown = 0;
+    for (const CommandSender::State* handle : handles) {
+        if (isLifeCycle(*handle)) lifeCycle += handle->capacity;
+        if (isShutdown(*handle)) shutdown += handle->capacity;
+    }
+    for (CommandSender::State* handle : handles) {
+        const std::uint32_t others = isShutdown(*handle)    ? 0
+                                     : isLifeCycle(*handle) ? std::min(shutdown, 1U)
+                                                            : std::min(lifeCycle, most);
+        handle->kept = static_cast<std::uint8_t>(others);
+    }
 }
 
 std::vector<std::string> namesOf(const CommandTable& table) {
@@ -205,19 +233,25 @@ void AgentRuntime::makeLanes() {
     for (auto& [key, handles] : lanes) {
         const Edge& edge = structure_->edges[key.second];
         const bool remote = structure_->simplexes[edge.target].remote;
+        // To another agent life-cycle commands go along lanes, too, and are answered twice.
+        const bool hasLifeCycle = remote && std::ranges::any_of(handles, [](const auto* handle) {
+                                      return isLifeCycle(*handle);
+                                  });
         Lane::Shape shape{edge.owner,
                           edge.target,
                           0,
                           0,
                           0,
                           edge.delayed && !remote,
-                          commands(edge.target).hasLong};
+                          commands(edge.target).hasLong || hasLifeCycle};
         for (std::uint16_t i = 0; CommandSender::State * handle : handles) {
             handle->handle = i++;
             shape.capacity += handle->capacity;
             shape.requestSize = std::max(shape.requestSize, handle->requestSize());
             shape.responseSize = std::max(shape.responseSize, handle->responseSize());
         }
+        if (remote) shape.running = shape.capacity;
+        keepPlaces(handles);
         plans.push_back({shape, std::move(handles)});
     }
     lanes_ = std::make_unique<LaneBlock>(std::move(plans));
@@ -234,7 +268,7 @@ void AgentRuntime::makeLanes() {
 
 std::uint32_t AgentRuntime::callsToAgents() const {
     std::uint32_t calls = 0;
-    for (const Lane* lane : toAgents_) calls += lane->shape().capacity + 1U;
+    for (const Lane* lane : toAgents_) calls += lane->shape().underWay();
     return calls;
 }
 

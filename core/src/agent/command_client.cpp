@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/command_exchange.hpp"
+#include "cortex/core/control_commands.hpp"
 #include "cortex/core/record.hpp"
 
 #include <algorithm>
@@ -40,7 +41,8 @@ PreparedCommand CommandClient::prepare(const CommandTables& tables, std::string_
     message.answeredBelow = answeredBelow();
     message.notAfter = validity.notAfter;
     message.until = validity.until;
-    prepared.open = next_ - message.answeredBelow < senderWindow;
+    const std::uint32_t kept = isUrgentCommand(command) ? 0 : keptForUrgent;
+    prepared.open = next_ - message.answeredBelow + kept < senderWindow;
     message.sequence = prepared.open ? next_++ : refuse(Outcome::MailboxFull, tooMany);
     if (prepared.open) unanswered_[message.sequence] = {};
     return prepared;

@@ -35,7 +35,9 @@ Router::Router(AgentRuntime& runtime, std::span<Lane* const> toAgents)
       structure_{runtime.structure()},
       longestBudget_{longestBudget / periodOf(runtime)},
       longestWait_{(longestWait + periodOf(runtime) - 1) / periodOf(runtime)},
-      pool_(std::max(runtime.options().outsideCommands, 1U)),
+      keptForUrgent_{runtime.options().outsideCommands / 16},
+      pool_(std::max(runtime.options().outsideCommands, 1U) + keptForUrgent_),
+      ends_{largest(runtime, &CommandTable::maxResponse)},
       senders_{knownSenders, largest(runtime, &CommandTable::maxResponse)},
       leases_{runtime},
       links_{runtime},
@@ -78,7 +80,7 @@ void Router::command(const OutsideCommand& command) {
     if (!findSender(command, index)) return;
     SenderRecord& record = senders_[index];
     acknowledge(record, command.answeredBelow);
-    if (command.sequence < record.answeredBelow) return refuseAcknowledged(command, record);
+    if (command.sequence < record.answeredBelow) return repeatAcknowledged(command, record);
     if (command.sequence - record.answeredBelow >= senderWindow) {
         return refuse(command,
                       {Outcome::Rejected, Reason::Window, "too many of its sender are unanswered"});
@@ -133,13 +135,49 @@ bool Router::findSender(const OutsideCommand& command, std::uint32_t& record) {
     return true;
 }
 
-// A late repeat needs no answer: its sender has it. But a number that never came was acknowledged
-// by mistake, or by somebody who used the name of its sender.
-void Router::refuseAcknowledged(const OutsideCommand& command, SenderRecord& sender) {
-    if (sender.came(command.sequence)) return;
+// A late repeat needs no answer: its sender has it. Of a long command it may know only that it
+// runs. But a number that never came was acknowledged by mistake, or by somebody who used the name
+// of its sender.
+void Router::repeatAcknowledged(const OutsideCommand& command, SenderRecord& sender) {
+    if (sender.came(command.sequence)) return tellEnd(command);
     if (sender.unsure) return refuse(command, {Outcome::Unknown, Reason::None, forgotten});
     refuse(command, {Outcome::Rejected, Reason::Window,
                      "another command of its sender said that this one was answered"});
+}
+
+// Its sender asks what became of a long command that it knows to run.
+void Router::tellEnd(const OutsideCommand& command) {
+    const bool here = !command.refused && command.simplex < structure_.simplexes.size() &&
+                      !structure_.simplexes[command.simplex].remote;
+    if (!here || command.command >= runtime_.commands(command.simplex).entries.size()) return;
+    const CommandTable::Entry& entry = runtime_.commands(command.simplex).entries[command.command];
+    const bool isLong = entry.command != nullptr && entry.command->isLong;
+    if (!isLong && !isLifeCycle(command.simplex, command.command)) return;
+    OutsideAnswer end;
+    if (ends_.find(interface_, command.sender, command.sequence, end)) {
+        return answer(interface_, end);
+    }
+    const auto isIt = [&](const OutsideEntry* each) {
+        return each->sequence == command.sequence && each->interface == interface_ &&
+               each->sender.name == command.sender.name &&
+               each->sender.epoch == command.sender.epoch;
+    };
+    const auto found = std::ranges::find_if(active_, isIt);
+    if (found == active_.end()) {
+        return refuse(command, {Outcome::Unknown, Reason::None, "how it ended is forgotten"});
+    }
+    if ((*found)->fresh || !(*found)->ran) return;  // it is answered in this cycle
+    answer(interface_, {command.sender,
+                        command.sequence,
+                        command.simplex,
+                        command.command,
+                        Outcome::Running,
+                        Reason::None,
+                        {},
+                        0,
+                        0,
+                        0,
+                        nullptr});
 }
 
 // What needs no order. Leaves Done where the command may wait for its turn.
@@ -161,7 +199,7 @@ void Router::judge(const OutsideCommand& command, const SenderRecord& sender,
     } else if (command.size !=
                runtime_.commands(command.simplex).entries[command.command].request.size) {
         verdict = {Outcome::Rejected, Reason::UnknownCommand, "its request has another size"};
-    } else if (free_.empty()) {
+    } else if (!hasRoom(command)) {
         verdict = {Outcome::MailboxFull, Reason::None, "too many commands are on their way"};
     }
 }
@@ -183,6 +221,7 @@ OutsideEntry& Router::admit(const OutsideCommand& command, std::uint32_t record)
     entry.answer = {};
     entry.answer.outcome = Outcome::Running;
     entry.fresh = false;
+    entry.ran = false;
     entry.queued = false;
     entry.withdrawn = false;
     entry.watched = LifeCycle::None;
@@ -254,10 +293,15 @@ void Router::publish(OutsideEntry& entry) {
         kept.size = size;
         std::copy_n(entry.response, size, kept.response);
     }
-    answer(entry.interface,
-           {entry.sender, entry.sequence, entry.simplex, entry.command, head.outcome, head.reason,
-            head.why, head.latencyCycles, head.latency, size, entry.response});
-    if (!entry.final()) return;
+    const OutsideAnswer message{entry.sender, entry.sequence, entry.simplex, entry.command,
+                                head.outcome, head.reason,    head.why,      head.latencyCycles,
+                                head.latency, size,           entry.response};
+    answer(entry.interface, message);
+    if (!entry.final()) {
+        entry.ran = true;
+        return;
+    }
+    if (entry.ran) ends_.keep(entry.interface, message);
     report(messageOf(entry), head);
     if (known) --record.onTheirWay;
     release(entry);

@@ -8,6 +8,7 @@
 #include "agent/answer_queue.hpp"
 #include "agent/lease.hpp"
 #include "agent/link_table.hpp"
+#include "agent/long_ends.hpp"
 #include "agent/sender_table.hpp"
 #include "commands/outside_command.hpp"
 
@@ -60,7 +61,8 @@ private:
 
     // router.cpp: on their way in and out.
     bool findSender(const OutsideCommand& command, std::uint32_t& record);
-    void refuseAcknowledged(const OutsideCommand& command, SenderRecord& sender);
+    void repeatAcknowledged(const OutsideCommand& command, SenderRecord& sender);
+    void tellEnd(const OutsideCommand& command);
     void judge(const OutsideCommand& command, const SenderRecord& sender, Verdict& verdict) const;
     OutsideEntry& admit(const OutsideCommand& command, std::uint32_t record);
     void repeat(const KeptOutcome& kept, const OutsideCommand& command);
@@ -74,6 +76,7 @@ private:
 
     // router_order.cpp: when they go on their way.
     bool isUrgent(std::uint32_t simplex, std::uint32_t command) const;
+    bool hasRoom(const OutsideCommand& command) const;
     bool isTooMuch(const OutsideCommand& command, const SenderRecord& sender) const;
     void acknowledge(SenderRecord& sender, std::uint64_t below);
     void wait(const OutsideCommand& command, std::uint32_t record);
@@ -105,7 +108,10 @@ private:
     void controlLost(const Lease& lease, std::string_view how);
     void findStates();
     State stateOf(std::uint32_t simplex) const { return static_cast<State>(*states_[simplex]); }
-    bool isLifeCycle(const OutsideEntry& entry) const;
+    bool isLifeCycle(const OutsideEntry& entry) const {
+        return isLifeCycle(entry.simplex, entry.command);
+    }
+    bool isLifeCycle(std::uint32_t simplex, std::uint32_t command) const;
     void deliverLifeCycle(OutsideEntry& entry);
     void watch(OutsideEntry& entry);
 
@@ -117,6 +123,7 @@ private:
     std::size_t waiting_ = 0;      // for what is missing, about
     bool takesControl_ = false;    // a command about control goes to its queue in this cycle
     ChunkClock began_;             // the loop thread's clock when the cycle began
+    std::size_t keptForUrgent_;    // of the pool: what stops something finds a place
     std::vector<OutsideEntry> pool_;
     std::vector<std::byte> records_;
     std::vector<OutsideEntry*> free_, arrivals_, active_;
@@ -125,6 +132,7 @@ private:
     std::uint32_t renewal_ = CommandTable::none;   // the agent's command renewControl
     std::vector<std::uint32_t> leaseMinded_;       // simplexes whose type minds losing control
     std::vector<AnswerQueue> answers_;             // by interface
+    LongEnds ends_;
     SenderTable senders_;
     LeaseTable leases_;
     LinkTable links_;

@@ -145,9 +145,9 @@ void Router::findStates() {
     }
 }
 
-bool Router::isLifeCycle(const OutsideEntry& entry) const {
-    const auto& name = runtime_.commands(entry.simplex).entries[entry.command].name;
-    return states_[entry.simplex] != nullptr && lifeCycleCommand(name) != LifeCycle::None;
+bool Router::isLifeCycle(std::uint32_t simplex, std::uint32_t command) const {
+    const auto& name = runtime_.commands(simplex).entries[command].name;
+    return states_[simplex] != nullptr && lifeCycleCommand(name) != LifeCycle::None;
 }
 
 void Router::deliverLifeCycle(OutsideEntry& entry) {

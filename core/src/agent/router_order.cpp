@@ -16,6 +16,10 @@ bool Router::isUrgent(std::uint32_t simplex, std::uint32_t command) const {
     return isUrgentCommand(runtime_.commands(simplex).entries[command].name);
 }
 
+bool Router::hasRoom(const OutsideCommand& command) const {
+    return free_.size() > (isUrgent(command.simplex, command.command) ? 0 : keptForUrgent_);
+}
+
 bool Router::concernEachOther(std::uint32_t simplex, std::uint32_t other) const {
     const std::uint32_t all = runtime_.agentSimplex();
     return simplex == other || simplex == all || other == all;

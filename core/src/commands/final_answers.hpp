@@ -18,8 +18,8 @@ namespace cortex {
 // the lane from its receiver to its sender, with room for what runs and all that wait.
 class FinalAnswers {
 public:
-    FinalAnswers(std::uint32_t capacity, std::uint32_t responseSize, bool delayed)
-        : finals_(std::bit_ceil(capacity + 1U)),
+    FinalAnswers(std::uint32_t room, std::uint32_t responseSize, bool delayed)
+        : finals_(std::bit_ceil(room)),
           responseSize_{responseSize},
           responses_{std::make_unique<std::byte[]>(finals_.size() * responseSize)},
           delayed_{delayed} {}

@@ -54,7 +54,7 @@ Lane::Lane(const Shape& shape, std::vector<CommandSender::State*> handles)
       bits_{static_cast<std::uint8_t>(std::bit_width(slotsOf(shape)) - 1)},
       delayed_{shape.delayed},
       hasLong_{shape.hasLong},
-      finals_{shape.hasLong ? std::make_unique<FinalAnswers>(shape.capacity, shape.responseSize,
+      finals_{shape.hasLong ? std::make_unique<FinalAnswers>(shape.underWay(), shape.responseSize,
                                                              shape.delayed)
                             : nullptr},
       rest_{std::make_unique<Rest>(Rest{shape, std::move(handles), {}})} {

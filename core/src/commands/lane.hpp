@@ -53,6 +53,11 @@ public:
         std::uint32_t requestSize = 0, responseSize = 0;  // the largest on this lane
         bool delayed = false;
         bool hasLong = false;
+        // Commands that were answered Running and whose end was not taken: one in this agent, more
+        // where ends come late, over a network.
+        std::uint32_t running = 1;
+
+        std::uint32_t underWay() const { return capacity + running; }
     };
     // Lanes are made in the memory of a LaneBlock, with their slots behind them.
     Lane(const Shape& shape, std::vector<CommandSender::State*> handles);
@@ -75,9 +80,10 @@ public:
         if (delayed_) noteStart(cycle, head_, headStart_);
     }
 
-    // Sender's end. False: the lane is full.
-    bool post(std::uint16_t command, std::uint16_t handle, const std::byte* request,
-              std::uint32_t size, const ChunkClock& clock) CORTEX_REALTIME;
+    // Sender's end. False: the lane is full, but for `kept` places of others.
+    bool post(std::uint16_t command, std::uint16_t handle, std::uint32_t kept,
+              const std::byte* request, std::uint32_t size, const ChunkClock& clock)
+        CORTEX_REALTIME;
     void takeAnswers(std::int64_t cycle) CORTEX_REALTIME;  // into the states of the handles
 
     // Receiver's end: how many commands wait; each is answered, then popped.
@@ -151,11 +157,11 @@ private:
 
 static_assert(sizeof(Lane) == 2 * Lane::lineSize);
 
-inline bool Lane::post(std::uint16_t command, std::uint16_t handle, const std::byte* request,
-                       std::uint32_t size, const ChunkClock& clock) {
+inline bool Lane::post(std::uint16_t command, std::uint16_t handle, std::uint32_t kept,
+                       const std::byte* request, std::uint32_t size, const ChunkClock& clock) {
     const std::uint32_t tail = now(tail_);
     const std::uint32_t onTheirWay = tail - lowHalf(taken_);
-    if (onTheirWay >= capacity_) return false;
+    if (onTheirWay + kept >= capacity_) return false;
     if (onTheirWay == 0) first_ = tail;
     LaneSlot& head = slot(tail);
     head.cycles = clock.cycle;

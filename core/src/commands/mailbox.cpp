@@ -87,8 +87,8 @@ Outcome CommandSender::send() {
             return refuse(state, *unset);
         state.mayBeUnset = false;
     }
-    if (!state.lane->post(state.command, state.handle, state.request(), state.requestSize(),
-                          sender.thread().clock)) {
+    if (!state.lane->post(state.command, state.handle, state.kept, state.request(),
+                          state.requestSize(), sender.thread().clock)) {
         return sender.notSent(state, Outcome::MailboxFull, "the mailbox is full");
     }
     if (state.notSent) state.notSent = false;

@@ -38,6 +38,7 @@ struct OutsideEntry {
 
     AnswerHead answer;
     bool fresh = false;  // the router has not seen this answer
+    bool ran = false;    // it was answered Running before
 
     // A life-cycle command is watched by the router instead of queued.
     LifeCycle watched = LifeCycle::None;

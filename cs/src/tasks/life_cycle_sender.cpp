@@ -74,7 +74,8 @@ void SimplexCS::LifeCycleSender::post(LifeCycle command) {
     AgentRuntime& agent = bound();
     if (remote_ == nullptr) return agent.postLifeCycle(target_, command, isDelayed_);
     CommandSender& sender = remote_->of(command);
-    if (sender.sent() != sender.answered()) return;
+    const bool runs = sender.answer().outcome == Outcome::Running;
+    if (runs || sender.sent() != sender.answered()) return;
     sender.send();
     remote_->last = &sender;
 }

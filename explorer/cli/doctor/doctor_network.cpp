@@ -27,7 +27,7 @@ namespace {
 using Level = Diagnosis::Level;
 
 constexpr const char* discoveryGroup = "239.255.0.1";  // as RTPS has it
-constexpr int participants = 300;                      // of one host, for which ports are asked
+constexpr int participants = 120;  // of one host: the ports behind are those of the next domain
 constexpr long enoughBuffer = 1 << 20;
 
 class Socket {
@@ -163,18 +163,17 @@ void examinePorts(int domain, Diagnoses& found) {
                          "end that program (ss -ulpn names it), or use another domain"});
     }
     int used = 0;
-    while (used < participants && !canBind(base + 10 + 2 * used, false)) ++used;
-    const std::string text =
-        "domain " + std::to_string(domain) + " begins at UDP port " + std::to_string(base) + ", ";
+    for (int i = 0; i < participants; ++i) used += canBind(base + 10 + 2 * i, false) ? 0 : 1;
+    const std::string text = "domain " + std::to_string(domain) + " begins at UDP port " +
+                             std::to_string(base) + ", " + std::to_string(used) + " of " +
+                             std::to_string(participants) +
+                             " places for participants of this host are used";
     if (used == participants) {
         found.push_back(
-            {Level::Error, subject, text + "no port of it is free",
+            {Level::Error, subject, text,
              "end programs that hold them (ss -ulpn lists them), or use another domain"});
     } else {
-        found.push_back({Level::Ok, subject,
-                         text + plural(static_cast<std::size_t>(used), "participant") +
-                             " before the first free port",
-                         ""});
+        found.push_back({Level::Ok, subject, text, ""});
     }
     std::istringstream range{firstLineOf("/proc/sys/net/ipv4/ip_local_port_range")};
     int first = 0, last = 0;

@@ -117,11 +117,13 @@ bool Live::waitInSlices(Wait wait) {
 }
 
 void Live::waitForAll(const std::string& prefix) {
-    waitInSlices([&](Milliseconds limit) { return mirror().waitUntilComplete(limit); });
+    everybodyCame_ =
+        waitInSlices([&](Milliseconds limit) { return mirror().waitUntilComplete(limit); });
     if (mirror().agents().empty()) failWithNobody();
-    waitInSlices([&](Milliseconds limit) {
+    const bool found = waitInSlices([&](Milliseconds limit) {
         return !below(prefix).empty() || mirror().waitUntilComplete(limit, nobodyNew);
     });
+    everybodyCame_ = everybodyCame_ && found;
 }
 
 bool Live::waitForValues() {
@@ -143,7 +145,7 @@ Trouble Live::nobody() const {
                  .interfaces = session_->named(),
                  .otherDomains = otherDomains(),
                  .closed = mirror().closed(),
-                 .nameless = mirror().nameless(),
+                 .nameless = nameless(),
                  .strangers = strangers(),
                  .refused = refusedHere()};
     return troubleOf(found);
@@ -191,7 +193,7 @@ std::string Live::incomplete() const {
         const std::size_t here = mirror().agents().size();
         parts.push_back(std::to_string(here) + " of " + std::to_string(here + unheard) + " agents");
     }
-    const std::string others = namelessText(mirror().nameless());
+    const std::string others = namelessText(nameless());
     if (!others.empty()) parts.push_back(others);
     return parts.empty() ? "" : "incomplete: " + joined(parts);
 }

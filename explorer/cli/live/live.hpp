@@ -74,6 +74,9 @@ public:
     // on standard error.
     void printWarnings() const;
     comms::AgentStatus statusOf(const std::string& agent) const;
+    // Participants that did not say who they are. Who comes when everybody was there does not
+    // count.
+    std::uint32_t nameless() const { return everybodyCame_ ? 0 : mirror().nameless(); }
     // "incomplete: 37 of 44 from robot", or "" when all is here of everybody who was found.
     std::string incomplete() const;
     // "this tool itself refused messages: 12 (…, the last from 127.0.0.1), …", or "" where it let
@@ -110,6 +113,7 @@ private:
     std::chrono::steady_clock::time_point end_;
     std::shared_ptr<Session> session_;
     std::set<std::string> told_;  // paths of several agents
+    bool everybodyCame_ = false;
 };
 
 // Throws Failure unless it can be the path of a simplex; a prefix may be "/" too.

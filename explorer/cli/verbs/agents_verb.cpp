@@ -14,7 +14,7 @@ Exit listAgents(const LiveOptions& options) {
     live.printWarnings();
     viewOwnSimplexes(live);
     const auto agents = live.mirror().agents();
-    const std::string others = namelessText(live.mirror().nameless());
+    const std::string others = namelessText(live.nameless());
     const Failure incomplete{NotFound, others + "; wait longer (--timeout)"};
     if (options.json && !others.empty()) throw incomplete;
     if (options.json) {

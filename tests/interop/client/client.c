@@ -224,8 +224,8 @@ static cortex_Command commandTo(Tool* tool, const Agent* agent, char* path, char
     return command;
 }
 
-// The end of the command, printed: 0 Done, 1 anything else, -1 not yet.
-static int answer(const Tool* tool, const cortex_Command* command) {
+// The end of the command, printed: 0 Done, 1 anything else, -1 not yet. `running`: it said so.
+static int answer(const Tool* tool, const cortex_Command* command, bool* running) {
     void* samples[16] = {NULL};
     dds_sample_info_t infos[16];
     int result = -1;
@@ -234,10 +234,11 @@ static int answer(const Tool* tool, const cortex_Command* command) {
         const cortex_Answer* each = samples[i];
         if (!infos[i].valid_data || memcmp(each->link, command->link, 16) != 0 ||
             each->senderEpoch != tool->epoch || each->epoch != command->targetEpoch ||
-            each->sequenceNumber != command->sequenceNumber || result >= 0 ||
-            strcmp(each->outcome, "Running") == 0) {
+            each->sequenceNumber != command->sequenceNumber || result >= 0) {
             continue;
         }
+        *running = strcmp(each->outcome, "Running") == 0;
+        if (*running) continue;
         printf("%s %s %s\n", each->outcome, each->reason, each->why);
         for (uint32_t k = 0; k < each->response._length; ++k) {
             printNamed(command->path, &each->response._buffer[k]);
@@ -259,15 +260,17 @@ static int call(Tool* tool, const Models* models, int count, char** words) {
         arguments[command.arguments._length++] =
             argument(typeOf(models, agent, simplex->type), words[1], words[i]);
     }
-    int64_t due = 0;  // said again until it is answered: it is executed once all the same
-    for (const int64_t end = now() + 11 * second; now() < end;) {
+    int64_t due = 0;  // said again until its end is known: it is executed once all the same
+    for (int64_t end = now() + 11 * second; now() < end;) {
         if (now() >= due) {
             dds_write(tool->commands, &command);
             due = now() + second / 5;
         }
         step(tool);
-        const int result = answer(tool, &command);
+        bool running = false;
+        const int result = answer(tool, &command, &running);
         if (result >= 0) return result;
+        if (running) end = now() + 11 * second;
     }
     printf("Unknown\n");
     return 1;

@@ -118,6 +118,8 @@ public:
     using Arguments = ProgramInterface::Arguments;
 
     static constexpr std::uint64_t firstTicket = std::uint64_t{1} << 63U;
+    // Places of the window that only `shutdown` and `cancel` take: they always get through.
+    static constexpr std::uint32_t keptForUrgent = 8;
 
     explicit CommandClient(Sender sender) : sender_{sender} {}
 

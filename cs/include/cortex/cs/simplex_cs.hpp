@@ -88,7 +88,7 @@ protected:
     enum class HandOver : std::uint8_t { Starting, Stopping, Done, Failed };
     // In a hook: the life-cycle commands of a related simplex. Along an output relationship they
     // are taken in the same cycle, along an input or a delayed one in the next. To a simplex of
-    // another agent each goes as a command does, once: again only when the last was answered.
+    // another agent each goes as a command does, once: again only when the last one has ended.
     class LifeCycleSender {
     public:
         LifeCycleSender() = default;
@@ -103,7 +103,8 @@ protected:
         void shutdown() CORTEX_REALTIME { post(LifeCycle::Shutdown); }
         void clearFaults() CORTEX_REALTIME { post(LifeCycle::ClearFaults); }
         State state() const CORTEX_REALTIME;  // as last seen: its data item `state`
-        // Of a simplex of another agent: how the last one ended. None: none was, or of this agent.
+        // Of a simplex of another agent: how the last one ended; Running until then. None: none
+        // was sent, or the simplex is of this agent.
         const AnswerHead& answer() const;
 
         // In a hook, in every cycle: exchanges controllers without a gap. `to` starts, and this one

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace cortex::comms {
+
+// When to join the network anew, with security. Who hears nobody for longer than a lease drops all
+// others and meets them anew. Those that still hear it answer no second handshake of the same
+// participant, so only another one is met.
+class Rejoin {
+public:
+    // `unproven`: somebody is found who does not prove who it is.
+    bool isDue(bool hearsAny, bool unproven, std::int64_t now) {
+        if (hearsAny) pause_ = shortest;
+        met_ = met_ || hearsAny;
+        if (hearsAny || !met_ || !unproven || now < due_) return false;
+        due_ = now + pause_;
+        pause_ = std::min(2 * pause_, longest);
+        return true;
+    }
+
+private:
+    // Longer each time, as a stranger proves nothing either.
+    static constexpr std::int64_t shortest = 10'000'000'000, longest = 600'000'000'000;  // ns
+
+    std::int64_t due_ = 0, pause_ = shortest;
+    bool met_ = false;
+};
+
+}  // namespace cortex::comms
