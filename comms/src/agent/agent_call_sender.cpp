@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agent/agent_call_sender.hpp"
 
+#include "cortex/core/control_commands.hpp"
 #include "cortex/core/error.hpp"
 
 #include "security/security_identity.hpp"
@@ -56,7 +57,11 @@ void AgentCallSender::join() {
 
 void AgentCallSender::step(const Peers& peers, bool silent) {
     if (!any()) return;
-    for (; const AgentCall* call = pipe_.front(); pipe_.pop()) send(*call, peers, silent);
+    const Moment now = std::chrono::steady_clock::now();
+    sendHeld(peers, silent, now);
+    for (; const AgentCall* call = pipe_.front(); pipe_.pop()) {
+        send(*call, peers, silent, now + budget);
+    }
     loseThoseOf(peers);
     if (!silent) {
         sent_.tick(std::chrono::steady_clock::now(), [this](const Command& command) {
@@ -69,8 +74,19 @@ void AgentCallSender::step(const Peers& peers, bool silent) {
     passAnswers();
 }
 
-// What is not sent surely does not run.
-void AgentCallSender::send(const AgentCall& call, const Peers& peers, bool silent) {
+void AgentCallSender::sendHeld(const Peers& peers, bool silent, Moment now) {
+    for (const Held& each : std::exchange(held_, {})) {
+        if (now < each.end) {
+            send(each.call, peers, silent, each.end);
+        } else {
+            pipe_.answer(each.call, withoutAnswer(Outcome::MailboxFull, Reason::None,
+                                                  "too many commands are on their way"));
+        }
+    }
+}
+
+// What is not sent surely does not run. `end`: until when it may be.
+void AgentCallSender::send(const AgentCall& call, const Peers& peers, bool silent, Moment end) {
     const auto owner = links_.ownerOf(call.simplex);
     const Peer* peer =
         owner.structure != nullptr && !silent ? heardAs(peers, owner.agent, owner.epoch) : nullptr;
@@ -79,6 +95,13 @@ void AgentCallSender::send(const AgentCall& call, const Peers& peers, bool silen
                             withoutAnswer(Outcome::Expired, Reason::None,
                                           silent ? "this agent is silent: it was not sent"
                                                  : "its agent is not heard: it was not sent"));
+    }
+    const std::string command = pipe_.commandOf(call);
+    if (isUrgentCommand(command) && !sent_.hasRoom(owner.agent, command)) {
+        Held& held =
+            held_.emplace_back(call, std::vector(call.request, call.request + call.size), end);
+        held.call.request = held.request.data();
+        return;
     }
     try {
         const Presence& presence = *peer->model().presence();
@@ -93,8 +116,8 @@ void AgentCallSender::send(const AgentCall& call, const Peers& peers, bool silen
             .lost = false,
         };
         const std::uint64_t number =
-            sent_.send(target, pipe_.pathOf(call), pipe_.commandOf(call), pipe_.argumentsOf(call),
-                       budget, std::chrono::steady_clock::now());
+            sent_.send(target, pipe_.pathOf(call), command, pipe_.argumentsOf(call), budget,
+                       std::chrono::steady_clock::now());
         open_.push_back({call, number, owner.agent, owner.epoch});
     } catch (const Error& error) {  // its type is another than ours
         pipe_.answer(call, withoutAnswer(Outcome::Rejected, Reason::UnknownCommand, error.what()));

@@ -10,6 +10,7 @@
 #include "peers/sent_commands.hpp"
 #include "wire/messages.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -45,11 +46,18 @@ private:
         std::int64_t epoch;  // of that agent
         bool running = false;
     };
+    // One that stops something, and waits for room in the window.
+    struct Held {
+        AgentCall call;
+        std::vector<std::byte> request;
+        Moment end;
+    };
     struct Tables {
         std::shared_ptr<const Structure> structure;
         std::unique_ptr<CommandTables> tables;
     };
-    void send(const AgentCall& call, const Peers& peers, bool silent);
+    void send(const AgentCall& call, const Peers& peers, bool silent, Moment end);
+    void sendHeld(const Peers& peers, bool silent, Moment now);
     void loseThoseOf(const Peers& peers);
     void passAnswers();
     const CommandTables& tablesOf(const AgentLinks::OwnerOf& owner);
@@ -61,6 +69,7 @@ private:
     SentCommands sent_;
     std::unique_ptr<Writer<Command>> out_;
     std::vector<Open> open_;
+    std::vector<Held> held_;
     std::map<std::string, Tables> tables_;  // by agent
 };
 

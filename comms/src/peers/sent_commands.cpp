@@ -109,6 +109,11 @@ std::uint64_t SentCommands::send(const CommandTarget& agent, std::string_view pa
     return next_++;
 }
 
+bool SentCommands::hasRoom(const std::string& agent, std::string_view command) const {
+    const auto found = targets_.find(agent);
+    return found == targets_.end() || found->second.client.hasRoom(command);
+}
+
 bool SentCommands::poll(std::uint64_t number, CallResult& answer,
                         std::chrono::nanoseconds* latency) {
     const auto found = numbers_.find(number);

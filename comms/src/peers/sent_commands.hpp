@@ -42,7 +42,8 @@ public:
     std::uint64_t send(const CommandTarget& agent, std::string_view path, std::string_view command,
                        const CommandClient::Arguments& arguments, std::chrono::nanoseconds budget,
                        Moment now);
-    void actFor(std::string person) { onBehalfOf_ = std::move(person); }  // empty: for itself
+    bool hasRoom(const std::string& agent, std::string_view command) const;  // for one more
+    void actFor(std::string person) { onBehalfOf_ = std::move(person); }     // empty: for itself
     // `latency`: in the agent that executed it.
     bool poll(std::uint64_t number, CallResult& answer,
               std::chrono::nanoseconds* latency = nullptr);

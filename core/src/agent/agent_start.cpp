@@ -49,7 +49,7 @@ void keepPlaces(std::span<CommandSender::State* const> handles) {
         const std::uint32_t others = isShutdown(*handle)    ? 0
                                      : isLifeCycle(*handle) ? std::min(shutdown, 1U)
                                                             : std::min(lifeCycle, most);
-        handle->kept = static_cast<std::uint8_t>(others);
+        handle->kept = others & 3U;
     }
 }
 

@@ -26,6 +26,11 @@ std::uint64_t CommandClient::post(CommandPipe& pipe, std::string_view path,
     return sent ? prepared.message.sequence : takeBack(prepared, Outcome::MailboxFull, tooMany);
 }
 
+bool CommandClient::hasRoom(std::string_view command) const {
+    const std::uint32_t kept = isUrgentCommand(command) ? 0 : keptForUrgent;
+    return next_ - answeredBelow() + kept < senderWindow;
+}
+
 PreparedCommand CommandClient::prepare(const CommandTables& tables, std::string_view path,
                                        std::string_view command, const Arguments& arguments,
                                        Validity validity) {
@@ -41,8 +46,7 @@ PreparedCommand CommandClient::prepare(const CommandTables& tables, std::string_
     message.answeredBelow = answeredBelow();
     message.notAfter = validity.notAfter;
     message.until = validity.until;
-    const std::uint32_t kept = isUrgentCommand(command) ? 0 : keptForUrgent;
-    prepared.open = next_ - message.answeredBelow + kept < senderWindow;
+    prepared.open = hasRoom(command);
     message.sequence = prepared.open ? next_++ : refuse(Outcome::MailboxFull, tooMany);
     if (prepared.open) unanswered_[message.sequence] = {};
     return prepared;

@@ -127,6 +127,7 @@ public:
     // Throws Error as ProgramInterface::post(). Full pipes and windows answer MailboxFull.
     std::uint64_t post(CommandPipe& pipe, std::string_view path, std::string_view command,
                        const Arguments& arguments, Validity validity);
+    bool hasRoom(std::string_view command) const;  // for one more, in the window
     // The first half of post(), for another transport; takeBack() where that cannot send it.
     PreparedCommand prepare(const CommandTables& tables, std::string_view path,
                             std::string_view command, const Arguments& arguments,
