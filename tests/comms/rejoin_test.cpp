@@ -26,11 +26,17 @@ TEST(Rejoin, IsDueEverMoreSeldomForWhoHearsNobodyAnyMore) {
     EXPECT_EQ(dueIn(rejoin), (std::vector<std::int64_t>{0, 10, 30, 70, 150, 310, 630, 1230, 1830}));
 }
 
-TEST(Rejoin, IsNotDueForWhoNeverHeardAnybodyNorWhereNobodyIsFound) {
+TEST(Rejoin, IsDueLaterForWhoNeverHeardAnybody) {
     Rejoin rejoin;
-    EXPECT_TRUE(dueIn(rejoin).empty());
-    EXPECT_FALSE(rejoin.isDue(true, false, 0));
-    EXPECT_FALSE(rejoin.isDue(false, false, second));
+    EXPECT_EQ(dueIn(rejoin),
+              (std::vector<std::int64_t>{10, 20, 40, 80, 160, 320, 640, 1240, 1840}));
+}
+
+TEST(Rejoin, IsNotDueWhereNobodyIsFound) {
+    Rejoin rejoin;
+    EXPECT_FALSE(rejoin.isDue(false, false, 0));
+    EXPECT_FALSE(rejoin.isDue(true, false, second));
+    EXPECT_FALSE(rejoin.isDue(false, false, 100 * second));
 }
 
 TEST(Rejoin, BeginsAnewOnceSomebodyWasHeard) {
@@ -41,6 +47,7 @@ TEST(Rejoin, BeginsAnewOnceSomebodyWasHeard) {
     EXPECT_FALSE(rejoin.isDue(false, true, 30 * second));
     rejoin.isDue(true, false, 31 * second);
     EXPECT_TRUE(rejoin.isDue(false, true, 32 * second));
+    EXPECT_FALSE(rejoin.isDue(false, true, 41 * second));
     EXPECT_TRUE(rejoin.isDue(false, true, 42 * second));
 }
 

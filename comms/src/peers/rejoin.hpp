@@ -8,14 +8,19 @@ namespace cortex::comms {
 
 // When to join the network anew, with security. Who hears nobody for longer than a lease drops all
 // others and meets them anew. Those that still hear it answer no second handshake of the same
-// participant, so only another one is met.
+// participant, so only another one is met. Who never heard anybody gets more time, as a first
+// handshake may take long.
 class Rejoin {
 public:
     // `unproven`: somebody is found who does not prove who it is.
     bool isDue(bool hearsAny, bool unproven, std::int64_t now) {
-        if (hearsAny) pause_ = shortest;
-        met_ = met_ || hearsAny;
-        if (hearsAny || !met_ || !unproven || now < due_) return false;
+        if (hearsAny) {
+            pause_ = shortest;
+            due_ = now;
+        }
+        if (hearsAny || !unproven) return false;
+        if (due_ == never) due_ = now + shortest;
+        if (now < due_) return false;
         due_ = now + pause_;
         pause_ = std::min(2 * pause_, longest);
         return true;
@@ -25,8 +30,9 @@ private:
     // Longer each time, as a stranger proves nothing either.
     static constexpr std::int64_t shortest = 10'000'000'000, longest = 600'000'000'000;  // ns
 
-    std::int64_t due_ = 0, pause_ = shortest;
-    bool met_ = false;
+    static constexpr std::int64_t never = -1;
+
+    std::int64_t due_ = never, pause_ = shortest;
 };
 
 }  // namespace cortex::comms
