@@ -28,10 +28,10 @@ struct Mailbox : testing::Test {
     std::int64_t cycle = 1;
 
     ChunkClock clock() const { return {cycle, cycle * 1000}; }
-    bool post(double amount) {
+    bool post(double amount, std::uint32_t kept = 0) {
         *reinterpret_cast<double*>(add.request()) = amount;
         lane->beginSending(cycle);
-        return lane->post(add.command, 0, add.request(), add.requestSize(), clock());
+        return lane->post(add.command, 0, kept, add.request(), add.requestSize(), clock());
     }
     bool pending() const { return lane->pending(cycle) > 0; }
     void answer(const Verdict& verdict) {
@@ -173,10 +173,20 @@ TEST_F(Mailbox, WordsOfAnAnswerGoWithIt) {
     EXPECT_EQ(add.answer.why.view(), "");
 }
 
+TEST_F(Mailbox, PlacesThatAreKeptAreForOthers) {
+    make(3);
+    EXPECT_TRUE(post(1, 2));
+    EXPECT_FALSE(post(2, 2));
+    EXPECT_TRUE(post(2, 1));
+    EXPECT_FALSE(post(3, 1));
+    EXPECT_TRUE(post(3, 0));
+    EXPECT_FALSE(post(4, 0));
+}
+
 TEST_F(Mailbox, LastAnswerOfALongCommandComesAfterOthersThatWereSentLater) {
     make(4);
     lane->beginSending(cycle);
-    lane->post(work.command, 1, work.request(), work.requestSize(), clock());
+    lane->post(work.command, 1, 0, work.request(), work.requestSize(), clock());
     post(7);
     answer({Outcome::Running, Reason::None, {}});
     take();
@@ -198,7 +208,7 @@ TEST_F(Mailbox, LastAnswerOfALongCommandComesAfterOthersThatWereSentLater) {
 TEST_F(Mailbox, LastAnswersOfADelayedLaneWaitForTheNextCycle) {
     make(4, true);
     lane->beginSending(cycle);
-    lane->post(work.command, 1, work.request(), work.requestSize(), clock());
+    lane->post(work.command, 1, 0, work.request(), work.requestSize(), clock());
     ++cycle;
     answer({Outcome::Running, Reason::None, {}});
     lane->finals().add({1, 0, 0, Outcome::Done, Reason::None, {}}, 1, nullptr, 0, cycle);
