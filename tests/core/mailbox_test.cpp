@@ -19,19 +19,19 @@ struct Mailbox : testing::Test {
     std::unique_ptr<LaneBlock> block;
     Lane* lane = nullptr;
 
-    void make(std::uint32_t capacity, bool delayed = false) {
-        block = std::make_unique<LaneBlock>(std::vector<LaneBlock::Plan>{
-            {{0, 1, capacity, add.requestSize(), add.responseSize(), delayed, true},
-             {&add, &work}}});
+    void make(std::uint32_t capacity, bool delayed = false, std::uint32_t kept = 0) {
+        Lane::Shape shape{0, 1, capacity, add.requestSize(), add.responseSize(), delayed, true};
+        shape.kept = kept;
+        block = std::make_unique<LaneBlock>(std::vector<LaneBlock::Plan>{{shape, {&add, &work}}});
         lane = block->lanes().front();
     }
     std::int64_t cycle = 1;
 
     ChunkClock clock() const { return {cycle, cycle * 1000}; }
-    bool post(double amount, std::uint32_t kept = 0) {
+    bool post(double amount, std::uint32_t beyond = 0) {
         *reinterpret_cast<double*>(add.request()) = amount;
         lane->beginSending(cycle);
-        return lane->post(add.command, 0, kept, add.request(), add.requestSize(), clock());
+        return lane->post(add.command, 0, add.request(), add.requestSize(), clock(), beyond);
     }
     bool pending() const { return lane->pending(cycle) > 0; }
     void answer(const Verdict& verdict) {
@@ -173,20 +173,20 @@ TEST_F(Mailbox, WordsOfAnAnswerGoWithIt) {
     EXPECT_EQ(add.answer.why.view(), "");
 }
 
-TEST_F(Mailbox, PlacesThatAreKeptAreForOthers) {
-    make(3);
-    EXPECT_TRUE(post(1, 2));
-    EXPECT_FALSE(post(2, 2));
+TEST_F(Mailbox, PlacesThatAreKeptAreForWhoMayTakeThem) {
+    make(3, false, 2);
+    EXPECT_TRUE(post(1));
+    EXPECT_FALSE(post(2));
     EXPECT_TRUE(post(2, 1));
     EXPECT_FALSE(post(3, 1));
-    EXPECT_TRUE(post(3, 0));
-    EXPECT_FALSE(post(4, 0));
+    EXPECT_TRUE(post(3, 2));
+    EXPECT_FALSE(post(4, 2));
 }
 
 TEST_F(Mailbox, LastAnswerOfALongCommandComesAfterOthersThatWereSentLater) {
     make(4);
     lane->beginSending(cycle);
-    lane->post(work.command, 1, 0, work.request(), work.requestSize(), clock());
+    lane->post(work.command, 1, work.request(), work.requestSize(), clock());
     post(7);
     answer({Outcome::Running, Reason::None, {}});
     take();
@@ -208,7 +208,7 @@ TEST_F(Mailbox, LastAnswerOfALongCommandComesAfterOthersThatWereSentLater) {
 TEST_F(Mailbox, LastAnswersOfADelayedLaneWaitForTheNextCycle) {
     make(4, true);
     lane->beginSending(cycle);
-    lane->post(work.command, 1, 0, work.request(), work.requestSize(), clock());
+    lane->post(work.command, 1, work.request(), work.requestSize(), clock());
     ++cycle;
     answer({Outcome::Running, Reason::None, {}});
     lane->finals().add({1, 0, 0, Outcome::Done, Reason::None, {}}, 1, nullptr, 0, cycle);

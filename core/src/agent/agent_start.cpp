@@ -38,19 +38,21 @@ bool isShutdown(const CommandSender::State& handle) {
 
 // The places of life-cycle commands are theirs alone, and that of `shutdown` its own: one that is
 // full of others does not keep a simplex from being shut down.
-void keepPlaces(std::span<CommandSender::State* const> handles) {
+std::uint32_t keepPlaces(std::span<CommandSender::State* const> handles) {
     constexpr std::uint32_t most = 3;  // one for each life-cycle command
-    std::uint32_t lifeCycle = 0, shutdown = 0;
+    std::uint32_t lifeCycle = 0;
+    bool hasShutdown = false;
     for (const CommandSender::State* handle : handles) {
         if (isLifeCycle(*handle)) lifeCycle += handle->capacity;
-        if (isShutdown(*handle)) shutdown += handle->capacity;
+        hasShutdown = hasShutdown || isShutdown(*handle);
     }
+    const std::uint32_t kept = std::min(lifeCycle, most);
     for (CommandSender::State* handle : handles) {
-        const std::uint32_t others = isShutdown(*handle)    ? 0
-                                     : isLifeCycle(*handle) ? std::min(shutdown, 1U)
-                                                            : std::min(lifeCycle, most);
-        handle->kept = others & 3U;
+        if (!isLifeCycle(*handle)) continue;
+        const std::uint32_t others = hasShutdown && !isShutdown(*handle) ? 1 : 0;
+        handle->beyond = (kept - others) & 3U;
     }
+    return kept;
 }
 
 std::vector<std::string> namesOf(const CommandTable& table) {
@@ -251,7 +253,7 @@ void AgentRuntime::makeLanes() {
             shape.responseSize = std::max(shape.responseSize, handle->responseSize());
         }
         if (remote) shape.running = shape.capacity;
-        keepPlaces(handles);
+        shape.kept = keepPlaces(handles);
         plans.push_back({shape, std::move(handles)});
     }
     lanes_ = std::make_unique<LaneBlock>(std::move(plans));

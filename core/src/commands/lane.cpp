@@ -47,7 +47,7 @@ Verdict doneVerdict(const CommandTable::Entry& entry, std::byte* response) {
 }
 
 Lane::Lane(const Shape& shape, std::vector<CommandSender::State*> handles)
-    : capacity_{shape.capacity},
+    : capacity_{shape.capacity - shape.kept},
       onlyHandle_{handles.size() == 1 ? handles.front() : nullptr},
       lines_{static_cast<std::uint16_t>(linesOfSlot(shape))},
       requestWords_{static_cast<std::uint16_t>(shape.requestSize / 8U)},

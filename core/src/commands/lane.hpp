@@ -56,6 +56,7 @@ public:
         // Commands that were answered Running and whose end was not taken: one in this agent, more
         // where ends come late, over a network.
         std::uint32_t running = 1;
+        std::uint32_t kept = 0;  // places of `capacity` that only life-cycle commands take
 
         std::uint32_t underWay() const { return capacity + running; }
     };
@@ -80,9 +81,9 @@ public:
         if (delayed_) noteStart(cycle, head_, headStart_);
     }
 
-    // Sender's end. False: the lane is full, but for `kept` places of others.
-    bool post(std::uint16_t command, std::uint16_t handle, std::uint32_t kept,
-              const std::byte* request, std::uint32_t size, const ChunkClock& clock)
+    // Sender's end. False: the lane is full. `beyond`: how many of the kept places it may take.
+    bool post(std::uint16_t command, std::uint16_t handle, const std::byte* request,
+              std::uint32_t size, const ChunkClock& clock, std::uint32_t beyond = 0)
         CORTEX_REALTIME;
     void takeAnswers(std::int64_t cycle) CORTEX_REALTIME;  // into the states of the handles
 
@@ -141,9 +142,9 @@ private:
     // One cache line. Sender writes tail_, taken_, first_; receiver head_, refusing_.
     LanePosition tail_{0}, head_{0};
     LaneStart tailStart_{0}, headStart_{0};
-    std::uint64_t taken_ = 0;  // answers
-    std::uint32_t first_ = 0;  // the command in the first slot
-    std::uint32_t capacity_ = 0;
+    std::uint64_t taken_ = 0;     // answers
+    std::uint32_t first_ = 0;     // the command in the first slot
+    std::uint32_t capacity_ = 0;  // without the kept places
     CommandPort* sender_ = nullptr;
     CommandSender::State* onlyHandle_ = nullptr;  // where there is one
 
@@ -157,11 +158,11 @@ private:
 
 static_assert(sizeof(Lane) == 2 * Lane::lineSize);
 
-inline bool Lane::post(std::uint16_t command, std::uint16_t handle, std::uint32_t kept,
-                       const std::byte* request, std::uint32_t size, const ChunkClock& clock) {
+inline bool Lane::post(std::uint16_t command, std::uint16_t handle, const std::byte* request,
+                       std::uint32_t size, const ChunkClock& clock, std::uint32_t beyond) {
     const std::uint32_t tail = now(tail_);
     const std::uint32_t onTheirWay = tail - lowHalf(taken_);
-    if (onTheirWay + kept >= capacity_) return false;
+    if (onTheirWay >= capacity_ + beyond) return false;
     if (onTheirWay == 0) first_ = tail;
     LaneSlot& head = slot(tail);
     head.cycles = clock.cycle;

@@ -87,8 +87,11 @@ Outcome CommandSender::send() {
             return refuse(state, *unset);
         state.mayBeUnset = false;
     }
-    if (!state.lane->post(state.command, state.handle, state.kept, state.request(),
-                          state.requestSize(), sender.thread().clock)) {
+    const auto post = [&](std::uint32_t beyond) {
+        return state.lane->post(state.command, state.handle, state.request(), state.requestSize(),
+                                sender.thread().clock, beyond);
+    };
+    if (!post(0) && (state.beyond == 0 || !post(state.beyond))) {
         return sender.notSent(state, Outcome::MailboxFull, "the mailbox is full");
     }
     if (state.notSent) state.notSent = false;

@@ -43,7 +43,7 @@ struct alignas(64) CommandSender::State {
     std::uint16_t command = 0, handle = 0;
     bool mayBeUnset : 1 = false;  // a parameter without a default: looked at by send()
     bool notSent : 1 = false;     // by the last send()
-    std::uint8_t kept : 2 = 0;    // places of the lane that are for others: life-cycle commands
+    std::uint8_t beyond : 2 = 0;  // kept places of the lane that it may take
     bool hasReason = false;       // answer.why is not empty
     AnswerHead answer;
 
