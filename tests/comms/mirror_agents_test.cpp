@@ -79,6 +79,9 @@ TEST_F(MirrorAgentsTest, AreLostAfterASecondAndForgottenAfterAMinute) {
     EXPECT_EQ(status().state, "lost");
     EXPECT_EQ(lost, std::vector<std::string>{"rig: the agent is not heard"});
     EXPECT_TRUE(agents.missesAny());
+    EXPECT_FALSE(agents.hearsAny());
+    EXPECT_TRUE(agents.awaitsAny(begin + 14999ms)) << "it may only stand still";
+    EXPECT_FALSE(agents.awaitsAny(begin + 15s));
     agents.tick(nothing, begin + 60s);
     EXPECT_EQ(lost.size(), 1U);
     ASSERT_NE(agents.find("rig"), nullptr);
@@ -350,6 +353,7 @@ TEST_F(MirrorAgentsTest, KnowWhetherThePastOfEachAgentHasCome) {
     agents.withdraw(agent.presence.agent);
     agents.tick(nothing, begin + 301ms);
     EXPECT_TRUE(agents.eventsComplete()) << "what is lost says nothing";
+    EXPECT_FALSE(agents.awaitsAny(begin + 301ms)) << "it has ended";
 }
 
 class MirrorCommandsTest : public MirrorAgentsTest {

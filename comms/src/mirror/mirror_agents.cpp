@@ -14,7 +14,7 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::size_t mostAgents = 10'000;
-constexpr std::chrono::seconds forgottenAfter{61};
+constexpr std::chrono::seconds forgottenAfter{61}, awaitedFor{15};
 
 // Visits those of an agent's own simplexes that a view shows.
 template <class Visit>
@@ -268,6 +268,12 @@ MirrorAgent* MirrorAgents::find(std::string_view name) {
 
 bool MirrorAgents::missesAny() const {
     return std::ranges::any_of(agents_, [](const auto& each) { return each.second.missed; });
+}
+
+bool MirrorAgents::awaitsAny(Moment now) const {
+    return std::ranges::any_of(agents_, [now](const auto& each) {
+        return each.second.missed && now - each.second.heard < awaitedFor;
+    });
 }
 
 bool MirrorAgents::hearsAny() const {

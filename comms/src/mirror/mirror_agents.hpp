@@ -101,9 +101,10 @@ public:
     std::vector<Contested> contested();
     bool missesAny() const;  // lost without saying so
     bool hearsAny() const;
-    bool complete() const;          // at least one agent, and everything of all
-    std::uint32_t unheard() const;  // agents that only another agent hears
-    bool eventsComplete() const;    // all events of the present agents have come
+    bool awaitsAny(Moment now) const;  // missed so shortly that it may only stand still
+    bool complete() const;             // at least one agent, and everything of all
+    std::uint32_t unheard() const;     // agents that only another agent hears
+    bool eventsComplete() const;       // all events of the present agents have come
     bool valuesComplete(const MirrorView& view) const;
     std::uint64_t images() const;  // published, of all together
     std::uint64_t refused() const;

@@ -32,14 +32,17 @@ constexpr std::chrono::milliseconds mostLate{500};  // at which a process that r
 }  // namespace
 
 bool MirrorState::everybodyIsHere(Mirror::Milliseconds quiet) const {
-    return std::chrono::steady_clock::now() - news >= quiet && agents.complete() && nameless == 0 &&
-           agents.unheard() == 0;
+    const Moment now = std::chrono::steady_clock::now();
+    return now - news >= quiet && agents.complete() && everybodyIsKnown(now);
 }
 
 bool MirrorState::isOwned(std::string_view path) {
     const Moment now = std::chrono::steady_clock::now();
-    const bool known = nameless == 0 && agents.unheard() == 0;
-    return agents.isOwned(path, now, known);
+    return agents.isOwned(path, now, everybodyIsKnown(now));
+}
+
+bool MirrorState::everybodyIsKnown(Moment now) const {
+    return nameless == 0 && agents.unheard() == 0 && !agents.awaitsAny(now);
 }
 
 MirrorThread::MirrorThread(const std::string& name, const NetworkOptions& options)

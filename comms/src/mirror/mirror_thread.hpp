@@ -34,6 +34,7 @@ struct MirrorState {
     // Whether all participants that were found, or that another one hears, have sent everything,
     // and no new one was found for that time.
     bool everybodyIsHere(Mirror::Milliseconds quiet = Mirror::usualQuiet) const;
+    bool everybodyIsKnown(Moment now) const;
     // Whether the path has an owner, and nobody who was found may come before it.
     bool isOwned(std::string_view path);
 

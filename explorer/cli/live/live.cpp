@@ -182,6 +182,9 @@ comms::AgentStatus Live::statusOf(const std::string& agent) const {
 std::string Live::incomplete() const {
     std::vector<std::string> parts;
     for (const comms::AgentStatus& each : mirror().agents()) {
+        if (each.state == "lost" && !each.ended && !everybodyCame_) {
+            parts.push_back(each.name + " is not heard");
+        }
         if (each.state != "incomplete") continue;
         const std::uint32_t all = each.types + each.simplexes;
         std::string part = std::to_string(all - each.missing) + " of " + std::to_string(all) +
