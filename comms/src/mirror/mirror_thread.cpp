@@ -129,17 +129,27 @@ const MirrorAgent* MirrorThread::take(const MirrorSample& sample, Moment now) {
     return nullptr;
 }
 
+// The goodbye of the former endpoints does not count, as these speak on. Throws Error where the
+// network refuses it; then the former stay.
 void MirrorThread::join() {
-    endpoints_.reset();  // it says goodbye first
-    endpoints_ = std::make_unique<MirrorEndpoints>(options_, tool_, inbox_);
-    state_.agents.judgeBy(endpoints_->identity());
+    auto next = std::make_unique<MirrorEndpoints>(options_, tool_, inbox_);
+    state_.agents.judgeBy(next->identity());
+    endpoints_ = std::move(next);
+}
+
+void MirrorThread::joinAnew(Moment now) {
+    const bool hearsAny = state_.agents.hearsAny();
+    const std::int64_t time = now.time_since_epoch().count();
+    if (!rejoin_.isDue(hearsAny, endpoints_->findsUnproven(), time)) return;
+    try {
+        join();
+    } catch (const Error&) {  // it is due again
+    }
 }
 
 void MirrorThread::serve(Moment now) {
     state_.agents.tick(state_.view, now);
-    const bool hearsAny = state_.agents.hearsAny();
-    if (rejoin_.isDue(hearsAny, endpoints_->findsUnproven(), now.time_since_epoch().count()))
-        join();
+    joinAnew(now);
     endpoints_->view(state_.view, state_.summarised);
     if (state_.commands.waiting() || state_.mayCommand) endpoints_->command();
     if (!state_.listeners.empty()) endpoints_->listen();

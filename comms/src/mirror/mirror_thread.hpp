@@ -103,7 +103,8 @@ private:
     void takeAndTell(const MirrorSample& sample);  // outside of the mutex
     void serve(Moment now);                        // sends what is due, finds who is lost
     void join();
-    void tellListeners();  // outside of the mutex
+    void joinAnew(Moment now);  // where that is due
+    void tellListeners();       // outside of the mutex
 
     std::string name_;
     const NetworkOptions options_;
