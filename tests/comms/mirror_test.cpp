@@ -7,12 +7,10 @@
 #include "wire/presence_interval.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -79,7 +77,7 @@ TEST(Mirror, KnowsEveryAgentWithAllItHas) {
     EXPECT_EQ(mirror.refused(), 0U);
 }
 
-// It stands still, as a busy tool does, or was killed.
+// It says goodbye and stays: nothing more is heard of it, as of one that stands still or was killed.
 TEST(Mirror, KnowsWhoSaidOnceWhoItIsAndMissesWhoNeverDid) {
     const auto agent = robot();
     agent->run();
@@ -97,7 +95,12 @@ TEST(Mirror, KnowsWhoSaidOnceWhoItIsAndMissesWhoNeverDid) {
     presence.state = "running";
     presence.interval = shortestInterval;
     ASSERT_TRUE(comesTrue([&] { return speaks->write(presence) && mirror.nameless() == 0; }));
-    std::this_thread::sleep_for(std::chrono::nanoseconds{2 * shortestPatience});
+    presence.state = "stopping";
+    ASSERT_TRUE(speaks->write(presence));
+    presence.role = "agent";  // of no name, so it is refused: what came before it was taken
+    presence.state = "running";
+    presence.name.clear();
+    ASSERT_TRUE(comesTrue([&] { return speaks->write(presence) && mirror.refused() > 0; }));
     EXPECT_EQ(mirror.nameless(), 0U);
     EXPECT_TRUE(mirror.waitUntilComplete(test::patience));
 }

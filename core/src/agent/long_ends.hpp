@@ -3,6 +3,7 @@
 
 #include "cortex/core/transport.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
