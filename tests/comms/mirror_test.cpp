@@ -77,7 +77,7 @@ TEST(Mirror, KnowsEveryAgentWithAllItHas) {
     EXPECT_EQ(mirror.refused(), 0U);
 }
 
-// It says goodbye and stays: nothing more is heard of it, as of one that stands still or was killed.
+// It says goodbye and stays: nothing more comes of it, as of one that stands still or was killed.
 TEST(Mirror, KnowsWhoSaidOnceWhoItIsAndMissesWhoNeverDid) {
     const auto agent = robot();
     agent->run();
