@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/event_fold.hpp"
 
+#include "cortex/core/command_sentence.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -18,10 +20,10 @@ constexpr std::size_t mostOpen = 1'000;
 constexpr std::array foldedKinds{EventKind::Refusal,  EventKind::Overflow, EventKind::Limit,
                                  EventKind::Conflict, EventKind::Agent,    EventKind::Message};
 
-// A command that was done: "operator@desk: jog(speed=0.5): Done in 2 cycles".
 bool isDone(const Event& event) {
-    return event.kind == EventKind::Command && event.severity == Severity::Info &&
-           event.text.view().find("): Done") != std::string_view::npos;
+    if (event.kind != EventKind::Command || event.severity != Severity::Info) return false;
+    const auto sentence = commandSentence(event.text.view());
+    return sentence && sentence->done;
 }
 
 bool mayFold(const Event& event) {
@@ -40,12 +42,12 @@ std::string wordsOf(std::string_view text) {
 
 // The sender and the command. Those that differ in numbers are one run, and any two that set items.
 std::string runOf(std::string_view text) {
-    const std::size_t name = text.find(": ");
-    const std::size_t arguments = std::min(text.find('(', name), text.size());
-    std::string run{text.substr(0, arguments)};
-    if (run.ends_with(": set")) return run;
+    const CommandSentence sentence = *commandSentence(text);
+    std::string run{sentence.sender};
+    run.append(": ").append(sentence.command);
+    if (sentence.command == "set") return run;
     char before = '\0';
-    for (const char each : text.substr(arguments, text.rfind("): Done") - arguments)) {
+    for (const char each : sentence.arguments) {
         const bool digit = std::isdigit(static_cast<unsigned char>(each)) != 0;
         const bool exponent = each == 'e' && before == '0';
         if (!digit && !exponent && each != '.' && each != '-' && each != '+') run += each;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace cortex {
+
+// What an event of kind `command` or `refusal` says of a command that came from outside, taken
+// apart: "operator@desk: jog(speed=0.5): Done in 2 cycles". The text of an event is bounded: parts
+// that were cut off are empty. Agents write it in Router::report().
+struct CommandSentence {
+    std::string_view sender;     // "operator@desk", "bridge@desk for Ada"
+    std::string_view command;    // "jog"
+    std::string_view arguments;  // "speed=0.5"; of a text that was cut in them what is left
+    std::string_view outcome;    // "Done", "Rejected (range), speed is above 1 rad/s"
+    std::string_view latency;    // "2 cycles", "the same cycle"
+    bool done = false;           // the outcome is Done
+};
+
+// None: the text says no such thing.
+std::optional<CommandSentence> commandSentence(std::string_view text);
+
+}  // namespace cortex
