@@ -34,8 +34,9 @@ LAYERS = {
     "comms": ["core"],
     "mechanics": [],
     "toolkit": ["core", "cs", "comms", "mechanics"],
-    "explorer/cli": ["core", "comms"],
-    "explorer/gui": ["core", "comms"],
+    "explorer/common": ["core", "comms"],
+    "explorer/cli": ["core", "comms", "explorer/common"],
+    "explorer/gui": ["core", "comms", "explorer/common"],
 }
 # The room of each header that other folders see (include/ and internal/).
 PUBLIC = {
@@ -45,7 +46,7 @@ PUBLIC = {
                 "report service_threads spsc_ring standstill state system_findings tick value xml_text",
         "types": "agreement labelled_value type_model",
         "files": "model_files type_description",
-        "tables": "archive event event_fold event_sinks image image_pool structure tables",
+        "tables": "archive command_sentence event event_fold event_sinks image image_pool structure tables",
         "commands": "argument_checks command loop_thread mailbox proposed_settings record",
         "model": "header_hash make_structure registry simplex simplex_tree validation",
         "agent": "agent command_exchange framework_item loopback program_interface transport",
@@ -98,6 +99,8 @@ def target_of(folder, included):
         others = [f for f in LAYERS if f.split("/")[0] == parts[1]]
         other = next((f for f in others if room_of_public(f, name)), next(iter(others), None))
         return other, room_of_public(other, name)
+    if len(parts) == 2 and parts[0] == "common":
+        return "explorer/common", None
     if len(parts) == 2 and parts[0] in ROOMS.get(folder, []):
         return folder, parts[0]
     return None, None
@@ -167,12 +170,13 @@ def self_test():
         "core/src/base/low.cpp": ['base/text.hpp', 'types/unit.hpp'],
         "core/src/lost.cpp": ['base/text.hpp'],
         "core/include/cortex/core/value.hpp": ['cortex/core/agent.hpp'],
-        "core/src/agent/high.cpp": ['base/text.hpp', 'cortex/core/value.hpp'],
+        "core/src/agent/high.cpp": ['base/text.hpp', 'cortex/core/value.hpp', 'common/live_rule.hpp'],
         "comms/src/mirror/view.cpp": ['agent/agent_links.hpp', 'wire/cdr.hpp'],
         "explorer/cli/verbs/main.cpp": ['cortex/cs/cluster_cs.hpp', 'cortex/comms/mirror.hpp'],
     }
     expected = {
         "core/src/base/low.cpp:2", "core/src/lost.cpp:1", "core/include/cortex/core/value.hpp:1",
+        "core/src/agent/high.cpp:3",
         "comms/src/mirror/view.cpp:1", "explorer/cli/verbs/main.cpp:1",
     }
     with tempfile.TemporaryDirectory() as folder:

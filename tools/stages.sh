@@ -116,6 +116,7 @@ measureCoverage() {
     requireCoverage 85 toolkit/src toolkit/include || status=$?
     requireCoverage 80 toolkit/agent || status=$?
     requireCoverage 80 explorer/cli || status=$?
+    requireCoverage 80 explorer/common || status=$?
     requireCoverage 80 explorer/gui || status=$?
     return "$status"
 }

@@ -3,6 +3,7 @@
 
 #include "cortex/core/path.hpp"
 
+#include "common/needed_control.hpp"
 #include "live/lease_text.hpp"
 #include "text/interrupts.hpp"
 
@@ -17,10 +18,7 @@ using Lease = comms::LeaseClient::Lease;
 
 constexpr std::chrono::milliseconds toTell{1000};
 
-std::string withoutEnd(const std::string& prefix) {
-    const std::string_view trimmed = withoutEndSlashes(prefix);
-    return trimmed.empty() ? "/" : std::string{trimmed};
-}
+using common::withoutEnd;
 
 // Who holds what an agent refused us; "" if the agent does not show it in time.
 std::string holdersText(Live& live, const Lease& key) {
@@ -137,14 +135,10 @@ void handOverControl(Live& live, const std::string& prefix, const std::string& t
 std::optional<std::string> controlledBy(const FoundSimplex& simplex,
                                         const CommandTable::Entry& command,
                                         const comms::Mirror::Arguments& arguments) {
-    if (comms::isFreeCommand(command.name)) return {};
     const ItemLayout* prefix = command.request.find("prefix");
-    const bool toAgent = simplex.info().path == "/" + simplex.agent;
-    if (!toAgent || prefix == nullptr) return simplex.info().path;
-    const auto given = arguments.find("prefix");
-    const Value& value = given != arguments.end() ? given->second : prefix->item->initial;
-    const auto* text = std::get_if<std::vector<std::string>>(&value);
-    return text != nullptr && text->size() == 1 ? withoutEnd(text->front()) : simplex.info().path;
+    return common::neededControl(simplex.info().path, simplex.info().path == "/" + simplex.agent,
+                                 command.name, prefix == nullptr ? nullptr : prefix->item,
+                                 arguments);
 }
 
 bool lacksControl(const comms::CommandAnswer& answer) {

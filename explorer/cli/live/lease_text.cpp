@@ -30,7 +30,7 @@ std::string hostOf(const comms::Mirror& mirror, const std::string& holder) {
 std::string holderText(const comms::Mirror& mirror, const comms::ShownLease& lease) {
     const std::string host = hostOf(mirror, lease.holder);
     return lease.holder + (host.empty() ? "" : " on host " + host) + " holds " + lease.prefix +
-           " of agent " + lease.agent + " since " + timeText(lease.since) + " (" +
+           " of agent " + lease.agent + " since " + common::utcText(lease.since) + " (" +
            durationText(lease.seconds) + ")";
 }
 

@@ -44,7 +44,7 @@ Json contestedJson(const std::vector<comms::Contested>& all, const std::string& 
 }
 
 Json eventJson(const comms::AgentEvent& event) {
-    return {{"time", timeText(event.wallClock)},
+    return {{"time", common::utcText(event.wallClock)},
             {"agent", event.agent},
             {"number", event.number},
             {"repeatable", event.repeatable ? Json(*event.repeatable) : Json()},

@@ -4,36 +4,33 @@
 #include "cortex/core/labelled_value.hpp"
 #include "cortex/core/nearest_names.hpp"
 
+#include "common/number_text.hpp"
+
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <ctime>
 
 namespace cortex::cli {
 namespace {
 
-// Decimals that a format such as "%.3f" asks for.
-std::optional<int> decimalsOf(const std::string& format) {
-    const std::size_t dot = format.find('.');
-    int decimals = 0;
-    if (dot == std::string::npos) return {};
-    const char* end = format.data() + format.size();
-    if (std::from_chars(format.data() + dot + 1, end, decimals).ec != std::errc{}) return {};
-    return std::clamp(decimals, 0, 17);
-}
-
-std::string numberText(const DataItem& item, double number) {
-    const auto decimals = decimalsOf(item.format);
-    if (!decimals) return toText(number);
-    std::array<char, 400> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), number,
-                                   std::chars_format::fixed, *decimals);
-    return {text.data(), end.ptr};
+std::string exactNumber(const DataItem& item, double number) {
+    return item.format.empty() ? toText(number) : common::numberText(item, number);
 }
 
 std::string labelText(const DataItem& item, std::int64_t number) {
     const auto label = item.labels.find(number);
     return label != item.labels.end() ? label->second : toText(number);
+}
+
+std::string textOf(const DataItem& item, const Value& value,
+                   std::string (*numberText)(const DataItem&, double)) {
+    std::vector<std::string> words;
+    if (const auto* floats = std::get_if<std::vector<double>>(&value)) {
+        for (const double each : *floats) words.push_back(numberText(item, each));
+    } else if (const auto* ints = std::get_if<std::vector<std::int64_t>>(&value)) {
+        for (const std::int64_t each : *ints) words.push_back(labelText(item, each));
+    } else {
+        return toText(value);
+    }
+    return joined(words, " ");
 }
 
 // What of a value can be refused before the agent is asked; "" if nothing.
@@ -76,15 +73,11 @@ Json numberJson(const std::optional<Number>& number) {
 }
 
 std::string valueText(const DataItem& item, const Value& value) {
-    std::vector<std::string> words;
-    if (const auto* floats = std::get_if<std::vector<double>>(&value)) {
-        for (const double each : *floats) words.push_back(numberText(item, each));
-    } else if (const auto* ints = std::get_if<std::vector<std::int64_t>>(&value)) {
-        for (const std::int64_t each : *ints) words.push_back(labelText(item, each));
-    } else {
-        return toText(value);
-    }
-    return joined(words, " ");
+    return textOf(item, value, common::numberText);
+}
+
+std::string exactText(const DataItem& item, const Value& value) {
+    return textOf(item, value, exactNumber);
 }
 
 std::string wrongText(const DataItem& item, const Value& value) {
@@ -94,16 +87,6 @@ std::string wrongText(const DataItem& item, const Value& value) {
 
 bool isLive(const comms::AgentImage& image, std::uint32_t simplex) {
     return image.came(simplex) && !image.lost();
-}
-
-std::optional<State> stateOf(const comms::AgentImage& image, std::uint32_t simplex) {
-    if (!image.came(simplex)) return {};
-    const SimplexInfo& info = image->structure().simplexes[simplex];
-    const ItemLayout* item = info.layout->find("state");
-    if (info.role != Role::Active || item == nullptr || item->item->kind != Kind::Int) return {};
-    const auto value = std::get<std::vector<std::int64_t>>(image->value(simplex, *item)).front();
-    if (value < 0 || value >= stateCount) return {};
-    return static_cast<State>(value);
 }
 
 ProgramInterface::Arguments parseArguments(const std::string& what, const RecordLayout& request,
@@ -141,17 +124,6 @@ std::string csvText(const std::string& text) {
     std::string result = "\"";
     for (const char c : visible) result += c == '"' ? "\"\"" : std::string{c};
     return result + "\"";
-}
-
-std::string timeText(std::int64_t wallClock) {
-    const std::int64_t milliseconds = wallClock / 1'000'000;
-    const std::time_t seconds = milliseconds / 1000;
-    std::tm utc{};
-    gmtime_r(&seconds, &utc);
-    std::array<char, 40> text{};
-    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &utc);
-    const std::string fraction = std::to_string(1000 + milliseconds % 1000);
-    return std::string{text.data()} + "." + fraction.substr(1) + "Z";
 }
 
 }  // namespace cortex::cli

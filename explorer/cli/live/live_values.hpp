@@ -5,6 +5,8 @@
 #include "cortex/core/command.hpp"
 #include "cortex/core/program_interface.hpp"
 
+#include "common/image_items.hpp"
+#include "common/utc_text.hpp"
 #include "text/output.hpp"
 
 #include <optional>
@@ -17,20 +19,21 @@ namespace cortex::cli {
 Json valueJson(const DataItem& item, const Value& value);  // a scalar, or a list
 Json labelJson(const DataItem& item, const Value& value);  // label or list; null without labels
 Json numberJson(const std::optional<Number>& number);      // null without one
-std::string valueText(const DataItem& item, const Value& value);  // labels, format of the item
+// For people: labels, and numbers with the digits that are worth reading.
+std::string valueText(const DataItem& item, const Value& value);
+// For files: labels, and numbers whole unless the item has a format.
+std::string exactText(const DataItem& item, const Value& value);
 // What is behind a value that is out of its range: "  <- above 2", "  <- none of its labels".
 std::string wrongText(const DataItem& item, const Value& value);
 
 // Whether its values came from an agent that is still heard; otherwise they are the last ones.
 bool isLive(const comms::AgentImage& image, std::uint32_t simplex);
-// The state of an active simplex in an image; none for others, and while it has not come.
-std::optional<State> stateOf(const comms::AgentImage& image, std::uint32_t simplex);
+using common::stateOf;
 
 // "name=value" for parameters of a command or items of `set`; throws Failure with what is valid.
 ProgramInterface::Arguments parseArguments(const std::string& what, const RecordLayout& request,
                                            const std::vector<std::string>& texts);
 
 std::string csvText(const std::string& text);  // quoted where it must be
-std::string timeText(std::int64_t wallClock);  // "2026-11-20T10:00:00.123Z"
 
 }  // namespace cortex::cli

@@ -14,12 +14,6 @@ namespace {
 constexpr std::uint32_t looksPerSecond = 5;
 constexpr std::chrono::seconds betweenLines{1};
 
-template <class T>
-const T* oneOf(const Value& value) {
-    const auto* all = std::get_if<std::vector<T>>(&value);
-    return all != nullptr && all->size() == 1 ? &all->front() : nullptr;
-}
-
 }  // namespace
 
 // Types with long commands extend Activity, which has these items.
@@ -45,15 +39,10 @@ std::optional<long> Progress::percent() const {
     const comms::AgentImage image = live_.mirror().image(simplex_.agent);
     const bool same = image && &image->structure() == simplex_.structure.get();
     if (!same || !isLive(image, simplex_.index)) return std::nullopt;
-    const auto value = [&](const char* item) {
-        return image->value(simplex_.index, *simplex_.info().layout->find(item));
-    };
-    const Value activities = value("activity"), outcomes = value("outcome"),
-                shares = value("progress");
-    const auto* activity = oneOf<std::string>(activities);
-    const auto* outcome = oneOf<std::int64_t>(outcomes);
-    const auto* share = oneOf<double>(shares);
-    if (activity == nullptr || outcome == nullptr || share == nullptr) return std::nullopt;
+    const auto activity = common::itemOf<std::string>(*image, simplex_.index, "activity");
+    const auto outcome = common::itemOf<std::int64_t>(*image, simplex_.index, "outcome");
+    const auto share = common::itemOf<double>(*image, simplex_.index, "progress");
+    if (!activity || !outcome || !share) return std::nullopt;
     const bool runs =
         *activity == command_ && *outcome == static_cast<std::int64_t>(Outcome::Running);
     if (!runs || !std::isfinite(*share)) return std::nullopt;

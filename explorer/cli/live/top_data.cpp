@@ -28,22 +28,13 @@ Json itemsOf(const Image& image, std::uint32_t simplex) {
 }
 
 TopFault faultOf(const Image& image, std::uint32_t simplex, const std::string& agent) {
-    TopFault fault{image.structure().simplexes[simplex].path, agent, "", 0};
-    const TypeLayout& layout = *image.structure().simplexes[simplex].layout;
-    if (const ItemLayout* code = layout.find("faultCode"); code && code->item->kind == Kind::Int) {
-        fault.code = std::get<std::vector<std::int64_t>>(image.value(simplex, *code)).front();
-    }
-    if (const ItemLayout* text = layout.find("faultText");
-        text && text->item->kind == Kind::String) {
-        fault.text = std::get<std::vector<std::string>>(image.value(simplex, *text)).front();
-    }
-    return fault;
+    return {image.structure().simplexes[simplex].path, agent,
+            common::itemOf<std::string>(image, simplex, "faultText").value_or(""),
+            common::itemOf<std::int64_t>(image, simplex, "faultCode").value_or(0)};
 }
 
 std::optional<double> taskTimeOf(const Image& image, std::uint32_t simplex) {
-    const ItemLayout* time = image.structure().simplexes[simplex].layout->find("taskTime");
-    if (time == nullptr || time->item->kind != Kind::Float) return {};
-    return std::get<std::vector<double>>(image.value(simplex, *time)).front();
+    return common::itemOf<double>(image, simplex, "taskTime");
 }
 
 Json countsJson(const auto& counts, auto enumerator) {
@@ -155,7 +146,7 @@ Json topJson(const TopFrame& frame) {
             {{"path", each.path}, {"agent", each.agent}, {"code", each.code}, {"text", each.text}});
     }
     for (const comms::AgentEvent& each : frame.events) events.push_back(eventJson(each));
-    return {{"time", timeText(frame.time)},
+    return {{"time", common::utcText(frame.time)},
             {"agents", agents},
             {"tasks", tasks},
             {"faults", faults},

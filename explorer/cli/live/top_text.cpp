@@ -189,7 +189,7 @@ TextLine eventLine(const comms::AgentEvent& event, std::size_t whereWidth) {
     const Look look = lookOf(event.severity);
     std::string severity = name(event.severity);
     severity.resize(7, ' ');
-    return {{timeText(event.wallClock).substr(11, 12) + "  ", Look::Faint},
+    return {{common::utcText(event.wallClock).substr(11, 12) + "  ", Look::Faint},
             {severity + "  ", look},
             {where, Look::Strong},
             {"  " + event.text, look}};

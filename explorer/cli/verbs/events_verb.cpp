@@ -28,14 +28,14 @@ public:
     }
     void line(const AgentEvent& event) const {
         if (options_.csv) {
-            std::cout << timeText(event.wallClock) << ',' << csvText(event.agent) << ','
+            std::cout << common::utcText(event.wallClock) << ',' << csvText(event.agent) << ','
                       << event.number << ',' << event.cycle << ',' << name(event.severity) << ','
                       << csvText(event.kind) << ',' << csvText(event.path) << ','
                       << csvText(event.text) << std::endl;
         } else if (options_.json) {
             printLine(eventJson(event));
         } else {
-            std::cout << timeText(event.wallClock) << ' ' << name(event.severity) << ' '
+            std::cout << common::utcText(event.wallClock) << ' ' << name(event.severity) << ' '
                       << printable(event.path.empty() ? event.agent : event.path) << ' '
                       << printable(event.text) << std::endl;
         }

@@ -23,7 +23,7 @@ Json leaseJson(const Live& live, const comms::ShownLease& lease) {
             {"prefix", lease.prefix},
             {"holder", lease.holder},
             {"host", hostOf(live.mirror(), lease.holder)},
-            {"since", timeText(lease.since)},
+            {"since", common::utcText(lease.since)},
             {"held_s", lease.seconds},
             {"mine", lease.holder == live.mirror().name()}};
 }
@@ -37,7 +37,8 @@ void printLeases(const Live& live, const std::vector<comms::ShownLease>& leases)
     columns.add({"prefix", "agent", "holder", "host", "since", ""});
     for (const comms::ShownLease& each : leases) {
         columns.add({each.prefix, each.agent, each.holder, hostOf(live.mirror(), each.holder),
-                     timeText(each.since), each.holder == live.mirror().name() ? "you" : ""});
+                     common::utcText(each.since),
+                     each.holder == live.mirror().name() ? "you" : ""});
     }
     columns.print(std::cout);
 }

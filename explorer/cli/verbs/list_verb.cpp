@@ -54,7 +54,7 @@ std::vector<Line> linesOf(Live& live, const std::vector<FoundSimplex>& simplexes
         if (image && &image->structure() == each.structure.get()) {
             if (isLive(image, each.index)) line.state = stateOf(image, each.index);
             line.quality = image->state(each.index).quality;
-            line.demand = safeBecause(each, image->state(each.index), image);
+            line.demand = safeBecause(each.index, image->state(each.index), image);
             line.wrong = wrongValues(image, each);
         }
         lines.push_back(std::move(line));

@@ -14,7 +14,7 @@ namespace {
 // What is worth knowing of an item in the file: its label, unit and range.
 std::string noteOf(const DataItem& item, const Value& value) {
     std::vector<std::string> parts;
-    const std::string shown = valueText(item, value);
+    const std::string shown = exactText(item, value);
     if (!item.labels.empty() && shown != toText(value)) parts.push_back(shown);
     if (!item.unit.empty()) parts.push_back(item.unit);
     if (item.min || item.max) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/labelled_value.hpp"
 
+#include "common/cut_text.hpp"
+#include "common/live_rule.hpp"
+#include "common/shown_age.hpp"
 #include "live/causes.hpp"
 #include "live/live_json.hpp"
 #include "live/live_values.hpp"
@@ -29,6 +32,9 @@ struct Shown {
     std::optional<State> state() const {
         return image.lost() ? std::nullopt : stateOf(image, simplex.index);
     }
+    bool isLive(const DataItem& item) const {
+        return common::isLive(owner, image, simplex.index, demand.safe, item);
+    }
     Quality quality() const { return image->state(simplex.index).quality; }
 };
 
@@ -55,6 +61,21 @@ Json recordJson(const RecordLayout& record) {
     return list;
 }
 
+bool isCut(const Shown& shown, const ItemLayout& each) {
+    const Value value = shown.value(each);
+    for (std::size_t i = 0; i < lengthOf(value); ++i) {
+        if (common::mayBeCut(*each.item, value, i)) return true;
+    }
+    return false;
+}
+
+// What stands behind a text that fills its item, so that it may go on.
+std::string cutText(const Shown& shown, const ItemLayout& each) {
+    if (!isCut(shown, each)) return "";
+    const bool isFault = each.item->name == "faultText";
+    return isFault ? "…  <- the rest: cortex events " + shown.simplex.info().path : "…";
+}
+
 Json dataJson(const Shown& shown) {
     Json data = Json::object();
     for (const ItemLayout& each : shown.simplex.info().layout->items) {
@@ -71,6 +92,7 @@ Json dataJson(const Shown& shown) {
         if (!label.is_null()) data[item.name]["label"] = label;
         const std::string wrong = outsideText(item, shown.value(each));
         if (!wrong.empty()) data[item.name]["wrong"] = wrong;
+        if (isCut(shown, each)) data[item.name]["cut"] = true;
     }
     return data;
 }
@@ -160,8 +182,8 @@ std::string shownText(const Shown& shown, const ItemLayout& each) {
     const DataItem& item = *each.item;
     if (!shown.knows(item)) return "-";
     const Value value = shown.value(each);
-    const std::string text = valueText(item, value) + wrongText(item, value);
-    return shown.image.lost() && !item.constant ? bracketed(text) : text;
+    const std::string text = valueText(item, value) + cutText(shown, each) + wrongText(item, value);
+    return shown.isLive(item) ? text : bracketed(text);
 }
 
 void printData(const Shown& shown) {
@@ -202,10 +224,10 @@ void printCommands(const Shown& shown, const CommandTable& table) {
 
 StaleDemand demandOf(Live& live, const Shown& shown) {
     const SlotState& state = shown.image->state(shown.simplex.index);
-    const auto writer = staleBy(shown.simplex, state);
+    const auto writer = common::staleBy(shown.simplex.info(), state);
     if (!writer) return {};
     const auto image = live.values({shown.simplex.agent, shown.simplex.structure, *writer});
-    return safeBecause(shown.simplex, state, image);
+    return safeBecause(shown.simplex.index, state, image);
 }
 
 }  // namespace
@@ -216,8 +238,9 @@ Exit showSimplex(const ShowOptions& options) {
     live.view({options.path}, 100);
     Shown shown{live.find(options.path), {}, {}};
     shown.image = live.values(shown.simplex);
-    shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index);
     shown.owner = live.statusOf(shown.simplex.agent);
+    shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index);
+    if (shown.age) shown.age = common::shownAge(*shown.age, shown.owner);
     shown.demand = demandOf(live, shown);
     shown.causes = causesOf(live, shown.simplex, shown.image);
     if (options.json) {

@@ -74,7 +74,7 @@ private:
             lost += each.status.state == "lost" ? 1 : 0;
             incomplete += each.status.state == "incomplete" ? 1 : 0;
         }
-        std::string text = title_ + "  " + timeText(frame.time).substr(11, 8) + "Z  ";
+        std::string text = title_ + "  " + common::utcText(frame.time).substr(11, 8) + "Z  ";
         text += frame.agents.empty() ? "no agent" : plural(frame.agents.size(), "agent");
         if (incomplete > 0) text += ", " + std::to_string(incomplete) + " incomplete";
         if (lost > 0) text += ", " + std::to_string(lost) + " lost";

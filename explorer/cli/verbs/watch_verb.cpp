@@ -111,9 +111,10 @@ Reading read(const Watched& watched, const comms::AgentImage& image) {
     const bool same = image && &image->structure() == watched.simplex.structure.get();
     if (!same || !isLive(image, watched.simplex.index)) return reading;
     reading.quality = image->state(watched.simplex.index).quality;
-    reading.demand = safeBecause(watched.simplex, image->state(watched.simplex.index), image);
+    const std::uint32_t index = watched.simplex.index;
+    reading.demand = safeBecause(index, image->state(index), image);
     const Value value = image->value(watched.simplex.index, *watched.item);
-    reading.text = valueText(*watched.item->item, value);
+    reading.text = exactText(*watched.item->item, value);
     reading.value = valueJson(*watched.item->item, value);
     reading.label = labelJson(*watched.item->item, value);
     reading.wrong = outsideText(*watched.item->item, value);
@@ -143,7 +144,7 @@ public:
         std::cout << ",restarted" << std::endl;
     }
     void line(const Sighting& line) {
-        const std::string time = timeText(line.moment);
+        const std::string time = common::utcText(line.moment);
         const std::vector<Reading>& readings = line.readings;
         if (options_.csv) return csv(time, readings, line.restarted);
         if (options_.json) return json(time, readings, line.restarted);

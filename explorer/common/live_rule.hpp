@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/comms/mirror.hpp"
+
+#include <cstdint>
+#include <string_view>
+
+// What may be shown as the present value; everything else stands in brackets.
+namespace cortex::common {
+
+// Whether the framework writes this item, such as its state, in every simplex that has it; also
+// where the type of the simplex states the item anew.
+bool isOfFramework(const Structure& structure, std::uint32_t simplex, std::string_view item);
+
+// Its loop runs, as far as was heard of late.
+bool runs(const comms::AgentStatus& agent);
+
+// Whether what the framework writes of this simplex is the present value. It is as good as the last
+// cycle that was heard, also where the simplex itself writes nothing, as in Standby.
+bool isHeard(const comms::AgentStatus& agent, const comms::AgentImage& image,
+             std::uint32_t simplex);
+// The same of what the simplex writes itself, or is written into it: it is good, or a safe demand
+// (`safe`, by safeBecause()).
+bool isLive(const comms::AgentStatus& agent, const comms::AgentImage& image, std::uint32_t simplex,
+            bool safe);
+// The same of any item. A constant is always live.
+bool isLive(const comms::AgentStatus& agent, const comms::AgentImage& image, std::uint32_t simplex,
+            bool safe, const DataItem& item);
+
+}  // namespace cortex::common
