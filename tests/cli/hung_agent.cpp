@@ -16,7 +16,8 @@ namespace cortex::test {
 
 struct HungAgent::Implementation {
     ProbeCluster cluster{{}, "robot"};
-    std::atomic<bool> hangs{false}, slow{false};
+    std::atomic<bool> hangs{false}, slow{false}, fails{false};
+    std::string failure;        // set before `fails`
     std::atomic<int> hooks{0};  // begun
 
     bool standsStill() const { return cluster.cluster->agent().standstill().get().has_value(); }
@@ -30,8 +31,9 @@ HungAgent::HungAgent(int domain) : implementation_{std::make_unique<Implementati
     options.domain = domain;
     options.interfaces = {"127.0.0.1"};
     self.cluster.cluster->addInterface<comms::DdsInterface>(options);
-    self.cluster.probe("/ctl").onStandby = [&self](Probe&, const Tick&) {
+    self.cluster.probe("/ctl").onStandby = [&self](Probe& probe, const Tick&) {
         ++self.hooks;
+        if (self.fails.exchange(false)) probe.fault(7, self.failure);
         const std::int64_t end = monotonicNow() + (self.slow.load() ? 15'000'000 : 0);
         while (self.hangs.load() || monotonicNow() < end) std::this_thread::yield();
     };
@@ -56,6 +58,11 @@ void HungAgent::overload() {
     implementation_->slow.store(true);
     auto& agent = implementation_->cluster.cluster->agent();
     waitUntil("that a slow loop says so", [&] { return agent.pace().overloaded(); });
+}
+
+void HungAgent::fail(const std::string& text) {
+    implementation_->failure = text;
+    implementation_->fails.store(true);
 }
 
 void HungAgent::release() {

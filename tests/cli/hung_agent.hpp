@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 namespace cortex::test {
 
@@ -12,9 +13,10 @@ public:
     explicit HungAgent(int domain);
     ~HungAgent();
 
-    void hang();      // returns when its watchdog has seen it
-    void release();   // returns when its watchdog has seen it
-    void overload();  // returns when its loop says so
+    void hang();                         // returns when its watchdog has seen it
+    void release();                      // returns when its watchdog has seen it
+    void overload();                     // returns when its loop says so
+    void fail(const std::string& text);  // its task goes to Fault 7 with this text
 
 private:
     struct Implementation;

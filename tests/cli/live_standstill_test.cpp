@@ -43,6 +43,20 @@ TEST(LiveStandstill, IsShownByEveryToolWithTheHookAndTheTime) {
     EXPECT_TRUE(contains(live({"doctor"}).output, "the loop of robot on ")) << "an error";
 }
 
+TEST(LiveFault, ATextThatFillsItsItemIsNotShownAsAWholeOne) {
+    HungAgent robot{std::stoi(domain)};
+    const std::string text =
+        "axis 4 does not follow: 0.052 rad behind, at most 0.050 rad are allowed";
+    robot.fail(text);
+    const std::string cut = text.substr(0, 48) + "…  <- the rest: cortex events /ctl";
+    const Outcome shown =
+        lookUntil([] { return live({"show", "/ctl"}); },
+                  [&](const Outcome& seen) { return contains(seen.output, cut); });
+    EXPECT_TRUE(contains(shown.output, cut)) << shown.output << shown.errors;
+    EXPECT_EQ(liveJson({"show", "/ctl"}, "show")["data"]["faultText"]["cut"], true);
+    EXPECT_TRUE(contains(live({"events", "/ctl"}).output, text)) << "as show says";
+}
+
 // In a moment in which a cycle takes very long, it stands still instead: it is looked at again.
 void expectOverload(const std::vector<std::string>& verb, std::string Outcome::* printed,
                     const std::string& words) {

@@ -187,6 +187,16 @@ TEST_F(MirrorTablesTest, MeasuresAgeFromTheMeasurementByTheReceiversClock) {
     EXPECT_DOUBLE_EQ(tables->age(worker, begin + 500ms).value_or(-1), 0.75);
 }
 
+TEST_F(MirrorTablesTest, WhatNoTaskWritesIsAsOldAsTheCycleThatCame) {
+    Block block = agent.block(1);
+    block.nominalTime = 900'000'000'000;
+    for (SimplexData& each : block.simplexes) each.cycle = each.time = 0;
+
+    tables->apply(block, at30, begin);
+
+    EXPECT_DOUBLE_EQ(tables->age(worker, begin + 500ms).value_or(-1), 0.5);
+}
+
 TEST_F(MirrorTablesTest, AppliesASimplexWholeOrNotAtAll) {
     using Fault = std::function<void(SimplexData&)>;
     const std::vector<Fault> faults{

@@ -86,6 +86,64 @@ TEST_F(Troubles, AreNotWhatEndedInAnOrderlyWay) {
     EXPECT_EQ(abnormal.next(""), "");
 }
 
+TEST_F(Troubles, AreNotWhatReadAnAgentThatEndedInAnOrderlyWay) {
+    MadeAgent desk{"desk", [](SimplexTree& tree) {
+                       Simplex& reader = tree.add("/reader", "Probe");
+                       tree.relateRemote(reader, "in", "/order", "Order", false);
+                   }};
+    MadeAgent source{"source", [](SimplexTree& tree) { tree.add("/order", "Order"); }};
+    desk.put("/reader", "state", std::int64_t{2});
+    desk.degrade("/reader", Quality::Lost, "/order");
+    const auto lostOf = [&](std::vector<AgentFrame> agents, std::vector<GoneAgent> gone) {
+        auto frame = frameOf(std::move(agents));
+        frame->gone = std::move(gone);
+        Abnormal abnormal;
+        abnormal.update(*frame);
+        return abnormal.count(Abnormal::Lost);
+    };
+    AgentFrame ended = source.now("lost");
+    ended.status.ended = true;
+    const GoneAgent gone{"source", true, 1, source.structure};
+    EXPECT_EQ(lostOf({desk.now(), ended}, {gone}), 0);
+    EXPECT_EQ(lostOf({desk.now()}, {gone}), 0) << "the mirror has forgotten it";
+    EXPECT_EQ(lostOf({desk.now(), source.now("lost")}, {}), 2);
+    EXPECT_EQ(lostOf({desk.now()}, {{"source", false, 1, source.structure}}), 1)
+        << "a loss that was dismissed";
+    desk.put("/reader", "state", std::int64_t{0});
+    EXPECT_EQ(lostOf({desk.now(), source.now("lost")}, {}), 1)
+        << "what is in Standby reads nothing";
+    desk.degrade("/reader", Quality::Lost, "/reader");
+    EXPECT_EQ(lostOf({desk.now(), ended}, {gone}), 1) << "its own loss";
+}
+
+TEST_F(Troubles, OfGoneAgentsAreRememberedUntilTheyAreHeardAgain) {
+    AgentFrame ended = other.now("lost");
+    ended.status.ended = true;
+    (void)textsOf({robot.now(), other.now()}, begin);
+    EXPECT_TRUE(lost.gone().empty());
+    (void)textsOf({robot.now("lost"), ended}, begin + 1s);
+    lost.dismiss("robot");
+    (void)textsOf({robot.now("lost")}, begin + 100s);
+    EXPECT_TRUE(names.empty());
+    ASSERT_EQ(lost.gone().size(), 2U);
+    EXPECT_EQ(lost.gone()[0].name, "other");
+    EXPECT_TRUE(lost.gone()[0].ended);
+    EXPECT_EQ(lost.gone()[1].name, "robot");
+    EXPECT_FALSE(lost.gone()[1].ended);
+    (void)textsOf({robot.now(), other.now()}, begin + 101s);
+    EXPECT_TRUE(lost.gone().empty());
+}
+
+TEST_F(Troubles, OfAnAgentThatIsDismissedAfterTheMirrorForgotItAreRememberedToo) {
+    (void)textsOf({other.now("lost")}, begin);
+    (void)textsOf({}, begin + 100s);
+    lost.dismiss("other");
+    (void)textsOf({}, begin + 101s);
+    EXPECT_TRUE(names.empty());
+    ASSERT_EQ(lost.gone().size(), 1U);
+    EXPECT_EQ(lost.gone()[0].name, "other");
+}
+
 TEST_F(Troubles, OfALostAgentStayWhenTheMirrorHasForgottenIt) {
     EXPECT_TRUE(textsOf({robot.now(), other.now()}, begin).empty());
     const auto told = textsOf({robot.now(), other.now("lost")}, begin + 1s);

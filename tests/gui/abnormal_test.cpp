@@ -105,6 +105,37 @@ TEST_F(Abnormals, AnOrderlyEndIsNoLoss) {
         << wordOf(path).toStdString();
 }
 
+TEST_F(Abnormals, WhatReadsAnAgentThatEndedInAnOrderlyWayIsNoLossAndSaysWhy) {
+    const Background desk{agentCommand(systemFile(
+        folder, "desk",
+        "<simplex path=\"/desk/demanded\" type=\"RotaryAxisConcept\"/>"
+        "<simplex path=\"/desk/controller\" type=\"HoldAxisController\">"
+        "<relate rule=\"axes\" to=\"/axis/observed\" remote=\"true\" type=\"RotaryAxisConcept\"/>"
+        "<relate rule=\"demands\" to=\"/desk/demanded\"/></simplex>"))};
+    const auto isRead = [this](bool lost) {
+        const auto frame = session.frame();
+        const auto reader = frame->find("/desk/controller");
+        return reader && frame->find("/axis/observed") &&
+               frame->agents[reader->agent].came(reader->simplex) &&
+               (frame->agents[reader->agent].quality(reader->simplex) == Quality::Lost) == lost;
+    };
+    ASSERT_TRUE(comes([&] { return isRead(false); }));
+    window.open("/desk/controller");
+    agent->end(SIGTERM);
+    ASSERT_TRUE(comes([&] { return isRead(true) && hasEvent("agent ended"); }));
+    const QString why = "The input /axis/observed is gone: mixer ended at ";
+    EXPECT_TRUE(comes([&] { return shownTexts().find(why.toStdString()) != std::string::npos; }))
+        << shownTexts();
+    EXPECT_TRUE(comes([this] { return counter("0 lost") != nullptr; }));
+    EXPECT_EQ(tree().marks(tree().indexOf("/desk/controller")).own, std::nullopt);
+    session.dismiss("mixer");
+    ASSERT_TRUE(comes([this] { return session.frame()->agents.size() == 1; }));
+    const auto frames = session.frame()->number;
+    EXPECT_TRUE(comes([&] { return session.frame()->number > frames + 10; }));
+    EXPECT_NE(shownTexts().find(why.toStdString()), std::string::npos) << shownTexts();
+    EXPECT_NE(counter("0 lost"), nullptr);
+}
+
 TEST_F(Abnormals, TheSystemStaysInFrontWhenWhatWasNamedComes) {
     window.open("/drive");
     window.openKind("system");

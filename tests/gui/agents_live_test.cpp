@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of agents with a real agent over DDS.
+#include "gui/audit.hpp"
 #include "gui/controlling.hpp"
 #include "plots/plot_view.hpp"
 #include "views/agent_view.hpp"
@@ -64,6 +65,8 @@ TEST_F(LiveAgents, WhoHoldsControlStandsAmongTheLeases) {
         << cell<LeaseTable>(0, 1).toStdString();
     EXPECT_EQ(cell<LeaseTable>(0, 0), "/drive");
     EXPECT_EQ(tabs->tabText(2), "Leases  1");
+    const auto refresh = [&] { colleague.control(), window.refresh(); };
+    EXPECT_EQ(unreadableInEverySize(window, refresh), "") << "who holds it is never cut";
 }
 
 TEST_F(LiveAgents, DutyAndJitterGoToAPlotByKey) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui/audit.hpp"
 
+#include "gui/audit_whole.hpp"
 #include "style/look.hpp"
 #include "style/tokens.hpp"
 
@@ -13,7 +14,6 @@
 #include <QLabel>
 #include <QMap>
 #include <QPixmap>
-#include <QTabBar>
 #include <algorithm>
 #include <vector>
 
@@ -132,17 +132,6 @@ void auditCells(const QWidget& window, QStringList& found) {
     }
 }
 
-void auditTabs(const QWidget& window, QStringList& found) {
-    for (const auto* tabs : window.findChildren<QTabBar*>()) {
-        if (!tabs->isVisible()) continue;
-        for (int i = 0; i < tabs->count(); ++i) {
-            const int needed = tabs->fontMetrics().horizontalAdvance(tabs->tabText(i));
-            if (needed > tabs->tabRect(i).width())
-                found << "the tab " + tabs->tabText(i) + " is cut";
-        }
-    }
-}
-
 }  // namespace
 
 // A frame may have come at the very end of the events before: it is laid out first.
@@ -152,9 +141,35 @@ QStringList unreadableIn(QWidget& window) {
     const QImage image = window.grab().toImage().convertToFormat(QImage::Format_RGB32);
     auditTexts(window, image, found);
     auditCells(window, found);
-    auditTabs(window, found);
+    if (Look::theme() == gui::Theme::Light) found << cutIn(window);  // no theme has other sizes
     found.removeDuplicates();
     return found;
+}
+
+std::string unreadableInEverySize(QWidget& window, const std::function<void()>& refresh) {
+    struct Size {
+        int width, height;
+        double scale;
+    };
+    const QSize before = window.size();
+    std::string findings;
+    for (const Size& size : {Size{1280, 800, 1}, Size{1024, 768, 1.25}, Size{800, 600, 1.5}}) {
+        for (const char* family : {"DejaVu Sans", "Open Sans"}) {
+            Look::apply(gui::Theme::Light, size.scale, QLatin1String{family});
+            window.resize(size.width, size.height);
+            for (int i = 0; i < 3; ++i) {
+                refresh();
+                QCoreApplication::processEvents();  // what is laid out lays out more
+            }
+            for (const QString& each : unreadableIn(window)) {
+                findings +=
+                    std::to_string(size.width) + ", " + family + ": " + each.toStdString() + '\n';
+            }
+        }
+    }
+    Look::apply(gui::Theme::Light, 1, QStringLiteral("Open Sans"));
+    window.resize(before);
+    return findings;
 }
 
 }  // namespace cortex::test

@@ -103,16 +103,14 @@ TEST_F(Controlling, EveryWidgetOfThePanelShowsThatItHasTheFocus) {
     EXPECT_FALSE(panel->isVisible());
 }
 
-TEST(ControlOfSeveralParts, IsStoppedAtThePathAroundThem) {
-    const auto commonOf = [](std::initializer_list<const char*> prefixes) {
-        Control control;
-        for (const char* each : prefixes) control.held.push_back({"robot", each, 0});
-        return control.common();
-    };
-    EXPECT_EQ(commonOf({}), "");
-    EXPECT_EQ(commonOf({"/arm"}), "/arm");
-    EXPECT_EQ(commonOf({"/arm/left", "/arm/right/hand"}), "/arm");
-    EXPECT_EQ(commonOf({"/arm", "/armature"}), "/");
+TEST(ScopeOfStop, IsWhatIsHeldAndNeverThePathAroundIt) {
+    using Paths = std::vector<std::string>;
+    EXPECT_EQ(widest({"/arm/left", "/arm/right/hand"}), (Paths{"/arm/left", "/arm/right/hand"}));
+    EXPECT_EQ(widest({"/arm/left", "/arm", "/armature"}), (Paths{"/arm", "/armature"}));
+    EXPECT_EQ(scopeWord({"/"}), "all");
+    EXPECT_EQ(scopeWord({"/lift", "/zoo"}), "/lift and /zoo");
+    EXPECT_EQ(scopeWord({"/lift", "/zoo", "/arm"}), "/lift and 2 more");
+    EXPECT_EQ(scopeWords({"/lift", "/zoo", "/arm"}), "/lift and /zoo and /arm");
 }
 
 TEST_F(Controlling, AWindowThatHangsHoldsNothing) {
@@ -145,6 +143,30 @@ TEST_F(Controlling, StopsWhatIsHeldAtTheFirstPressOfF12) {
     EXPECT_TRUE(isIn("/drive", State::Active));
 }
 
+TEST_F(Controlling, StopsEachPartThatIsHeldAndNothingBesideThem) {
+    ASSERT_TRUE(everythingComes());
+    ASSERT_TRUE(comes([] { return live({"call", "/mixer", "startup"}).exit == 0; }));
+    ASSERT_TRUE(comes(
+        [this] { return isIn("/drive", State::Active) && isIn("/controller", State::Active); }));
+    ASSERT_TRUE(takes("/drive"));
+    Colleague other;
+    ASSERT_TRUE(comes([&] { return other.sees("/axis/observed"); }));
+    other.control();
+    other.session.takeControl("/axis");
+    ASSERT_TRUE(comes([&] { return other.control().prefix == "/axis"; }));
+    other.session.handOver(session.frame()->control.self);
+    EXPECT_TRUE(comes([&] {
+        other.control();
+        return window.stopButton().text() == "Stop /drive and /axis";
+    })) << window.stopButton().text().toStdString();
+    QTest::keyClick(&window, Qt::Key_F12);
+    EXPECT_TRUE(comes([this] { return isIn("/drive", State::Standby); }));
+    EXPECT_TRUE(comes([this] {
+        return window.stopButton().progress().startsWith("All 1 of /drive and /axis in Standby, ");
+    })) << window.stopButton().progress().toStdString();
+    EXPECT_TRUE(isIn("/controller", State::Active)) << "it lies below the path around them";
+}
+
 TEST_F(Controlling, StartsAllOfASubtreeOnceControlOfItIsGiven) {
     ASSERT_TRUE(everythingComes());
     window.startAll().begin("/drive");
@@ -175,7 +197,7 @@ TEST_F(Controlling, WhoeverDeclinesControlStartsNothingLater) {
 TEST_F(Controlling, AStopEndsAStartThatStillWaits) {
     ASSERT_TRUE(everythingComes());
     window.startAll().begin("/drive");
-    QTest::mouseClick(&window.stopButton(), Qt::LeftButton);
+    for (int press = 0; press < 2; ++press) QTest::mouseClick(&window.stopButton(), Qt::LeftButton);
     EXPECT_TRUE(window.startAll().text().isEmpty());
     window.control().panel()->takeButton().click();
     ASSERT_TRUE(comes([this] { return window.control().holds(); }));
@@ -193,6 +215,9 @@ TEST_F(Controlling, StopsAlwaysWhatAPersonChoseForIt) {
     ASSERT_TRUE(takes("/drive"));
     window.refresh();
     EXPECT_EQ(window.stopButton().text(), "Stop always /controller");
+    QTest::mouseClick(&window.stopButton(), Qt::LeftButton);
+    EXPECT_EQ(window.stopButton().text(), "Again: stop /controller") << "it is not controlled";
+    EXPECT_TRUE(window.stopButton().progress().isEmpty());
     QTest::mouseClick(&window.stopButton(), Qt::LeftButton);
     EXPECT_TRUE(comes([this] { return isIn("/controller", State::Standby); }));
     EXPECT_TRUE(isIn("/drive", State::Active));

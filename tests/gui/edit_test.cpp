@@ -246,6 +246,23 @@ TEST_F(Editing, AWrongFieldKeepsWhatWasTyped) {
     EXPECT_EQ(valueOf("naturalFrequency"), "5");
 }
 
+TEST_F(Editing, WhatWasRefusedIsForgottenWithTheValueThatIsPutRight) {
+    ASSERT_TRUE(isReady());
+    ASSERT_TRUE(takes("/drive"));
+    enters("dampingRatio", "0.8", Qt::Key_Tab);
+    if (field() != nullptr) QTest::keyClick(field(), Qt::Key_Escape);
+    enters("naturalFrequency", "5", Qt::Key_Tab);
+    if (field() != nullptr) QTest::keyClick(field(), Qt::Key_Escape);
+    ASSERT_TRUE(comes([this] { return button("Set").text() == "Set 2 items"; }));
+    enters("naturalFrequency", "1e6", Qt::Key_Return);
+    ASSERT_TRUE(says("naturalFrequency is out of the range"));
+    ASSERT_NE(field(), nullptr);
+    field()->setText("5");  // as it was before
+    QTest::keyClick(field(), Qt::Key_Tab);
+    EXPECT_TRUE(says("Not sent yet."));
+    EXPECT_EQ(button("Set").text(), "Set 2 items");
+}
+
 class EditingArrays : public Editing {
 protected:
     EditingArrays() : Editing{"AxisPoseController"} {}

@@ -3,6 +3,7 @@
 #include "views/event_list.hpp"
 
 #include "gui/events_fixture.hpp"
+#include "gui/waiting.hpp"
 #include "support/share.hpp"
 #include "views/event_panel.hpp"
 #include "views/event_table.hpp"
@@ -17,6 +18,8 @@
 #include <QPushButton>
 #include <QScrollBar>
 #include <QTemporaryDir>
+#include <QTimer>
+#include <QWheelEvent>
 
 #include <gtest/gtest.h>
 
@@ -66,6 +69,66 @@ TEST_F(Events, SayHowManyAreNoLongerKept) {
     EXPECT_TRUE(says(list, "the oldest 1,010 are no longer kept"));
 }
 
+void scrollUp(EventTable& rows) {
+    QWheelEvent notch{{10, 10},
+                      rows.viewport()->mapToGlobal(QPoint{10, 10}),
+                      {},
+                      {0, 120},
+                      Qt::NoButton,
+                      Qt::NoModifier,
+                      Qt::NoScrollPhase,
+                      false};
+    QApplication::sendEvent(rows.viewport(), &notch);
+}
+
+QPushButton* buttonIn(const QWidget& widget, const QString& text) {
+    for (auto* each : widget.findChildren<QPushButton*>()) {
+        if (each->text() == text && !each->isHidden()) return each;
+    }
+    return nullptr;
+}
+
+TEST_F(Events, TheStripSaysHowManyAreNewAndGoesToThemAtAPress) {
+    events.add(changes(1, 200));
+    ASSERT_TRUE(isAtTheEnd(rows()));
+    const QRect place = rows().geometry();
+    scrollUp(rows());
+    EXPECT_EQ(buttonIn(list, "3 new"), nullptr);
+    events.add(changes(201, 3));
+    ASSERT_NE(buttonIn(list, "3 new"), nullptr);
+    EXPECT_FALSE(isAtTheEnd(rows())) << "what is looked at stays";
+    EXPECT_EQ(rows().geometry(), place) << "no row moves when the button comes";
+    buttonIn(list, "3 new")->click();
+    EXPECT_TRUE(isAtTheEnd(rows()));
+    EXPECT_EQ(buttonIn(list, "3 new"), nullptr);
+    events.add(changes(204, 3));
+    EXPECT_TRUE(isAtTheEnd(rows()));
+}
+
+TEST_F(Events, TheStripFollowsAgainOnceItIsLeft) {
+    events.add(changes(1, 200));
+    auto* left = list.findChild<QTimer*>({}, Qt::FindDirectChildrenOnly);
+    ASSERT_NE(left, nullptr);
+    left->setInterval(0);
+    QEvent enter{QEvent::Enter}, leave{QEvent::Leave};
+    QApplication::sendEvent(&list, &enter);
+    scrollUp(rows());
+    for (int i = 0; i < 50; ++i) QApplication::processEvents();
+    EXPECT_FALSE(isAtTheEnd(rows())) << "the pointer is in it";
+    QApplication::sendEvent(&list, &leave);
+    if (QWidget* focused = QApplication::focusWidget()) focused->clearFocus();
+    EXPECT_TRUE(comes([this] { return rows().follows(); }));
+    EXPECT_TRUE(isAtTheEnd(rows()));
+}
+
+TEST_F(Events, TheFirstStepOfAKeyIsFromWhatIsInSight) {
+    events.add(changes(1, 200));
+    QKeyEvent down{QEvent::KeyPress, Qt::Key_Down, Qt::NoModifier};
+    QApplication::sendEvent(&rows(), &down);
+    EXPECT_EQ(rows().currentIndex().row(), 199);
+    EXPECT_TRUE(rows().follows()) << "it was not scrolled up";
+}
+
 class EventTab : public Events {
 protected:
     EventTab() {
@@ -91,7 +154,7 @@ protected:
         view.refresh();
     }
 
-    EventView view{shown};
+    EventView view{shown, {}};
 };
 
 TEST_F(EventTab, SaysHowManyAreNewBelowWhileSomebodyLooksFurtherUp) {
@@ -136,6 +199,35 @@ TEST_F(EventTab, HasTheFilterOfTheStripAndSaysHowMuchItShows) {
     EXPECT_EQ(table().model()->rowCount(), 0);
     type("nonsense:1");
     EXPECT_TRUE(says(view, "\"nonsense:\" is no field."));
+}
+
+TEST_F(EventTab, NoFilterHidesAFaultUnsaidAndTheStripTakesItAway) {
+    events.add(changes(1, 10));
+    type("in:/drives");
+    chip("error 0")->click();
+    EXPECT_FALSE(says(list, "not shown"));
+    events.add({eventOf(11, "fault", "/drives/1", "Fault 0x8611", Severity::Error),
+                eventOf(12, "message", "/b", "it broke", Severity::Error)});
+    EXPECT_TRUE(says(list, "2 faults or errors not shown"));
+    EXPECT_TRUE(says(list, "10 of 12 shown"));
+    view.refresh();
+    EXPECT_TRUE(says(view, "10 of 12 shown; 2 faults or errors not shown"));
+    ASSERT_NE(buttonIn(list, "Show all"), nullptr);
+    buttonIn(list, "Show all")->click();
+    view.refresh();
+    EXPECT_FALSE(says(list, "not shown"));
+    EXPECT_EQ(buttonIn(list, "Show all"), nullptr);
+    EXPECT_EQ(rows().model()->rowCount(), 12);
+    EXPECT_EQ(view.findChild<QLineEdit*>()->text(), "");
+    EXPECT_NE(chip("error 2"), nullptr) << "it is no longer off";
+}
+
+TEST_F(EventTab, TheStripCountsAlsoWhatTheFilterHides) {
+    events.add(changes(1, 10));
+    type("in:/nowhere");
+    EXPECT_TRUE(says(list, "0 of 10 shown"));
+    events.add(changes(11, 5));
+    EXPECT_TRUE(says(list, "0 of 15 shown"));
 }
 
 TEST_F(EventTab, ShowsTheDetailsOfTheSelectedRowAlsoWhenItDropsOut) {

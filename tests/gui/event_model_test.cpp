@@ -134,6 +134,20 @@ TEST_F(EventRows, ARowKeepsNoMoreThanThousandOfItsEventsAndCountsAll) {
     EXPECT_EQ(events.dropped(), 0U);
 }
 
+TEST_F(EventRows, ThatCameLateSaySo) {
+    comms::AgentEvent late = eventOf(5, "message", "/b", "it was before");
+    late.agent = "left";
+    events.add({eventOf(10, "message", "/a", "first that came")});
+    events.add({late});
+    events.add({eventOf(11, "message", "/a", "in order again")});
+    const auto time = [this](int row) { return shown.index(row, EventModel::Time).data(); };
+    EXPECT_EQ(time(0), "00:00:00.010");
+    EXPECT_EQ(time(1), QString::fromUtf8("↑00:00:00.005"));
+    EXPECT_EQ(shown.index(1, EventModel::Time).data(Qt::AccessibleTextRole),
+              "00:00:00.005, came late");
+    EXPECT_EQ(time(2), "00:00:00.011");
+}
+
 TEST_F(EventRows, ARowOfManyOpensToEachOfThem) {
     events.add({limit(1, "limited to 1"), limit(2, "limited to 2"),
                 eventOf(3, "message", "/b", "something else")});

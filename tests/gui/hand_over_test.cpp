@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Control that somebody else has, gives or gets, with a real agent over DDS.
 #include "gui/controlling.hpp"
+#include "gui/made_agent.hpp"
 
+#include <QApplication>
+#include <QHBoxLayout>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
@@ -151,6 +155,116 @@ TEST_F(Controlling, WhereNobodyHoldsAnythingHandingOverSaysWhatToDo) {
     EXPECT_TRUE(
         comes([&] { return !other.control().prefix.empty() && !panel->offered().empty(); }));
     EXPECT_EQ(panel->whyNobody(), "");
+}
+
+TEST_F(Controlling, TakesAgainWhatASilenceTookAlsoOnceTheNoticeIsClosed) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    ASSERT_TRUE(takes("/drive"));
+    QPushButton& again = window.control().againButton();
+    EXPECT_TRUE(again.isHidden());
+    agent->send(SIGSTOP);
+    ASSERT_TRUE(comes([this] { return !window.control().holds(); }));
+    EXPECT_TRUE(again.isHidden()) << "nobody would hear it";
+    agent->send(SIGCONT);
+    ASSERT_TRUE(comes([&] { return !again.isHidden(); }));
+    Q_EMIT window.control().notice().closed();
+    EXPECT_EQ(window.control().notice().text(), "");
+    window.refresh();
+    EXPECT_FALSE(again.isHidden());
+    again.click();
+    EXPECT_TRUE(comes([this] { return window.control().prefix() == "/drive"; }));
+    EXPECT_TRUE(comes([&] { return again.isHidden(); }));
+    window.control().release();
+    EXPECT_TRUE(comes([this] { return !window.control().holds(); }));
+    EXPECT_TRUE(again.isHidden()) << "what is released is not missing";
+}
+
+// Made by hand: what the bar says of two agents, of which one falls silent or ends.
+class TwoAgentsInTheBar : public testing::Test {
+protected:
+    TwoAgentsInTheBar() {
+        auto* row = new QHBoxLayout{&host};
+        row->addStretch(1);
+        row->addWidget(&bar);
+        host.resize(1400, 50);
+        host.show();
+    }
+    void show(const std::vector<comms::LeaseClient::Lease>& held, const std::string& ofRight) {
+        std::vector<AgentFrame> agents{left.now(),
+                                       right.now(ofRight == "running" ? "running" : "lost")};
+        agents.back().status.ended = ofRight == "ended";
+        const auto frame = frameOf(std::move(agents));
+        frame->control.held = held;
+        frame->control.prefix = held.empty() ? "" : held.front().prefix;
+        frame->control.claims = {"/"};
+        bar.refresh(frame, "");
+        for (int i = 0; i < 3; ++i) QApplication::processEvents();
+    }
+    QRect placeOf(const QString& text) {
+        for (auto* each : bar.findChildren<QPushButton*>()) {
+            if (each->text() == text && !each->isHidden())
+                return {each->mapTo(&host, QPoint{}), each->size()};
+        }
+        return {};
+    }
+
+    const comms::LeaseClient::Lease first{"left", "/", 1}, second{"right", "/", 1};
+    MadeAgent left{"left", [](SimplexTree& tree) { tree.add("/a", "Probe"); }};
+    MadeAgent right{"right", [](SimplexTree& tree) { tree.add("/b", "Probe"); }};
+    Session session{ownNetwork()};
+    QWidget host;
+    ControlBar bar{session};
+};
+
+TEST_F(TwoAgentsInTheBar, EverythingIsNeverSaidWhileOneOfThemIsNotControlled) {
+    show({first, second}, "running");
+    EXPECT_TRUE(bar.text().startsWith("You control everything since ")) << bar.text().toStdString();
+    EXPECT_TRUE(bar.text().endsWith(" UTC"));
+    EXPECT_EQ(bar.missing(), "");
+    show({first}, "running");
+    EXPECT_EQ(bar.text(), "You control everything but right");
+    EXPECT_EQ(bar.missing(), "/");
+    EXPECT_FALSE(bar.againButton().isHidden());
+    show({first}, "lost");
+    EXPECT_EQ(bar.text(), "You control everything but right") << "it is silent, not gone";
+    EXPECT_EQ(bar.missing(), "") << "nobody would hear it";
+    bar.setNarrow(true);
+    EXPECT_EQ(bar.text(), "You control all but right");
+    bar.setNarrow(false);
+    show({first}, "ended");
+    EXPECT_TRUE(bar.text().startsWith("You control everything since ")) << "it ended as it should";
+}
+
+TEST_F(TwoAgentsInTheBar, NoButtonStandsWhereAnotherOneStoodWhenControlIsLost) {
+    show({first, second}, "running");
+    const QRect releaseAt = placeOf("Release"), handOverAt = placeOf("Hand over…");
+    ASSERT_FALSE(releaseAt.isEmpty());
+    ASSERT_FALSE(handOverAt.isEmpty());
+    show({first}, "running");
+    EXPECT_EQ(placeOf("Release"), releaseAt);
+    EXPECT_EQ(placeOf("Hand over…"), handOverAt);
+    const QRect againAt = placeOf("Take again");
+    ASSERT_FALSE(againAt.isEmpty());
+    show({}, "running");
+    EXPECT_EQ(placeOf("Take again"), againAt);
+    EXPECT_EQ(placeOf("Take control…"), releaseAt);
+}
+
+TEST(TakingControl, SaysHowManyRunAndHowManyAreInFault) {
+    MadeAgent robot{"robot", [](SimplexTree& tree) {
+                        for (const char* each : {"/a", "/b", "/c"}) tree.add(each, "Probe");
+                    }};
+    robot.put("/a", "state", std::int64_t{2});
+    robot.put("/b", "state", std::int64_t{4});
+    robot.put("/c", "state", std::int64_t{0});
+    const ControlPanel panel{frameOf({robot.now()}), ""};
+    const auto labels = panel.findChildren<QLabel*>();
+    EXPECT_TRUE(std::ranges::any_of(labels, [](const QLabel* each) {
+        return each->text().contains(
+            "1 active; when control is lost 1 go on, 0 hold, 0 shut down; "
+            "1 in Fault");
+    }));
 }
 
 }  // namespace

@@ -27,6 +27,17 @@ protected:
         frame.contested = std::move(contested);
         header.show(frame, *frame.find(path));
     }
+    // Of /probe, at this second.
+    void addEvent(const std::string& kind, const std::string& text, std::int64_t when) {
+        comms::AgentEvent event;
+        event.agent = "robot";
+        event.epoch = robot.structure->epoch;
+        event.path = "/probe";
+        event.kind = kind;
+        event.text = text;
+        event.wallClock = when * 1'000'000'000;
+        times.add({event});
+    }
     bool says(const QString& text) {
         for (const auto* label : header.findChildren<TextLabel*>()) {
             if (!label->isHidden() && label->text().contains(text)) return true;
@@ -63,6 +74,82 @@ TEST_F(Header, HasCodeAndWholeTextOfAFault) {
     robot.put("/probe", "state", std::int64_t{2});
     show("/probe", {robot.now()});
     EXPECT_FALSE(says("does not follow"));
+}
+
+const std::string longFault =
+    "axis 4 does not follow: 0.052 rad behind, at most 0.050 rad are allowed";
+
+TEST_F(Header, HasTheWholeTextOfAFaultFromItsEvent) {
+    robot.put("/probe", "state", std::int64_t{4});
+    robot.put("/probe", "faultCode", std::int64_t{-8});
+    robot.put("/probe", "faultText", longFault);
+    addEvent("fault", "fault -8: " + longFault, 1);
+    show("/probe", {robot.now()});
+    EXPECT_TRUE(says(QString::fromStdString(longFault)));
+    EXPECT_FALSE(says("…"));
+    addEvent("state change", "Fault -> Standby", 2);
+    show("/probe", {robot.now()});
+    EXPECT_TRUE(says(QString::fromStdString(longFault.substr(0, 48)) + "…"))
+        << "that was a fault before";
+    addEvent("fault", "fault -8: another one", 3);
+    show("/probe", {robot.now()});
+    EXPECT_TRUE(says(QString::fromStdString(longFault.substr(0, 48)) + "…"));
+}
+
+TEST_F(Header, ATextOfAFaultThatMayBeCutSaysSo) {
+    robot.put("/probe", "state", std::int64_t{4});
+    robot.put("/probe", "faultText", longFault);
+    show("/probe", {robot.now()});
+    const auto labels = header.findChildren<TextLabel*>();
+    const auto cut = std::ranges::find_if(
+        labels, [](const auto* each) { return each->text().startsWith("axis 4"); });
+    ASSERT_NE(cut, labels.end());
+    EXPECT_TRUE((*cut)->text().endsWith("…"));
+    EXPECT_EQ((*cut)->toolTip(), "The rest stands in the events.");
+    robot.put("/probe", "faultText", std::string{"axis 4 does not follow"});
+    show("/probe", {robot.now()});
+    EXPECT_EQ((*cut)->text(), "axis 4 does not follow");
+    EXPECT_EQ((*cut)->toolTip(), "");
+}
+
+TEST_F(Header, SaysWhenTheAgentOfAnInputHasEndedAsLongAsItIsGone) {
+    MadeAgent desk{"desk", [](SimplexTree& tree) {
+                       Simplex& reader = tree.add("/reader", "Probe");
+                       tree.relateRemote(reader, "in", "/order", "Order", false);
+                   }};
+    desk.put("/reader", "state", std::int64_t{2});
+    desk.degrade("/reader", Quality::Lost, "/order");
+    const GoneAgent gone{"robot", true, 3'600'000'000'000, robot.structure};
+    AgentFrame ended = robot.now("lost");
+    ended.status.ended = true;
+    for (const auto& agents : {std::vector{desk.now(), ended}, std::vector{desk.now()}}) {
+        Frame frame = *frameOf(agents);
+        frame.gone = {gone};
+        header.show(frame, *frame.find("/reader"));
+        EXPECT_TRUE(says("The input /order is gone: robot ended at 01:00:00 UTC."));
+        EXPECT_FALSE(says("quality lost, at rest")) << "it is Active";
+    }
+    Frame frame = *frameOf({desk.now(), robot.now()});
+    header.show(frame, *frame.find("/reader"));
+    EXPECT_FALSE(says("is gone"));
+}
+
+TEST_F(Header, OfALostAgentNothingIsYoungerThanItsNewestCycle) {
+    AgentFrame lost = robot.now("lost");
+    lost.status.age = 12.1;
+    show("/probe", {lost});
+    EXPECT_TRUE(says("robot is not heard for 12.1 s."));
+    EXPECT_TRUE(says("agent robot, 12.1 s old"));
+}
+
+TEST_F(Header, WhatRestsHasNoAge) {
+    robot.put("/probe", "state", std::int64_t{0});
+    robot.degrade("/probe", Quality::Stale, "/probe");
+    show("/probe", {robot.now()});
+    EXPECT_TRUE(says("quality stale, at rest"));
+    EXPECT_TRUE(says("agent robot"));
+    EXPECT_FALSE(says("ago"));
+    EXPECT_FALSE(says("100 ms"));
 }
 
 TEST_F(Header, SaysWhoseValuesAreShownWhereTwoAgentsClaimThePath) {
@@ -107,7 +194,7 @@ TEST_F(Header, SaysSinceWhenItIsInItsState) {
     event.wallClock = 3'600'000'000'000;
     times.add({event});
     show("/probe", {robot.now()});
-    EXPECT_TRUE(says("since 01:00:00, "));
+    EXPECT_TRUE(says("since 01:00:00 UTC, "));
 }
 
 TEST_F(Header, SaysWhoWritesADemandAndWhyItIsSafe) {

@@ -178,7 +178,7 @@ protected:
     GraphView graph;
     AgentView agents;
     EventList eventList{eventFilter};
-    EventView eventView{eventFilter};
+    EventView eventView{eventFilter, {}};
     StatusBar status;
 };
 

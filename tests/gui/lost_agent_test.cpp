@@ -59,11 +59,12 @@ TEST(LostAgent, TheTableOfDataHasConstantsOfWhatNeverCame) {
     }
 }
 
-// The row of an item of /order: its value and its remark.
-std::pair<QString, QString> orderRow(const AgentFrame& agent, const QString& item) {
+// The row of an item of a simplex or of what it is related to: its value and its remark.
+std::pair<QString, QString> rowOf(const std::string& path, const std::shared_ptr<Frame>& frame,
+                                  const QString& item) {
     ItemModel items;
-    items.show("/order");
-    items.update(frameOf({agent}));
+    items.show(path);
+    items.update(frame);
     for (int group = 0; group < items.rowCount(); ++group) {
         const QModelIndex above = items.index(group, 0);
         for (int row = 0; row < items.rowCount(above); ++row) {
@@ -75,20 +76,65 @@ std::pair<QString, QString> orderRow(const AgentFrame& agent, const QString& ite
     return {};
 }
 
+std::pair<QString, QString> orderRow(const AgentFrame& agent, const QString& item) {
+    return rowOf("/order", frameOf({agent}), item);
+}
+
+TEST(LostAgent, ValuesOfARelatedSimplexAreThoseOfItsAgentWhateverBecameOfIt) {
+    MadeAgent desk{"desk", [](SimplexTree& tree) {
+                       Simplex& reader = tree.add("/reader", "Probe");
+                       tree.relateRemote(reader, "in", "/order", "Order", false);
+                   }};
+    MadeAgent source{"source", [](SimplexTree& tree) { tree.add("/order", "Order"); }};
+    source.put("/order", "level", 3.0);
+    using Row = std::pair<QString, QString>;
+    const auto related = [&](std::vector<AgentFrame> agents, std::vector<GoneAgent> gone = {}) {
+        auto frame = frameOf(std::move(agents));
+        frame->complete = true;
+        frame->gone = std::move(gone);
+        return rowOf("/reader", frame, "level");
+    };
+    EXPECT_EQ(related({desk.now(), source.now()}).first, "3");
+    EXPECT_EQ(related({desk.now(), source.now("lost")}), (Row{"[3]", "lost"}));
+    AgentFrame ended = source.now("lost");
+    ended.status.ended = true;
+    const GoneAgent gone{"source", true, 1, source.structure};
+    EXPECT_EQ(related({desk.now(), ended}, {gone}), (Row{"[3]", "ended"}));
+    EXPECT_EQ(related({desk.now()}, {gone}), (Row{"—", "ended"}));
+    EXPECT_EQ(related({desk.now()}), (Row{"—", "lost"})) << "nobody has it";
+    EXPECT_EQ(rowOf("/reader", frameOf({desk.now()}), "level").first, "…") << "it may still come";
+}
+
+TEST(LostAgent, ATextThatFillsItsItemIsNotShownAsAWholeOne) {
+    MadeAgent robot{"robot", [](SimplexTree& tree) { tree.add("/probe", "Probe"); }};
+    const auto shown = [&](const std::string& text) {
+        robot.put("/probe", "faultText", text);
+        return rowOf("/probe", frameOf({robot.now()}), "faultText").first.toStdString();
+    };
+    const std::string accents = "é" + std::string(45, 'x');
+    EXPECT_EQ(shown(std::string(60, 'x')), std::string(48, 'x') + "…");
+    EXPECT_EQ(shown(accents + "é"), accents + "…") << "no character is cut in two";
+    EXPECT_EQ(shown(std::string(47, 'x')), std::string(47, 'x'));
+}
+
 TEST(Resting, AValueIsInBracketsAndItsMarkIsThatOfStandby) {
     MadeAgent robot{"robot", [](SimplexTree& tree) {
                         Simplex& probe = tree.add("/probe", "Probe");
                         tree.relate(probe, "out", tree.add("/order", "Order"));
+                        tree.add("/seen", "Seen");
                     }};
     const std::pair<QString, QString> good{"0", "safe 0"}, rests{"[0]", "Standby"},
         stale{"[0]", "stale"};
+    const auto seenRow = [&] { return rowOf("/seen", frameOf({robot.now()}), "level"); };
     EXPECT_EQ(orderRow(robot.now(), "value"), good) << "a demand says what its safe value is";
-    robot.degrade("/order", Quality::Stale);
-    robot.tables->live(robot.at("/order")).state->cause = robot.at("/probe");
+    robot.degrade("/order", Quality::Stale, "/probe");
+    robot.degrade("/seen", Quality::Stale, "/probe");
     robot.put("/probe", "state", std::int64_t{0});
-    EXPECT_EQ(orderRow(robot.now(), "value"), rests);
+    EXPECT_EQ(orderRow(robot.now(), "value"), good) << "a safe demand is the present value";
+    EXPECT_EQ(seenRow(), rests);
     robot.put("/probe", "state", std::int64_t{2});
     EXPECT_EQ(orderRow(robot.now(), "value"), stale) << "it should be live and is not";
+    EXPECT_EQ(seenRow(), stale);
     AgentFrame ended = robot.now("lost");
     ended.status.ended = true;
     const std::pair<QString, QString> over{"[0]", "ended"};

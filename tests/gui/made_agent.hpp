@@ -48,6 +48,10 @@ public:
     void degrade(std::string_view path, Quality quality) {
         tables->live(at(path)).state->quality = quality;
     }
+    void degrade(std::string_view path, Quality quality, std::string_view cause) {
+        degrade(path, quality);
+        tables->live(at(path)).state->cause = at(cause);
+    }
     // "running" or "lost", with all values as they are now, also when this agent is gone.
     gui::AgentFrame now(const std::string& state = "running") {
         gui::AgentFrame frame;
@@ -63,9 +67,10 @@ public:
         const auto kept =
             std::make_shared<std::pair<std::shared_ptr<Tables>, std::shared_ptr<ImagePool>>>(
                 tables, images_);
-        frame.image = std::make_shared<comms::AgentImage>(
-            kept, images_->newest(), std::vector<bool>(structure->simplexes.size(), true),
-            state == "lost", behind);
+        std::vector<bool> came;  // what other agents have does not
+        for (const SimplexInfo& each : structure->simplexes) came.push_back(!each.remote);
+        frame.image = std::make_shared<comms::AgentImage>(kept, images_->newest(), std::move(came),
+                                                          state == "lost", behind);
         frame.ages.assign(structure->simplexes.size(), 0.1F);
         return frame;
     }

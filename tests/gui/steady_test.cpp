@@ -61,6 +61,10 @@ TEST_F(Steady, NoRowMovesWhenControlIsRefusedAndWhenThatIsClosed) {
         ASSERT_TRUE(comes(isTold));
         EXPECT_EQ(places(), before) << size.width();
         EXPECT_EQ(findings(), "");
+        if (size == windowSizes.back()) {
+            EXPECT_EQ(unreadableInEverySize(window, [&] { other.control(), window.refresh(); }), "")
+                << "who holds it is never cut";
+        }
         Q_EMIT notice.closed();
         EXPECT_EQ(notice.text(), "");
         EXPECT_EQ(places(), before) << size.width();

@@ -110,6 +110,28 @@ TEST_F(Tree, SaysThatNothingMatchesOnlyWhileItIsTrue) {
     EXPECT_TRUE(trouble().contains("playback"));
 }
 
+TEST_F(Tree, SaysHowManyTheFilterShowsAlsoWhenOnlyTheirValuesChange) {
+    const auto counts = [this](const QString& text) {
+        const auto labels = tree.findChildren<TextLabel*>();
+        return std::ranges::any_of(labels, [&](const auto* each) { return each->text() == text; });
+    };
+    // The window takes the newest frame: it does not see all of them.
+    const auto show = [this](std::uint64_t number) {
+        const auto frame = frameOf({robot.now()});
+        frame->number = number;
+        frame->structures = 1'000'000;
+        tree.refresh(frame);
+    };
+    robot.put("/drive", "state", std::int64_t{2});
+    show(1);
+    EXPECT_TRUE(counts("3 of 1 agent"));
+    tree.filter("state:Active");
+    EXPECT_TRUE(counts("1 of 3 shown"));
+    robot.put("/control/hold", "state", std::int64_t{2});
+    show(31);
+    EXPECT_TRUE(counts("2 of 3 shown"));
+}
+
 TEST_F(Tree, SaysNothingOfAFilterWhileNobodyIsHeard) {
     tree.filter("playback");
     EXPECT_EQ(trouble(), "") << "there is nothing yet that could match";

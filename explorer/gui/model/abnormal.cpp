@@ -61,11 +61,13 @@ void Abnormal::update(const Frame& frame) {
         counts_[kind] = 0;
         paths_[kind].clear();
     }
-    for (const AgentFrame& agent : frame.agents) {
+    for (std::uint32_t i = 0; i < frame.agents.size(); ++i) {
+        const AgentFrame& agent = frame.agents[i];
         if (agent.status.ended) continue;
         forOwnSimplexes(agent, [&](std::uint32_t simplex) {
             if (agent.state(simplex) == State::Fault) add(Fault, agent, simplex);
-            const bool lost = agent.came(simplex) && agent.quality(simplex) == Quality::Lost;
+            const bool lost = agent.came(simplex) && agent.quality(simplex) == Quality::Lost &&
+                              frame.excuse({i, simplex}) == Excuse::None;
             if (agent.lost() || lost) add(Lost, agent, simplex);
         });
         if (limits) findOutside(agent);

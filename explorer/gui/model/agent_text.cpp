@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/agent_text.hpp"
 
+#include "common/loop_text.hpp"
 #include "model/item_of.hpp"
 #include "model/plain_text.hpp"
 
@@ -30,34 +31,17 @@ QString missingText(const comms::AgentStatus& agent) {
     return words("%1; lacking: %2").arg(text, names.join(QStringLiteral(", ")));
 }
 
-double nominalRate(const comms::AgentStatus& agent) {
-    return agent.period > 0 ? 1e9 / static_cast<double>(agent.period) : 0;
-}
-
-// As the agent judges it itself.
-bool isSlow(const comms::AgentStatus& agent) {
-    return agent.rate > 0 && agent.rate < 0.9 * nominalRate(agent);
-}
-
-// Never with an exponent.
-QString hertz(double rate) {
-    return rate < 1000 ? QString::number(rate, 'g', 4) : QString::number(rate, 'f', 0);
-}
-
 }  // namespace
 
 QString rateText(const comms::AgentStatus& agent) {
-    if (agent.period <= 0) return {};
-    const QString wanted = hertz(nominalRate(agent));
-    if (!agent.overloaded || !isSlow(agent)) return words("%1 Hz").arg(wanted);
-    return words("%1 of %2 Hz").arg(hertz(agent.rate), wanted);
+    return QString::fromStdString(common::rateText(agent));
 }
 
 QString overloadText(const comms::AgentStatus& agent) {
     if (!agent.overloaded) return {};
     if (agent.rate <= 0) return words("overloaded");
-    return isSlow(agent) ? words("overloaded: %1").arg(rateText(agent))
-                         : words("overloaded until just now");
+    return common::isSlow(agent) ? words("overloaded: %1").arg(rateText(agent))
+                                 : words("overloaded until just now");
 }
 
 QString stateWord(const comms::AgentStatus& agent) {

@@ -36,14 +36,17 @@ QString distanceText(const CompareModel::Row& row) {
     return text + ' ' + (row.upper ? CompareModel::tr("upper") : CompareModel::tr("lower"));
 }
 
-QString remarkOf(const AgentFrame& agent, std::uint32_t simplex, const CompareModel::Row& row) {
+QString remarkOf(const Frame& frame, const CompareModel::Row& row) {
+    const AgentFrame& agent = frame.agents[row.place.agent];
+    const Excuse excuse = frame.excuse(row.place);
+    if (excuse == Excuse::Ended) return CompareModel::tr("ended");
     if (agent.lost()) return CompareModel::tr("lost");
     if (row.left && *row.left < 0) {
         const bool above = row.max && *row.number > *row.max;
         return above ? CompareModel::tr("above limit") : CompareModel::tr("below limit");
     }
-    if (agent.rests(simplex)) return CompareModel::tr("rests");
-    const Quality quality = agent.quality(simplex);
+    if (excuse == Excuse::Rests) return CompareModel::tr("rests");
+    const Quality quality = agent.quality(row.place.simplex);
     return quality == Quality::Good ? QString{} : QLatin1String{name(quality)};
 }
 
@@ -144,7 +147,7 @@ void CompareModel::read(Row& row) const {
     row.distance = distanceText(row);
     row.seconds = agent.age(row.place.simplex);
     row.age = row.seconds ? ageText(static_cast<double>(*row.seconds)) : nothing();
-    row.remark = remarkOf(agent, row.place.simplex, row);
+    row.remark = remarkOf(*frame_, row);
 }
 
 void CompareModel::sort(int column, Qt::SortOrder order) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/event_csv.hpp"
 
+#include "common/utc_text.hpp"
 #include "model/plain_text.hpp"
 
 #include <QSaveFile>
@@ -16,7 +17,7 @@ QString csvField(const std::string& text) {
 }
 
 QString csvLine(const comms::AgentEvent& event) {
-    return QStringList{utcText(event.wallClock, "yyyy-MM-dd'T'HH:mm:ss.zzz'Z'"),
+    return QStringList{QString::fromStdString(common::utcText(event.wallClock)),
                        csvField(event.agent),
                        QString::number(event.number),
                        QString::number(event.cycle),

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/event_details.hpp"
 
+#include "cortex/core/command_sentence.hpp"
+#include "cortex/core/event.hpp"
+
 #include "model/plain_text.hpp"
 #include "model/shown_time.hpp"
 
 #include <QCoreApplication>
-#include <QRegularExpression>
 
 namespace cortex::gui {
 
@@ -20,16 +22,22 @@ QString fromTo(const QString& first, const QString& last) {
 
 QString number(std::int64_t value) { return countText(static_cast<std::uint64_t>(value)); }
 
-// "cortex@desk.4711: moveTo(speedShare=0.25): Done in 3,912 cycles".
-void addCommand(EventDetails& details, const QString& text) {
-    static const QRegularExpression form{
-        QStringLiteral(R"(^(.+?): (\w+\(.*\)): (.+?)(?: in (the same cycle|\d+ cycles?))?$)")};
-    const auto match = form.match(text);
-    if (!match.hasMatch()) return;
-    details.emplace_back(detail("sender"), match.captured(1));
-    details.emplace_back(detail("command"), match.captured(2));
-    details.emplace_back(detail("outcome"), match.captured(3));
-    if (!match.captured(4).isEmpty()) details.emplace_back(detail("latency"), match.captured(4));
+void addPart(EventDetails& details, const char* name, std::string_view text) {
+    if (!text.empty()) details.emplace_back(detail(name), plainText(std::string{text}));
+}
+
+// Of an event that says what became of a command.
+void addCommand(EventDetails& details, const comms::AgentEvent& event) {
+    const bool told =
+        event.kind == name(EventKind::Command) || event.kind == name(EventKind::Refusal);
+    const auto sentence = told ? commandSentence(event.text) : std::nullopt;
+    if (!sentence) return;
+    addPart(details, "sender", sentence->sender);
+    std::string command{sentence->command};
+    command.append("(").append(sentence->arguments);
+    addPart(details, "command", command + (sentence->outcome.empty() ? "…" : ")"));
+    addPart(details, "outcome", sentence->outcome);
+    addPart(details, "latency", sentence->latency);
 }
 
 void addTimes(EventDetails& details, const EventRow& row) {
@@ -72,7 +80,7 @@ EventDetails detailsOf(const EventRow& row) {
         details.emplace_back(detail("value"),
                              detail("%1, last %2").arg(each.text(), plainText(each.last)));
     }
-    addCommand(details, plainText(first.text));
+    addCommand(details, first);
     return details;
 }
 

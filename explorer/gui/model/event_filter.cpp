@@ -2,7 +2,6 @@
 #include "model/event_filter.hpp"
 
 #include "model/plain_text.hpp"
-#include "model/shown_time.hpp"
 
 #include <algorithm>
 
@@ -167,6 +166,13 @@ void EventFilter::showRoutine(bool shown) {
     rebuild();
 }
 
+void EventFilter::showAll() {
+    hidden_.clear();
+    hiddenKinds_.clear();
+    showsRoutine_ = false;
+    search({});
+}
+
 QString EventFilter::text() const {
     QStringList without;
     for (const Severity each : severities) {
@@ -182,7 +188,7 @@ QString EventFilter::text() const {
 void EventFilter::count(int row) {
     const EventRow& each = events_.at(row);
     std::uint64_t& before = counted_[static_cast<std::size_t>(row)];
-    const std::uint64_t now = each.matches && !each.isGap() ? each.times : 0;
+    const std::uint64_t now = each.isGap() ? 0 : each.times;
     add(each, now - before);
     before = now;
 }
@@ -190,10 +196,13 @@ void EventFilter::count(int row) {
 // Of what has gone, a number below zero: it is one modulo 2^64.
 void EventFilter::add(const EventRow& row, std::uint64_t events) {
     counts_.kinds.resize(events_.kinds().size());
+    const bool accepted = accepts(row);
+    if (!accepted && row.event.severity == Severity::Error) counts_.hiddenErrors += events;
+    if (!row.matches) return;
     counts_.severities[static_cast<std::size_t>(row.event.severity)] += events;
     counts_.kinds[row.kind] += events;
     if (row.isRoutine()) counts_.routine += events;
-    if (accepts(row)) counts_.shown += events;
+    if (accepted) counts_.shown += events;
 }
 
 int EventFilter::rowCount(const QModelIndex& parent) const {
@@ -219,7 +228,7 @@ QVariant EventFilter::data(const QModelIndex& index, int role) const {
     if (role == Qt::ToolTipRole) return tipText(plainText(event.text));
     if (role != Qt::DisplayRole && role != Qt::AccessibleTextRole) return {};
     if (column == EventModel::Times) return {};
-    if (column == EventModel::Time) return shownTimeText(event.wallClock, "HH:mm:ss.zzz");
+    if (column == EventModel::Time) return EventModel::timeText(event.wallClock);
     return QStringLiteral("    ") + plainText(event.text);
 }
 

@@ -21,6 +21,7 @@ class EventFilter : public QAbstractTableModel {
 public:
     // Events, of those that match what is typed.
     struct Counts {
+        std::uint64_t hiddenErrors = 0;  // of all: faults and errors that are not shown
         std::array<std::uint64_t, 3> severities{};
         std::vector<std::uint64_t> kinds;  // as EventModel::kinds()
         std::uint64_t routine = 0, shown = 0;
@@ -46,6 +47,7 @@ public:
     void showSeverity(Severity severity, bool shown);
     void showKind(const std::string& kind, bool shown);
     void showRoutine(bool shown);
+    void showAll();  // as at the start: all but jog commands
     bool shows(Severity severity) const { return !hidden_.contains(severity); }
     bool shows(const std::string& kind) const { return !hiddenKinds_.contains(kind); }
     bool showsRoutine() const { return showsRoutine_; }

@@ -81,6 +81,8 @@ void EventModel::place(EventRow row, std::vector<EventRow>& fresh, std::set<std:
         }
         open->second = next;
     }
+    row.late = !row.isGap() && row.event.wallClock < latest_;
+    latest_ = std::max(latest_, row.event.wallClock);
     row.matches = query_.matches(row.event);
     row.kind = kindOf(row.event.kind);
     fresh.push_back(std::move(row));
@@ -124,6 +126,10 @@ std::size_t EventModel::kindOf(const std::string& kind) {
     return kinds_.size() - 1;
 }
 
+QString EventModel::timeText(std::int64_t utc, bool late) {
+    return (late ? QStringLiteral("↑") : QString{}) + shownTimeText(utc, "HH:mm:ss.zzz");
+}
+
 int EventModel::rowCount(const QModelIndex& parent) const {
     return parent.isValid() ? 0 : static_cast<int>(rows_.size());
 }
@@ -136,11 +142,14 @@ QVariant EventModel::data(const QModelIndex& index, int role) const {
     const EventRow& row = at(index.row());
     const comms::AgentEvent& event = row.event;
     if (role == Qt::ToolTipRole) {
+        if (index.column() == Time && row.late) return tr("It came late: see what stands above it");
         return tipText(index.column() == Path ? plainText(event.path) : row.text());
     }
+    if (index.column() == Time && role == Qt::AccessibleTextRole && row.late)
+        return tr("%1, came late").arg(timeText(event.wallClock));
     switch (index.column()) {
         case Time:
-            return shownTimeText(event.wallClock, "HH:mm:ss.zzz");
+            return timeText(event.wallClock, row.late);
         case SeverityColumn:
             return row.isGap() ? tr("missing") : QString{QLatin1String{name(event.severity)}};
         case Kind:

@@ -15,8 +15,9 @@
 
 namespace cortex::gui {
 
-// The events of all agents, the newest last. The same event again counts up in its row; where
-// numbers of an agent are missing, a row says how many.
+// The events of all agents, in the order in which they came; those that came together, by their
+// times. The time of a row that came late has an arrow. The same event again counts up in its row;
+// where numbers of an agent are missing, a row says how many.
 class EventModel : public QAbstractTableModel {
     Q_OBJECT
 public:
@@ -39,6 +40,7 @@ public:
     int rowCount(const QModelIndex& parent = {}) const override;
     int columnCount(const QModelIndex& parent = {}) const override;
     QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
+    static QString timeText(std::int64_t utc, bool late = false);  // "↑12:05:07.123"
     QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
 private:
@@ -58,7 +60,8 @@ private:
     std::map<Start, comms::AgentEvent> last_;              // events without their texts
     std::vector<std::string> kinds_;
     std::uint64_t count_ = 0, dropped_ = 0;
-    std::size_t held_ = 0;  // events in all rows
+    std::size_t held_ = 0;     // events in all rows
+    std::int64_t latest_ = 0;  // time of all rows, UTC ns
 };
 
 }  // namespace cortex::gui

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/event_row.hpp"
 
+#include "cortex/core/command_sentence.hpp"
 #include "cortex/core/event.hpp"
 
 #include "model/plain_text.hpp"
@@ -52,8 +53,9 @@ bool EventRow::mayFold() const {
 }
 
 bool EventRow::isRoutine() const {
-    return event.kind == name(EventKind::Command) && event.severity == Severity::Info &&
-           event.text.find(": jog(") != std::string::npos;
+    if (event.kind != name(EventKind::Command) || event.severity != Severity::Info) return false;
+    const auto sentence = commandSentence(event.text);
+    return sentence && sentence->command == "jog";
 }
 
 std::string EventRow::key() const {

@@ -38,6 +38,7 @@ struct EventRow {
     std::deque<comms::AgentEvent> others;  // after the first, the newest of them
     bool matches = true;                   // what is typed into the filter
     std::size_t kind = 0;                  // index of its kind in the model
+    bool late = false;                     // what stands above it is of a later time
 };
 
 }  // namespace cortex::gui

@@ -28,7 +28,10 @@ QString ItemModel::whyNotSettable(const QModelIndex& index) const {
 
 bool ItemModel::setData(const QModelIndex& index, const QVariant& text, int role) {
     if (role != Qt::EditRole || !settable(index)) return false;
-    if (text == data(index, Qt::EditRole)) return true;  // opened, and left as it was
+    if (text == data(index, Qt::EditRole)) {  // opened, and left as it was
+        Q_EMIT accepted();
+        return true;
+    }
     const Row& row = nodeOf(index)->row;
     const DataItem item = entryItem(row);
     QString why;
@@ -43,6 +46,7 @@ bool ItemModel::setData(const QModelIndex& index, const QVariant& text, int role
         return false;
     }
     for (const auto& group : root_->children) refresh(*group);
+    Q_EMIT accepted();
     return true;
 }
 
@@ -74,12 +78,12 @@ QString ItemModel::editedText(const Row& row) const {
 QString ItemModel::copyText(const QModelIndex& index) const {
     const Node& node = *nodeOf(index);
     if (node.row.item == nullptr || node.layout == nullptr || !built_) return node.row.name;
-    const AgentFrame& agent = frame_->agents[built_->agent];
-    if (!agent.came(node.simplex)) return {};
-    cortex::Value value = (*agent.image)->value(node.simplex, *node.layout);
-    if (!node.row.whole) value = elementOf(value, node.row.element);
-    const QString text = QString::fromStdString(toText(value));
-    const bool live = qualityOf(agent, node) == Quality::Good || node.row.item->constant;
+    const auto place = placeOf(node);
+    auto value = valueOf(node, place);
+    if (!value) return {};
+    if (!node.row.whole) value = elementOf(*value, node.row.element);
+    const QString text = QString::fromStdString(toText(*value));
+    const bool live = frame_->agents[place->agent].live(place->simplex, *node.row.item);
     return live ? text : bracketed(text);
 }
 

@@ -3,6 +3,7 @@
 
 #include "cortex/core/labelled_value.hpp"
 
+#include "common/cut_text.hpp"
 #include "model/item_node.hpp"
 #include "model/item_text.hpp"
 #include "model/plain_text.hpp"
@@ -16,10 +17,21 @@ namespace cortex::gui {
 
 namespace {
 
-// Violet is for what should be live and is not: not for what rests, or has ended as it should.
-std::optional<Shape> markOf(const AgentFrame& agent, std::uint32_t simplex, Quality quality) {
-    if (agent.status.ended) return Shape::Ended;
-    return agent.rests(simplex) ? Shape::Standby : shapeOf(quality);
+// Of what is not live. Violet is for what should be and is not: not for what rests, or has ended as
+// it should.
+std::optional<Shape> markOf(const Frame& frame, Place place) {
+    const AgentFrame& agent = frame.agents[place.agent];
+    switch (frame.excuse(place)) {
+        case Excuse::Ended:
+            return Shape::Ended;
+        case Excuse::Rests:
+            return Shape::Standby;
+        case Excuse::None:
+            break;
+    }
+    if (agent.lost()) return Shape::Lost;
+    const Quality quality = agent.quality(place.simplex);
+    return shapeOf(quality == Quality::Good ? Quality::Stale : quality);  // its loop stands still
 }
 
 std::optional<Shape> outsideOf(const ItemModel::Row& row, const Value& value) {
@@ -109,7 +121,7 @@ void ItemModel::addGroups(Place place) {
                 row.name = QString::fromStdString(each);
                 group = &root_->add(std::move(row));
             }
-            addItem(*group, item, place, isOfFramework(each));
+            addItem(*group, item, place);
         }
     }
 }
@@ -127,19 +139,16 @@ void ItemModel::addRelated(Place place) {
         row.note = QString::fromStdString(target.layout->type->name);
         row.value = QString::fromStdString(target.path);
         Node& group = root_->add(std::move(row));
-        for (const DataItem& item : target.layout->type->data) {
-            const bool framework = isOfFramework(item.definedBy);
-            addItem(group, item, {place.agent, edge.target}, framework);
-        }
+        for (const DataItem& item : target.layout->type->data)
+            addItem(group, item, {place.agent, edge.target});
     }
 }
 
-void ItemModel::addItem(Node& group, const DataItem& item, Place place, bool framework) {
+void ItemModel::addItem(Node& group, const DataItem& item, Place place) {
     const SimplexInfo& info = frame_->info(place);
     Row row;
     row.path = info.path;
     row.item = &item;
-    row.framework = framework;
     row.name = QString::fromStdString(item.name);
     row.demand = info.role == Role::Modification;
     row.note = QString::fromStdString(item.description);
@@ -193,43 +202,68 @@ void ItemModel::setUnits(const ShownUnits& units) {
     }
 }
 
-// What the framework writes (state, fault, metrics) is as good as the last cycle that was heard,
-// also where the simplex itself writes nothing, as in Standby.
-Quality ItemModel::qualityOf(const AgentFrame& agent, const Node& node) {
-    if (agent.lost()) return Quality::Lost;
-    const Quality quality = agent.quality(node.simplex);
-    return node.row.framework && agent.beats() ? Quality::Good : quality;
+// Values of a simplex of another agent are found there.
+std::optional<Place> ItemModel::placeOf(const Node& node) const {
+    if (!built_) return std::nullopt;
+    const Place here{built_->agent, node.simplex};
+    return frame_->info(here).remote ? frame_->find(node.row.path) : here;
+}
+
+std::optional<cortex::Value> ItemModel::valueOf(const Node& node,
+                                                std::optional<Place> place) const {
+    if (!place) return std::nullopt;
+    const AgentFrame& agent = frame_->agents[place->agent];
+    const ItemLayout* layout = agent.structure == structure_
+                                   ? node.layout
+                                   : frame_->info(*place).layout->find(node.row.item->name);
+    return layout != nullptr ? agent.value(place->simplex, *layout) : std::nullopt;
+}
+
+// What never came says whether it still may.
+void ItemModel::readNothing(Row& row, std::optional<Place> place) const {
+    const GoneAgent* gone = frame_->goneFrom(row.path);
+    const bool nobody = !place && frame_->complete;
+    if (gone != nullptr)
+        row.mark = gone->ended ? Shape::Ended : Shape::Lost;
+    else if (nobody)
+        row.mark = Shape::Lost;
+    const bool lost = place && frame_->agents[place->agent].lost();
+    row.value = gone != nullptr || nobody || lost ? QStringLiteral("—") : QStringLiteral("…");
+}
+
+void ItemModel::read(Node& node, std::optional<Place> place) const {
+    Row& row = node.row;
+    row.mark.reset();
+    row.number.reset();
+    const auto value = valueOf(node, place);
+    if (!value) {
+        readNothing(row, place);
+        return;
+    }
+    const bool array = row.whole && row.item->length > 1;
+    row.value = array ? tr("%n values", nullptr, static_cast<int>(row.item->length))
+                      : shownText(row.shown.get(), *row.item, *value, row.element);
+    if (!array && common::mayBeCut(*row.item, *value, row.element)) row.value += QChar{0x2026};
+    if (!array) row.number = numberOf(*value, row.element);
+    if (row.number && row.shown) *row.number *= row.shown->factor;
+    if (!array) row.mark = outsideOf(row, *value);
+    if (frame_->agents[place->agent].live(place->simplex, *row.item)) return;
+    row.mark = markOf(*frame_, *place);
+    row.value = bracketed(row.value);
 }
 
 // Texts are made anew and compared; only rows that changed are painted.
 void ItemModel::refresh(Node& node) {
+    if (node.children.empty() || !built_) return;
     int first = -1, last = -1;
+    const auto place = placeOf(*node.children.front());
     for (const auto& child : node.children) {
         Row& row = child->row;
-        if (row.item == nullptr || child->layout == nullptr || !built_) continue;
-        const AgentFrame& agent = frame_->agents[built_->agent];
+        if (row.item == nullptr || child->layout == nullptr) continue;
         const QString before = row.value, editedBefore = row.edited;
-        row.edited = settableRow(row) ? editedText(row) : QString{};
         const auto mark = row.mark;
-        row.mark.reset();
-        row.number.reset();
-        const auto known = agent.value(child->simplex, *child->layout);
-        if (!known) {
-            row.value = agent.lost() ? QStringLiteral("—") : QStringLiteral("…");
-        } else {
-            const cortex::Value& value = *known;
-            const bool array = row.whole && row.item->length > 1;
-            row.value = array ? tr("%n values", nullptr, static_cast<int>(row.item->length))
-                              : shownText(row.shown.get(), *row.item, value, row.element);
-            if (!array) row.number = numberOf(value, row.element);
-            if (row.number && row.shown) *row.number *= row.shown->factor;
-            if (!array) row.mark = outsideOf(row, value);
-            const Quality quality = qualityOf(agent, *child);
-            if (quality != Quality::Good && !row.item->constant) {
-                row.mark = markOf(agent, child->simplex, quality);
-                row.value = bracketed(row.value);
-            }
-        }
+        row.edited = settableRow(row) ? editedText(row) : QString{};
+        read(*child, place);
         if (row.value != before || row.mark != mark || row.edited != editedBefore) {
             if (first < 0) first = child->number;
             last = child->number;

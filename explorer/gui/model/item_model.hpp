@@ -32,7 +32,6 @@ public:
         std::shared_ptr<const ShownItem> shown;  // null: as the model has it
         std::optional<Shape> mark;               // outside of its range, or not live
         bool demand = false;                     // a wish, of a modification
-        bool framework = false;                  // only the framework writes it
         bool whole = true;                       // the item, not one of its elements
         const DataItem& asShown() const { return shown ? shown->item : *item; }
     };
@@ -72,6 +71,7 @@ public:
 
 Q_SIGNALS:
     void refused(const QString& why);  // what was entered: "gain is out of the range 0 to 1"
+    void accepted();                   // what was entered, also where it is as it was before
 
 private:
     struct Node;
@@ -79,11 +79,14 @@ private:
     void build();
     void addGroups(Place place);
     void addRelated(Place place);
-    void addItem(Node& group, const DataItem& item, Place place, bool framework);
+    void addItem(Node& group, const DataItem& item, Place place);
     void describe(Row& row) const;
     void describe(Node& node);
-    static Quality qualityOf(const AgentFrame& agent, const Node& node);
     void refresh(Node& node);
+    std::optional<Place> placeOf(const Node& node) const;
+    std::optional<cortex::Value> valueOf(const Node& node, std::optional<Place> place) const;
+    void read(Node& node, std::optional<Place> place) const;
+    void readNothing(Row& row, std::optional<Place> place) const;
     bool settableRow(const Row& row) const;
     std::optional<cortex::Value> valueNow(const std::string& item) const;
     QString editedText(const Row& row) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/image_items.hpp"
 #include "session/frame.hpp"
 
 #include <cstdint>
@@ -17,8 +18,7 @@ std::optional<T> itemOf(const AgentFrame& agent, std::uint32_t simplex, std::str
     const ItemLayout* layout = agent.structure->simplexes[simplex].layout->find(item);
     if (layout == nullptr) return std::nullopt;
     const auto value = agent.value(simplex, *layout);
-    const auto* all = value ? std::get_if<std::vector<T>>(&*value) : nullptr;
-    return all == nullptr || all->empty() ? std::nullopt : std::optional<T>{all->front()};
+    return value ? common::firstOf<T>(*value) : std::nullopt;
 }
 
 }  // namespace cortex::gui

@@ -6,7 +6,6 @@
 #include <QCoreApplication>
 #include <QStringList>
 #include <optional>
-#include <set>
 
 namespace cortex::gui {
 
@@ -39,11 +38,6 @@ QString safeRemark(const DataItem& item) {
             break;
     }
     return {};
-}
-
-bool isOfFramework(const std::string& type) {
-    static const std::set<std::string> types{"Simplex", "Active", "Activity", "Agent", "Cluster"};
-    return types.contains(type);
 }
 
 QString limitsText(const DataItem& item) {

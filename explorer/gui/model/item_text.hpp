@@ -14,7 +14,6 @@ QString remarkOf(const DataItem& item);  // "constant", "measured", "set in Stan
 QString safeRemark(const DataItem& item);
 // Its limits, whole: "−2.0943951 to 2.0943951 rad", "at least 0 s"; empty: it has none.
 QString limitsText(const DataItem& item);
-bool isOfFramework(const std::string& type);  // only the framework writes the items of the type
-QString labelsText(const DataItem& item);     // "labels: 0:Off 1:On"
+QString labelsText(const DataItem& item);  // "labels: 0:Off 1:On"
 
 }  // namespace cortex::gui

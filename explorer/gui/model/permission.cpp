@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/permission.hpp"
 
-#include "cortex/core/control_commands.hpp"
 #include "cortex/core/path.hpp"
 
+#include "common/needed_control.hpp"
 #include "model/shown_time.hpp"
 #include "model/value_text.hpp"
 #include "session/lease.hpp"
@@ -17,6 +17,43 @@ namespace {
 
 QString say(const char* text) { return QCoreApplication::translate("Permission", text); }
 
+bool isOfAgent(const Frame& frame, Place place) { return frame.type(place).isA("Agent"); }
+
+std::optional<std::string> neededFor(const Frame& frame, Place place, std::string_view command,
+                                     const comms::Mirror::Arguments& arguments) {
+    const Type& type = frame.type(place);
+    const auto found = std::ranges::find(type.commands, command, &Command::name);
+    const DataItem* prefix = nullptr;
+    if (found != type.commands.end()) {
+        const auto named = std::ranges::find(found->request, "prefix", &DataItem::name);
+        if (named != found->request.end()) prefix = &*named;
+    }
+    return common::neededControl(frame.info(place).path, isOfAgent(frame, place), command, prefix,
+                                 arguments);
+}
+
+// The part of the plant that control is taken of, where it is lacking.
+std::string offered(const Frame& frame, Place place, const std::string& needed) {
+    return isOfAgent(frame, place) ? needed : scopeOf(frame, place);
+}
+
+QString whyNotControlled(const Frame& frame, Place place, std::string_view command,
+                         const comms::Mirror::Arguments& arguments) {
+    const AgentFrame& agent = frame.agents[place.agent];
+    const auto needed = neededFor(frame, place, command, arguments);
+    if (!needed || frame.control.covers(agent.status.name, *needed)) return {};
+    const bool ofAgent = isOfAgent(frame, place);  // it concerns what lies below, too
+    for (const comms::ShownLease& lease : leasesOf(agent)) {
+        if (lease.holder == frame.control.self) continue;
+        if (!isAtOrBelow(*needed, lease.prefix) && !(ofAgent && isAtOrBelow(lease.prefix, *needed)))
+            continue;
+        return say("held by %1 since %2 (%3)")
+            .arg(QString::fromStdString(lease.holder), clockText(lease.since),
+                 ageText(lease.seconds));
+    }
+    return say("read-only: take control of %1").arg(scopeText(offered(frame, place, *needed)));
+}
+
 }  // namespace
 
 QString clockText(std::int64_t utc) { return shownTimeText(utc, "HH:mm"); }
@@ -26,7 +63,7 @@ QString scopeText(const std::string& prefix) {
 }
 
 std::string scopeOf(const Frame& frame, Place place) {
-    if (frame.type(place).isA("Agent")) return "/";
+    if (isOfAgent(frame, place)) return "/";
     const std::string& path = frame.info(place).path;
     return path.substr(0, path.find('/', 1));
 }
@@ -46,10 +83,9 @@ std::vector<std::string> scopesOf(const Frame& frame) {
     return scopes;
 }
 
-QString whyNotNow(const Frame& frame, Place place, StateSet available, std::string_view command) {
+QString whyNotNow(const Frame& frame, Place place, StateSet available, std::string_view command,
+                  const comms::Mirror::Arguments& arguments) {
     const AgentFrame& agent = frame.agents[place.agent];
-    const std::string& path = frame.info(place).path;
-    const bool ofAgent = frame.type(place).isA("Agent");
     if (agent.lost()) {
         return say("%1 is not heard").arg(QString::fromStdString(agent.status.name));
     }
@@ -62,18 +98,7 @@ QString whyNotNow(const Frame& frame, Place place, StateSet available, std::stri
                 .arg(QString::fromStdString(available.text()).replace(' ', say(" or ")));
         }
     }
-    if (isUrgentCommand(command)) return {};
-    // What an agent's own command concerns follows from its prefix, which the agent checks.
-    const bool ours = ofAgent ? frame.control.covers(agent.status.name, frame.control.prefix)
-                              : frame.control.covers(agent.status.name, path);
-    if (ours) return {};
-    for (const comms::ShownLease& lease : leasesOf(agent)) {
-        if (lease.holder == frame.control.self || !isAtOrBelow(path, lease.prefix)) continue;
-        return say("held by %1 since %2 (%3)")
-            .arg(QString::fromStdString(lease.holder), clockText(lease.since),
-                 ageText(lease.seconds));
-    }
-    return say("read-only: take control of %1").arg(scopeText(scopeOf(frame, place)));
+    return whyNotControlled(frame, place, command, arguments);
 }
 
 }  // namespace cortex::gui

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/plotted_items.hpp"
 
+#include "common/live_rule.hpp"
 #include "model/item_model.hpp"
 #include "model/item_text.hpp"
 
@@ -46,9 +47,13 @@ std::vector<RecordedItem> plottedItems(const Frame& frame, const std::string& pa
     std::vector<RecordedItem> found;
     const auto place = frame.find(path);
     if (!place) return found;
+    const Structure& structure = *frame.agents[place->agent].structure;
+    const auto ofFramework = [&](const DataItem& item) {
+        return common::isOfFramework(structure, place->simplex, item.name);
+    };
     for (const bool framework : {false, true}) {
         for (const DataItem& each : frame.type(*place).data) {
-            if (isNumber(each) && !each.constant && isOfFramework(each.definedBy) == framework)
+            if (isNumber(each) && !each.constant && ofFramework(each) == framework)
                 add(found, path, each, 0, each.length);
         }
         if (!found.empty()) break;

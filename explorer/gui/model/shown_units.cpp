@@ -3,6 +3,7 @@
 
 #include "cortex/core/labelled_value.hpp"
 
+#include "common/number_text.hpp"
 #include "model/value_text.hpp"
 
 #include <QCoreApplication>
@@ -48,7 +49,7 @@ std::shared_ptr<const ShownItem> converted(const DataItem& item, const std::stri
     as.unit = unit;
     as.min = shownBound(item.min, factor);
     as.max = shownBound(item.max, factor);
-    if (const int decimals = decimalsOf(item); decimals >= 0) {
+    if (const int decimals = common::decimalsOf(item); decimals >= 0) {
         as.resolution = std::pow(10.0, -decimals) * factor;
         as.format.clear();
     }

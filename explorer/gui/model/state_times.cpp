@@ -7,6 +7,7 @@
 #include <QCoreApplication>
 #include <QDateTime>
 #include <algorithm>
+#include <tuple>
 
 namespace cortex::gui {
 
@@ -28,24 +29,38 @@ void StateTimes::add(const std::vector<comms::AgentEvent>& events) {
         const std::pair key{each.agent, each.path};
         if (changes_.size() >= mostChanges && !changes_.contains(key)) continue;
         Change& change = changes_[key];
-        const std::pair known{change.epoch, change.when}, told{each.epoch, each.wallClock};
-        if (known < told) change = {each.epoch, each.wallClock};
+        const std::tuple known{change.epoch, change.when, change.number};
+        if (!(known < std::tuple{each.epoch, each.wallClock, each.number})) continue;
+        const bool faults = each.kind == name(EventKind::Fault);
+        change = {each.epoch, each.wallClock, each.number, faults ? each.text : std::string{}};
     }
+}
+
+const StateTimes::Change* StateTimes::last(const Frame& frame, Place place) const {
+    const comms::AgentStatus& agent = frame.agents[place.agent].status;
+    const auto found = changes_.find({agent.name, frame.info(place).path});
+    const bool known = found != changes_.end() && found->second.epoch == agent.epoch;
+    return known ? &found->second : nullptr;
+}
+
+std::string StateTimes::fault(const Frame& frame, Place place) const {
+    const Change* found = last(frame, place);
+    return found != nullptr ? found->fault : std::string{};
 }
 
 QString StateTimes::text(const Frame& frame, Place place) const {
     const AgentFrame& agent = frame.agents[place.agent];
-    const auto found = changes_.find({agent.status.name, frame.info(place).path});
-    if (found == changes_.end() || found->second.epoch != agent.status.epoch) {
+    const Change* found = last(frame, place);
+    if (found == nullptr) {
         return QCoreApplication::translate("StateTimes", "since before %1")
-            .arg(shownTimeText(begin_, "HH:mm"));
+            .arg(shownTimeText(begin_, "HH:mm") + ' ' + zoneName(begin_));
     }
-    const std::int64_t when = found->second.when;
+    const std::int64_t when = found->when;
     // By the clock of the agent, which also stamped the event.
     const std::int64_t now = agent.image && *agent.image ? (*agent.image)->wallClock() : when;
     const double seconds = static_cast<double>(std::max<std::int64_t>(now - when, 0)) * 1e-9;
     return QCoreApplication::translate("StateTimes", "since %1, %2")
-        .arg(shownTimeText(when, "HH:mm:ss"), wholeAgeText(seconds));
+        .arg(shownTimeText(when, "HH:mm:ss") + ' ' + zoneName(when), wholeAgeText(seconds));
 }
 
 }  // namespace cortex::gui

@@ -18,14 +18,20 @@ public:
     StateTimes();
 
     void add(const std::vector<comms::AgentEvent>& events);
-    // "since 12:03:22, 12 min", in the zone that is shown; "since before 12:03" where no event
-    // told.
+    // "since 12:03:22 UTC, 12 min", in the zone that is shown; "since before 12:03 UTC" where no
+    // event told.
     QString text(const Frame& frame, Place place) const;
+    // What the event said of the fault in which it is; empty: none is known.
+    std::string fault(const Frame& frame, Place place) const;
 
 private:
     struct Change {
         std::int64_t epoch = 0, when = 0;  // start of the agent; UTC ns
+        std::uint64_t number = 0;          // of the event
+        std::string fault;                 // its text, of a fault
     };
+    const Change* last(const Frame& frame, Place place) const;  // null: none is known
+
     std::map<std::pair<std::string, std::string>, Change> changes_;  // agent and path
     std::int64_t begin_;                                             // UTC ns
 };

@@ -48,9 +48,12 @@ Marks ownMarks(const Frame& frame, std::optional<Place> place, bool twice) {
         marks.shape = shapeOf(*state);
     else
         marks.shape = type.active() ? Shape::Unknown : Shape::Data;
-    if (agent.lost())
-        marks.own = agent.status.ended ? Shape::Ended : Shape::Lost;
-    else if (agent.came(place->simplex) && !agent.rests(place->simplex))
+    const Excuse excuse = frame.excuse(*place);
+    if (excuse == Excuse::Ended)
+        marks.own = Shape::Ended;
+    else if (agent.lost())
+        marks.own = Shape::Lost;
+    else if (agent.came(place->simplex) && excuse == Excuse::None)
         marks.own = shapeOf(agent.quality(place->simplex));
     if (twice) marks.own = worse(marks.own, Shape::Contradiction);
     return marks;
@@ -126,8 +129,9 @@ SystemModel::~SystemModel() = default;
 void SystemModel::update(std::shared_ptr<const Frame> frame) {
     const bool changed = frame->structures != frame_->structures;
     frame_ = std::move(frame);
-    const auto number = frame_->number % framesBetweenFilters;
-    if (changed || (!query_.empty() && number == 0)) change(*root_, wanted());
+    const std::uint64_t now = frame_->number / framesBetweenFilters;  // some frames are never seen
+    if (changed || (!query_.empty() && now != looked_)) change(*root_, wanted());
+    looked_ = now;
     refresh(*root_);
 }
 
@@ -144,7 +148,7 @@ void SystemModel::setFilter(Query query) {
 
 SystemModel::Wanted SystemModel::wanted() {
     Wanted all;
-    simplexes_ = 0;
+    simplexes_ = matching_ = 0;
     for (std::uint32_t a = 0; a < frame_->agents.size(); ++a) {
         const auto& structure = frame_->agents[a].structure;
         if (!structure) continue;
@@ -152,7 +156,9 @@ SystemModel::Wanted SystemModel::wanted() {
             const SimplexInfo& info = structure->simplexes[i];
             if (info.remote) continue;
             ++simplexes_;
-            if (query_.matches(*frame_, {a, i})) all.add(info.path, {a, i}, *frame_);
+            if (!query_.matches(*frame_, {a, i})) continue;
+            ++matching_;
+            all.add(info.path, {a, i}, *frame_);
         }
     }
     all.name(*frame_);

@@ -43,6 +43,7 @@ public:
     std::optional<Place> place(const QModelIndex& index) const;
     QModelIndex indexOf(const std::string& path) const;  // invalid: not shown
     int simplexes() const { return simplexes_; }         // of the present agents
+    int matching() const { return matching_; }           // of those, that the filter shows
 
     QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
     QModelIndex parent(const QModelIndex& index) const override;
@@ -66,7 +67,8 @@ private:
     std::shared_ptr<const Frame> frame_;
     std::unique_ptr<Node> root_;
     Query query_;
-    int simplexes_ = 0;
+    int simplexes_ = 0, matching_ = 0;
+    std::uint64_t looked_ = 0;  // half second of frames in which conditions were looked at
 };
 
 }  // namespace cortex::gui

@@ -3,10 +3,11 @@
 
 #include "cortex/core/labelled_value.hpp"
 
+#include "common/number_text.hpp"
+
 #include <QCoreApplication>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace cortex::gui {
@@ -14,7 +15,6 @@ namespace cortex::gui {
 namespace {
 
 constexpr QChar minus{0x2212};
-constexpr int significantDigits = 6;
 
 QString tr(const char* text) { return QCoreApplication::translate("Value", text); }
 
@@ -27,13 +27,6 @@ QString superscript(int number) {
     return number < 0 ? QStringLiteral("⁻") + text : text;
 }
 
-QString withExponent(double number) {
-    const auto exponent = static_cast<int>(std::floor(std::log10(std::abs(number))));
-    const double mantissa = number / std::pow(10.0, exponent);
-    return QString::number(mantissa, 'g', significantDigits) + QStringLiteral("×10") +
-           superscript(exponent);
-}
-
 QString label(const DataItem& item, std::int64_t number) {
     QString digits = QString::number(number).replace('-', minus);
     if (item.labels.empty()) return digits;
@@ -44,45 +37,14 @@ QString label(const DataItem& item, std::int64_t number) {
 
 }  // namespace
 
-// Decimals that a format such as "%.3f" asks for, or a resolution of 0.001.
-int decimalsOf(const DataItem& item) {
-    if (const std::size_t dot = item.format.find('.'); dot != std::string::npos) {
-        int decimals = 0;
-        const char* end = item.format.data() + item.format.size();
-        if (std::from_chars(item.format.data() + dot + 1, end, decimals).ec == std::errc{}) {
-            return std::clamp(decimals, 0, 17);
-        }
-    }
-    if (item.resolution > 0) {
-        return std::clamp(static_cast<int>(std::ceil(-std::log10(item.resolution) - 1e-9)), 0, 17);
-    }
-    return -1;
-}
-
 QString numberText(const DataItem& item, double number) {
     if (std::isnan(number)) return tr("not a number");
     if (std::isinf(number)) return number > 0 ? QStringLiteral("∞") : minus + QStringLiteral("∞");
-    const double size = std::abs(number);
-    const int decimals = decimalsOf(item);
-    QString text;
-    if (size != 0 && (size >= 1e7 || (size < 1e-4 && decimals < 0))) {
-        text = withExponent(number);
-    } else if (decimals >= 0) {
-        text = QString::number(number, 'f', decimals);
-    } else {
-        const int before = size < 1 ? 0 : static_cast<int>(std::floor(std::log10(size))) + 1;
-        const int after = std::max(0, significantDigits - std::max(before, 1));
-        text = QString::number(number, 'f', after);
-        if (text.contains('.')) {
-            while (text.endsWith('0')) text.chop(1);
-            if (text.endsWith('.')) text.chop(1);
-        }
-    }
-    if (text.startsWith('-')) {  // what rounds to zero has no sign
-        const bool zero = std::ranges::none_of(text, [](QChar c) { return c >= '1' && c <= '9'; });
-        text = zero ? text.mid(1) : minus + text.mid(1);
-    }
-    return text;
+    const QString plain = QString::fromStdString(common::numberText(item, number));
+    const int e = plain.indexOf('e');
+    QString text = plain.left(e);
+    if (e >= 0) text += QStringLiteral("×10") + superscript(plain.mid(e + 1).toInt());
+    return text.startsWith('-') ? minus + text.mid(1) : text;
 }
 
 QString elementText(const DataItem& item, const Value& value, std::size_t element) {

@@ -9,10 +9,8 @@
 // Values as the screen shows them. Copies use cortex::toText, in plain ASCII at full precision.
 namespace cortex::gui {
 
-// By the format of the item, otherwise its resolution, otherwise 6 significant digits; with a minus
-// sign as it is printed, and exponents only below 1e-4 and from 1e7 on.
+// With the digits of common::numberText(), and signs as they are printed: "−2.5×10⁻⁵".
 QString numberText(const DataItem& item, double number);
-int decimalsOf(const DataItem& item);  // by its format or resolution; -1: neither says
 
 // "−0.0121", "AtLimit (3)", "7 (no label)", "true", "7 values" with the first three.
 QString valueText(const DataItem& item, const Value& value);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/why_text.hpp"
 
+#include "model/plain_text.hpp"
+
 #include <QCoreApplication>
 #include <QStringList>
 #include <algorithm>
@@ -60,22 +62,11 @@ QString writersOf(const Frame& frame, Place place) {
 }
 
 // A demand whose writer is at rest, or has lost an input, has its safe values.
-QString safeBecause(const Frame& frame, Place place) {
-    const AgentFrame& agent = frame.agents[place.agent];
-    const SimplexInfo& info = frame.info(place);
-    const bool stale =
-        info.role == Role::Modification && agent.quality(place.simplex) == Quality::Stale;
-    if (!stale || agent.lost()) return {};
-    const std::uint32_t writer = (*agent.image)->state(place.simplex).cause;
-    if (std::ranges::find(info.writers, writer) == info.writers.end()) return {};
-    const auto state = agent.state(writer);
-    const QString path = pathOf(frame, {place.agent, writer});
-    if (state == State::Standby || state == State::Fault) {
-        return sayWhy("Safe values, as %1 is in %2.").arg(path, QLatin1String{name(*state)});
-    }
-    return agent.quality(writer) == Quality::Good
-               ? QString{}
-               : sayWhy("Safe values, as %1 has lost an input.").arg(path);
+QString staleBecause(const Frame& frame, Place place) {
+    const common::StaleDemand demand = frame.agents[place.agent].stale(place.simplex);
+    if (demand.why.empty()) return {};
+    return (demand.safe ? sayWhy("Safe values, as %1.") : sayWhy("Stale, as %1."))
+        .arg(plainText(demand.why));
 }
 
 }  // namespace
@@ -84,9 +75,9 @@ QString whyText(const Frame& frame, Place place) {
     QStringList sentences;
     const QString writers = writersOf(frame, place);
     if (!writers.isEmpty()) sentences << sayWhy("Written by %1.").arg(writers);
-    const QString safe = safeBecause(frame, place);
-    if (!safe.isEmpty()) sentences << safe;
-    const QString causes = safe.isEmpty() ? causesOf(frame, place) : QString{};
+    const QString stale = staleBecause(frame, place);
+    if (!stale.isEmpty()) sentences << stale;
+    const QString causes = stale.isEmpty() ? causesOf(frame, place) : QString{};
     if (!causes.isEmpty()) {
         sentences << sayWhy("Quality %1 because of %2.")
                          .arg(QLatin1String{name(frame.agents[place.agent].quality(place.simplex))},

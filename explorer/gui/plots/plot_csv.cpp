@@ -4,9 +4,9 @@
 #include "cortex/core/quality.hpp"
 #include "cortex/core/value.hpp"
 
+#include "common/utc_text.hpp"
 #include "plots/lanes.hpp"
 
-#include <QDateTime>
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -33,16 +33,6 @@ std::string columnName(const PlotLine& line) {
     if (line.data.length > 1) name += '[' + std::to_string(line.item.element) + ']';
     if (!line.model.unit.empty()) name += '[' + line.model.unit + ']';
     return field(name);
-}
-
-std::string timeText(std::int64_t utc) {  // "2026-11-25T12:14:46.123456789Z"
-    constexpr std::int64_t second = 1'000'000'000;
-    const std::int64_t whole = utc / second, rest = utc % second;
-    const std::string date = QDateTime::fromSecsSinceEpoch(whole, Qt::UTC)
-                                 .toString(QStringLiteral("yyyy-MM-ddTHH:mm:ss"))
-                                 .toStdString();
-    const std::string digits = std::to_string(rest);
-    return date + '.' + std::string(9 - digits.size(), '0') + digits + 'Z';
 }
 
 std::string valueOf(const DrawnLine& line, const Recorder& recorder, double value) {
@@ -96,7 +86,7 @@ std::vector<Source> sourcesOf(const std::vector<DrawnLine>& lines, TimeSpan span
 void writeRow(std::ostream& out, const Source& source, const std::vector<DrawnLine>& lines,
               const Recorder& recorder) {
     const AgentTime& time = *source.any->time;
-    out << timeText(time.table.utcAt(source.next)) << ',' << time.cycleAt(source.next);
+    out << common::utcText(time.table.utcAt(source.next), 9) << ',' << time.cycleAt(source.next);
     for (const DrawnLine& each : lines) {
         const std::uint8_t quality = each.any() && each.time == source.any->time
                                          ? each.ring->quality(source.next)

@@ -62,9 +62,7 @@ std::optional<double> SimplexNow::age() const {
     return frame_->agents[agent_].age(simplex_);
 }
 
-bool SimplexNow::live() const {
-    return quality() == Quality::Good && frame_->agents[agent_].status.standstill.empty();
-}
+bool SimplexNow::live() const { return present() && frame_->agents[agent_].live(simplex_); }
 
 std::optional<double> SimplexNow::number(std::string_view item, std::size_t element) const {
     if (!present()) return std::nullopt;
@@ -83,7 +81,7 @@ QString SimplexNow::text(std::string_view item, std::size_t element) const {
     if (!value) return nothing;
     const QString text = gui::elementText(*layout->item, *value, element);
     if (text.isEmpty()) return nothing;
-    return live() || layout->item->constant ? text : gui::bracketed(text);
+    return agent.live(simplex_, *layout->item) ? text : gui::bracketed(text);
 }
 
 const DataItem* SimplexNow::data(std::string_view item) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/pending.hpp"
 
+#include "common/live_rule.hpp"
+#include "common/safe_demand.hpp"
 #include "record/ring.hpp"
 
 #include <algorithm>
@@ -45,7 +47,7 @@ Pending::Source Pending::sourceOf(const RecordedItem& item, const Structure& str
     result.kind = layout->item->kind;
     result.offset = layout->offset + static_cast<std::uint32_t>(item.element);
     result.constant = layout->constant;
-    result.always = layout->constant || (type.type->active() && item.item == "state");
+    result.always = layout->constant || common::isOfFramework(structure, simplex, item.item);
     return result;
 }
 
@@ -101,7 +103,10 @@ void Pending::add(PendingRows& rows, const comms::AgentImage& image, const Sourc
     }
     if (source.simplex != noSimplex && image.came(source.simplex)) {
         quality = image->state(source.simplex).quality;
-        if (source.always && quality != Quality::Lost) quality = Quality::Good;
+        const bool live = source.always
+                              ? quality != Quality::Lost
+                              : common::isSafe(source.simplex, image->state(source.simplex), image);
+        if (live) quality = Quality::Good;
         if (quality == Quality::Good) value = number(*image, source, item);
     }
     rows.values.push_back(value);

@@ -3,6 +3,10 @@
 
 #include "cortex/core/path.hpp"
 
+#include "common/image_items.hpp"
+#include "common/live_rule.hpp"
+#include "common/shown_age.hpp"
+
 #include <algorithm>
 
 namespace cortex::gui {
@@ -31,29 +35,49 @@ std::optional<State> AgentFrame::state(std::uint32_t simplex) const {
 }
 
 std::optional<State> AgentFrame::lastState(std::uint32_t simplex) const {
-    if (!came(simplex)) return std::nullopt;
-    const TypeLayout& layout = *structure->simplexes[simplex].layout;
-    if (!layout.type->active()) return std::nullopt;
-    const ItemLayout* item = layout.find("state");
-    if (item == nullptr) return std::nullopt;
-    const Value value = (*image)->value(simplex, *item);
-    const auto* numbers = std::get_if<std::vector<std::int64_t>>(&value);
-    if (numbers == nullptr || numbers->empty()) return std::nullopt;
-    const std::int64_t state = numbers->front();
-    if (state < 0 || state >= stateCount) return std::nullopt;
-    return static_cast<State>(state);
+    return image ? common::stateOf(*image, simplex) : std::nullopt;
+}
+
+common::StaleDemand AgentFrame::stale(std::uint32_t simplex) const {
+    if (!came(simplex)) return {};
+    return common::safeBecause(simplex, (*image)->state(simplex), *image);
+}
+
+bool AgentFrame::isSafe(std::uint32_t simplex) const {
+    return came(simplex) && common::isSafe(simplex, (*image)->state(simplex), *image);
+}
+
+bool AgentFrame::live(std::uint32_t simplex) const {
+    return image && common::isLive(status, *image, simplex, isSafe(simplex));
+}
+
+bool AgentFrame::live(std::uint32_t simplex, const DataItem& item) const {
+    if (item.constant) return true;
+    return image && common::isLive(status, *image, simplex, isSafe(simplex), item);
+}
+
+// What makes it not good is another one, and neither it nor who writes it does anything with that.
+bool AgentFrame::standsBy(std::uint32_t simplex, std::uint32_t cause) const {
+    if (cause == simplex) return false;
+    if (state(simplex) == State::Standby) return true;
+    const auto& writers = structure->simplexes[simplex].writers;
+    return !writers.empty() && std::ranges::all_of(writers, [&](std::uint32_t writer) {
+        return writer != cause && state(writer) == State::Standby;
+    });
 }
 
 bool AgentFrame::rests(std::uint32_t simplex) const {
-    if (!beats() || quality(simplex) != Quality::Stale) return false;
-    const std::uint32_t cause = (*image)->state(simplex).cause;
-    return state(simplex) == State::Standby ||
-           (cause < structure->simplexes.size() && state(cause) == State::Standby);
+    if (!beats() || !came(simplex)) return false;
+    const SlotState now = (*image)->state(simplex);
+    if (now.quality == Quality::Lost) return standsBy(simplex, now.cause);
+    if (now.quality != Quality::Stale) return false;
+    return state(simplex) == State::Standby || standsBy(simplex, now.cause) ||
+           (now.cause < structure->simplexes.size() && state(now.cause) == State::Standby);
 }
 
 std::optional<float> AgentFrame::age(std::uint32_t simplex) const {
     if (simplex >= ages.size() || ages[simplex] < 0) return std::nullopt;
-    return ages[simplex];
+    return static_cast<float>(common::shownAge(ages[simplex], status));
 }
 
 std::vector<std::string> Control::prefixes() const {
@@ -64,17 +88,6 @@ std::vector<std::string> Control::prefixes() const {
         }
     }
     return prefixes;
-}
-
-std::string Control::common() const {
-    std::string path;
-    for (const std::string& each : prefixes()) {
-        if (path.empty()) path = each;
-        while (path != "/" && !isAtOrBelow(each, path)) {
-            path.resize(std::max<std::size_t>(path.rfind('/'), 1));
-        }
-    }
-    return path;
 }
 
 bool Control::covers(const std::string& agent, std::string_view path) const {
@@ -104,6 +117,49 @@ std::optional<Place> Frame::find(std::string_view path) const {
         if (!found || isOwner(agent, found->agent, path)) found = Place{agent, simplex};
     }
     return found;
+}
+
+const GoneAgent* Frame::goneFrom(std::string_view path) const {
+    const auto here = find(path);
+    if (here && !agents[here->agent].status.ended) return nullptr;
+    const GoneAgent* found = nullptr;
+    for (const GoneAgent& each : gone) {
+        const std::uint32_t simplex = each.structure->find(path);
+        if (simplex == noSimplex || each.structure->simplexes[simplex].remote) continue;
+        if (found == nullptr || each.when > found->when) found = &each;
+    }
+    return found;
+}
+
+std::optional<GoneInput> Frame::goneInput(Place place) const {
+    constexpr int mostSteps = 8;  // agents may read each other in a circle
+    for (int step = 0; step < mostSteps; ++step) {
+        const AgentFrame& agent = agents[place.agent];
+        if (agent.lost() || !agent.came(place.simplex)) return {};
+        const SlotState state = (*agent.image)->state(place.simplex);
+        const auto& all = agent.structure->simplexes;
+        const bool another = state.cause < all.size() && state.cause != place.simplex;
+        if (state.quality == Quality::Good || !another) return {};
+        if (!all[state.cause].remote) {
+            place.simplex = state.cause;
+            continue;
+        }
+        const std::string& path = all[state.cause].path;
+        if (const GoneAgent* from = goneFrom(path)) return GoneInput{path, from};
+        const auto next = find(path);
+        if (!next) return {};
+        place = *next;
+    }
+    return {};
+}
+
+Excuse Frame::excuse(Place place) const {
+    const AgentFrame& agent = agents[place.agent];
+    if (agent.status.ended) return Excuse::Ended;
+    if (agent.lost() || agent.quality(place.simplex) == Quality::Good) return Excuse::None;
+    if (agent.rests(place.simplex)) return Excuse::Rests;
+    const auto input = goneInput(place);
+    return input && input->agent->ended ? Excuse::Ended : Excuse::None;
 }
 
 }  // namespace cortex::gui

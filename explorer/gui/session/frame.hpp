@@ -3,6 +3,8 @@
 
 #include "cortex/comms/lease_client.hpp"
 
+#include "common/safe_demand.hpp"
+
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -31,10 +33,37 @@ struct AgentFrame {
     std::optional<State> lastState(std::uint32_t simplex) const;
     // The last one that came; a constant also where nothing did.
     std::optional<Value> value(std::uint32_t simplex, const ItemLayout& item) const;
-    // It is stale only because it, or who writes it, is in Standby: nothing is amiss.
+    // Why it has its safe values, if it is a demand; empty otherwise.
+    common::StaleDemand stale(std::uint32_t simplex) const;
+    bool isSafe(std::uint32_t simplex) const;
+    // Whether what the simplex writes is the present value; what is not stands in brackets.
+    bool live(std::uint32_t simplex) const;
+    bool live(std::uint32_t simplex, const DataItem& item) const;
+    // It is not good only because it, or who writes it, is in Standby: nothing is amiss. So it is
+    // also where what it would read is lost.
     bool rests(std::uint32_t simplex) const;
+    // How old what is shown of it is, in s; none: it never came.
     std::optional<float> age(std::uint32_t simplex) const;
+
+private:
+    bool standsBy(std::uint32_t simplex, std::uint32_t cause) const;
 };
+
+// An agent that has ended as it should, or that was lost and dismissed.
+struct GoneAgent {
+    std::string name;
+    bool ended = false;     // as it should
+    std::int64_t when = 0;  // it was heard last, UTC ns
+    std::shared_ptr<const Structure> structure;
+};
+
+struct GoneInput {
+    std::string path;
+    const GoneAgent* agent = nullptr;
+};
+
+// Why what is not good is as it should be.
+enum class Excuse { None, Rests, Ended };
 
 // A simplex of a frame.
 struct Place {
@@ -44,16 +73,15 @@ struct Place {
 
 // What this session may command. Without a prefix it is read-only.
 struct Control {
-    std::string self;          // how agents know this session
-    std::string prefix, asks;  // what it holds first; what it is taking just now
-    std::string last;          // the prefix that it held last
-    std::int64_t since = 0;    // UTC ns
-    std::string notice;        // what became of it last; empty again when it is taken
+    std::string self;                 // how agents know this session
+    std::string prefix, asks;         // what it holds first; what it is taking just now
+    std::string last;                 // the prefix that it held last
+    std::vector<std::string> claims;  // that it held, and neither released nor handed over
+    std::int64_t since = 0;           // UTC ns
+    std::string notice;               // what became of it last; empty again when it is taken
     std::vector<comms::LeaseClient::Lease> held;  // all, those handed over to it included
 
     std::vector<std::string> prefixes() const;  // that are held, each once
-    std::string common() const;                 // the path around all of them; empty: none
-
     bool covers(const std::string& agent, std::string_view path) const;
 };
 
@@ -71,6 +99,7 @@ struct Frame {
     std::uint32_t closed = 0;  // participants with security, which cannot be seen without
     Control control;
     std::vector<AgentFrame> agents;
+    std::vector<GoneAgent> gone;              // those that ended are in `agents` for a minute, too
     std::vector<comms::Contested> contested;  // by path
 
     // What is known of a path that several agents have; null: at most one has it.
@@ -80,6 +109,12 @@ struct Frame {
 
     // Where the simplex is; of several agents that claim the path, the one that owns it.
     std::optional<Place> find(std::string_view path) const;
+    // The agent that had the path last, where it is gone and no other has the path by now.
+    const GoneAgent* goneFrom(std::string_view path) const;
+    // What made the simplex not good, also through other agents, where that is gone.
+    std::optional<GoneInput> goneInput(Place place) const;
+    // It is in Standby, or its agent, or that of its input, has ended as it should: no loss.
+    Excuse excuse(Place place) const;
     const SimplexInfo& info(Place place) const {
         return agents[place.agent].structure->simplexes[place.simplex];
     }

@@ -35,11 +35,15 @@ void LeaseKeeper::take(const std::string& prefix, const Frame& frame) {
             });
         if (!agent.lost() && !ours && hasBelow(agent, prefix)) agents.push_back(agent.status.name);
     }
+    again_ = !agents.empty() && std::ranges::find(control_.claims, prefix) != control_.claims.end();
     control_.asks = prefix;
     taking_ = client_.take(prefix, agents);
 }
 
-void LeaseKeeper::release() { releaseAllBut({}); }
+void LeaseKeeper::release() {
+    releaseAllBut({});
+    control_.claims.clear();
+}
 
 void LeaseKeeper::releaseAllBut(const std::string& prefix) {
     for (const std::string& each : control_.prefixes()) {
@@ -62,10 +66,18 @@ void LeaseKeeper::step(const Frame& frame, bool renews) {
     std::erase_if(releasing_, [&](std::uint64_t each) { return client_.poll(each, answers); });
     const std::vector<std::string> news = client_.news();
     if (!news.empty()) control_.notice = asSentence(news.back());
+    noteHeld();
+}
+
+void LeaseKeeper::noteHeld() {
     control_.held = client_.held();
     control_.prefix = control_.held.empty() ? "" : control_.held.front().prefix;
     control_.since = control_.held.empty() ? 0 : control_.held.front().since;
     if (!control_.prefix.empty()) control_.last = control_.prefix;
+    for (const std::string& each : control_.prefixes()) {
+        if (std::ranges::find(control_.claims, each) == control_.claims.end())
+            control_.claims.push_back(each);
+    }
 }
 
 void LeaseKeeper::finishTaking(const Frame& frame, const comms::LeaseClient::Answers& answers) {
@@ -94,7 +106,9 @@ void LeaseKeeper::finishTaking(const Frame& frame, const comms::LeaseClient::Ans
             "Nothing was taken: nobody who is heard has anything at or below " + prefix + ".";
     } else {
         control_.notice.clear();
+        if (again_) return;
         releaseAllBut(prefix);
+        control_.claims = {prefix};
     }
 }
 
@@ -104,6 +118,7 @@ void LeaseKeeper::finishHandOver(const comms::LeaseClient::Answers& answers) {
     for (const auto& [name, answer] : answers) {
         if (!answer.done()) refusals += " " + name + ": " + answer.text() + ".";
     }
+    if (refusals.empty()) std::erase(control_.claims, handed_);
     control_.notice = "Control of " + handed_ +
                       (refusals.empty() ? " was handed over to " + to_ + "."
                                         : " was not handed over to " + to_ + "." + refusals);

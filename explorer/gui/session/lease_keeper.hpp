@@ -16,7 +16,7 @@ public:
     explicit LeaseKeeper(comms::Mirror& mirror);
 
     // Of all agents that have something at or below the prefix, or of none. What was held before
-    // is held until then.
+    // is held until then, and stays so where a part of it was lost and is taken again.
     void take(const std::string& prefix, const Frame& frame);
     void release();
     void handOver(const std::string& prefix, const std::string& to);
@@ -28,10 +28,12 @@ public:
 private:
     void finishTaking(const Frame& frame, const comms::LeaseClient::Answers& answers);
     void finishHandOver(const comms::LeaseClient::Answers& answers);
+    void noteHeld();
     void releaseAllBut(const std::string& prefix);
 
     Control control_;
     std::uint64_t taking_ = 0, handing_ = 0;  // numbers of the client; 0: none
+    bool again_ = false;  // it takes what is missing of a claim: all others stay
     std::vector<std::uint64_t> releasing_;
     std::string handed_, to_;
     comms::LeaseClient client_;  // ends first, and releases all within a second

@@ -45,10 +45,27 @@ std::vector<comms::AgentEvent> LostAgents::update(std::vector<AgentFrame>& agent
         tell(agent, events);
     }
     keep(agents, now);
+    for (const AgentFrame& agent : agents) note(agent);
     std::erase_if(agents, [&](const AgentFrame& agent) {
         return agent.lost() && dismissed_.contains({agent.status.name, agent.status.epoch});
     });
     return events;
+}
+
+void LostAgents::note(const AgentFrame& agent) {
+    const comms::AgentStatus& status = agent.status;
+    const auto known = std::ranges::find(gone_, status.name, &GoneAgent::name);
+    const bool dismissed = agent.lost() && dismissed_.contains({status.name, status.epoch});
+    if (!status.ended && !dismissed) {
+        if (!agent.lost() && known != gone_.end()) gone_.erase(known);
+        return;
+    }
+    const bool same = known != gone_.end() && known->structure == agent.structure;
+    if (same || !agent.structure) return;
+    if (known != gone_.end()) gone_.erase(known);
+    if (gone_.size() >= mostKept) gone_.erase(gone_.begin());
+    const auto age = static_cast<std::int64_t>(status.age * 1e9);
+    gone_.push_back({status.name, status.ended, utcNow() - age, agent.structure});
 }
 
 void LostAgents::tell(const AgentFrame& agent, std::vector<comms::AgentEvent>& events) const {
@@ -75,9 +92,11 @@ void LostAgents::keep(std::vector<AgentFrame>& agents, Moment now) {
     for (const AgentFrame& agent : agents) known.try_emplace(agent.status.name, agent, now);
     for (auto& [name, each] : known_) {
         if (known.contains(name) || !each.frame.lost() || each.frame.status.ended) continue;
+        AgentFrame old = later(each.frame, std::chrono::duration<double>(now - each.when).count());
+        note(old);
         const bool dismissed = dismissed_.erase({name, each.frame.status.epoch}) > 0;
         if (dismissed || known.size() >= mostKept) continue;
-        agents.push_back(later(each.frame, std::chrono::duration<double>(now - each.when).count()));
+        agents.push_back(std::move(old));
         known.emplace(name, std::move(each));
     }
     known_ = std::move(known);

@@ -22,6 +22,8 @@ public:
     // returns what has happened since the last call.
     std::vector<comms::AgentEvent> update(std::vector<AgentFrame>& agents, Moment now);
     void dismiss(const std::string& agent);  // until it is heard again
+    // Those that ended, or were dismissed, and are not heard again: what they had is not forgotten.
+    const std::vector<GoneAgent>& gone() const { return gone_; }
 
 private:
     struct Known {
@@ -30,9 +32,11 @@ private:
     };
     void tell(const AgentFrame& agent, std::vector<comms::AgentEvent>& events) const;
     void keep(std::vector<AgentFrame>& agents, Moment now);
+    void note(const AgentFrame& agent);
 
     std::map<std::string, Known> known_;                        // as of the last call
     std::set<std::pair<std::string, std::int64_t>> dismissed_;  // name and start
+    std::vector<GoneAgent> gone_;
 };
 
 }  // namespace cortex::gui

@@ -365,6 +365,7 @@ void Session::publish() {
             frame->agents.push_back(agentFrame(*mirror_, status));
         }
         keepLost(frame->agents);
+        frame->gone = lost_.gone();
         frame->contested = mirror_->contested();
     }
     if (!sameStructures(*last, *frame)) ++structures_;

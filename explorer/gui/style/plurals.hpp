@@ -8,7 +8,7 @@
 namespace cortex::gui {
 
 // What `%n` stands before in texts of the window: for one, and for any other number.
-inline constexpr std::array<std::pair<const char*, const char*>, 12> plurals{{
+inline constexpr std::array<std::pair<const char*, const char*>, 13> plurals{{
     {"%n agent", "%n agents"},
     {"%n fault", "%n faults"},
     {"%n thread", "%n threads"},
@@ -18,6 +18,7 @@ inline constexpr std::array<std::pair<const char*, const char*>, 12> plurals{{
     {"%n cycle", "%n cycles"},
     {"%n row", "%n rows"},
     {"%n event of %1 did not come", "%n events of %1 did not come"},
+    {"%n fault or error not shown", "%n faults or errors not shown"},
     {"Set %n item", "Set %n items"},
     {"%1 of %n agent", "%1 of %n agents"},
     {"%n participant with security was found; it is seen only with a folder of its authority.",

@@ -9,14 +9,12 @@
 #include <QHeaderView>
 #include <QScrollBar>
 #include <algorithm>
-#include <array>
 
 namespace cortex::gui {
 
 namespace {
 
-constexpr int nameRole = Qt::UserRole, startedColumn = 4;
-constexpr std::array numberColumns{3, 5, 6, 7, 8, 9};  // from the age to the samples that were lost
+constexpr int nameRole = Qt::UserRole, startedColumn = 4, troubleColumn = 11;
 
 QStringList textsOf(const AgentFrame& agent) {
     const comms::AgentStatus& s = agent.status;
@@ -86,7 +84,7 @@ void AgentTable::refresh(const Frame& frame) {
         }
     }
     filling_ = false;
-    for (const int column : numberColumns) growToFit(*this, column);
+    for (int column = 0; column < troubleColumn; ++column) growToFit(*this, column);
     mark();
     if (other) updateGeometry();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/base_view.hpp"
 
+#include "model/gone_text.hpp"
 #include "model/plotted_items.hpp"
 #include "model/value_text.hpp"
 #include "plugin/plugins.hpp"
@@ -183,8 +184,10 @@ void BaseView::showNothing(const Frame& frame) {
         emptyTitle_->show(tr("Choose a simplex in the tree."));
         emptyText_->show({});
     } else {
+        const GoneAgent* gone = frame.goneFrom(path_);
+        const QString comes = tr("This pane fills itself when it comes.");
         emptyTitle_->show(tr("%1 is not heard.").arg(QString::fromStdString(path_)));
-        emptyText_->show(tr("This pane fills itself when it comes."));
+        emptyText_->show(gone != nullptr ? goneText(*gone) + ' ' + comes : comes);
     }
 }
 

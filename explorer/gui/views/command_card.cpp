@@ -142,7 +142,7 @@ void CommandCard::addParameter(QGridLayout& grid, const DataItem& item) {
 void CommandCard::refresh(const Frame& frame, Place place) {
     whyNot_ = comms::isControlCommand(command_.name)
                   ? tr("the window does this itself: Ctrl+T")
-                  : whyNotNow(frame, place, command_.available, command_.name);
+                  : whyNotNow(frame, place, command_.available, command_.name, arguments());
     showOutcomes();
     decide();
     if (command_.isLong) refreshProgress(frame.agents[place.agent], place.simplex);

@@ -87,6 +87,7 @@ void CounterTable::show(const AgentFrame& agent, const LoopHistory& history) {
         row.setForeground(MinuteColumn, amber ? c.warnText : c.ink);
         row.setForeground(MeaningColumn, c.ink2);
     }
+    for (const int column : {NameColumn, CountColumn, MinuteColumn}) growToFit(*this, column);
 }
 
 QSize CounterTable::sizeHint() const {

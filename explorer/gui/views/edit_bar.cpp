@@ -54,8 +54,9 @@ EditBar::EditBar(Commands& commands, ItemModel& items, QWidget* parent)
     connect(&items_, &ItemModel::refused, this, [this](const QString& why) {
         say(why, &Tokens::warnText);
         saysWhyNot_ = false;
-        refusedAt_ = items_.edits();
+        refused_ = true;
     });
+    connect(&items_, &ItemModel::accepted, this, &EditBar::forgetRefusal);
     hide();
 }
 
@@ -63,7 +64,6 @@ void EditBar::show(const std::string& path) {
     if (path == path_) return;
     path_ = path;
     frame_ = nullptr;
-    refusedAt_.reset();
     items_.clearEdits();
     sayLast();
 }
@@ -72,13 +72,22 @@ void EditBar::show(const std::string& path) {
 void EditBar::sayLast() {
     saysWhyNot_ = false;
     if (const auto found = outcomes_.find(path_); found != outcomes_.end()) {
+        refused_ = found->second.colour == &Tokens::warnText;
         say(found->second.text, found->second.colour);
         return;
     }
     const Commands::Last* last = commands_.last(path_, "set");
     const bool failed = last != nullptr && last->outcome && !last->outcome->answer.done();
+    refused_ = failed;
     told_->show({});
     if (failed) say(tr("Not set: %1").arg(outcomeText(*last->outcome)), &Tokens::warnText);
+}
+
+// Of a value that is put right by now.
+void EditBar::forgetRefusal() {
+    if (!std::exchange(refused_, false) || sending_.contains(path_)) return;
+    outcomes_.erase(path_);
+    told_->show({});
 }
 
 void EditBar::refresh(const std::shared_ptr<const Frame>& frame, Place place) {
@@ -88,10 +97,6 @@ void EditBar::refresh(const std::shared_ptr<const Frame>& frame, Place place) {
     const auto edits = items_.edits();
     const int count = static_cast<int>(edits.size());
     const QString why = whyNot(edits);
-    if (refusedAt_ && *refusedAt_ != edits) {  // what was wrong stands until something is entered
-        refusedAt_.reset();
-        saysWhyNot_ = true;
-    }
     if (count > 0 && (!why.isEmpty() || told_->text().isEmpty() || saysWhyNot_)) {
         saysWhyNot_ = true;
         say(why.isEmpty() ? tr("Not sent yet.") : tr("Not sent: %1").arg(why), &Tokens::ink);
@@ -145,6 +150,7 @@ void EditBar::submit() {
 
 void EditBar::discard() {
     items_.clearEdits();
+    refused_ = false;
     outcomes_.erase(path_);
     told_->show({});
 }
@@ -228,9 +234,11 @@ QString EditBar::textOf(const Done& change) const {
 }
 
 void EditBar::tell(const std::string& path, const QString& text, QColor Tokens::* colour) {
-    if (path == path_) saysWhyNot_ = false;
     outcomes_[path] = {text, colour};
-    if (path == path_) say(text, colour);
+    if (path != path_) return;
+    saysWhyNot_ = false;
+    refused_ = colour == &Tokens::warnText;
+    say(text, colour);
 }
 
 void EditBar::say(const QString& text, QColor Tokens::* colour) {

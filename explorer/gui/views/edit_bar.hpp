@@ -58,13 +58,14 @@ private:
     void say(const QString& text, QColor Tokens::* colour);
     void sayLast();
     void forgetWhatChanged();
+    void forgetRefusal();
     QString textOf(const Done& change) const;
     QString textOf(const std::string& path, const std::string& item, const Value& value) const;
 
     Commands& commands_;
     ItemModel& items_;
     bool saysWhyNot_ = false;  // of what was not sent, which changes by itself
-    std::optional<comms::Mirror::Arguments> refusedAt_;  // the edits when an entry was refused
+    bool refused_ = false;     // what is said is that a value was not taken
     std::shared_ptr<const Frame> frame_;
     Place place_;
     std::string path_;

@@ -37,9 +37,11 @@ Chip* EventChips::add(Chip* chip, bool shown, const std::function<void(bool)>& s
     return chip;
 }
 
+// What is shown may have been changed elsewhere, too.
 void EventChips::refresh() {
     const EventFilter::Counts& counts = events_.counts();
     for (const auto& [severity, chip] : severities_) {
+        chip->setChecked(events_.shows(severity));
         chip->show(counts.severities[static_cast<std::size_t>(severity)]);
     }
     const auto& kinds = events_.events().kinds();
@@ -51,9 +53,11 @@ void EventChips::refresh() {
             chip = add(new Chip{plainText(kind)}, events_.shows(kind),
                        [this, kind](bool shown) { events_.showKind(kind, shown); });
         }
+        chip->setChecked(events_.shows(kind));
         chip->show(counts.kinds[i]);
         chip->setVisible(counts.kinds[i] > 0 || !events_.shows(kind));
     }
+    routine_->setChecked(events_.showsRoutine());
     routine_->show(counts.routine);
     routine_->setVisible(counts.routine > 0 || events_.showsRoutine());
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/event_panel.hpp"
 
+#include "common/shell_line.hpp"
 #include "model/event_details.hpp"
 #include "widgets/state_mark.hpp"
 #include "widgets/text_label.hpp"
@@ -8,6 +9,9 @@
 #include <QGridLayout>
 #include <QPainter>
 #include <QPushButton>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace cortex::gui {
 
@@ -16,19 +20,20 @@ namespace {
 constexpr int pairsInColumn = 6;
 
 // The same for a shell.
-QString shellCommand(const EventRow& row) {
-    QString text = QStringLiteral("cortex events");
-    if (!row.event.path.empty()) text += ' ' + QString::fromStdString(row.event.path);
+QString shellCommand(const EventRow& row, const comms::NetworkOptions& network) {
+    std::vector<std::string> words{"events"};
+    if (!row.event.path.empty()) words.push_back(row.event.path);
     if (row.event.severity != Severity::Info) {
-        text += QStringLiteral(" --severity ") + QLatin1String{name(row.event.severity)};
+        words.insert(words.end(), {"--severity", name(row.event.severity)});
     }
-    return text;
+    return QString::fromStdString(common::shellLine(words, network));
 }
 
 }  // namespace
 
-EventPanel::EventPanel(QWidget* parent)
+EventPanel::EventPanel(comms::NetworkOptions network, QWidget* parent)
     : QWidget{parent},
+      network_{std::move(network)},
       mark_{new StateMark{4}},
       title_{new TextLabel{TextSize::Text, true}},
       dropped_{new TextLabel{TextSize::Text, true, &Tokens::dataText}},
@@ -76,19 +81,18 @@ void EventPanel::addPairs() {
 
 void EventPanel::setCompact(bool compact) { more_->setVisible(!compact); }
 
-void EventPanel::show(const EventRow& row) {
+void EventPanel::show(const EventRow& row, std::uint64_t serial) {
     const comms::AgentEvent& event = row.event;
     dropped_->show({});
     setVisible(true);
-    if (number_ == event.number && agent_ == event.agent && times_ == row.times) return;
-    number_ = event.number;
-    agent_ = event.agent;
+    if (serial_ == serial && times_ == row.times) return;
+    serial_ = serial;
     times_ = row.times;
     path_ = event.path;
     mark_->show(row.isGap() ? Shape::Bad : shapeOf(event.severity));
     title_->show(row.text(), row.isGap() ? &Tokens::dataText : &Tokens::ink);
     open_->setVisible(!path_.empty());
-    command_->show(tr("As a command: %1").arg(shellCommand(row)));
+    command_->show(tr("As a command: %1").arg(shellCommand(row, network_)));
     fill(row);
 }
 

@@ -6,6 +6,7 @@
 #include <QWidget>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -21,9 +22,9 @@ class TextLabel;
 class EventPanel : public QWidget {
     Q_OBJECT
 public:
-    explicit EventPanel(QWidget* parent = nullptr);
+    explicit EventPanel(comms::NetworkOptions network, QWidget* parent = nullptr);
 
-    void show(const EventRow& row);
+    void show(const EventRow& row, std::uint64_t serial);  // its number among all rows
     void sayDropped();
     void setCompact(bool compact);  // the text alone, where there is little room
 
@@ -37,9 +38,10 @@ private:
     void addPairs();
     void fill(const EventRow& row);
 
+    const comms::NetworkOptions network_;
     std::string path_;
-    std::uint64_t times_ = 0, number_ = 0;  // of what is shown
-    std::string agent_;
+    std::optional<std::uint64_t> serial_;  // of what is shown
+    std::uint64_t times_ = 0;
     StateMark* mark_;
     TextLabel *title_, *dropped_, *command_;
     QPushButton* open_;

@@ -16,9 +16,27 @@ namespace cortex::gui {
 
 namespace {
 
-// In units; the text takes the rest.
+// In units; the text takes the rest. Time, severity and times are never cut: they are at least as
+// wide as their texts.
 constexpr std::array<double, EventModel::ColumnCount> eventWidths{25, 23, 26, 38, 19, 0, 15};
 constexpr double leastTextWidth = 60, leastPathWidth = 24;
+constexpr double margins = 3, markWidth = 4.5;
+
+// In units, with a column's margins and that of its title.
+double widthOf(const QAbstractItemModel& model, int column, const QStringList& texts,
+               bool strong = false) {
+    const QString title = model.headerData(column, Qt::Horizontal).toString();
+    int widest = textWidth(title, false) + Look::units(1);
+    for (const QString& each : texts) widest = std::max(widest, textWidth(each, strong));
+    return widest / Look::length(1) + margins;
+}
+
+QStringList severities() {
+    QStringList words{EventModel::tr("missing")};
+    for (const auto each : {Severity::Info, Severity::Warning, Severity::Error})
+        words << QLatin1String{name(each)};
+    return words;
+}
 
 class EventDelegate : public QStyledItemDelegate {
 public:
@@ -37,7 +55,7 @@ public:
         if (index.column() == EventModel::SeverityColumn) {
             const int size = Look::units(3);
             gui::paint(*painter, markBox(box.left(), box, size), shape, c);
-            box.setLeft(box.left() + size + Look::units(1.5));
+            box.setLeft(box.left() + Look::units(markWidth));
         }
         const bool times = index.column() == EventModel::Times;
         paintText(*painter, box, opener(index, row) + index.data().toString(),
@@ -188,6 +206,13 @@ void EventTable::keyPressEvent(QKeyEvent* event) {
         return;
     }
     const auto row = selected();
+    const bool steps = event->key() == Qt::Key_Up || event->key() == Qt::Key_Down;
+    if (!row && steps && events_.rowCount() > 0) {  // from what is in sight
+        const QModelIndex last = indexAt(viewport()->rect().bottomLeft());
+        setCurrentIndex(last.isValid() ? last : events_.index(events_.rowCount() - 1, 0));
+        look();
+        return;
+    }
     if (row && event->key() == Qt::Key_Right) {
         follows_ = false;  // what was opened stays in sight
         events_.open(*row);
@@ -220,10 +245,17 @@ void EventTable::resizeEvent(QResizeEvent* event) {
 // When it is narrow the agent goes first, then the kind, then the path is cut.
 void EventTable::fitColumns() {
     auto widths = eventWidths;
-    const auto unit = static_cast<double>(Look::units(1));
-    const double time = textWidth(QStringLiteral("00:00:00.000"), false) / unit;
-    widths[EventModel::Time] = std::max(widths[EventModel::Time], time + 5);
-    double left = viewport()->width() / static_cast<double>(Look::units(1)) - leastTextWidth;
+    const auto widen = [&](int column, double width) {
+        auto& now = widths[static_cast<std::size_t>(column)];
+        now = std::max(now, width);
+    };
+    widen(EventModel::Time,
+          widthOf(events_, EventModel::Time, {EventModel::timeText(0, true)}, true));
+    widen(EventModel::SeverityColumn,
+          widthOf(events_, EventModel::SeverityColumn, severities(), true) + markWidth);
+    widen(EventModel::Times,
+          widthOf(events_, EventModel::Times, {QStringLiteral("▸ ×99,999")}, true));
+    double left = viewport()->width() / Look::length(1) - leastTextWidth;
     for (const double each : widths) left -= each;
     for (const int column : {EventModel::Agent, EventModel::Kind}) {
         setColumnHidden(column, left < 0);

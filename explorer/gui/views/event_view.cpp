@@ -24,7 +24,7 @@ constexpr double leastHeight = 120;  // units, from which on there is room for a
 
 }  // namespace
 
-EventView::EventView(EventFilter& events, QWidget* parent)
+EventView::EventView(EventFilter& events, const comms::NetworkOptions& network, QWidget* parent)
     : QWidget{parent},
       events_{events},
       field_{new QLineEdit},
@@ -35,7 +35,7 @@ EventView::EventView(EventFilter& events, QWidget* parent)
       below_{new QPushButton{this}},
       chips_{new EventChips{events}},
       rows_{new EventTable{events}},
-      panel_{new EventPanel} {
+      panel_{new EventPanel{network}} {
     setAutoFillBackground(true);
     auto* all = new QVBoxLayout{this};
     all->setContentsMargins(0, 0, 0, 0);
@@ -50,6 +50,10 @@ EventView::EventView(EventFilter& events, QWidget* parent)
     below_->setChecked(true);
     below_->hide();
     connect(field_, &QLineEdit::textChanged, this, &EventView::search);
+    connect(&events_, &EventFilter::changed, this, [this] {  // it may be cleared elsewhere
+        const QString& text = events_.events().query().text();
+        if (text != field_->text().trimmed()) field_->setText(text);
+    });
     connect(follow_, &QPushButton::clicked, rows_, &EventTable::follow);
     connect(below_, &QPushButton::clicked, rows_, &EventTable::follow);
     connect(rows_, &EventTable::moved, this, &EventView::placeButton);
@@ -89,7 +93,8 @@ QWidget* EventView::makeBar() {
 }
 
 void EventView::search() {
-    events_.search(field_->text());
+    const QString text = field_->text().trimmed();
+    if (text != events_.events().query().text()) events_.search(text);
     const QString& trouble = events_.events().query().trouble();
     field_->setProperty(wrongInput, !trouble.isEmpty());
     field_->update();
@@ -99,7 +104,8 @@ void EventView::search() {
 }
 
 void EventView::refresh() {
-    count_->show(EventList::countOf(events_));
+    const QString hidden = EventList::hiddenIn(events_);
+    count_->show(EventList::countOf(events_) + (hidden.isEmpty() ? hidden : "; " + hidden));
     chips_->refresh();
     placeButton();
     showDetails();
@@ -112,7 +118,7 @@ void EventView::showDetails() {
     if (*shown_ < all.first())
         panel_->sayDropped();
     else
-        panel_->show(all.at(static_cast<int>(*shown_ - all.first())));
+        panel_->show(all.at(static_cast<int>(*shown_ - all.first())), *shown_);
 }
 
 void EventView::placeButton() {

@@ -21,7 +21,7 @@ class TextLabel;
 class EventView : public QWidget {
     Q_OBJECT
 public:
-    explicit EventView(EventFilter& events, QWidget* parent = nullptr);
+    EventView(EventFilter& events, const comms::NetworkOptions& network, QWidget* parent = nullptr);
 
     void refresh();
     void focusFilter();

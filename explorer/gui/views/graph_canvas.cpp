@@ -33,15 +33,17 @@ NodeMarks marksOf(const Frame& frame, const GraphNode& node) {
     for (const std::string& path : node.paths) {
         const auto place = frame.find(path);
         if (!place) {
-            marks.trouble = Shape::Lost;
+            const GoneAgent* gone = frame.goneFrom(path);
+            marks.trouble = gone != nullptr && gone->ended ? Shape::Ended : Shape::Lost;
             continue;
         }
         const AgentFrame& agent = frame.agents[place->agent];
         const auto state = agent.state(place->simplex);
         const Quality quality = agent.lost() ? Quality::Lost : agent.quality(place->simplex);
         const bool known = agent.lost() || agent.came(place->simplex);
-        if (known && quality != Quality::Good && !agent.rests(place->simplex)) {
-            marks.trouble = agent.status.ended ? Shape::Ended : shapeOf(quality);
+        const Excuse excuse = frame.excuse(*place);
+        if (known && quality != Quality::Good && excuse != Excuse::Rests) {
+            marks.trouble = excuse == Excuse::Ended ? Shape::Ended : shapeOf(quality);
         }
         if (marks.shape == Shape::Fault) continue;
         if (state)

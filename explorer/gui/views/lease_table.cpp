@@ -30,6 +30,7 @@ void LeaseTable::show(const Frame& frame, const AgentFrame& agent) {
         for (int column = 0; column < texts.size(); ++column)
             setCell(*topLevelItem(i), column, texts[column]);
     }
+    for (int column = 0; column < columnCount(); ++column) growToFit(*this, column);
 }
 
 }  // namespace cortex::gui

@@ -32,10 +32,13 @@ LifeCycleBar::LifeCycleBar(Commands& commands, QWidget* parent)
         Button& each = buttons_[static_cast<std::size_t>(i)];
         each = {command, new QPushButton{title},
                 new TextLabel{TextSize::Note, false, &Tokens::ink2}};
-        each.reason->setWordWrap(true);  // two lines, whether they are needed or not
+        each.button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+        each.reason->setWordWrap(true);
         each.reason->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+        each.reason->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
         grid->addWidget(each.button, 0, i);
         grid->addWidget(each.reason, 1, i);
+        grid->setColumnStretch(i, 1);
         connect(each.button, &QPushButton::clicked, this, [this, &each] {
             commands_.send(path_, each.command, {}, transitionLimit, this,
                            [this](const CommandOutcome&) { tell(); });
@@ -49,16 +52,41 @@ void LifeCycleBar::show(const std::string& path) {
     tell();
 }
 
-// All are as wide as the longest title, so that none is cut in any language or size of text.
-void LifeCycleBar::fit() {
+int LifeCycleBar::leastWidth() const {
     int width = Look::units(32);
     for (const Button& each : buttons_) width = std::max(width, each.button->sizeHint().width());
-    if (width == width_) return;
-    width_ = width;
+    return width;
+}
+
+QSize LifeCycleBar::sizeWith(int width) const {
+    const auto* grid = static_cast<const QGridLayout*>(layout());
+    return {3 * width + 2 * grid->horizontalSpacing(), grid->sizeHint().height()};
+}
+
+QSize LifeCycleBar::sizeHint() const {
+    const QString usual = tr("read-only: take control of /");
+    const QFontMetrics metrics{buttons_.front().reason->font()};
+    return sizeWith(std::max(leastWidth(), metrics.horizontalAdvance(usual) + 2));
+}
+
+QSize LifeCycleBar::minimumSizeHint() const { return sizeWith(leastWidth()); }
+
+// Two lines for the reasons, whether they are needed or not, and more where one is longer.
+void LifeCycleBar::fit() {
+    const auto* grid = static_cast<const QGridLayout*>(layout());
+    const int width = std::max((this->width() - 2 * grid->horizontalSpacing()) / 3, leastWidth());
+    int height = buttons_.front().reason->heightOfLines(2);
+    for (const Button& each : buttons_)
+        height = std::max(height, each.reason->heightForWidth(width));
     for (Button& each : buttons_) {
-        each.button->setFixedWidth(width);
-        each.reason->setFixedSize(width, 2 * each.reason->fontMetrics().height());
+        each.button->setMinimumWidth(each.button->sizeHint().width());
+        if (height != each.reason->minimumHeight()) each.reason->setFixedHeight(height);
     }
+}
+
+void LifeCycleBar::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    fit();
 }
 
 void LifeCycleBar::refresh(const Frame& frame, Place place) {
@@ -66,7 +94,6 @@ void LifeCycleBar::refresh(const Frame& frame, Place place) {
     const bool shown = type.active() && !type.isA("Agent");  // an agent's own have a prefix: forms
     setVisible(shown);
     if (!shown) return;
-    fit();
     tell();
     for (Button& each : buttons_) {
         const auto command = std::ranges::find(type.commands, each.command, &Command::name);
@@ -77,6 +104,7 @@ void LifeCycleBar::refresh(const Frame& frame, Place place) {
         each.reason->show(why);
         each.reason->setToolTip(tipText(why));
     }
+    fit();
 }
 
 // What became of the last one stays with its simplex, whoever sent it from this window.

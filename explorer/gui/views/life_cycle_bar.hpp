@@ -21,11 +21,19 @@ public:
     void show(const std::string& path);
     void refresh(const Frame& frame, Place place);
 
+    QSize sizeHint() const override;         // with room for most reasons
+    QSize minimumSizeHint() const override;  // with room for the buttons
+
 Q_SIGNALS:
     void told(const QString& outcome);  // of the last one to what is shown; empty: none was sent
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
     void fit();
+    int leastWidth() const;  // of a button, so that none is cut in any language or size of text
+    QSize sizeWith(int width) const;
     struct Button {
         std::string command;
         QPushButton* button;
@@ -37,7 +45,6 @@ private:
     std::string path_;
     QString told_;
     std::array<Button, 3> buttons_;
-    int width_ = 0;  // of each button, px
 };
 
 }  // namespace cortex::gui

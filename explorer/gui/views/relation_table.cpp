@@ -3,6 +3,7 @@
 
 #include "model/plain_text.hpp"
 #include "model/value_text.hpp"
+#include "style/shapes.hpp"
 #include "widgets/rows.hpp"
 
 namespace cortex::gui {
@@ -24,6 +25,28 @@ QString details(const Edge& edge, const SimplexInfo& target) {
                      .arg(QLatin1String{name(rule.onLoss)});
     }
     return parts.join(QStringLiteral(", "));
+}
+
+// "[Active], lost"; of a simplex of another agent as that one says.
+QString stateText(const Frame& frame, Place place) {
+    const SimplexInfo& info = frame.info(place);
+    const auto here = info.remote ? frame.find(info.path) : place;
+    if (!here || !frame.agents[here->agent].came(here->simplex)) {
+        const GoneAgent* gone = frame.goneFrom(info.path);
+        if (gone == nullptr) return QStringLiteral("…");
+        return word(gone->ended ? Shape::Ended : Shape::Lost);
+    }
+    const AgentFrame& agent = frame.agents[here->agent];
+    const auto state = agent.lastState(here->simplex);
+    const Quality quality = agent.lost() ? Quality::Lost : agent.quality(here->simplex);
+    QStringList words;
+    if (state) words << QLatin1String{name(*state)};
+    if (state && agent.lost()) words.front() = bracketed(words.front());
+    if (agent.status.ended)
+        words << word(Shape::Ended);
+    else if (quality != Quality::Good)
+        words << QLatin1String{name(quality)};
+    return words.join(QStringLiteral(", "));
 }
 
 }  // namespace
@@ -71,6 +94,7 @@ void RelationTable::show(const Frame& frame, Place place) {
     tellWhole(*this);
     expandAll();
     setWidths(*this, {36.0, 20.0, 56.0, 44.0, 28.0});
+    for (const int column : {RuleColumn, DirectionColumn, TargetColumn}) growToFit(*this, column);
 }
 
 // Those of its own agent, and those of other agents that read it.
@@ -93,26 +117,19 @@ void RelationTable::showOthers(const Frame& frame, Place place) {
 }
 
 void RelationTable::refresh(const Frame& frame) {
+    bool changed = false;
     for (int g = 0; g < topLevelItemCount(); ++g) {
         for (int i = 0; i < topLevelItem(g)->childCount(); ++i) {
             QTreeWidgetItem* item = topLevelItem(g)->child(i);
             const auto simplex = item->data(StateColumn, simplexRole).toUInt();
             const auto a = item->data(StateColumn, agentRole).toUInt();
-            if (a >= frame.agents.size()) continue;
-            const AgentFrame& agent = frame.agents[a];
-            const auto state = agent.lastState(simplex);
-            const Quality quality = agent.lost() ? Quality::Lost : agent.quality(simplex);
-            QString text = state ? QString{QLatin1String{name(*state)}} : QString{};
-            if (state && agent.lost()) text = bracketed(text);
-            if (!agent.came(simplex))
-                text = QStringLiteral("…");
-            else if (quality != Quality::Good) {
-                text += (text.isEmpty() ? QString{} : QStringLiteral(", ")) +
-                        QLatin1String{name(quality)};
-            }
+            if (a >= frame.agents.size() || !frame.agents[a].structure) continue;
+            const QString text = stateText(frame, {a, simplex});
+            changed = changed || text != item->text(StateColumn);
             setCell(*item, StateColumn, text);
         }
     }
+    if (changed) growToFit(*this, StateColumn);
 }
 
 }  // namespace cortex::gui

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/simplex_header.hpp"
 
+#include "model/fault_text.hpp"
+#include "model/gone_text.hpp"
 #include "model/item_of.hpp"
 #include "model/plain_text.hpp"
 #include "model/value_text.hpp"
@@ -31,13 +33,6 @@ std::vector<std::string> chainOf(const Type& type, const TypeModel& types) {
 // Nothing of it changes by itself, so that its age says nothing.
 bool neverChanges(const SimplexInfo& info) {
     return info.role != Role::Active && info.writers.empty();
-}
-
-// What comes from outside is text: what cannot be printed is a blank.
-QString inOneLine(const std::string& text) {
-    QString result = QString::fromStdString(text);
-    std::ranges::replace_if(result, [](QChar c) { return !c.isPrint(); }, QChar{' '});
-    return result;
 }
 
 // "task 2.3 µs of 1 ms".
@@ -163,6 +158,8 @@ void SimplexHeader::fit() {
     const bool low = window()->height() < Look::units(175);
     ancestors_->setVisible(!low && names + chain + (beside ? facts : 0) <= width());
     description_->setVisible(!low && !description_->text().isEmpty());
+    const int gap = Look::units(low ? 0.5 : 2);
+    if (rows_->spacing() != gap) rows_->setSpacing(gap), first_->setSpacing(gap);
     // A request to lay it out is lost while it is hidden, and then none is made any more.
     layout()->activate();
 }
@@ -197,10 +194,12 @@ void SimplexHeader::tell(const QString& outcome) { outcome_->show(outcome); }
 
 void SimplexHeader::refresh(const Frame& frame, Place place) {
     refreshState(frame, place);
-    refreshFault(frame.agents[place.agent], place);
+    refreshFault(frame, place);
     refreshAgent(frame, place);
     refreshNotice(frame, place);
-    showOrHide(*why_, whyText(frame, place));
+    QStringList why{whyText(frame, place), goneInputText(frame, place)};
+    why.removeAll({});
+    showOrHide(*why_, why.join(' '));
     fit();
     // It may need another height now; what is around it is not laid out just now.
     if (parentWidget() != nullptr && parentWidget()->layout() != nullptr) {
@@ -233,11 +232,11 @@ void SimplexHeader::refreshState(const Frame& frame, Place place) {
                  shape == Shape::Fault ? &Tokens::faultText : &Tokens::ink);
 }
 
-// "Fault 7" and below it the text, whole.
-void SimplexHeader::refreshFault(const AgentFrame& agent, Place place) {
+// "Fault 7" and below it the text, whole where it is known.
+void SimplexHeader::refreshFault(const Frame& frame, Place place) {
+    const AgentFrame& agent = frame.agents[place.agent];
     const bool faulted = agent.state(place.simplex) == State::Fault;
     const auto code = itemOf<std::int64_t>(agent, place.simplex, "faultCode");
-    const auto text = itemOf<std::string>(agent, place.simplex, "faultText");
     if (faulted && code) {
         const ItemLayout* item =
             agent.structure->simplexes[place.simplex].layout->find("faultCode");
@@ -245,28 +244,29 @@ void SimplexHeader::refreshFault(const AgentFrame& agent, Place place) {
                          elementText(*item->item, Value{std::vector<std::int64_t>{*code}}, 0),
                      &Tokens::faultText);
     }
-    showOrHide(*fault_, faulted && text ? inOneLine(*text) : QString{});
+    const FaultText fault = faulted ? faultText(frame, place, times_) : FaultText{};
+    showOrHide(*fault_, fault.text);
+    fault_->setToolTip(fault.cut ? tr("The rest stands in the events.") : QString{});
 }
 
 void SimplexHeader::refreshAgent(const Frame& frame, Place place) {
     const AgentFrame& agent = frame.agents[place.agent];
     const auto age = agent.age(place.simplex);
-    const bool came = agent.came(place.simplex), rests = agent.rests(place.simplex);
+    const bool came = agent.came(place.simplex);
+    const Excuse excuse = frame.excuse(place);
     QString text = tr("agent %1").arg(QString::fromStdString(agent.status.name));
     if (!age) {
         text = tr("%1, no values yet").arg(text);
-    } else if (rests) {
-        text = tr("%1, last written %2 ago").arg(text, ageText(*age));
-    } else if (agent.lost() || !neverChanges(frame.info(place))) {
+    } else if (agent.lost() || (excuse != Excuse::Rests && !neverChanges(frame.info(place)))) {
         text = tr("%1, %2 old").arg(text, ageText(*age));
     }
     agent_->show(text);
     const Quality quality = agent.lost() ? Quality::Lost : agent.quality(place.simplex);
     const QString word = tr("quality %1").arg(QLatin1String{name(quality)});
-    const bool amiss = came && quality != Quality::Good && !rests && !agent.status.ended;
-    quality_->show(!came   ? tr("waiting for the first values")
-                   : rests ? tr("%1, at rest").arg(word)
-                           : word,
+    const bool amiss = came && quality != Quality::Good && excuse == Excuse::None;
+    quality_->show(!came                     ? tr("waiting for the first values")
+                   : excuse == Excuse::Rests ? tr("%1, at rest").arg(word)
+                                             : word,
                    amiss ? &Tokens::dataText : &Tokens::ink2);
     showOrHide(*task_, taskText(agent, place.simplex));
 }
@@ -278,8 +278,11 @@ void SimplexHeader::refreshNotice(const Frame& frame, Place place) {
     QString notice = claimsText(frame, place);
     QColor Tokens::* colour = &Tokens::warnText;
     if (agent.lost()) {
+        const GoneAgent* gone = frame.goneFrom(frame.info(place).path);
+        const QString ended =
+            gone != nullptr ? goneText(*gone) : tr("%1 has ended.").arg(agentName);
         notice = agent.status.ended
-                     ? tr("%1 has ended. Values are the last ones, in brackets.").arg(agentName)
+                     ? tr("%1 Values are the last ones, in brackets.").arg(ended)
                      : tr("%1 is not heard for %2. Values are the last ones, in brackets.")
                            .arg(agentName, ageText(agent.status.age));
         colour = agent.status.ended ? &Tokens::ink : &Tokens::dataText;

@@ -36,7 +36,7 @@ private:
     void layOut();
     void fit();
     void refreshState(const Frame& frame, Place place);
-    void refreshFault(const AgentFrame& agent, Place place);
+    void refreshFault(const Frame& frame, Place place);
     void refreshAgent(const Frame& frame, Place place);
     void refreshNotice(const Frame& frame, Place place);
 

@@ -212,8 +212,7 @@ void SystemTree::refresh(std::shared_ptr<const Frame> frame) {
     model_.update(std::move(frame));
     if (!current_.empty()) keepCurrent();
     tellTrouble();
-    const auto agents = static_cast<int>(model_.frame().agents.size());
-    count_->show(tr("%1 of %n agents", nullptr, agents).arg(model_.simplexes()));
+    tellCount();
     if (!opened_ && model_.rowCount() > 0) openFirstLevels();
     if (!wanted_.empty()) choose(std::exchange(wanted_, {}));
 }
@@ -271,6 +270,14 @@ void SystemTree::useFilter() {
     if (filtered_) tree_->expandAll();
     if (!current_.empty()) keepCurrent();
     tellTrouble();
+    tellCount();
+}
+
+// Of all agents, or how many of those the filter shows.
+void SystemTree::tellCount() {
+    const auto agents = static_cast<int>(model_.frame().agents.size());
+    count_->show(filtered_ ? tr("%1 of %2 shown").arg(model_.matching()).arg(model_.simplexes())
+                           : tr("%1 of %n agents", nullptr, agents).arg(model_.simplexes()));
 }
 
 // What is wrong with the filter, or that it finds nothing, for as long as that is true.

@@ -40,6 +40,7 @@ private:
     void keepCurrent();
     void askMenu(const QPoint& at);
     void tellTrouble();
+    void tellCount();
 
     SystemModel model_;
     QTreeView* tree_;

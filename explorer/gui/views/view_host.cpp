@@ -83,9 +83,10 @@ BaseView* pageOf(const QWidget& widget) {
     return nullptr;
 }
 
-QString whyNotNowOf(const Frame& frame, const Found& found, const std::string& command) {
-    return found.why.isEmpty() ? whyNotNow(frame, *found.place, found.available, command)
-                               : found.why;
+QString whyNotNowOf(const Frame& frame, const Found& found, const explorer::Order& order) {
+    return found.why.isEmpty()
+               ? whyNotNow(frame, *found.place, found.available, order.command, order.arguments)
+               : found.why;
 }
 
 }  // namespace
@@ -94,14 +95,15 @@ ViewHost::ViewHost(Commands& commands, QObject* parent) : QObject{parent}, comma
 
 QString ViewHost::whyNot(const std::string& path, const std::string& command) const {
     const auto frame = commands_.session().frame();
-    return whyNotNowOf(*frame, findOrder(*frame, {path, command}), command);
+    const explorer::Order order{path, command};
+    return whyNotNowOf(*frame, findOrder(*frame, order), order);
 }
 
 // Without control nothing is sent, but the window offers to take it.
 void ViewHost::send(QWidget& asker, const explorer::Order& order, Done done) {
     const auto frame = commands_.session().frame();
     const Found found = findOrder(*frame, order);
-    const QString why = whyNotNowOf(*frame, found, order.command);
+    const QString why = whyNotNowOf(*frame, found, order);
     if (!why.isEmpty()) {
         if (done) done({false, why, {}});
         if (found.why.isEmpty()) offerControl(*frame, *found.place, found.available);

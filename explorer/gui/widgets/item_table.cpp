@@ -8,6 +8,7 @@
 #include "style/explorer_style.hpp"
 #include "widgets/entry_hint.hpp"
 #include "widgets/item_drag.hpp"
+#include "widgets/item_widths.hpp"
 #include "widgets/range_bar.hpp"
 #include "widgets/rows.hpp"
 #include "widgets/text_label.hpp"
@@ -26,16 +27,7 @@ namespace cortex::gui {
 
 namespace {
 
-constexpr double leastTrack = 20, leastRemark = 24, mostLimit = 36;  // units
 constexpr int mostOpenRows = 20;  // of a related simplex; one with more is closed at first
-constexpr std::array<double, ItemModel::ColumnCount> itemWidths{52, 28, 16, 52, 32, 40};  // units
-
-// As the column of ranges shows them.
-std::pair<QString, QString> limitsOf(const ItemModel::Row& row) {
-    const DataItem& item = row.asShown();
-    return {row.min ? numberText(item, *row.min) : QStringLiteral("−∞"),
-            row.max ? numberText(item, *row.max) : QStringLiteral("∞")};
-}
 
 class ItemDelegate : public QStyledItemDelegate {
 public:
@@ -115,8 +107,9 @@ public:
         const ItemModel::Row& row = items_.row(index);
         QRect box = option.rect;
         if (isWide(row))
-            box.setWidth(Look::units(itemWidths[ItemModel::Value] + itemWidths[ItemModel::Unit] +
-                                     itemWidths[ItemModel::Range]));
+            box.setWidth(Look::units(usualItemWidths[ItemModel::Value] +
+                                     usualItemWidths[ItemModel::Unit] +
+                                     usualItemWidths[ItemModel::Range]));
         editor->setGeometry(box);
     }
 
@@ -170,8 +163,9 @@ private:
                              const ItemModel::Row& row) {
         if (!row.min && !row.max) return;
         const QColor ink = rowInk(option, Look::colours().ink2);
-        const int side = std::max((box.width() - Look::units(leastTrack)) / 2, 0);
+        int side = std::max((box.width() - Look::units(leastTrack)) / 2, 0);
         const auto& [least, most] = limitsOf(row);
+        if (std::max(textWidth(least), textWidth(most)) > side) side = 0;  // whole, or not at all
         paintText(painter, {box.left(), box.top(), side, box.height()}, least, ink, Qt::AlignRight);
         paintText(painter, {box.right() - side, box.top(), side, box.height()}, most, ink);
         if (!row.min || !row.max) return;
@@ -214,7 +208,7 @@ ItemTable::ItemTable(ItemModel& model, QWidget* parent) : QTreeView{parent}, ite
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     connect(&model, &QAbstractItemModel::modelReset, this, &ItemTable::openGroups);
     connect(&model, &QAbstractItemModel::dataChanged, this, [this] {
-        if (items_.units() != units_) fitColumns();
+        if (items_.units() != units_ || longestValue(items_) > longest_) fitColumns();
     });
     openGroups();
 }
@@ -271,24 +265,13 @@ void ItemTable::resizeEvent(QResizeEvent* event) {
 // keeps its word.
 void ItemTable::fitColumns() {
     units_ = items_.units();
-    const double unit = Look::units(1);
-    double left = viewport()->width() / unit;
-    // What the numbers of the ranges need beyond the usual width is taken from the remarks.
-    constexpr auto rangeWidth = itemWidths[ItemModel::Range];
-    constexpr auto remarkWidth = itemWidths[ItemModel::Remark];
-    const double fixed =
-        itemWidths[ItemModel::Name] + itemWidths[ItemModel::Value] + itemWidths[ItemModel::Unit];
-    const double needed =
-        std::clamp(2 * widestLimit() / unit + leastTrack + 4, rangeWidth, 2 * mostLimit + 24);
-    const double range = std::clamp(left - fixed - leastRemark, rangeWidth, needed);
-    const double remark = std::clamp(left - fixed - range, leastRemark, remarkWidth);
+    longest_ = longestValue(items_);
+    double left = viewport()->width() / Look::length(1);
+    const ItemWidths widths = itemWidths(widestTexts(items_), left);
     bool all = true;
     for (const int column : {ItemModel::Name, ItemModel::Value, ItemModel::Unit, ItemModel::Remark,
                              ItemModel::Range, ItemModel::Description}) {
-        const double width = column == ItemModel::Range ? range
-                             : column == ItemModel::Remark
-                                 ? remark
-                                 : itemWidths[static_cast<std::size_t>(column)];
+        const double width = widths[static_cast<std::size_t>(column)];
         const bool fits = column <= ItemModel::Unit || (all && left >= width);
         all = all && fits;
         setColumnHidden(column, !fits);
@@ -297,20 +280,6 @@ void ItemTable::fitColumns() {
             left -= width;
         }
     }
-}
-
-int ItemTable::widestLimit() const {
-    int widest = 0;
-    for (int i = 0; i < items_.rowCount(); ++i) {
-        const QModelIndex group = items_.index(i, 0);
-        for (int row = 0; row < items_.rowCount(group); ++row) {
-            const ItemModel::Row& each = items_.row(items_.index(row, 0, group));
-            if (each.item == nullptr || (!each.min && !each.max)) continue;
-            const auto& [least, most] = limitsOf(each);
-            widest = std::max({widest, textWidth(least), textWidth(most)});
-        }
-    }
-    return widest;
 }
 
 void ItemTable::drawRow(QPainter* painter, const QStyleOptionViewItem& option,

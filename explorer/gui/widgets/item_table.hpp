@@ -13,9 +13,9 @@ namespace cortex::gui {
 
 class ItemModel;
 
-// The data of a simplex: name, value, unit, range bar, remark, description. Columns give way when
-// it is narrow: first the description, then the remark, then the range. The numbers of the ranges
-// are whole where there is room.
+// The data of a simplex: name, value, unit, range bar, remark, description. Columns are as wide as
+// their texts in the font of the present. When it is narrow they give way: first the description,
+// then long remarks, then the ranges. The numbers of the ranges are whole or not there.
 class ItemTable : public QTreeView {
     Q_OBJECT
 public:
@@ -40,10 +40,10 @@ protected:
 private:
     void openGroups();
     void fitColumns();
-    int widestLimit() const;  // of all rows, in pixels
 
     ItemModel& items_;
     ShownUnits units_;  // for which the columns are fitted
+    int longest_ = 0;   // value at that time
 };
 
 }  // namespace cortex::gui

@@ -90,12 +90,15 @@ void keepWidths(QTreeView& view, std::vector<double> units) {
 }
 
 void growToFit(QTreeWidget& tree, int column) {
-    int width = tree.columnWidth(column);
-    for (int row = 0; row < tree.topLevelItemCount(); ++row) {
-        const QString text = tree.topLevelItem(row)->text(column);
-        width = std::max(width, textWidth(text) + Look::units(5));
+    const int width = tree.columnWidth(column);
+    int needed = width;
+    for (QTreeWidgetItemIterator each{&tree}; *each != nullptr; ++each) {
+        if ((*each)->isFirstColumnSpanned()) continue;
+        const int steps = column == 0 && (*each)->parent() != nullptr ? 2 : 1;
+        const int indent = column == 0 && tree.rootIsDecorated() ? steps * tree.indentation() : 0;
+        needed = std::max(needed, indent + textWidth((*each)->text(column)) + Look::units(5));
     }
-    if (width > tree.columnWidth(column)) tree.setColumnWidth(column, width);
+    if (needed > width) tree.setColumnWidth(column, needed);
 }
 
 QTreeWidgetItem* addGroup(QTreeWidget& tree, const QString& title) {

@@ -6,9 +6,36 @@
 #include <QEvent>
 #include <QFontMetrics>
 #include <QPainter>
-#include <QTextOption>
+#include <QTextLayout>
+#include <algorithm>
+#include <cmath>
 
 namespace cortex::gui {
+
+namespace {
+
+// Long names break anywhere. Returns the height of all lines.
+double breakLines(QTextLayout& layout, Qt::Alignment alignment, int width) {
+    QTextOption option{alignment};
+    option.setWrapMode(QTextOption::WrapAtWordBoundaryOrAnywhere);
+    layout.setTextOption(option);
+    double height = 0;
+    layout.beginLayout();
+    for (QTextLine line = layout.createLine(); line.isValid(); line = layout.createLine()) {
+        line.setLineWidth(width);
+        line.setPosition({0, height});
+        height += line.height();
+    }
+    layout.endLayout();
+    return height;
+}
+
+double heightOf(const QString& text, const QFont& font, int width) {
+    QTextLayout layout{text, font};
+    return breakLines(layout, Qt::AlignLeft, width);
+}
+
+}  // namespace
 
 TextLabel::TextLabel(TextSize size, bool strong, QColor Tokens::* colour, QWidget* parent)
     : QLabel{parent}, size_{size}, strong_{strong}, colour_{colour} {
@@ -45,6 +72,15 @@ QSize TextLabel::minimumSizeHint() const {
     return {std::min(metrics.horizontalAdvance(text()) + 2, Look::units(8)), metrics.height()};
 }
 
+int TextLabel::heightForWidth(int width) const {
+    if (!wordWrap()) return QLabel::heightForWidth(width);
+    return static_cast<int>(std::ceil(heightOf(text(), font(), width)));
+}
+
+int TextLabel::heightOfLines(int count) const {
+    return static_cast<int>(std::ceil(count * heightOf(QStringLiteral("X"), font(), 1000)));
+}
+
 void TextLabel::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter{this};
     painter.setPen(Look::colours().*colour_);
@@ -57,26 +93,27 @@ void TextLabel::paintEvent(QPaintEvent* /*event*/) {
     painter.drawText(rect(), static_cast<int>(alignment()) | Qt::TextSingleLine, shown);
 }
 
-// Long names break anywhere; what has no room in all lines is cut with an ellipsis.
+// What has no room in all lines is cut with an ellipsis.
 void TextLabel::paintLines(QPainter& painter) {
-    QTextOption lines{alignment()};
-    lines.setWrapMode(QTextOption::WrapAtWordBoundaryOrAnywhere);
-    const auto fits = [&](const QString& shown) {
-        return painter.boundingRect(QRectF{rect()}, shown, lines).height() <= height() + 1;
+    const auto fits = [this](const QString& text) {
+        return heightOf(text, font(), width()) <= height();
     };
-    if (fits(text())) {
-        painter.drawText(QRectF{rect()}, text(), lines);
-        return;
-    }
     const auto cut = [this](int length) {
         return text().left(length).trimmed() + QStringLiteral("…");
     };
-    int shown = 0;
-    for (int tooLong = text().size(); tooLong - shown > 1;) {  // halved, as texts may be very long
-        const int half = (shown + tooLong) / 2;
-        (fits(cut(half)) ? shown : tooLong) = half;
+    QString shown = text();
+    if (!fits(shown)) {
+        int most = 0;
+        for (int tooLong = text().size(); tooLong - most > 1;) {  // halved, as it may be very long
+            const int half = (most + tooLong) / 2;
+            (fits(cut(half)) ? most : tooLong) = half;
+        }
+        shown = cut(most);
     }
-    painter.drawText(QRectF{rect()}, cut(shown), lines);
+    QTextLayout layout{shown, font()};
+    const double left = height() - breakLines(layout, alignment(), width());
+    const bool centred = alignment().testFlag(Qt::AlignVCenter);
+    layout.draw(&painter, {0, centred ? std::max(std::floor(left / 2), 0.0) : 0});
 }
 
 void TextLabel::changeEvent(QEvent* event) {

@@ -19,9 +19,12 @@ public:
     void show(const QString& text, QColor Tokens::* colour);
 
     void keepWhole() { whole_ = true; }  // never cut: what is beside it gives way
+    bool keepsWhole() const { return whole_ || wordWrap(); }
 
     QSize sizeHint() const override;
     QSize minimumSizeHint() const override;
+    int heightForWidth(int width) const override;  // with all its lines
+    int heightOfLines(int count) const;
 
 protected:
     void paintEvent(QPaintEvent* event) override;

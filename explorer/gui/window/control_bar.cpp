@@ -2,6 +2,8 @@
 #include "window/control_bar.hpp"
 
 #include "model/permission.hpp"
+#include "model/plain_text.hpp"
+#include "model/shown_time.hpp"
 #include "session/lease.hpp"
 #include "widgets/text_label.hpp"
 #include "window/control_notice.hpp"
@@ -32,6 +34,32 @@ QString othersIn(const Frame& frame, const std::string& prefix) {
     return others.join(' ');
 }
 
+// Who has something there, has not ended, and is not controlled by us. All of an agent is below
+// "/", also while it is not known yet what that is.
+QStringList uncontrolled(const Frame& frame, const std::string& prefix) {
+    QStringList names;
+    for (const AgentFrame& agent : frame.agents) {
+        const bool has = prefix == "/" || hasBelow(agent, prefix);
+        if (!has || agent.status.ended || frame.control.covers(agent.status.name, prefix)) continue;
+        names << QString::fromStdString(agent.status.name);
+    }
+    return names;
+}
+
+bool canBeTaken(const Frame& frame, const std::string& prefix) {
+    bool any = false;
+    for (const AgentFrame& agent : frame.agents) {
+        if (agent.lost() || !hasBelow(agent, prefix)) continue;
+        if (frame.control.covers(agent.status.name, prefix)) continue;
+        if (leaseOfOthers(agent, prefix, frame.control.self)) return false;
+        any = true;
+    }
+    return any;
+}
+
+constexpr int longestNames = 14, longestNarrow = 8;  // letters; otherwise they are counted
+constexpr double leastForAgain = 320;  // units of the window; below it stands in the menu
+
 }  // namespace
 
 ControlBar::ControlBar(Session& session, QWidget* parent)
@@ -39,6 +67,7 @@ ControlBar::ControlBar(Session& session, QWidget* parent)
       session_{session},
       frame_{session.frame()},
       label_{new TextLabel{TextSize::Text}},
+      again_{new QPushButton{tr("Take again")}},
       handOver_{new QPushButton{tr("Hand over…")}},
       button_{new QPushButton},
       notice_{new ControlNotice} {
@@ -46,43 +75,71 @@ ControlBar::ControlBar(Session& session, QWidget* parent)
     row->setContentsMargins(Look::units(2), 0, 0, 0);
     row->setSpacing(Look::units(4));
     row->addWidget(label_);
-    row->addWidget(handOver_);
-    row->addWidget(button_);
-    handOver_->hide();
     // The mouse leaves the keyboard where it was: these come and go.
-    for (QPushButton* each : {handOver_, button_}) each->setFocusPolicy(Qt::TabFocus);
+    for (QPushButton* each : {again_, handOver_, button_}) {
+        row->addWidget(each);
+        each->setFocusPolicy(Qt::TabFocus);
+    }
+    again_->hide();
+    handOver_->hide();
     label_->keepWhole();
     label_->show(text());
     button_->setText(tr("Take control…"));
     button_->setToolTip(tr("Ctrl+T; releasing is Ctrl+Shift+T"));
     connect(button_, &QPushButton::clicked, this, [this] { holds() ? release() : choose(); });
+    connect(again_, &QPushButton::clicked, this, &ControlBar::takeAgain);
     connect(handOver_, &QPushButton::clicked, this, &ControlBar::chooseHandOver);
     connect(&notice_->remedy(), &QPushButton::clicked, this, [this] { take(remedy_); });
     connect(notice_, &ControlNotice::closed, this, &ControlBar::closeNotice);
 }
 
-// Where not all that have something there are held: " of robot".
-QString ControlBar::ofSome(const std::string& prefix) const {
-    QStringList held;
-    bool all = true;
-    for (const AgentFrame& agent : frame_->agents) {
-        if (agent.lost() || !hasBelow(agent, prefix)) continue;
-        if (frame_->control.covers(agent.status.name, prefix))
-            held << QString::fromStdString(agent.status.name);
-        else
-            all = false;
-    }
-    return all || held.isEmpty() ? QString{} : tr(" of %1").arg(held.join(tr(" and ")));
+// "everything but robot".
+QString ControlBar::partText(const std::string& prefix) const {
+    const QStringList others = uncontrolled(*frame_, prefix);
+    const QString scope = narrow_ && prefix == "/" ? tr("all") : scopeText(prefix);
+    if (others.isEmpty()) return scope;
+    const QString names = others.join(QStringLiteral(", "));
+    const QString who = names.size() <= (narrow_ ? longestNarrow : longestNames)
+                            ? names
+                            : tr("%n agents", nullptr, static_cast<int>(others.size()));
+    return (prefix == "/" ? tr("%1 but %2") : tr("%1 but not of %2")).arg(scope, who);
 }
 
 QString ControlBar::text() const {
     const Control& control = frame_->control;
     if (!control.asks.empty()) return tr("Asking for %1").arg(scopeText(control.asks));
     if (control.prefix.empty()) return tr("Read-only");
+    // Where there are many, the first one that is not whole is named.
+    auto held = control.prefixes();
+    const auto isWhole = [&](const std::string& each) {
+        return uncontrolled(*frame_, each).isEmpty();
+    };
+    const auto part = std::ranges::find_if_not(held, isWhole);
+    if (part != held.end()) std::iter_swap(held.begin(), part);
+    QStringList parts{partText(held.front())};
+    if (held.size() == 2) parts << partText(held.back());
+    if (held.size() > 2) parts << tr("%1 more").arg(held.size() - 1);
+    const QString what = tr("You control %1").arg(parts.join(tr(" and ")));
+    if (narrow_ || !isWhole(held.front())) return what;
+    return tr("%1 since %2 %3").arg(what, clockText(control.since), zoneName(control.since));
+}
+
+QString ControlBar::heldText() const {
     QStringList parts;
-    for (const std::string& each : control.prefixes()) parts << scopeText(each) + ofSome(each);
-    if (narrow_) return tr("You control %1").arg(parts.join(tr(" and ")));
-    return tr("You control %1 since %2").arg(parts.join(tr(" and ")), clockText(control.since));
+    for (const std::string& each : frame_->control.prefixes()) parts << scopeText(each);
+    return parts.join(tr(" and "));
+}
+
+// All of them, for the tooltip.
+QString ControlBar::wholeText() const {
+    QStringList parts;
+    for (const std::string& each : frame_->control.prefixes()) {
+        const QStringList others = uncontrolled(*frame_, each);
+        const QString scope = scopeText(each);
+        parts << (others.isEmpty() ? scope
+                                   : tr("%1, but not of %2").arg(scope, others.join(tr(" and "))));
+    }
+    return parts.isEmpty() ? QString{} : tr("You control %1").arg(parts.join(QStringLiteral("; ")));
 }
 
 void ControlBar::refresh(const std::shared_ptr<const Frame>& frame, const std::string& path) {
@@ -90,17 +147,48 @@ void ControlBar::refresh(const std::shared_ptr<const Frame>& frame, const std::s
     path_ = path;
     const Control& control = frame->control;
     label_->show(text(), control.prefix.empty() ? &Tokens::ink2 : &Tokens::onAccent);
+    label_->setAccessibleDescription(wholeText());
+    setToolTip(tipText(wholeText()));
     if (control.prefix != prefix_) {
         prefix_ = control.prefix;
         if (holds()) closed_.clear();
         button_->setText(holds() ? tr("Release") : tr("Take control…"));
-        handOver_->setVisible(holds() && !narrow_);
         update();
         Q_EMIT changed();
     }
+    showButtons();
     refreshNotice();
     if (panel_) panel_->refresh(frame);
     if (handOverPanel_) handOverPanel_->refresh(frame);
+}
+
+std::string ControlBar::missing() const {
+    const Control& control = frame_->control;
+    if (!control.asks.empty()) return {};
+    const auto found = std::ranges::find_if(
+        control.claims, [&](const std::string& each) { return canBeTaken(*frame_, each); });
+    return found == control.claims.end() ? std::string{} : *found;
+}
+
+void ControlBar::takeAgain() {
+    if (const std::string prefix = missing(); !prefix.empty()) take(prefix);
+}
+
+// None of them ever stands where another one stood that was just lost: "Take again" is to the left
+// of the others, whose room is kept.
+void ControlBar::showButtons() {
+    const std::string prefix = missing();
+    const bool again =
+        !prefix.empty() && !narrow_ && window()->width() >= Look::units(leastForAgain);
+    again_->setVisible(again);
+    again_->setToolTip(tipText(tr("Take %1 again").arg(scopeText(prefix))));
+    QSizePolicy policy = handOver_->sizePolicy();
+    policy.setRetainSizeWhenHidden(again);
+    handOver_->setSizePolicy(policy);
+    handOver_->setVisible(holds() && !narrow_);
+    const QFontMetrics metrics = button_->fontMetrics();
+    const int edges = button_->sizeHint().width() - metrics.horizontalAdvance(button_->text());
+    button_->setMinimumWidth(narrow_ ? 0 : edges + metrics.horizontalAdvance(tr("Take control…")));
 }
 
 // A refusal follows the leases: it says who holds a part by now, or that nobody else does.
@@ -125,8 +213,7 @@ void ControlBar::refreshNotice() {
         others_.clear();
         closed_.clear();
     }
-    const bool missing = !holds() || !ofSome(control.last).isEmpty();
-    remedy_ = missing ? control.last : std::string{};
+    remedy_ = canBeTaken(*frame_, control.last) ? control.last : std::string{};
     const QString text = refused_.empty() ? QString::fromStdString(said_) : refusal();
     const bool offers = !remedy_.empty() && control.asks.empty();
     const QString remedy = remedy_ == control.last ? tr("Take %1 again") : tr("Take %1");
@@ -134,10 +221,10 @@ void ControlBar::refreshNotice() {
                   offers ? remedy.arg(scopeText(remedy_)) : QString{});
 }
 
-// The time and *Hand over…* give way; that stands in the menu, too.
+// The time and all buttons but one give way; those stand in the menu, too.
 void ControlBar::setNarrow(bool narrow) {
     narrow_ = narrow;
-    handOver_->setVisible(holds() && !narrow);
+    showButtons();
     label_->show(text());
 }
 

@@ -16,8 +16,9 @@ class ControlNotice;
 class TextLabel;
 
 // Whether this window may command, and what: "Read-only" with "Take control…", or "You control /arm
-// since 12:05" with "Hand over…" and "Release". What became of control stands in a row of its own,
-// with "Take again" where it was handed over or lost.
+// since 12:05 UTC" with "Hand over…" and "Release". Of whom it does not control it, though they
+// have something there, is said: "You control everything but robot"; and "Take again" is offered as
+// long as that is possible. What became of control stands in a row of its own.
 class ControlBar : public QWidget {
     Q_OBJECT
 public:
@@ -30,9 +31,14 @@ public:
     void choose(const std::string& prefix);  // the same, with this path chosen
     void release();
     void chooseHandOver();  // opens the popover
+    // What was held, was neither released nor handed over, and can be taken again; empty: nothing.
+    std::string missing() const;
+    void takeAgain();
     bool holds() const { return !prefix_.empty(); }
     const std::string& prefix() const { return prefix_; }
     QString text() const;
+    QString heldText() const;  // "everything", "/lift and /drive"
+    QPushButton& againButton() { return *again_; }
     ControlNotice& notice() { return *notice_; }  // its place is the window's matter
     ControlPanel* panel() { return panel_; }
     HandOverPanel* handOverPanel() { return handOverPanel_; }
@@ -45,7 +51,9 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    QString ofSome(const std::string& prefix) const;
+    QString partText(const std::string& prefix) const;
+    QString wholeText() const;
+    void showButtons();
     QString refusal();
     void refreshNotice();
     void closeNotice();
@@ -61,7 +69,7 @@ private:
     QString others_;               // who held a part of it when it was refused
     std::string remedy_;           // the prefix that the notice offers
     TextLabel* label_;
-    QPushButton *handOver_, *button_;
+    QPushButton *again_, *handOver_, *button_;
     ControlNotice* notice_;
     QPointer<ControlPanel> panel_;
     QPointer<HandOverPanel> handOverPanel_;

@@ -4,6 +4,7 @@
 #include "cortex/core/path.hpp"
 
 #include "model/permission.hpp"
+#include "model/shown_time.hpp"
 #include "model/value_text.hpp"
 #include "session/lease.hpp"
 #include "style/look.hpp"
@@ -22,25 +23,28 @@ namespace cortex::gui {
 
 namespace {
 
-// What each active simplex below the prefix does when control of it is lost.
+// What each simplex below the prefix that runs does when control of it is lost.
 QString onLossText(const AgentFrame& agent, const std::string& prefix) {
     std::map<OnLeaseLost, int> counts;
-    int all = 0;
+    int all = 0, faults = 0;
     for (std::uint32_t each = 0; each < agent.structure->simplexes.size(); ++each) {
         const SimplexInfo& info = agent.structure->simplexes[each];
         const Type& type = *info.layout->type;
         if (info.remote || !type.active() || type.isA("Agent") || !isAtOrBelow(info.path, prefix))
             continue;
         const auto state = agent.state(each);
-        if (!state || *state == State::Standby) continue;
+        if (state == State::Fault) ++faults;
+        if (state != State::Active && state != State::StartingUp) continue;
         ++counts[type.onLeaseLost];
         ++all;
     }
-    return ControlPanel::tr("%1 active; when control is lost %2 go on, %3 hold, %4 shut down")
-        .arg(all)
-        .arg(counts[OnLeaseLost::Continue])
-        .arg(counts[OnLeaseLost::Hold])
-        .arg(counts[OnLeaseLost::Shutdown]);
+    const QString running =
+        ControlPanel::tr("%1 active; when control is lost %2 go on, %3 hold, %4 shut down")
+            .arg(all)
+            .arg(counts[OnLeaseLost::Continue])
+            .arg(counts[OnLeaseLost::Hold])
+            .arg(counts[OnLeaseLost::Shutdown]);
+    return faults == 0 ? running : running + ControlPanel::tr("; %1 in Fault").arg(faults);
 }
 
 }  // namespace
@@ -124,7 +128,8 @@ void ControlPanel::refresh(std::shared_ptr<const Frame> frame) {
 
 QString ControlPanel::leaseText(const QString& agent, const comms::ShownLease& lease) const {
     const QString prefix = scopeText(lease.prefix);
-    const QString since = clockText(lease.since), age = ageText(lease.seconds);
+    const QString since = clockText(lease.since) + ' ' + zoneName(lease.since),
+                  age = ageText(lease.seconds);
     if (lease.holder == frame_->control.self)
         return tr("%1: you hold %2 since %3 (%4)").arg(agent, prefix, since, age);
     return tr("%1: %2 holds %3 since %4 (%5)")

@@ -362,7 +362,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     event->ignore();
     auto* question = new QMessageBox{this};
     question->setAttribute(Qt::WA_DeleteOnClose);
-    question->setText(tr("Release %1 and quit?").arg(scopeText(control_->prefix())));
+    question->setText(tr("Release %1 and quit?").arg(control_->heldText()));
     question->setInformativeText(tr("What is Active stays so."));
     auto* quit = question->addButton(tr("Quit"), QMessageBox::AcceptRole);
     question->setDefaultButton(question->addButton(tr("Stay"), QMessageBox::RejectRole));

@@ -10,15 +10,17 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace cortex::gui {
 
 namespace {
 
-constexpr int patience = 10'000;     // ms, with agents that do not answer
-constexpr int betweenTries = 100;    // ms
-constexpr int lastValues = 1000;     // ms after the last answer, until states are told too
-constexpr int mostNotFollowing = 3;  // that are named
+constexpr int patience = 10'000;      // ms, with agents that do not answer
+constexpr int betweenTries = 100;     // ms
+constexpr int lastValues = 1000;      // ms after the last answer, until states are told too
+constexpr int mostNotFollowing = 3;   // that are named
+constexpr std::size_t mostPaths = 2;  // that are named
 constexpr std::chrono::milliseconds limit = std::chrono::seconds{70};  // it may take a minute
 
 struct Words {
@@ -49,12 +51,30 @@ bool isAnswer(const CommandOutcome& outcome) {
 
 }  // namespace
 
-QString scopeWord(const std::string& prefix) {
-    return prefix == "/" ? say("all") : QString::fromStdString(prefix);
+std::vector<std::string> widest(std::vector<std::string> prefixes) {
+    const auto all = prefixes;
+    std::erase_if(prefixes, [&](const std::string& each) {
+        return std::ranges::any_of(all, [&](const std::string& other) {
+            return other != each && isAtOrBelow(each, other);
+        });
+    });
+    return prefixes;
 }
 
-void Order::begin(const std::string& prefix) {
-    prefix_ = prefix;
+QString scopeWords(const std::vector<std::string>& prefixes) {
+    QStringList all;
+    for (const std::string& each : prefixes)
+        all << (each == "/" ? say("all") : QString::fromStdString(each));
+    return all.join(say(" and "));
+}
+
+QString scopeWord(const std::vector<std::string>& prefixes) {
+    if (prefixes.size() <= mostPaths) return scopeWords(prefixes);
+    return say("%1 and %2 more").arg(scopeWords({prefixes.front()})).arg(prefixes.size() - 1);
+}
+
+void Order::begin(std::vector<std::string> prefixes, const std::vector<std::string>& except) {
+    prefixes_ = widest(std::move(prefixes));
     told_.clear();
     paths_.clear();
     refusals_.clear();
@@ -63,18 +83,23 @@ void Order::begin(const std::string& prefix) {
     answered_.start();
     const auto frame = session_.frame();
     for (const AgentFrame& agent : frame->agents) {
-        if (agent.structure && !hasBelow(agent, prefix_)) continue;
         if (kind_ == Start && agent.lost()) continue;
-        told_.push_back({agent.status.name});
-        send(told_.back());
-        if (!agent.structure) continue;
-        for (const SimplexInfo& info : agent.structure->simplexes) {
-            if (isMeant(info, prefix_)) paths_.push_back(info.path);
-        }
+        if (std::ranges::find(except, agent.status.name) != except.end()) continue;
+        for (const std::string& each : prefixes_) tell(agent, each);
     }
     active_ = !told_.empty();
     text_ = say(words[kind_].nobody);
     if (active_) count(*frame);
+}
+
+void Order::tell(const AgentFrame& agent, const std::string& prefix) {
+    if (agent.structure && !hasBelow(agent, prefix)) return;
+    told_.push_back({agent.status.name, prefix});
+    send(told_.back());
+    if (!agent.structure) return;
+    for (const SimplexInfo& info : agent.structure->simplexes) {
+        if (isMeant(info, prefix)) paths_.push_back(info.path);
+    }
 }
 
 void Order::forget() {
@@ -87,7 +112,7 @@ bool Order::repeats() const { return kind_ == Stop && !since_.hasExpired(patienc
 
 void Order::send(Told& told) {
     told.number =
-        session_.send("/" + told.agent, words[kind_].command, {{"prefix", prefix_}}, limit);
+        session_.send("/" + told.agent, words[kind_].command, {{"prefix", told.prefix}}, limit);
     told.sent.start();
 }
 
@@ -121,8 +146,9 @@ void Order::take(const CommandOutcome& outcome) {
     told->number = 0;
     told->answered = isAnswer(outcome);
     if (!told->answered || outcome.answer.done()) return;
-    refusals_ << say("%1: %2").arg(QString::fromStdString(told->agent),
-                                   QString::fromStdString(outcome.answer.text()));
+    const QString refusal = say("%1: %2").arg(QString::fromStdString(told->agent),
+                                              QString::fromStdString(outcome.answer.text()));
+    if (!refusals_.contains(refusal)) refusals_ << refusal;
 }
 
 std::ptrdiff_t Order::followers(const Frame& frame) const {
@@ -133,7 +159,7 @@ std::ptrdiff_t Order::followers(const Frame& frame) const {
 // While it is on its way.
 void Order::count(const Frame& frame) {
     const auto standing = followers(frame);
-    text_ = say(words[kind_].doing).arg(scopeWord(prefix_)).arg(standing).arg(paths_.size());
+    text_ = say(words[kind_].doing).arg(scopeWord(prefixes_)).arg(standing).arg(paths_.size());
     const QStringList lost = unanswered(frame, true);
     if (!lost.isEmpty()) text_ += say("; not heard: %1").arg(lost.join(", "));
 }
@@ -152,7 +178,8 @@ void Order::finish(const Frame& frame) {
     const double seconds = static_cast<double>(since_.elapsed()) / 1000;
     const auto followed = followers(frame);
     const bool all = parts.isEmpty() && followed == std::ssize(paths_);
-    const QString of = prefix_ == "/" ? QString{} : say(" of %1").arg(scopeWord(prefix_));
+    const bool ofAll = prefixes_.front() == "/";
+    const QString of = ofAll ? QString{} : say(" of %1").arg(scopeWord(prefixes_));
     const QString count = all ? say("All %1").arg(followed) + of
                               : say("%1 of %2").arg(followed).arg(paths_.size()) + of;
     parts.prepend(say(words[kind_].done).arg(count).arg(seconds, 0, 'f', 1));
@@ -183,6 +210,7 @@ QStringList Order::unanswered(const Frame& frame, bool lostOnly) const {
         const bool lost = agent == frame.agents.end() || agent->lost();
         if (!each.answered && (lost || !lostOnly)) names << QString::fromStdString(each.agent);
     }
+    names.removeDuplicates();
     return names;
 }
 
@@ -195,7 +223,8 @@ Order::State Order::stateOf(const Frame& frame, const std::string& path) const {
 bool Order::wasReached(const Frame& frame, const std::string& path) const {
     const auto place = frame.find(path);
     return !place || std::ranges::any_of(told_, [&](const Told& each) {
-        return each.answered && each.agent == frame.agents[place->agent].status.name;
+        return each.answered && each.agent == frame.agents[place->agent].status.name &&
+               isAtOrBelow(path, each.prefix);
     });
 }
 

@@ -15,32 +15,39 @@
 
 namespace cortex::gui {
 
-QString scopeWord(const std::string& prefix);  // "all", "/arm"
+// Without those that lie below another one of them.
+std::vector<std::string> widest(std::vector<std::string> prefixes);
+QString scopeWord(const std::vector<std::string>& prefixes);   // "all", "/arm", "/arm and 2 more"
+QString scopeWords(const std::vector<std::string>& prefixes);  // each of them
 
-// One stop or one start of everything at and below a path, by a command to every agent that has
-// something there. A stop also goes to an agent that is not heard just now: again until it answers,
-// for at most ten seconds. A start is sent once, as nothing may start long after it was asked for.
+// One stop or one start of everything at and below some paths, by a command for each path to every
+// agent that has something there. A stop also goes to an agent that is not heard just now: again
+// until it answers, for at most ten seconds. A start is sent once, as nothing may start long after
+// it was asked for.
 class Order {
 public:
     enum Kind { Stop, Start };
     Order(Session& session, Kind kind) : session_{session}, kind_{kind} {}
 
-    void begin(const std::string& prefix);
+    // Of all agents but those.
+    void begin(std::vector<std::string> prefixes, const std::vector<std::string>& except = {});
     void forget();
     void refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes);
-    // "Stopping all: 9 of 14 in Standby", "All 14 in Standby, 0.4 s, 12:05:07", "2 did not follow:
-    // …", "Not reached: robot". Empty before the first, and once states no longer agree with it.
+    // "Stopping all: 9 of 14 in Standby", "All 14 of /lift and /drive in Standby, 0.4 s, 12:05:07",
+    // "2 did not follow: …", "Not reached: robot". Empty before the first, and once states no
+    // longer agree with it.
     const QString& text() const { return text_; }
 
 private:
     struct Told {
-        std::string agent;
+        std::string agent, prefix;
         std::uint64_t number = 0;  // of the command that is on its way; 0: none
         bool answered = false;
         QElapsedTimer sent{};
     };
     using State = std::optional<cortex::State>;  // none: it is not known now
 
+    void tell(const AgentFrame& agent, const std::string& prefix);
     void send(Told& told);
     void take(const CommandOutcome& outcome);
     void count(const Frame& frame);
@@ -55,7 +62,7 @@ private:
 
     Session& session_;
     const Kind kind_;
-    std::string prefix_;
+    std::vector<std::string> prefixes_;  // none below another one
     QString text_;
     bool active_ = false;             // until it is known what followed
     QElapsedTimer since_, answered_;  // since it began, since the last answer

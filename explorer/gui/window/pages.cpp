@@ -55,7 +55,7 @@ Page agentsPage(const PageParts& parts) {
 }
 
 Page eventsPage(const PageParts& parts) {
-    auto* view = new EventView{parts.events};
+    auto* view = new EventView{parts.events, parts.session.options()};
     QObject::connect(view, &EventView::opened, view, parts.open);
     return {QStringLiteral("events"), view, [view](const FramePointer&) { view->refresh(); }};
 }

@@ -33,8 +33,7 @@ void StartAll::refresh(const Frame& frame, const std::vector<CommandOutcome>& ou
     order_.refresh(frame, outcomes);
     if (waits_.empty()) return;
     if (holds(frame)) {
-        const std::string prefix = std::exchange(waits_, {});
-        order_.begin(prefix);
+        order_.begin({std::exchange(waits_, {})});
     } else if (waiting_.hasExpired(longestQuestion)) {
         waits_.clear();
     }
@@ -42,7 +41,7 @@ void StartAll::refresh(const Frame& frame, const std::vector<CommandOutcome>& ou
 
 QString StartAll::text() const {
     if (waits_.empty()) return order_.text();
-    return tr("Starting %1: needs control").arg(scopeWord(waits_));
+    return tr("Starting %1: needs control").arg(scopeWord({waits_}));
 }
 
 bool StartAll::holds(const Frame& frame) const {

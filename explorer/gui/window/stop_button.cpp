@@ -1,33 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window/stop_button.hpp"
 
+#include "cortex/core/path.hpp"
+
 #include "model/plain_text.hpp"
+#include "session/lease.hpp"
 #include "style/look.hpp"
 
 #include <QApplication>
 #include <QKeyEvent>
 #include <QPainter>
-#include <QTimer>
+#include <algorithm>
 #include <utility>
 
 namespace cortex::gui {
 
 namespace {
 
-constexpr int secondPress = 1000;  // ms
+constexpr int secondPress = 3000;  // ms
 const std::string everything{"/"};
+
+// A lost one is told all the same: it may come back.
+std::vector<std::string> heldByOthers(const Frame& frame, const std::vector<std::string>& scope) {
+    std::vector<std::string> names;
+    for (const AgentFrame& agent : frame.agents) {
+        const bool theirs = std::ranges::any_of(scope, [&](const std::string& each) {
+            return !agent.lost() && hasBelow(agent, each) &&
+                   leaseOfOthers(agent, each, frame.control.self);
+        });
+        if (theirs) names.push_back(agent.status.name);
+    }
+    return names;
+}
 
 }  // namespace
 
 StopButton::StopButton(Session& session, QWidget* parent)
     : QAbstractButton{parent}, order_{session, Order::Stop} {
+    armed_.setSingleShot(true);
+    armed_.setInterval(secondPress);
     showScope();
-    setToolTip(
-        tipText(tr("Shuts down every simplex below the path that stands on it, of every agent that "
-                   "is known. It is no emergency stop: the network, and the agents, must work.")));
     setFocusPolicy(Qt::StrongFocus);
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
-    connect(this, &QAbstractButton::clicked, this, [this] { stop(prefix_); });
+    connect(&armed_, &QTimer::timeout, this, &StopButton::showScope);
+    connect(this, &QAbstractButton::clicked, this, &StopButton::press);
     QApplication::instance()->installEventFilter(this);
 }
 
@@ -38,55 +54,89 @@ bool StopButton::eventFilter(QObject* watched, QEvent* event) {
     const auto* key = static_cast<QKeyEvent*>(event);
     if (key->key() != Qt::Key_F12) return QAbstractButton::eventFilter(watched, event);
     // A press goes to the window and then to the widget that has the focus: only the widget counts.
-    if (watched->isWidgetType() && !key->isAutoRepeat()) pressedByKey();
+    if (watched->isWidgetType() && !key->isAutoRepeat()) press();
     return watched->isWidgetType();
 }
 
-void StopButton::pressedByKey() {
-    if (inControl_ || (armed_.isValid() && !armed_.hasExpired(secondPress))) {
-        stop(prefix_);
+void StopButton::press() {
+    if (!isHeld_ && !isArmed()) {
+        armed_.start();
+        showScope();
         return;
     }
-    armed_.start();
-    setText(tr("F12 again: stop %1").arg(scopeWord(prefix_)));
-    QTimer::singleShot(secondPress, this, [this] {
-        if (armed_.isValid() && !armed_.hasExpired(secondPress - 1)) return;  // pressed again
-        armed_.invalidate();
-        showScope();
-    });
+    disarm();
+    Q_EMIT begun();
+    order_.begin(scope_, others_);
+}
+
+void StopButton::disarm() {
+    armed_.stop();
+    showScope();
 }
 
 void StopButton::showScope() {
-    setText((chosen_ ? tr("Stop always %1") : tr("Stop %1")).arg(scopeWord(prefix_)));
-    setAccessibleName(tr("Stop %1, F12").arg(scopeWord(prefix_)));
+    const QString scope = scopeWord(scope_) + but(), whole = scopeWords(scope_) + but();
+    setText(isArmed() ? tr("Again: stop %1").arg(scope)
+                      : (chosen_ ? tr("Stop always %1") : tr("Stop %1")).arg(scope));
+    setAccessibleName((isArmed() ? tr("Again: stop %1, F12") : tr("Stop %1, F12")).arg(whole));
+    const QString presses = isHeld_ ? tr("One press does it, as all of it is controlled here.")
+                                    : tr("It takes a second press, as it is more than is "
+                                         "controlled here.");
+    setToolTip(tipText(tr("Stop %1 (F12): shuts down every simplex there, of every agent that is "
+                          "known. %2 It is no emergency stop: the network, and the agents, must "
+                          "work.")
+                           .arg(whole, presses)));
     update();
 }
 
+// " but robot": who is not told.
+QString StopButton::but() const {
+    if (others_.empty()) return {};
+    const auto count = static_cast<int>(others_.size());
+    return tr(" but %1").arg(count == 1 ? QString::fromStdString(others_.front())
+                                        : tr("%n agents", nullptr, count));
+}
+
 void StopButton::stop(const std::string& prefix) {
-    armed_.invalidate();
-    showScope();
+    disarm();
     Q_EMIT begun();
-    order_.begin(prefix);
+    order_.begin({prefix});
 }
 
 void StopButton::setScope(std::optional<std::string> prefix) {
     chosen_ = std::move(prefix);
-    if (chosen_) prefix_ = *chosen_;
-    armed_.invalidate();
-    showScope();
+    if (chosen_) scope_ = {*chosen_};
+    others_.clear();
+    isHeld_ = false;  // as long as the next frame does not say so
+    disarm();
 }
 
 void StopButton::refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes) {
     // It never follows what is selected: the same key must not mean something else after a click.
-    inControl_ = !frame.control.prefix.empty();
-    const std::string own = inControl_ ? frame.control.common() : everything;
-    const std::string scope = chosen_.value_or(own);
-    if (scope != prefix_) {
-        prefix_ = scope;
-        armed_.invalidate();
-        showScope();
+    const std::vector<std::string> held = widest(frame.control.prefixes());
+    std::vector<std::string> scope = held.empty() ? std::vector{everything} : held;
+    if (chosen_) scope = {*chosen_};
+    const bool isHeld = std::ranges::all_of(scope, [&](const std::string& each) {
+        return std::ranges::any_of(held,
+                                   [&](const std::string& own) { return isAtOrBelow(each, own); });
+    });
+    std::vector<std::string> others;
+    if (isHeld) others = heldByOthers(frame, scope);
+    if (scope != scope_ || isHeld != isHeld_ || others != others_) {
+        scope_ = std::move(scope);
+        others_ = std::move(others);
+        isHeld_ = isHeld;
+        disarm();
     }
     order_.refresh(frame, outcomes);
+}
+
+// With as many words as there is room for: F12 gives way first, then all paths but one.
+QString StopButton::shortest() const {
+    if (scope_.size() < 2) return text();
+    const QString one =
+        tr("%1 and %2 more").arg(QString::fromStdString(scope_.front())).arg(scope_.size() - 1);
+    return (isArmed() ? tr("Again: stop %1") : tr("Stop %1")).arg(one + but());
 }
 
 void StopButton::paintEvent(QPaintEvent* /*event*/) {
@@ -107,15 +157,17 @@ void StopButton::paintEvent(QPaintEvent* /*event*/) {
     painter.setPen(colours.onStop);
     painter.setFont(Look::font(TextSize::Text, true));
     const QRect inner = rect().adjusted(Look::units(3), 0, -Look::units(3), 0);
-    if (armed_.isValid()) {
-        const bool fits = painter.fontMetrics().horizontalAdvance(text()) <= inner.width();
-        painter.drawText(inner, Qt::AlignCenter, fits ? text() : tr("F12 again"));
-        return;
-    }
+    const auto widthOf = [&](const QString& words) {
+        return painter.fontMetrics().horizontalAdvance(words);
+    };
     const int room = inner.width() - Look::units(10);
-    painter.drawText(inner, int{Qt::AlignVCenter} | int{Qt::AlignLeft},
-                     painter.fontMetrics().elidedText(text(), Qt::ElideMiddle, room));
-    painter.drawText(inner, int{Qt::AlignVCenter} | int{Qt::AlignRight}, QStringLiteral("F12"));
+    const bool hasKey = widthOf(text()) <= room && !isArmed();
+    const QString words = widthOf(text()) <= inner.width() ? text() : shortest();
+    const int side = isArmed() ? int{Qt::AlignHCenter} : int{Qt::AlignLeft};
+    painter.drawText(inner, int{Qt::AlignVCenter} | side,
+                     painter.fontMetrics().elidedText(words, Qt::ElideMiddle, inner.width()));
+    if (hasKey)
+        painter.drawText(inner, int{Qt::AlignVCenter} | int{Qt::AlignRight}, QStringLiteral("F12"));
 }
 
 }  // namespace cortex::gui

@@ -5,17 +5,19 @@
 #include "window/order.hpp"
 
 #include <QAbstractButton>
-#include <QElapsedTimer>
+#include <QTimer>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace cortex::gui {
 
-// Stops what this window controls, otherwise everything that is known: every agent is told to shut
-// down its simplexes there. A click does it at once. F12 does it wherever the focus is, in dialogs,
-// menus and fields too: in control at the first press, read-only at the second within a second, as
-// an elbow must not stop a plant. It needs no control, asks nothing, and is no emergency stop.
+// Stops exactly what this window controls, at once, otherwise everything that is known: every agent
+// is told to shut down its simplexes there, but those of which somebody else holds a part. What is
+// more than it controls takes a second press within three seconds, and the button names it: neither
+// an elbow nor a hand that reaches for its own part may stop a plant. F12 presses it wherever the
+// focus is, in dialogs, menus and fields too. It needs no control, asks nothing, and is no
+// emergency stop.
 class StopButton : public QAbstractButton {
     Q_OBJECT
 public:
@@ -23,7 +25,7 @@ public:
 
     void refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes);
     const QString& progress() const { return order_.text(); }
-    const std::string& scope() const { return prefix_; }
+    const std::vector<std::string>& scope() const { return scope_; }
     // Stops this path from now on, whatever is controlled; none: as above.
     void setScope(std::optional<std::string> prefix);
     const std::optional<std::string>& chosenScope() const { return chosen_; }
@@ -38,14 +40,19 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    void pressedByKey();
+    void press();
+    void disarm();
     void showScope();
+    bool isArmed() const { return armed_.remainingTime() > 0; }
+    QString but() const;
+    QString shortest() const;
 
     Order order_;
-    QElapsedTimer armed_;      // since F12
-    std::string prefix_{"/"};  // at and below which it stops
+    QTimer armed_;                         // after a first press
+    std::vector<std::string> scope_{"/"};  // paths, at and below which it stops
     std::optional<std::string> chosen_;
-    bool inControl_ = false;
+    std::vector<std::string> others_;  // agents of which somebody else holds a part of it
+    bool isHeld_ = false;              // all of the scope
 };
 
 }  // namespace cortex::gui

@@ -5,8 +5,10 @@
 #include "style/look.hpp"
 #include "widgets/text_label.hpp"
 #include "window/control_bar.hpp"
+#include "window/control_notice.hpp"
 #include "window/stop_button.hpp"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QMenu>
 #include <QPushButton>
@@ -19,8 +21,7 @@ TopBar::TopBar(ControlBar& control, StopButton& stop, QWidget* parent)
       row_{new QHBoxLayout{this}},
       menu_{new QPushButton{tr("Menu")}},
       find_{new QPushButton{tr("Find…  Ctrl+K")}},
-      title_{new TextLabel{TextSize::Value, true}},
-      told_{new TextLabel{TextSize::Text}} {
+      title_{new TextLabel{TextSize::Value, true}} {
     menu_->setAccessibleName(tr("Menu"));
     menu_->setFocusPolicy(Qt::TabFocus);  // the mouse leaves the keyboard where it was
     row_->addWidget(menu_);
@@ -31,20 +32,19 @@ TopBar::TopBar(ControlBar& control, StopButton& stop, QWidget* parent)
     connect(find_, &QPushButton::clicked, this, &TopBar::findWanted);
     row_->addWidget(find_);
     row_->addStretch(1);
-    row_->addWidget(told_);
     row_->addWidget(&control_);
     row_->addWidget(&stop);
 }
 
 void TopBar::setMenu(QMenu& menu) { menu_->setMenu(&menu); }
 
-void TopBar::tell(const QString& text) { told_->show(text); }
+void TopBar::tell(const QString& text) { control_.notice().tell(text); }
 
 void TopBar::setNarrow(bool narrow) {
     const int side = Look::units(narrow ? 1.5 : 3), size = Look::units(4);
     row_->setContentsMargins(side, Look::units(narrow ? 1 : 2), side, Look::units(narrow ? 0 : 1));
     row_->setSpacing(side);
-    title_->setVisible(!narrow);
+    narrow_ = narrow;
     find_->setText(narrow ? QString{} : tr("Find…  Ctrl+K"));
     find_->setIconSize({size, size});
     find_->setIcon(narrow ? icon(Glyph::Find, Look::colours().ink, size) : QIcon{});
@@ -52,6 +52,19 @@ void TopBar::setNarrow(bool narrow) {
     menu_->setIconSize({size, size});
     menu_->setIcon(narrow ? icon(Glyph::Menu, Look::colours().ink, size) : QIcon{});
     control_.setNarrow(narrow);
+    fit();
+}
+
+// The title is the first that gives way.
+void TopBar::fit() {
+    const int title = title_->isHidden() ? title_->sizeHint().width() + row_->spacing() : 0;
+    title_->setVisible(!narrow_ && row_->sizeHint().width() + title <= width());
+}
+
+bool TopBar::event(QEvent* event) {
+    const bool done = QWidget::event(event);
+    if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize) fit();
+    return done;
 }
 
 }  // namespace cortex::gui

@@ -14,8 +14,8 @@ class ControlBar;
 class StopButton;
 class TextLabel;
 
-// The bar along the top: menu, title, find, what became of a stop or start, control, Stop. Where it
-// is narrow, it gives way before the lease or Stop would be cut.
+// The bar along the top: menu, title, find, control, Stop. Where it is narrow, it gives way before
+// the lease or Stop would be cut.
 class TopBar : public QWidget {
     Q_OBJECT
 public:
@@ -23,18 +23,24 @@ public:
 
     void setMenu(QMenu& menu);
     void setNarrow(bool narrow);
-    void tell(const QString& text);  // what became of a stop or start
+    void tell(const QString& text);  // what became of a stop or start: in the line below
     QPushButton& menuButton() { return *menu_; }
     QPushButton& findButton() { return *find_; }
 
 Q_SIGNALS:
     void findWanted();
 
+protected:
+    bool event(QEvent* event) override;
+
 private:
+    void fit();
+
     ControlBar& control_;
     QBoxLayout* row_;
     QPushButton *menu_, *find_;
-    TextLabel *title_, *told_;
+    TextLabel* title_;
+    bool narrow_ = false;
 };
 
 }  // namespace cortex::gui

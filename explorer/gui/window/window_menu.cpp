@@ -36,6 +36,18 @@ void addHandOver(QMenu& menu, ControlBar& control) {
     });
 }
 
+// What is missing of what was held, as the bar offers it where there is room.
+void addTakeAgain(QMenu& menu, ControlBar& control) {
+    QAction* choice = menu.addAction(entry("Take again"), &control, &ControlBar::takeAgain);
+    QObject::connect(&menu, &QMenu::aboutToShow, choice, [&control, choice] {
+        const std::string prefix = control.missing();
+        const QString scope = scopeText(prefix).replace('&', QLatin1String{"&&"});
+        choice->setEnabled(!prefix.empty());
+        choice->setText(prefix.empty() ? entry("Take again: nothing is missing")
+                                       : entry("Take %1 again").arg(scope));
+    });
+}
+
 }  // namespace
 
 QMenu* makeWindowMenu(const WindowActions& actions, QWidget* parent) {
@@ -62,6 +74,7 @@ QMenu* makeWindowMenu(const WindowActions& actions, QWidget* parent) {
     addRates(*menu->addMenu(entry("Values")), actions.session);
     addScopes(*menu->addMenu(entry("Stop stops")), actions.session, actions.stop);
     menu->addSeparator();
+    addTakeAgain(*menu, actions.control);
     addHandOver(*menu, actions.control);
     menu->addAction(entry("Manual"), menu, actions.openManual);
     menu->addAction(entry("Join again"), menu,
@@ -107,7 +120,7 @@ void addScopes(QMenu& menu, Session& session, StopButton& stop) {
             choice->setCheckable(true);
             choice->setChecked(stop.chosenScope() == scope);
         };
-        add(entry("What is controlled, otherwise all"), std::nullopt);
+        add(entry("What is controlled; otherwise all, at the second press"), std::nullopt);
         add(entry("Always all"), "/");
         for (const std::string& each : scopesOf(*session.frame())) {
             add(entry("Always %1")

@@ -53,11 +53,13 @@ public:
     std::optional<State> state() const;              // none: it has none, or it was not heard
     Quality quality() const;                         // `Lost` where nothing is known
     std::optional<double> age() const;               // s; none: no values ever came
-    bool live() const;  // good, and its agent is heard: otherwise values are the last ones
+    // What it writes is the present value: it is good, or a safe demand, and its agent is heard.
+    // Otherwise values are the last ones; but what the framework writes, as its state, is present.
+    bool live() const;
     // None: there is no such item or element, it is no number, or it never came. A constant is
     // there as soon as the simplex is known.
     std::optional<double> number(std::string_view item, std::size_t element = 0) const;
-    // As the window shows it: with label; in brackets if it is not live; "—" if it never came.
+    // As the window shows it: with label; in brackets if it is not present; "—" if it never came.
     QString text(std::string_view item, std::size_t element = 0) const;
     QString unit(std::string_view item) const;  // typeset: "m/s²"
     // What its type allows: the least and the greatest value, and the greatest change in a second.

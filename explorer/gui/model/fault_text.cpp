@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/fault_text.hpp"
+
+#include "common/cut_text.hpp"
+#include "model/item_of.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace cortex::gui {
+
+namespace {
+
+// What comes from outside is text: what cannot be printed is a blank.
+QString inOneLine(const std::string& text) {
+    QString result = QString::fromStdString(text);
+    std::ranges::replace_if(result, [](QChar c) { return !c.isPrint(); }, QChar{' '});
+    return result;
+}
+
+// What an event holds at most.
+std::size_t eventCapacity() {
+    static const std::size_t capacity = EventText{std::string(1'000, 'x')}.view().size();
+    return capacity;
+}
+
+FaultText shown(const std::string& text, bool cut) {
+    const QString line = inOneLine(text);
+    return {cut ? line + QStringLiteral("…") : line, cut};
+}
+
+}  // namespace
+
+FaultText faultText(const Frame& frame, Place place, const StateTimes& times) {
+    const AgentFrame& agent = frame.agents[place.agent];
+    const auto brief = itemOf<std::string>(agent, place.simplex, "faultText");
+    const auto code = itemOf<std::int64_t>(agent, place.simplex, "faultCode");
+    if (!brief || brief->empty()) return {};
+    const std::string event = times.fault(frame, place);
+    const std::string head = "fault " + std::to_string(code.value_or(0)) + ": ";
+    if (event.starts_with(head + *brief)) {
+        return shown(event.substr(head.size()), common::fills(event, eventCapacity()));
+    }
+    const ItemLayout* item = frame.info(place).layout->find("faultText");
+    return shown(*brief, common::mayBeCut(*item->item, Value{std::vector{*brief}}));
+}
+
+}  // namespace cortex::gui
