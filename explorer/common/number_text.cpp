@@ -65,8 +65,8 @@ int decimalsOf(const DataItem& item) {
 }
 
 std::string significantText(double number, int digits) {
-    const double size = std::abs(number);
-    const int before = size < 1 ? 1 : static_cast<int>(std::floor(std::log10(size))) + 1;
+    if (number == 0) return "0";
+    const int before = static_cast<int>(std::floor(std::log10(std::abs(number)))) + 1;
     return withoutSignOfZero(
         withoutZeros(written(number, std::chars_format::fixed, std::max(0, digits - before))));
 }

@@ -143,28 +143,50 @@ TEST_F(Controlling, StopsWhatIsHeldAtTheFirstPressOfF12) {
     EXPECT_TRUE(isIn("/drive", State::Active));
 }
 
-TEST_F(Controlling, StopsEachPartThatIsHeldAndNothingBesideThem) {
-    ASSERT_TRUE(everythingComes());
-    ASSERT_TRUE(comes([] { return live({"call", "/mixer", "startup"}).exit == 0; }));
-    ASSERT_TRUE(comes(
-        [this] { return isIn("/drive", State::Active) && isIn("/controller", State::Active); }));
-    ASSERT_TRUE(takes("/drive"));
-    Colleague other;
-    ASSERT_TRUE(comes([&] { return other.sees("/axis/observed"); }));
-    other.control();
-    other.session.takeControl("/axis");
-    ASSERT_TRUE(comes([&] { return other.control().prefix == "/axis"; }));
-    other.session.handOver(session.frame()->control.self);
-    EXPECT_TRUE(comes([&] {
+// Everything runs, and the window holds /drive and what a colleague hands over to it.
+class ControllingTwoParts : public Controlling {
+protected:
+    bool holdsDriveAnd(const std::string& prefix) {
+        if (!everythingComes()) return false;
+        EXPECT_EQ(live({"call", "/mixer", "startup"}).exit, 0);
+        const auto runs = [this] {
+            return isIn("/drive", State::Active) && isIn("/controller", State::Active);
+        };
+        window.open("/drive");
+        if (!comes(runs) || !takes("/drive")) return false;
+        Colleague other;
+        if (!comes([&] { return other.sees("/controller"); })) return false;
         other.control();
-        return window.stopButton().text() == "Stop /drive and /axis";
-    })) << window.stopButton().text().toStdString();
+        other.session.takeControl(prefix);
+        if (!comes([&] { return other.control().prefix == prefix; })) return false;
+        other.session.handOver(session.frame()->control.self);
+        const QString words = "Stop /drive and " + QString::fromStdString(prefix);
+        return comes([&] {
+            other.control();
+            return window.stopButton().text() == words;
+        });
+    }
+    bool tells(const QString& text) {
+        return comes([&] { return window.stopButton().progress().startsWith(text); });
+    }
+};
+
+TEST_F(ControllingTwoParts, StopsNothingBesideThemAtThePathAroundThem) {
+    ASSERT_TRUE(holdsDriveAnd("/axis")) << window.stopButton().text().toStdString();
     QTest::keyClick(&window, Qt::Key_F12);
     EXPECT_TRUE(comes([this] { return isIn("/drive", State::Standby); }));
-    EXPECT_TRUE(comes([this] {
-        return window.stopButton().progress().startsWith("All 1 of /drive and /axis in Standby, ");
-    })) << window.stopButton().progress().toStdString();
-    EXPECT_TRUE(isIn("/controller", State::Active)) << "it lies below the path around them";
+    EXPECT_TRUE(tells("All 1 of /drive and /axis in Standby, "))
+        << window.stopButton().progress().toStdString();
+    EXPECT_TRUE(isIn("/controller", State::Active));
+}
+
+TEST_F(ControllingTwoParts, StopsBothThoughTheirAgentDoesOneAtATime) {
+    ASSERT_TRUE(holdsDriveAnd("/controller")) << window.stopButton().text().toStdString();
+    QTest::keyClick(&window, Qt::Key_F12);
+    EXPECT_TRUE(tells("All 2 of /drive and /controller in Standby, "))
+        << window.stopButton().progress().toStdString();
+    EXPECT_TRUE(isIn("/drive", State::Standby));
+    EXPECT_TRUE(isIn("/controller", State::Standby));
 }
 
 TEST_F(Controlling, StartsAllOfASubtreeOnceControlOfItIsGiven) {

@@ -48,27 +48,26 @@ TEST_F(Steady, NoRowMovesWhenControlIsRefusedAndWhenThatIsClosed) {
     other.session.takeControl("/drive");
     ASSERT_TRUE(comes([&] { return !other.control().prefix.empty() && says("held by "); }));
     ControlNotice& notice = window.control().notice();
+    const auto isRefused = [&] {
+        window.control().choose();
+        window.control().panel()->choose("/");
+        window.control().panel()->takeButton().click();
+        return comes([&] { return !other.control().prefix.empty() && !notice.text().isEmpty(); });
+    };
     for (const QSize size : windowSizes) {
         showAt(size);
         const auto before = places();
         ASSERT_GE(before.size(), 3U);
-        window.control().choose();
-        window.control().panel()->choose("/");
-        window.control().panel()->takeButton().click();
-        const auto isTold = [&] {
-            return !other.control().prefix.empty() && !notice.text().isEmpty();
-        };
-        ASSERT_TRUE(comes(isTold));
+        ASSERT_TRUE(isRefused());
         EXPECT_EQ(places(), before) << size.width();
         EXPECT_EQ(findings(), "");
-        if (size == windowSizes.back()) {
-            EXPECT_EQ(unreadableInEverySize(window, [&] { other.control(), window.refresh(); }), "")
-                << "who holds it is never cut";
-        }
         Q_EMIT notice.closed();
         EXPECT_EQ(notice.text(), "");
         EXPECT_EQ(places(), before) << size.width();
     }
+    ASSERT_TRUE(isRefused());
+    EXPECT_EQ(unreadableInEverySize(window, [&] { other.control(), window.refresh(); }), "")
+        << "who holds it is never cut";
 }
 
 TEST_F(Steady, NoRowMovesWhenACommandOfTheLifeCycleIsAnswered) {

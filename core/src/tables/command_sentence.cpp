@@ -32,11 +32,11 @@ std::string_view outcomeIn(std::string_view text) {
 
 // The ")" before the outcome: a text among the arguments may have one, too.
 std::size_t findEnd(std::string_view text) {
-    for (std::size_t at = text.rfind(closed); at != std::string_view::npos && at > 0;
-         at = text.rfind(closed, at - 1)) {
-        if (!outcomeIn(text.substr(at + closed.size())).empty()) return at;
+    std::size_t at = text.rfind(closed);
+    while (at != std::string_view::npos && outcomeIn(text.substr(at + closed.size())).empty()) {
+        at = at == 0 ? std::string_view::npos : text.rfind(closed, at - 1);
     }
-    return std::string_view::npos;
+    return at;
 }
 
 // "in 2 cycles" at the end of what became of it.

@@ -172,7 +172,9 @@ bool Query::holds(const Term& term, const Frame& frame, Place place) {
     if (field == QLatin1String{"role"}) return equal(name(info.role), term.value);
     if (field == QLatin1String{"quality"})
         return equal(name(agent.quality(place.simplex)), term.value);
-    if (field == QLatin1String{"lost"}) return agent.quality(place.simplex) == Quality::Lost;
+    if (field == QLatin1String{"lost"}) {  // as the counter of losses
+        return agent.quality(place.simplex) == Quality::Lost && frame.excuse(place) == Excuse::None;
+    }
     if (field == QLatin1String{"outside"}) return isOutside(agent, place.simplex);
     const auto state = agent.state(place.simplex);
     if (field == QLatin1String{"fault"}) return state == State::Fault;

@@ -100,6 +100,7 @@ AgentDetails::AgentDetails(QWidget* parent)
     rows->addWidget(pages_, 1);
     for (int i = 0; i <= AgreementTab; ++i) tabs_->addTab({});
     tabs_->setExpanding(false);
+    tabs_->setElideMode(Qt::ElideNone);  // what has no room is scrolled to
     tabs_->setDrawBase(false);
     tabs_->setAccessibleName(tr("What to show of the agent"));
     pages_->addWidget(makeLoopPage());

@@ -59,6 +59,7 @@ BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, 
     pages_->setMinimumHeight(1);  // what is above them is never cut
     for (int i = 0; i < TabCount; ++i) tabs_->addTab({});
     tabs_->setExpanding(false);
+    tabs_->setElideMode(Qt::ElideNone);  // what has no room is scrolled to
     tabs_->setDrawBase(false);
     tabs_->setAccessibleName(tr("What to show"));
     auto* dataPage = new QWidget;

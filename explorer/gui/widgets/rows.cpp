@@ -19,8 +19,12 @@ public:
         : QObject{&view}, view_{view}, units_{std::move(units)} {}
 
     bool eventFilter(QObject* /*object*/, QEvent* event) override {
-        if (event->type() == QEvent::StyleChange || event->type() == QEvent::FontChange)
-            setWidths(view_, units_);
+        if (event->type() != QEvent::StyleChange && event->type() != QEvent::FontChange)
+            return false;
+        setWidths(view_, units_);
+        auto* tree = qobject_cast<QTreeWidget*>(&view_);
+        for (int column = 0; tree != nullptr && column < static_cast<int>(units_.size()); ++column)
+            growToFit(*tree, column);
         return false;
     }
 

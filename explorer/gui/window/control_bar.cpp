@@ -12,6 +12,8 @@
 #include <QLineEdit>
 #include <QPainter>
 #include <QPushButton>
+#include <QStyle>
+#include <QStyleOptionButton>
 #include <algorithm>
 #include <utility>
 
@@ -55,6 +57,15 @@ bool canBeTaken(const Frame& frame, const std::string& prefix) {
         any = true;
     }
     return any;
+}
+
+// That the button needs for another text.
+int widthOf(const QPushButton& button, const QString& text) {
+    QStyleOptionButton option;
+    option.initFrom(&button);
+    option.text = text;
+    const QSize size = button.fontMetrics().size(Qt::TextShowMnemonic, text);
+    return button.style()->sizeFromContents(QStyle::CT_PushButton, &option, size, &button).width();
 }
 
 constexpr int longestNames = 14, longestNarrow = 8;  // letters; otherwise they are counted
@@ -186,9 +197,7 @@ void ControlBar::showButtons() {
     policy.setRetainSizeWhenHidden(again);
     handOver_->setSizePolicy(policy);
     handOver_->setVisible(holds() && !narrow_);
-    const QFontMetrics metrics = button_->fontMetrics();
-    const int edges = button_->sizeHint().width() - metrics.horizontalAdvance(button_->text());
-    button_->setMinimumWidth(narrow_ ? 0 : edges + metrics.horizontalAdvance(tr("Take control…")));
+    button_->setMinimumWidth(narrow_ ? 0 : widthOf(*button_, tr("Take control…")));
 }
 
 // A refusal follows the leases: it says who holds a part by now, or that nobody else does.

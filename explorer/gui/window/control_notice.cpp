@@ -26,7 +26,8 @@ ControlNotice::ControlNotice(QWidget* parent)
     }
     for (TextLabel* each : {told_, text_}) {
         each->setWordWrap(true);
-        each->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
+        const auto across = each == told_ ? QSizePolicy::Fixed : QSizePolicy::Ignored;
+        each->setSizePolicy(across, QSizePolicy::Ignored);
     }
     row_->setStretchFactor(text_, 1);
     for (QPushButton* each : {remedy_, close_}) each->setFocusPolicy(Qt::TabFocus);

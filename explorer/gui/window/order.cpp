@@ -18,6 +18,7 @@ namespace {
 
 constexpr int patience = 10'000;      // ms, with agents that do not answer
 constexpr int betweenTries = 100;     // ms
+constexpr int turn = 500;             // ms, of one path where an agent has several
 constexpr int lastValues = 1000;      // ms after the last answer, until states are told too
 constexpr int mostNotFollowing = 3;   // that are named
 constexpr std::size_t mostPaths = 2;  // that are named
@@ -87,6 +88,7 @@ void Order::begin(std::vector<std::string> prefixes, const std::vector<std::stri
         if (std::ranges::find(except, agent.status.name) != except.end()) continue;
         for (const std::string& each : prefixes_) tell(agent, each);
     }
+    sendNext();
     active_ = !told_.empty();
     text_ = say(words[kind_].nobody);
     if (active_) count(*frame);
@@ -94,12 +96,15 @@ void Order::begin(std::vector<std::string> prefixes, const std::vector<std::stri
 
 void Order::tell(const AgentFrame& agent, const std::string& prefix) {
     if (agent.structure && !hasBelow(agent, prefix)) return;
-    told_.push_back({agent.status.name, prefix});
-    send(told_.back());
-    if (!agent.structure) return;
-    for (const SimplexInfo& info : agent.structure->simplexes) {
-        if (isMeant(info, prefix)) paths_.push_back(info.path);
+    const std::size_t before = paths_.size();
+    if (agent.structure) {
+        for (const SimplexInfo& info : agent.structure->simplexes) {
+            if (isMeant(info, prefix)) paths_.push_back(info.path);
+        }
+        // Where there is nothing to stop, another path is not interrupted for it.
+        if (paths_.size() == before && prefixes_.size() > 1) return;
     }
+    told_.push_back({agent.status.name, prefix});
 }
 
 void Order::forget() {
@@ -108,7 +113,28 @@ void Order::forget() {
     text_.clear();
 }
 
-bool Order::repeats() const { return kind_ == Stop && !since_.hasExpired(patience); }
+bool Order::goesOn(const Told& told) const {
+    const auto most = told.interrupted ? static_cast<int>(limit.count()) : patience;
+    return kind_ == Stop && !told.answered && !since_.hasExpired(most);
+}
+
+// Of several paths of one agent, the one that waits longest, once the other has had its turn.
+bool Order::mayBeSent(const Told& told) const {
+    if (told.answered || told.number != 0) return false;
+    const bool isFirst = !told.sent.isValid();
+    if (!isFirst && (!goesOn(told) || !told.sent.hasExpired(betweenTries))) return false;
+    return std::ranges::none_of(told_, [&](const Told& other) {
+        if (&other == &told || other.agent != told.agent || other.answered) return false;
+        if (other.number != 0) return !other.sent.hasExpired(turn);
+        return !isFirst && (!other.sent.isValid() || other.sent.elapsed() > told.sent.elapsed());
+    });
+}
+
+void Order::sendNext() {
+    for (Told& each : told_) {
+        if (mayBeSent(each)) send(each);
+    }
+}
 
 void Order::send(Told& told) {
     told.number =
@@ -122,14 +148,10 @@ void Order::refresh(const Frame& frame, const std::vector<CommandOutcome>& outco
         return;
     }
     for (const CommandOutcome& each : outcomes) take(each);
-    const bool goesOn = repeats();
-    for (Told& each : told_) {
-        if (goesOn && !each.answered && each.number == 0 && each.sent.hasExpired(betweenTries)) {
-            send(each);
-        }
-    }
-    const bool waits = std::ranges::any_of(
-        told_, [&](const Told& each) { return !each.answered && (goesOn || each.number != 0); });
+    sendNext();
+    const bool waits = std::ranges::any_of(told_, [&](const Told& each) {
+        return !each.answered && (goesOn(each) || each.number != 0);
+    });
     if (waits) answered_.restart();
     const bool follows = std::ranges::all_of(paths_, [&](const std::string& path) {
         return !wasReached(frame, path) || stateOf(frame, path) == words[kind_].goal;
@@ -144,7 +166,9 @@ void Order::take(const CommandOutcome& outcome) {
     const auto told = std::ranges::find(told_, outcome.number, &Told::number);
     if (outcome.number == 0 || told == told_.end()) return;
     told->number = 0;
-    told->answered = isAnswer(outcome);
+    const bool hasOthers = std::ranges::count(told_, told->agent, &Told::agent) > 1;
+    told->interrupted = hasOthers && outcome.answer.outcome == Outcome::Cancelled;
+    told->answered = isAnswer(outcome) && !told->interrupted;
     if (!told->answered || outcome.answer.done()) return;
     const QString refusal = say("%1: %2").arg(QString::fromStdString(told->agent),
                                               QString::fromStdString(outcome.answer.text()));

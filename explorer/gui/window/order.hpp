@@ -22,8 +22,9 @@ QString scopeWords(const std::vector<std::string>& prefixes);  // each of them
 
 // One stop or one start of everything at and below some paths, by a command for each path to every
 // agent that has something there. A stop also goes to an agent that is not heard just now: again
-// until it answers, for at most ten seconds. A start is sent once, as nothing may start long after
-// it was asked for.
+// until it answers, for at most ten seconds. An agent does one such command at a time, and a newer
+// one ends it: several paths of one agent take turns. A start is sent once, as nothing may start
+// long after it was asked for.
 class Order {
 public:
     enum Kind { Stop, Start };
@@ -42,13 +43,16 @@ private:
     struct Told {
         std::string agent, prefix;
         std::uint64_t number = 0;  // of the command that is on its way; 0: none
-        bool answered = false;
+        bool answered = false, interrupted = false;
         QElapsedTimer sent{};
     };
     using State = std::optional<cortex::State>;  // none: it is not known now
 
     void tell(const AgentFrame& agent, const std::string& prefix);
     void send(Told& told);
+    void sendNext();
+    bool mayBeSent(const Told& told) const;
+    bool goesOn(const Told& told) const;  // it is sent until it is answered
     void take(const CommandOutcome& outcome);
     void count(const Frame& frame);
     void finish(const Frame& frame);
@@ -58,7 +62,6 @@ private:
     State stateOf(const Frame& frame, const std::string& path) const;
     bool wasReached(const Frame& frame, const std::string& path) const;
     bool agrees(const Frame& frame) const;
-    bool repeats() const;  // whether it is still sent to agents that have not answered
 
     Session& session_;
     const Kind kind_;

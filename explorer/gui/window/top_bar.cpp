@@ -55,10 +55,17 @@ void TopBar::setNarrow(bool narrow) {
     fit();
 }
 
-// The title is the first that gives way.
+// The title gives way first, then the field for finding, which stands in the menu, too.
 void TopBar::fit() {
-    const int title = title_->isHidden() ? title_->sizeHint().width() + row_->spacing() : 0;
-    title_->setVisible(!narrow_ && row_->sizeHint().width() + title <= width());
+    const auto wide = [this](const QWidget& each) {
+        return each.isHidden() ? 0 : each.sizeHint().width() + row_->spacing();
+    };
+    const auto wanted = [this](const QWidget& each) {
+        return each.sizeHint().width() + row_->spacing();
+    };
+    const int rest = row_->sizeHint().width() - wide(*title_) - wide(*find_);
+    find_->setVisible(rest + wanted(*find_) <= width());
+    title_->setVisible(!narrow_ && rest + wanted(*find_) + wanted(*title_) <= width());
 }
 
 bool TopBar::event(QEvent* event) {
