@@ -77,7 +77,7 @@ TEST(BeyondLimits, InANarrowTableTheRangeGivesWayBeforeTheMarkAndItsWord) {
     ItemTable table{items};
     table.show();
     for (const auto& [width, range, description] :
-         {std::tuple{250, true, true}, {190, true, false}, {160, false, false}}) {
+         {std::tuple{250, true, true}, {165, true, false}, {110, false, false}}) {
         table.resize(Look::units(width), 300);
         QApplication::processEvents();
         EXPECT_FALSE(table.isColumnHidden(ItemModel::Remark)) << width;

@@ -24,7 +24,7 @@ std::string scopeOf(const Frame& frame, Place place);
 // The first parts of all paths that something can be stopped at, sorted.
 std::vector<std::string> scopesOf(const Frame& frame);
 
-QString clockText(std::int64_t utc);  // "12:03" of UTC ns, in the zone that is shown
+QString clockText(std::int64_t utc);  // "12:03 UTC" of UTC ns, in the zone that is shown
 // "everything" for "/".
 QString scopeText(const std::string& prefix);
 

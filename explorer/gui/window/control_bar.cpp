@@ -3,7 +3,6 @@
 
 #include "model/permission.hpp"
 #include "model/plain_text.hpp"
-#include "model/shown_time.hpp"
 #include "session/lease.hpp"
 #include "widgets/text_label.hpp"
 #include "window/control_notice.hpp"
@@ -132,7 +131,7 @@ QString ControlBar::text() const {
     if (held.size() > 2) parts << tr("%1 more").arg(held.size() - 1);
     const QString what = tr("You control %1").arg(parts.join(tr(" and ")));
     if (narrow_ || !isWhole(held.front())) return what;
-    return tr("%1 since %2 %3").arg(what, clockText(control.since), zoneName(control.since));
+    return tr("%1 since %2").arg(what, clockText(control.since));
 }
 
 QString ControlBar::heldText() const {

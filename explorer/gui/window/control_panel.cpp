@@ -4,7 +4,6 @@
 #include "cortex/core/path.hpp"
 
 #include "model/permission.hpp"
-#include "model/shown_time.hpp"
 #include "model/value_text.hpp"
 #include "session/lease.hpp"
 #include "style/look.hpp"
@@ -128,8 +127,7 @@ void ControlPanel::refresh(std::shared_ptr<const Frame> frame) {
 
 QString ControlPanel::leaseText(const QString& agent, const comms::ShownLease& lease) const {
     const QString prefix = scopeText(lease.prefix);
-    const QString since = clockText(lease.since) + ' ' + zoneName(lease.since),
-                  age = ageText(lease.seconds);
+    const QString since = clockText(lease.since), age = ageText(lease.seconds);
     if (lease.holder == frame_->control.self)
         return tr("%1: you hold %2 since %3 (%4)").arg(agent, prefix, since, age);
     return tr("%1: %2 holds %3 since %4 (%5)")
