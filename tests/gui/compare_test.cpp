@@ -9,6 +9,7 @@
 #include <QFile>
 #include <QTemporaryDir>
 #include <QTreeView>
+#include <csignal>
 
 namespace cortex::test {
 namespace {
@@ -92,7 +93,7 @@ TEST_F(Compared, ATypeThatNobodyHasIsNamedWithTheNearestOnes) {
 TEST_F(Compared, ValuesOfALostAgentAreInBracketsAndStay) {
     ASSERT_TRUE(everythingComes());
     CompareView& view = open("position", "path:observed");
-    agent.reset();
+    agent->end(SIGKILL);
     EXPECT_TRUE(comes([&] {
         return column(view, CompareModel::Remark) == QStringList{"lost"} &&
                column(view, CompareModel::Value).front().startsWith('[');

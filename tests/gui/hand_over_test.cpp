@@ -164,7 +164,9 @@ TEST_F(Controlling, TakesAgainWhatASilenceTookAlsoOnceTheNoticeIsClosed) {
     QPushButton& again = window.control().againButton();
     EXPECT_TRUE(again.isHidden());
     agent->send(SIGSTOP);
-    ASSERT_TRUE(comes([this] { return !window.control().holds(); }));
+    ASSERT_TRUE(comes(
+        [this] { return !window.control().holds() && session.frame()->agents.front().lost(); }));
+    window.refresh();
     EXPECT_TRUE(again.isHidden()) << "nobody would hear it";
     agent->send(SIGCONT);
     ASSERT_TRUE(comes([&] { return !again.isHidden(); }));
