@@ -178,6 +178,32 @@ TEST_F(EventTab, SaysHowManyAreNewBelowWhileSomebodyLooksFurtherUp) {
     EXPECT_TRUE(isAtTheEnd(table())) << "it follows again";
 }
 
+// All rows of the window's own have number 0.
+TEST_F(EventTab, ShowsTheDetailsOfTheRowThatIsChosen) {
+    events.add({eventOf(0, "agent lost", "", "robot is not heard"),
+                eventOf(0, "agent heard", "", "robot is heard again")});
+    table().setCurrentIndex(table().model()->index(0, 0));
+    view.refresh();
+    EXPECT_TRUE(says(view, "robot is not heard"));
+    table().setCurrentIndex(table().model()->index(1, 0));
+    view.refresh();
+    EXPECT_TRUE(says(view, "robot is heard again"));
+}
+
+TEST(EventDetails, HaveACommandForAShellThatSeesTheSameNetwork) {
+    comms::NetworkOptions network;
+    network.domain = 7;
+    network.interfaces = {"eth0"};
+    network.peers = {"far station"};
+    network.discoveryServer.clear();
+    network.security.clear();
+    EventPanel panel{network};
+    panel.show(EventRow{eventOf(1, "fault", "/a b", "broken", Severity::Error)}, 3);
+    EXPECT_TRUE(says(panel,
+                     "As a command: cortex events '/a b' --severity error --domain 7 "
+                     "--interface eth0 --peer 'far station'"));
+}
+
 TEST_F(EventTab, HasTheFilterOfTheStripAndSaysHowMuchItShows) {
     events.add(changes(1, 10));
     events.add({limit(11, "position limited"),
