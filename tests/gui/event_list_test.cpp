@@ -180,8 +180,10 @@ TEST_F(EventTab, SaysHowManyAreNewBelowWhileSomebodyLooksFurtherUp) {
 
 // All rows of the window's own have number 0.
 TEST_F(EventTab, ShowsTheDetailsOfTheRowThatIsChosen) {
-    events.add({eventOf(0, "agent lost", "", "robot is not heard"),
-                eventOf(0, "agent heard", "", "robot is heard again")});
+    const comms::AgentEvent lost = eventOf(0, "agent lost", "", "robot is not heard");
+    comms::AgentEvent heard = eventOf(0, "agent heard", "", "robot is heard again");
+    heard.wallClock = lost.wallClock + 1;
+    events.add({lost, heard});
     table().setCurrentIndex(table().model()->index(0, 0));
     view.refresh();
     EXPECT_TRUE(says(view, "robot is not heard"));
