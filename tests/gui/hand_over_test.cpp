@@ -2,6 +2,7 @@
 // Control that somebody else has, gives or gets, with a real agent over DDS.
 #include "gui/controlling.hpp"
 #include "gui/made_agent.hpp"
+#include "window/stop_button.hpp"
 
 #include <QApplication>
 #include <QHBoxLayout>
@@ -251,6 +252,42 @@ TEST_F(TwoAgentsInTheBar, NoButtonStandsWhereAnotherOneStoodWhenControlIsLost) {
     show({}, "running");
     EXPECT_EQ(placeOf("Take again"), againAt);
     EXPECT_EQ(placeOf("Take control…"), releaseAt);
+}
+
+// As the agent itself shows who holds what of it.
+void giveLease(MadeAgent& agent, const std::string& own, const std::string& prefix,
+               const std::string& holder) {
+    const std::uint32_t simplex = agent.at(own);
+    for (const auto& [item, text] : {std::pair{"leasePrefix", prefix}, {"leaseHolder", holder}}) {
+        const ItemLayout* layout = agent.structure->simplexes[simplex].layout->find(item);
+        std::vector<std::string> texts(layout->item->length);
+        texts.front() = text;
+        storeValue(*layout->item, Value{texts},
+                   agent.tables->live(simplex).at(Kind::String, layout->offset));
+    }
+}
+
+TEST(StopOfWhatIsHeld, LeavesOutAnAgentOfWhichSomebodyElseHoldsAPartAndNamesIt) {
+    MadeAgent left{"left", [](SimplexTree& tree) { tree.add("/a", "Probe"); }};
+    MadeAgent right{"right", [](SimplexTree& tree) {
+                        tree.add("/b", "Probe");
+                        tree.add("/right", "Cluster");
+                    }};
+    Session session{ownNetwork()};
+    StopButton stop{session};
+    const auto said = [&](const std::string& stateOfRight) {
+        const auto frame = frameOf({left.now(), right.now(stateOfRight)});
+        frame->control.held = {{"left", "/", 1}};
+        frame->control.prefix = "/";
+        stop.refresh(*frame, {});
+        return stop.text().toStdString();
+    };
+    EXPECT_EQ(said("running"), "Stop all");
+    giveLease(right, "/right", "/b", "colleague@desk.1-2");
+    EXPECT_EQ(said("running"), "Stop all but right");
+    EXPECT_EQ(said("lost"), "Stop all") << "it is told all the same: it may come back";
+    giveLease(right, "/right", "", "");
+    EXPECT_EQ(said("running"), "Stop all");
 }
 
 TEST(TakingControl, SaysHowManyRunAndHowManyAreInFault) {
