@@ -92,7 +92,7 @@ TEST_F(Troubles, AreNotWhatReadAnAgentThatEndedInAnOrderlyWay) {
                        tree.relateRemote(reader, "in", "/order", "Order", false);
                    }};
     MadeAgent source{"source", [](SimplexTree& tree) { tree.add("/order", "Order"); }};
-    desk.put("/reader", "state", std::int64_t{2});
+    desk.put("/reader", "state", std::int64_t{4});
     desk.degrade("/reader", Quality::Lost, "/order");
     const auto lostOf = [&](std::vector<AgentFrame> agents, std::vector<GoneAgent> gone) {
         auto frame = frameOf(std::move(agents));
@@ -109,7 +109,10 @@ TEST_F(Troubles, AreNotWhatReadAnAgentThatEndedInAnOrderlyWay) {
     EXPECT_EQ(lostOf({desk.now(), source.now("lost")}, {}), 2);
     EXPECT_EQ(lostOf({desk.now()}, {{"source", false, 1, source.structure}}), 1)
         << "a loss that was dismissed";
+    desk.put("/reader", "state", std::int64_t{2});
+    EXPECT_EQ(lostOf({desk.now(), ended}, {gone}), 1) << "what is Active needs its input";
     desk.put("/reader", "state", std::int64_t{0});
+    EXPECT_EQ(lostOf({desk.now(), ended}, {gone}), 0);
     EXPECT_EQ(lostOf({desk.now(), source.now("lost")}, {}), 1)
         << "what is in Standby reads nothing";
     desk.degrade("/reader", Quality::Lost, "/reader");

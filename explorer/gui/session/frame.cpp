@@ -66,6 +66,15 @@ bool AgentFrame::standsBy(std::uint32_t simplex, std::uint32_t cause) const {
     });
 }
 
+bool AgentFrame::works(std::uint32_t simplex) const {
+    const auto doesWork = [this](std::uint32_t each) {
+        const auto now = state(each);
+        return now && *now != State::Standby && *now != State::Fault;
+    };
+    return doesWork(simplex) ||
+           std::ranges::any_of(structure->simplexes[simplex].writers, doesWork);
+}
+
 bool AgentFrame::rests(std::uint32_t simplex) const {
     if (!beats() || !came(simplex)) return false;
     const SlotState now = (*image)->state(simplex);
@@ -158,6 +167,7 @@ Excuse Frame::excuse(Place place) const {
     if (agent.status.ended) return Excuse::Ended;
     if (agent.lost() || agent.quality(place.simplex) == Quality::Good) return Excuse::None;
     if (agent.rests(place.simplex)) return Excuse::Rests;
+    if (agent.works(place.simplex)) return Excuse::None;  // it would need its input
     const auto input = goneInput(place);
     return input && input->agent->ended ? Excuse::Ended : Excuse::None;
 }

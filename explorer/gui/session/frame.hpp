@@ -45,6 +45,9 @@ struct AgentFrame {
     // How old what is shown of it is, in s; none: it never came.
     std::optional<float> age(std::uint32_t simplex) const;
 
+    // It, or who writes it, starts up, is Active or shuts down: it would need its inputs.
+    bool works(std::uint32_t simplex) const;
+
 private:
     bool standsBy(std::uint32_t simplex, std::uint32_t cause) const;
 };
