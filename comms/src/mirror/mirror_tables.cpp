@@ -101,7 +101,7 @@ bool MirrorTables::applySimplex(const SimplexData& data, const Block& block, std
     storeValues(data, *info.layout, slice);
     if (data.cause >= simplexes_.size()) slice.state->cause = noSimplex;
     const double before = static_cast<double>(block.nominalTime) - static_cast<double>(data.time);
-    // What no task ever writes, such as the agent itself, is as it was in the cycle that came.
+    // What no task ever writes is as it was in the cycle that came.
     const bool measured = data.cycle != 0 || data.time != 0;
     arrival.received = arrival.ever = true;
     arrival.cycle = block.cycle;

@@ -77,8 +77,8 @@ public:
     // How they are, by the index of the simplex; empty: nothing has come, or nobody asked for it.
     // Of an agent that cannot say so (AgentStatus::summarises) it follows from what is viewed.
     std::vector<SimplexMark> summary(const std::string& agent) const;
-    // Seconds since the measurement; of what no task writes, such as an agent itself, since it was
-    // heard. None: no values have come.
+    // Seconds since the measurement; of what no task writes, since the cycle that came. None: no
+    // values have come.
     std::optional<double> age(const std::string& agent, std::uint32_t simplex) const;
     // The same for every simplex at one instant, by its index. Empty: nothing of it is viewed.
     std::vector<std::optional<double>> ages(const std::string& agent) const;
