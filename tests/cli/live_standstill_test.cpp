@@ -117,9 +117,14 @@ TEST(LiveStandstill, IsOverWhenTheHookReturns) {
     const json agents = lookUntil([] { return liveJson({"agents"}, "agents"); },
                                   [](const json& seen) { return seen[0]["state"] == "running"; });
     EXPECT_EQ(agents[0]["state"], "running");
-    const Outcome list = lookUntil([] { return live({"list"}); },
-                                   [](const Outcome& seen) { return seen.errors.empty(); });
-    EXPECT_EQ(list.errors, "");
+    std::string rests =
+        "cortex: nothing of robot is started: 1 active simplex is in Standby; to "
+        "start it: cortex call /robot startup prefix=/";
+    for (const std::string& each : network) rests += " " + each;
+    const Outcome list =
+        lookUntil([] { return live({"list"}); },
+                  [&](const Outcome& seen) { return seen.errors == rests + "\n"; });
+    EXPECT_EQ(list.errors, rests + "\n");
 }
 
 }  // namespace

@@ -37,6 +37,27 @@ TEST_F(CortexLive, ListsEverySimplexWithStateAndQuality) {
     EXPECT_EQ(live({"list", "/axes"}).exit, 3);
 }
 
+TEST_F(CortexLive, ListSaysWhatIsNotStartedAndHowToStartIt) {
+    const std::string words =
+        "cortex: nothing of mixer is started: 2 active simplexes are in Standby;"
+        " to start them: cortex call /mixer startup prefix=/";
+    std::string options;
+    for (const std::string& each : network) options += " " + each;
+
+    EXPECT_EQ(live({"list"}).errors, words + options + "\n");
+    EXPECT_EQ(live({"list", "/axis"}).errors, "") << "nothing there can be started";
+
+    const Outcome started = live({"call", "/mixer", "startup", "prefix=/drive"});
+    EXPECT_EQ(started.exit, 0) << started.output << started.errors;
+    EXPECT_EQ(live({"list"}).errors, "");
+    const std::string below = live({"list", "/controller"}).errors;
+    EXPECT_TRUE(contains(below,
+                         "nothing of mixer at or below /controller is started: 1 active "
+                         "simplex is in Standby; to start it: cortex call /mixer startup "
+                         "prefix=/controller"))
+        << below;
+}
+
 TEST_F(CortexLive, ShowsTheAgents) {
     const json agents = lookUntil([] { return liveJson({"agents"}, "agents"); },
                                   [](const json& seen) { return seen[0]["state"] == "running"; });

@@ -162,6 +162,7 @@ TEST_F(CortexOwners, EveryVerbSaysIt) {
                               {"show", "/arm"},
                               {"watch", "/arm.naturalFrequency", "--count", "1"},
                               {"watch", "/", "--count", "1"},
+                              {"save", (folder.path() / "all.xml").string(), "/arm"},
                               {"list"},
                               {"agents"},
                               {"graph"}}) {
@@ -169,6 +170,8 @@ TEST_F(CortexOwners, EveryVerbSaysIt) {
         EXPECT_TRUE(contains(errors, "cortex: " + sentence)) << verb[0] << ": " << errors;
         EXPECT_EQ(errors.find(both), errors.rfind(both)) << verb[0] << " says it twice: " << errors;
     }
+    const std::string top = tool({"top", "--once"}).output;
+    EXPECT_TRUE(contains(top, sentence)) << top;
     const Outcome doctor = tool({"doctor"});
     EXPECT_EQ(doctor.exit, 1);
     EXPECT_TRUE(contains(doctor.output, sentence)) << doctor.output;
@@ -177,10 +180,34 @@ TEST_F(CortexOwners, EveryVerbSaysIt) {
                          {"owner", "one"},
                          {"why", "which was there first"}};
     EXPECT_EQ(liveJson({"agents"}, "agents")[1]["contested"][0], contested);
+    EXPECT_EQ(liveJson({"top", "--once"}, "top")["contested"][0], contested);
     EXPECT_EQ(liveJson({"show", "/arm"}, "show")["contested"], contested);
     EXPECT_EQ(liveJson({"call", "/arm", "set", "naturalFrequency=9"}, "call")["contested"],
               contested);
     EXPECT_FALSE(liveJson({"show", "/one"}, "show").contains("contested"));
+}
+
+// What is stored is what the owner has, once, and what is restored goes to it.
+TEST_F(CortexOwners, SaveAndRestoreAreAboutTheOwner) {
+    startFirst("one");
+    start("two");
+    ASSERT_TRUE(ownedBy("one", "which was there first"));
+    ASSERT_EQ(tool({"set", "/arm", "naturalFrequency=8"}).exit, 0);
+    const std::string file = (folder.path() / "saved.xml").string();
+
+    const Outcome saved = tool({"save", file, "/arm"});
+    EXPECT_EQ(saved.exit, 0) << saved.output << saved.errors;
+    const std::string text = textOf(file);
+    EXPECT_EQ(text.find("path=\"/arm\""), text.rfind("path=\"/arm\"")) << text;
+    EXPECT_TRUE(contains(text, "data=\"naturalFrequency\" value=\"8\"")) << text;
+
+    ASSERT_EQ(tool({"set", "/arm", "naturalFrequency=9"}).exit, 0);
+    const Outcome restored = tool({"restore", file});
+    EXPECT_EQ(restored.exit, 0) << restored.output << restored.errors;
+    EXPECT_TRUE(contains(restored.errors, "cortex: " + both + "one, which was there first"))
+        << restored.errors;
+    EXPECT_EQ(executed("one"), 3);
+    EXPECT_EQ(executed("two"), 0);
 }
 
 // With folders of one authority, and a station that may command everything.

@@ -251,7 +251,7 @@ TEST_F(FirstOfNameTest, AStartThatMeetsALongerOneIsSilentUntilThatEnds) {
     peers.expire(second);
     hearOurs(self.epoch + 3'600'000'000, 60 * second, 2 * second);  // its clock is ahead
     EXPECT_TRUE(peers.isSecond());
-    EXPECT_TRUE(says(rival + "it was there first, so this one is silent until it ends"));
+    EXPECT_TRUE(says(rival + "it was there first, so this one is silent while it runs"));
     for (int i = 3; i < 9; ++i) hearOurs(self.epoch + 3'600'000'000, 60 * second, i * second);
     EXPECT_TRUE(peers.isSecond());
 

@@ -52,6 +52,29 @@ TEST(Validation, SuggestsWhatStandsBesideTheTargetsOfOthersOfTheType) {
     EXPECT_EQ(finding.remedy, "relate one with <relate rule=\"tool\" to=\"/tools/2\"/>");
 }
 
+// What follows from it, by the rule that `demands` refines and by its own losses, is not told
+// again.
+TEST(Validation, SaysOnceThatDemandsLackAndNamesTheOneThatNobodyWrites) {
+    const ModelFolder folder;
+    folder.copyOntology();
+    const auto system = [&](const std::string& demands) {
+        return check(folder.write(
+            "system.xml",
+            "<system name=\"test\">\n<morphology file=\"cortex-morphology.xml\"/>\n" +
+                simplex("/axis", "RotaryAxisConcept") + simplex("/demand", "RotaryAxisConcept") +
+                simplex("/drive", "SimulatedAxis",
+                        relate("demand", "/demand") + relate("observation", "/axis")) +
+                simplex("/jog", "JogController", relate("axes", "/axis") + demands) +
+                "</system>\n"));
+    };
+
+    const auto finding = only(system(""));
+
+    EXPECT_EQ(finding.rule, "below-min") << finding.message;
+    EXPECT_EQ(finding.remedy, "relate one with <relate rule=\"demands\" to=\"/demand\"/>");
+    EXPECT_EQ(system(relate("demands", "/demand")).report.text(), "");
+}
+
 TEST(Validation, FindsMoreThanTheMaximum) {
     const auto finding =
         only(checkSmall(simplex("/arm", "Arm", relate("tool", "/w1") + relate("tool", "/w2")) +

@@ -63,7 +63,7 @@ void FirstOfName::hear(const Presence& ours, std::int64_t now) {
     if (isNew(now) && comesBefore(ours, now)) {
         isSecond_ = true;
         told_ = 0;
-        tell(Severity::Error, rival + "; it was there first, so this one is silent until it ends",
+        tell(Severity::Error, rival + "; it was there first, so this one is silent while it runs",
              now);
     } else {
         tell(Severity::Warning,

@@ -43,8 +43,9 @@ void checkFlow(const Checked& checked);
 // "rule 'axes' (robotics-morphology.xml:14)"; without the place where the finding itself has it.
 std::string ruleText(const Simplex& owner, const Rule& rule);
 Place placeFor(const Simplex& owner, const Rule& rule);
-// Simplexes that could be related under the rule and are not yet. First those beside what others
-// of the owner's type relate, those that nobody relates before the rest, then the nearest.
+// Simplexes that could be related under the rule and are not yet. For an output first those that
+// nobody writes; then those beside what others of the owner's type relate, those that none of them
+// relates before the rest, then the nearest.
 // None when the report is long already: looking for them takes time.
 std::vector<std::string> fitting(const Checked& checked, const Simplex& owner, const Rule& rule);
 

@@ -88,10 +88,23 @@ std::string relateMissing(const Checked& checked, const Simplex& owner, const Ru
            relateText(rule.name, path);
 }
 
+// How many simplexes a rule that refines this one lacks: to relate them helps both.
+std::size_t lackedByRefining(const Simplex& owner, const Rule& rule) {
+    std::size_t lacked = 0;
+    for (const Rule& other : owner.type().rules) {
+        if (other.name == rule.name || !countsFor(owner.type(), other.name, rule.name)) continue;
+        const std::size_t count = relationsFor(owner, other).size();
+        if (count < other.min) lacked = std::max(lacked, other.min - count);
+    }
+    return lacked;
+}
+
 // `misspelt`: relations whose unknown rule is taken to mean this one, a finding of their own.
 void checkMinimum(const Checked& checked, const Simplex& owner, const Rule& rule, std::size_t count,
                   std::size_t misspelt) {
-    if (count + misspelt >= rule.min || checkTaken(checked, owner, rule)) return;
+    if (count + misspelt >= rule.min) return;
+    if (count + misspelt + lackedByRefining(owner, rule) >= rule.min) return;
+    if (checkTaken(checked, owner, rule)) return;
     const std::string atLeast = rule.min == rule.max ? "" : "at least ";
     checked.report.error(owner.path(), finding::belowMin, placeFor(owner, rule),
                          ruleText(owner, rule) + " needs " + atLeast + std::to_string(rule.min) +

@@ -313,9 +313,15 @@ void Flow::checkAges() {
     }
 }
 
-// Who reacts to a loss with safe values must have some.
+// Who reacts to a loss with safe values must have some. What lacks outputs has a finding already.
 void Flow::checkLoss() {
     std::vector<bool> demands(simplexes_.size(), false);
+    for (std::size_t i = 0; i < simplexes_.size(); ++i) {
+        demands[i] = std::ranges::any_of(simplexes_[i]->type().rules, [&](const Rule& rule) {
+            return rule.direction == Direction::Output &&
+                   relationsFor(*simplexes_[i], rule).size() < rule.min;
+        });
+    }
     for (std::uint32_t index = 0; index < relations_.size(); ++index) {
         const Edge& each = edge(index);
         if (writes(each) && info(each.target).role == Role::Modification)

@@ -170,8 +170,14 @@ std::vector<std::string> fitting(const Checked& checked, const Simplex& owner, c
                           !outputs.contains(path);
         if (fits && std::ranges::none_of(owner.relations(), related)) paths.push_back(path);
     }
+    const auto isWritten = [&](const std::string& path) {
+        const std::uint32_t index = checked.structure.find(path);
+        return rule.direction == Direction::Output && index != noSimplex &&
+               !checked.structure.simplexes[index].writers.empty();
+    };
     std::ranges::sort(paths, {}, [&](const std::string& path) {
-        return std::tuple{!folders.contains(parentOf(path)), targets.contains(path),
+        return std::tuple{isWritten(path), !folders.contains(parentOf(path)),
+                          targets.contains(path),
                           -static_cast<std::ptrdiff_t>(commonLevels(owner.path(), path)), path};
     });
     return paths;

@@ -7,6 +7,7 @@
 #include "cortex/core/simplex_tree.hpp"
 #include "cortex/core/value.hpp"
 
+#include "live/contests.hpp"
 #include "live/loop_text.hpp"
 #include "text/interrupts.hpp"
 
@@ -23,7 +24,6 @@ namespace {
 using Milliseconds = std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t mostContests = 8;  // that are printed one by one
 // Agents that start together are found one after the other, those of other hosts later.
 constexpr Milliseconds nobodyNew{1000};
 
@@ -37,6 +37,15 @@ double defaultTimeout() {
                 ", or unset it for " + toText(usualTimeout) + " s"};
 }
 
+// Of a verb in a shell, that of the shell.
+Milliseconds timeoutOf(const NetworkArguments& arguments) {
+    if (!arguments.timeout && arguments.session) return arguments.session->timeout();
+    const double seconds = arguments.timeout ? *arguments.timeout : defaultTimeout();
+    return Milliseconds{std::llround(seconds * 1000)};
+}
+
+}  // namespace
+
 comms::NetworkOptions optionsOf(const NetworkArguments& arguments) {
     comms::NetworkOptions options;
     if (arguments.domain) options.domain = *arguments.domain;
@@ -46,15 +55,6 @@ comms::NetworkOptions optionsOf(const NetworkArguments& arguments) {
     if (arguments.security) options.security = *arguments.security;
     return options;
 }
-
-// Of a verb in a shell, that of the shell.
-Milliseconds timeoutOf(const NetworkArguments& arguments) {
-    if (!arguments.timeout && arguments.session) return arguments.session->timeout();
-    const double seconds = arguments.timeout ? *arguments.timeout : defaultTimeout();
-    return Milliseconds{std::llround(seconds * 1000)};
-}
-
-}  // namespace
 
 int domainOf(const NetworkArguments& arguments) { return optionsOf(arguments).domain; }
 
@@ -223,10 +223,7 @@ FoundSimplex Live::find(const std::string& path) {
         FoundSimplex found{*owner, mirror().structure(*owner), 0};
         if (found.structure) {
             found.index = found.structure->find(path);
-            const auto contest = contestOf(path);
-            if (contest && told_.insert(path).second) {
-                std::cerr << "cortex: " << printable(contest->text) << '\n';
-            }
+            tellContest(path);
             return found;
         }
     }
@@ -264,41 +261,17 @@ std::string Live::heard() const {
     return joined(parts) + (lacking.empty() ? "" : "; " + lacking) + "; wait longer (--timeout)";
 }
 
-namespace {
-
-bool isSame(const comms::Contested& one, const comms::Contested& other) {
-    return one.agents == other.agents && one.owner == other.owner && one.why == other.why;
-}
-
-// Of a tree that several agents have, the top, with the number of paths below.
-void printContests(const std::vector<comms::Contested>& all) {
-    std::vector<std::pair<const comms::Contested*, std::size_t>> tops;
-    for (const comms::Contested& each : all) {
-        const auto top = std::ranges::find_if(tops, [&](const auto& known) {
-            return isAtOrBelow(each.path, known.first->path) && isSame(each, *known.first);
-        });
-        if (top != tops.end())
-            ++top->second;
-        else
-            tops.emplace_back(&each, 0);
-    }
-    for (const auto& [contest, below] : tops | std::views::take(mostContests)) {
-        std::cerr << "cortex: " << printable(contest->text);
-        if (below > 0) std::cerr << "; the same of " << plural(below, "path") << " below";
-        std::cerr << '\n';
-    }
-    if (tops.size() > mostContests) {
-        std::cerr << "cortex: so it is with " << tops.size() - mostContests << " further paths\n";
-    }
-}
-
-}  // namespace
-
 std::optional<comms::Contested> Live::contestOf(const std::string& path) const {
     for (comms::Contested& each : mirror().contested()) {
         if (each.path == path) return std::move(each);
     }
     return {};
+}
+
+void Live::tellContest(const std::string& path) {
+    const auto contest = contestOf(path);
+    if (!contest || !told_.insert(path).second) return;
+    std::cerr << "cortex: " << printable(contest->text) << '\n';
 }
 
 void Live::printWarnings() const {
@@ -307,7 +280,9 @@ void Live::printWarnings() const {
         if (trouble.empty()) continue;
         std::cerr << "cortex: " << printable(each.name + " " + trouble) << '\n';
     }
-    printContests(mirror().contested());
+    for (const std::string& each : contestLines(mirror().contested())) {
+        std::cerr << "cortex: " << each << '\n';
+    }
     const std::string refused = refusedHere();
     if (!refused.empty()) std::cerr << "cortex: " << printable(refused) << '\n';
     const std::string others = closedText(mirror().closed());

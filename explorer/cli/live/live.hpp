@@ -30,6 +30,7 @@ struct NetworkArguments {
     std::shared_ptr<Session> session;            // that of a shell; none: one of its own
 };
 
+comms::NetworkOptions optionsOf(const NetworkArguments& arguments);
 int domainOf(const NetworkArguments& arguments);
 std::shared_ptr<Session> makeSession(const NetworkArguments& arguments);
 
@@ -70,8 +71,9 @@ public:
     void waitForAll(const std::string& prefix = "/");
     // The path, if several agents have it.
     std::optional<comms::Contested> contestOf(const std::string& path) const;
-    // These, agents whose loop is not well, and participants that cannot be seen without security,
-    // on standard error.
+    void tellContest(const std::string& path);  // on standard error, once
+    // Paths of several agents, agents whose loop is not well, and participants that cannot be seen
+    // without security, on standard error.
     void printWarnings() const;
     comms::AgentStatus statusOf(const std::string& agent) const;
     // Participants that did not say who they are. Who comes when everybody was there does not

@@ -95,6 +95,8 @@ TopFrame TopView::frame() {
     TopFrame frame;
     frame.time = now();
     for (const comms::AgentStatus& each : live_.mirror().agents()) add(frame, each);
+    frame.contested = live_.mirror().contested();
+    std::erase_if(frame.contested, [&](const auto& each) { return !shows(each.path); });
     std::ranges::sort(frame.agents, {}, [](const TopAgent& each) {  // trouble first
         return std::tuple{each.status.state == "running", each.status.name};
     });
@@ -129,7 +131,7 @@ void TopView::add(TopFrame& frame, const comms::AgentStatus& status) const {
 
 Json topJson(const TopFrame& frame) {
     Json agents = Json::array(), tasks = Json::array(), faults = Json::array(),
-         events = Json::array();
+         contested = Json::array(), events = Json::array();
     for (const TopAgent& each : frame.agents) {
         Json agent = agentJson(each.status);
         agent["period_us"] = static_cast<double>(each.status.period) * 1e-3;
@@ -145,11 +147,13 @@ Json topJson(const TopFrame& frame) {
         faults.push_back(
             {{"path", each.path}, {"agent", each.agent}, {"code", each.code}, {"text", each.text}});
     }
+    for (const auto& each : frame.contested) contested.push_back(contestedJson(each));
     for (const comms::AgentEvent& each : frame.events) events.push_back(eventJson(each));
     return {{"time", common::utcText(frame.time)},
             {"agents", agents},
             {"tasks", tasks},
             {"faults", faults},
+            {"contested", contested},
             {"events", events}};
 }
 

@@ -39,7 +39,8 @@ struct TopFrame {
     std::vector<TopAgent> agents;
     std::vector<TopTask> tasks;  // the longest first
     std::vector<TopFault> faults;
-    std::vector<comms::AgentEvent> events;  // the newest last
+    std::vector<comms::Contested> contested;  // paths of several agents that are shown
+    std::vector<comms::AgentEvent> events;    // the newest last
 
     bool anyAgent() const;  // that is not lost
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/top_text.hpp"
 
+#include "live/contests.hpp"
 #include "live/live_json.hpp"
 #include "live/live_values.hpp"
 #include "live/loop_text.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 using Lines = std::vector<TextLine>;
 
-constexpr std::size_t fewestEvents = 3, mostFaults = 5, widestPath = 24;
+constexpr std::size_t fewestEvents = 3, mostFaults = 5, mostContests = 2, widestPath = 24;
 
 std::string withDecimals(double number, int decimals) {
     std::array<char, 400> text{};
@@ -164,6 +165,9 @@ Lines faultLines(const TopFrame& frame) {
         lines.push_back({{"Fault " + std::to_string(each.code), Look::Error},
                          {"  " + each.path + "  ", Look::Strong},
                          {each.text}});
+    }
+    for (const std::string& each : contestLines(frame.contested, mostContests)) {
+        lines.push_back({{each, Look::Warning}});
     }
     return lines;
 }

@@ -2,6 +2,7 @@
 #include "cortex/core/labelled_value.hpp"
 #include "cortex/core/nearest_names.hpp"
 
+#include "common/shell_line.hpp"
 #include "live/live_values.hpp"
 #include "live/safe_demand.hpp"
 #include "verbs/live_verbs.hpp"
@@ -92,6 +93,35 @@ void printLines(const std::vector<Line>& lines) {
     columns.print(std::cout);
 }
 
+// Of agents of which nothing that is listed runs: with what starts it.
+void printResting(const Live& live, const std::vector<Line>& lines, const ListOptions& options) {
+    std::map<std::string, std::size_t> resting;
+    std::set<std::string> others;  // agents of which something runs, or may run
+    for (const Line& each : lines) {
+        if (each.simplex.info().role != Role::Active || !each.simplex.type().isA("Active"))
+            continue;
+        if (each.state == State::Standby)
+            ++resting[each.simplex.agent];
+        else
+            others.insert(each.simplex.agent);
+    }
+    comms::NetworkOptions network = optionsOf(options.network);
+    network.domain = live.domain();
+    const std::string below = options.prefix == "/" ? "" : " at or below " + options.prefix;
+    for (const auto& [agent, count] : resting) {
+        if (others.contains(agent)) continue;
+        const std::string line = common::shellLine(
+            {"call", "/" + agent, "startup", "prefix=" + options.prefix}, network);
+        std::cerr << "cortex: "
+                  << printable("nothing of " + agent + below +
+                               " is started: " + plural(count, "active simplex") +
+                               (count == 1 ? " is in Standby; to start it: "
+                                           : " are in Standby; to start them: ") +
+                               line)
+                  << '\n';
+    }
+}
+
 }  // namespace
 
 // States and qualities are values: they are viewed for as long as it takes to get them once.
@@ -120,6 +150,7 @@ Exit listSimplexes(const ListOptions& options) {
         return Yes;
     }
     printLines(lines);
+    printResting(live, lines, options);
     if (!lacking.empty()) throw Failure{NotFound, lacking};
     return Yes;
 }

@@ -99,8 +99,10 @@ private:
     std::optional<FoundSimplex> find(const SavedSimplex& saved) {
         std::vector<std::string> paths;
         for (const FoundSimplex& each : live_.below("/")) {
-            if (each.info().path == saved.path && each.agent == live_.mirror().ownerOf(saved.path))
+            if (each.info().path == saved.path && each.agent == live_.ownerOf(saved.path)) {
+                live_.tellContest(saved.path);
                 return each;
+            }
             paths.push_back(each.info().path);
         }
         plan_.report.error(saved.path, "unknown-path", saved.place, "no agent has this simplex",

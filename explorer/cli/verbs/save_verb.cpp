@@ -47,7 +47,8 @@ void checkAbsent(const std::string& file) {
 
 }  // namespace
 
-// A file is written if anything came; what did not is listed, with exit code 3.
+// A file is written if anything came; what did not is listed, with exit code 3. Of a path that
+// several agents have, the values of its owner.
 Exit saveItems(const SaveOptions& options) {
     checkPrefix(options.prefix);
     if (!options.force) checkAbsent(options.file);
@@ -58,12 +59,15 @@ Exit saveItems(const SaveOptions& options) {
     std::vector<SavedSimplex> saved;
     std::vector<std::string> missing;
     std::size_t items = 0;
+    live.printWarnings();
     for (const FoundSimplex& each : live.below(options.prefix)) {
-        if (!hasSettable(each)) continue;
+        const auto owner = live.ownerOf(each.info().path);
+        if (!hasSettable(each) || owner.value_or(each.agent) != each.agent) continue;
         const comms::AgentImage image = live.mirror().image(each.agent);
         const bool same = image && &image->structure() == each.structure.get();
-        if (!same || !isLive(image, each.index)) {
-            missing.push_back(each.info().path);
+        if (!owner || !same || !isLive(image, each.index)) {
+            const std::string& path = each.info().path;  // of several agents: once
+            if (missing.empty() || missing.back() != path) missing.push_back(path);
             continue;
         }
         saved.push_back(savedOf(each, *image));
