@@ -63,10 +63,13 @@ TEST(ClusterCS, TellsEveryFailureOfPopulateWithItsPath) {
     for (const char* path : {"/a", "/b"}) {
         cluster.probe(path).onPopulate = [](Probe& self) { self.output("out"); };
     }
+    cluster.probe("/c").onPopulate = [](Probe&) { throw 42; };
     const std::string text = refusal(cluster);
 
     EXPECT_NE(text.find("/a: "), std::string::npos) << text;
     EXPECT_NE(text.find("/b: "), std::string::npos) << text;
+    EXPECT_NE(text.find("/c: populate() threw what is no std::exception"), std::string::npos)
+        << text;
 }
 
 // A probe that writes its `executed` and the `value` of its output in populate().

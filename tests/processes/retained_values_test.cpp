@@ -187,6 +187,28 @@ TEST_F(RetainedValues, ReplaceNothingThatIsNoRegularFile) {
     EXPECT_EQ(textOf(kept), "kept");
 }
 
+TEST_F(RetainedValues, ReplaceNoModelAndNoFileOfSettings) {
+    const std::string settings = write("settings.xml", "<set data='gain' value='7'/>\n");
+    const std::string other =
+        folder.write("other.xml", "<system name='other'>\n</system>\n").string();
+    const std::string types = (folder.path() / "types.xml").string();
+    using Words = std::vector<std::string>;
+    for (const auto& [words, file, told] :
+         {std::tuple{Words{"--retain", system.string()}, system.string(),
+                     "it is read by this agent"},
+          {{"--retain", settings, "--settings", settings}, settings, "it is read by this agent"},
+          {{"--log", system.string()}, system.string(), "it is read by this agent"},
+          {{"--log", types}, types, "it is read by this agent"},
+          {{"--retain", other}, other, "is the system file of 'other'"}}) {
+        const std::string before = textOf(file);
+        AgentProcess agent{folder, system, options(words)};
+        EXPECT_EQ(agent.waitForEnd(), 2) << words[0];
+        EXPECT_TRUE(contains(agent.output(), told)) << agent.output();
+        EXPECT_EQ(textOf(file), before) << words[0];
+        EXPECT_FALSE(std::filesystem::exists(file + ".broken"));
+    }
+}
+
 TEST_F(RetainedValues, AreKeptWhereAClassWouldReplaceThemAsTheStartIsRefused) {
     std::filesystem::rename(
         write("values.xml", "<set data='count' value='77'/>\n<set data='title' value='reset'/>\n"),
@@ -214,6 +236,12 @@ TEST_F(RetainedValues, StartWithoutABrokenFileWhichIsToldAndSetAside) {
     EXPECT_TRUE(contains(output, "it was set aside as ")) << output;
     EXPECT_TRUE(contains(textOf(retained().string() + ".broken"), "/coun"));
     EXPECT_GT(retainedCount(), 0) << "a new one was written";
+
+    folder.write("plant.retained.xml", "no XML");
+    AgentProcess again{folder, system, options({"--seconds", "0.3"})};
+    EXPECT_EQ(again.waitForEnd(), 0);
+    EXPECT_TRUE(contains(textOf(retained().string() + ".broken"), "/coun")) << "as it was";
+    EXPECT_EQ(textOf(retained().string() + ".broken-2"), "no XML");
 }
 
 TEST_F(RetainedValues, TakeWhatIsGoodOfAFileAndTellAllThatIsNot) {

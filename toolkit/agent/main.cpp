@@ -16,6 +16,7 @@
 #include "stored_values.hpp"
 #include "summary.hpp"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <iostream>
@@ -93,6 +94,24 @@ void applyFiles(const CommandLine& line, SimplexTree& tree, RetainedFile& retain
     std::cout << std::flush;
 }
 
+// What is read is never written: neither model nor settings.
+void refuseToWrite(const CommandLine& line, const ModelFiles& model) {
+    std::vector<std::filesystem::path> read = model.files;
+    if (!line.settingsFile.empty()) read.push_back(line.settingsFile);
+    for (const auto& [option, file] :
+         {std::pair{"--log ", line.log}, std::pair{"--retain ", line.retainFile}}) {
+        const bool isRead = std::ranges::any_of(read, [&](const std::filesystem::path& each) {
+            std::error_code ignored;
+            return std::filesystem::equivalent(file, each, ignored);
+        });
+        if (isRead) {
+            throw UsageError(option + file.string() +
+                             ": it is read by this agent, and would be written over: name another "
+                             "file");
+        }
+    }
+}
+
 SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry, RetainedFile& retained) {
     Report report;
     const std::array files{line.system};
@@ -102,6 +121,7 @@ SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry, Retaine
                      "give a system file, or write one around it");
     }
     if (!report.ok()) throw ModelError(std::move(report));
+    refuseToWrite(line, model);
     for (const auto& plugin : line.plugins) {
         const cs::BoundedStep step{"loading the plug-in " + plugin.string()};
         registry.loadPlugin(plugin, model.types);
@@ -289,6 +309,9 @@ int main(int argc, char** argv) {
         return toolkit::Usage;
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';
+        return toolkit::Refused;
+    } catch (...) {
+        std::cerr << "ended, as a plug-in threw what is no std::exception\n";
         return toolkit::Refused;
     }
 }

@@ -3,12 +3,14 @@
 
 #include "cortex/core/error.hpp"
 #include "cortex/core/labelled_value.hpp"
+#include "cortex/core/model_files.hpp"
 #include "cortex/core/service_threads.hpp"
 #include "cortex/core/xml_text.hpp"
 
 #include "stored_values.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -83,6 +85,31 @@ std::string replaceFile(const fs::path& file, const std::string& text) {
     return OpenFile{folder, O_RDONLY | O_DIRECTORY}.sync() ? "" : failed();
 }
 
+// A model is not set aside as a file of values with errors in it. "" or what the file is.
+std::string otherThanValues(const fs::path& file) {
+    Report ignored;
+    const std::array files{file};
+    const ModelFiles model = readModelFiles(files, ignored);
+    const std::string& name = model.system.name;
+    const bool isValues = name == "retained" || name == "saved";
+    const bool isModel = model.hasSystem ? !isValues : !model.types.types().empty();
+    if (!isModel) return "";
+    return file.string() + " is " +
+           (model.hasSystem ? "the system file of '" + name + "'"
+                            : std::string{"a file of types"}) +
+           ", and would be replaced: name another file";
+}
+
+// As told, or with a number where something has that name.
+fs::path freeName(const std::string& name) {
+    std::error_code none;
+    fs::path free = name;
+    for (int n = 2; fs::exists(fs::symlink_status(free, none)); ++n) {
+        free = name + "-" + std::to_string(n);
+    }
+    return free;
+}
+
 bool isRetained(const ItemLayout& each) { return each.item->retain; }
 
 }  // namespace
@@ -103,6 +130,9 @@ std::string RetainedFile::restore(SimplexTree& tree) {
     }
     std::error_code none;
     if (!fs::exists(fs::symlink_status(file_, none))) return {};
+    if (const std::string other = otherThanValues(file_); !other.empty()) {
+        throw Error("--retain: " + other);
+    }
     Report report;
     const std::vector<StoredValue> values = readStored(file_, retainedItems, tree, report);
     std::string lines = applyStored(values);
@@ -111,7 +141,7 @@ std::string RetainedFile::restore(SimplexTree& tree) {
     }
     if (!lines.empty()) lines.insert(0, "retained in " + file_.string() + ":\n");
     if (report.ok()) return lines;
-    const fs::path broken = file_.string() + ".broken";
+    const fs::path broken = freeName(file_.string() + ".broken");
     fs::rename(file_, broken, none);
     std::cerr << report.text() << file_.string() << ": has what cannot be restored; "
               << (none ? "it cannot be set aside: " + none.message()

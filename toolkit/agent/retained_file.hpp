@@ -27,7 +27,7 @@ public:
 
     // Makes what the file holds start values, and returns the lines that tell it. A file with
     // anything wrong in it is set aside as FILE.broken; what is good of it counts all the same.
-    // Throws Error where there is something that is no regular file.
+    // Throws Error where there is something that is no regular file, or a model.
     std::string restore(SimplexTree& tree);
     void keep(cs::ClusterCS& cluster);
     void finish();  // the last values, of the last cycle

@@ -191,6 +191,11 @@ void ClusterCS::Implementation::populate(std::span<SimplexCS* const> simplexes) 
             if (what.starts_with(path)) what.remove_prefix(path.size());
             report.error(simplex->path(), finding::populate, simplex->place(), std::string{what});
             continue;
+        } catch (...) {
+            report.error(simplex->path(), finding::populate, simplex->place(),
+                         "populate() threw what is no std::exception",
+                         "throw cortex::Error, or another std::exception, with what is wrong");
+            continue;
         }
         agent->checkCommands(simplex->index(), report);
     }
