@@ -58,6 +58,12 @@ TEST_F(CortexLive, ListSaysWhatIsNotStartedAndHowToStartIt) {
         << below;
 }
 
+TEST_F(CortexLive, ShowsThatAnAgentTakesItsOwnCommandsAtAnyTime) {
+    const Outcome shown = live({"show", "/mixer"});
+    EXPECT_TRUE(contains(shown.output, "takeControl")) << shown.output;
+    EXPECT_FALSE(contains(shown.output, "not known")) << shown.output;
+}
+
 TEST_F(CortexLive, ShowsTheAgents) {
     const json agents = lookUntil([] { return liveJson({"agents"}, "agents"); },
                                   [](const json& seen) { return seen[0]["state"] == "running"; });

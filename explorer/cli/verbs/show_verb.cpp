@@ -41,6 +41,7 @@ struct Shown {
 // Why a command would be refused now; "" if it would be taken.
 std::string refusal(const Shown& shown, const CommandTable::Entry& entry) {
     if (shown.simplex.info().role != Role::Active) return "";
+    if (entry.available == StateSet::always()) return "";  // an agent itself has no state
     const auto state = shown.state();
     if (!state) return "its state is not known";
     if (entry.available.has(*state)) return "";
