@@ -146,6 +146,14 @@ QString ControlPanel::describe() const {
         lines << QStringLiteral("    ") + onLossText(agent, chosen());
     }
     if (lines.isEmpty()) lines << tr("Nobody who is heard has anything there.");
+    QStringList released;
+    for (const std::string& each : frame_->control.prefixes()) {
+        if (each != chosen()) released << scopeText(each);
+    }
+    if (!released.isEmpty()) {
+        lines << tr("To take %1 releases %2, which you control now.")
+                     .arg(scopeText(chosen()), released.join(tr(", ")));
+    }
     if (!frame_->control.self.empty())
         lines
             << tr("To others this window is %1.").arg(QString::fromStdString(frame_->control.self));
