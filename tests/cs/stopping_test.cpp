@@ -93,7 +93,9 @@ std::string contradiction(const Now& before, const Now& now) {
     if (std::abs(now.position) > range) return text("out of range");
     if (std::abs(way) > speed * cycleTime + rounding) return text("too fast");
     if (atItsEnd && now.velocity == 0) return "";
-    if (std::abs(way - mean * cycleTime) > rounding) return text("no derivative");
+    const double moving =  // less than a cycle where it comes to rest within
+        now.velocity == 0 ? std::min(cycleTime, std::abs(before.velocity) / braking) : cycleTime;
+    if (std::abs(way - mean * moving) > rounding) return text("no derivative");
     if (std::abs(now.velocity) > std::abs(before.velocity)) return text("faster");
     if (now.velocity * before.velocity < 0) return text("backwards");
     const double change = std::abs(now.velocity - before.velocity);
@@ -233,6 +235,33 @@ TEST(WhatStops, BeginsWhereItIsObservedAndAtRest) {
     EXPECT_EQ(arm.now(cluster)[0].position, 0.5);
     EXPECT_EQ(arm.now(cluster)[1].position, -0.5);
     EXPECT_EQ(arm.now(cluster)[0].velocity, 0);
+}
+
+// The loop stood still for longer than it takes to brake, as of a debugger or an overloaded host.
+TEST(WhatStops, GoesNoFurtherThanItsWayToBrakeHoweverLateItsNextCycleComes) {
+    ProbeCluster cluster;
+    Arm arm{cluster, "", false};
+    cluster.start();
+    cluster.startup(*arm.guard);
+    arm.position = {1, 1, 1};
+    arm.velocity = {2, -2, 0.5};
+    cluster.startup(*arm.controller);
+    cluster.step(1000);
+    arm.faults = true;
+    cs::ClusterTesting::playLate(*cluster.trigger, 50);  // of the tick after the next
+    cluster.step();
+    const Nows moving = arm.now(cluster);
+    ASSERT_GT(moving[0].velocity, 1) << "it has begun to brake";
+
+    cluster.step();
+
+    const Nows stopped = arm.now(cluster);
+    for (std::size_t i = 0; i < axes; ++i) {
+        const double v = moving[i].velocity;
+        EXPECT_EQ(stopped[i].velocity, 0);
+        EXPECT_NEAR(stopped[i].position, moving[i].position + v * std::abs(v) / (2 * braking),
+                    rounding);
+    }
 }
 
 TEST(WhatStops, EndsBeforeTheClusterEnds) {

@@ -139,7 +139,8 @@ void Reference::latchSafe(Link& output, bool startsUp) {
 }
 
 // Each cycle anew from what went out last: the derivative goes to 0 by its rate, and the item by
-// the mean of what its derivative was and is. At the end of the range both stand.
+// the mean of what its derivative was and is, for as long as it moves. At the end of the range both
+// stand.
 void Reference::slowDown(Link& output, double elapsed) const {
     const RefSimplex& demand = all_[static_cast<std::size_t>(output.target)];
     if (!demand.demand || !output.slows) return;
@@ -152,7 +153,8 @@ void Reference::slowDown(Link& output, double elapsed) const {
             const double change = *derivative.type->rate * elapsed;
             double velocity = before > 0 ? before - change : before + change;
             if (std::abs(before) <= change) velocity = 0;
-            const double next = place + (before + velocity) / 2 * elapsed;
+            const double moving = std::min(elapsed, std::abs(before) / *derivative.type->rate);
+            const double next = place + (before + velocity) / 2 * moving;
             const double end =
                 std::clamp(next, numberOf(item.type->min, next), numberOf(item.type->max, next));
             output.safe.floats[item.first + i] = end;

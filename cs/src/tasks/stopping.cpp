@@ -14,7 +14,8 @@ Motion slowed(const Motion& from, const StopLimits& limits, double elapsedSecond
     Motion to;
     if (std::abs(from.velocity) > step)
         to.velocity = from.velocity - std::copysign(step, from.velocity);
-    to.position = from.position + (from.velocity + to.velocity) / 2 * elapsedSeconds;
+    const double moving = std::min(elapsedSeconds, std::abs(from.velocity) / limits.deceleration);
+    to.position = from.position + (from.velocity + to.velocity) / 2 * moving;
     const double inRange = std::clamp(to.position, limits.min, limits.max);
     if (inRange != to.position) to = {inRange, 0};
     return to;

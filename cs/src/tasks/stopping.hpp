@@ -19,7 +19,9 @@ struct StopLimits {
 };
 
 // A cycle later: the velocity is nearer to 0 by the deceleration, and the position is where the
-// mean of both velocities leads, p' = p + (v + v')·dt/2. At the end of its range it stands.
+// mean of both velocities leads while it moves, p' = p + (v + v')·t/2 with t = dt, or
+// |v|/deceleration where that is less: a long cycle makes no longer way. At the end of its range it
+// stands.
 Motion slowed(const Motion& from, const StopLimits& limits, double elapsedSeconds) CORTEX_REALTIME;
 
 // Two items of one demand that are safe="stop": an item and the one that is derivativeOf it. As
