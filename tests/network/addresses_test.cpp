@@ -72,6 +72,20 @@ TEST(LoopbackOnly, AnAgentThatKeepsToTheLoopbackInterfaceIsSeenByAToolThatLooksO
     EXPECT_EQ(agents.size(), 2U);
 }
 
+TEST(NamedInterface, AnAgentThatKeepsToItIsSeenByAToolOfItsMachineThatNamesNone) {
+    if (const std::string why = whyNoHosts(); !why.empty()) GTEST_SKIP() << why;
+    TwoHosts hosts;
+    hosts.first.within([&] {
+        comms::NetworkOptions named = network("");
+        named.interfaces = {"eth0"};
+        const HandAgent hand{named};
+        comms::NetworkOptions none = network("");
+        comms::onNamedInterfaces(none);
+        const comms::Mirror mirror{"tool", none};
+        EXPECT_TRUE(comesTrue("the hand", [&] { return mirror.structure("hand") != nullptr; }));
+    });
+}
+
 TEST(LoopbackOnly, AnAgentThatIsToldNoInterfaceMeetsThoseThatKeepToItAndOtherHosts) {
     if (const std::string why = whyNoHosts(); !why.empty()) GTEST_SKIP() << why;
     TwoHosts hosts;

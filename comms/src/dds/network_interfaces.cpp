@@ -40,6 +40,18 @@ void add(const ifaddrs& entry, NetworkInterface& to) {
     if (IN6_IS_ADDR_LOOPBACK(&ip) == 0 && IN6_IS_ADDR_LINKLOCAL(&ip) == 0) to.hasIpv6 = true;
 }
 
+bool isTold(const NetworkOptions& options) {
+    return !options.interfaces.empty() || !options.peers.empty() ||
+           !options.discoveryServer.empty();
+}
+
+void addAddresses(NetworkOptions& options, bool loopbackToo) {
+    for (const NetworkInterface& each : networkInterfaces()) {
+        if (!each.isUsed() || (each.loopback && !loopbackToo)) continue;
+        options.interfaces.insert(options.interfaces.end(), each.ips.begin(), each.ips.end());
+    }
+}
+
 }  // namespace
 
 std::vector<NetworkInterface> networkInterfaces() {
@@ -114,13 +126,17 @@ std::string namesOfUsed(const std::vector<NetworkInterface>& interfaces) {
 }
 
 void alsoOnLoopback(NetworkOptions& options) {
-    const bool told =
-        !options.interfaces.empty() || !options.peers.empty() || !options.discoveryServer.empty();
-    if (told) return;
-    for (const NetworkInterface& each : networkInterfaces()) {
-        if (!each.isUsed()) continue;
-        options.interfaces.insert(options.interfaces.end(), each.ips.begin(), each.ips.end());
+    if (!isTold(options)) addAddresses(options, true);
+}
+
+void onNamedInterfaces(NetworkOptions& options, const std::string& sockets) {
+    bool any = false, others = false;
+    for (const UdpSocket& each : participantSockets(sockets)) {
+        if (domainOf(each) != options.domain) continue;
+        const bool named = each.address != INADDR_ANY && each.address != htonl(INADDR_LOOPBACK);
+        (named ? any : others) = true;
     }
+    if (any && !others && !isTold(options)) addAddresses(options, false);
 }
 
 std::string networkTrouble(const NetworkOptions& options) {

@@ -86,6 +86,7 @@ std::shared_ptr<Session> makeSession(const NetworkArguments& arguments) {
                   << options.domain << " on this machine keep; --interface ADDR looks elsewhere\n";
     }
     if (!chosen && there == comms::OnLoopback::Some) comms::alsoOnLoopback(options);
+    if (!chosen && there == comms::OnLoopback::None) comms::onNamedInterfaces(options);
     if (const std::string trouble = comms::networkTrouble(options); !trouble.empty())
         throw Failure{NotFound, trouble};
     return std::make_shared<Session>(options, optionsOf(arguments).interfaces, timeout);

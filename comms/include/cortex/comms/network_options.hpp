@@ -34,6 +34,11 @@ struct NetworkOptions;
 // with them, so that it meets who keeps to it. Throws Error if the
 // interfaces cannot be listed.
 void alsoOnLoopback(NetworkOptions& options);
+// The same where all participants of the domain on this machine keep to named interfaces, none of
+// them the loopback: all interfaces but that one. Otherwise Fast DDS sends to addresses of its own
+// machine over the loopback interface, where they do not listen. `sockets`: as Linux lists them.
+void onNamedInterfaces(NetworkOptions& options,
+                       const std::string& sockets = "/proc/thread-self/net/udp");
 // Why nobody at all can be heard with these options, with the remedy; empty: somebody may be.
 std::string networkTrouble(const NetworkOptions& options);
 
