@@ -122,12 +122,34 @@ TEST_F(CortexOwners, TheFirstGetsEveryCommandWhateverNameAndClockOfTheSecondUnti
         EXPECT_EQ(executed(second), 0);
         EXPECT_TRUE(logs(second, "agent " + first +
                                      " has it as well and owns it, which was there first; this "
-                                     "agent refuses commands to it: stop one of them, or give one "
-                                     "another path"));
+                                     "agent refuses commands to it: stop one, or change its path"));
         agents[first]->end(signal);
         EXPECT_TRUE(takesOver(second));
+        EXPECT_TRUE(logs(second, "this agent owns it now, as agent " + first + " is gone"));
         agents.clear();
     }
+}
+
+// Both would execute commands, and each tool would send them to whom it met first.
+TEST_F(CortexOwners, AStartThatStoodStillEndsWhenASpareOfItsNameHasTakenOver) {
+    const Words command = launch("one");
+    Background stopped{command + Words{"--log", log("stopped")}, false};
+    const auto looks = [&] { return agentOf("one"); };
+    const json before =
+        lookUntil(looks, [](const json& seen) { return seen.is_object() && seen["cycle"] > 150; });
+    stopped.send(SIGSTOP);
+    const Background spare{command + Words{"--log", log("spare"), "--wait"}};
+    lookUntil(looks, [&](const json& seen) {  // it yields to nobody any more
+        return seen.is_object() && seen["epoch"] != before["epoch"] && seen["cycle"] > 800;
+    });
+    stopped.send(SIGCONT);
+
+    EXPECT_TRUE(logs("stopped", "took over while this one stood still, so this one is silent"));
+    lookUntil([&] { return stopped.runs(); }, std::logical_not{});
+    EXPECT_FALSE(stopped.runs());
+    EXPECT_TRUE(contains(stopped.whyItFailed(), "ended with code 5")) << stopped.whyItFailed();
+    EXPECT_TRUE(spare.runs());
+    EXPECT_EQ(executed("one"), 0);
 }
 
 TEST_F(CortexOwners, TheOtherRefusesWhatIsSentToItAndSaysWhose) {
@@ -175,6 +197,7 @@ TEST_F(CortexOwners, EveryVerbSaysIt) {
     const Outcome doctor = tool({"doctor"});
     EXPECT_EQ(doctor.exit, 1);
     EXPECT_TRUE(contains(doctor.output, sentence)) << doctor.output;
+    EXPECT_TRUE(contains(doctor.output, "let one of them alone own it")) << "both may own it";
     const json contested{{"path", "/arm"},
                          {"agents", {"one", "two"}},
                          {"owner", "one"},
@@ -250,7 +273,9 @@ TEST_F(CortexSecuredOwners, WhoseFolderOwnsThePathTakesItFromTheFirst) {
 
     EXPECT_EQ(executed("one"), 0);
     EXPECT_EQ(executed("two"), 10);
-    EXPECT_TRUE(logs("one", "agent two has it as well and owns it"));
+    EXPECT_TRUE(logs("one",
+                     "agent two has it as well and owns it, which has the right to it (--owns); "
+                     "this agent refuses commands to it: stop one, or change its path"));
 }
 
 TEST_F(CortexSecuredOwners, AnAgentWhoseFolderOwnsOtherPathsSaysWithWhichCommandItStarts) {

@@ -4,6 +4,9 @@
 
 #include "cortex/core/clock.hpp"
 
+#include "agent/agent_model.hpp"
+#include "agent/agent_peers.hpp"
+#include "agent/agent_rivals.hpp"
 #include "comms/secured_plant.hpp"
 #include "security/security_identity.hpp"
 #include "support/agent_rig.hpp"
@@ -27,8 +30,11 @@ public:
     explicit CommandsOnly(SecurityIdentity* known = nullptr) : identity{known} {}
     void announce(const AgentAccess& agent) override {
         self = std::make_unique<AgentSelf>(agent);
+        peers = std::make_unique<AgentPeers>(*self, [](const std::string&, std::int64_t) {});
+        rivals = std::make_unique<AgentRivals>(*self, nullptr);
         commands = std::make_unique<AgentCommands>(
-            *self, [this](const Answer& answer) { answers.push_back(answer); }, identity);
+            *self, [this](const Answer& answer) { answers.push_back(answer); }, identity,
+            rivals.get());
     }
     void read(Inbox& inbox) override { commands->read(inbox); }
     void write(std::int64_t, Outbox& outbox) override { commands->write(outbox); }
@@ -36,6 +42,8 @@ public:
 
     SecurityIdentity* identity;
     std::unique_ptr<AgentSelf> self;
+    std::unique_ptr<AgentPeers> peers;
+    std::unique_ptr<AgentRivals> rivals;
     std::unique_ptr<AgentCommands> commands;
     std::vector<Answer> answers;
 };
@@ -186,6 +194,76 @@ TEST_F(AgentCommandsTest, CommandWhoseTimeIsOverByTheClockOfItsTargetIsExpired) 
     EXPECT_EQ(pokes, 1);
 }
 
+// Another agent that has /worker as well, and was there a minute before "rig".
+struct ContestedCommands : AgentCommandsTest {
+    ContestedCommands() {
+        earlier.hand("/worker");
+        earlier.start();
+    }
+    void meetTheOwner() {
+        const AgentSelf self{earlier.outside.access};
+        const AgentModel model{self};
+        Presence presence = model.presence("running", 1, 0);
+        presence.extras.push_back({uptimeOfAgent, std::to_string(60'000'000'000)});
+        network.peers->take(presence, now);
+        for (const Model& each : model.samples()) network.peers->take(each, now);
+        network.rivals->update(network.peers->all());
+    }
+    void loseTheOwner() {
+        for (int tenth = 0; tenth <= 20; ++tenth) {
+            network.peers->expire(now + tenth * 100'000'000LL);
+        }
+        network.rivals->update(network.peers->all());
+    }
+
+    test::AgentRig earlier{"earlier"};
+};
+
+// What was executed was not rejected: a caller that tries again would do it twice.
+TEST_F(ContestedCommands, ThatTheLoopHasEndAsItSaysThoughTheirPathTurnsOutToBelongToAnother) {
+    send(0);
+    meetTheOwner();
+    send(0);
+    EXPECT_TRUE(network.answers.empty());
+    step();
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Done", 1}}));
+
+    send(0);  // the answer was lost
+    send(4);
+    step();
+
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Done", 2}, {"Rejected", 1}}));
+    EXPECT_EQ(network.answers[1].why, "/worker belongs to agent earlier, which was there first");
+    EXPECT_EQ(pokes, 1);
+}
+
+// As of a long command that is known to run: its sender asks on until it has ended.
+TEST_F(ContestedCommands, ThatWereAcknowledgedAreNotRejectedAfterwards) {
+    send(0);
+    step();
+    Command next = commandOf(4);
+    next.answeredBelow = 2;
+    network.commands->take(next, now);
+    step();
+    meetTheOwner();
+    send(0);
+    step();
+
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Done", 2}}));
+}
+
+TEST_F(ContestedCommands, RefusedForTheOwnerStayRefusedWhenItIsGone) {
+    meetTheOwner();
+    send(0);
+    loseTheOwner();
+    send(0);
+    send(4);
+    step();
+
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Done", 1}, {"Rejected", 2}}));
+    EXPECT_EQ(pokes, 1);
+}
+
 struct Secured {
     SecuredPlant plant;
     SecurityIdentity robot{plant.make("rig"), "rig", 0};
@@ -215,6 +293,15 @@ TEST_F(SecuredAgentCommands, OnlyTheirSenderLetsANumberCountAsCome) {
     step();
 
     EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Rejected", 2}, {"Done", 1}}));
+}
+
+TEST_F(SecuredAgentCommands, AForgedRepetitionRefusesNothing) {
+    take(1, "poke", true);
+    take(1, "poke", false);
+    take(1, "dance", true);
+    step();
+
+    EXPECT_EQ(outcomes(), (std::map<std::string, int>{{"Done", 1}}));
 }
 
 }  // namespace

@@ -230,17 +230,27 @@ struct FirstOfNameTest : AgentPeersTest {
         presence.epoch = epoch;
         presence.state = state;
         if (uptime > 0) presence.extras = {{"uptime", std::to_string(uptime)}};
-        peers.expire(now);
+        passTo(now);
         peers.take(presence, now);
+    }
+    void passTo(std::int64_t now) {
+        if (passed == 0) passed = now;
+        while (passed + 100 * millisecond < now) peers.expire(passed += 100 * millisecond);
+        standStillTo(now);
+    }
+    void standStillTo(std::int64_t now) {
+        peers.expire(now);
+        passed = now;
     }
     bool says(const std::string& text) { return listener.rig.hasEvent(text); }
 
+    std::int64_t passed = 0;
     const std::string rival = "another start of near is heard, on host elsewhere; ";
     static constexpr std::int64_t second = 1000 * millisecond;
 };
 
 TEST_F(FirstOfNameTest, AStartThatWasThereFirstIsNotSilenced) {
-    peers.expire(second);
+    passTo(second);
     hearOurs(self.epoch + 5, 60 * second, 4 * second);
     hearOurs(self.epoch - 5, 60 * second, 5 * second);
     EXPECT_FALSE(peers.isSecond());
@@ -248,14 +258,14 @@ TEST_F(FirstOfNameTest, AStartThatWasThereFirstIsNotSilenced) {
 }
 
 TEST_F(FirstOfNameTest, AStartThatMeetsALongerOneIsSilentUntilThatEnds) {
-    peers.expire(second);
+    passTo(second);
     hearOurs(self.epoch + 3'600'000'000, 60 * second, 2 * second);  // its clock is ahead
     EXPECT_TRUE(peers.isSecond());
     EXPECT_TRUE(says(rival + "it was there first, so this one is silent while it runs"));
     for (int i = 3; i < 9; ++i) hearOurs(self.epoch + 3'600'000'000, 60 * second, i * second);
     EXPECT_TRUE(peers.isSecond());
 
-    peers.expire(9 * second + millisecond);
+    passTo(9 * second + millisecond);
 
     EXPECT_FALSE(peers.isSecond());
     EXPECT_TRUE(says("the other start of near has ended; this one speaks again"));
@@ -265,12 +275,12 @@ TEST_F(FirstOfNameTest, AGoodbyeOfTheFirstEndsTheSilenceOfTheSecond) {
     hearOurs(self.epoch - 1, 60 * second, second);
     EXPECT_TRUE(peers.isSecond());
     hearOurs(self.epoch - 1, 60 * second, 2 * second, "stopping");
-    peers.expire(2 * second + millisecond);
+    passTo(2 * second + millisecond);
     EXPECT_FALSE(peers.isSecond());
 }
 
 TEST_F(FirstOfNameTest, ASilentStartIsToldAndEndsNobodysSilence) {
-    peers.expire(second);
+    passTo(second);
     hearOurs(self.epoch + 5, millisecond, 4 * second, "silent");
     EXPECT_FALSE(peers.isSecond());
     EXPECT_TRUE(says(rival + "it is silent while this one runs"));
@@ -279,12 +289,12 @@ TEST_F(FirstOfNameTest, ASilentStartIsToldAndEndsNobodysSilence) {
 TEST_F(FirstOfNameTest, ASecondStartStaysSilentThoughAThirdSaysThatItIsSilent) {
     hearOurs(self.epoch - 1, 60 * second, second);
     hearOurs(self.epoch + 5, millisecond, second + millisecond, "silent");
-    peers.expire(second + 2 * millisecond);
+    passTo(second + 2 * millisecond);
     EXPECT_TRUE(peers.isSecond());
 }
 
 TEST_F(FirstOfNameTest, OfTwoThatBeganAtOnceTheEpochsDecide) {
-    peers.expire(second);
+    passTo(second);
     hearOurs(self.epoch + 1, 400 * millisecond, second + 100 * millisecond);
     EXPECT_FALSE(peers.isSecond());
     hearOurs(self.epoch - 1, 1, second + 100 * millisecond);
@@ -296,8 +306,54 @@ TEST_F(FirstOfNameTest, AStartThatDoesNotSayHowLongItRunsWasThereFirst) {
     EXPECT_TRUE(peers.isSecond());
 }
 
+TEST_F(FirstOfNameTest, AStartThatStoodStillYieldsToOneThatBeganMeanwhile) {
+    passTo(second);
+    passTo(10 * second);
+    standStillTo(14 * second);
+    hearOurs(self.epoch + 5, 3'400 * millisecond, 14 * second);
+    EXPECT_TRUE(peers.isSecond());
+    EXPECT_TRUE(
+        says("another start of near on host elsewhere took over while this one stood still, so "
+             "this one is silent"));
+    EXPECT_FALSE(says("nobody listens to that one"));
+}
+
+TEST_F(FirstOfNameTest, AStartThatStoodStillYieldsToASpareThatTookOver) {
+    passTo(second);
+    hearOurs(self.epoch + 5, second, 4 * second, "silent");
+    standStillTo(7 * second);
+    hearOurs(self.epoch + 5, 4 * second, 7 * second);
+    EXPECT_FALSE(peers.isSecond()) << "it may have spoken for less than 2 s, and yields itself";
+    hearOurs(self.epoch + 5, 5'200 * millisecond, 8'200 * millisecond);
+    EXPECT_TRUE(peers.isSecond());
+}
+
+TEST_F(FirstOfNameTest, AStartThatStoodStillDoesNotYieldToANewOneWhichYieldsItself) {
+    passTo(second);
+    passTo(10 * second);
+    standStillTo(12 * second);
+    for (int tenth = 0; tenth < 15; ++tenth) {
+        hearOurs(self.epoch + 5, (5 + tenth) * 100 * millisecond,
+                 12 * second + tenth * 100 * millisecond);
+    }
+    EXPECT_FALSE(peers.isSecond());
+}
+
+TEST_F(FirstOfNameTest, WhenAllStoodStillTheSecondStaysSilentAndNobodyYields) {
+    hearOurs(self.epoch - 1, 60 * second, second);
+    standStillTo(100 * second);
+    EXPECT_TRUE(peers.isSecond());
+    passTo(102 * second);
+    EXPECT_FALSE(peers.isSecond());
+    passTo(105 * second);
+    hearOurs(self.epoch - 1, 164 * second, 105 * second);
+    standStillTo(200 * second);
+    hearOurs(self.epoch - 1, 260 * second, 200 * second);
+    EXPECT_FALSE(peers.isSecond()) << "the other one spoke before";
+}
+
 TEST_F(FirstOfNameTest, AGoodbyeThatWeDidNotSayIsReported) {
-    peers.expire(second);
+    passTo(second);
     hearOurs(self.epoch, second, 2 * second, "stopping");
     EXPECT_FALSE(peers.isSecond());
     EXPECT_TRUE(says("somebody else says that near is stopping"));

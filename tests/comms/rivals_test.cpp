@@ -57,6 +57,7 @@ public:
         peers->expire(now);
         if (peers->takeChanged()) rivals->update(peers->all());
     }
+    std::vector<std::string> events() { return rig_.events(); }
     bool leads() const { return rivals->refusal(plate()).empty(); }
     // Whom it would link or command, of the others.
     std::string owner() {
@@ -246,10 +247,17 @@ TEST_F(AgentRivalsTest, TheOneThatYieldsTakesOverWhenTheOwnerIsLostAndYieldsAgai
     meet(106 * s);
     for (int tenth = 1; tenth <= 20; ++tenth) two.step(106 * s + tenth * 100 * ms);
     EXPECT_TRUE(two.leads());
+    const std::string takesOver = "/plate: this agent owns it now, as agent one is gone";
+    EXPECT_EQ(two.events().back(), takesOver);
 
     two.hear(one, one.say(109 * s), 109 * s);
     two.step(109 * s);
     EXPECT_FALSE(two.leads()) << "what was decided holds";
+    EXPECT_EQ(two.events().back(),
+              "/plate: agent one has it as well and owns it, which was there first; this agent "
+              "refuses commands to it: stop one, or change its path");
+    for (int tenth = 1; tenth <= 20; ++tenth) two.step(109 * s + tenth * 100 * ms);
+    EXPECT_EQ(std::ranges::count(two.events(), takesOver), 2);
 }
 
 TEST_F(AgentRivalsTest, AfterAnHourApartNeitherYieldsAndBothSaySo) {

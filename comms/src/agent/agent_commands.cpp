@@ -102,12 +102,32 @@ void AgentCommands::take(const Command& command, std::int64_t now) {
     message.targetEpoch = command.targetEpoch;
     message.sequence = command.sequenceNumber;
     message.answeredBelow = command.answeredBelow;
-    if (!known || !permitted(command, message, record, refusal)) {
+    message.notAfter = command.notAfter;
+    message.until = static_cast<std::int64_t>(numberIn(command, validUntil));
+    const bool inLoop = isInLoop(command, from);
+    if (!known || !permitted(command, message, record, refusal) ||
+        (!inLoop && !isOurs(message, refusal))) {
+        if (inLoop) return;
         if (isProven(command)) skip(message, from);
         return refuse(command, refusal);
     }
-    message.notAfter = command.notAfter;
-    message.until = static_cast<std::int64_t>(numberIn(command, validUntil));
+    keepOrigin(command, message, from);
+    pass(command, message, record, from);
+}
+
+bool AgentCommands::isInLoop(const Command& command, const HeardSender& from) {
+    const std::uint64_t number = command.sequenceNumber;
+    return from.sender.epoch == command.senderEpoch &&
+           (number < from.answeredBelow || from.passed.contains(number));
+}
+
+bool AgentCommands::isOurs(const OutsideCommand& message, Refusal& refusal) const {
+    if (rivals_ == nullptr) return true;
+    refusal = {Outcome::Rejected, Reason::UnknownCommand, rivals_->refusal(message.simplex)};
+    return refusal.why.empty();
+}
+
+void AgentCommands::keepOrigin(const Command& command, OutsideCommand& message, HeardSender& from) {
     std::vector<Extra> origin = originOf(command);
     for (const Extra& each : origin) {
         if (each.name == onBehalfOf) put(each.value, message.onBehalfOf);
@@ -117,12 +137,18 @@ void AgentCommands::take(const Command& command, std::int64_t now) {
     if (!origin.empty() && origins.size() < 2 * senderWindow) {
         origins[message.sequence] = std::move(origin);
     }
-    if (from.turnedAway.contains(message.sequence)) return turnAway(command, message, from);
-    if (passSkips(from) && pipe_.push(message, reinterpret_cast<const std::byte*>(record.data()))) {
-        from.newest = std::max(from.newest, message.sequence);
-    } else {
-        turnAway(command, message, from);
-    }
+}
+
+// The loop takes no number beyond the window, so none of those is kept.
+void AgentCommands::pass(const Command& command, const OutsideCommand& message,
+                         const std::vector<std::uint64_t>& record, HeardSender& from) {
+    const bool accepts = !from.turnedAway.contains(message.sequence) && passSkips(from) &&
+                         pipe_.push(message, reinterpret_cast<const std::byte*>(record.data()));
+    if (!accepts) return turnAway(command, message, from);
+    if (from.sender.epoch != message.sender.epoch) return;
+    from.answeredBelow = std::max(from.answeredBelow, message.answeredBelow);
+    from.passed.erase(from.passed.begin(), from.passed.lower_bound(from.answeredBelow));
+    if (message.sequence - from.answeredBelow < senderWindow) from.passed.insert(message.sequence);
 }
 
 // With security only who proves to be the sender may let one of its numbers count as come.
@@ -156,7 +182,7 @@ void AgentCommands::turnAway(const Command& command, const OutsideCommand& messa
     known.erase(known.begin(), known.lower_bound(command.answeredBelow));
     const bool repeated = known.contains(command.sequenceNumber);
     if (!repeated) {
-        if (command.sequenceNumber <= from.newest || known.size() >= 2 * senderWindow) return;
+        if (isInLoop(command, from) || known.size() >= 2 * senderWindow) return;
         known.insert(command.sequenceNumber);
         skip(message, from);
     }
@@ -176,8 +202,6 @@ bool AgentCommands::encode(const Command& command, OutsideCommand& message,
         if (self_.structure().simplexes[message.simplex].remote) {
             throw Error(command.path + " belongs to another agent");
         }
-        const std::string other = rivals_ != nullptr ? rivals_->refusal(message.simplex) : "";
-        if (!other.empty()) throw Error(other);
         refusal.reason = Reason::Range;
         const auto arguments = valuesOf(command.arguments);
         if (!arguments) throw Error("its arguments are malformed, or one is given twice");

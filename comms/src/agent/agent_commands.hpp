@@ -28,7 +28,7 @@ class SecurityIdentity;
 class AgentCommands {
 public:
     // With an identity, a sender must prove that it may command. With rivals, commands to paths
-    // that another agent owns are refused.
+    // that another agent owns are refused, but for those that came before it was known.
     AgentCommands(AgentSelf& self, std::function<void(const Answer&)> send,
                   SecurityIdentity* identity = nullptr, const AgentRivals* rivals = nullptr);
 
@@ -48,8 +48,9 @@ private:
         Sender sender;
         std::int64_t lastHeard = 0;
         std::int64_t patience = shortestPatience;  // ns of silence after which it counts as lost
-        std::uint64_t newest = 0;              // sequence number of the newest command in the loop
-        std::set<std::uint64_t> turnedAway{};  // refused numbers that are not acknowledged
+        std::uint64_t answeredBelow = 1;           // by sequence number, as the loop knows it
+        std::set<std::uint64_t> passed{};          // numbers from there on that the loop was given
+        std::set<std::uint64_t> turnedAway{};      // refused numbers that are not acknowledged
         std::map<std::uint64_t, std::vector<Extra>> origins{};  // of commands that say one
         std::map<std::uint64_t, OutsideCommand> skips{};        // refused; the loop is to be told
         bool isLost = false;
@@ -67,6 +68,12 @@ private:
     void refuse(const Command& command, const Refusal& refusal);
     // The loop accepts no more.
     void turnAway(const Command& command, const OutsideCommand& message, HeardSender& from);
+    // Whether the loop was given this command: then it alone answers, and no repetition is refused.
+    static bool isInLoop(const Command& command, const HeardSender& from);
+    bool isOurs(const OutsideCommand& message, Refusal& refusal) const;  // no other agent owns it
+    static void keepOrigin(const Command& command, OutsideCommand& message, HeardSender& from);
+    void pass(const Command& command, const OutsideCommand& message,
+              const std::vector<std::uint64_t>& record, HeardSender& from);
     bool isProven(const Command& command);
     void skip(const OutsideCommand& message, HeardSender& from);
     bool passSkips(HeardSender& from);  // false: the pipe is full

@@ -144,13 +144,20 @@ void AgentPeers::lose(Peer& peer, const std::string& why) {
     lost_(peer.name, peer.epoch());
 }
 
+// A process that stood still (a debugger, a paused machine) heard nobody meanwhile.
+void AgentPeers::look(std::int64_t now) {
+    const std::int64_t last = std::exchange(looked_, now);
+    if (last == 0 || now - last <= longestLook) return;
+    stoodFor_ += now - last;
+    stood_ = stood_ || now - last > leaseOfParticipant / 2;
+    name_.stood(last, now);
+}
+
 void AgentPeers::expire(std::int64_t now) {
+    look(now);
     name_.expire(now);
     const std::uint32_t crowd = agents();
-    // A process that stood still (a debugger, a paused machine) heard nobody meanwhile.
-    const std::int64_t since = now - std::exchange(looked_, now);
-    const std::int64_t stood = since > longestLook && since < now ? since : 0;
-    stood_ = stood_ || stood > leaseOfParticipant / 2;
+    const std::int64_t stood = std::exchange(stoodFor_, 0);
     for (auto& [name, peer] : peers_) {
         if (!peer.heard) continue;
         peer.lastHeard = std::min(now, peer.lastHeard + stood);

@@ -70,6 +70,8 @@ public:
     void take(const Model& model, std::int64_t now);
     void take(const Interest& interest, std::int64_t now);
     void expire(std::int64_t now);
+    // Whether this process stood still. Again and again, before anything is taken.
+    void look(std::int64_t now);
 
     // Whether anything became known or lost since the last call.
     bool takeChanged() { return std::exchange(changed_, false); }
@@ -100,7 +102,8 @@ private:
     Peers peers_;
     SecurityIdentity* identity_;
     FirstOfName name_{self_};
-    std::int64_t looked_ = 0;  // expire() was called last
+    std::int64_t looked_ = 0;    // look() was called last
+    std::int64_t stoodFor_ = 0;  // ns, since the last expire()
     bool changed_ = false, stood_ = false;
     std::string early_;  // whose clock was last said to be ahead
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace cortex::comms {
 namespace {
@@ -56,6 +57,7 @@ void AgentRivals::update(const Peers& peers) {
     }
     refusals_.clear();
     for (const std::uint32_t simplex : contested) judge(simplex, peers);
+    tellTakeovers();
 }
 
 // The one with the smaller name decides for both, once. The other follows its word, unless it was
@@ -146,13 +148,30 @@ void AgentRivals::tell(std::uint32_t simplex, const Claimant& rival, Standing st
         case Standing::Yields:
             return self_.event(Severity::Error, simplex,
                                has + " and owns it, " + reasons_.at(simplex) +
-                                   "; this agent refuses commands to it: stop one of them, or "
-                                   "give one another path");
+                                   "; this agent refuses commands to it: stop one, or change its "
+                                   "path");
         case Standing::Disputes:
             return self_.event(Severity::Error, simplex,
                                has +
                                    " and says that it was first, as this agent does: stop one "
                                    "of them");
+        case Standing::Gone:
+            return;  // tellTakeovers() does
+    }
+}
+
+// Of paths that were told to be refused. One that has started anew says more by itself.
+void AgentRivals::tellTakeovers() {
+    std::uint32_t last = noSimplex;
+    for (auto& [about, standing] : told_) {
+        const auto& [simplex, start] = about;
+        if (standing != Standing::Yields || refusals_.contains(simplex)) continue;
+        standing = Standing::Gone;
+        const auto rival = rivals_.find(start.first);
+        const bool isHere = rival != rivals_.end() && rival->second.present;
+        if (isHere || std::exchange(last, simplex) == simplex) continue;
+        self_.event(Severity::Info, simplex,
+                    "this agent owns it now, as agent " + start.first + " is gone");
     }
 }
 

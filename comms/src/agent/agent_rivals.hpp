@@ -32,7 +32,7 @@ public:
 
 private:
     using Start = std::pair<std::string, std::int64_t>;  // name and epoch
-    enum class Standing { Owner, Yields, Disputes };
+    enum class Standing { Owner, Yields, Disputes, Gone };
     struct Rival {
         std::int64_t epoch = 0;
         std::vector<std::uint32_t> shared;  // indexes of ours
@@ -46,6 +46,7 @@ private:
     bool wasFirstHere(const Claimant& one, const Claimant& other) const;
     void judge(std::uint32_t simplex, const Peers& peers);
     void tell(std::uint32_t simplex, const Claimant& rival, Standing standing);
+    void tellTakeovers();
     bool isTop(std::uint32_t simplex, const Rival& rival) const;
 
     const AgentSelf& self_;

@@ -241,6 +241,7 @@ void AgentThread::step() {
     }
     if (!silent_) streams_.step(now);
     if (!silent_) summary_.step(now);
+    peers_.look(now);
     takeMessages(now);
     reportRefusals();
     peers_.expire(now);

@@ -5,12 +5,16 @@
 #include "wire/presence_extras.hpp"
 #include "wire/presence_interval.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace cortex::comms {
 namespace {
 
 constexpr std::int64_t tellAgain = 10'000'000'000;  // ns
+// One that speaks for so long yields to nobody, however long it took until it heard this one.
+constexpr std::int64_t settled = timeToMeet + 1'000'000'000;
+constexpr std::int64_t timeToYield = settled + 2'000'000'000;  // after a standstill
 
 }  // namespace
 
@@ -46,6 +50,7 @@ void FirstOfName::hear(const Presence& ours, std::int64_t now) {
     const bool runs = ours.state == "running";
     if (ours.epoch == self_.epoch) {
         ownHeard_ = true;
+        ownPatience_ = patienceWith(ours);
         if (runs || isSecond_) return;
         const std::string forged = "somebody else says that " + self_.name + " is " + ours.state;
         note(forged, now);
@@ -61,20 +66,49 @@ void FirstOfName::hear(const Presence& ours, std::int64_t now) {
     rivalPatience_ = runs ? patienceWith(ours) : patienceAfterGoodbye(ours);
     if (!runs || isSecond_) return;
     if (isNew(now) && comesBefore(ours, now)) {
-        isSecond_ = true;
-        told_ = 0;
-        tell(Severity::Error, rival + "; it was there first, so this one is silent while it runs",
-             now);
-    } else {
+        yield(rival + "; it was there first, so this one is silent while it runs", now);
+    } else if (!mayBeSucceeded(now)) {
         tell(Severity::Warning,
              rival + "; this one was there first, and nobody listens to that one", now);
+    } else if (tookOver(ours, now)) {
+        yield("another start of " + self_.name + " on host " + ours.host +
+                  " took over while this one stood still, so this one is silent",
+              now);
     }
+}
+
+void FirstOfName::yield(const std::string& why, std::int64_t now) {
+    isSecond_ = true;
+    told_ = 0;
+    tell(Severity::Error, why, now);
+}
+
+// What stands still hears nobody. One that spoke before the standstill took nothing over.
+void FirstOfName::stood(std::int64_t from, std::int64_t now) {
+    const bool isAlone = rivalHeard_ == 0 || from - rivalHeard_ > rivalPatience_;
+    if (isSecond_) rivalHeard_ = std::min(now, rivalHeard_ + (now - from));
+    if (isSecond_ || !isAlone || now - from <= shortestPatience) return;
+    stoodFrom_ = from;
+    wentOn_ = now;
+}
+
+bool FirstOfName::mayBeSucceeded(std::int64_t now) const {
+    return stoodFrom_ != 0 && now - wentOn_ <= timeToYield;
+}
+
+// One that is new itself yields to this one. One that ran before the standstill was silent until it
+// took this one for lost.
+bool FirstOfName::tookOver(const Presence& rival, std::int64_t now) const {
+    const std::int64_t uptime = timeIn(rival, uptimeOfAgent), since = now - stoodFrom_;
+    const std::int64_t patience = std::max(ownPatience_, shortestPatience);
+    return (uptime < since ? uptime : since - patience) > settled;
 }
 
 void FirstOfName::expire(std::int64_t now) {
     if (began_ == 0) began_ = now;
     if (!isSecond_ || now - rivalHeard_ <= rivalPatience_) return;
     isSecond_ = false;
+    stoodFrom_ = 0;
     began_ = now;
     told_ = 0;
     tell(Severity::Info, "the other start of " + self_.name + " has ended; this one speaks again",

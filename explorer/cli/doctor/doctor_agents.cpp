@@ -166,8 +166,8 @@ void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
     for (const comms::Contested& each : live.mirror().contested()) {
         found.push_back({Level::Error, "owner", each.text,
                          "give one of the simplexes another path in its system file, stop one of "
-                         "the agents, or say with security whose it is (cortex security "
-                         "create-agent NAME --owns PREFIX)"});
+                         "the agents, or let one of them alone own it with security (cortex "
+                         "security create-agent NAME --owns PREFIX)"});
     }
     if (const std::string refused = live.refusedHere(); !refused.empty() && !agents.empty()) {
         found.push_back({Level::Warning, "this tool", printable(refused),

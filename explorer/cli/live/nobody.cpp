@@ -68,10 +68,10 @@ Trouble troubleOf(const Nobody& nobody) {
     }
     if (nobody.strangers > 0) {
         return {none +
-                    " can be seen: participants of another authority than that of this tool's "
-                    "folder were refused",
-                "name a folder of the authority of those agents (--security FOLDER or "
-                "CORTEX_SECURITY)",
+                    " can be seen: participants without security, or of another authority than "
+                    "that of this tool's folder, were refused",
+                "leave --security (CORTEX_SECURITY) out if those agents have none, or name a "
+                "folder of their authority",
                 true};
     }
     if (nobody.nameless > 0) {
