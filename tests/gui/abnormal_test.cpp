@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Faults and losses in the window, with a real agent over DDS.
+#include "gui/rival.hpp"
 #include "gui/window_fixture.hpp"
 #include "views/base_view.hpp"
 #include "views/event_list.hpp"
@@ -134,6 +135,18 @@ TEST_F(Abnormals, WhatReadsAnAgentThatEndedInAnOrderlyWayIsNoLossAndSaysWhy) {
     EXPECT_TRUE(comes([&] { return session.frame()->number > frames + 10; }));
     EXPECT_NE(shownTexts().find(why.toStdString()), std::string::npos) << shownTexts();
     EXPECT_NE(counter("0 lost"), nullptr);
+}
+
+TEST_F(Abnormals, TheFaultOfTheSecondAgentOfAPathIsReadWhereItLeads) {
+    ASSERT_TRUE(everythingComes());
+    const Rival rival{ownNetwork(), true};
+    ASSERT_TRUE(comes([this] { return anyCounter(" fault") != nullptr; }));
+    QTest::keyClick(&window, Qt::Key_F8);
+    EXPECT_EQ(shown(), "/drive");
+    EXPECT_TRUE(comes([] {
+        return shownTexts().find("rival has it in Fault 7: the axis does not follow.") !=
+               std::string::npos;
+    })) << shownTexts();
 }
 
 TEST_F(Abnormals, TheSystemStaysInFrontWhenWhatWasNamedComes) {

@@ -127,6 +127,15 @@ TEST_F(Controlling, ANameThatNobodyHasEndsControlAndIsTold) {
     session.handOver("nobody@nowhere.1-000000");
     EXPECT_TRUE(comes([&] { return !window.control().notice().text().isEmpty(); }));
     EXPECT_TRUE(comes([] { return leases().find("nobody@") == std::string::npos; }));
+    const QString text =
+        "Control of /drive was handed over to nobody@nowhere.1-000000. Nobody "
+        "holds it now: /drive is free.";
+    EXPECT_TRUE(comes([&] { return window.control().notice().text() == text; }))
+        << window.control().notice().text().toStdString();
+    EXPECT_EQ(window.control().notice().remedy().text(), "Take /drive again");
+    window.control().notice().remedy().click();
+    EXPECT_TRUE(comes([this] { return window.control().prefix() == "/drive"; }));
+    EXPECT_TRUE(comes([this] { return window.control().notice().text().isEmpty(); }));
 }
 
 TEST_F(Controlling, WhereNobodyHoldsAnythingHandingOverSaysWhatToDo) {

@@ -172,6 +172,23 @@ TEST_F(Header, SaysWhoseValuesAreShownWhereTwoAgentsClaimThePath) {
     EXPECT_TRUE(says("agent robot")) << "who is heard owns it";
 }
 
+TEST_F(Header, SaysTheFaultOfAnAgentWhoseValuesAreNotShown) {
+    MadeAgent spare{"spare", [](SimplexTree& tree) { tree.add("/probe", "Probe"); }};
+    const comms::Contested contest{
+        "/probe", {"robot", "spare"}, "robot", "", "agents robot, spare both have /probe"};
+    spare.put("/probe", "state", std::int64_t{4});
+    spare.put("/probe", "faultCode", std::int64_t{-7});
+    spare.put("/probe", "faultText", std::string{"50 %1 of the torque"});
+    show("/probe", {robot.now(), spare.now()}, {contest});
+    EXPECT_TRUE(says("agent robot"));
+    EXPECT_TRUE(says("both have /probe. spare has it in Fault −7: 50 %1 of the torque."));
+    show("/probe", {robot.now(), spare.now("lost")}, {contest});
+    EXPECT_FALSE(says("spare has it")) << "its last state may be over";
+    spare.put("/probe", "state", std::int64_t{2});
+    show("/probe", {robot.now(), spare.now()}, {contest});
+    EXPECT_FALSE(says("spare has it"));
+}
+
 TEST_F(Header, HasLinksToTheAncestorsOfTheType) {
     show("/order", {robot.now()});
     std::vector<QString> texts;

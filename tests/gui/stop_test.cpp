@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Stop button of the window, with a real agent over DDS.
+#include "comms/secured_plant.hpp"
 #include "gui/audit.hpp"
+#include "gui/rival.hpp"
 #include "gui/window_fixture.hpp"
 #include "widgets/text_label.hpp"
 #include "window/stop_button.hpp"
@@ -50,6 +52,16 @@ protected:
         window.stopButton().click();
         EXPECT_EQ(window.stopButton().text(), "Again: stop all");
         window.stopButton().click();
+    }
+    // Of /drive, which the mixer owns, in the other agent.
+    bool isInRival(State state) {
+        const auto frame = session.frame();
+        const auto place = frame->find("/drive");
+        if (!place || frame->agents[place->agent].status.name != "mixer") return false;
+        return std::ranges::any_of(frame->agents, [&](const AgentFrame& each) {
+            return each.status.name == "rival" && each.structure &&
+                   each.state(each.structure->find("/drive")) == state;
+        });
     }
     bool says(const QString& text) {
         return comes([&] { return window.stopButton().progress().contains(text); });
@@ -138,6 +150,64 @@ TEST_F(Stopping, ItsResultNamesWhenAndGoesWhenStatesNoLongerAgree) {
         << window.stopButton().progress().toStdString();
     ASSERT_EQ(live({"call", "/mixer", "startup"}).exit, 0);
     EXPECT_TRUE(comes([this] { return window.stopButton().progress().isEmpty(); }));
+}
+
+TEST_F(Stopping, ItsResultGoesAlsoWhenTheOtherAgentWithTheSamePathRunsAgain) {
+    ASSERT_TRUE(everythingComes());
+    const Rival rival{ownNetwork()};
+    ASSERT_TRUE(comes([this] { return isInRival(State::Standby); }));
+    pressesTwice();
+    ASSERT_TRUE(says("All 3 in Standby, ")) << window.stopButton().progress().toStdString();
+    ASSERT_EQ(live({"call", "/rival", "startup"}).exit, 0);
+    ASSERT_TRUE(comes([this] { return isInRival(State::Active); }));
+    EXPECT_TRUE(comes([this] { return window.stopButton().progress().isEmpty(); }));
+}
+
+TEST_F(Stopping, WhatDidNotFollowIsNamedWithItsAgentWhereSeveralHaveThePath) {
+    ASSERT_TRUE(everythingRuns());
+    const Rival rival{ownNetwork(), true};
+    ASSERT_TRUE(comes([this] { return isInRival(State::Fault); }));
+    pressesTwice();
+    EXPECT_TRUE(says("2 of 3 in Standby, ")) << window.stopButton().progress().toStdString();
+    EXPECT_TRUE(says("; 1 did not follow: /drive of rival (Fault)"))
+        << window.stopButton().progress().toStdString();
+}
+
+TEST(StoppingWithRights, StopsAllThatItMayStopAndSaysSo) {
+    const comms::SecuredPlant plant;
+    const ModelFolder folder;
+    const std::string file = folder.write("mixer.xml", mixerSystem()).string();
+    const Background agent{agentCommand(file) + std::vector<std::string>{"--startup", "--security",
+                                                                         plant.make("mixer")}};
+    comms::NetworkOptions options = ownNetwork();
+    options.security = plant.make("desk", {"/controller"});
+    Session session{options};
+    MainWindow window{session};
+    window.show();
+    const auto isIn = [&](const char* path, State state) {
+        const auto frame = session.frame();
+        const auto place = frame->find(path);
+        return place && frame->agents[place->agent].state(place->simplex) == state;
+    };
+    ASSERT_TRUE(
+        comes([&] { return isIn("/controller", State::Active) && isIn("/drive", State::Active); }));
+    StopButton& stop = window.stopButton();
+    EXPECT_TRUE(comes([&] { return stop.text() == "Stop /controller"; }));
+    EXPECT_EQ(stop.accessibleName(), "Stop /controller, all that you may stop, F12");
+    stop.click();
+    EXPECT_EQ(stop.text(), "Again: stop /controller");
+    stop.click();
+    EXPECT_TRUE(comes([&] { return isIn("/controller", State::Standby); }));
+    EXPECT_TRUE(comes([&] {
+        return stop.progress().startsWith("All 1 of /controller in Standby");
+    })) << stop.progress().toStdString();
+    EXPECT_TRUE(stop.progress().contains("; you may command nothing else, "))
+        << stop.progress().toStdString();
+    EXPECT_TRUE(isIn("/drive", State::Active));
+    stop.stop("/");
+    EXPECT_TRUE(comes([&] {
+        return stop.progress().startsWith("All 1 of /controller in Standby");
+    })) << stop.progress().toStdString();
 }
 
 TEST(StoppingAlone, SaysThatNobodyIsHeard) {

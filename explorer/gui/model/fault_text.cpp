@@ -3,6 +3,7 @@
 
 #include "common/cut_text.hpp"
 #include "model/item_of.hpp"
+#include "model/value_text.hpp"
 
 #include <algorithm>
 #include <string>
@@ -30,6 +31,13 @@ FaultText shown(const std::string& text, bool cut) {
 }
 
 }  // namespace
+
+QString faultCode(const AgentFrame& agent, std::uint32_t simplex) {
+    const auto code = itemOf<std::int64_t>(agent, simplex, "faultCode");
+    if (!code) return {};
+    const ItemLayout* item = agent.structure->simplexes[simplex].layout->find("faultCode");
+    return ' ' + elementText(*item->item, Value{std::vector<std::int64_t>{*code}}, 0);
+}
 
 FaultText faultText(const Frame& frame, Place place, const StateTimes& times) {
     const AgentFrame& agent = frame.agents[place.agent];

@@ -13,6 +13,9 @@ struct FaultText {
     bool cut = false;  // it may go on, and ends in "…"
 };
 
+// " −7", as the item `faultCode` is written; empty: it is not known.
+QString faultCode(const AgentFrame& agent, std::uint32_t simplex);
+
 // The item `faultText` is short, so the event of the same fault says it where the window has it.
 FaultText faultText(const Frame& frame, Place place, const StateTimes& times);
 

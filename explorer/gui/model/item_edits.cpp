@@ -37,7 +37,13 @@ DataItem elementItem(const DataItem& item, std::size_t element) {
     return one;
 }
 
-void ItemEdits::enter(const std::string& item, Value value) { edits_[item] = {std::move(value)}; }
+void ItemEdits::enter(const std::string& item, Value value) {
+    edits_[item] = {std::move(value), {}, ++count_};
+}
+
+void ItemEdits::clear(std::uint64_t count) {
+    std::erase_if(edits_, [count](const auto& each) { return each.second.count <= count; });
+}
 
 bool ItemEdits::enter(const std::string& item, std::size_t element, const Value& value) {
     auto found = edits_.find(item);
@@ -47,6 +53,7 @@ bool ItemEdits::enter(const std::string& item, std::size_t element, const Value&
         found = edits_.emplace(item, Edit{std::move(*now), {element}}).first;
     }
     Edit& edit = found->second;
+    edit.count = ++count_;
     setElement(edit.value, element, value);
     if (!edit.elements.empty()) edit.elements.insert(element);
     return true;

@@ -4,6 +4,7 @@
 #include "cortex/core/type_model.hpp"
 #include "cortex/core/value.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -30,7 +31,8 @@ public:
     void enter(const std::string& item, Value value);
     // False: the other elements are not known.
     bool enter(const std::string& item, std::size_t element, const Value& value);
-    void clear() { edits_.clear(); }
+    std::uint64_t count() const { return count_; }  // of all that was entered, ever
+    void clear(std::uint64_t count);                // what was entered up to that count
 
     Values all() const;
     std::optional<Value> of(const std::string& item) const;  // none: nothing was entered
@@ -40,11 +42,13 @@ private:
     struct Edit {
         Value value;
         std::set<std::size_t> elements{};  // that were entered; empty: all
+        std::uint64_t count = 0;           // when it was entered last
     };
     Value merged(const std::string& item, const Edit& edit) const;
 
     Now now_;
     std::map<std::string, Edit> edits_;  // by item
+    std::uint64_t count_ = 0;
 };
 
 }  // namespace cortex::gui

@@ -87,8 +87,10 @@ QString ItemModel::copyText(const QModelIndex& index) const {
     return live ? text : bracketed(text);
 }
 
-void ItemModel::clearEdits() {
-    edits_.clear();
+void ItemModel::clearEdits() { clearEdits(edits_.count()); }
+
+void ItemModel::clearEdits(std::uint64_t entries) {
+    edits_.clear(entries);
     for (const auto& group : root_->children) refresh(*group);
 }
 

@@ -40,6 +40,7 @@ public:
     ~ItemModel() override;
 
     void show(const std::string& path);  // and its related simplexes
+    const std::string& path() const { return path_; }
     void update(std::shared_ptr<const Frame> frame);
 
     void setUnits(const ShownUnits& units);
@@ -53,6 +54,8 @@ public:
     // What a person entered for it, in the unit of the model; none, and why, where it is wrong.
     std::optional<cortex::Value> entered(const Row& row, const QString& text, QString& why) const;
     void clearEdits();
+    std::uint64_t entries() const { return edits_.count(); }  // of all time
+    void clearEdits(std::uint64_t entries);  // what was entered until there were so many
     bool settable(const QModelIndex& index) const;
     QString whyNotSettable(const QModelIndex& index) const;  // empty: it is
     // The value at full precision in plain ASCII, in the unit of the model; in brackets where it is

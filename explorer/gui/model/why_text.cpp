@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/why_text.hpp"
 
+#include "model/fault_text.hpp"
 #include "model/plain_text.hpp"
 
 #include <QCoreApplication>
@@ -69,6 +70,23 @@ QString staleBecause(const Frame& frame, Place place) {
         .arg(plainText(demand.why));
 }
 
+// "lifter2 has it in Fault −7: the axis does not follow."
+QString faultsOfOthers(const Frame& frame, Place place, const comms::Contested& contest,
+                       const StateTimes& times) {
+    QString text;
+    for (std::uint32_t i = 0; i < frame.agents.size(); ++i) {
+        const AgentFrame& agent = frame.agents[i];
+        if (i == place.agent || !agent.structure) continue;
+        const std::uint32_t simplex = agent.structure->find(contest.path);
+        if (simplex == noSimplex || agent.state(simplex) != State::Fault) continue;
+        const QString why = faultText(frame, {i, simplex}, times).text;
+        text += sayWhy(" %1 has it in Fault%2%3.")
+                    .arg(QString::fromStdString(agent.status.name), faultCode(agent, simplex),
+                         why.isEmpty() ? QString{} : QStringLiteral(": ") + why);
+    }
+    return text;
+}
+
 }  // namespace
 
 QString whyText(const Frame& frame, Place place) {
@@ -87,12 +105,12 @@ QString whyText(const Frame& frame, Place place) {
 }
 
 // The sentence of all tools. Of a lost agent nothing is claimed any more.
-QString claimsText(const Frame& frame, Place place) {
+QString claimsText(const Frame& frame, Place place, const StateTimes& times) {
     const comms::Contested* contest = frame.contestOf(frame.info(place).path);
     if (contest == nullptr || frame.agents[place.agent].lost()) return {};
     QString text = QString::fromStdString(contest->text) + '.';
     text.front() = text.front().toUpper();
-    return text;
+    return text + faultsOfOthers(frame, place, *contest, times);
 }
 
 }  // namespace cortex::gui

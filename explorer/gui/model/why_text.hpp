@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "session/frame.hpp"
+#include "model/state_times.hpp"
 
 #include <QString>
 
@@ -11,7 +11,8 @@ namespace cortex::gui {
 // that is known: "Written by /control/hold (Standby). Safe values, as /control/hold is in Standby."
 QString whyText(const Frame& frame, Place place);
 
-// Who else claims the path, whose values are shown and who gets commands; empty: nobody else.
-QString claimsText(const Frame& frame, Place place);
+// Who else claims the path, whose values are shown and who gets commands, and the faults of the
+// others, which nothing else shows; empty: nobody else.
+QString claimsText(const Frame& frame, Place place, const StateTimes& times);
 
 }  // namespace cortex::gui

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace cortex::gui {
 
@@ -36,6 +37,11 @@ public:
     void deliver(const std::vector<CommandOutcome>& outcomes);
     const Last* last(const std::string& path, const std::string& name) const;  // null: none
 
+    // Who has set items is among the events. `self`: how agents know this window.
+    void hear(const std::vector<comms::AgentEvent>& events, const std::string& self);
+    // How often others have set the item, or may have.
+    std::uint64_t setByOthers(const std::string& path, const std::string& item) const;
+
 private:
     using Key = std::pair<std::string, std::string>;  // path and name
     struct Asked {
@@ -46,6 +52,8 @@ private:
     Session& session_;
     std::map<std::uint64_t, Asked> asked_;
     std::map<Key, Last> last_;
+    // By path and item; an empty one: any of them.
+    std::map<Key, std::uint64_t> setByOthers_;
 };
 
 }  // namespace cortex::gui

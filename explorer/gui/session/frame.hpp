@@ -76,12 +76,15 @@ struct Place {
 
 // What this session may command. Without a prefix it is read-only.
 struct Control {
-    std::string self;                 // how agents know this session
+    std::string self;  // how agents know this session
+    // The paths at and below which it may command, as it was signed; none: it may only look.
+    std::vector<std::string> rights{"/"};
     std::string prefix, asks;         // what it holds first; what it is taking just now
     std::string last;                 // the prefix that it held last
     std::vector<std::string> claims;  // that it held, and neither released nor handed over
     std::int64_t since = 0;           // UTC ns
     std::string notice;               // what became of it last; empty again when it is taken
+    std::string handed;               // the prefix that the notice says was handed over
     std::vector<comms::LeaseClient::Lease> held;  // all, those handed over to it included
 
     std::vector<std::string> prefixes() const;  // that are held, each once

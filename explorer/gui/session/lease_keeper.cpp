@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/lease_keeper.hpp"
 
+#include "cortex/comms/security.hpp"
+#include "cortex/core/error.hpp"
+
 #include "session/lease.hpp"
 
 #include <algorithm>
@@ -17,11 +20,21 @@ std::string asSentence(std::string text) {
     return text + '.';
 }
 
+// Where the folder cannot be read any longer, the agents alone say what is refused.
+std::vector<std::string> rightsIn(const std::string& security) {
+    try {
+        if (!security.empty()) return comms::checkSecurity(security).mayCommand;
+    } catch (const Error&) {
+    }
+    return {"/"};
+}
+
 }  // namespace
 
 // The session has the agents' own simplexes in its view.
-LeaseKeeper::LeaseKeeper(comms::Mirror& mirror) : client_{mirror} {
+LeaseKeeper::LeaseKeeper(comms::Mirror& mirror, const std::string& security) : client_{mirror} {
     control_.self = mirror.name();
+    control_.rights = rightsIn(security);
     client_.acceptOffers([] {});
 }
 
@@ -65,8 +78,13 @@ void LeaseKeeper::step(const Frame& frame, bool renews) {
     if (handing_ != 0 && client_.poll(handing_, answers)) finishHandOver(answers);
     std::erase_if(releasing_, [&](std::uint64_t each) { return client_.poll(each, answers); });
     const std::vector<std::string> news = client_.news();
-    if (!news.empty()) control_.notice = asSentence(news.back());
+    if (!news.empty()) tell(asSentence(news.back()));
     noteHeld();
+}
+
+void LeaseKeeper::tell(std::string notice) {
+    control_.notice = std::move(notice);
+    control_.handed.clear();
 }
 
 void LeaseKeeper::noteHeld() {
@@ -100,12 +118,11 @@ void LeaseKeeper::finishTaking(const Frame& frame, const comms::LeaseClient::Ans
     const bool holds = std::ranges::find(control_.held, prefix,
                                          &comms::LeaseClient::Lease::prefix) != control_.held.end();
     if (!refusals.empty()) {
-        control_.notice = "Control of " + prefix + " was not taken." + refusals;
+        tell("Control of " + prefix + " was not taken." + refusals);
     } else if (!holds) {
-        control_.notice =
-            "Nothing was taken: nobody who is heard has anything at or below " + prefix + ".";
+        tell("Nothing was taken: nobody who is heard has anything at or below " + prefix + ".");
     } else {
-        control_.notice.clear();
+        tell({});
         if (again_) return;
         releaseAllBut(prefix);
         control_.claims = {prefix};
@@ -118,10 +135,12 @@ void LeaseKeeper::finishHandOver(const comms::LeaseClient::Answers& answers) {
     for (const auto& [name, answer] : answers) {
         if (!answer.done()) refusals += " " + name + ": " + answer.text() + ".";
     }
-    if (refusals.empty()) std::erase(control_.claims, handed_);
-    control_.notice = "Control of " + handed_ +
-                      (refusals.empty() ? " was handed over to " + to_ + "."
-                                        : " was not handed over to " + to_ + "." + refusals);
+    tell("Control of " + handed_ +
+         (refusals.empty() ? " was handed over to " + to_ + "."
+                           : " was not handed over to " + to_ + "." + refusals));
+    if (!refusals.empty()) return;
+    std::erase(control_.claims, handed_);
+    control_.handed = handed_;
 }
 
 }  // namespace cortex::gui

@@ -13,7 +13,8 @@ namespace cortex::gui {
 // accepts what is handed over to it. No call waits, but the end. Session thread.
 class LeaseKeeper {
 public:
-    explicit LeaseKeeper(comms::Mirror& mirror);
+    // `security`: the folder of this session, which the mirror has checked; empty: none.
+    LeaseKeeper(comms::Mirror& mirror, const std::string& security);
 
     // Of all agents that have something at or below the prefix, or of none. What was held before
     // is held until then, and stays so where a part of it was lost and is taken again.
@@ -28,6 +29,7 @@ public:
 private:
     void finishTaking(const Frame& frame, const comms::LeaseClient::Answers& answers);
     void finishHandOver(const comms::LeaseClient::Answers& answers);
+    void tell(std::string notice);
     void noteHeld();
     void releaseAllBut(const std::string& prefix);
 

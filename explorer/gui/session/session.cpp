@@ -244,8 +244,9 @@ void Session::join() {
         if (comms::onLoopback(options.domain) != comms::OnLoopback::None) {
             comms::alsoOnLoopback(options);
         }
+        comms::onNamedInterfaces(options);
         mirror_ = std::make_unique<comms::Mirror>("cortex-explorer", options);
-        leases_ = std::make_unique<LeaseKeeper>(*mirror_);
+        leases_ = std::make_unique<LeaseKeeper>(*mirror_, options.security);
         holds_ = std::make_unique<Holds>(*mirror_);
         applied_.clear();
         mirror_->prepareCommands();  // the first one may be Stop

@@ -31,6 +31,17 @@ std::optional<Value> valueNow(const Frame& frame, const std::string& path,
     return (*agent.image)->value(place->simplex, *layout);
 }
 
+bool shows(const Frame& frame, const std::string& path, const comms::Mirror::Arguments& items) {
+    return std::ranges::all_of(
+        items, [&](const auto& each) { return valueNow(frame, path, each.first) == each.second; });
+}
+
+QString failureText(const CommandOutcome& outcome) {
+    const bool sent = outcome.problem.empty() && outcome.answer.outcome != Outcome::Unknown;
+    const QString why = outcomeText(outcome);
+    return sent ? EditBar::tr("Not set: %1").arg(why) : why;
+}
+
 }  // namespace
 
 EditBar::EditBar(Commands& commands, ItemModel& items, QWidget* parent)
@@ -80,7 +91,7 @@ void EditBar::sayLast() {
     const bool failed = last != nullptr && last->outcome && !last->outcome->answer.done();
     refused_ = failed;
     told_->show({});
-    if (failed) say(tr("Not set: %1").arg(outcomeText(*last->outcome)), &Tokens::warnText);
+    if (failed) say(failureText(*last->outcome), &Tokens::warnText);
 }
 
 // Of a value that is put right by now.
@@ -93,31 +104,50 @@ void EditBar::forgetRefusal() {
 void EditBar::refresh(const std::shared_ptr<const Frame>& frame, Place place) {
     frame_ = frame;
     place_ = place;
+    finishWhatShows();
     forgetWhatChanged();
-    const auto edits = items_.edits();
-    const int count = static_cast<int>(edits.size());
-    const QString why = whyNot(edits);
-    if (count > 0 && (!why.isEmpty() || told_->text().isEmpty() || saysWhyNot_)) {
-        saysWhyNot_ = true;
-        say(why.isEmpty() ? tr("Not sent yet.") : tr("Not sent: %1").arg(why), &Tokens::ink);
-    }
+    const int count = static_cast<int>(items_.edits().size());
+    if (count > 0) sayPending();
     set_->setText(tr("Set %n items", nullptr, count));
     set_->setVisible(count > 0);
-    set_->setEnabled(why.isEmpty());
     discard_->setVisible(count > 0);
+    discard_->setEnabled(!sending_.contains(path_));
     const auto last = lastDone();
     undo_->setVisible(last != done_.end() && count == 0);
     if (last != done_.end()) undo_->setToolTip(tipText(textOf(*last)));
     setVisible(count > 0 || !told_->text().isEmpty());
 }
 
+// What became of those that were sent stays, until a person enters or sends something.
+void EditBar::sayPending() {
+    const QString why = whyNot(items_.edits());
+    set_->setEnabled(why.isEmpty());
+    set_->setToolTip(tipText(why));
+    if (refused_ || sending_.contains(path_)) return;
+    if (why.isEmpty() && !told_->text().isEmpty() && !saysWhyNot_) return;
+    saysWhyNot_ = true;
+    say(why.isEmpty() ? tr("Not sent yet.") : tr("Not sent: %1").arg(why), &Tokens::ink);
+}
+
+// What was not answered has been executed once its values are there.
+void EditBar::finishWhatShows() {
+    const auto found = unanswered_.find(path_);
+    if (found == unanswered_.end() || frame_->agents[place_.agent].lost()) return;
+    if (!shows(*frame_, path_, found->second.change.after)) return;
+    const Sent sent = std::move(found->second);
+    unanswered_.erase(found);
+    if (sent.undoes)
+        std::erase_if(done_, [&](const Done& each) {
+            return each.path == path_ && each.after == sent.change.before;
+        });
+    finish(sent);
+}
+
 // "Set: …" goes once somebody has set another value.
 void EditBar::forgetWhatChanged() {
     const auto said = outcomes_.find(path_);
     if (said == outcomes_.end() || said->second.holds.empty()) return;
-    const bool holds = std::ranges::all_of(said->second.holds, [this](const auto& each) {
-        return valueNow(*frame_, path_, each.first) == each.second;
-    });
+    const bool holds = shows(*frame_, path_, said->second.holds);
     if (holds) said->second.held = true;
     if (holds || !said->second.held) return;
     outcomes_.erase(said);
@@ -125,7 +155,7 @@ void EditBar::forgetWhatChanged() {
 }
 
 QString EditBar::whyNot(const comms::Mirror::Arguments& items) const {
-    if (sending_.contains(path_)) return tr("sending");
+    if (sending_.contains(path_)) return tr("the last set is not answered yet");
     for (const auto& [name, value] : items) {
         const DataItem* item = frame_->type(place_).findData(name);
         if (item == nullptr) return tr("%1 is gone").arg(QString::fromStdString(name));
@@ -145,11 +175,12 @@ void EditBar::submit() {
         if (before) change.before[name] = *before;
         change.after[name] = value;
     }
-    send(std::move(change), false);
+    send({std::move(change), false, items_.entries()});
 }
 
 void EditBar::discard() {
     items_.clearEdits();
+    unanswered_.erase(path_);
     refused_ = false;
     outcomes_.erase(path_);
     told_->show({});
@@ -165,7 +196,7 @@ void EditBar::undo() {
     const auto found = lastDone();
     if (found == done_.end() || frame_ == nullptr) return;
     for (const auto& [name, value] : found->after) {
-        if (valueNow(*frame_, path_, name) == value) continue;
+        if (valueNow(*frame_, path_, name) == value && !isSetByOthers(*found, name)) continue;
         tell(path_,
              tr("Not undone: somebody else has set %1 since.").arg(QString::fromStdString(name)),
              &Tokens::warnText);
@@ -179,34 +210,51 @@ void EditBar::undo() {
     Done change = std::move(*found);
     done_.erase(found);
     std::swap(change.before, change.after);
-    send(std::move(change), true);
+    send({std::move(change), true});
 }
 
-void EditBar::send(Done change, bool undoes) {
-    sending_.insert(change.path);
-    tell(change.path, tr("sending"), &Tokens::ink);
-    auto arguments = change.after;
-    const std::string path = change.path;
-    commands_.send(path, "set", std::move(arguments), setLimit, this,
-                   [this, change = std::move(change), undoes](const CommandOutcome& outcome) {
-                       answered(change, undoes, outcome);
-                   });
+bool EditBar::isSetByOthers(const Done& change, const std::string& item) const {
+    const auto known = change.byOthers.find(item);
+    return known != change.byOthers.end() &&
+           commands_.setByOthers(change.path, item) != known->second;
 }
 
-void EditBar::answered(const Done& change, bool undoes, const CommandOutcome& outcome) {
+void EditBar::send(Sent sent) {
+    const std::string path = sent.change.path;
+    sending_.insert(path);
+    unanswered_.erase(path);
+    tell(path, tr("Sending…"), &Tokens::ink);
+    auto arguments = sent.change.after;
+    commands_.send(
+        path, "set", std::move(arguments), setLimit, this,
+        [this, sent = std::move(sent)](const CommandOutcome& outcome) { answered(sent, outcome); });
+}
+
+void EditBar::answered(const Sent& sent, const CommandOutcome& outcome) {
+    const Done& change = sent.change;
     sending_.erase(change.path);
-    if (!outcome.answer.done()) {
-        tell(change.path, tr("Not set: %1").arg(outcomeText(outcome)), &Tokens::warnText);
-        if (undoes) done_.push_back({change.path, change.after, change.before});
-        return;
-    }
-    if (!undoes) {
-        if (change.path == path_) items_.clearEdits();
+    if (outcome.answer.done()) return finish(sent);
+    tell(change.path, failureText(outcome), &Tokens::warnText);
+    if (outcome.answer.outcome == Outcome::Unknown) unanswered_[change.path] = sent;
+    if (sent.undoes) done_.push_back({change.path, change.after, change.before, change.byOthers});
+}
+
+void EditBar::finish(const Sent& sent) {
+    Done change = sent.change;
+    for (const auto& [name, value] : change.after)
+        change.byOthers[name] = commands_.setByOthers(change.path, name);
+    QString text = (sent.undoes ? tr("Undone: %1") : tr("Set: %1")).arg(textOf(change));
+    if (!sent.undoes) {
+        if (change.path == path_) items_.clearEdits(sent.entries);
         if (change.before.size() == change.after.size()) done_.push_back(change);
         if (done_.size() > mostUndone) done_.erase(done_.begin());
     }
-    tell(change.path, (undoes ? tr("Undone: %1") : tr("Set: %1")).arg(textOf(change)),
-         &Tokens::ink);
+    QStringList rest;  // that was entered meanwhile
+    if (change.path == path_) {
+        for (const auto& [name, value] : items_.edits()) rest << QString::fromStdString(name);
+    }
+    if (!rest.isEmpty()) text += tr(". Not sent yet: %1").arg(rest.join(tr(", ")));
+    tell(change.path, text, &Tokens::ink);
     outcomes_[change.path].holds = change.after;
 }
 

@@ -40,6 +40,12 @@ private:
     struct Done {
         std::string path;
         comms::Mirror::Arguments before, after;
+        std::map<std::string, std::uint64_t> byOthers{};  // how often others had set them by then
+    };
+    struct Sent {
+        Done change;
+        bool undoes = false;
+        std::uint64_t entries = 0;  // that there were when it was sent
     };
     struct Told {
         QString text;
@@ -51,8 +57,12 @@ private:
 
     QString whyNot(const comms::Mirror::Arguments& items) const;
     Changes::iterator lastDone();  // of what is shown
-    void send(Done change, bool undoes);
-    void answered(const Done& change, bool undoes, const CommandOutcome& outcome);
+    bool isSetByOthers(const Done& change, const std::string& item) const;
+    void send(Sent sent);
+    void answered(const Sent& sent, const CommandOutcome& outcome);
+    void finish(const Sent& sent);
+    void finishWhatShows();
+    void sayPending();
     // What became of a set stays with its simplex.
     void tell(const std::string& path, const QString& text, QColor Tokens::* colour);
     void say(const QString& text, QColor Tokens::* colour);
@@ -65,11 +75,12 @@ private:
     Commands& commands_;
     ItemModel& items_;
     bool saysWhyNot_ = false;  // of what was not sent, which changes by itself
-    bool refused_ = false;     // what is said is that a value was not taken
+    bool refused_ = false;     // what is said is of what a person did, until he does something else
     std::shared_ptr<const Frame> frame_;
     Place place_;
     std::string path_;
-    std::set<std::string> sending_;  // paths
+    std::set<std::string> sending_;             // paths
+    std::map<std::string, Sent> unanswered_{};  // by path: it may have been executed
     std::map<std::string, Told> outcomes_;
     Changes done_;  // newest last
     TextLabel* told_;

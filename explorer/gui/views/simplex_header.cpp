@@ -236,14 +236,8 @@ void SimplexHeader::refreshState(const Frame& frame, Place place) {
 void SimplexHeader::refreshFault(const Frame& frame, Place place) {
     const AgentFrame& agent = frame.agents[place.agent];
     const bool faulted = agent.state(place.simplex) == State::Fault;
-    const auto code = itemOf<std::int64_t>(agent, place.simplex, "faultCode");
-    if (faulted && code) {
-        const ItemLayout* item =
-            agent.structure->simplexes[place.simplex].layout->find("faultCode");
-        state_->show(word(Shape::Fault) + ' ' +
-                         elementText(*item->item, Value{std::vector<std::int64_t>{*code}}, 0),
-                     &Tokens::faultText);
-    }
+    const QString code = faultCode(agent, place.simplex);
+    if (faulted && !code.isEmpty()) state_->show(word(Shape::Fault) + code, &Tokens::faultText);
     const FaultText fault = faulted ? faultText(frame, place, times_) : FaultText{};
     showOrHide(*fault_, fault.text);
     fault_->setToolTip(fault.cut ? tr("The rest stands in the events.") : QString{});
@@ -275,7 +269,7 @@ void SimplexHeader::refreshNotice(const Frame& frame, Place place) {
     const AgentFrame& agent = frame.agents[place.agent];
     const QString agentName = QString::fromStdString(agent.status.name);
     agentName_ = agent.status.name;
-    QString notice = claimsText(frame, place);
+    QString notice = claimsText(frame, place, times_);
     QColor Tokens::* colour = &Tokens::warnText;
     if (agent.lost()) {
         const GoneAgent* gone = frame.goneFrom(frame.info(place).path);

@@ -13,6 +13,7 @@
 #include "widgets/rows.hpp"
 #include "widgets/text_label.hpp"
 
+#include <QApplication>
 #include <QDrag>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -76,8 +77,8 @@ public:
 
     QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& /*option*/,
                           const QModelIndex& index) const override {
-        auto* field = new QLineEdit{parent};
         const ItemModel::Row row = items_.row(index);
+        auto* field = new ItemField{row, parent};
         const QString name = QString::fromStdString(ItemModel::entryItem(row).name);
         field->setAccessibleName(row.unit.isEmpty() ? name
                                                     : name + QStringLiteral(", ") + row.unit);
@@ -90,6 +91,17 @@ public:
             field->update();
         });
         return field;
+    }
+
+    void setEditorData(QWidget* editor, const QModelIndex& index) const override {
+        static_cast<ItemField*>(editor)->fill(index.data(Qt::EditRole).toString());
+    }
+
+    // A field that is left as it was opened enters nothing, whatever the value is by now.
+    void setModelData(QWidget* editor, QAbstractItemModel* model,
+                      const QModelIndex& index) const override {
+        const auto* field = static_cast<ItemField*>(editor);
+        model->setData(index, field->isAsFilled() ? index.data(Qt::EditRole) : field->text());
     }
 
     // A field whose text is wrong stays open with it; Esc gives it up.
@@ -206,7 +218,9 @@ ItemTable::ItemTable(ItemModel& model, QWidget* parent) : QTreeView{parent}, ite
     setDragDropMode(DragOnly);
     setEditTriggers(DoubleClicked | EditKeyPressed);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    connect(&model, &QAbstractItemModel::modelAboutToBeReset, this, &ItemTable::keepField);
     connect(&model, &QAbstractItemModel::modelReset, this, &ItemTable::openGroups);
+    connect(&model, &QAbstractItemModel::modelReset, this, &ItemTable::openKept);
     connect(&model, &QAbstractItemModel::dataChanged, this, [this] {
         if (items_.units() != units_ || longestValue(items_) > longest_) fitColumns();
     });
@@ -227,7 +241,7 @@ bool ItemTable::edit(const QModelIndex& index, EditTrigger trigger, QEvent* even
     const QModelIndex value = index.siblingAtColumn(ItemModel::Value);
     const bool asked = trigger == DoubleClicked || trigger == EditKeyPressed;
     if (asked && state() == EditingState) {  // a wrong one comes first
-        if (auto* open = viewport()->findChild<QLineEdit*>()) open->setFocus();
+        if (auto* open = openField()) open->setFocus();
         return false;
     }
     return QTreeView::edit(asked ? value : index, trigger, event);
@@ -254,6 +268,52 @@ void ItemTable::openGroups() {
         setExpanded(group, items_.rowCount(group) <= mostOpenRows);
     }
     fitColumns();
+}
+
+ItemField* ItemTable::openField() const {
+    for (auto* each : viewport()->findChildren<QLineEdit*>()) {
+        auto* field = dynamic_cast<ItemField*>(each);
+        if (field != nullptr && !field->isHidden()) return field;  // one that was closed is hidden
+    }
+    return nullptr;
+}
+
+// What is typed outlasts the rows, which are made anew where an agent starts anew.
+void ItemTable::keepField() {
+    if (const ItemField* field = openField()) kept_ = field->kept();
+}
+
+QModelIndex ItemTable::cellOf(const ItemField::Kept& field) const {
+    for (int group = 0; group < items_.rowCount(); ++group) {
+        const QModelIndex above = items_.index(group, 0);
+        for (int row = 0; row < items_.rowCount(above); ++row) {
+            const QModelIndex cell = items_.index(row, ItemModel::Value, above);
+            const ItemModel::Row& each = items_.row(cell);
+            if (each.item == nullptr || each.path != field.path || each.item->name != field.item)
+                continue;
+            const QModelIndex whole = cell.siblingAtColumn(0);
+            const int element = static_cast<int>(field.element);
+            return field.whole ? cell : items_.index(element, ItemModel::Value, whole);
+        }
+    }
+    return {};
+}
+
+void ItemTable::openKept() {
+    if (!kept_) return;
+    if (kept_->path != items_.path()) return kept_.reset();
+    const QModelIndex cell = cellOf(*kept_);
+    if (!items_.settable(cell)) {  // its simplex may come again; the keyboard is elsewhere then
+        kept_->focused = false;
+        return;
+    }
+    const ItemField::Kept kept = *std::exchange(kept_, std::nullopt);
+    QWidget* elsewhere = kept.focused ? nullptr : QApplication::focusWidget();
+    setExpanded(cell.parent(), true);
+    setCurrentIndex(cell);
+    if (!edit(cell, AllEditTriggers, nullptr)) return;
+    if (ItemField* field = openField()) field->restore(kept);
+    if (elsewhere != nullptr) elsewhere->setFocus();
 }
 
 void ItemTable::resizeEvent(QResizeEvent* event) {

@@ -3,10 +3,12 @@
 
 #include "model/shown_units.hpp"
 #include "record/recorded_item.hpp"
+#include "widgets/item_field.hpp"
 
 #include <QAbstractItemDelegate>
 #include <QMenu>
 #include <QTreeView>
+#include <optional>
 #include <vector>
 
 namespace cortex::gui {
@@ -39,11 +41,16 @@ protected:
 
 private:
     void openGroups();
+    ItemField* openField() const;  // null: none
+    void keepField();
+    void openKept();
+    QModelIndex cellOf(const ItemField::Kept& field) const;
     void fitColumns();
 
     ItemModel& items_;
     ShownUnits units_;  // for which the columns are fitted
     int longest_ = 0;   // value at that time
+    std::optional<ItemField::Kept> kept_;
 };
 
 }  // namespace cortex::gui

@@ -58,6 +58,18 @@ bool canBeTaken(const Frame& frame, const std::string& prefix) {
     return any;
 }
 
+// All that have something there are heard, and show that nobody at all holds a part of it.
+bool isFree(const Frame& frame, const std::string& prefix) {
+    bool any = false;
+    for (const AgentFrame& agent : frame.agents) {
+        if (agent.status.ended || !hasBelow(agent, prefix)) continue;
+        if (agent.lost() || !agent.came(agent.own())) return false;
+        if (leaseOfOthers(agent, prefix, {})) return false;
+        any = true;
+    }
+    return any;
+}
+
 // That the button needs for another text.
 int widthOf(const QPushButton& button, const QString& text) {
     QStyleOptionButton option;
@@ -222,7 +234,10 @@ void ControlBar::refreshNotice() {
         closed_.clear();
     }
     remedy_ = canBeTaken(*frame_, control.last) ? control.last : std::string{};
-    const QString text = refused_.empty() ? QString::fromStdString(said_) : refusal();
+    QString text = refused_.empty() ? QString::fromStdString(said_) : refusal();
+    if (!control.handed.empty() && isFree(*frame_, control.handed)) {
+        text = tr("%1 Nobody holds it now: %2 is free.").arg(text, scopeText(control.handed));
+    }
     const bool offers = !remedy_.empty() && control.asks.empty();
     const QString remedy = remedy_ == control.last ? tr("Take %1 again") : tr("Take %1");
     notice_->show(said_ == closed_ ? QString{} : text,

@@ -285,6 +285,7 @@ void MainWindow::refresh() {
     const auto frame = session_.frame();
     auto events = session_.takeEvents();
     times_.add(events);
+    commands_.hear(events, frame->control.self);
     events_.add(std::move(events));
     tree_->refresh(frame);
     abnormal_.update(*frame);
@@ -296,8 +297,7 @@ void MainWindow::refresh() {
     start_->refresh(*frame, outcomes);
     bar_->tell(start_->text().isEmpty() ? stop_->progress() : start_->text());
     layout_->refresh(*frame);
-    const std::string part = tree_->part();
-    control_->refresh(frame, part.empty() ? workspace_->path() : part);
+    control_->refresh(frame, tree_->part().empty() ? workspace_->path() : tree_->part());
     session_.recorder().take();
     workspace_->refresh(frame);
     Wanted wanted = workspace_->wanted(*frame);

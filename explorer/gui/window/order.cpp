@@ -31,9 +31,9 @@ struct Words {
 constexpr Words words[] = {
     // in the order of Order::Kind
     {"shutdown", "Stopping %1: %2 of %3 in Standby", "%1 in Standby, %2 s",
-     "Nobody is heard: nothing was stopped.", State::Standby},
+     "Nobody is heard%1: nothing was stopped.", State::Standby},
     {"startup", "Starting %1: %2 of %3 Active", "%1 Active, %2 s",
-     "Nobody is heard: nothing was started.", State::Active},
+     "Nobody is heard%1: nothing was started.", State::Active},
 };
 
 QString say(const char* text) { return QCoreApplication::translate("Order", text); }
@@ -62,6 +62,23 @@ std::vector<std::string> widest(std::vector<std::string> prefixes) {
     return prefixes;
 }
 
+std::vector<std::string> permitted(const std::vector<std::string>& prefixes,
+                                   const std::vector<std::string>& rights) {
+    std::vector<std::string> parts;
+    const auto add = [&](const std::string& path) {
+        if (std::ranges::find(parts, path) == parts.end()) parts.push_back(path);
+    };
+    for (const std::string& each : prefixes) {
+        for (const std::string& right : rights) {
+            if (isAtOrBelow(each, right))
+                add(each);
+            else if (isAtOrBelow(right, each))
+                add(right);
+        }
+    }
+    return parts.empty() ? prefixes : widest(std::move(parts));
+}
+
 QString scopeWords(const std::vector<std::string>& prefixes) {
     QStringList all;
     for (const std::string& each : prefixes)
@@ -75,14 +92,16 @@ QString scopeWord(const std::vector<std::string>& prefixes) {
 }
 
 void Order::begin(std::vector<std::string> prefixes, const std::vector<std::string>& except) {
-    prefixes_ = widest(std::move(prefixes));
+    const auto frame = session_.frame();
+    const auto wanted = widest(std::move(prefixes));
+    prefixes_ = permitted(wanted, frame->control.rights);
+    narrowed_ = prefixes_ != wanted;
     told_.clear();
-    paths_.clear();
+    meant_.clear();
     refusals_.clear();
     ended_.clear();
     since_.start();
     answered_.start();
-    const auto frame = session_.frame();
     for (const AgentFrame& agent : frame->agents) {
         if (kind_ == Start && agent.lost()) continue;
         if (std::ranges::find(except, agent.status.name) != except.end()) continue;
@@ -90,19 +109,22 @@ void Order::begin(std::vector<std::string> prefixes, const std::vector<std::stri
     }
     sendNext();
     active_ = !told_.empty();
-    text_ = say(words[kind_].nobody);
+    const bool ofAll = frame->agents.empty() || prefixes_.front() == "/";
+    const QString of =
+        ofAll ? QString{} : say(" that has anything of %1").arg(scopeWord(prefixes_));
+    text_ = say(words[kind_].nobody).arg(of);
     if (active_) count(*frame);
 }
 
 void Order::tell(const AgentFrame& agent, const std::string& prefix) {
     if (agent.structure && !hasBelow(agent, prefix)) return;
-    const std::size_t before = paths_.size();
+    const std::size_t before = meant_.size();
     if (agent.structure) {
         for (const SimplexInfo& info : agent.structure->simplexes) {
-            if (isMeant(info, prefix)) paths_.push_back(info.path);
+            if (isMeant(info, prefix)) meant_.push_back({agent.status.name, info.path});
         }
         // Where there is nothing to stop, another path is not interrupted for it.
-        if (paths_.size() == before && prefixes_.size() > 1) return;
+        if (meant_.size() == before && prefixes_.size() > 1) return;
     }
     told_.push_back({agent.status.name, prefix});
 }
@@ -153,8 +175,8 @@ void Order::refresh(const Frame& frame, const std::vector<CommandOutcome>& outco
         return !each.answered && (goesOn(each) || each.number != 0);
     });
     if (waits) answered_.restart();
-    const bool follows = std::ranges::all_of(paths_, [&](const std::string& path) {
-        return !wasReached(frame, path) || stateOf(frame, path) == words[kind_].goal;
+    const bool follows = std::ranges::all_of(meant_, [&](const Meant& each) {
+        return !wasReached(each) || stateOf(frame, each) == words[kind_].goal;
     });
     if (!waits && (follows || answered_.hasExpired(lastValues)))
         finish(frame);
@@ -177,13 +199,13 @@ void Order::take(const CommandOutcome& outcome) {
 
 std::ptrdiff_t Order::followers(const Frame& frame) const {
     return std::ranges::count_if(
-        paths_, [&](const std::string& path) { return stateOf(frame, path) == words[kind_].goal; });
+        meant_, [&](const Meant& each) { return stateOf(frame, each) == words[kind_].goal; });
 }
 
 // While it is on its way.
 void Order::count(const Frame& frame) {
     const auto standing = followers(frame);
-    text_ = say(words[kind_].doing).arg(scopeWord(prefixes_)).arg(standing).arg(paths_.size());
+    text_ = say(words[kind_].doing).arg(scopeWord(prefixes_)).arg(standing).arg(meant_.size());
     const QStringList lost = unanswered(frame, true);
     if (!lost.isEmpty()) text_ += say("; not heard: %1").arg(lost.join(", "));
 }
@@ -192,7 +214,7 @@ void Order::count(const Frame& frame) {
 // meant to stay there: agents say what they could not start.
 void Order::finish(const Frame& frame) {
     active_ = false;
-    for (const std::string& each : paths_) ended_[each] = stateOf(frame, each);
+    for (const Meant& each : meant_) ended_[each] = stateOf(frame, each);
     const QString others = kind_ == Stop ? notFollowed(frame) : QString{};
     const QStringList unreached = unanswered(frame, false);
     QStringList parts;
@@ -201,12 +223,13 @@ void Order::finish(const Frame& frame) {
     parts << refusals_;
     const double seconds = static_cast<double>(since_.elapsed()) / 1000;
     const auto followed = followers(frame);
-    const bool all = parts.isEmpty() && followed == std::ssize(paths_);
+    const bool all = parts.isEmpty() && followed == std::ssize(meant_);
     const bool ofAll = prefixes_.front() == "/";
     const QString of = ofAll ? QString{} : say(" of %1").arg(scopeWord(prefixes_));
     const QString count = all ? say("All %1").arg(followed) + of
-                              : say("%1 of %2").arg(followed).arg(paths_.size()) + of;
+                              : say("%1 of %2").arg(followed).arg(meant_.size()) + of;
     parts.prepend(say(words[kind_].done).arg(count).arg(seconds, 0, 'f', 1));
+    if (narrowed_) parts << say("you may command nothing else");
     text_ = parts.join(QStringLiteral("; "));
     text_ += ", " + shownTimeText(utcNow(), "HH:mm:ss");
 }
@@ -214,13 +237,12 @@ void Order::finish(const Frame& frame) {
 QString Order::notFollowed(const Frame& frame) const {
     QStringList named;
     int all = 0;
-    for (const std::string& path : paths_) {
-        const State state = stateOf(frame, path);
-        if (!wasReached(frame, path) || state == words[kind_].goal) continue;
+    for (const Meant& each : meant_) {
+        const State state = stateOf(frame, each);
+        if (!wasReached(each) || state == words[kind_].goal) continue;
         if (++all > mostNotFollowing) continue;
         named << say("%1 (%2)").arg(
-            QString::fromStdString(path),
-            state ? QString{QLatin1String{name(*state)}} : say("not heard"));
+            nameOf(each), state ? QString{QLatin1String{name(*state)}} : say("not heard"));
     }
     if (all > mostNotFollowing) named << QStringLiteral("…");
     return all == 0 ? QString{} : say("%1 did not follow: %2").arg(all).arg(named.join(", "));
@@ -238,17 +260,22 @@ QStringList Order::unanswered(const Frame& frame, bool lostOnly) const {
     return names;
 }
 
-Order::State Order::stateOf(const Frame& frame, const std::string& path) const {
-    const auto place = frame.find(path);
-    if (!place || frame.agents[place->agent].lost()) return std::nullopt;
-    return frame.agents[place->agent].state(place->simplex);
+QString Order::nameOf(const Meant& meant) const {
+    const QString path = QString::fromStdString(meant.path);
+    if (std::ranges::count(meant_, meant.path, &Meant::path) < 2) return path;
+    return say("%1 of %2").arg(path, QString::fromStdString(meant.agent));
 }
 
-bool Order::wasReached(const Frame& frame, const std::string& path) const {
-    const auto place = frame.find(path);
-    return !place || std::ranges::any_of(told_, [&](const Told& each) {
-        return each.answered && each.agent == frame.agents[place->agent].status.name &&
-               isAtOrBelow(path, each.prefix);
+Order::State Order::stateOf(const Frame& frame, const Meant& meant) const {
+    const auto agent = std::ranges::find(frame.agents, meant.agent,
+                                         [](const AgentFrame& each) { return each.status.name; });
+    if (agent == frame.agents.end() || !agent->structure) return std::nullopt;
+    return agent->state(agent->structure->find(meant.path));
+}
+
+bool Order::wasReached(const Meant& meant) const {
+    return std::ranges::any_of(told_, [&](const Told& each) {
+        return each.answered && each.agent == meant.agent && isAtOrBelow(meant.path, each.prefix);
     });
 }
 

@@ -6,6 +6,7 @@
 #include <QElapsedTimer>
 #include <QString>
 #include <QStringList>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -17,6 +18,10 @@ namespace cortex::gui {
 
 // Without those that lie below another one of them.
 std::vector<std::string> widest(std::vector<std::string> prefixes);
+// What of it lies at and below paths that may be commanded; where nothing does, all of it: agents
+// say why they refuse it.
+std::vector<std::string> permitted(const std::vector<std::string>& prefixes,
+                                   const std::vector<std::string>& rights);
 QString scopeWord(const std::vector<std::string>& prefixes);   // "all", "/arm", "/arm and 2 more"
 QString scopeWords(const std::vector<std::string>& prefixes);  // each of them
 
@@ -24,7 +29,7 @@ QString scopeWords(const std::vector<std::string>& prefixes);  // each of them
 // agent that has something there. A stop also goes to an agent that is not heard just now: again
 // until it answers, for at most ten seconds. An agent does one such command at a time, and a newer
 // one ends it: several paths of one agent take turns. A start is sent once, as nothing may start
-// long after it was asked for.
+// long after it was asked for. What signed rights do not cover is left out, and that is said.
 class Order {
 public:
     enum Kind { Stop, Start };
@@ -46,6 +51,11 @@ private:
         bool answered = false, interrupted = false;
         QElapsedTimer sent{};
     };
+    // A simplex: several agents may have one path.
+    struct Meant {
+        std::string agent, path;
+        auto operator<=>(const Meant&) const = default;
+    };
     using State = std::optional<cortex::State>;  // none: it is not known now
 
     void tell(const AgentFrame& agent, const std::string& prefix);
@@ -59,20 +69,22 @@ private:
     std::ptrdiff_t followers(const Frame& frame) const;
     QString notFollowed(const Frame& frame) const;
     QStringList unanswered(const Frame& frame, bool lostOnly) const;
-    State stateOf(const Frame& frame, const std::string& path) const;
-    bool wasReached(const Frame& frame, const std::string& path) const;
+    QString nameOf(const Meant& meant) const;  // with its agent, where several have the path
+    State stateOf(const Frame& frame, const Meant& meant) const;
+    bool wasReached(const Meant& meant) const;
     bool agrees(const Frame& frame) const;
 
     Session& session_;
     const Kind kind_;
     std::vector<std::string> prefixes_;  // none below another one
     QString text_;
+    bool narrowed_ = false;           // to what may be commanded
     bool active_ = false;             // until it is known what followed
     QElapsedTimer since_, answered_;  // since it began, since the last answer
     std::vector<Told> told_;
-    std::vector<std::string> paths_;      // that are to reach Standby, or Active
-    QStringList refusals_;                // "robot: …"
-    std::map<std::string, State> ended_;  // the states that its result is about
+    std::vector<Meant> meant_;      // that are to reach Standby, or Active
+    QStringList refusals_;          // "robot: …"
+    std::map<Meant, State> ended_;  // the states that its result is about
 };
 
 }  // namespace cortex::gui

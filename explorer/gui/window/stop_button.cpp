@@ -66,7 +66,7 @@ void StopButton::press() {
     }
     disarm();
     Q_EMIT begun();
-    order_.begin(scope_, others_);
+    order_.begin(wanted_, others_);
 }
 
 void StopButton::disarm() {
@@ -75,7 +75,7 @@ void StopButton::disarm() {
 }
 
 void StopButton::showScope() {
-    const QString scope = scopeWord(scope_) + but(), whole = scopeWords(scope_) + but();
+    const QString scope = scopeWord(scope_) + but(), whole = this->whole();
     setText(isArmed() ? tr("Again: stop %1").arg(scope)
                       : (chosen_ ? tr("Stop always %1") : tr("Stop %1")).arg(scope));
     setAccessibleName((isArmed() ? tr("Again: stop %1, F12") : tr("Stop %1, F12")).arg(whole));
@@ -97,6 +97,12 @@ QString StopButton::but() const {
                                         : tr("%n agents", nullptr, count));
 }
 
+// All paths, and that the signed rights end there.
+QString StopButton::whole() const {
+    const QString words = scopeWords(scope_) + but();
+    return scope_ != wanted_ ? tr("%1, all that you may stop").arg(words) : words;
+}
+
 void StopButton::stop(const std::string& prefix) {
     disarm();
     Q_EMIT begun();
@@ -105,7 +111,7 @@ void StopButton::stop(const std::string& prefix) {
 
 void StopButton::setScope(std::optional<std::string> prefix) {
     chosen_ = std::move(prefix);
-    if (chosen_) scope_ = {*chosen_};
+    if (chosen_) scope_ = wanted_ = {*chosen_};
     others_.clear();
     isHeld_ = false;  // as long as the next frame does not say so
     disarm();
@@ -114,16 +120,18 @@ void StopButton::setScope(std::optional<std::string> prefix) {
 void StopButton::refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes) {
     // It never follows what is selected: the same key must not mean something else after a click.
     const std::vector<std::string> held = widest(frame.control.prefixes());
-    std::vector<std::string> scope = held.empty() ? std::vector{everything} : held;
-    if (chosen_) scope = {*chosen_};
+    std::vector<std::string> wanted = held.empty() ? std::vector{everything} : held;
+    if (chosen_) wanted = {*chosen_};
+    std::vector<std::string> scope = permitted(wanted, frame.control.rights);
     const bool isHeld = std::ranges::all_of(scope, [&](const std::string& each) {
         return std::ranges::any_of(held,
                                    [&](const std::string& own) { return isAtOrBelow(each, own); });
     });
     std::vector<std::string> others;
     if (isHeld) others = heldByOthers(frame, scope);
-    if (scope != scope_ || isHeld != isHeld_ || others != others_) {
+    if (scope != scope_ || isHeld != isHeld_ || others != others_ || wanted != wanted_) {
         scope_ = std::move(scope);
+        wanted_ = std::move(wanted);
         others_ = std::move(others);
         isHeld_ = isHeld;
         disarm();
