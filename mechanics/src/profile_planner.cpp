@@ -186,7 +186,8 @@ std::optional<Profile> ProfilePlanner::profile(double time) const noexcept {
     profile.duration_ = stopsThere_ ? std::max(time, steps.duration()) : steps.duration();
     profile.end_ = {target_, 0, 0};
     const double miss = std::abs(from.position - target_);
-    const double scale = 1e-9 * (std::abs(way_) + std::abs(target_) + std::abs(start_.position));
+    const double scale = 1e-9 * (std::abs(way_) + std::abs(target_) + std::abs(start_.position) +
+                                 std::abs(steps.first.way) + std::abs(steps.last.way));
     if (!std::isfinite(profile.duration_) || !(miss <= scale)) return std::nullopt;
     return profile;
 }

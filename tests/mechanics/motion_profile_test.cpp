@@ -158,6 +158,15 @@ TEST(VelocityStep, TakesTheTimesOfTheClosedForms) {
     EXPECT_NEAR(planVelocity({0, 2, 0}, 0, trapezoid)->end().position, 4 / 20.0, 1e-12);
 }
 
+TEST(Profile, ComesBackToWhereItBeganInMotion) {
+    for (const double velocity : {-1.0, 0.5}) {
+        const auto profile = planPosition({0, velocity, 0}, 0, limits);
+        ASSERT_TRUE(profile);
+        EXPECT_EQ(profile->at(profile->duration()).position, 0);
+        EXPECT_EQ(profile->at(0).velocity, velocity);
+    }
+}
+
 TEST(Profile, IsRefusedWhereNumbersMakeNoSense) {
     for (const double wrong : {0.0, -1.0, noNumber}) {
         EXPECT_FALSE(planPosition({}, 1, {wrong, 10, 100}));

@@ -157,6 +157,19 @@ TEST_F(JogControllerTest, GoesElsewhereWhileItMoves) {
     expectNothingWasLimited();
 }
 
+TEST_F(JogControllerTest, SaysHowMuchOfTheWayIsDone) {
+    ASSERT_TRUE(setMode(Position).done());
+    set("demandPosition", 2);
+    send("go", {{"axis", std::int64_t{1}}});
+    step(2000);
+    EXPECT_GT(rig_.get<double>("/jog", "progress"), 0.3);
+    EXPECT_LT(rig_.get<double>("/jog", "progress"), 0.7);
+    step(3000);
+
+    EXPECT_EQ(position(), 2);
+    EXPECT_EQ(rig_.get<double>("/jog", "progress"), 1);
+}
+
 TEST_F(JogControllerTest, MovesByStepsToBothSides) {
     ASSERT_TRUE(setMode(Step).done());
     set("stepSize", 0.2);

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/stat.h>
+
 #include <gtest/gtest.h>
 
 namespace cortex::toolkit::test {
@@ -217,6 +219,23 @@ TEST(ATrajectory, IsTaughtAtRestOnly) {
     EXPECT_NE(result.text().find("moving"), std::string::npos) << result.text();
 }
 
+TEST(ATrajectory, IsNotTaughtOutOfRange) {
+    Rig rig;
+    rig.add("/axis", "RotaryAxisObservation");
+    rig.add("/demand", "LimitedAxis");
+    rig.add("/points", "JointTrajectoryController", {{"axes", "/axis"}, {"demands", "/demand"}});
+    rig.start();
+    rig.startUp();
+    rig.tree().at("/axis").data<double>("position") = 3.2;
+    const CallResult refused = rig.call("/points", "teach");
+    EXPECT_EQ(refused.outcome, Outcome::Rejected);
+    EXPECT_NE(refused.text().find("is 3.2, above 3, the limit of /demand"), std::string::npos)
+        << refused.text();
+
+    rig.tree().at("/axis").data<double>("position") = 3.0005;  // it swings at the end
+    EXPECT_EQ(rig.call("/points", "teach").outcome, Outcome::Done);
+}
+
 TEST(ATrajectory, TakesPointsInBetweenAndLosesOthers) {
     Taught arm;
     arm.teachThree();
@@ -269,13 +288,25 @@ TEST(FilesOfPoints, AreRefusedInWords) {
     std::string many = "/axis1 rad,/axis2 rad,/axis3 rad\n";
     for (int i = 0; i < 65; ++i) many += "1,2,3\n";
     folder.write("many.csv", many);
+    folder.write("far.csv", "/axis1 rad,/axis2 rad,/axis3 rad\n1,2,2\n1,-3.5,2\n");
+    folder.write("zero.csv", std::string{"/axis1 rad,/axis2 rad,/axis3 rad\n1,2,a\0b\n", 40});
+    folder.write("empty.csv", "");
+    ASSERT_EQ(::mkfifo((folder.path() / "pipe.csv").c_str(), 0600), 0);
     Taught arm{folder.path().string()};
     arm.call("teach");
     const std::pair<const char*, const char*> cases[] = {
-        {"none", "there is no file"},      {"other", "it is for other axes"},
-        {"words", "words.csv:2: 'three'"}, {"few", "few.csv:2: 2 numbers for 3 axes"},
-        {"nan", "'nan' is no number"},     {"many", "more than 64 points"},
-        {"../x", "letters, digits"},       {"", "letters, digits"},
+        {"none", "there is no file"},
+        {"other", "it is for other axes"},
+        {"words", "words.csv:2: 'three'"},
+        {"few", "few.csv:2: 2 numbers for 3 axes"},
+        {"nan", "'nan' is no number"},
+        {"many", "more than 64 points"},
+        {"../x", "letters, digits"},
+        {"", "letters, digits"},
+        {"far", "far.csv:3: /axis2 rad is -3.5, below -3, the limit of /demand2"},
+        {"zero", "'a?b' is no number"},
+        {"empty", "empty.csv is empty"},
+        {"pipe", "pipe.csv is no file"},
     };
     for (const auto& [name, words] : cases) {
         const CallResult result = arm.call("load", {{"name", std::string{name}}});
@@ -283,6 +314,27 @@ TEST(FilesOfPoints, AreRefusedInWords) {
         EXPECT_NE(result.text().find(words), std::string::npos) << name << ": " << result.text();
     }
     EXPECT_EQ(arm.count(), 1) << "those that were there stay";
+}
+
+TEST(FilesOfPoints, MayComeFromASpreadsheet) {
+    const cortex::test::ModelFolder folder;
+    folder.write("sheet.csv", "\xef\xbb\xbf/axis1 rad,/axis2 rad,/axis3 rad\r\n1,2,2.5\r\n\r\n");
+    Taught arm{folder.path().string()};
+
+    const CallResult result = arm.call("load", {{"name", std::string{"sheet"}}});
+
+    EXPECT_EQ(result.outcome, Outcome::Done) << result.text();
+    EXPECT_EQ(arm.count(), 1);
+}
+
+TEST(FilesOfPoints, AreWrittenWhereAPipeWouldBlock) {
+    const cortex::test::ModelFolder folder;
+    ASSERT_EQ(::mkfifo((folder.path() / "a.csv.new").c_str(), 0600), 0);
+    Taught arm{folder.path().string()};
+    arm.call("teach");
+
+    EXPECT_EQ(arm.call("save", {{"name", std::string{"a"}}}).outcome, Outcome::Done);
+    EXPECT_EQ(folder.read("a.csv"), "/axis1 rad,/axis2 rad,/axis3 rad\n0,0,0\n");
 }
 
 TEST(FilesOfPoints, NeedAFolderOfTheProgram) {

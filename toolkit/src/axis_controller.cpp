@@ -21,6 +21,20 @@ bool differs(const MotionState& accepted, const MotionState& written) {
            differs(accepted.velocity, written.velocity);
 }
 
+// What an axis says of its drive where that does not go where it is told; nothing otherwise.
+std::string_view whyStanding(std::int64_t status) {
+    switch (status) {
+        case 4:
+            return "Fault";
+        case 6:
+            return "Disabled";
+        case 7:
+            return "Braked";
+        default:
+            return {};
+    }
+}
+
 }  // namespace
 
 MotionState AxisController::Axis::accepted() const {
@@ -33,17 +47,28 @@ void AxisController::Axis::write(const MotionState& state) {
     acceleration = state.acceleration;
 }
 
+MotionState AxisController::Axis::ledBack(double seconds) const {
+    const MotionState now = accepted();
+    const double aim = std::clamp<double>(observed, limits.min, limits.max);
+    const auto way = mechanics::planPosition(now, aim, limits.motion());
+    return way ? way->at(seconds) : MotionState{now.position, 0, 0};
+}
+
 void AxisController::populate() {
+    const auto axes = inputs("axes");
     const auto demands = outputs("demands");
-    requireSameCount(*this, inputs("axes").size(), demands.size(), "demands");
-    for (const OutputSimplex& demand : demands) {
-        axes_.push_back({demand.path(), AxisLimits{demand.type()},
+    requireSameCount(*this, axes.size(), demands.size(), "demands");
+    for (std::size_t i = 0; i < demands.size(); ++i) {
+        const OutputSimplex& demand = demands[i];
+        axes_.push_back({demand.path(), axes[i].path(), AxisLimits{demand.type()},
+                         axes[i].data<double>("position"), axes[i].data<std::int64_t>("status"),
                          demand.accepted<double>("position"), demand.accepted<double>("velocity"),
                          demand.accepted<double>("acceleration"), demand.data<double>("position"),
                          demand.data<double>("velocity"), demand.data<double>("acceleration"),
                          demand.data<double>("effort")});
     }
     demands_.resize(axes_.size());
+    takenOver_.resize(axes_.size());
 }
 
 bool AxisController::stateStartingUp(const Tick&) {
@@ -52,17 +77,43 @@ bool AxisController::stateStartingUp(const Tick&) {
 }
 
 void AxisController::stateActive(const Tick& tick) {
-    bool changed = takesOver_;
+    bool changed = false;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const MotionState accepted = axes_[i].accepted();
-        changed = changed || differs(accepted, demands_[i]);
+        const bool others = takesOver_ || differs(accepted, demands_[i]);
+        takenOver_[i] = others ? 1 : 0;
+        changed = changed || others;
         demands_[i] = accepted;
         axes_[i].effort = 0.0;  // unless move() sets it
     }
     takesOver_ = false;
     if (changed) takeOver(tick);
     move(tick);
-    for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].write(demands_[i]);
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        axes_[i].write(follows(i) ? demands_[i] : axes_[i].ledBack(tick.elapsedSeconds()));
+    }
+}
+
+bool AxisController::follows(std::size_t axis) const {
+    return whyStanding(axes_[axis].status).empty();
+}
+
+std::size_t AxisController::firstThatDoesNotFollow() const {
+    std::size_t axis = 0;
+    while (axis < axes_.size() && follows(axis)) ++axis;
+    return axis;
+}
+
+bool AxisController::allFollow(Call& call) const {
+    const std::size_t axis = firstThatDoesNotFollow();
+    if (axis == axes_.size()) return true;
+    call.reject(Reason::State, doesNotFollow(axis).view());
+    return false;
+}
+
+EventText AxisController::doesNotFollow(std::size_t axis) const {
+    return EventText{axes_[axis].observedPath} << " does not follow: its drive says "
+                                               << whyStanding(axes_[axis].status);
 }
 
 bool AxisController::inRange(Call& call, std::string_view item, std::size_t axis,

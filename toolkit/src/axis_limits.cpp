@@ -23,6 +23,12 @@ double valueOf(const std::optional<Number>& bound, double otherwise) {
 
 double greatest(const DataItem* item) { return item ? valueOf(item->max, infinity) : infinity; }
 
+// Either way: what a type allows one way only is not planned with.
+double magnitude(const DataItem* item) {
+    const double most = greatest(item), least = item ? valueOf(item->min, -infinity) : -infinity;
+    return least < 0 ? std::min(most, -least) : most;
+}
+
 double rate(const DataItem* item) { return item && item->rate ? *item->rate : infinity; }
 
 }  // namespace
@@ -33,8 +39,8 @@ AxisLimits::AxisLimits(const Type& axis) {
     const DataItem* change = axis.findData("acceleration");
     min = position ? valueOf(position->min, -infinity) : -infinity;
     max = greatest(position);
-    speed = std::min(greatest(velocity), rate(position));
-    acceleration = std::min(greatest(change), rate(velocity));
+    speed = std::min(magnitude(velocity), rate(position));
+    acceleration = std::min(magnitude(change), rate(velocity));
     jerk = rate(change);
 }
 

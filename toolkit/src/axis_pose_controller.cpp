@@ -36,7 +36,10 @@ MotionLimits AxisPoseController::limitsOf(std::size_t axis, double speedShare) c
 }
 
 bool AxisPoseController::moveTo(std::span<const double> pose, double speedShare) {
-    for (std::size_t i = 0; i < axisCount(); ++i) planLimits_[i] = limitsOf(i, speedShare);
+    for (std::size_t i = 0; i < axisCount(); ++i) {
+        if (!limits(i).inRange(pose[i])) return false;
+        planLimits_[i] = limitsOf(i, speedShare);
+    }
     if (!plan_.plan(demands(), pose.first(axisCount()), planLimits_)) return false;
     if (pose.data() != target_.data()) std::ranges::copy(pose.first(axisCount()), target_.begin());
     share_ = speedShare;
@@ -55,7 +58,7 @@ void AxisPoseController::stop() {
 
 // What limits took away is made up for; after a loss somebody has to command anew.
 void AxisPoseController::takeOver(const Tick&) {
-    lost_ = lost_ || (aims_ && inputLost());
+    lost_ = lost_ || (aims_ && (inputLost() || firstThatDoesNotFollow() < axisCount()));
     if (!aims_ || lost_ || !moveTo(target_, share_)) stop();
 }
 
@@ -70,9 +73,11 @@ Outcome AxisPoseController::proceed(Call& call) {
         stop();
         return Outcome::Cancelled;
     }
-    if (lost_ || inputLost()) {
+    const std::size_t stands = firstThatDoesNotFollow();
+    if (lost_ || inputLost() || stands < axisCount()) {
         aims_ = false;
-        return call.fail("an axis was lost on the way");
+        if (inputLost() || stands == axisCount()) return call.fail("an axis was lost on the way");
+        return call.fail(doesNotFollow(stands).view());
     }
     progress_ = moves() ? time_ / plan_.duration() : 1.0;
     return moves() ? Outcome::Running : Outcome::Done;
@@ -80,6 +85,7 @@ Outcome AxisPoseController::proceed(Call& call) {
 
 Outcome AxisPoseController::runMoveTo(Call& call) {
     if (call.first()) {
+        if (!allFollow(call)) return Outcome::Rejected;
         for (std::size_t i = 0; i < axisCount(); ++i) {
             if (!inRange(call, "pose", i, pose_[i])) return Outcome::Rejected;
         }

@@ -176,6 +176,7 @@ void CartesianJogController::move(const Tick& tick) {
 // --- commands ---------------------------------------------------------------------------------
 
 Outcome CartesianJogController::jog(Call& call) {
+    if (!allFollow(call)) return Outcome::Rejected;
     const auto linear = call[linear_], angular = call[angular_];
     for (std::size_t i = 0; i < 3; ++i) {
         if ((linear[i] != 0 && !directions_[i]) || (angular[i] != 0 && !directions_[i + 3]))
@@ -189,6 +190,7 @@ Outcome CartesianJogController::jog(Call& call) {
 }
 
 Outcome CartesianJogController::elbow(Call& call) {
+    if (!allFollow(call)) return Outcome::Rejected;
     if (axisCount() <= static_cast<std::size_t>(mechanics::count(directions_)))
         return call.reject(Reason::State, "no axis is to spare: each is needed for the tip");
     aim_ = {};

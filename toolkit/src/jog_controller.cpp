@@ -33,6 +33,7 @@ void JogController::populate() {
     stepSize_ = array<const double>("stepSize");
     holdTime_ = data<const double>("holdTime");
     speedShare_ = data<const double>("speedShare");
+    progress_ = data<double>("progress");
     jogging_ = data<bool>("jogging");
     mode_ = data<std::int64_t>("mode");
     axis_ = data<std::int64_t>("axis");
@@ -99,8 +100,11 @@ void JogController::keepBeforeLimits(std::size_t axis, double seconds) {
 }
 
 void JogController::takeOver(const Tick&) {
-    for (std::size_t i = 0; i < axisCount(); ++i) brake(i);
-    interrupted_ = Interrupted::ByOthers;
+    for (std::size_t i = 0; i < axisCount(); ++i) {
+        if (!takesOver(i)) continue;
+        brake(i);
+        if (i == running_) interrupted_ = Interrupted::ByOthers;
+    }
 }
 
 // Also where it is not Active, or an axis is lost: then move() is not called.
@@ -137,8 +141,13 @@ std::optional<std::size_t> JogController::axisOf(Call& call, std::int64_t axis,
         call.reject(Reason::Range, why.view());
         return std::nullopt;
     }
+    const auto place = static_cast<std::size_t>(axis - 1);
+    if (!follows(place)) {
+        call.reject(Reason::State, doesNotFollow(place).view());
+        return std::nullopt;
+    }
     axis_ = axis;
-    return static_cast<std::size_t>(axis - 1);
+    return place;
 }
 
 Outcome JogController::jog(Call& call) {
@@ -156,10 +165,13 @@ Outcome JogController::runTo(Call& call, std::size_t axis) {
         return Outcome::Cancelled;
     }
     if (inputLost()) return call.fail("an axis was lost on the way");
+    if (!follows(axis)) return call.fail(doesNotFollow(axis).view());
     if (interrupted_ == Interrupted::ByHalt) return call.fail("the motion was halted");
     if (interrupted_ == Interrupted::ByOthers)
         return call.fail("the demand was limited, or an axis was lost for a moment");
-    return motions_[axis].rests() ? Outcome::Done : Outcome::Running;
+    const Motion& motion = motions_[axis];
+    progress_ = motion.rests() ? 1.0 : motion.time / motion.profile.duration();
+    return motion.rests() ? Outcome::Done : Outcome::Running;
 }
 
 Outcome JogController::go(Call& call) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/toolkit/axis_limits.hpp"
+
 #include <cstddef>
 #include <filesystem>
 #include <span>
@@ -37,13 +39,19 @@ private:
     std::vector<double> values_;
 };
 
-// A file of comma-separated values: a line of `names`, then one for each point. Both throw Error
+// An axis of a file: its name with unit, and the simplex whose limits its points keep.
+struct PointAxis {
+    std::string name, demand;
+    AxisLimits limits;
+};
+
+// A file of comma-separated values: a line of names, then one for each point. Both throw Error
 // with file, line and remedy. The file is whole or not there: it is written beside and renamed.
-void writeJointPoints(const std::filesystem::path& file, const std::vector<std::string>& names,
+void writeJointPoints(const std::filesystem::path& file, const std::vector<PointAxis>& axes,
                       const JointPoints& points);
-// Refused: names other than these, numbers that are none, more than `most` points.
-JointPoints readJointPoints(const std::filesystem::path& file,
-                            const std::vector<std::string>& names);
+// Refused: names other than these, numbers that are none or out of range, more than `most` points.
+// Lines may end as in spreadsheets.
+JointPoints readJointPoints(const std::filesystem::path& file, const std::vector<PointAxis>& axes);
 
 // Where a file of this name lies; throws Error where the name or the folder leads elsewhere, or the
 // program was given no folder of files.

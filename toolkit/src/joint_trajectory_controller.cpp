@@ -8,10 +8,16 @@
 
 namespace cortex::toolkit {
 
+namespace {
+
+constexpr double overTheEnd = 0.001;  // rad or m that an axis at the end of its range may go over
+
+}  // namespace
+
 // What the thread for slow work has while it reads or writes.
 struct JointTrajectoryController::Files {
     std::string files, folder, name;
-    std::vector<std::string> names;
+    std::vector<PointAxis> axes;
     JointPoints points;
     cs::SlowWork save, load;
 
@@ -34,16 +40,18 @@ void JointTrajectoryController::populate() {
     files.name.reserve(64);
     files.points = JointPoints{axisCount()};
     for (const InputSimplex& axis : inputs("axes")) {
+        const std::size_t place = observed_.size();
         observed_.push_back(axis.data<double>("position"));
-        files.names.push_back(axis.path() + " " + axis.type().findData("position")->unit);
+        files.axes.push_back({axis.path() + " " + axis.type().findData("position")->unit,
+                              demandPath(place), limits(place)});
     }
     files.save = cs::SlowWork{[&files] {
-        writeJointPoints(pointsFile(files.files, files.folder, files.name), files.names,
+        writeJointPoints(pointsFile(files.files, files.folder, files.name), files.axes,
                          files.points);
     }};
     files.load = cs::SlowWork{[&files] {
         files.points.assign(
-            readJointPoints(pointsFile(files.files, files.folder, files.name), files.names));
+            readJointPoints(pointsFile(files.files, files.folder, files.name), files.axes));
     }};
     pose_.resize(axisCount());
     pointCount_ = data<std::int64_t>("pointCount");
@@ -97,8 +105,11 @@ bool JointTrajectoryController::add(Call& call, std::size_t before) {
         call.reject(Reason::State, "the axes are moving: a point is taught at rest");
         return false;
     }
-    for (std::size_t i = 0; i < axisCount(); ++i)
+    for (std::size_t i = 0; i < axisCount(); ++i) {
         pose_[i] = std::clamp<double>(observed_[i], limits(i).min, limits(i).max);
+        const bool near = std::abs(observed_[i] - pose_[i]) <= overTheEnd;
+        if (!near && !inRange(call, "the observed pose", i, observed_[i])) return false;
+    }
     if (!points_->insert(before, pose_)) {
         call.reject(Reason::Range, "there are 64 points already: remove one first");
         return false;
@@ -173,6 +184,7 @@ bool JointTrajectoryController::standsAt(Call& call, std::size_t point) const {
 }
 
 bool JointTrajectoryController::begins(Call& call) {
+    if (!allFollow(call)) return false;
     const auto count = static_cast<std::int64_t>(points_->size());
     first_ = std::max<std::int64_t>(call[from_], 1);
     last_ = call[to_] == 0 ? count : call[to_].get();
@@ -199,7 +211,7 @@ Outcome JointTrajectoryController::goOn(Call& call, std::int64_t number) {
     if (call.first()) {
         if (points_->size() == 0)
             return call.reject(Reason::State, "there are no points: teach or load some");
-        if (!isPoint(call, "the point", number)) return Outcome::Rejected;
+        if (!isPoint(call, "the point", number) || !allFollow(call)) return Outcome::Rejected;
         if (!goTo(call, number)) return Outcome::Failed;
     }
     return proceed(call);

@@ -11,6 +11,7 @@ namespace {
 constexpr double switchOnTolerance = 0.01;  // rad or m between demand and joint
 constexpr double brakeTime = 0.02;          // s, time constant
 constexpr double standstill = 1e-4;         // rad/s or m/s
+constexpr double patience = 1;              // s
 
 }  // namespace
 
@@ -26,13 +27,20 @@ void SimulatedAxis::populate() {
     limitCount_ = data<std::int64_t>("limitCount");
     position_ = std::clamp(data<const double>("startPosition").get(), limits_->min, limits_->max);
     observation_->write(position_, 0);
-    observedStatus_ = Ready;
+    observedStatus_ = Braked;
 }
 
 // As drives do: it does not switch on while the demand is elsewhere.
-bool SimulatedAxis::stateStartingUp(const Tick&) {
-    return std::abs(demand_->position - position_) < switchOnTolerance &&
-           std::abs(velocity_) < standstill;
+bool SimulatedAxis::stateStartingUp(const Tick& tick) {
+    const double away = std::abs(demand_->position - position_);
+    if (away < switchOnTolerance && std::abs(velocity_) < standstill) return true;
+    const bool tells = waited_ < patience;
+    waited_ += tick.elapsedSeconds();
+    if (tells && waited_ >= patience) {
+        event(Severity::Warning, EventText{"it waits for its demand, which is "}
+                                     << away << " away; the controller brings it here");
+    }
+    return false;
 }
 
 // Distance to a demand that moves on at its velocity: e'' + 2 d w e' + w^2 e = 0, solved exactly
@@ -75,6 +83,7 @@ void SimulatedAxis::limit(double before, double seconds) {
 
 std::int64_t SimulatedAxis::status() const {
     if (state() == State::Fault) return Faulty;
+    if (state() != State::Active) return Braked;
     if (atLimit_) return AtLimit;
     return std::abs(velocity_) < standstill ? Ready : Moving;
 }
@@ -89,12 +98,13 @@ void SimulatedAxis::loopEnd(const Tick& tick) {
     limit(before, seconds);
     observation_->write(position_, velocity_, (velocity_ - velocityBefore) / seconds);
     observedStatus_ = status();
+    if (state() != State::StartingUp) waited_ = 0;
     followingError_ = demand_->position - position_;
 }
 
 void SimulatedAxis::keep(Archive& archive) {
-    archive.version("SimulatedAxis", 1);
-    archive & position_ & velocity_ & atLimit_;
+    archive.version("SimulatedAxis", 2);
+    archive & position_ & velocity_ & waited_ & atLimit_;
 }
 
 }  // namespace cortex::toolkit

@@ -15,7 +15,7 @@ public:
     using SimplexCS::SimplexCS;
 
 private:
-    enum Status : std::int64_t { Ready = 1, Moving, AtLimit, Faulty };
+    enum Status : std::int64_t { Ready = 1, Moving, AtLimit, Faulty, Braked = 7 };
 
     void populate() override;
     bool stateStartingUp(const Tick& tick) override;
@@ -35,6 +35,7 @@ private:
     Data<double> followingError_;
     Data<std::int64_t> limitCount_;
     double position_ = 0, velocity_ = 0;
+    double waited_ = 0;  // s, in StartingUp
     bool atLimit_ = false;
 };
 

@@ -8,8 +8,8 @@ namespace cortex::toolkit {
 
 // Limits that the type of an axis states, in rad or m and s; infinite where it states none:
 //   range         position.min, position.max
-//   speed         velocity.max and position.rate, the lower one
-//   acceleration  acceleration.max and velocity.rate, the lower one
+//   speed         velocity.max, -velocity.min and position.rate, the lowest one
+//   acceleration  acceleration.max, -acceleration.min and velocity.rate, the lowest one
 //   jerk          acceleration.rate
 // Setup phase; what it gives may be read in a tick.
 class AxisLimits {

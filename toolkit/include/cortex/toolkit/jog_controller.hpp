@@ -50,8 +50,8 @@ private:
     Outcome step(Call& call) CORTEX_REALTIME;
     Outcome halt(Call& call) CORTEX_REALTIME;
 
-    // The axis that a command names, from 0; nothing, and the call is rejected: it is none, or the
-    // mode is another one.
+    // The axis that a command names, from 0; nothing, and the call is rejected: it is none, it does
+    // not follow, or the mode is another one.
     std::optional<std::size_t> axisOf(Call& call, std::int64_t axis, std::string_view command,
                                       Mode needed) CORTEX_REALTIME;
     Outcome runTo(Call& call, std::size_t axis) CORTEX_REALTIME;
@@ -63,6 +63,7 @@ private:
     std::span<const double> demandPosition_, stepSize_;
     std::span<double> demandVelocity_;
     Data<const double> holdTime_, speedShare_;
+    Data<double> progress_;
     Data<bool> jogging_;
     Data<std::int64_t> mode_, axis_;
     Argument<std::int64_t> newMode_, jogAxis_, goAxis_, stepAxis_, stepDirection_;
