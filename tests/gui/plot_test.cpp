@@ -79,6 +79,25 @@ TEST_F(Plot, HatchesAGapSaysItsLengthAndDrawsNoLineAcrossIt) {
         << view.panels().front()->accessibleName().toStdString();
 }
 
+TEST_F(Plot, AStandstillOfItsAgentIsHatchedAlthoughNoCycleIsLost) {
+    view.add({position, mode});
+    show();
+    run(8'000, still);
+    agent.wait(3'000);
+    run(8'000, still);
+    show();
+    const QImage image = picture();
+    EXPECT_GT(rowsOf(image, Look::colours().dataBg, at(9'500)), 20);
+    EXPECT_EQ(rowsOf(image, lineColour(), at(9'500)), 0);
+    EXPECT_TRUE(view.panels().front()->accessibleName().contains("no data 3.00 s"))
+        << view.panels().front()->accessibleName().toStdString();
+    EXPECT_TRUE(std::isnan(line(1).valueAt(at(9'500)))) << "a cursor tells no value there";
+    const auto words = view.findChild<LaneStrip*>()->words(0);
+    EXPECT_TRUE(std::ranges::any_of(words, [&](const LaneWord& each) {
+        return each.missing && std::abs(each.to - each.from - 3) < 0.1;
+    })) << "nor does a lane";
+}
+
 TEST_F(Plot, ASpikeOfOneSampleIsSeenAmongTenMinutes) {
     Ring ring;
     AgentTime time;

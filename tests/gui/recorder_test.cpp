@@ -52,6 +52,49 @@ TEST_F(Recording, CountsCyclesThatDidNotComeAndLeavesAGap) {
     EXPECT_EQ(ring().nextPresent(2, 1'000), 702);
 }
 
+// As of a process that was stopped: its cycles go on by one, and nobody lost any.
+TEST_F(Recording, AStandstillOfTheAgentIsAGapOfItsLength) {
+    recorder.record(this, {gain});
+    for (int i = 0; i < 10; ++i) hear();
+    agent.wait(3'000);
+    for (int i = 0; i < 10; ++i) hear();
+    recorder.take();
+    EXPECT_EQ(time().skipped, 0U) << "no cycle was lost";
+    const std::int64_t gap = ring().nextMissing(1, ring().end());
+    const std::int64_t behind = ring().nextPresent(gap, ring().end());
+    EXPECT_EQ(time().cycleAt(gap - 1), 10);
+    EXPECT_EQ(time().cycleAt(behind), 11);
+    EXPECT_EQ(time().table.utcAt(behind) - time().table.utcAt(gap - 1), 3'001 * MadeAgent::period);
+    EXPECT_EQ(time().cycleAt(ring().end() - 1), 20);
+    EXPECT_EQ(ring().nextMissing(behind, ring().end()), ring().end());
+}
+
+TEST_F(Recording, AStandstillOfHoursLeavesMostOfWhatWasBefore) {
+    Recorder small{Ring::block};
+    small.record(this, {gain});
+    for (int i = 0; i < 10; ++i) small.hear("far", *agent.now().image);
+    agent.wait(10'000'000);
+    small.hear("far", *agent.now().image);
+    small.take();
+    EXPECT_EQ(small.ring(gain)->begin(), 1);
+    EXPECT_LE(small.ring(gain)->end(), static_cast<std::int64_t>(Ring::block) / 5);
+    EXPECT_EQ(small.time("far")->table.last() - small.time("far")->table.utcAt(10),
+              10'000'001 * MadeAgent::period);
+}
+
+TEST_F(Recording, TicksThatABusyAgentMissesAreNoGap) {
+    recorder.record(this, {gain});
+    hear();
+    for (int i = 0; i < 10; ++i) {
+        hear();
+        agent.wait(400);
+        hear();
+    }
+    recorder.take();
+    EXPECT_EQ(ring().end() - ring().begin(), 21);
+    EXPECT_EQ(time().stretches.size(), 1U);
+}
+
 TEST_F(Recording, AValueOfACycleBeforeThatOfItsImageIsNotOfThisCycle) {
     recorder.record(this, {gain});
     agent.behind.assign(agent.structure->simplexes.size(), true);

@@ -11,7 +11,10 @@ namespace cortex::gui {
 
 namespace {
 
-constexpr double second = 1e9;  // ns
+constexpr double second = 1e9;                     // ns
+constexpr std::int64_t longestStep = 500'000'000;  // ns between two cycles, and
+constexpr std::int64_t mostPeriods = 3;            // what is longer than both is a standstill
+constexpr std::size_t parts = 10;                  // at most one of them goes for a gap
 
 Ring shortened(const Ring& ring, std::size_t capacity) {
     Ring result{capacity};
@@ -20,6 +23,13 @@ Ring shortened(const Ring& ring, std::size_t capacity) {
         result.put(i, ring.value(i), ring.quality(i));
     }
     return result;
+}
+
+// Between its last cycle and this one. A busy agent that misses a few ticks does not stand still.
+bool stoodStill(const AgentTime& time, std::int64_t utc) {
+    const std::int64_t passed = utc - time.table.last();
+    return time.table.knowsPeriod() && passed > longestStep &&
+           passed > mostPeriods * time.table.period();
 }
 
 }  // namespace
@@ -33,8 +43,8 @@ double AgentTime::indexAt(double seconds) const {
 }
 
 std::int64_t AgentTime::cycleAt(std::int64_t index) const {
-    const auto after = std::ranges::upper_bound(starts, index, {}, &RecordedStart::first);
-    return after == starts.begin() ? index : index - (after - 1)->offset;
+    const auto after = std::ranges::upper_bound(stretches, index, {}, &RecordedStretch::first);
+    return after == stretches.begin() ? index : index - (after - 1)->offset;
 }
 
 void Recorder::record(const void* viewer, std::vector<RecordedItem> items) {
@@ -77,20 +87,27 @@ void Recorder::take() {
     texts_ = pending_.texts();
 }
 
-// Cycles are counted on from those before, so that a later start lies behind the earlier one by as
-// many cycles as would have fitted between them.
-std::int64_t Recorder::indexOf(AgentTime& time, const PendingRows& rows, std::size_t row) {
+// Cycles are counted on from those before. A later start, or what follows a standstill, lies behind
+// them by as many cycles as would have fitted between the two, or as there is room for.
+void Recorder::begin(AgentTime& time, const PendingRows& rows, std::size_t row) {
     const std::int64_t cycle = rows.cycles[row], utc = rows.utc[row];
-    if (time.starts.empty() || time.starts.back().epoch != rows.epoch) {
-        std::int64_t first = cycle;
-        if (!time.starts.empty()) {
-            const std::int64_t late = (utc - time.table.last()) / time.table.period();
-            first = time.end + std::max<std::int64_t>(late, 1);
-        }
-        time.starts.push_back({first, first - cycle, rows.epoch});
-        time.table.startAnew(first, utc, 0);
+    std::int64_t first = cycle;
+    if (!time.stretches.empty()) {
+        const std::int64_t late = (utc - time.table.last()) / time.table.period();
+        const auto most = static_cast<std::int64_t>(capacity() / parts);
+        first = time.end + std::clamp<std::int64_t>(late, 1, most);
     }
-    return cycle + time.starts.back().offset;
+    const bool goesOn = !time.stretches.empty() && time.stretches.back().epoch == rows.epoch;
+    time.stretches.push_back({first, first - cycle, rows.epoch});
+    time.table.startAnew(first, utc, goesOn ? time.table.period() : 0);
+}
+
+void Recorder::forgetOld(AgentTime& time) const {
+    const std::int64_t oldest = time.end - static_cast<std::int64_t>(capacity());
+    time.table.forgetBefore(oldest);
+    auto& all = time.stretches;
+    const auto after = std::ranges::upper_bound(all, oldest, {}, &RecordedStretch::first);
+    if (after - all.begin() > 1) all.erase(all.begin(), after - 1);
 }
 
 void Recorder::add(const PendingRows& rows) {
@@ -105,11 +122,14 @@ void Recorder::add(const PendingRows& rows) {
         rings.push_back(wanted ? &found->second : nullptr);
     }
     for (std::size_t row = 0; row < rows.cycles.size(); ++row) {
-        const bool other = time.starts.empty() || time.starts.back().epoch != rows.epoch;
-        const std::int64_t index = indexOf(time, rows, row);
+        const bool other = time.stretches.empty() || time.stretches.back().epoch != rows.epoch;
         const std::int64_t cycles = rows.cycles[row] - time.lastCycle;
         if (!other && cycles <= 0) continue;
-        if (!other) {
+        // Where cycles were lost as well, these are the gap.
+        const bool stood = !other && cycles == 1 && stoodStill(time, rows.utc[row]);
+        if (other || stood) begin(time, rows, row);
+        const std::int64_t index = rows.cycles[row] + time.stretches.back().offset;
+        if (!other && !stood) {
             time.skipped += static_cast<std::uint64_t>(cycles - 1);
             time.table.add(index, rows.utc[row], (rows.nominal[row] - time.lastNominal) / cycles);
         }
@@ -125,7 +145,7 @@ void Recorder::add(const PendingRows& rows) {
             ring->put(index, rows.values[at], rows.qualities[at]);
         }
     }
-    time.table.forgetBefore(time.end - static_cast<std::int64_t>(capacity()));
+    forgetOld(time);
 }
 
 const Ring* Recorder::ring(const RecordedItem& item) const {

@@ -14,8 +14,8 @@
 
 namespace cortex::gui {
 
-// One start of an agent: its cycles, counted on from those of the start before.
-struct RecordedStart {
+// Cycles of one start of an agent without a standstill, counted on from those before.
+struct RecordedStretch {
     std::int64_t first = 0;   // index of its first sample
     std::int64_t offset = 0;  // from its cycles to indexes
     std::int64_t epoch = 0;
@@ -25,7 +25,7 @@ struct RecordedStart {
 struct AgentTime {
     TimeTable table;  // by its clock
     ClockOffset clock;
-    std::vector<RecordedStart> starts;
+    std::vector<RecordedStretch> stretches;
     std::int64_t end = 0;  // behind the newest index
     std::int64_t lastCycle = 0, lastNominal = 0;
     std::uint64_t skipped = 0;  // cycles that did not come
@@ -69,7 +69,8 @@ public:
 private:
     void fit();
     void add(const PendingRows& rows);
-    std::int64_t indexOf(AgentTime& time, const PendingRows& rows, std::size_t row);
+    void begin(AgentTime& time, const PendingRows& rows, std::size_t row);
+    void forgetOld(AgentTime& time) const;
 
     Pending pending_;
     std::size_t capacity_, limit_, allowed_ = Ring::full;

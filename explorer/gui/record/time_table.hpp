@@ -12,12 +12,14 @@ class TimeTable {
 public:
     // The next known sample; its index is above those before it.
     void add(std::int64_t index, std::int64_t utc, std::int64_t period);  // ns
-    // A sample from which on no line leads back, as after another start of the agent.
+    // A sample from which on no line leads back, as after another start of the agent; 0: its period
+    // is not known.
     void startAnew(std::int64_t index, std::int64_t utc, std::int64_t period);
     void forgetBefore(std::int64_t index);
 
     bool empty() const { return points_.empty(); }
     std::int64_t period() const { return period_; }  // ns, the shortest that was seen
+    bool knowsPeriod() const { return known_; }
     std::int64_t last() const { return points_.empty() ? 0 : points_.back().utc; }
     std::int64_t utcAt(std::int64_t index) const;  // beyond its ends by the period
     double indexAt(double utc) const;              // ns; between two samples, too
