@@ -75,12 +75,16 @@ inline std::string motionSystem() {
 
 class MotionAgent : public testing::Test {
 protected:
-    MotionAgent() {
-        folder.write("plant.xml", motionTypes);
-        agent.emplace(agentCommand(folder.write("robot.xml", motionSystem()).string()));
+    explicit MotionAgent(const std::string& types = motionTypes,
+                         const std::string& system = motionSystem()) {
+        folder.write("plant.xml", types);
+        agent.emplace(agentCommand(folder.write("robot.xml", system).string()));
     }
-    static bool starts(const std::string& controller) {
-        for (const std::string path : {"/drives/1", "/drives/2", "/drives/3", controller.c_str()}) {
+    bool starts(const std::string& controller) const {
+        std::vector<std::string> paths;
+        for (int i = 1; i <= axes; ++i) paths.push_back("/drives/" + std::to_string(i));
+        paths.push_back(controller);
+        for (const std::string& path : paths) {
             // Again, where the agent was silent for a second.
             const Outcome started =
                 lookUntil([&] { return live({"call", path, "startup"}); },
@@ -91,13 +95,16 @@ protected:
         return true;
     }
 
+    int axes = 3;
     const ModelFolder folder;
     std::optional<Background> agent;
 };
 
 class MotionWindow : public MotionAgent {
 protected:
-    MotionWindow() : session{ownNetwork()}, window{session} {
+    explicit MotionWindow(const std::string& types = motionTypes,
+                          const std::string& system = motionSystem())
+        : MotionAgent{types, system}, session{ownNetwork()}, window{session} {
         window.resize(1280, 800);
         window.show();
     }
@@ -114,7 +121,7 @@ protected:
         window.open(controller);
         ASSERT_TRUE(comes([&] {
             auto* rows = window.current()->findChild<AxisRows*>();
-            return rows != nullptr && rows->count() == 3 && number(controller, "state") == 2;
+            return rows != nullptr && rows->count() == axes && number(controller, "state") == 2;
         }));
     }
     void opensInControl(const std::string& controller) {
@@ -126,7 +133,7 @@ protected:
                                               : button(0, 1).isEnabled();
         })) << said().toStdString();
     }
-    AxisView& view() { return *window.current()->findChild<AxisView*>(); }
+    explorer::View& view() { return *window.current()->findChild<explorer::View*>(); }
     AxisRows& rows() { return *view().findChild<AxisRows*>(); }
     AxisRow& row(int axis) { return rows().row(axis); }
     QPushButton& button(int axis, int direction) { return row(axis).button(direction); }
@@ -162,11 +169,36 @@ protected:
         return now.number(item).value_or(std::nan(""));
     }
     std::int64_t cycle() { return session.frame()->agents.front().status.cycle; }
-    bool jogs() { return number("/jog", "jogging") == 1; }
+    bool jogs() { return number(jogger, "jogging") == 1; }
+    // It is pressed again where the machine held the window up, which then lets go by itself.
+    bool moves(const std::function<void()>& release, const std::function<void()>& press,
+               const std::function<bool()>& hasMoved) {
+        return comes([&] {
+            if (said().contains("Ended: the window hung")) {
+                release();
+                press();
+            }
+            return jogs() && hasMoved();
+        });
+    }
+    // Says why, and is over in the agent, too; nothing begins anew.
+    void ends(const QString& why) {
+        EXPECT_TRUE(says("Ended: ")) << said().toStdString();
+        EXPECT_TRUE(said().contains("Ended: " + why)) << said().toStdString();
+        EXPECT_TRUE(comes([this] { return !jogs(); }));
+        const std::int64_t then = cycle();
+        bool again = false;
+        EXPECT_TRUE(comes([&] {
+            again = again || jogs();
+            return cycle() > then + 200;
+        }));
+        EXPECT_FALSE(again);
+    }
     bool says(const QString& text) {
         return comes([&] { return said().contains(text); });
     }
 
+    std::string jogger = "/jog";
     Session session;
     MainWindow window;
 };

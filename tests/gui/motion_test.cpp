@@ -29,30 +29,6 @@ protected:
                           [this] { return number("/arm/axes/1", "position") < -0.01; }))
             << said().toStdString();
     }
-    // It is pressed again where the machine held the window up, which then lets go by itself.
-    bool moves(const std::function<void()>& release, const std::function<void()>& press,
-               const std::function<bool()>& hasMoved) {
-        return comes([&] {
-            if (said().contains("Ended: the window hung")) {
-                release();
-                press();
-            }
-            return jogs() && hasMoved();
-        });
-    }
-    // Says why, and is over in the agent, too; nothing begins anew.
-    void ends(const QString& why) {
-        EXPECT_TRUE(says("Ended: ")) << said().toStdString();
-        EXPECT_TRUE(said().contains("Ended: " + why)) << said().toStdString();
-        EXPECT_TRUE(comes([this] { return !jogs(); }));
-        const std::int64_t then = cycle();
-        bool again = false;
-        EXPECT_TRUE(comes([&] {
-            again = again || jogs();
-            return cycle() > then + 200;
-        }));
-        EXPECT_FALSE(again);
-    }
 };
 
 TEST_F(Jogging, TheAxisMovesWhileAButtonIsHeldAndStopsWhenItIsLetGo) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/axis_row.hpp"
 
-#include <QKeyEvent>
+#include "motion/jog_button.hpp"
+
 #include <QLabel>
 #include <QLineEdit>
 #include <QMouseEvent>
@@ -11,32 +12,6 @@
 namespace cortex::explorer {
 
 namespace {
-
-// A button that leaves the arrow keys to the rows: they jog, and do not go from button to button.
-// A press counts once: a pointer that comes back while the mouse is down presses nothing anew.
-class JogButton : public QPushButton {
-public:
-    using QPushButton::QPushButton;
-
-protected:
-    void keyPressEvent(QKeyEvent* event) override {
-        const int key = event->key();
-        const bool arrow =
-            key == Qt::Key_Left || key == Qt::Key_Right || key == Qt::Key_Up || key == Qt::Key_Down;
-        if (arrow)
-            event->ignore();
-        else
-            QPushButton::keyPressEvent(event);
-    }
-    void mouseMoveEvent(QMouseEvent* event) override { event->accept(); }
-};
-
-// A thin stroke would be pale.
-QFont signFont(QFont font) {
-    font.setPointSizeF(font.pointSizeF() * 1.4);
-    font.setWeight(QFont::Bold);
-    return font;
-}
 
 constexpr const char* wrongInput = "wrongInput";  // makes the edge of a field amber
 
@@ -59,8 +34,6 @@ void AxisRow::addButtons() {
     for (const int direction : {-1, 1}) {
         auto* button =
             new JogButton{direction > 0 ? QStringLiteral("+") : QString{QChar{0x2212}}, this};
-        button->setFont(signFont(font()));
-        button->setFocusPolicy(Qt::ClickFocus);  // the rows are one place for the keyboard
         button->setAccessibleName(direction > 0 ? tr("Jog %1 forwards").arg(axis_.name)
                                                 : tr("Jog %1 backwards").arg(axis_.name));
         connect(button, &QPushButton::pressed, this,
@@ -89,7 +62,7 @@ void AxisRow::setPart(RowPart part) {
     part_ = part;
     const bool jogs = part == RowPart::Jog;
     for (QPushButton* each : buttons_) each->setVisible(jogs);
-    field_->setVisible(!jogs);
+    field_->setVisible(part == RowPart::Demand);
     if (noSpeed_ != nullptr) {
         noSpeed_->setVisible(jogs);
         speedField_->setVisible(jogs);
@@ -176,7 +149,6 @@ void AxisRow::resizeEvent(QResizeEvent* /*event*/) { place(); }
 void AxisRow::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
     if (event->type() != QEvent::StyleChange && event->type() != QEvent::FontChange) return;
-    for (QPushButton* each : buttons_) each->setFont(signFont(font()));
     fit();
 }
 

@@ -13,8 +13,9 @@ class QPushButton;
 
 namespace cortex::explorer {
 
-// What a row offers: buttons to jog the axis while they are held, or a field for its demand.
-enum class RowPart { Jog, Demand };
+// What a row offers: buttons to jog the axis while they are held, a field for its demand, or
+// nothing.
+enum class RowPart { Jog, Demand, None };
 
 // How a row is shown, beside the axis itself.
 struct RowLook {

@@ -6,12 +6,11 @@
 #include "motion/axis_plots.hpp"
 #include "motion/choices.hpp"
 #include "motion/demand_bar.hpp"
-#include "motion/labels.hpp"
 #include "motion/motion_bar.hpp"
+#include "motion/motion_page.hpp"
 
-#include <QBoxLayout>
 #include <QPushButton>
-#include <QScrollArea>
+#include <QVBoxLayout>
 #include <algorithm>
 #include <array>
 
@@ -19,68 +18,35 @@ namespace cortex::explorer {
 
 namespace {
 
-constexpr double wideUnits = 195;   // from here on the plot stands beside the axes
 constexpr double settledAfter = 5;  // s, of the plot
 constexpr std::array modes{"Hold", "Position", "Velocity", "Step"};
-
-QScrollArea* scrolled(const QString& name) {
-    auto* area = new QScrollArea;
-    area->setWidgetResizable(true);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    area->setFocusPolicy(Qt::NoFocus);
-    area->setMinimumHeight(1);  // the lines below are never cut
-    area->setAccessibleName(name);
-    return area;
-}
 
 }  // namespace
 
 AxisView::AxisView(std::string path)
     : path_{std::move(path)},
       rows_{new AxisRows},
-      left_{scrolled(tr("Axes"))},
-      right_{scrolled(tr("The last seconds"))},
-      side_{new QWidget},
-      plots_{new AxisPlots},
       demands_{new DemandBar},
-      jogging_{new Plate},
-      ended_{new Sentence{Tone::Quiet}},
-      hint_{new Sentence{Tone::Quiet}},
-      jog_{new Jog{path_,
-                   [this](QWidget& held, const HeldOrder& order) { return hold(held, order); },
-                   this}} {}
+      jog_{new Jog{
+          [this](int axis, double velocity) {
+              return Order{
+                  path_, "jog", {{"axis", std::int64_t{axis} + 1}, {"velocity", velocity}}};
+          },
+          [this](QWidget& held, const HeldOrder& order) { return hold(held, order); }, this}} {}
 
 // Once it is known what the controller is.
 void AxisView::build() {
-    bar_ = new MotionBar{jogs_};
-    auto* top = new QVBoxLayout{this};
-    top->setContentsMargins(0, units(2), 0, units(2));
-    top->setSpacing(units(1));
-    auto* table = new QWidget;
-    auto* column = new QVBoxLayout{table};
-    column->setContentsMargins(0, 0, 0, 0);
-    column->addWidget(bar_);
-    column->addWidget(rows_);
-    column->addWidget(demands_);
-    column->addStretch(1);
-    left_->setWidget(table);
-    auto* side = new QVBoxLayout{side_};
-    side->setContentsMargins(units(3), 0, units(4), 0);
-    side->addWidget(plots_);
-    auto* body = new QHBoxLayout;
-    body->setSpacing(0);
-    body->addWidget(left_, 4);
-    body->addWidget(right_, 3);
-    top->addLayout(body, 1);
-
-    auto* lines = new QVBoxLayout;
-    lines->setContentsMargins(units(4), 0, units(4), 0);
-    lines->setSpacing(units(0.5));
-    for (QWidget* each : std::initializer_list<QWidget*>{jogging_, ended_, hint_})
-        lines->addWidget(each);
-    top->addLayout(lines);
+    using Choice = std::pair<QString, QString>;
+    std::vector<Choice> choices;
+    if (jogs_)
+        choices = {{QStringLiteral("Velocity"), tr("Velocity")},
+                   {QStringLiteral("Position"), tr("Position")}};
+    bar_ = new MotionBar{tr("Mode"), choices};
+    page_ = new MotionPage{{bar_, rows_, demands_}};
+    auto* all = new QVBoxLayout{this};
+    all->setContentsMargins(0, 0, 0, 0);
+    all->addWidget(page_);
     connectParts();
-    arrange();
 }
 
 void AxisView::connectParts() {
@@ -106,25 +72,6 @@ void AxisView::connectParts() {
     });
 }
 
-// Beside the axes where there is room, otherwise below them.
-void AxisView::arrange() {
-    if (bar_ == nullptr) return;
-    left_->setMinimumWidth(units(leastRowUnits + 4));  // with its scroll bar
-    const bool wide = width() >= units(wideUnits);
-    if (wide == (right_->widget() == side_)) return;
-    if (wide) {
-        right_->setWidget(side_);
-    } else {
-        if (right_->widget() == side_) right_->takeWidget();
-        auto* column = qobject_cast<QBoxLayout*>(left_->widget()->layout());
-        column->insertWidget(column->count() - 1, side_);
-    }
-    right_->setVisible(wide);
-    side_->show();
-}
-
-void AxisView::resizeEvent(QResizeEvent* /*event*/) { arrange(); }
-
 void AxisView::bind(const SystemNow& now) {
     const Type* type = now.at(path_).type();
     if (type == nullptr) return;
@@ -142,7 +89,7 @@ void AxisView::bind(const SystemNow& now) {
     axes_ = std::move(axes);
     rows_->make(axes_, jogs_ ? RowPart::Jog : RowPart::Demand, jogs_);
     demands_->forget(axes_.size());
-    plots_->forget(axes_.size());
+    page_->plots().forget(axes_.size());
     const auto has = [&](bool linear) {
         return std::ranges::any_of(axes_,
                                    [&](const auto& each) { return each.isLinear() == linear; });
@@ -161,7 +108,7 @@ std::vector<Watch> AxisView::watches() const {
     return {watch};
 }
 
-bool AxisView::settled() const { return axes_.empty() || plots_->length() >= settledAfter; }
+bool AxisView::settled() const { return axes_.empty() || page_->plots().length() >= settledAfter; }
 
 void AxisView::takeIn(const SystemNow& now) {
     const SimplexNow controller = now.at(path_);
@@ -192,11 +139,11 @@ void AxisView::refresh(const SystemNow& now) {
     showRows();
     showDemands();
     showLines();
-    plots_->add(axes_, SmallPlot::clock());
+    page_->plots().add(axes_, SmallPlot::clock());
     if (rows_->count() == 0) return;
     const MotionAxis& chosen = axis(rows_->selected());
-    plots_->show(chosen, static_cast<std::size_t>(rows_->selected()), positionOf(chosen),
-                 velocityOf(chosen));
+    page_->plots().show(chosen, static_cast<std::size_t>(rows_->selected()), positionOf(chosen),
+                        velocityOf(chosen));
 }
 
 }  // namespace cortex::explorer

@@ -8,15 +8,11 @@
 #include <string>
 #include <vector>
 
-class QScrollArea;
-
 namespace cortex::explorer {
 
-class AxisPlots;
 class DemandBar;
 class MotionBar;
-class Plate;
-class Sentence;
+class MotionPage;
 
 // The axes of a JogController or an AxisPoseController: how they are, jogging while a button or key
 // is held, and demands that are entered and sent together.
@@ -30,13 +26,9 @@ public:
     std::vector<Watch> watches() const override;
     bool settled() const override;  // there is something of the past to see
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     void build();
     void connectParts();
-    void arrange();
 
     void takeIn(const SystemNow& now);
     void showRows();
@@ -74,12 +66,8 @@ private:
 
     MotionBar* bar_ = nullptr;
     AxisRows* rows_;
-    QScrollArea *left_, *right_;
-    QWidget* side_;
-    AxisPlots* plots_;
     DemandBar* demands_;
-    Plate* jogging_;
-    Sentence *ended_, *hint_;
+    MotionPage* page_ = nullptr;
     Jog* jog_;
 };
 

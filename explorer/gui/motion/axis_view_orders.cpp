@@ -4,9 +4,9 @@
 #include "motion/choices.hpp"
 #include "motion/demand_bar.hpp"
 #include "motion/motion_bar.hpp"
+#include "motion/motion_page.hpp"
 
 #include <QLineEdit>
-#include <QScrollArea>
 #include <algorithm>
 
 namespace cortex::explorer {
@@ -20,7 +20,7 @@ constexpr std::int64_t positionMode = 1, velocityMode = 2;
 void AxisView::choose(int axis) {
     if (jog_->runs() && axis != jog_->axis()) jog_->end(tr("another axis was chosen"));
     rows_->select(axis);
-    left_->ensureWidgetVisible(&rows_->row(axis), 0, units(2));
+    page_->reveal(rows_->row(axis));
     showRows();
 }
 

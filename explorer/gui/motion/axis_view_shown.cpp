@@ -3,8 +3,8 @@
 #include "motion/axis_view.hpp"
 #include "motion/choices.hpp"
 #include "motion/demand_bar.hpp"
-#include "motion/labels.hpp"
 #include "motion/motion_bar.hpp"
+#include "motion/motion_page.hpp"
 
 #include <QPushButton>
 #include <cmath>
@@ -12,8 +12,6 @@
 namespace cortex::explorer {
 
 namespace {
-
-constexpr double lowUnits = 80;
 
 bool isDemands(const QString& mode) { return mode == QLatin1String{"Position"}; }
 
@@ -99,32 +97,26 @@ QString AxisView::limitSentence() const {
 
 void AxisView::showLines() {
     const bool jogs = jogs_ && !isDemands(mode_);
+    QString jogging;
     if (jog_->runs()) {
         const MotionAxis& each = axis(jog_->axis());
-        jogging_->say(tr("Jogging %1 at %2. It ends %3 s after you let go.")
-                          .arg(each.name, velocityOf(each).withSign(jog_->velocity()))
-                          .arg(jog_->holdTime()));
-    } else {
-        jogging_->say({});
+        jogging = tr("Jogging %1 at %2. It ends %3 s after you let go.")
+                      .arg(each.name, velocityOf(each).withSign(jog_->velocity()))
+                      .arg(jog_->holdTime());
     }
-    const QString ended = jog_->said();
-    ended_->say(ended);
-    ended_->setVisible(!ended.isEmpty());
+    QString hint;
+    Tone tone = Tone::Quiet;
     const QString limits = jogs ? limitSentence() : QString{};
     if (!whyNot_.isEmpty() && !jog_->runs()) {
-        hint_->say(whyNot_, Tone::Quiet);
+        hint = whyNot_;
     } else if (!limits.isEmpty()) {
-        hint_->say(limits, Tone::Limit);
+        hint = limits;
+        tone = Tone::Limit;
     } else if (jogs && rows_->count() > 0) {
-        hint_->say(tr("← → jog %1 while they are held, ↑ ↓ choose the axis.")
-                       .arg(axis(rows_->selected()).name),
-                   Tone::Quiet);
-    } else {
-        hint_->say({});
+        hint = tr("← → jog %1 while they are held, ↑ ↓ choose the axis.")
+                   .arg(axis(rows_->selected()).name);
     }
-    // Where there is little room, one of them at a time.
-    const bool crowded = height() < units(lowUnits) && (jog_->runs() || !ended.isEmpty());
-    hint_->setVisible(!crowded && !hint_->text().isEmpty());
+    page_->say(jogging, jog_->said(), hint, tone);
     if (!jogs_) return;
     const bool usual = mode_ == QLatin1String{"Velocity"} || isDemands(mode_) || mode_.isEmpty();
     bar_->sayMode(!usual              ? tr("It is %1. To jog, press Velocity.").arg(mode_)

@@ -15,8 +15,8 @@ constexpr auto longestStep = 100ms, toldFor = 5000ms;
 
 }  // namespace
 
-Jog::Jog(std::string controller, Begin begin, QObject* parent)
-    : QObject{parent}, controller_{std::move(controller)}, begin_{std::move(begin)} {}
+Jog::Jog(MakeOrder order, Begin begin, QObject* parent)
+    : QObject{parent}, order_{std::move(order)}, begin_{std::move(begin)} {}
 
 // A command that comes too late expires, and does not move the axis later.
 void Jog::start(QWidget& held, int axis, double velocity, double holdTime) {
@@ -26,9 +26,9 @@ void Jog::start(QWidget& held, int axis, double velocity, double holdTime) {
     velocity_ = velocity;
     holdTime_ = holdTime;
     const milliseconds lasts{static_cast<int>(holdTime * 1000)};
-    HeldOrder order{{controller_, "jog", argumentsOf(velocity), std::max(lasts, 1ms)},
-                    std::clamp<milliseconds>(lasts / 3, 1ms, longestStep),
-                    argumentsOf(0)};
+    HeldOrder order{order_(axis, velocity), std::clamp<milliseconds>(lasts / 3, 1ms, longestStep),
+                    order_(axis, 0).arguments};
+    order.order.budget = std::max(lasts, 1ms);
     said_.clear();
     hold_ = begin_(held, order);
     if (!hold_) return;
@@ -44,7 +44,7 @@ void Jog::start(QWidget& held, int axis, double velocity, double holdTime) {
 void Jog::change(double velocity) {
     if (!runs() || velocity == velocity_) return;
     velocity_ = velocity;
-    hold_->change(argumentsOf(velocity));
+    hold_->change(order_(axis_, velocity).arguments);
 }
 
 void Jog::end(const QString& why) {
@@ -61,10 +61,6 @@ QString Jog::said() const {
 void Jog::say(const QString& text) {
     said_ = text;
     since_ = std::chrono::steady_clock::now();
-}
-
-Arguments Jog::argumentsOf(double velocity) const {
-    return {{"axis", std::int64_t{axis_} + 1}, {"velocity", velocity}};
 }
 
 }  // namespace cortex::explorer

@@ -13,16 +13,18 @@
 
 namespace cortex::explorer {
 
-// One axis that is jogged while something is held, and what is said about it.
+// One axis, or one motion of the tip, that is jogged while something is held, and what is said
+// about it.
 class Jog : public QObject {
     Q_OBJECT
 public:
     using Begin = std::function<Hold*(QWidget& held, const HeldOrder& order)>;
+    using MakeOrder = std::function<Order(int axis, double velocity)>;  // without a budget
 
     // `begin`: how the view repeats an order.
-    Jog(std::string controller, Begin begin, QObject* parent = nullptr);
+    Jog(MakeOrder order, Begin begin, QObject* parent = nullptr);
 
-    // Repeats the command with this velocity until `held` is let go, and sends 0 once then.
+    // Repeats the order with this velocity until `held` is let go, and sends 0 once then.
     void start(QWidget& held, int axis, double velocity, double holdTime);
     void change(double velocity);
     void end(const QString& why);
@@ -36,9 +38,7 @@ public:
     void say(const QString& text);  // instead of beginning
 
 private:
-    Arguments argumentsOf(double velocity) const;
-
-    std::string controller_;
+    MakeOrder order_;
     Begin begin_;
     QPointer<Hold> hold_;
     int axis_ = 0;

@@ -20,16 +20,16 @@ std::vector<std::pair<QString, QString>> unitsOf(const QString& one, const QStri
 
 }  // namespace
 
-MotionBar::MotionBar(bool hasModes, QWidget* parent)
+MotionBar::MotionBar(const QString& mode, const std::vector<std::pair<QString, QString>>& modes,
+                     QWidget* parent)
     : QWidget{parent},
       slider_{new QSlider{Qt::Horizontal}},
       percent_{new QLabel},
       speed_{new Sentence{Tone::Quiet}},
       angles_{new Choices{unitsOf(QStringLiteral("rad"), QStringLiteral("deg"))}},
       lengths_{new Choices{unitsOf(QStringLiteral("m"), QStringLiteral("mm"))}},
-      modes_{new Choices{{{QStringLiteral("Velocity"), tr("Velocity")},
-                          {QStringLiteral("Position"), tr("Position")}}}},
-      modeName_{new QLabel{tr("Mode")}},
+      modes_{new Choices{modes}},
+      modeName_{new QLabel{mode}},
       mode_{new Sentence} {
     slider_->setRange(1, 100);
     slider_->setValue(firstPercent);
@@ -42,6 +42,7 @@ MotionBar::MotionBar(bool hasModes, QWidget* parent)
         Q_EMIT shareChanged();
     });
     tell();
+    const bool hasModes = !modes.empty();
     for (QWidget* each : std::initializer_list<QWidget*>{modeName_, modes_, mode_})
         each->setVisible(hasModes);
     layOut(hasModes);

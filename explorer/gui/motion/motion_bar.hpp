@@ -3,6 +3,8 @@
 
 #include <QString>
 #include <QWidget>
+#include <utility>
+#include <vector>
 
 class QLabel;
 class QSlider;
@@ -12,11 +14,13 @@ namespace cortex::explorer {
 class Choices;
 class Sentence;
 
-// Above the axes: the share of the greatest speed, the units, and the mode of a JogController.
+// Above the axes: the share of the greatest speed, the units, and what the controller lets choose.
 class MotionBar : public QWidget {
     Q_OBJECT
 public:
-    MotionBar(bool hasModes, QWidget* parent = nullptr);
+    // What is chosen, such as its mode: a name for the program and the text of each. None: nothing.
+    MotionBar(const QString& mode, const std::vector<std::pair<QString, QString>>& modes,
+              QWidget* parent = nullptr);
 
     double share() const;  // 0.01 to 1; 0.1 at the beginning, always
     QSlider& slider() const { return *slider_; }

@@ -2,6 +2,7 @@
 #include "motion/motion_views.hpp"
 
 #include "motion/axis_view.hpp"
+#include "motion/tip_view.hpp"
 
 #include <array>
 
@@ -11,7 +12,10 @@ namespace {
 
 View* makeAxisView(const std::string& path) { return new AxisView{path}; }
 
+View* makeTipView(const std::string& path) { return new TipView{path}; }
+
 constexpr std::array views{ViewType{"jog", "Jog", "JogController", &makeAxisView},
+                           ViewType{"tip", "Jog", "CartesianJogController", &makeTipView},
                            ViewType{"pose", "Axes", "AxisPoseController", &makeAxisView}};
 
 }  // namespace

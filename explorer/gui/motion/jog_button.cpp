@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion/jog_button.hpp"
+
+#include <QApplication>
+#include <QEvent>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <algorithm>
+#include <array>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr std::array movingKeys{Qt::Key_Left, Qt::Key_Right,  Qt::Key_Up,
+                                Qt::Key_Down, Qt::Key_PageUp, Qt::Key_PageDown};
+
+}  // namespace
+
+JogButton::JogButton(const QString& text, QWidget* parent) : QPushButton{text, parent} {
+    setFocusPolicy(Qt::ClickFocus);  // what it stands in is one place for the keyboard
+    dress();
+}
+
+void JogButton::keyPressEvent(QKeyEvent* event) {
+    if (std::ranges::find(movingKeys, event->key()) != movingKeys.end())
+        event->ignore();
+    else
+        QPushButton::keyPressEvent(event);
+}
+
+void JogButton::mouseMoveEvent(QMouseEvent* event) { event->accept(); }
+
+void JogButton::changeEvent(QEvent* event) {
+    QPushButton::changeEvent(event);
+    const QEvent::Type type = event->type();
+    if (type == QEvent::StyleChange || type == QEvent::ApplicationFontChange) dress();
+}
+
+// A thin stroke would be pale.
+void JogButton::dress() {
+    if (dressing_) return;
+    dressing_ = true;
+    QFont strong = QApplication::font();
+    strong.setPointSizeF(strong.pointSizeF() * (text().size() > 1 ? 1.1 : 1.4));
+    strong.setWeight(QFont::Bold);
+    setFont(strong);
+    dressing_ = false;
+}
+
+}  // namespace cortex::explorer

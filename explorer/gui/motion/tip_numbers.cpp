@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion/tip_numbers.hpp"
+
+#include "motion/labels.hpp"
+
+#include <QGridLayout>
+#include <QLabel>
+
+namespace cortex::explorer {
+
+namespace {
+
+constexpr double nearSingular = 0.05;  // below it the tip moves less than was asked for
+
+constexpr std::array names{"x", "y", "z", "roll", "pitch", "yaw"};
+
+// What the labels of the type mean.
+QString heldBackText(const QString& label) {
+    if (label == QLatin1String{"Speed"})
+        return TipNumbers::tr("Slowed: an axis is at its greatest speed");
+    if (label == QLatin1String{"Limit"})
+        return TipNumbers::tr("Held back: an axis is near its limit");
+    if (label == QLatin1String{"Singularity"})
+        return TipNumbers::tr("Slowed: near a posture in which the tip cannot move this way");
+    return {};
+}
+
+}  // namespace
+
+TipNumbers::TipNumbers(QWidget* parent)
+    : QWidget{parent},
+      title_{new QLabel},
+      heldBack_{new Sentence{Tone::Limit}},
+      distance_{new Sentence{Tone::Quiet}} {
+    auto* grid = new QGridLayout{this};
+    grid->setContentsMargins(units(4), 0, units(4), units(1));
+    grid->setSpacing(units(1));
+    title_->setTextFormat(Qt::PlainText);
+    grid->addWidget(title_, 0, 0, 1, 7);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const int row = 1 + static_cast<int>(i / 3), column = 2 * static_cast<int>(i % 3);
+        grid->addWidget(new QLabel{QLatin1String{names[i]}}, row, column);
+        numbers_[i] = new QLabel;
+        numbers_[i]->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+        numbers_[i]->setAccessibleName(QLatin1String{names[i]});
+        grid->addWidget(numbers_[i], row, column + 1);
+    }
+    grid->setColumnStretch(6, 1);
+    grid->addWidget(distance_, 3, 0, 1, 7);
+    grid->addWidget(heldBack_, 4, 0, 1, 7);
+}
+
+void TipNumbers::show(const Tip& tip, const ShownNumber& lengths, const ShownNumber& angles) {
+    title_->setText(
+        tip.pose.empty()
+            ? tr("No simplex computes where the tip is: relate a ForwardKinematics "
+                 "with these axes")
+            : tr("Tip in the base (%1, %2): %3")
+                  .arg(lengths.unit.text, angles.unit.text, QString::fromStdString(tip.pose)));
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+        const QString text = (i < 3 ? lengths : angles).text(tip.at[i]);
+        numbers_[i]->setText(tip.at[i] && !tip.live ? '[' + text + ']' : text);
+        numbers_[i]->setMinimumWidth(units(17));
+    }
+    const bool near = tip.singularDistance && *tip.singularDistance < nearSingular;
+    const QString distance =
+        tip.singularDistance ? QString::number(*tip.singularDistance, 'f', 2) : QStringLiteral("—");
+    distance_->say(tr("Distance from a singular posture: %1").arg(distance),
+                   near ? Tone::Limit : Tone::Quiet);
+    const QString held = heldBackText(tip.heldBack);
+    heldBack_->say(held);
+    heldBack_->setVisible(!held.isEmpty());
+}
+
+}  // namespace cortex::explorer
