@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Jogging in the window, with a real agent over DDS: how it begins, and each way in which it ends.
 #include "gui/motion_fixture.hpp"
+#include "motion/motion_views.hpp"
+#include "views/manual_view.hpp"
 
 #include <QLineEdit>
 #include <QMenu>
+#include <memory>
+#include <span>
+#include <tuple>
 
 namespace cortex::test {
 namespace {
@@ -30,6 +35,47 @@ protected:
             << said().toStdString();
     }
 };
+
+TEST(ViewsOfMotion, NameTheirSectionOfTheManual) {
+    const explorer::Plugin& plugin = explorer::motionViews();
+    gui::ManualView manual;
+    for (const explorer::ViewType& each : std::span{plugin.views, plugin.count}) {
+        const std::unique_ptr<explorer::View> view{each.make("/x")};
+        EXPECT_EQ(gui::ManualView::sectionOf(view.get()), "Moving axes") << each.name;
+        EXPECT_TRUE(manual.openAt(gui::ManualView::sectionOf(view.get())));
+    }
+}
+
+// A late one must expire, or the axis would move on after a standstill of the network.
+TEST(OrderOfAJog, ComesThriceInItsHoldTimeAndLivesNoLongerThanIt) {
+    using namespace std::chrono_literals;
+    const auto orderFor = [](double lasts) {
+        explorer::HeldOrder order;
+        explorer::Jog jog{
+            [](int axis, double velocity) -> explorer::Order {
+                return {"/jog", "jog", {{"axis", std::int64_t{axis}}, {"velocity", velocity}}};
+            },
+            [&](QWidget& /*held*/, const explorer::HeldOrder& begun) {
+                order = begun;
+                return static_cast<explorer::Hold*>(nullptr);
+            }};
+        QWidget button;
+        jog.start(button, 3, -0.5, lasts);
+        return order;
+    };
+    for (const auto& [holds, period, budget] :
+         {std::tuple{0.25, 83ms, 250ms}, {0.06, 20ms, 60ms}, {1.0, 100ms, 1000ms}}) {
+        const explorer::HeldOrder order = orderFor(holds);
+        EXPECT_EQ(order.every, period) << holds;
+        EXPECT_EQ(order.order.budget, budget) << holds;
+        EXPECT_EQ(std::get<std::vector<double>>(order.order.arguments.at("velocity")),
+                  std::vector{-0.5});
+        EXPECT_EQ(std::get<std::vector<double>>(order.atEnd.value().at("velocity")),
+                  std::vector{0.0});
+        EXPECT_EQ(std::get<std::vector<std::int64_t>>(order.atEnd.value().at("axis")),
+                  std::vector<std::int64_t>{3});
+    }
+}
 
 TEST_F(Jogging, TheAxisMovesWhileAButtonIsHeldAndStopsWhenItIsLetGo) {
     ASSERT_NO_FATAL_FAILURE(holdsButton());

@@ -18,7 +18,6 @@ namespace cortex::explorer {
 
 namespace {
 
-constexpr double settledAfter = 5;  // s, of the plot
 constexpr std::array modes{"Hold", "Position", "Velocity", "Step"};
 
 }  // namespace
@@ -108,7 +107,7 @@ std::vector<Watch> AxisView::watches() const {
     return {watch};
 }
 
-bool AxisView::settled() const { return axes_.empty() || page_->plots().length() >= settledAfter; }
+bool AxisView::settled() const { return axes_.empty() || page_->settled(); }
 
 void AxisView::takeIn(const SystemNow& now) {
     const SimplexNow controller = now.at(path_);

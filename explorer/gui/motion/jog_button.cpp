@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/jog_button.hpp"
 
+#include "cortex/explorer/theme.hpp"
+
 #include <QApplication>
 #include <QEvent>
 #include <QKeyEvent>
@@ -12,6 +14,7 @@ namespace cortex::explorer {
 
 namespace {
 
+constexpr double manyLetters = 3.5, oneSign = 4.5;  // units high
 constexpr std::array movingKeys{Qt::Key_Left, Qt::Key_Right,  Qt::Key_Up,
                                 Qt::Key_Down, Qt::Key_PageUp, Qt::Key_PageDown};
 
@@ -37,12 +40,13 @@ void JogButton::changeEvent(QEvent* event) {
     if (type == QEvent::StyleChange || type == QEvent::ApplicationFontChange) dress();
 }
 
-// A thin stroke would be pale.
+// A thin stroke would be pale. The size goes with that of the button.
 void JogButton::dress() {
     if (dressing_) return;
     dressing_ = true;
     QFont strong = QApplication::font();
-    strong.setPointSizeF(strong.pointSizeF() * (text().size() > 1 ? 1.1 : 1.4));
+    const int pixels = units(text().size() > 1 ? manyLetters : oneSign);
+    strong.setPointSizeF(pixels * 72.0 / logicalDpiY());
     strong.setWeight(QFont::Bold);
     setFont(strong);
     dressing_ = false;

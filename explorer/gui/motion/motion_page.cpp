@@ -12,8 +12,9 @@ namespace cortex::explorer {
 
 namespace {
 
-constexpr double wideUnits = 195;  // from here on the plot stands beside the axes
-constexpr double lowUnits = 80;    // below it there is room for one line only
+constexpr double wideUnits = 195;   // from here on the plot stands beside the axes
+constexpr double lowUnits = 80;     // below it there is room for one line only
+constexpr double settledAfter = 5;  // s, of the plots
 
 QScrollArea* scrolled(const QString& name) {
     auto* area = new QScrollArea;
@@ -66,6 +67,8 @@ QWidget* MotionPage::lines() {
         column->addWidget(each);
     return box;
 }
+
+bool MotionPage::settled() const { return plots_->length() >= settledAfter; }
 
 void MotionPage::reveal(QWidget& part) { left_->ensureWidgetVisible(&part, 0, units(2)); }
 

@@ -25,6 +25,7 @@ public:
     MotionPage(const std::vector<QWidget*>& column, QWidget* parent = nullptr);
 
     AxisPlots& plots() const { return *plots_; }
+    bool settled() const;        // there is something of the past to see
     void reveal(QWidget& part);  // of the column
     // What jogs now, why the last jog ended, and what else is to be known. Empty: nothing.
     void say(const QString& jogging, const QString& ended, const QString& hint,

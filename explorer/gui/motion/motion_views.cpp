@@ -3,16 +3,23 @@
 
 #include "motion/axis_view.hpp"
 #include "motion/tip_view.hpp"
+#include "views/manual_view.hpp"
 
+#include <QCoreApplication>
 #include <array>
 
 namespace cortex::explorer {
 
 namespace {
 
-View* makeAxisView(const std::string& path) { return new AxisView{path}; }
+View* withHelp(View* view) {
+    gui::ManualView::helpOf(*view, QCoreApplication::translate("Motion", "Moving axes"));
+    return view;
+}
 
-View* makeTipView(const std::string& path) { return new TipView{path}; }
+View* makeAxisView(const std::string& path) { return withHelp(new AxisView{path}); }
+
+View* makeTipView(const std::string& path) { return withHelp(new TipView{path}); }
 
 constexpr std::array views{ViewType{"jog", "Jog", "JogController", &makeAxisView},
                            ViewType{"tip", "Jog", "CartesianJogController", &makeTipView},

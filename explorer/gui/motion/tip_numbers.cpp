@@ -36,18 +36,19 @@ TipNumbers::TipNumbers(QWidget* parent)
     grid->setContentsMargins(units(4), 0, units(4), units(1));
     grid->setSpacing(units(1));
     title_->setTextFormat(Qt::PlainText);
-    grid->addWidget(title_, 0, 0, 1, 7);
+    grid->addWidget(title_, 0, 0, 1, 9);
     for (std::size_t i = 0; i < names.size(); ++i) {
-        const int row = 1 + static_cast<int>(i / 3), column = 2 * static_cast<int>(i % 3);
+        const int row = 1 + static_cast<int>(i / 3), column = 3 * static_cast<int>(i % 3);
         grid->addWidget(new QLabel{QLatin1String{names[i]}}, row, column);
         numbers_[i] = new QLabel;
         numbers_[i]->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
         numbers_[i]->setAccessibleName(QLatin1String{names[i]});
         grid->addWidget(numbers_[i], row, column + 1);
     }
-    grid->setColumnStretch(6, 1);
-    grid->addWidget(distance_, 3, 0, 1, 7);
-    grid->addWidget(heldBack_, 4, 0, 1, 7);
+    for (const int gap : {2, 5}) grid->setColumnMinimumWidth(gap, units(5));
+    grid->setColumnStretch(8, 1);
+    grid->addWidget(distance_, 3, 0, 1, 9);
+    grid->addWidget(heldBack_, 4, 0, 1, 9);
 }
 
 void TipNumbers::show(const Tip& tip, const ShownNumber& lengths, const ShownNumber& angles) {
@@ -60,13 +61,13 @@ void TipNumbers::show(const Tip& tip, const ShownNumber& lengths, const ShownNum
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
         const QString text = (i < 3 ? lengths : angles).text(tip.at[i]);
         numbers_[i]->setText(tip.at[i] && !tip.live ? '[' + text + ']' : text);
-        numbers_[i]->setMinimumWidth(units(17));
+        numbers_[i]->setMinimumWidth(units(13));
     }
-    const bool near = tip.singularDistance && *tip.singularDistance < nearSingular;
+    const bool isNear = tip.singularDistance && *tip.singularDistance < nearSingular;
     const QString distance =
         tip.singularDistance ? QString::number(*tip.singularDistance, 'f', 2) : QStringLiteral("—");
     distance_->say(tr("Distance from a singular posture: %1").arg(distance),
-                   near ? Tone::Limit : Tone::Quiet);
+                   isNear ? Tone::Limit : Tone::Quiet);
     const QString held = heldBackText(tip.heldBack);
     heldBack_->say(held);
     heldBack_->setVisible(!held.isEmpty());

@@ -17,7 +17,6 @@ namespace cortex::explorer {
 
 namespace {
 
-constexpr double settledAfter = 5;  // s, of the plot
 constexpr std::int64_t baseFrame = 0, tipFrame = 1;
 
 }  // namespace
@@ -79,7 +78,7 @@ std::vector<Watch> TipView::watches() const {
     return {watch};
 }
 
-bool TipView::settled() const { return axes_.empty() || page_->plots().length() >= settledAfter; }
+bool TipView::settled() const { return axes_.empty() || page_->settled(); }
 
 void TipView::refresh(const SystemNow& now) {
     const QString frame = tip_.frame;
@@ -198,19 +197,21 @@ QString TipView::limitSentence() const {
 void TipView::showLines() {
     QString jogging;
     if (jog_->runs()) {
-        jogging = tr("Jogging %1 at %2 in the frame %3. It ends %4 s after you let go.")
-                      .arg(tipMotionName(jog_->axis()),
-                           shownOf(jog_->axis()).withSign(jog_->velocity()), tip_.frame)
-                      .arg(jog_->holdTime());
+        const bool elbow = jog_->axis() == tipElbow;  // it turns about no axis of a frame
+        jogging =
+            (elbow ? tr("Jogging %1 at %2.") : tr("Jogging %1 at %2 in the frame %3."))
+                .arg(tipMotionName(jog_->axis()), shownOf(jog_->axis()).withSign(jog_->velocity()));
+        if (!elbow) jogging = jogging.arg(tip_.frame);
+        jogging += tr(" It ends %1 s after you let go.").arg(jog_->holdTime());
     }
     const QString limits = limitSentence();
     const bool refused = !whyNot_.isEmpty() && !jog_->runs();
-    const QString keys =
+    const QString help =
         tr("Hold a button; or ← → ↑ ↓, Page Up and Page Down for X, Y and Z, with "
            "Shift to turn.");
     page_->say(jogging, jog_->said(),
                refused            ? whyNot_
-               : limits.isEmpty() ? keys
+               : limits.isEmpty() ? help
                                   : limits,
                refused || limits.isEmpty() ? Tone::Quiet : Tone::Limit);
 }
