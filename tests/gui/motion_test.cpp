@@ -6,6 +6,7 @@
 
 #include <QLineEdit>
 #include <QMenu>
+#include <array>
 #include <memory>
 #include <span>
 #include <tuple>
@@ -35,6 +36,19 @@ protected:
             << said().toStdString();
     }
 };
+
+TEST(NamesOfAxes, AreToldApartByTheirPathsWhereTheyAreShared) {
+    std::vector<explorer::MotionAxis> axes(5);
+    const std::array paths{"/left/axes/1", "/right/axes/1", "/lift", "/left/axes/2", ""};
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        axes[i].axis = paths[i];
+        axes[i].name = i < 2 ? "A1" : i == 2 ? "lift" : i == 3 ? "A2" : "x";
+    }
+    explorer::tellApart(axes);
+    QStringList names;
+    for (const explorer::MotionAxis& each : axes) names << each.name;
+    EXPECT_EQ(names.join(' '), "left/axes/1 right/axes/1 lift A2 x");
+}
 
 TEST(ViewsOfMotion, NameTheirSectionOfTheManual) {
     const explorer::Plugin& plugin = explorer::motionViews();

@@ -82,6 +82,29 @@ bool MotionAxis::isSame(const MotionAxis& other) const {
            max == other.max && most == other.most;
 }
 
+void tellApart(std::vector<MotionAxis>& axes) {
+    std::vector<QString> names;
+    for (const MotionAxis& each : axes) {
+        const auto endOf = [](const MotionAxis& axis, int count) {
+            const QStringList parts = partsOf(axis.axis.empty() ? axis.demand : axis.axis);
+            return parts.mid(static_cast<int>(parts.size()) - count).join('/');
+        };
+        const auto isShared = [&](const auto& nameOfOne) {
+            return std::ranges::count_if(axes, [&](const MotionAxis& other) {
+                       return nameOfOne(other) == nameOfOne(each);
+                   }) > 1;
+        };
+        names.push_back(each.name);
+        if (!isShared([](const MotionAxis& axis) { return axis.name; })) continue;
+        int count = 2;
+        const int all = static_cast<int>(partsOf(each.axis).size());
+        while (count < all && isShared([&](const MotionAxis& axis) { return endOf(axis, count); }))
+            ++count;
+        names.back() = endOf(each, count);
+    }
+    for (std::size_t i = 0; i < axes.size(); ++i) axes[i].name = names[i];
+}
+
 std::vector<MotionAxis> axesOf(const SystemNow& now, const std::string& controller) {
     const SimplexNow simplex = now.at(controller);
     const auto axes = simplex.related("axes"), demands = simplex.related("demands");
@@ -89,6 +112,7 @@ std::vector<MotionAxis> axesOf(const SystemNow& now, const std::string& controll
     for (std::size_t i = 0; i < demands.size(); ++i) {
         result.push_back(axisOf(now, i < axes.size() ? axes[i] : std::string{}, demands[i]));
     }
+    tellApart(result);
     return result;
 }
 

@@ -35,5 +35,7 @@ struct MotionAxis {
 // The axes of a controller: what it names under `axes` and `demands`, in order.
 std::vector<MotionAxis> axesOf(const SystemNow& now, const std::string& controller);
 void refresh(MotionAxis& axis, const SystemNow& now);
+// Names that are shared become as much of the ends of the paths as tells them apart: "left/1".
+void tellApart(std::vector<MotionAxis>& axes);
 
 }  // namespace cortex::explorer
