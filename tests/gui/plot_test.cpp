@@ -307,6 +307,21 @@ TEST_F(Plot, TheCsvHasEveryCycleThatCameWithItsQuality) {
     EXPECT_EQ(found[4], "2023-11-14T22:13:20.008000000Z,8,,stale,0,good");
 }
 
+TEST_F(Plot, TheCsvWritesAWholeNumberThatIsRoundedAsSuch) {
+    view.add({mode});
+    show();
+    for (const std::int64_t value :
+         {9'007'199'254'740'991, 9'007'199'254'740'993, std::int64_t{-7}}) {
+        agent.put("/switch", "mode", value);
+        run(1, still);
+    }
+    recorder.take();
+    std::ostringstream text;
+    writeCsv(text, view.drawn(), recorder, {at(0), at(1'000)});
+    for (const char* row : {",9007199254740991,good", ",9.007199254740992e+15,good", ",-7,good"})
+        EXPECT_NE(text.str().find(row), std::string::npos) << text.str();
+}
+
 TEST_F(Plot, IsExportedAsCsvPngAndSvg) {
     view.add({position});
     show();

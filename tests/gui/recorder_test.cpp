@@ -3,6 +3,7 @@
 #include "record/recorder.hpp"
 
 #include "made_agent.hpp"
+#include "model/plotted_items.hpp"
 
 #include <cmath>
 
@@ -39,6 +40,15 @@ TEST_F(Recording, KeepsEveryCycleWithItsTime) {
     }
     EXPECT_NEAR(time().indexAt(time().secondsAt(42)), 42, 0.01);
     EXPECT_EQ(time().skipped, 0U);
+}
+
+// It becomes a lane of words.
+TEST_F(Recording, AnItemThatIsFoundIsPlottedAlsoIfItIsAText) {
+    MadeAgent settled{"far", [](SimplexTree& tree) { tree.add("/probe", "SettledProbe"); }};
+    const std::shared_ptr<Frame> frame = test::frameOf({settled.now()});
+    for (const auto& [item, lines] : {std::pair{"gain", 1U}, {"names", 2U}, {"gone", 0U}})
+        EXPECT_EQ(plottedItems(*frame, "/probe", item).size(), lines) << item;
+    EXPECT_TRUE(plottedItems(*frame, "/gone", "gain").empty());
 }
 
 TEST_F(Recording, CountsCyclesThatDidNotComeAndLeavesAGap) {

@@ -66,7 +66,7 @@ std::vector<RecordedItem> plottedItems(const Frame& frame, const std::string& pa
     std::vector<RecordedItem> found;
     const auto place = frame.find(path);
     const DataItem* known = place ? frame.type(*place).findData(item) : nullptr;
-    if (known != nullptr && known->kind != Kind::String) add(found, path, *known, 0, known->length);
+    if (known != nullptr) add(found, path, *known, 0, known->length);
     return found;
 }
 

@@ -8,6 +8,8 @@
 #include "plots/lanes.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <ostream>
 #include <set>
@@ -35,6 +37,17 @@ std::string columnName(const PlotLine& line) {
     return field(name);
 }
 
+constexpr double exactWhole = 9'007'199'254'740'992;  // 2^53
+
+// A ring keeps doubles. What has more digits is written so that nobody takes it for exact.
+std::string wholeText(double value) {
+    if (std::abs(value) < exactWhole) return toText(static_cast<std::int64_t>(value));
+    std::array<char, 32> text{};
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific);
+    return {text.data(), end.ptr};
+}
+
 std::string valueOf(const DrawnLine& line, const Recorder& recorder, double value) {
     if (std::isnan(value)) return {};
     switch (line.line.data.kind) {
@@ -43,7 +56,7 @@ std::string valueOf(const DrawnLine& line, const Recorder& recorder, double valu
         case Kind::Bool:
             return value != 0 ? "true" : "false";
         case Kind::Int:
-            return toText(static_cast<std::int64_t>(value));
+            return wholeText(value);
         case Kind::Float:
             break;
     }

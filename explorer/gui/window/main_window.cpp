@@ -213,7 +213,7 @@ void MainWindow::openFound(const Found& found, bool beside) {
     if (found.kind == FoundKind::View) return openKind(QString::fromStdString(found.path));
     if (found.kind == FoundKind::Item && beside) {
         const auto items = plottedItems(*session_.frame(), found.path, found.name);
-        return items.empty() ? tell(tr("A text cannot be plotted."), false) : openPlot(items);
+        return items.empty() ? tell(tr("It is not there any more."), false) : openPlot(items);
     }
     beside ? workspace_->openTab(found.path, true) : workspace_->open(found.path);
     refresh();
