@@ -23,6 +23,10 @@ protected:
         window.refresh();
         return *view;
     }
+    static double numberIn(CompareView& view, int row) {
+        const auto& number = view.rows().row(row).number;
+        return number ? number->near() : -1;
+    }
     static QStringList column(CompareView& view, int column) {
         QStringList texts;
         const CompareModel& rows = view.rows();
@@ -50,8 +54,7 @@ TEST_F(Compared, RowsAreOrderedByTheirDistanceToALimitWithWhatHasNoneAtTheEnd) {
     view.rows().sort(CompareModel::Value, Qt::DescendingOrder);
     const auto numbers = [&] {
         std::vector<double> all;
-        for (int row = 0; row < view.rows().rowCount(); ++row)
-            all.push_back(view.rows().row(row).number.value_or(-1));
+        for (int row = 0; row < view.rows().rowCount(); ++row) all.push_back(numberIn(view, row));
         return all;
     };
     EXPECT_GT(view.rows().rowCount(), 1);
@@ -62,7 +65,8 @@ TEST_F(Compared, RowsAreOrderedByTheirDistanceToALimitWithWhatHasNoneAtTheEnd) {
     ASSERT_EQ(same.rows().rowCount(), 1);
     const CompareModel::Row& row = same.rows().row(0);
     ASSERT_TRUE(row.left && row.min && row.max && row.number);
-    EXPECT_DOUBLE_EQ(*row.left, std::min(*row.number - *row.min, *row.max - *row.number));
+    const double number = row.number->near();
+    EXPECT_DOUBLE_EQ(row.left->near(), std::min(number - *row.min, *row.max - number));
 }
 
 TEST_F(Compared, TheToolTipHasTheLimitsAndSaysWhichOneIsNearer) {
@@ -70,7 +74,7 @@ TEST_F(Compared, TheToolTipHasTheLimitsAndSaysWhichOneIsNearer) {
     CompareView& view = open("naturalFrequency");
     const CompareModel::Row& row = view.rows().row(0);
     ASSERT_TRUE(row.number && row.min && row.max);
-    const bool upper = *row.max - *row.number < *row.number - *row.min;
+    const bool upper = *row.max - row.number->near() < row.number->near() - *row.min;
     const QModelIndex cell = view.rows().index(0, CompareModel::Distance);
     const QString tip = cell.data(Qt::ToolTipRole).toString();
     EXPECT_TRUE(tip.startsWith("Limits: ")) << tip.toStdString();

@@ -78,6 +78,21 @@ TEST_F(Controlling, IsTakenByKeysAloneWithAFocusThatIsSeen) {
     EXPECT_TRUE(comes([&] { return window.control().prefix() == "/axis/observed"; }));
 }
 
+TEST_F(Controlling, IsOfferedForTheRowOfTheTreeWhereTheViewShowsNoSimplex) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/axis/observed");
+    window.openKind("agents");
+    window.refresh();
+    QApplication::setActiveWindow(&window);
+    QTest::keyClick(&window, Qt::Key_T, Qt::ControlModifier);
+    ASSERT_NE(window.control().panel(), nullptr);
+    QStringList offered;
+    for (const auto* each : window.control().panel()->findChildren<QRadioButton*>())
+        offered << each->text();
+    EXPECT_TRUE(offered.contains("/axis/observed")) << offered.join(' ').toStdString();
+    EXPECT_TRUE(offered.contains("/axis"));
+}
+
 // The ring around it, in the colour of the accent.
 TEST_F(Controlling, EveryWidgetOfThePanelShowsThatItHasTheFocus) {
     ASSERT_TRUE(everythingComes());

@@ -250,6 +250,15 @@ TEST_F(EventTab, NoFilterHidesAFaultUnsaidAndTheStripTakesItAway) {
     EXPECT_NE(chip("error 2"), nullptr) << "it is no longer off";
 }
 
+TEST_F(EventTab, AViewThatIsOpenedAnewShowsTheFilterThatIsOn) {
+    events.add(changes(1, 10));
+    type("nonsense:1");
+    const EventView another{shown, {}};
+    EXPECT_EQ(another.findChild<QLineEdit*>()->text(), "nonsense:1");
+    EXPECT_TRUE(says(another, "\"nonsense:\" is no field."));
+    EXPECT_TRUE(says(another, "0 of 10 shown"));
+}
+
 TEST_F(EventTab, TheStripCountsAlsoWhatTheFilterHides) {
     events.add(changes(1, 10));
     type("in:/nowhere");

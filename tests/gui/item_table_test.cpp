@@ -76,7 +76,7 @@ TEST_F(Ranges, AndNumbersThatAreNotConstantAreWhatIsPlottedOfASimplex) {
     ASSERT_EQ(all.size(), 1U);
     EXPECT_EQ(all[0].item, "angle");
     EXPECT_EQ(plottedItems(*frame, "/joint", "ratio").size(), 1U) << "it was asked for";
-    EXPECT_TRUE(plottedItems(*frame, "/joint", "label").empty());
+    EXPECT_EQ(plottedItems(*frame, "/joint", "label").size(), 1U) << "a lane of words";
     EXPECT_TRUE(plottedItems(*frame, "/nothing").empty());
 }
 

@@ -23,7 +23,8 @@ protected:
                           [this] { QTest::mousePress(&button(0, 1), Qt::LeftButton); },
                           [this] { return number("/arm/axes/1", "position") > 0.01; }))
             << said().toStdString();
-        ASSERT_TRUE(said().contains("Jogging A1 at +0.100 rad/s. It ends 0.25 s after you let go."))
+        ASSERT_TRUE(said().contains(
+            "Jogging A1 at +0.100 rad/s. It brakes when you let go, after 0.25 s at the latest."))
             << said().toStdString();
     }
     void holdsKey() {
@@ -137,6 +138,39 @@ TEST_F(Jogging, APointerThatLeavesAndComesBackBeginsNothing) {
     moveTo({-50, 5});
     moveTo({5, 5});
     ends("the pointer left the button");
+}
+
+TEST_F(Jogging, EndsWhenAnotherKeyIsPressedAndAKeyThatIsStillHeldBeginsNothing) {
+    ASSERT_NO_FATAL_FAILURE(holdsKey());
+    QTest::keyPress(&rows(), Qt::Key_Shift);
+    EXPECT_TRUE(says("Ended: another key was pressed")) << said().toStdString();
+    QTest::keyRelease(&rows(), Qt::Key_Shift);
+    QKeyEvent again{QEvent::KeyPress, Qt::Key_Left, Qt::NoModifier, {}, true};
+    QApplication::sendEvent(&rows(), &again);
+    ends("another key was pressed");
+}
+
+TEST_F(Jogging, AButtonOfTheMouseEndsWhatAKeyHolds) {
+    ASSERT_NO_FATAL_FAILURE(holdsKey());
+    QTest::mousePress(view().findChild<MotionBar*>(), Qt::RightButton);
+    ends("another button was pressed");
+}
+
+TEST_F(Jogging, WhatTheControllerEndsStaysEnded) {
+    ASSERT_NO_FATAL_FAILURE(holdsButton());
+    const std::int64_t then = cycle();
+    EXPECT_TRUE(comes([&] { return cycle() > then + 200 && jogs(); }));
+    session.send("/jog", "shutdown");
+    EXPECT_TRUE(says("Ended: ")) << said().toStdString();
+    session.send("/jog", "startup");
+    EXPECT_TRUE(comes([this] { return number("/jog", "state") == 2; }));
+    const std::int64_t since = cycle();
+    bool again = false;
+    EXPECT_TRUE(comes([&] {
+        again = again || jogs();
+        return cycle() > since + 200;
+    }));
+    EXPECT_FALSE(again);
 }
 
 TEST_F(Jogging, EndsWhenTheFocusGoesElsewhere) {

@@ -234,7 +234,7 @@ TEST_F(Plot, TheLegendTellsTheValueBelowThePointerAndAtTheEndOfWhatIsHeld) {
     key(Qt::Key_Space);
     run(5'000, still);
     show();
-    EXPECT_TRUE(view.legend().texts().front().contains("at the end 20"))
+    EXPECT_TRUE(view.legend().texts().front().contains("at end 20"))
         << view.legend().texts().front().toStdString();
 }
 
@@ -333,7 +333,7 @@ TEST_F(Plot, IsExportedAsCsvPngAndSvg) {
         EXPECT_EQ(view.exportTo(file), "");
         EXPECT_GT(QFile{file}.size(), 1'000) << name;
     }
-    EXPECT_EQ(QImage{folder.filePath("a.png")}.width(), 2 * (view.width() - 2 * Look::units(3)));
+    EXPECT_GE(QImage{folder.filePath("a.png")}.width(), 2 * (view.width() - 2 * Look::units(3)));
     QFile svg{folder.filePath("a.svg")};
     ASSERT_TRUE(svg.open(QIODevice::ReadOnly));
     EXPECT_TRUE(svg.readAll().contains("/axes/1.position"));

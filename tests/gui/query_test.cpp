@@ -4,6 +4,8 @@
 #include "gui/measured_agent.hpp"
 #include "support/small_structure.hpp"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 namespace cortex::test {
@@ -84,7 +86,8 @@ TEST(Query, ReadsConditionsOnValues) {
     ASSERT_TRUE(more);
     EXPECT_EQ(more->item, "position");
     EXPECT_EQ(more->is, Condition::Is::AtLeast);
-    EXPECT_EQ(more->number, -1.5e-3);
+    ASSERT_TRUE(more->number);
+    EXPECT_EQ(more->number->near(), -1.5e-3);
     EXPECT_EQ(more->unit, "rad");
     EXPECT_EQ(conditionFrom("mode!=Position", trouble)->word, "Position");
     EXPECT_FALSE(conditionFrom("in:/arm", trouble));
@@ -96,6 +99,45 @@ TEST(Query, SaysThatAConditionNeedsANumber) {
     EXPECT_TRUE(Query{"position>fast"}.trouble().contains("number"));
     EXPECT_TRUE(Query{"position="}.trouble().contains("number"));
     EXPECT_TRUE(Query{"position>1"}.trouble().isEmpty());
+}
+
+class QueriedUnits : public testing::Test {
+protected:
+    QueriedUnits() {
+        agent.put("/joint", "angle", std::numbers::pi / 6);
+        agent.put("/joint", "tilt", 90.0);
+        agent.put("/joint", "way", 0.25);
+        agent.put("/joint", "speed", std::numbers::pi);
+        agent.put("/joint", "steps", std::int64_t{1500});
+    }
+    bool holds(const char* text) {
+        const auto frame = frameOf({agent.now()});
+        const Query query{text};
+        EXPECT_EQ(query.troubleIn(*frame), "") << text;
+        return query.matches(*frame, {0, agent.at("/joint")});
+    }
+    std::string trouble(const char* text) {
+        return Query{text}.troubleIn(*frameOf({agent.now()})).toStdString();
+    }
+
+    MadeAgent agent{"robot", [](SimplexTree& tree) { tree.add("/joint", "Joint"); },
+                    "unit-types.xml"};
+};
+
+TEST_F(QueriedUnits, AreConvertedWhereTheyAreWritten) {
+    for (const char* each :
+         {"way>200mm", "way=250mm", "way>0.2m", "way>0.2", "angle>29deg", "angle<31°",
+          "speed>=180deg/s", "speed<=180°/s", "tilt<1.6rad", "steps>1.4m", "steps>1400mm"})
+        EXPECT_TRUE(holds(each)) << each;
+    for (const char* each : {"way>300mm", "way>200", "angle>31deg", "tilt>1.6rad", "steps>1.6m"})
+        EXPECT_FALSE(holds(each)) << each;
+}
+
+TEST_F(QueriedUnits, AreNamedWhereTheItemHasAnother) {
+    EXPECT_EQ(trouble("way>1kg"), "\"kg\" is no unit of way, which is in m.");
+    EXPECT_EQ(trouble("-speed>1rad"), "\"rad\" is no unit of speed, which is in rad/s.");
+    EXPECT_EQ(trouble("torque<1mm or way>1"), "\"mm\" is no unit of torque, which is in N·m.");
+    EXPECT_EQ(trouble("nowhere>1kg"), "") << "that is another matter";
 }
 
 TEST(Query, AValueThatNeverCameFulfilsNoCondition) {

@@ -54,12 +54,38 @@ TEST_F(Recording, AnItemThatIsFoundIsPlottedAlsoIfItIsAText) {
 TEST_F(Recording, CountsCyclesThatDidNotComeAndLeavesAGap) {
     recorder.record(this, {gain});
     hear();
+    hear();
     agent.skip(700);
     hear();
     recorder.take();
     EXPECT_EQ(time().skipped, 700U);
-    EXPECT_EQ(ring().nextMissing(1, 1'000), 2);
-    EXPECT_EQ(ring().nextPresent(2, 1'000), 702);
+    EXPECT_EQ(ring().nextMissing(1, 1'000), 3);
+    EXPECT_EQ(ring().nextPresent(3, 1'000), 703);
+}
+
+// The first image of a line may be of a view at five images a second.
+TEST_F(Recording, BeginsWhereEveryCycleComesAndNothingWasLostBefore) {
+    recorder.record(this, {gain});
+    hear();
+    agent.skip(3);
+    for (int i = 0; i < 5; ++i) hear();
+    recorder.take();
+    EXPECT_EQ(time().skipped, 0U);
+    EXPECT_EQ(ring().begin(), 5);
+    EXPECT_EQ(ring().end(), 10);
+    EXPECT_EQ(ring().nextMissing(5, 10), 10);
+}
+
+TEST_F(Recording, ALineThatIsBadFromTheStartIsRecordedWithItsQuality) {
+    recorder.record(this, {gain});
+    agent.degrade("/probe", Quality::Bad);
+    for (int i = 0; i < 3; ++i) hear();
+    recorder.take();
+    ASSERT_EQ(ring().end() - ring().begin(), 3);
+    for (std::int64_t i = 1; i <= 3; ++i) {
+        EXPECT_TRUE(std::isnan(ring().value(i)));
+        EXPECT_EQ(ring().quality(i), static_cast<std::uint8_t>(Quality::Bad));
+    }
 }
 
 // As of a process that was stopped: its cycles go on by one, and nobody lost any.

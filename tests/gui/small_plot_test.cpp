@@ -5,6 +5,8 @@
 #include "style/look.hpp"
 
 #include <QImage>
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include <gtest/gtest.h>
@@ -51,6 +53,26 @@ TEST_F(Small, DrawsTheLastTenSecondsUpToNow) {
     EXPECT_GT(pixels(colour, 0.9, 0.97), 10);
     EXPECT_EQ(pixels(Look::colours().data, 0, 1), 0);
     EXPECT_TRUE(plot.accessibleDescription().contains("position 0.5 rad"));
+}
+
+TEST_F(Small, WhatDiffersByRoundingIsLevel) {
+    for (const double level : {0.0, 0.451125, -1e9}) {
+        const double rounding = std::max(std::abs(level) * 2e-14, 2e-17);
+        for (int i = 0; i < 300; ++i) {
+            plot.put(line, 100 + i / 30.0, level + (i % 2 == 0 ? rounding : 0));
+        }
+        plot.setNow(110);
+        const QImage image = plot.grab().toImage();
+        int upper = image.height(), lower = 0;
+        for (int y = 0; y < image.height(); ++y) {
+            if (image.pixelColor(image.width() / 2, y) != Look::colours().series[0]) continue;
+            upper = std::min(upper, y);
+            lower = std::max(lower, y);
+        }
+        EXPECT_LE(upper, lower) << level;
+        EXPECT_LE(lower - upper, 3) << level;
+        plot.setNow(1'000);  // what was is forgotten
+    }
 }
 
 TEST_F(Small, HatchesWhatDidNotComeAndDrawsNoLineAcrossIt) {

@@ -97,8 +97,9 @@ TEST_F(JoggingTheTip, TheTipMovesAlongAnAxisOfTheBaseWhileAButtonIsHeld) {
     ASSERT_NO_FATAL_FAILURE(opensTipInControl());
     EXPECT_TRUE(said().contains("0.025 of 0.250 m/s")) << said().toStdString();
     ASSERT_NO_FATAL_FAILURE(holds(0, 1, [this] { return hook(0) > 0.01; }));
-    EXPECT_TRUE(said().contains(
-        "Jogging X at +0.025 m/s in the frame Base. It ends 0.25 s after you let go."))
+    EXPECT_TRUE(
+        said().contains("Jogging X at +0.025 m/s in the frame Base. "
+                        "It brakes when you let go, after 0.25 s at the latest."))
         << said().toStdString();
     EXPECT_TRUE(pad().button(0, 1).isDown());
     EXPECT_NEAR(hook(1), 0, 1e-9);

@@ -57,11 +57,18 @@ protected:
 TEST_F(Tree, APartOfThePlantIsChosenWithoutOpeningAnything) {
     tree.refresh(frameOf({robot.now(), operators.now()}));
     tree.choose("/control/clutch");
-    EXPECT_EQ(tree.part(), "");
+    EXPECT_EQ(tree.meant("/drive"), "/drive");
     chosen.clear();
     key(Qt::Key_Up);
-    EXPECT_EQ(tree.part(), "/control");
+    EXPECT_EQ(tree.meant("/drive"), "/control");
     EXPECT_TRUE(chosen.empty());
+}
+
+TEST_F(Tree, ItsRowIsMeantWhereNoSimplexIsShown) {
+    tree.refresh(frameOf({robot.now(), operators.now()}));
+    EXPECT_EQ(tree.meant(""), "");
+    tree.choose("/control/clutch");
+    EXPECT_EQ(tree.meant(""), "/control/clutch");
 }
 
 TEST_F(Tree, RowsThatGoOpenNoOtherSimplex) {

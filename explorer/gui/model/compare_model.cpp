@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/compare_model.hpp"
 
-#include "model/item_text.hpp"
 #include "model/natural_order.hpp"
-#include "model/value_text.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
+#include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace cortex::gui {
@@ -17,42 +16,73 @@ namespace {
 
 constexpr std::size_t mostElements = 64;
 
-QString nothing() { return QStringLiteral("—"); }
-
-QString shownNumber(const CompareModel::Row& row, double number) {
-    return row.shown ? numberText(row.shown->item, number * row.shown->factor)
-                     : numberText(*row.item->item, number);
-}
-
-// "12 %  0.21 upper"; negative: outside.
-QString distanceText(const CompareModel::Row& row) {
-    if (!row.left) return nothing();
-    QString text = shownNumber(row, *row.left);
-    if (row.share) {
-        text = QString::number(*row.share * 100, 'f', 1).replace('-', QStringLiteral("−")) +
-               QStringLiteral(" %  ") + text;
-    }
-    if (!row.live && !row.constant) text = bracketed(text);
-    return text + ' ' + (row.upper ? CompareModel::tr("upper") : CompareModel::tr("lower"));
-}
-
-QString remarkOf(const Frame& frame, const CompareModel::Row& row) {
-    const AgentFrame& agent = frame.agents[row.place.agent];
-    const Excuse excuse = frame.excuse(row.place);
-    if (excuse == Excuse::Ended) return CompareModel::tr("ended");
-    if (agent.lost()) return CompareModel::tr("lost");
-    if (row.left && *row.left < 0) {
-        const bool above = row.max && *row.number > *row.max;
-        return above ? CompareModel::tr("above limit") : CompareModel::tr("below limit");
-    }
-    if (excuse == Excuse::Rests) return CompareModel::tr("rests");
-    const Quality quality = agent.quality(row.place.simplex);
-    return quality == Quality::Good ? QString{} : QLatin1String{name(quality)};
-}
-
 QString csvField(QString text) {
-    if (!text.contains(',') && !text.contains('"') && !text.contains('\n')) return text;
+    const bool plain = std::ranges::none_of(
+        text, [](QChar c) { return c == ',' || c == '"' || c == '\n' || c == '\r'; });
+    if (plain) return text;
     return '"' + text.replace('"', QLatin1String{"\"\""}) + '"';
+}
+
+// As the model has it: without a unit and brackets, to the last digit.
+QString exactText(const Value& value, std::size_t element) {
+    if (element >= lengthOf(value)) return {};
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
+        return QString::fromStdString((*texts)[element]);
+    if (const auto* bools = std::get_if<std::vector<bool>>(&value))
+        return (*bools)[element] ? QStringLiteral("true") : QStringLiteral("false");
+    const auto number = exactOf(value, element);
+    return number ? QString::fromStdString(number->text()) : QStringLiteral("nan");
+}
+
+// Rows of one dimension are a group; the first has most rows. Numbers are compared in the unit of
+// their model, or in that of the group where it has several.
+void groupRows(std::vector<CompareRow>& rows) {
+    struct Group {
+        std::size_t rows = 0;
+        std::set<std::string> units;
+        int place = 0;
+    };
+    std::map<std::string, Group> groups;
+    for (const CompareRow& each : rows) {
+        const std::string& unit = each.item->item->unit;
+        Group& group = groups[unitSize(unit).base];
+        ++group.rows;
+        group.units.insert(unit);
+    }
+    std::vector<Group*> inOrder;
+    for (auto& [base, group] : groups) inOrder.push_back(&group);
+    std::ranges::sort(inOrder, [](const Group* one, const Group* other) {
+        return std::tie(other->rows, *one->units.begin()) <
+               std::tie(one->rows, *other->units.begin());
+    });
+    for (int place = 0; Group * each : inOrder) each->place = place++;
+    for (CompareRow& each : rows) {
+        const UnitSize unit = unitSize(each.item->item->unit);
+        const Group& group = groups[unit.base];
+        each.group = group.place;
+        each.scale = group.units.size() > 1 ? unit.size : 1;
+    }
+}
+
+// What orders a row within its group.
+struct OrderKey {
+    int group;
+    ExactNumber number;
+};
+
+std::optional<OrderKey> keyOf(const CompareRow& row, int column) {
+    const auto ofGroup = [&](const std::optional<ExactNumber>& number) -> std::optional<OrderKey> {
+        if (!number) return std::nullopt;
+        return OrderKey{row.group,
+                        row.scale == 1 ? *number : ExactNumber{number->near() * row.scale}};
+    };
+    if (column == CompareModel::Age) {
+        if (!row.seconds) return std::nullopt;
+        return OrderKey{0, ExactNumber{static_cast<double>(*row.seconds)}};
+    }
+    if (column != CompareModel::Distance) return ofGroup(row.number);
+    constexpr int ofShares = -1;
+    return row.share ? OrderKey{ofShares, ExactNumber{*row.share}} : ofGroup(row.left);
 }
 
 }  // namespace
@@ -68,7 +98,7 @@ void CompareModel::setUnits(const ShownUnits& units) {
     units_ = units;
     for (Row& each : rows_) {
         each.shown = units_.of(*each.item->item);
-        read(each);
+        if (frame_) readRow(each, *frame_);
     }
     if (!rows_.empty()) {
         Q_EMIT dataChanged(index(0, 0), index(static_cast<int>(rows_.size()) - 1, ColumnCount - 1));
@@ -78,10 +108,9 @@ void CompareModel::setUnits(const ShownUnits& units) {
 void CompareModel::update(std::shared_ptr<const Frame> frame, bool inOrder) {
     frame_ = std::move(frame);
     if (fresh_ || structures_ != frame_->structures) build();
-    for (Row& each : rows_) read(each);
+    for (Row& each : rows_) readRow(each, *frame_);
     // The first values of a row give it its place.
-    const auto known =
-        std::ranges::count_if(rows_, [](const Row& each) { return each.number.has_value(); });
+    const auto known = std::ranges::count_if(rows_, [](const Row& each) { return each.came; });
     if (inOrder || known != known_) order();
     known_ = known;
     if (!rows_.empty()) {
@@ -116,38 +145,12 @@ void CompareModel::build() {
             }
         }
     }
-    for (Row& each : rows_) read(each);
+    for (Row& each : rows_) readRow(each, *frame_);
+    groupRows(rows_);
     order();
     fresh_ = false;
     structures_ = frame_->structures;
     endResetModel();
-}
-
-void CompareModel::read(Row& row) const {
-    const AgentFrame& agent = frame_->agents[row.place.agent];
-    const DataItem& item = *row.item->item;
-    row.constant = item.constant;
-    row.live = agent.quality(row.place.simplex) == Quality::Good && agent.beats();
-    row.unit = unitText(row.shown ? row.shown->item.unit : item.unit);
-    row.min = numberOf(item.min);
-    row.max = numberOf(item.max);
-    row.left = row.share = std::nullopt;
-    const auto value = agent.value(row.place.simplex, *row.item);
-    row.number = value ? numberOf(*value, row.element) : std::nullopt;
-    if (row.number) {
-        const double below = row.min ? *row.number - *row.min : INFINITY;
-        const double above = row.max ? *row.max - *row.number : INFINITY;
-        if (row.min || row.max) row.left = std::min(below, above);
-        row.upper = above < below;
-        if (row.min && row.max && *row.max > *row.min)
-            row.share = *row.left / (*row.max - *row.min);
-    }
-    const QString text = value ? shownText(row.shown.get(), item, *value, row.element) : QString{};
-    row.value = text.isEmpty() ? nothing() : row.live || row.constant ? text : bracketed(text);
-    row.distance = distanceText(row);
-    row.seconds = agent.age(row.place.simplex);
-    row.age = row.seconds ? ageText(static_cast<double>(*row.seconds)) : nothing();
-    row.remark = remarkOf(*frame_, row);
 }
 
 void CompareModel::sort(int column, Qt::SortOrder order) {
@@ -156,32 +159,19 @@ void CompareModel::sort(int column, Qt::SortOrder order) {
     this->order();
 }
 
-// What is not known stands at the end, whichever way the order goes.
+// What is not known stands at the end, and groups stay as they are, whichever way the order goes.
 bool CompareModel::before(const Row& one, const Row& other) const {
-    const auto shown = [](const Row& row, std::optional<double> number) {
-        return number && row.shown ? std::optional{*number * row.shown->factor} : number;
+    const bool ascending = order_ == Qt::AscendingOrder;
+    const auto byPath = [](const Row& a, const Row& b) {
+        return NaturalOrder{}(a.path.toStdString(), b.path.toStdString());
     };
-    const auto byNumber = [&](const auto& a, const auto& b) {
-        if (a.has_value() != b.has_value()) return a.has_value();
-        if (!a || *a == *b) return NaturalOrder{}(one.path.toStdString(), other.path.toStdString());
-        return order_ == Qt::AscendingOrder ? *a < *b : *b < *a;
-    };
-    switch (column_) {
-        case Value:
-        case Range:
-            return byNumber(shown(one, one.number), shown(other, other.number));
-        case Distance:
-            return byNumber(one.share ? one.share : shown(one, one.left),
-                            other.share ? other.share : shown(other, other.left));
-        case Age:
-            return byNumber(one.seconds, other.seconds);
-        default: {
-            const bool less = NaturalOrder{}(one.path.toStdString(), other.path.toStdString());
-            return order_ == Qt::AscendingOrder
-                       ? less
-                       : NaturalOrder{}(other.path.toStdString(), one.path.toStdString());
-        }
-    }
+    if (column_ != Value && column_ != Range && column_ != Distance && column_ != Age)
+        return ascending ? byPath(one, other) : byPath(other, one);
+    const auto a = keyOf(one, column_), b = keyOf(other, column_);
+    if (a.has_value() != b.has_value()) return a.has_value();
+    if (a && a->group != b->group) return a->group < b->group;
+    if (!a || a->number == b->number) return byPath(one, other);
+    return ascending ? a->number < b->number : b->number < a->number;
 }
 
 void CompareModel::order() {
@@ -222,19 +212,23 @@ QString CompareModel::csv() const {
     QString text = QStringLiteral("path,%1,unit,min,max,distance,share,quality,age_s\n")
                        .arg(QString::fromStdString(item_));
     const auto number = [](const auto& value) {
-        return value ? QString::number(static_cast<double>(*value), 'g', 17) : QString{};
+        return value ? QString::fromStdString(ExactNumber{*value}.text()) : QString{};
     };
     for (const Row& each : rows_) {
-        const Quality quality = frame_->agents[each.place.agent].quality(each.place.simplex);
+        const AgentFrame& agent = frame_->agents[each.place.agent];
+        const DataItem& item = *each.item->item;
+        const auto value = agent.value(each.place.simplex, *each.item);
         const QStringList fields{csvField(each.path),
-                                 each.number ? number(each.number) : csvField(each.value),
-                                 csvField(QString::fromStdString(each.item->item->unit)),
-                                 number(each.min),
-                                 number(each.max),
+                                 value ? csvField(exactText(*value, each.element)) : QString{},
+                                 csvField(QString::fromStdString(item.unit)),
+                                 number(item.min),
+                                 number(item.max),
                                  number(each.left),
                                  number(each.share),
-                                 QLatin1String{name(quality)},
-                                 number(each.seconds)};
+                                 QLatin1String{name(agent.quality(each.place.simplex))},
+                                 each.seconds
+                                     ? QString::number(static_cast<double>(*each.seconds), 'g', 17)
+                                     : QString{}};
         text += fields.join(',') + '\n';
     }
     return text;
@@ -272,21 +266,6 @@ QVariant CompareModel::data(const QModelIndex& index, int role) const {
         default:
             return {};
     }
-}
-
-// "Limits: 0 to 3 rad. 0.2 rad below the upper one."
-QString CompareModel::limitText(const Row& row) {
-    const DataItem& item = *row.item->item;
-    const QString limits = limitsText(row.shown ? row.shown->item : item);
-    if (limits.isEmpty()) return tr("It has no limits.");
-    QString text = tr("Limits: %1.").arg(limits);
-    if (!row.left) return text;
-    const bool above = row.upper == (*row.left < 0);
-    const QString number = shownNumber(row, std::abs(*row.left)) + ' ' + row.unit;
-    const QString place =
-        row.upper ? (above ? tr("%1 above the upper one.") : tr("%1 below the upper one."))
-                  : (above ? tr("%1 above the lower one.") : tr("%1 below the lower one."));
-    return text + ' ' + place.arg(number.trimmed());
 }
 
 QVariant CompareModel::headerData(int section, Qt::Orientation orientation, int role) const {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "model/compare_row.hpp"
 #include "model/query.hpp"
-#include "model/shown_units.hpp"
 #include "record/recorded_item.hpp"
-#include "session/frame.hpp"
 
 #include <QAbstractTableModel>
 #include <QString>
@@ -21,20 +20,7 @@ class CompareModel : public QAbstractTableModel {
 public:
     enum Column { Path, Value, Unit, Range, Distance, Age, Remark, ColumnCount };
 
-    struct Row {
-        Place place;
-        const ItemLayout* item = nullptr;
-        std::size_t element = 0;
-        std::shared_ptr<const ShownItem> shown;  // null: as the model has it
-        QString path, value, unit, distance, age, remark;
-        bool upper = false;  // the nearer limit
-        // In the unit of the model, all three lines.
-        std::optional<double> number, min, max;
-        std::optional<double> left;   // to the nearer limit; below 0: outside
-        std::optional<double> share;  // the same of the range
-        std::optional<float> seconds;
-        bool live = false, constant = false;
-    };
+    using Row = CompareRow;
 
     using QAbstractTableModel::QAbstractTableModel;
 
@@ -61,9 +47,7 @@ public:
 
 private:
     void build();
-    void read(Row& row) const;
     void order();
-    static QString limitText(const Row& row);
     bool before(const Row& one, const Row& other) const;
 
     std::string item_;
@@ -73,7 +57,7 @@ private:
     std::shared_ptr<const Frame> frame_;
     std::uint64_t structures_ = 0;
     bool fresh_ = true;
-    std::ptrdiff_t known_ = 0;  // rows with a number, when they were ordered
+    std::ptrdiff_t known_ = 0;  // rows whose value had come, when they were ordered
     std::vector<Row> rows_;
     int column_ = Distance;
     Qt::SortOrder order_ = Qt::AscendingOrder;

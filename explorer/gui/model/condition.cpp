@@ -3,12 +3,14 @@
 
 #include "cortex/core/labelled_value.hpp"
 
+#include "model/shown_units.hpp"
 #include "model/value_text.hpp"
 
 #include <QCoreApplication>
 #include <QRegularExpression>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -25,20 +27,22 @@ constexpr std::array<std::pair<const char*, Is>, 6> operators{{{"<", Is::Less},
                                                                {"=", Is::Equal},
                                                                {"!=", Is::Other}}};
 
-bool compare(double value, Is is, double wanted) {
+constexpr double unitError = 1e-12;  // of a number, that a conversion may be wrong by
+
+bool compare(const ExactNumber& value, Is is, const ExactNumber& wanted) {
     switch (is) {
         case Is::Less:
             return value < wanted;
         case Is::AtMost:
-            return value <= wanted;
+            return !(wanted < value);
         case Is::More:
-            return value > wanted;
+            return wanted < value;
         case Is::AtLeast:
-            return value >= wanted;
+            return !(value < wanted);
         case Is::Equal:
             return value == wanted;
         case Is::Other:
-            return value != wanted;
+            return !(value == wanted);
     }
     return false;
 }
@@ -47,9 +51,29 @@ std::size_t elements(const Value& value) {
     return std::visit([](const auto& each) { return each.size(); }, value);
 }
 
-bool isIn(const QString& unit, const DataItem& item) {
-    const QString own = QString::fromStdString(item.unit);
-    return unit.isEmpty() || unit == own || unit == unitText(item.unit);
+// How many of the written unit the own one is; none: they measure different things.
+std::optional<double> ratioOf(const QString& written, const std::string& own) {
+    if (written.isEmpty()) return 1;
+    for (const std::string& each : unitsLike(own)) {
+        if (written != QString::fromStdString(each) && written != unitText(each)) continue;
+        return unitSize(own).size / unitSize(each).size;
+    }
+    return std::nullopt;
+}
+
+bool holdsFor(const ExactNumber& value, const Condition& condition, double ratio) {
+    if (ratio == 1) return compare(value, condition.is, *condition.number);
+    const ExactNumber wanted{condition.number->near() / ratio};
+    const bool same = std::abs(value.near() - wanted.near()) <= unitError * std::abs(wanted.near());
+    return compare(same ? wanted : value, condition.is, wanted);
+}
+
+bool asksForEqual(const Condition& condition) {
+    return condition.is == Is::Equal || condition.is == Is::Other;
+}
+
+bool isNumeric(const DataItem& item) {
+    return (item.kind == Kind::Int || item.kind == Kind::Float) && item.labels.empty();
 }
 
 // "AtLimit" of "AtLimit (3)".
@@ -75,7 +99,8 @@ std::optional<Condition> conditionFrom(const QString& text, QString& trouble) {
                    })->second;
     const auto number = quantity.match(right);
     if (number.hasMatch()) {
-        condition.number = number.captured(1).toDouble();
+        const auto whole = toInt(number.captured(1).toStdString());
+        condition.number = whole ? ExactNumber{*whole} : ExactNumber{number.captured(1).toDouble()};
         condition.unit = number.captured(2);
     } else if (right.isEmpty() || (condition.is != Is::Equal && condition.is != Is::Other)) {
         trouble = QCoreApplication::translate("Query", "After \"%1\" a number is needed.")
@@ -85,20 +110,41 @@ std::optional<Condition> conditionFrom(const QString& text, QString& trouble) {
     return condition;
 }
 
+QString unitTrouble(const Condition& condition, const Frame& frame) {
+    if (condition.unit.isEmpty()) return {};
+    const DataItem* other = nullptr;
+    for (const AgentFrame& agent : frame.agents) {
+        if (!agent.structure) continue;
+        for (const auto& layout : agent.structure->layouts) {
+            const ItemLayout* found = layout->find(condition.item.toStdString());
+            if (found == nullptr) continue;
+            const bool byWord = asksForEqual(condition) && !isNumeric(*found->item);
+            if (byWord || ratioOf(condition.unit, found->item->unit)) return {};
+            other = found->item;
+        }
+    }
+    if (other == nullptr) return {};
+    const QString unit = unitText(other->unit);
+    return unit.isEmpty()
+               ? QCoreApplication::translate("Query", "\"%1\" is no unit of %2, which has none.")
+                     .arg(condition.unit, condition.item)
+               : QCoreApplication::translate("Query", "\"%1\" is no unit of %2, which is in %3.")
+                     .arg(condition.unit, condition.item, unit);
+}
+
 bool holds(const Condition& condition, const AgentFrame& agent, std::uint32_t simplex) {
     if (agent.lost() || !agent.came(simplex)) return false;
     const TypeLayout& layout = *agent.structure->simplexes[simplex].layout;
     const ItemLayout* found = layout.find(condition.item.toStdString());
     if (found == nullptr) return false;
     const Value value = (*agent.image)->value(simplex, *found);
+    const auto ratio = ratioOf(condition.unit, found->item->unit);
     for (std::size_t i = 0; i < elements(value); ++i) {
-        const auto number = numberOf(value, i);
-        if (condition.number && number) {
-            if (isIn(condition.unit, *found->item) &&
-                compare(*number, condition.is, *condition.number)) {
-                return true;
-            }
-        } else if (condition.is == Is::Equal || condition.is == Is::Other) {
+        const auto number = exactOf(value, i);
+        if (condition.number && number && ratio) {
+            if (holdsFor(*number, condition, *ratio)) return true;
+        } else if (asksForEqual(condition) &&
+                   !(condition.number && number && isNumeric(*found->item))) {
             const bool same = reads(elementText(*found->item, value, i), condition.word);
             if (same == (condition.is == Is::Equal)) return true;
         }

@@ -3,8 +3,8 @@
 
 #include "common/utc_text.hpp"
 #include "model/plain_text.hpp"
+#include "model/whole_file.hpp"
 
-#include <QSaveFile>
 
 namespace cortex::gui {
 
@@ -42,11 +42,7 @@ QString eventsCsv(const EventFilter& events) {
 }
 
 QString writeEvents(const EventFilter& events, const QString& file) {
-    QSaveFile target{file};
-    const QByteArray bytes = eventsCsv(events).toUtf8();
-    const bool written =
-        target.open(QIODevice::WriteOnly) && target.write(bytes) == bytes.size() && target.commit();
-    return written ? QString{} : target.errorString();
+    return writeWholeFile(file, eventsCsv(events).toUtf8());
 }
 
 }  // namespace cortex::gui

@@ -6,6 +6,7 @@
 #include <QCoreApplication>
 #include <QStringList>
 #include <optional>
+#include <variant>
 
 namespace cortex::gui {
 
@@ -41,16 +42,16 @@ QString safeRemark(const DataItem& item) {
 }
 
 QString limitsText(const DataItem& item) {
-    const auto text = [&](const std::optional<Number>& limit) {
-        QString number = QString::number(*numberOf(limit), 'g', 12);
-        number.replace('-', QStringLiteral("−"));
-        return item.unit.empty() ? number : number + ' ' + unitText(item.unit);
+    const auto plain = [](const std::optional<Number>& limit) {
+        const auto* whole = std::get_if<std::int64_t>(&*limit);
+        QString number =
+            whole != nullptr ? QString::number(*whole) : QString::number(*numberOf(limit), 'g', 12);
+        return number.replace('-', QStringLiteral("−"));
     };
-    if (item.min && item.max) {
-        const QString least = QString::number(*numberOf(item.min), 'g', 12);
-        return itemText("%1 to %2")
-            .arg(QString{least}.replace('-', QStringLiteral("−")), text(item.max));
-    }
+    const auto text = [&](const std::optional<Number>& limit) {
+        return item.unit.empty() ? plain(limit) : plain(limit) + ' ' + unitText(item.unit);
+    };
+    if (item.min && item.max) return itemText("%1 to %2").arg(plain(item.min), text(item.max));
     if (item.min) return itemText("at least %1").arg(text(item.min));
     return item.max ? itemText("at most %1").arg(text(item.max)) : QString{};
 }

@@ -135,10 +135,14 @@ Query::Term Query::termFrom(QString text) {
 
 // Types may still come while not everything is there.
 QString Query::troubleIn(const Frame& frame) const {
-    if (!trouble_.isEmpty() || !frame.complete) return trouble_;
+    if (!trouble_.isEmpty()) return trouble_;
     for (const auto& terms : alternatives_) {
         for (const Term& each : terms) {
-            if (namesType(each.field) && !isKnown(each.value, frame))
+            if (each.condition) {
+                const QString wrong = unitTrouble(*each.condition, frame);
+                if (!wrong.isEmpty()) return wrong;
+            }
+            if (frame.complete && namesType(each.field) && !isKnown(each.value, frame))
                 return unknownType(each.value, frame);
         }
     }

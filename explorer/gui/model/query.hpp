@@ -32,7 +32,7 @@ public:
     bool empty() const { return alternatives_.empty(); }
     // What is wrong with it, with the nearest names; empty: nothing.
     const QString& trouble() const { return trouble_; }
-    // The same, and a type that no agent knows.
+    // The same, a type that no agent knows, and a unit that an item cannot be compared in.
     QString troubleIn(const Frame& frame) const;
     bool matches(const Frame& frame, Place place) const;
 

@@ -84,6 +84,29 @@ std::optional<Value> numbersOf(const DataItem& item, const QString& text, QStrin
 
 std::span<const UnitQuantity> unitQuantities() { return table; }
 
+UnitSize unitSize(const std::string& unit) {
+    const auto [head, rest] = partsOf(unit);
+    for (const UnitQuantity& each : table) {
+        const auto found = std::ranges::find(each.units, head);
+        if (found == each.units.end()) continue;
+        return {each.units.front() + rest,
+                each.sizes[static_cast<std::size_t>(found - each.units.begin())]};
+    }
+    return {unit, 1};
+}
+
+std::vector<std::string> unitsLike(const std::string& unit) {
+    const std::string base = unitSize(unit).base;
+    std::vector<std::string> all{unit};
+    for (const UnitQuantity& each : table) {
+        for (const char* head : each.units) {
+            std::string other = head + partsOf(unit).second;
+            if (other != unit && unitSize(other).base == base) all.push_back(std::move(other));
+        }
+    }
+    return all;
+}
+
 void ShownUnits::choose(std::size_t quantity, const std::string& unit) { chosen_[quantity] = unit; }
 
 std::shared_ptr<const ShownItem> ShownUnits::of(const DataItem& item) const {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace cortex::gui {
 
@@ -28,6 +29,16 @@ struct UnitQuantity {
     std::array<double, 2> sizes;       // in the first of them
 };
 std::span<const UnitQuantity> unitQuantities();
+
+// A unit in the one that stands for its dimension: of "deg/s" "rad/s" and pi / 180. What cannot be
+// shown in another unit stands for itself.
+struct UnitSize {
+    std::string base;
+    double size = 1;
+};
+UnitSize unitSize(const std::string& unit);
+// It, and all that a number in it can be converted to.
+std::vector<std::string> unitsLike(const std::string& unit);
 
 // The units in which a view shows angles and lengths. What is not chosen is shown as the model has
 // it. Only numbers with decimals are converted, also where a unit is a part: rad/s, mm/s2.

@@ -27,6 +27,29 @@ QString superscript(int number) {
     return number < 0 ? QStringLiteral("⁻") + text : text;
 }
 
+// "-1.2e-5" as it is printed.
+QString typeset(const QString& plain) {
+    const int e = plain.indexOf('e');
+    QString text = plain.left(e);
+    if (e >= 0) text += QStringLiteral("×10") + superscript(plain.mid(e + 1).toInt());
+    return text.startsWith('-') ? minus + text.mid(1) : text;
+}
+
+// With so many significant digits. No digit before the point is rounded away without an exponent.
+QString roundedText(double number, int digits) {
+    constexpr int smallest = -4;
+    const QString text = QString::number(number, 'e', digits - 1);
+    const int e = text.indexOf('e'), exponent = text.mid(e + 1).toInt();
+    if (exponent >= smallest && exponent < digits) {
+        return typeset(QString::fromStdString(common::significantText(number, digits)));
+    }
+    QString mantissa = text.left(e);
+    while (mantissa.contains('.') && (mantissa.endsWith('0') || mantissa.endsWith('.'))) {
+        mantissa.chop(1);
+    }
+    return typeset(mantissa + text.mid(e));
+}
+
 QString label(const DataItem& item, std::int64_t number) {
     QString digits = QString::number(number).replace('-', minus);
     if (item.labels.empty()) return digits;
@@ -40,11 +63,28 @@ QString label(const DataItem& item, std::int64_t number) {
 QString numberText(const DataItem& item, double number) {
     if (std::isnan(number)) return tr("not a number");
     if (std::isinf(number)) return number > 0 ? QStringLiteral("∞") : minus + QStringLiteral("∞");
-    const QString plain = QString::fromStdString(common::numberText(item, number));
-    const int e = plain.indexOf('e');
-    QString text = plain.left(e);
-    if (e >= 0) text += QStringLiteral("×10") + superscript(plain.mid(e + 1).toInt());
-    return text.startsWith('-') ? minus + text.mid(1) : text;
+    return typeset(QString::fromStdString(common::numberText(item, number)));
+}
+
+QString fittingNumber(const DataItem& item, double number,
+                      const std::function<bool(const QString&)>& fits) {
+    QString text = numberText(item, number);
+    if (!std::isfinite(number)) return text;
+    for (int digits = 6; digits > 0 && !fits(text); --digits) text = roundedText(number, digits);
+    return text;
+}
+
+QString tickText(double number, double step) {
+    constexpr int usual = 6, most = 17;
+    constexpr double greatestFixed = 1e15;
+    const double size = std::abs(number);
+    if (!(step > 0) || size < step) return numberText(DataItem{}, number);
+    const int first = static_cast<int>(std::floor(std::log10(size)));
+    const int last = static_cast<int>(std::floor(std::log10(step) + 1e-6));
+    const int digits = first - last + 1;
+    if (digits <= usual) return numberText(DataItem{}, number);
+    if (size < greatestFixed) return typeset(QString::number(number, 'f', std::max(0, -last)));
+    return typeset(QString::number(number, 'e', std::min(digits, most) - 1));
 }
 
 QString elementText(const DataItem& item, const Value& value, std::size_t element) {

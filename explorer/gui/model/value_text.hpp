@@ -5,12 +5,18 @@
 #include "cortex/core/type_model.hpp"
 
 #include <QString>
+#include <functional>
 
 // Values as the screen shows them. Copies use cortex::toText, in plain ASCII at full precision.
 namespace cortex::gui {
 
 // With the digits of common::numberText(), and signs as they are printed: "−2.5×10⁻⁵".
 QString numberText(const DataItem& item, double number);
+// The same with fewer digits where it is too wide otherwise. The exponent stays whole: "1.2×10⁻⁷".
+QString fittingNumber(const DataItem& item, double number,
+                      const std::function<bool(const QString&)>& fits);
+// A number of an axis, with enough digits to tell it from the next one, a step away.
+QString tickText(double number, double step);
 
 // "−0.0121", "AtLimit (3)", "7 (no label)", "true", "7 values" with the first three.
 QString valueText(const DataItem& item, const Value& value);

@@ -129,6 +129,8 @@ void AxisView::refresh(const SystemNow& now) {
     if (jog_->runs() && axis(jog_->axis()).isAtLimit(jog_->direction())) {
         jog_->end(axis(jog_->axis()).limitText());
     }
+    const SimplexNow controller = now.at(path_);
+    if (controller.live()) jog_->see(controller.text("jogging") == QLatin1String{"true"});
     if (jogs_) {
         rows_->setPart(mode_ == QLatin1String{"Position"} ? RowPart::Demand : RowPart::Jog);
         bar_->modes().show(mode_);

@@ -100,7 +100,7 @@ void AxisView::showLines() {
     QString jogging;
     if (jog_->runs()) {
         const MotionAxis& each = axis(jog_->axis());
-        jogging = tr("Jogging %1 at %2. It ends %3 s after you let go.")
+        jogging = tr("Jogging %1 at %2. It brakes when you let go, after %3 s at the latest.")
                       .arg(each.name, velocityOf(each).withSign(jog_->velocity()))
                       .arg(jog_->holdTime());
     }

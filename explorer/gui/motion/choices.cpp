@@ -18,6 +18,7 @@ Choices::Choices(const std::vector<std::pair<QString, QString>>& choices, QWidge
     for (const auto& choice : choices) {
         auto* button = new QPushButton{choice.second};
         button->setCheckable(true);
+        button->setFocusPolicy(Qt::TabFocus);  // a click leaves the keys where they were
         connect(button, &QPushButton::clicked, this, [this, button, name = choice.first] {
             button->setChecked(!button->isChecked());  // until it is so
             Q_EMIT wanted(name);

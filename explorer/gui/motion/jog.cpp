@@ -25,6 +25,8 @@ void Jog::start(QWidget& held, int axis, double velocity, double holdTime) {
     axis_ = axis;
     velocity_ = velocity;
     holdTime_ = holdTime;
+    moved_ = false;
+    started_ = std::chrono::steady_clock::now();
     const milliseconds lasts{static_cast<int>(holdTime * 1000)};
     HeldOrder order{order_(axis, velocity), std::clamp<milliseconds>(lasts / 3, 1ms, longestStep),
                     order_(axis, 0).arguments};
@@ -51,6 +53,14 @@ void Jog::end(const QString& why) {
     if (!runs()) return;
     say(tr("Ended: %1").arg(why));
     hold_->end();
+}
+
+// Until the hold time has passed it may be the jog before this one.
+void Jog::see(bool jogging) {
+    if (!runs()) return;
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - started_;
+    if (moved_ && !jogging) end(tr("the controller ended it"));
+    moved_ = moved_ || (jogging && passed.count() > holdTime_);
 }
 
 QString Jog::said() const {

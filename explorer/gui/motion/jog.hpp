@@ -28,6 +28,8 @@ public:
     void start(QWidget& held, int axis, double velocity, double holdTime);
     void change(double velocity);
     void end(const QString& why);
+    // Whether the controller jogs, from time to time: what it has ended stays ended.
+    void see(bool jogging);
     bool runs() const { return hold_ && hold_->runs(); }
     int axis() const { return axis_; }
     int direction() const { return runs() ? (velocity_ > 0 ? 1 : -1) : 0; }
@@ -43,8 +45,9 @@ private:
     QPointer<Hold> hold_;
     int axis_ = 0;
     double velocity_ = 0, holdTime_ = 0;
+    bool moved_ = false;
     QString said_;
-    std::chrono::steady_clock::time_point since_;
+    std::chrono::steady_clock::time_point since_, started_;
 };
 
 }  // namespace cortex::explorer

@@ -85,6 +85,7 @@ void TipView::refresh(const SystemNow& now) {
     for (MotionAxis& each : axes_) explorer::refresh(each, now);
     explorer::refresh(tip_, now, path_);
     if (jog_->runs() && tip_.frame != frame) jog_->end(tr("the frame was changed"));
+    if (now.at(path_).live()) jog_->see(now.at(path_).text("jogging") == QLatin1String{"true"});
     whyNot_ = whyNot(path_, "jog");
     showBar();
     pad_->show(tip_.frame.toLower(), whyNoJog(), jog_->runs() ? jog_->axis() : -1,
@@ -202,7 +203,8 @@ void TipView::showLines() {
             (elbow ? tr("Jogging %1 at %2.") : tr("Jogging %1 at %2 in the frame %3."))
                 .arg(tipMotionName(jog_->axis()), shownOf(jog_->axis()).withSign(jog_->velocity()));
         if (!elbow) jogging = jogging.arg(tip_.frame);
-        jogging += tr(" It ends %1 s after you let go.").arg(jog_->holdTime());
+        jogging +=
+            tr(" It brakes when you let go, after %1 s at the latest.").arg(jog_->holdTime());
     }
     const QString limits = limitSentence();
     const bool refused = !whyNot_.isEmpty() && !jog_->runs();

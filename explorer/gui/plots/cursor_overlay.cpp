@@ -10,6 +10,19 @@
 
 namespace cortex::gui {
 
+namespace {
+
+int bandRow() {
+    return std::max(Look::units(4.5), QFontMetrics{Look::font(TextSize::Note)}.height());
+}
+
+}  // namespace
+
+QString cursorName(QChar name, double at, TimeSpan shown) {
+    if (at < shown.from) return QStringLiteral("← ") + name;
+    return at > shown.to ? name + QStringLiteral(" →") : QString{name};
+}
+
 CursorOverlay::CursorOverlay(QWidget* parent) : QWidget{parent} {
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setAttribute(Qt::WA_NoSystemBackground);
@@ -22,7 +35,28 @@ void CursorOverlay::show(const Cursors& cursors, TimeSpan span, const QRect& plo
     plot_ = plot;
     chosen_ = chosen;
     setVisible(showsAny());
+    const QString text = texts().join(QStringLiteral("; "));
+    if (text != accessibleDescription()) setAccessibleDescription(text);
     if (isVisible()) update();
+}
+
+int CursorOverlay::bandHeight() { return 2 * bandRow(); }
+
+QStringList CursorOverlay::texts() const {
+    if (!cursors_.shown || !(span_.length() > 0)) return {};
+    return {QStringLiteral("A ") + momentOf(cursors_.a),
+            QStringLiteral("B ") + momentOf(cursors_.b)};
+}
+
+// "12:15:06.200", or that it is out of view: in words where they have room.
+QString CursorOverlay::momentOf(double at) const {
+    const QString time = timeText(at, 1e-3);
+    if (placeOf(at)) return time;
+    const QString words = tr("%1, out of view").arg(time);
+    const QFontMetricsF metrics{Look::font(TextSize::Note)};
+    const bool fits = metrics.horizontalAdvance(words) + Look::length(12) < plot_.width();
+    const QString& text = fits ? words : time;
+    return at < span_.from ? QStringLiteral("← ") + text : text + QStringLiteral(" →");
 }
 
 void CursorOverlay::mark(int from, int to) {
@@ -40,13 +74,14 @@ std::optional<double> CursorOverlay::placeOf(double at) const {
 }
 
 // A moment in words, right of a line or left of it, on a ground of its own.
-void CursorOverlay::paintMoment(QPainter& painter, double x, double top, double at) const {
+void CursorOverlay::paintMoment(QPainter& painter, double x, double clear, double top,
+                                const QString& text) const {
     const Tokens& c = Look::colours();
-    const QString text = timeText(at, 1e-3);
     const QFontMetricsF metrics{Look::font(TextSize::Note)};
     const double gap = Look::length(1), wide = metrics.horizontalAdvance(text) + 2 * gap;
-    const bool fits = x + gap + wide < plot_.right();
-    const QRectF box{fits ? x + gap : x - gap - wide, top, wide, metrics.height() + gap / 2};
+    const bool fits = x + clear + wide < plot_.right();
+    const double left = fits ? x + clear : std::max(x - clear - wide, 0.0);
+    const QRectF box{left, top, wide, static_cast<double>(bandRow())};
     painter.setPen(Qt::NoPen);
     painter.setBrush(c.canvas);
     painter.drawRect(box);
@@ -55,34 +90,36 @@ void CursorOverlay::paintMoment(QPainter& painter, double x, double top, double 
     painter.drawText(box, Qt::AlignCenter, text);
 }
 
-// As thin as the grid, and its moment at the lower edge.
+// As thin as the grid, and its moment on the axis of time.
 void CursorOverlay::paintPointer(QPainter& painter, double at) const {
     const auto x = placeOf(at);
     if (!x) return;
     painter.setPen(QPen{Look::colours().ink2, 1});
     painter.drawLine(QPointF{*x, plot_.top() + 0.0}, QPointF{*x, plot_.bottom() + 0.0});
-    paintMoment(painter, *x, plot_.bottom() - Look::length(5), at);
+    paintMoment(painter, *x, Look::length(1), plot_.bottom() + 1.0, timeText(at, 1e-3));
 }
 
+// Its name and its moment are in a row of its own: A above B. Out of view they stand at the edge.
 void CursorOverlay::paintCursor(QPainter& painter, double at, QChar name) const {
     const Tokens& c = Look::colours();
+    const double side = Look::length(4), row = bandRow();
+    const double top = plot_.top() + (name == 'A' ? 0 : row);
     const auto place = placeOf(at);
-    if (!place) return;
-    const double x = *place;
-    const bool chosen = chosen_ == name.toLatin1();
-    QPen pen{chosen ? c.accent : c.ink, 1};
+    const double edge = at < span_.from ? plot_.left() + side / 2 : plot_.right() - side / 2;
+    const double x = place.value_or(std::round(edge) + 0.5);
+    const QColor colour = chosen_ == name.toLatin1() ? c.accent : c.ink;
+    QPen pen{colour, 1};
     pen.setDashPattern({3, 3});
     painter.setPen(pen);
-    const double side = Look::length(4);
-    painter.drawLine(QPointF{x, plot_.top() + side}, QPointF{x, plot_.bottom() + 0.0});
-    const QRectF head{x - side / 2 - 0.5, plot_.top() + 0.0, side, side};
+    if (place) painter.drawLine(QPointF{x, top + side}, QPointF{x, plot_.bottom() + 0.0});
+    paintMoment(painter, x, side / 2, top, momentOf(at));
+    const QRectF head{x - side / 2 - 0.5, top + (row - side) / 2, side, side};
     painter.setPen(Qt::NoPen);
-    painter.setBrush(chosen ? c.accent : c.ink);
+    painter.setBrush(colour);
     painter.drawRoundedRect(head, Look::length(0.5), Look::length(0.5));
-    painter.setPen(chosen ? c.onAccent : c.surface);
+    painter.setPen(chosen_ == name.toLatin1() ? c.onAccent : c.surface);
     painter.setFont(Look::font(TextSize::Note, true));
     painter.drawText(head, Qt::AlignCenter, name);
-    paintMoment(painter, x + side / 2 - Look::length(1), plot_.top(), at);
 }
 
 void CursorOverlay::paintEvent(QPaintEvent* /*event*/) {

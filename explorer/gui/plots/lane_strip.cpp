@@ -14,7 +14,15 @@ namespace cortex::gui {
 
 namespace {
 
+constexpr double darkest = 0.3;  // of the way from the ground to the ink
+
 int laneHeight() { return Look::units(6.5); }
+
+QColor between(const QColor& from, const QColor& to, double share) {
+    const auto mixed = [&](double a, double b) { return a + (b - a) * share; };
+    return QColor::fromRgbF(mixed(from.redF(), to.redF()), mixed(from.greenF(), to.greenF()),
+                            mixed(from.blueF(), to.blueF()));
+}
 
 }  // namespace
 
@@ -29,8 +37,9 @@ void LaneStrip::show(std::vector<DrawnLine> lanes, const Recorder& recorder, Tim
     for (const DrawnLine& each : lanes_) {
         words_.push_back(laneWords(each, recorder, span, pixel));
         const auto& words = words_.back();
-        const QString last =
-            words.empty() || words.back().missing ? tr("no data") : words.back().text;
+        QString last = tr("no data");
+        if (!words.empty() && !words.back().missing) last = words.back().text;
+        if (!words.empty() && words.back().lack == Lack::NotGood) last = tr("not good");
         texts.append(QStringLiteral("%1: %2").arg(each.line.name(), last));
     }
     const QString text = texts.join(QStringLiteral(", "));
@@ -49,24 +58,28 @@ std::vector<LaneWord> LaneStrip::words(int lane) const {
     return words_.at(static_cast<std::size_t>(lane));
 }
 
-void LaneStrip::paintLane(QPainter& painter, const QRect& row,
-                          const std::vector<LaneWord>& words) const {
+QColor LaneStrip::colourOf(int lane, const LaneWord& word) const {
+    const Tokens& c = Look::colours();
+    if (word.text.isEmpty()) return c.ink2;
+    const PlotLine& line = lanes_.at(static_cast<std::size_t>(lane)).line;
+    return between(c.hover, c.ink2, darkest * shadeOf(line, word.number));
+}
+
+void LaneStrip::paintLane(QPainter& painter, const QRect& row, int lane) const {
     const Tokens& c = Look::colours();
     const QFontMetrics metrics{painter.font()};
     const double scale = (right_ - left_) / span_.length();
     const int margin = Look::units(2);
-    bool odd = false;
-    for (const LaneWord& each : words) {
+    for (const LaneWord& each : words(lane)) {
         const double from = std::max(left_ + (each.from - span_.from) * scale, left_ + 0.0);
         const double to = std::min(left_ + (each.to - span_.from) * scale, right_ + 0.0);
         if (to <= from) continue;
         const QRectF box{from, row.top() + 1.0, std::max(to - from, 1.0), row.height() - 4.0};
-        odd = !odd;
         if (each.missing) {
             paintHatch(painter, box);
             continue;
         }
-        painter.fillRect(box, each.text.isEmpty() ? c.ink2 : odd ? c.band : c.hover);
+        painter.fillRect(box, colourOf(lane, each));
         painter.setPen(QPen{c.border, 1});
         painter.drawLine(box.topLeft(), box.bottomLeft());
         const int room = static_cast<int>(box.width()) - 2 * margin;
@@ -90,7 +103,7 @@ void LaneStrip::paintEvent(QPaintEvent* /*event*/) {
         painter.drawText(
             name, Qt::AlignRight | Qt::AlignVCenter,
             metrics.elidedText(lanes_[i].line.itemName(), Qt::ElideMiddle, name.width()));
-        paintLane(painter, row, words_[i]);
+        paintLane(painter, row, static_cast<int>(i));
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include "plots/lanes.hpp"
 
+#include <QColor>
 #include <QWidget>
 
 namespace cortex::gui {
@@ -16,12 +17,13 @@ public:
     void show(std::vector<DrawnLine> lanes, const Recorder& recorder, TimeSpan span);
     void setEdges(int left, int right);  // of all canvases, in pixels
     std::vector<LaneWord> words(int lane) const;
+    QColor colourOf(int lane, const LaneWord& word) const;
 
 protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    void paintLane(QPainter& painter, const QRect& row, const std::vector<LaneWord>& words) const;
+    void paintLane(QPainter& painter, const QRect& row, int lane) const;
 
     std::vector<DrawnLine> lanes_;
     std::vector<std::vector<LaneWord>> words_;

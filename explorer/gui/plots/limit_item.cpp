@@ -67,7 +67,7 @@ QString wordsOf(double limit, bool upper, const PlotLine& line, bool ofAll) {
 
 }  // namespace
 
-LimitItem::LimitItem(Part part) : part_{part} { setZ(part == Part::Band ? 2 : 24); }
+LimitItem::LimitItem(Part part) : part_{part} { setZ(part == Part::Band ? 2 : 7); }
 
 void LimitItem::draw(QPainter* painter, const QwtScaleMap& /*xMap*/, const QwtScaleMap& yMap,
                      const QRectF& canvas) const {

@@ -14,7 +14,7 @@ namespace cortex::gui {
 // same limit, otherwise an edge for each.
 class LimitItem : public QwtPlotItem {
 public:
-    enum class Part { Band, Text };  // below the lines, and above them
+    enum class Part { Band, Text };  // both below the lines; texts above what is hatched
     explicit LimitItem(Part part);
     void show(std::vector<PlotLine> lines) { lines_ = std::move(lines); }
     void draw(QPainter* painter, const QwtScaleMap& xMap, const QwtScaleMap& yMap,

@@ -55,6 +55,15 @@ void OverviewStrip::paintLine(QPainter& painter, const QRect& box) const {
     }
 }
 
+// "34.20 s"; "10 min 34 s" in two rows where it has no room in one.
+QString OverviewStrip::lengthText(int room) const {
+    QString text = durationText(kept_.length());
+    const QFontMetrics metrics{Look::font(TextSize::Note)};
+    const int second = static_cast<int>(text.indexOf(' ', text.indexOf(' ') + 1));
+    if (second > 0 && metrics.horizontalAdvance(text) > room) text[second] = '\n';
+    return text;
+}
+
 void OverviewStrip::paintEvent(QPaintEvent* /*event*/) {
     if (!(kept_.length() > 0) || right_ <= left_) return;
     QPainter painter{this};
@@ -73,8 +82,8 @@ void OverviewStrip::paintEvent(QPaintEvent* /*event*/) {
     painter.drawRect(QRectF{from, 1, to - from, height() - 2.0});
     painter.setFont(Look::font(TextSize::Note));
     painter.setPen(c.ink2);
-    painter.drawText(QRect{0, 0, left_ - Look::units(2), height()},
-                     Qt::AlignRight | Qt::AlignVCenter, durationText(kept_.length()));
+    const QRect beside{0, 0, left_ - Look::units(2), height()};
+    painter.drawText(beside, Qt::AlignRight | Qt::AlignVCenter, lengthText(beside.width()));
 }
 
 void OverviewStrip::mousePressEvent(QMouseEvent* event) {

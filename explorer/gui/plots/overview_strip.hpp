@@ -25,6 +25,7 @@ protected:
 
 private:
     double secondsAt(int x) const;
+    QString lengthText(int room) const;
     void paintLine(QPainter& painter, const QRect& box) const;
 
     DrawnLine line_;

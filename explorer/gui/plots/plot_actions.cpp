@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // What keys and menus do to a plot, and what is kept of it.
+#include "model/whole_file.hpp"
 #include "plots/plot_csv.hpp"
 #include "plots/plot_legend.hpp"
 #include "plots/plot_panel.hpp"
+#include "plots/plot_report.hpp"
 #include "plots/plot_view.hpp"
 #include "plots/time_ticks.hpp"
 #include "style/look.hpp"
 #include "widgets/unit_menu.hpp"
 
+#include <QBuffer>
 #include <QContextMenuEvent>
 #include <QFileDialog>
 #include <QJsonArray>
@@ -15,7 +18,6 @@
 #include <QMenu>
 #include <QMessageBox>
 #include <QPainter>
-#include <QSaveFile>
 #include <QSvgGenerator>
 #include <array>
 #include <sstream>
@@ -26,17 +28,6 @@ namespace cortex::gui {
 namespace {
 
 constexpr double panShare = 0.1, zoomFactor = 0.8;
-
-int heading() { return Look::units(10); }
-
-// Panels and legend with their title and range above them, as in a report.
-void paintReport(QPainter& painter, QWidget& view, const QString& title) {
-    painter.fillRect(QRect{0, 0, view.width(), view.height() + heading()}, Look::colours().surface);
-    painter.setPen(Look::colours().ink);
-    painter.setFont(Look::font(TextSize::Text, true));
-    painter.drawText(QRect{Look::units(3), 0, view.width(), heading()}, Qt::AlignVCenter, title);
-    view.render(&painter, {0, heading()}, {}, QWidget::DrawChildren);
-}
 
 }  // namespace
 
@@ -181,12 +172,15 @@ QString PlotView::exportTo(const QString& file) {
     for (const PlotLine& each : lines_.all()) {
         names.append(QStringLiteral("%1 %2").arg(each.tag).arg(each.name()));
     }
-    const QString title = tr("%1 %2 to %3 %4: %5")
-                              .arg(dayText(span.from), momentText(span.from), momentText(span.to),
-                                   zoneText(span.to), names.join(", "));
-    const QSize size = body_->size() + QSize{0, heading()};
-    QSaveFile out{file};
-    if (!out.open(QIODevice::WriteOnly)) return out.errorString();
+    const QString when =
+        tr("%1 %2 to %3 %4")
+            .arg(dayText(span.from), momentText(span.from), momentText(span.to), zoneText(span.to));
+    written_.clear();  // the picture does not tell of the export before
+    frames_ = 0;
+    redraw();
+    const PlotReport report{*column_, side_->isHidden() ? nullptr : legend_, when, names};
+    QBuffer out;
+    out.open(QIODevice::WriteOnly);
     if (file.endsWith(QStringLiteral(".csv"))) {
         std::ostringstream text;
         writeCsv(text, drawn(), recorder_, span);
@@ -194,20 +188,21 @@ QString PlotView::exportTo(const QString& file) {
     } else if (file.endsWith(QStringLiteral(".svg"))) {
         QSvgGenerator svg;
         svg.setOutputDevice(&out);
-        svg.setTitle(title);
-        svg.setSize(size);
-        svg.setViewBox(QRect{{}, size});
+        svg.setTitle(when);
+        svg.setDescription(names.join(QStringLiteral(", ")));
+        svg.setSize(report.size());
+        svg.setViewBox(QRect{{}, report.size()});
         QPainter painter{&svg};
-        paintReport(painter, *body_, title);
+        report.paint(painter);
     } else {
-        QImage image{size * 2, QImage::Format_RGB32};
+        QImage image{report.size() * 2, QImage::Format_RGB32};
         image.setDevicePixelRatio(2);
         QPainter painter{&image};
-        paintReport(painter, *body_, title);
+        report.paint(painter);
         painter.end();
         if (!image.save(&out, "PNG")) return tr("the picture cannot be made");
     }
-    return out.commit() ? QString{} : out.errorString();
+    return writeWholeFile(file, out.data());
 }
 
 QJsonObject PlotView::saved() const {
@@ -289,11 +284,11 @@ void PlotView::restore(const QJsonObject& saved) {
         if (item) add({*item}, of[QStringLiteral("panel")].toInt(-1));
     }
     history_.clear();
-    side_->setVisible(saved[QStringLiteral("legend")].toBool(true));
     range_.setSpan(saved[QStringLiteral("span")].toDouble(range_.span()));
     if (saved[QStringLiteral("statistics")].toBool() != legend_->showsStatistics()) {
-        toggleStatistics();
+        toggleStatistics();  // which shows the legend
     }
+    side_->setVisible(saved[QStringLiteral("legend")].toBool(true));
 }
 
 }  // namespace cortex::gui

@@ -86,12 +86,13 @@ void PlotBar::show(const PlotRange& range, const Shown& shown) {
     legend_->setChecked(shown.legend);
     const QString span = tr("Span %1").arg(spanText(range.span()));
     if (span_->text() != span) span_->setText(span);
-    if (!range.follows()) {
+    const bool held = !range.follows() && range.known();
+    if (held) {
         held_->show(tr("Held at %1, %2 s behind now")
                         .arg(momentText(range.shown().to))
                         .arg(range.behind(), 0, 'f', 1));
     }
-    held_->setVisible(!range.follows());
+    held_->setVisible(held);
 }
 
 void PlotBar::say(const QString& notice) {

@@ -26,8 +26,9 @@ PlotPlace PlotView::placeAt(const QPoint& at) const {
     for (std::size_t i = 0; i < panels_.size(); ++i) {
         const int y = panels_[i]->mapFrom(const_cast<PlotView*>(this), at).y();
         const int panel = static_cast<int>(i);
-        if (y < edge()) return {panel, true};
-        if (y < panels_[i]->height() - edge()) return {panel, false};
+        const QRect canvas = panels_[i]->canvasBox();
+        if (y < canvas.top() + edge()) return {panel, true};
+        if (y <= canvas.bottom() - edge()) return {panel, false};
     }
     return {panels_.empty() ? -1 : static_cast<int>(panels_.size()), !panels_.empty()};
 }

@@ -13,6 +13,7 @@
 #include <QContextMenuEvent>
 #include <QMouseEvent>
 #include <QPainter>
+#include <algorithm>
 #include <cmath>
 
 namespace cortex::gui {
@@ -22,6 +23,14 @@ namespace {
 int lineHeight() { return Look::units(4.5); }
 int entryHeight() { return 3 * lineHeight() + Look::units(2); }
 int headHeight() { return Look::units(7); }
+int sideOf() { return Look::units(2); }
+// Three numbers beside each other, of which the longest with one digit is whole in any font.
+int legendWidth() {
+    const int longest = textWidth(QStringLiteral("−5×10⁻³⁰⁰")) + sideOf() / 2 + 1;
+    return std::max(Look::units(57), 3 * longest + 2 * sideOf());
+}
+int thirdOf(int width) { return (width - 2 * sideOf()) / 3; }
+int valueWidth(int width) { return thirdOf(width) - sideOf() / 2; }
 
 }  // namespace
 
@@ -32,7 +41,7 @@ PlotLegend::PlotLegend(QWidget* parent) : QWidget{parent} {
 
 QSize PlotLegend::sizeHint() const {
     const int facts = statistics_ ? static_cast<int>(facts_.size()) + 2 : 0;
-    return {Look::units(57),
+    return {legendWidth(),
             headHeight() + static_cast<int>(rows_.size()) * entryHeight() + facts * lineHeight()};
 }
 
@@ -48,7 +57,9 @@ PlotLegend::Row PlotLegend::rowOf(const DrawnLine& line, const Recorder& recorde
     const auto text = [&](double value) {
         if (std::isnan(value)) return QStringLiteral("—");
         return line.line.lane ? wordOf(line.line, recorder, value)
-                              : numberText(line.line.data, value);
+                              : fittingNumber(line.line.data, value, [](const QString& shown) {
+                                    return textWidth(shown) <= valueWidth(legendWidth());
+                                });
     };
     if (!line.line.unit().isEmpty()) row.item += QStringLiteral(" (%1)").arg(line.line.unit());
     if (line.line.demand) row.item += tr(", demanded");
@@ -59,8 +70,9 @@ PlotLegend::Row PlotLegend::rowOf(const DrawnLine& line, const Recorder& recorde
     }
     const bool silent = line.silentUntil > 0 && !at;
     row.values[0] = silent ? QStringLiteral("—") : text(at ? line.valueAt(*at) : line.newest());
-    const Extent extent = line.extent(span);
     if (!line.line.lane) {
+        const auto [first, last] = line.inside(span);
+        const Extent extent = line.any() ? line.extent(first, last) : Extent{};
         row.values[1] = extent.any() ? text(extent.min) : QStringLiteral("—");
         row.values[2] = extent.any() ? text(extent.max) : QStringLiteral("—");
     }
@@ -76,10 +88,10 @@ void PlotLegend::show(const std::vector<DrawnLine>& lines, const Recorder& recor
     for (const DrawnLine& each : lines) {
         rows_.push_back(rowOf(each, recorder, span, cursors, at));
     }
-    const QString first = cursors.pointer ? tr("pointer") : at ? tr("at the end") : tr("newest");
-    heads_ = cursors.shown
-                 ? std::array{QStringLiteral("A"), QStringLiteral("B"), QStringLiteral("B − A")}
-                 : std::array{first, tr("min"), tr("max")};
+    const QString first = cursors.pointer ? tr("pointer") : at ? tr("at end") : tr("newest");
+    heads_ = cursors.shown ? std::array{cursorName('A', cursors.a, span),
+                                        cursorName('B', cursors.b, span), QStringLiteral("B − A")}
+                           : std::array{first, tr("min"), tr("max")};
     if (statistics_) fillFacts(lines, span, cursors);
     if (before.size() != rows_.size()) updateGeometry();
     describe();
@@ -95,21 +107,35 @@ void PlotLegend::fillFacts(const std::vector<DrawnLine>& lines, TimeSpan span,
         if (each.line.tag != chosen_ || each.line.lane || !each.any()) continue;
         const TimeSpan of = cursors.shown ? cursors.span() : span;
         const Statistics found = statisticsOf(each, of);
-        title_ = cursors.shown ? tr("%1, A to B: %2").arg(chosen_).arg(durationText(of.length()))
+        title_ = cursors.shown ? tr("%1, %2 to %3: %4")
+                                     .arg(chosen_)
+                                     .arg(heads_[0], heads_[1], durationText(of.length()))
                                : tr("%1, visible: %2").arg(chosen_).arg(durationText(of.length()));
-        const auto number = [&](double value) {
-            return QStringLiteral("%1 %2").arg(numberText(each.line.data, value), each.line.unit());
+        const auto number = [&](double value, const QString& after = {}) {
+            const QString unit = QStringLiteral(" %1%2").arg(each.line.unit(), after);
+            const int room = legendWidth() - 2 * sideOf() - namesWidth() - textWidth(unit);
+            return fittingNumber(
+                       each.line.data, value,
+                       [room](const QString& shown) { return textWidth(shown) <= room; }) +
+                   unit;
         };
         facts_.push_back({tr("samples"), QString::number(found.count)});
         facts_.push_back({tr("missing"), QString::number(found.missing)});
         if (found.count == 0) break;
+        facts_.push_back({tr("duration"), durationText(found.length)});
         facts_.push_back({tr("min"), number(found.min)});
         facts_.push_back({tr("mean"), number(found.mean)});
         facts_.push_back({tr("max"), number(found.max)});
         facts_.push_back({QStringLiteral("σ"), number(found.deviation)});
-        facts_.push_back({tr("slope"), number(found.slope) + tr(" per s")});
+        facts_.push_back({tr("slope"), number(found.slope, tr(" per s"))});
     }
     if (before != facts_.size()) updateGeometry();
+}
+
+int PlotLegend::namesWidth() const {
+    int width = 0;
+    for (const auto& [name, value] : facts_) width = std::max(width, textWidth(name));
+    return width + sideOf();
 }
 
 void PlotLegend::showStatistics(bool wanted) {
@@ -162,10 +188,10 @@ void PlotLegend::contextMenuEvent(QContextMenuEvent* event) {
 void PlotLegend::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter{this};
     const Tokens& c = Look::colours();
-    const int side = Look::units(2), third = (width() - 2 * side) / 3, line = lineHeight();
+    const int side = sideOf(), third = thirdOf(width()), line = lineHeight();
     const auto thirds = [&](int y, const std::array<QString, 3>& texts, const QColor& colour) {
         for (int i = 0; i < 3; ++i) {
-            paintText(painter, {side + i * third, y, third - side / 2, line},
+            paintText(painter, {side + i * third, y, valueWidth(width()), line},
                       texts[static_cast<std::size_t>(i)], colour, Qt::AlignRight);
         }
     };
@@ -192,12 +218,18 @@ void PlotLegend::paintEvent(QPaintEvent* /*event*/) {
         }
         y += entryHeight();
     }
-    if (!statistics_ || facts_.empty()) return;
+    if (statistics_ && !facts_.empty()) paintFacts(painter, y);
+}
+
+void PlotLegend::paintFacts(QPainter& painter, int y) const {
+    const Tokens& c = Look::colours();
+    const int side = sideOf(), line = lineHeight();
     paintText(painter, {side, y, width() - 2 * side, line}, title_, c.ink2);
+    const int names = namesWidth();
     for (const auto& [name, value] : facts_) {
         y += line;
-        paintText(painter, {side, y, third, line}, name, c.ink2);
-        paintText(painter, {side + third, y, width() - 2 * side - third, line}, value, c.ink,
+        paintText(painter, {side, y, names, line}, name, c.ink2);
+        paintText(painter, {side + names, y, width() - 2 * side - names, line}, value, c.ink,
                   Qt::AlignRight);
     }
 }

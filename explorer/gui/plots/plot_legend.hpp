@@ -48,6 +48,8 @@ private:
     Row rowOf(const DrawnLine& line, const Recorder& recorder, TimeSpan span,
               const Cursors& cursors, std::optional<double> at) const;
     void fillFacts(const std::vector<DrawnLine>& lines, TimeSpan span, const Cursors& cursors);
+    int namesWidth() const;  // of the facts
+    void paintFacts(QPainter& painter, int y) const;
     int tagAt(int y) const;
     void describe();
 

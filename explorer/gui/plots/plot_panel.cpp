@@ -30,6 +30,7 @@ constexpr double margin = 0.05;  // of what is shown, above and below
 constexpr int mostTicks = 6;
 // Half of what an axis shows at least: rounding is no curve.
 constexpr double leastShown = 1e-9, leastShare = 1e-6;
+constexpr double greatest = 4e307;  // at an end of an axis: its length is a number, too
 
 // Numbers of axes are typeset as all numbers.
 class NumberScale : public QwtScaleDraw {
@@ -42,61 +43,26 @@ public:
         enableComponent(QwtAbstractScaleDraw::Ticks, false);
     }
     QwtText label(double value) const override {
+        const QList<double> ticks = scaleDiv().ticks(QwtScaleDiv::MajorTick);
+        const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 0;
         const double rounded = std::abs(value) < 1e-12 ? 0 : value;
-        QwtText text{numberText(DataItem{}, rounded), QwtText::PlainText};
+        QwtText text{tickText(rounded, step), QwtText::PlainText};
         text.setColor(Look::colours().ink2);
         return text;
     }
     void forgetColours() { invalidateCache(); }
 };
 
-// The titles of the panel, one for each unit: "position (rad)".
-class TitleItem : public QwtPlotItem {
-public:
-    explicit TitleItem(const std::vector<DrawnLine>& lines) : lines_{lines} { setZ(30); }
-    void draw(QPainter* painter, const QwtScaleMap& /*xMap*/, const QwtScaleMap& /*yMap*/,
-              const QRectF& canvas) const override;
-
-private:
-    QString titleOf(bool right) const;
-
-    const std::vector<DrawnLine>& lines_;
-};
-
-QString TitleItem::titleOf(bool right) const {
-    AxisTitle title;
-    for (const DrawnLine& each : lines_) {
-        if (each.line.right == right) title.add(each.line);
-    }
-    return title.text();
-}
-
-void TitleItem::draw(QPainter* painter, const QwtScaleMap& /*xMap*/, const QwtScaleMap& /*yMap*/,
-                     const QRectF& canvas) const {
-    painter->setFont(Look::font(TextSize::Note, true));
-    const QFontMetrics metrics{painter->font()};
-    const double side = Look::length(2);
-    for (const bool right : {false, true}) {
-        const QString text = metrics.elidedText(titleOf(right), Qt::ElideRight,
-                                                static_cast<int>(canvas.width() / 2));
-        if (text.isEmpty()) continue;
-        const QRectF box{
-            right ? canvas.right() - side - metrics.horizontalAdvance(text) : canvas.left() + side,
-            canvas.top() + side / 2, metrics.horizontalAdvance(text) + 1.0,
-            static_cast<double>(metrics.height())};
-        QColor back = Look::colours().canvas;
-        painter->fillRect(box.adjusted(-side / 4, 0, side / 4, 0), back);
-        painter->setPen(Look::colours().ink);
-        painter->drawText(box, Qt::AlignLeft | Qt::AlignVCenter, text);
-    }
+// The row above the canvas. No text of it can hide a line.
+int titleHeight() {
+    return QFontMetrics{Look::font(TextSize::Note, true)}.height() + Look::units(0.5);
 }
 
 }  // namespace
 
 PlotPanel::PlotPanel(QWidget* parent)
     : QwtPlot{parent},
-      gapItem_{std::make_unique<GapItem>(GapItem::Part::Hatch)},
-      gapTexts_{std::make_unique<GapItem>(GapItem::Part::Text)},
+      gapItem_{std::make_unique<GapItem>()},
       limitItem_{std::make_unique<LimitItem>(LimitItem::Part::Band)},
       limitTexts_{std::make_unique<LimitItem>(LimitItem::Part::Text)},
       grid_{new QwtPlotGrid} {
@@ -123,15 +89,12 @@ PlotPanel::PlotPanel(QWidget* parent)
     limitItem_->attach(this);
     limitTexts_->attach(this);
     gapItem_->attach(this);
-    gapTexts_->attach(this);
-    (new TitleItem{lines_})->attach(this);
     restyle();
 }
 
 PlotPanel::~PlotPanel() {
     items_.clear();
     gapItem_.reset();
-    gapTexts_.reset();
     limitItem_.reset();
     limitTexts_.reset();
 }
@@ -144,6 +107,7 @@ void PlotPanel::restyle() {
         static_cast<NumberScale*>(axisScaleDraw(axis))->forgetColours();
     }
     for (const auto& each : items_) each->itemChanged();
+    keepMargins();
 }
 
 // The visible extent with a margin around it.
@@ -154,10 +118,11 @@ void PlotPanel::fitAxis(bool right, TimeSpan span, bool grows) {
         if (each.line.right == right) extent.add(each.extent(span));
     }
     if (!axis.fixed && extent.any() && std::isfinite(extent.min) && std::isfinite(extent.max)) {
-        double around = (extent.max - extent.min) * margin;
+        double around = (extent.max / 2 - extent.min / 2) * 2 * margin;
         if (around <= 0) around = std::max(std::abs(extent.max) * margin, 0.01);
         around = std::max({around, leastShown, std::abs(extent.max) * leastShare});
-        const double low = extent.min - around, high = extent.max + around;
+        const double low = std::max(extent.min - around, -greatest);
+        const double high = std::min(extent.max + around, greatest);
         const bool keep = grows && axis.known;
         axis.low = keep ? std::min(axis.low, extent.min >= axis.low ? axis.low : low) : low;
         axis.high = keep ? std::max(axis.high, extent.max <= axis.high ? axis.high : high) : high;
@@ -187,7 +152,6 @@ void PlotPanel::show(std::vector<DrawnLine> lines, TimeSpan span, bool grows) {
     const double width = std::max(canvas()->width(), 1);
     shownGaps_ = gapsOf(lines_, span, span.length() / width);
     gapItem_->show(shownGaps_, lines_.size());
-    gapTexts_->show(shownGaps_, lines_.size());
     limitItem_->show(left);
     limitTexts_->show(std::move(left));
     enableAxis(yRight, anyRight);
@@ -198,7 +162,43 @@ void PlotPanel::show(std::vector<DrawnLine> lines, TimeSpan span, bool grows) {
     div.setTicks(QwtScaleDiv::MajorTick, timeTicks(span, step));
     setAxisScaleDiv(xBottom, div);
     replot();
+    update(QRect{0, 0, this->width(), titleHeight()});
     describe();
+}
+
+// The titles, one for each unit: "position (rad)". Between them, lengths of gaps.
+void PlotPanel::paintEvent(QPaintEvent* event) {
+    QwtPlot::paintEvent(event);
+    QPainter painter{this};
+    painter.setFont(Look::font(TextSize::Note, true));
+    painter.setPen(Look::colours().ink);
+    const QFontMetrics metrics{painter.font()};
+    const QRect canvas = canvasBox();
+    const QRect row{canvas.left(), 0, canvas.width(), metrics.height()};
+    std::vector<QRectF> taken;
+    for (const bool right : {false, true}) {
+        const int most = axisEnabled(yRight) ? row.width() / 2 : row.width();
+        const QString text = metrics.elidedText(titleOf(right), Qt::ElideRight, most);
+        if (text.isEmpty()) continue;
+        const auto side = right ? Qt::AlignRight : Qt::AlignLeft;
+        taken.emplace_back(metrics.boundingRect(row, side, text));
+        painter.drawText(row, static_cast<int>(side | Qt::AlignVCenter) | Qt::TextSingleLine, text);
+    }
+    QwtScaleMap map = canvasMap(xBottom);
+    map.setPaintInterval(map.p1() + canvas.left(), map.p2() + canvas.left());
+    gapItem_->paintAbove(painter, map, QRectF{row}.adjusted(0.5, 0.5, -0.5, 0.5), std::move(taken));
+}
+
+QString PlotPanel::titleOf(bool right) const {
+    AxisTitle title;
+    for (const DrawnLine& each : lines_) {
+        if (each.line.right == right) title.add(each.line);
+    }
+    return title.text();
+}
+
+void PlotPanel::keepMargins() {
+    setContentsMargins(0, titleHeight(), static_cast<int>(std::ceil(rightMargin_)), 0);
 }
 
 void PlotPanel::describe() {
@@ -233,10 +233,8 @@ void PlotPanel::setAxisExtents(double left, double right) {
     axisScaleDraw(yLeft)->setMinimumExtent(left - axisWidget(yLeft)->margin());
     axisScaleDraw(yRight)->setMinimumExtent(right - axisWidget(yRight)->margin());
     const double own = axisEnabled(yRight) ? 0 : right;
-    if (own != rightMargin_) {
-        rightMargin_ = own;
-        setContentsMargins(0, 0, static_cast<int>(std::ceil(own)), 0);
-    }
+    rightMargin_ = own;
+    keepMargins();
     updateLayout();
 }
 

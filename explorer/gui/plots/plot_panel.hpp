@@ -39,6 +39,9 @@ public:
     void zoomValues(double factor);
     void resetValues();  // automatic again
 
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
 private:
     struct Axis {
         double low = 0, high = 1;
@@ -46,10 +49,12 @@ private:
     };
     void fitAxis(bool right, TimeSpan span, bool grows);
     void describe();
+    QString titleOf(bool right) const;
+    void keepMargins();
 
     std::vector<DrawnLine> lines_;
     std::vector<std::unique_ptr<LineItem>> items_;
-    std::unique_ptr<GapItem> gapItem_, gapTexts_;
+    std::unique_ptr<GapItem> gapItem_;
     std::unique_ptr<LimitItem> limitItem_, limitTexts_;
     QwtPlotGrid* grid_;
     std::array<Axis, 2> axes_;

@@ -25,19 +25,19 @@ void PlotRange::setSpan(double seconds) { span_ = std::clamp(seconds, least, mos
 void PlotRange::show(TimeSpan span) {
     hold();
     setSpan(span.length());
-    to_ = span.to;
+    if (known()) to_ = span.to;
 }
 
 void PlotRange::pan(double seconds) {
     hold();
-    to_ += seconds;
+    if (known()) to_ += seconds;
 }
 
 void PlotRange::zoom(double factor, double around) {
     hold();
     const double before = span_;
     setSpan(span_ * factor);
-    to_ = around + (to_ - around) * (span_ / before);
+    if (known()) to_ = around + (to_ - around) * (span_ / before);
 }
 
 }  // namespace cortex::gui

@@ -18,6 +18,7 @@ public:
     explicit PlotRange(double span = 20) : span_{span} {}
 
     bool follows() const { return follows_; }
+    bool known() const { return to_ != 0; }  // anything has come; nothing moves before
     double span() const { return span_; }
     TimeSpan shown() const { return {to_ - span_, to_}; }
     double behind() const { return now_ - to_; }  // s

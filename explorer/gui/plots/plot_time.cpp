@@ -31,6 +31,14 @@ QString clockNotice(const std::string& agent, std::int64_t shift) {
         .arg(plainText(agent), size);
 }
 
+// "98", or "98 to 246".
+QString rangeText(const std::vector<std::int64_t>& counts) {
+    if (counts.empty()) return QStringLiteral("0");
+    const auto [least, most] = std::ranges::minmax(counts);
+    const auto text = [](std::int64_t each) { return countText(static_cast<std::uint64_t>(each)); };
+    return least == most ? text(least) : PlotView::tr("%1 to %2").arg(text(least), text(most));
+}
+
 }  // namespace
 
 // Takes over what is known of clocks. True: lines are elsewhere than before.
@@ -78,16 +86,16 @@ TimeSpan PlotView::kept() const {
 
 // What is kept, and why that is not everything.
 void PlotView::showNotices() {
-    std::int64_t samples = 0;
+    std::vector<std::int64_t> samples;
     std::uint64_t skipped = 0;
     for (const DrawnLine& each : drawn()) {
+        samples.push_back(each.any() ? each.ring->present() : 0);
         if (!each.any()) continue;
-        samples = std::max(samples, each.ring->end() - each.ring->begin());
         skipped = std::max(skipped, each.time->skipped);
     }
-    QString kept = tr("%1 samples a line in %2, %3 lost on the way")
-                       .arg(countText(static_cast<std::uint64_t>(samples)),
-                            durationText(this->kept().length()), countText(skipped));
+    QString kept =
+        tr("%1 samples a line in %2, %3 lost on the way")
+            .arg(rangeText(samples), durationText(this->kept().length()), countText(skipped));
     if (!written_.isEmpty()) kept += QStringLiteral("; ") + written_;
     foot_->show(kept);
     QStringList notices;

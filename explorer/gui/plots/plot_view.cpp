@@ -31,6 +31,9 @@ namespace {
 constexpr double silence = 0.3;  // s behind the others, after which a line is missed
 constexpr int legendEvery = 3;   // frames: digits that change faster cannot be read
 
+// With room for a scroll bar.
+int sideWidth(const PlotLegend& legend) { return legend.sizeHint().width() + Look::units(3); }
+
 }  // namespace
 
 PlotView::PlotView(Recorder& recorder, QWidget* parent)
@@ -103,13 +106,12 @@ void PlotView::build() {
     side->setWidgetResizable(true);
     side->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     side_ = side;
-    side->setFixedWidth(Look::units(60));
+    side->setFixedWidth(sideWidth(*legend_));
     side->setFocusPolicy(Qt::NoFocus);
     side->setWidget(legend_);
     across->addWidget(side);
 
     auto* down = new QVBoxLayout{column_};
-    down->setContentsMargins(0, Look::units(4), 0, 0);
     down->setSpacing(Look::units(1));
     stack_->setSpacing(Look::units(2));
     down->addLayout(stack_, 1);
@@ -226,6 +228,8 @@ void PlotView::redraw() {
     bar_->show(range_, {cursors_.shown, legend_->showsStatistics(), !side_->isHidden()});
     if (!any) return;
     fitPanels();
+    column_->layout()->setContentsMargins(
+        0, cursors_.shown ? CursorOverlay::bandHeight() : Look::units(1), 0, 0);
     const TimeSpan span = range_.shown();
     cursors_.pointer = pointer_->moment();
     const std::vector<DrawnLine> all = drawn();
@@ -271,6 +275,7 @@ void PlotView::showTags() {
 }
 
 void PlotView::toggleCursors() {
+    if (!range_.known()) return redraw();  // there is no moment yet
     cursors_.shown = !cursors_.shown;
     const TimeSpan span = range_.shown();
     if (cursors_.shown) {
@@ -308,7 +313,7 @@ void PlotView::resizeEvent(QResizeEvent* event) {
 void PlotView::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
     if (event->type() != QEvent::StyleChange && event->type() != QEvent::PaletteChange) return;
-    if (side_ != nullptr) side_->setFixedWidth(Look::units(60));
+    if (side_ != nullptr) side_->setFixedWidth(sideWidth(*legend_));
     for (PlotPanel* each : panels_) each->restyle();
 }
 

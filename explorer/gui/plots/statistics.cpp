@@ -32,12 +32,7 @@ double slopeOf(const DrawnLine& line, std::int64_t first, std::int64_t last, dou
 Statistics statisticsOf(const DrawnLine& line, TimeSpan span) {
     Statistics result;
     if (!line.any()) return result;
-    const Ring& ring = *line.ring;
-    const auto bound = [&](double seconds) {
-        return static_cast<std::int64_t>(std::ceil(line.time->indexAt(seconds) - 1e-3));
-    };
-    const std::int64_t first = std::max(bound(span.from), ring.begin());
-    const std::int64_t last = std::min(bound(span.to) + 1, ring.end());
+    const auto [first, last] = line.inside(span);
     double sum = 0;
     Extent extent;
     for (std::int64_t i = first; i < last; ++i) {
@@ -48,6 +43,8 @@ Statistics statisticsOf(const DrawnLine& line, TimeSpan span) {
     }
     if (result.count == 0) return result;
     const auto count = static_cast<double>(result.count);
+    result.length = line.time->secondsAt(line.ring->behindPresent(last) - 1) -
+                    line.time->secondsAt(line.ring->nextPresent(first, last));
     result.min = extent.min;
     result.max = extent.max;
     result.mean = sum / count;

@@ -24,7 +24,7 @@ void TimeAxis::show(TimeSpan span, int left, int right) {
 }
 
 void TimeAxis::paintEvent(QPaintEvent* /*event*/) {
-    if (!(span_.length() > 0) || right_ <= left_) return;
+    if (!(span_.length() > 0) || span_.to <= 0 || right_ <= left_) return;
     QPainter painter{this};
     painter.setFont(Look::font(TextSize::Note));
     painter.setPen(Look::colours().ink2);

@@ -7,7 +7,8 @@
 
 namespace cortex::gui {
 
-// The one time axis of all panels, in the zone that is shown, which it names.
+// The one time axis of all panels, in the zone that is shown, which it names. Before anything has
+// come there are no times.
 class TimeAxis : public QWidget {
     Q_OBJECT
 public:

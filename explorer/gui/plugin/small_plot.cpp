@@ -27,8 +27,9 @@ using gui::Tokens;
 namespace {
 
 constexpr double longestStep = 0.5;  // s between two moments; what is longer is a gap
-constexpr double longSpan = 120;     // s, told in minutes from here on
-constexpr double margin = 0.05;      // of the values, above and below
+constexpr double rounding = 1e-12, leastRange = 1e-13;  // of what is level but for rounding
+constexpr double longSpan = 120;                        // s, told in minutes from here on
+constexpr double margin = 0.05;                         // of the values, above and below
 
 struct Moment {
     double seconds = 0;
@@ -112,8 +113,9 @@ SmallPlot::Content::Place SmallPlot::Content::place(const QRect& all) const {
     }
     Place result;
     if (least <= most) {
-        double around = (most - least) * margin;
-        if (around <= 0) around = std::max(std::abs(most) * margin, 0.01);
+        const double size = std::max(std::abs(least), std::abs(most));
+        const bool level = most - least <= std::max(size * rounding, leastRange);
+        const double around = level ? std::max(size * margin, 0.01) : (most - least) * margin;
         result.low = least - around;
         result.high = most + around;
     }

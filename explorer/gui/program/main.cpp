@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugin/plugins.hpp"
+#include "program/key_repeat.hpp"
 #include "program/measure.hpp"
 #include "program/options.hpp"
 #include "program/screenshot.hpp"
@@ -30,6 +31,7 @@ int main(int argc, char** argv) {
     QApplication application{argc, argv};
     Plurals texts;
     QCoreApplication::installTranslator(&texts);
+    const KeyRepeat keyRepeat{application};
     // Pictures are alike on every machine, as far as the font is installed.
     Look::apply(options->theme, options->scale,
                 picture || measured ? QStringLiteral("Open Sans") : QString{});

@@ -95,20 +95,18 @@ double Pending::number(const Image& image, const Source& source, const RecordedI
 void Pending::add(PendingRows& rows, const comms::AgentImage& image, const Source& source,
                   const RecordedItem& item) {
     double value = missingValue;
-    auto quality = Quality::Lost;
-    if (!source.constant && image.isBehind(source.simplex)) {
+    const bool known = source.simplex != noSimplex && image.came(source.simplex);
+    if (!known || (!source.constant && image.isBehind(source.simplex))) {
         rows.values.push_back(value);
         rows.qualities.push_back(Ring::notCome);
         return;
     }
-    if (source.simplex != noSimplex && image.came(source.simplex)) {
-        quality = image->state(source.simplex).quality;
-        const bool live = source.always
-                              ? quality != Quality::Lost
-                              : common::isSafe(source.simplex, image->state(source.simplex), image);
-        if (live) quality = Quality::Good;
-        if (quality == Quality::Good) value = number(*image, source, item);
-    }
+    Quality quality = image->state(source.simplex).quality;
+    const bool live = source.always
+                          ? quality != Quality::Lost
+                          : common::isSafe(source.simplex, image->state(source.simplex), image);
+    if (live) quality = Quality::Good;
+    if (quality == Quality::Good) value = number(*image, source, item);
     rows.values.push_back(value);
     rows.qualities.push_back(static_cast<std::uint8_t>(quality));
 }

@@ -110,6 +110,14 @@ void Recorder::forgetOld(AgentTime& time) const {
     if (after - all.begin() > 1) all.erase(all.begin(), after - 1);
 }
 
+// A line begins where every cycle comes: a sample alone before it is of a slower view.
+void Recorder::put(Ring& ring, std::int64_t index, double value, std::uint8_t quality) const {
+    const bool came = quality != Ring::notCome;
+    const bool alone = ring.end() - ring.begin() == 1;
+    if (alone && (!came || index > ring.end())) ring = Ring{capacity()};
+    if (came || ring.begin() != ring.end()) ring.put(index, value, quality);
+}
+
 void Recorder::add(const PendingRows& rows) {
     AgentTime& time = times_[rows.agent];
     std::vector<Ring*> rings;
@@ -130,7 +138,8 @@ void Recorder::add(const PendingRows& rows) {
         if (other || stood) begin(time, rows, row);
         const std::int64_t index = rows.cycles[row] + time.stretches.back().offset;
         if (!other && !stood) {
-            time.skipped += static_cast<std::uint64_t>(cycles - 1);
+            const bool begins = time.end == time.stretches.front().first + 1;
+            if (!begins) time.skipped += static_cast<std::uint64_t>(cycles - 1);
             time.table.add(index, rows.utc[row], (rows.nominal[row] - time.lastNominal) / cycles);
         }
         time.clock.add(rows.utc[row], rows.came[row]);
@@ -139,10 +148,7 @@ void Recorder::add(const PendingRows& rows) {
         time.end = index + 1;
         for (std::size_t i = 0; i < rings.size(); ++i) {
             const std::size_t at = row * rings.size() + i;
-            Ring* ring = rings[i];
-            const bool begins = ring != nullptr && ring->begin() == ring->end();
-            if (ring == nullptr || (begins && std::isnan(rows.values[at]))) continue;
-            ring->put(index, rows.values[at], rows.qualities[at]);
+            if (rings[i] != nullptr) put(*rings[i], index, rows.values[at], rows.qualities[at]);
         }
     }
     forgetOld(time);

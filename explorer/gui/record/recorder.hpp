@@ -69,6 +69,7 @@ public:
 private:
     void fit();
     void add(const PendingRows& rows);
+    void put(Ring& ring, std::int64_t index, double value, std::uint8_t quality) const;
     void begin(AgentTime& time, const PendingRows& rows, std::size_t row);
     void forgetOld(AgentTime& time) const;
 

@@ -28,6 +28,8 @@ void Extent::add(const Extent& other) {
     min = std::min(min, other.min);
     max = std::max(max, other.max);
     missing = missing || other.missing;
+    unfit = unfit || other.unfit;
+    absent = absent || other.absent;
 }
 
 Ring::Ring(std::size_t capacity)
@@ -55,23 +57,35 @@ std::size_t Ring::bytes() const {
 void Ring::put(std::int64_t index, double value, std::uint8_t quality) {
     if (index < end_) return;
     const bool first = begin_ == end_;
-    if (first || index - end_ >= static_cast<std::int64_t>(capacity_)) begin_ = end_ = index;
+    if (first || index - end_ >= static_cast<std::int64_t>(capacity_)) {
+        begin_ = end_ = index;
+        present_ = 0;
+    }
     while (end_ < index) append(missingValue, notCome);
     append(value, quality);
 }
 
 void Ring::append(double value, std::uint8_t quality) {
     const std::size_t at = slot(end_);
+    const bool isFull = end_ - begin_ == static_cast<std::int64_t>(capacity_);
+    if (isFull && !std::isnan(values_[at])) --present_;
+    if (!std::isnan(value)) ++present_;
     values_[at] = value;
     qualities_[at] = quality;
     for (Level& level : levels_) {
         if (!level.extents) break;
         Extent& extent = level.extents[at / static_cast<std::size_t>(level.width)];
         if (end_ % level.width == 0) extent = {};
-        extent.add(value);
+        addTo(extent, at);
     }
     ++end_;
     begin_ = std::max(begin_, end_ - static_cast<std::int64_t>(capacity_));
+}
+
+void Ring::addTo(Extent& extent, std::size_t slot) const {
+    extent.add(values_[slot]);
+    if (!std::isnan(values_[slot])) return;
+    (qualities_[slot] == notCome ? extent.absent : extent.unfit) = true;
 }
 
 double Ring::value(std::int64_t index) const {
@@ -104,7 +118,7 @@ Extent Ring::extent(std::int64_t from, std::int64_t to) const {
     while (from < to) {
         const int level = levelAt(from, to);
         if (level < 0) {
-            result.add(values_[slot(from++)]);
+            addTo(result, slot(from++));
         } else {
             result.add(extentAt(level, from));
             from += levels_[static_cast<std::size_t>(level)].width;

@@ -15,6 +15,8 @@ inline constexpr double missingValue = std::numeric_limits<double>::quiet_NaN();
 struct Extent {
     double min, max;
     bool missing = false;  // at least one
+    bool unfit = false;    // at least one came, but was not good
+    bool absent = false;   // at least one did not come
 
     Extent();
     bool any() const { return min <= max; }
@@ -38,6 +40,7 @@ public:
     std::int64_t end() const { return end_; }      // behind the newest one
     std::size_t capacity() const { return capacity_; }
     std::size_t bytes() const;
+    std::int64_t present() const { return present_; }  // samples that have a value
 
     // The sample of an index not below end(); those between have not come. NaN: it is missing.
     void put(std::int64_t index, double value, std::uint8_t quality);
@@ -61,12 +64,13 @@ private:
         return static_cast<std::size_t>(index) % capacity_;
     }
     void append(double value, std::uint8_t quality);
+    void addTo(Extent& extent, std::size_t slot) const;
     // The widest level of which a whole extent begins at `index` and ends at `to` or before.
     int levelAt(std::int64_t index, std::int64_t to) const;
     const Extent& extentAt(int level, std::int64_t index) const;
 
     std::size_t capacity_;
-    std::int64_t begin_ = 0, end_ = 0;
+    std::int64_t begin_ = 0, end_ = 0, present_ = 0;
     std::unique_ptr<double[]> values_;
     std::unique_ptr<std::uint8_t[]> qualities_;
     std::array<Level, levelCount> levels_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/compare_view.hpp"
 
+#include "model/whole_file.hpp"
 #include "style/look.hpp"
 #include "widgets/range_bar.hpp"
 #include "widgets/rows.hpp"
@@ -15,7 +16,6 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
-#include <QSaveFile>
 #include <QSignalBlocker>
 #include <QStyledItemDelegate>
 #include <QTreeView>
@@ -46,12 +46,13 @@ public:
         const CompareModel::Row& row = rows_.row(index.row());
         const Tokens& c = Look::colours();
         const QRect box = option.rect.adjusted(Look::units(2), 0, -Look::units(2), 0);
-        const bool outside = row.left && *row.left < 0;
+        const bool outside = row.outside;
         const QColor plain = outside ? c.warnText : row.live || row.constant ? c.ink : c.dataText;
         paintRow(*painter, option);
         if (index.column() == CompareModel::Range) {
+            const auto number = row.number ? std::optional{row.number->near()} : std::nullopt;
             if (row.min && row.max)
-                paintRange(*painter, box, {*row.min, *row.max, row.number, row.live});
+                paintRange(*painter, box, {*row.min, *row.max, number, row.live});
             return;
         }
         const bool right = index.column() == CompareModel::Value ||
@@ -178,7 +179,29 @@ void CompareView::refresh(const std::shared_ptr<const Frame>& frame) {
     const bool due = !ordered_.isValid() || ordered_.elapsed() >= orderEvery;
     rows_->update(frame, due && !isHeld());
     if (due) ordered_.start();
+    heard_ = std::ranges::any_of(frame->agents,
+                                 [](const AgentFrame& each) { return each.structure != nullptr; });
+    growColumns();
     tell();
+}
+
+// No number that is seen is cut: it would read as another one. Columns become narrower no more.
+void CompareView::growColumns() {
+    const QModelIndex top = table_->indexAt({0, 0});
+    const QModelIndex bottom = table_->indexAt({0, table_->viewport()->height() - 1});
+    const int first = std::max(top.row(), 0);
+    const int last = bottom.isValid() ? bottom.row() : rows_->rowCount() - 1;
+    for (const int column : {CompareModel::Value, CompareModel::Distance, CompareModel::Age}) {
+        int needed = 0;
+        for (int row = first; row <= last; ++row) {
+            const CompareModel::Row& each = rows_->row(row);
+            if (column == CompareModel::Value && !each.number) continue;  // texts may be long
+            const bool strong = each.outside && column == CompareModel::Value;
+            const QString text = rows_->index(row, column).data().toString();
+            needed = std::max(needed, textWidth(text, strong) + Look::units(5));
+        }
+        if (needed > table_->columnWidth(column)) table_->setColumnWidth(column, needed);
+    }
 }
 
 void CompareView::tell() {
@@ -193,6 +216,8 @@ void CompareView::tell() {
         note_->show(rows_->trouble());
     } else if (rows_->item().empty()) {
         note_->show(tr("Choose an item: it is shown for every simplex that has it."));
+    } else if (count == 0 && !heard_) {
+        note_->show(tr("Nothing is heard yet."));
     } else if (count == 0) {
         note_->show(rows_->filter().trimmed().isEmpty()
                         ? tr("No simplex has %1.").arg(QString::fromStdString(rows_->item()))
@@ -217,10 +242,7 @@ std::vector<RecordedItem> CompareView::chosenItems() const {
 }
 
 QString CompareView::exportTo(const QString& name) const {
-    QSaveFile file{name};
-    if (!file.open(QIODevice::WriteOnly)) return file.errorString();
-    file.write(rows_->csv().toUtf8());
-    return file.commit() ? QString{} : file.errorString();
+    return writeWholeFile(name, rows_->csv().toUtf8());
 }
 
 void CompareView::askForFile() {

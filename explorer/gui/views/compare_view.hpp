@@ -47,6 +47,7 @@ private:
     void addMenu();
     void askForFile();
     bool isHeld() const;
+    void growColumns();
     void tell();
 
     CompareModel* rows_;
@@ -57,6 +58,7 @@ private:
     QElapsedTimer ordered_;
     std::uint64_t structures_ = 0;
     QString exported_;
+    bool heard_ = false;
 };
 
 }  // namespace cortex::gui

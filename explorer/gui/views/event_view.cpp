@@ -63,6 +63,7 @@ EventView::EventView(EventFilter& events, const comms::NetworkOptions& network, 
         showDetails();
     });
     connect(panel_, &EventPanel::opened, this, &EventView::opened);
+    field_->setText(events_.events().query().text());  // as the view before it, or the strip
     refresh();
 }
 

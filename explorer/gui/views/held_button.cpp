@@ -57,8 +57,12 @@ QString HeldButton::endOf(QObject* object, QEvent* event) const {
             Qt::ApplicationActive) {
         return tr("focus left the program");
     }
-    if (type == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
-        return tr("Esc");
+    if (type == QEvent::KeyPress && !static_cast<QKeyEvent*>(event)->isAutoRepeat()) {
+        const bool escape = static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape;
+        return escape ? tr("Esc") : tr("another key was pressed");
+    }
+    if (type == QEvent::MouseButtonPress && object->isWidgetType()) {
+        return tr("another button was pressed");
     }
     if (type == QEvent::Show && object->isWidgetType() &&
         static_cast<QWidget*>(object)->windowType() == Qt::Popup) {

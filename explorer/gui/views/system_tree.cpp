@@ -251,9 +251,10 @@ void SystemTree::choose(const std::string& path) {
     tree_->scrollTo(index);
 }
 
-std::string SystemTree::part() const {
+std::string SystemTree::meant(const std::string& shown) const {
     const QModelIndex index = current_.empty() ? QModelIndex{} : model_.indexOf(current_);
-    return index.isValid() && !model_.place(index) ? current_ : std::string{};
+    if (!index.isValid()) return shown;
+    return shown.empty() || !model_.place(index) ? current_ : shown;
 }
 
 void SystemTree::filter(const QString& text) { filter_->setText(text); }

@@ -23,8 +23,9 @@ public:
     void refresh(std::shared_ptr<const Frame> frame);
     void choose(const std::string& path);  // opens what is above it, as soon as it is there
     const SystemModel& model() const { return model_; }
-    // The path of the current row where that is no simplex, but a part of the plant.
-    std::string part() const;
+    // What is meant while `shown` is in front: the current row where that is a part of the plant,
+    // or where nothing is shown.
+    std::string meant(const std::string& shown) const;
     void filter(const QString& text);
     void focusFilter();
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window/layouts.hpp"
 
+#include "model/whole_file.hpp"
+
 #include <QCoreApplication>
 #include <QCryptographicHash>
 #include <QDir>
@@ -8,7 +10,6 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QRegularExpression>
-#include <QSaveFile>
 #include <QStandardPaths>
 #include <utility>
 
@@ -133,14 +134,11 @@ QString Layouts::save(int domain, const QStringList& agents, const QJsonObject& 
 
 QString Layouts::write(const QString& name, int domain, const QStringList& agents,
                        const QJsonObject& layout) {
-    QSaveFile file{name};
-    if (!file.open(QIODevice::WriteOnly)) return file.errorString();
     const QJsonObject root{{field("version"), version},
                            {field("domain"), domain},
                            {field("agents"), QJsonArray::fromStringList(agents)},
                            {field("layout"), layout}};
-    file.write(QJsonDocument{root}.toJson());
-    return file.commit() ? QString{} : file.errorString();
+    return writeWholeFile(name, QJsonDocument{root}.toJson());
 }
 
 QStringList Layouts::takeTroubles() { return std::exchange(troubles_, {}); }

@@ -297,7 +297,7 @@ void MainWindow::refresh() {
     start_->refresh(*frame, outcomes);
     bar_->tell(start_->text().isEmpty() ? stop_->progress() : start_->text());
     layout_->refresh(*frame);
-    control_->refresh(frame, tree_->part().empty() ? workspace_->path() : tree_->part());
+    control_->refresh(frame, tree_->meant(workspace_->path()));
     session_.recorder().take();
     workspace_->refresh(frame);
     Wanted wanted = workspace_->wanted(*frame);
