@@ -2,6 +2,7 @@
 // Jogging in the window, with a real agent over DDS: how it begins, and each way in which it ends.
 #include "gui/motion_fixture.hpp"
 #include "motion/motion_views.hpp"
+#include "program/key_repeat.hpp"
 #include "views/manual_view.hpp"
 
 #include <QLineEdit>
@@ -121,6 +122,24 @@ TEST_F(Jogging, AKeyThatRepeatsItselfBeginsNothing) {
     ends("Esc");
 }
 
+// By a release and a press of one moment, which Qt does not mark for certain.
+TEST_F(Jogging, AKeyJogsOnWhileX11RepeatsIt) {
+    const gui::KeyRepeat filter{*QApplication::instance()};
+    ASSERT_NO_FATAL_FAILURE(holdsKey());
+    for (ulong moment = 1'000; moment < 1'020; ++moment) {
+        for (const QEvent::Type type : {QEvent::KeyRelease, QEvent::KeyPress}) {
+            QKeyEvent event{type, Qt::Key_Left, Qt::NoModifier};
+            event.setTimestamp(moment);
+            QCoreApplication::sendEvent(window.windowHandle(), &event);
+        }
+        QApplication::processEvents();
+        ASSERT_TRUE(button(0, -1).isDown()) << said().toStdString();
+    }
+    QKeyEvent release{QEvent::KeyRelease, Qt::Key_Left, Qt::NoModifier};
+    QCoreApplication::sendEvent(window.windowHandle(), &release);
+    ends("let go");
+}
+
 TEST_F(Jogging, EndsWithEscape) {
     ASSERT_NO_FATAL_FAILURE(holdsButton());
     QTest::keyClick(&window, Qt::Key_Escape);
@@ -205,7 +224,8 @@ TEST_F(Jogging, EndsWhenTheProgramIsNotInFront) {
 TEST_F(Jogging, EndsWhenAnotherAxisIsChosen) {
     ASSERT_NO_FATAL_FAILURE(holdsKey());
     QTest::keyPress(&rows(), Qt::Key_Down);
-    ends("another axis was chosen");
+    ends("another key was pressed");
+    EXPECT_EQ(rows().selected(), 1);
 }
 
 TEST_F(Jogging, EndsWithControlAndSaysSo) {

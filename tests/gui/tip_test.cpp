@@ -194,8 +194,10 @@ TEST_F(JoggingTheTip, WithoutControlNothingIsSentAlthoughTheAgentIsOpen) {
 TEST_F(JoggingTheTip, AChainWithADriveThatIsOffIsNotJogged) {
     ASSERT_NO_FATAL_FAILURE(opensTipInControl());
     session.send("/drives/2", "shutdown");
-    EXPECT_TRUE(comes([this] { return !pad().button(0, 1).isEnabled(); }));
-    EXPECT_EQ(pad().button(0, 1).toolTip(), "the drive of A2 is in Standby");
+    EXPECT_TRUE(comes([this] {
+        return pad().button(0, 1).toolTip() == QLatin1String{"the drive of A2 is in Standby"};
+    })) << pad().button(0, 1).toolTip().toStdString();
+    EXPECT_FALSE(pad().button(0, 1).isEnabled());
 }
 
 TEST_F(JoggingTheTip, WhereTheTipIsStandsInBracketsWhileNobodyComputesIt) {

@@ -5,7 +5,6 @@
 #include "model/plain_text.hpp"
 #include "model/whole_file.hpp"
 
-
 namespace cortex::gui {
 
 namespace {

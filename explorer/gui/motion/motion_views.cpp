@@ -3,7 +3,6 @@
 
 #include "motion/axis_view.hpp"
 #include "motion/tip_view.hpp"
-#include "views/manual_view.hpp"
 
 #include <QCoreApplication>
 #include <array>
@@ -13,7 +12,8 @@ namespace cortex::explorer {
 namespace {
 
 View* withHelp(View* view) {
-    gui::ManualView::helpOf(*view, QCoreApplication::translate("Motion", "Moving axes"));
+    // Where F1 opens the manual: as ManualView::helpOf(), which a view does not see.
+    view->setProperty("cortexManual", QCoreApplication::translate("Motion", "Moving axes"));
     return view;
 }
 

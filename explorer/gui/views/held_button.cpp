@@ -57,7 +57,9 @@ QString HeldButton::endOf(QObject* object, QEvent* event) const {
             Qt::ApplicationActive) {
         return tr("focus left the program");
     }
-    if (type == QEvent::KeyPress && !static_cast<QKeyEvent*>(event)->isAutoRepeat()) {
+    // At its widget a key is known to be held or not, at its window it is not yet.
+    if (type == QEvent::KeyPress && object->isWidgetType() &&
+        !static_cast<QKeyEvent*>(event)->isAutoRepeat()) {
         const bool escape = static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape;
         return escape ? tr("Esc") : tr("another key was pressed");
     }
