@@ -14,7 +14,7 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, SerialC
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using Counted = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
-constexpr double near = 0.05, mostDamping = 0.05;
+constexpr double least = 1e-5;  // of a singular value: below, the direction is lost
 
 Rows countedRows(const SerialChain::Jacobian& jacobian, const Directions& directions) {
     Rows rows(count(directions), jacobian.cols());
@@ -50,17 +50,25 @@ TipVelocity jointVelocities(const SerialChain::Jacobian& jacobian, const Twist& 
                             const Directions& directions) {
     const Rows rows = countedRows(jacobian, directions);
     const auto parts = decomposed(rows);
-    const Counted squares = parts.eigenvalues().cwiseMax(0.0);
+    const Counted values = parts.eigenvalues().cwiseMax(0.0).cwiseSqrt();  // the smallest first
+    const Counted asked = countedOf(tip, directions);
+    const Counted along = parts.eigenvectors().transpose().lazyProduct(asked);
+    Counted weights(values.size());
+    double lost = 0;
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+        const bool given = values[i] >= least;
+        weights[i] = given ? along[i] / (values[i] * values[i]) : 0.0;
+        if (!given) lost = std::hypot(lost, along[i]);
+    }
     TipVelocity result;
-    result.smallest = std::sqrt(squares.minCoeff());
-    result.manipulability = std::sqrt(squares.prod());
-    result.damped = result.smallest < near;
-    const double share = result.smallest / near;
-    const double damping = result.damped ? (1 - share * share) * mostDamping * mostDamping : 0.0;
-    const Counted along = parts.eigenvectors().transpose().lazyProduct(countedOf(tip, directions));
-    const Counted weights =
-        parts.eigenvectors().lazyProduct(along.cwiseQuotient((squares.array() + damping).matrix()));
-    result.joints = rows.transpose().lazyProduct(weights);
+    result.smallest = values[0];
+    result.largest = values[values.size() - 1];
+    result.manipulability = values.prod();
+    const Counted combined = parts.eigenvectors().lazyProduct(weights);
+    result.joints = rows.transpose().lazyProduct(combined);
+    const double length = asked.norm(), speed = result.joints.norm();
+    if (length > 0) result.lost = lost / length;
+    if (speed > 0) result.weak = std::abs(weights[0]) * values[0] / speed;
     return result;
 }
 
@@ -72,23 +80,26 @@ SerialChain::JointVector selfMotion(const SerialChain::Jacobian& jacobian,
     if (joints <= count(directions)) return motion;
     const Rows rows = countedRows(jacobian, directions);
     const auto parts = decomposed(rows);
-    constexpr double least = 1e-9;  // of a square: below, the direction is lost
-    double longest = 0;
-    // The longest column of I − J⁺J.
-    for (Eigen::Index i = 0; i < joints; ++i) {
-        Counted along = parts.eigenvectors().transpose().lazyProduct(rows.col(i));
+    const auto withoutTip =
+        [&](const SerialChain::JointVector& velocities) -> SerialChain::JointVector {  // I − J⁺J
+        const Counted tip = rows.lazyProduct(velocities);
+        Counted along = parts.eigenvectors().transpose().lazyProduct(tip);
         for (Eigen::Index k = 0; k < along.size(); ++k) {
             const double square = parts.eigenvalues()[k];
-            along[k] = square > least ? along[k] / square : 0.0;
+            along[k] = square > least * least ? along[k] / square : 0.0;
         }
         const Counted weights = parts.eigenvectors().lazyProduct(along);
-        SerialChain::JointVector column = -rows.transpose().lazyProduct(weights);
-        column[i] += 1;
-        if (column.norm() <= longest) continue;
-        longest = column.norm();
-        motion = column;
+        return velocities - rows.transpose().lazyProduct(weights);
+    };
+    constexpr double alike = 0.5;  // of `before`: with less of it, another one is begun
+    motion = withoutTip(before);
+    if (motion.norm() > alike) return motion.normalized();
+    for (Eigen::Index i = 0; i < joints; ++i) {
+        const SerialChain::JointVector candidate =
+            withoutTip(SerialChain::JointVector::Unit(joints, i));
+        if (candidate.norm() > motion.norm()) motion = candidate;
     }
-    motion /= longest;
+    motion.normalize();
     if (motion.dot(before) < 0) motion = -motion;
     return motion;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,12 @@ namespace {
 // Axes with every limit and their drives, one after the other as a chain, and its controller.
 class JoggedTip : public Rig {
 public:
-    explicit JoggedTip(const Pairs& settings = {}) {
+    using Start = std::array<const char*, 7>;
+    static constexpr Start bent{"0", "0.6", "0", "-1.4", "0", "1.1", "0"};
+    explicit JoggedTip(const Start& start = bent, const Pairs& settings = {}) {
         constexpr std::array directions{"0 0 1", "0 1 0", "0 0 1", "0 -1 0",
                                         "0 0 1", "0 1 0", "0 0 1"};
         constexpr std::array heights{"0", "0.36", "0", "0.42", "0", "0.4", "0"};
-        constexpr std::array start{"0", "0.6", "0", "-1.4", "0", "1.1", "0"};
         Pairs relates;
         for (std::size_t i = 0; i < directions.size(); ++i) {
             const std::string number = std::to_string(i + 1);
@@ -61,6 +63,14 @@ public:
     void rest() {
         for (int i = 0; i < 1500; ++i) stepJudged();
     }
+    struct Posture {
+        Eigen::Vector3d position;
+        Eigen::Quaterniond rotation;
+    };
+    Posture posture() {
+        const std::vector<double> at = tip(), turned = array("/tip", "rotation");
+        return {{at[0], at[1], at[2]}, {turned[3], turned[0], turned[1], turned[2]}};
+    }
     std::vector<double> tip() { return array("/tip", "position"); }
     std::vector<double> tipVelocity() { return array("/tip", "linearVelocity"); }
     double demand(std::size_t axis, const std::string& item) {
@@ -68,6 +78,38 @@ public:
     }
     std::int64_t heldBack() { return get<std::int64_t>("/jog", "heldBack"); }
 
+    // How far the tip is from where a straight jog leads: m off the line, or rad off the turn.
+    double awayFrom(const Posture& begin, const Eigen::Vector3d& linear,
+                    const Eigen::Vector3d& angular = Eigen::Vector3d::Zero()) {
+        const Posture now = posture();
+        const Eigen::AngleAxisd turn{now.rotation * begin.rotation.inverse()};
+        const auto off = [](const Eigen::Vector3d& way, const Eigen::Vector3d& along) {
+            return (way - along.normalized() * along.normalized().dot(way)).norm();
+        };
+        return std::max(off(now.position - begin.position, linear),
+                        off(turn.axis() * turn.angle(), angular));
+    }
+    // Jogs, comes to rest, and keeps the most that the tip was away from the straight way.
+    void jogStraight(int cycles, Eigen::Vector3d linear,
+                     Eigen::Vector3d angular = Eigen::Vector3d::Zero(), bool ofTip = false) {
+        const Posture begin = posture();
+        const std::vector<double> speed{linear[0], linear[1], linear[2]};
+        const std::vector<double> turn{angular[0], angular[1], angular[2]};
+        if (ofTip) {
+            linear = begin.rotation * linear;
+            angular = begin.rotation * angular;
+        }
+        for (int i = 0; i < cycles + 600; ++i) {
+            if (i % 100 == 0 && i < cycles) jog(speed, turn);
+            stepJudged();
+            mostAway = std::max(mostAway, awayFrom(begin, linear, angular));
+        }
+        way += (posture().position - begin.position).norm() +
+               posture().rotation.angularDistance(begin.rotation);
+    }
+
+    double way = 0;           // m and rad, from rest to rest
+    double mostAway = 0;      // m or rad
     double mostOfLimits = 0;  // changes in a cycle, as a share of what the limits allow
 
 private:
@@ -157,6 +199,59 @@ TEST(ATipThatIsJogged, KeepsEveryAxisWithinItsLimitsAllTheWayOut) {
     for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(arm.demand(i, "velocity"), 0) << i;
 }
 
+TEST(ATipThatIsJogged, GoesStraightAtFullSpeedWhicheverWay) {
+    JoggedTip arm;
+    std::mt19937 random{41};
+    for (std::int64_t i = 0; i < 14; ++i) {
+        ASSERT_EQ(arm.call("/jog", "set", {{"frame", i % 2}}).outcome, Outcome::Done);
+        Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+        const auto along = static_cast<Eigen::Index>(random() % 6);
+        const double sign = random() % 2 == 0 ? 1 : -1;
+        if (along < 3) linear[along] = 0.25 * sign;
+        if (along >= 3) angular[along - 3] = 0.5 * sign;
+        const double wayBefore = arm.way;
+        arm.jogStraight(500, linear, angular, i % 2 == 1);
+        EXPECT_GT(arm.way - wayBefore, 0) << i;
+    }
+    EXPECT_GT(arm.way, 0.5) << "m and rad, of 14 jogs of half a second";
+    EXPECT_LT(arm.mostAway, 1e-5);
+    EXPECT_LE(arm.mostOfLimits, 1 + 1e-9);
+}
+
+TEST(ATipThatIsJogged, ComesToRestOnItsStraightWayBeforeTheArmIsStretched) {
+    for (const JoggedTip::Start& start :
+         {JoggedTip::Start{"0", "0.6", "0", "-0.3", "0", "0.6", "0"},
+          {"0.3", "0.6", "0", "-0.1", "0", "0.9", "0"},
+          JoggedTip::bent}) {
+        JoggedTip arm{start};
+        const JoggedTip::Posture begin = arm.posture();
+        double slowest = 0;  // of the elbow, which must not swing back
+        for (int i = 0; i < 3000; ++i) {
+            if (i % 100 == 0) arm.jog({0.25, 0, 0});
+            arm.stepJudged();
+            slowest = std::min(slowest, arm.demand(3, "velocity"));
+            arm.mostAway = std::max(arm.mostAway, arm.awayFrom(begin, {1, 0, 0}));
+        }
+        EXPECT_EQ(arm.heldBack(), 3) << "a singular posture";
+        EXPECT_LT(std::abs(arm.demand(3, "velocity")), 1e-3);
+        EXPECT_GT(slowest, -1e-3);
+        const double reached = arm.tip()[0];
+        arm.rest();
+        arm.jogStraight(1000, {-0.1, 0, 0});
+        EXPECT_LT(arm.tip()[0], reached - 0.03) << "the way back is free";
+        EXPECT_LT(arm.mostAway, 1e-4);
+        EXPECT_LE(arm.mostOfLimits, 1 + 1e-9);
+    }
+}
+
+TEST(ATipThatIsJogged, StaysWhereAStretchedArmCannotGoThatWay) {
+    JoggedTip arm{{"0", "0", "0", "0", "0", "0", "0"}};
+    const std::vector<double> before = arm.tip();
+    arm.jogFor(500, {0, 0, -0.1});
+    EXPECT_EQ(arm.heldBack(), 3);
+    EXPECT_EQ(arm.tip(), before);
+}
+
 TEST(AnElbowThatIsJogged, TurnsWhileTheTipStays) {
     JoggedTip arm;
     const std::vector<double> before = arm.tip();
@@ -170,6 +265,19 @@ TEST(AnElbowThatIsJogged, TurnsWhileTheTipStays) {
     EXPECT_GT(std::abs(arm.demand(2, "position") - elbow), 0.05);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(arm.tip()[i], before[i], 1e-3) << i;
     EXPECT_LE(arm.mostOfLimits, 1 + 1e-9);
+}
+
+TEST(AnElbowThatIsJogged, KeepsTheTurnOfTheTipAlsoWhereTurnsDoNotCount) {
+    JoggedTip arm{JoggedTip::bent, {{"directions", "true true true false false false"}}};
+    const JoggedTip::Posture before = arm.posture();
+    const double elbow = arm.demand(2, "position");
+    for (int i = 0; i < 1000; ++i) {
+        if (i % 100 == 0) arm.cluster().send("/jog", "elbow", {{"velocity", 0.3}});
+        arm.stepJudged();
+    }
+    EXPECT_GT(std::abs(arm.demand(2, "position") - elbow), 0.05);
+    EXPECT_LT((arm.posture().position - before.position).norm(), 1e-4);
+    EXPECT_LT(arm.posture().rotation.angularDistance(before.rotation), 1e-4);
 }
 
 // Three linear axes: fewer than six directions.

@@ -19,6 +19,15 @@ namespace {
 
 constexpr std::size_t ofElbow = 6;
 
+// Of an axis' A and J: what a change of the pace takes, and what the bends of its way. The pace
+// makes up for a bend that sharpens, which takes half as much again; so the tip goes straight.
+constexpr double shareOfPace = 0.5, shareOfBend = 0.25, shareOfBendsJerk = 0.05;
+constexpr double shareOfSpeed = 0.95;  // of V, for the same reason
+// Of what the pace may: what it slows down by before the end of its way, and what it could at most.
+constexpr double shareOfBraking = 0.3, shareOfStop = 0.5;
+constexpr double closest = 0.005;    // to a singular posture: smallest by largest value
+constexpr double negligible = 1e-3;  // share of a velocity
+
 // The greatest velocity from which a stop takes no more than the way, as with a trapezoid of the
 // acceleration: a step of the velocity by v takes v/A + A/J, or 2·sqrt(v/J) below A²/J.
 double fastestStopWithin(double way, const MotionLimits& limits) {
@@ -28,6 +37,19 @@ double fastestStopWithin(double way, const MotionLimits& limits) {
     const double edge = a * a / j;  // of the velocity: below, A is not reached
     if (way <= edge * std::sqrt(edge / j)) return std::cbrt(way * way * j);
     return -edge / 2 + std::sqrt(edge * edge / 4 + 2 * a * way);
+}
+
+// Whether a cycle leads from one state to the next within the limits, and on below the velocity.
+bool reaches(const MotionState& before, const MotionState& next, const MotionLimits& limits,
+             double seconds) {
+    const double swing = next.acceleration * std::abs(next.acceleration) / (2 * limits.jerk);
+    return std::abs(next.acceleration) <= limits.acceleration &&
+           std::abs(next.acceleration - before.acceleration) <= limits.jerk * seconds &&
+           std::abs(next.velocity + swing) <= limits.velocity;
+}
+
+MotionLimits shareOf(const MotionLimits& limits, double share) {
+    return {limits.velocity, share * limits.acceleration, share * limits.jerk};
 }
 
 double limitedTo(double value, double most) { return std::clamp(value, -most, most); }
@@ -79,20 +101,25 @@ MotionLimits CartesianJogController::limitsOf(std::size_t motion) const {
     return {speed, 2 * speed / ramp, 4 * speed / (ramp * ramp)};
 }
 
-// Each velocity of the tip goes to what was asked for with a limited change of its acceleration.
-void CartesianJogController::slowTowardsAim(double seconds) {
-    const bool lasts = now_ < until_;
-    jogging_ = lasts;
+// At rest it is what was asked for; in motion it turns there with a limited acceleration.
+void CartesianJogController::turnTowardsAim(double seconds) {
+    const bool rests = pace_.velocity == 0 && pace_.acceleration == 0;
+    jogging_ = now_ < until_;
     for (std::size_t i = 0; i < motions; ++i) {
-        const auto step = mechanics::planVelocity(smooth_[i], lasts ? aim_[i] : 0.0, limitsOf(i));
-        smooth_[i] = step ? step->at(seconds) : MotionState{};
-        smooth_[i].position = 0;
+        MotionState& direction = direction_[i];
+        if (rests) {
+            direction = {0, jogging_ ? aim_[i] : 0.0, 0};
+        } else if (jogging_) {
+            const auto step = mechanics::planVelocity(direction, aim_[i], limitsOf(i));
+            direction = step ? step->at(seconds) : MotionState{0, aim_[i], 0};
+        }
+        direction.position = 0;
     }
 }
 
-// Of the joints, for the velocities of tip and elbow in this cycle.
-JointVector CartesianJogController::wanted() {
-    const Pose tip = chain_->forward(joints_, jacobian_);
+// Of the joints, at pace 1.
+mechanics::TipVelocity CartesianJogController::wanted(const JointVector& joints) {
+    const Pose tip = chain_->forward(joints, jacobian_);
     if (frame_ == Tip) {
         const Eigen::Matrix3d back = tip.rotation.conjugate().toRotationMatrix();
         for (Eigen::Index i = 0; i < jacobian_.cols(); ++i) {
@@ -102,35 +129,107 @@ JointVector CartesianJogController::wanted() {
     }
     Twist twist;
     for (std::size_t i = 0; i < ofElbow; ++i) {
-        twist[static_cast<Eigen::Index>(i)] = directions_[i] ? smooth_[i].velocity : 0.0;
+        twist[static_cast<Eigen::Index>(i)] = directions_[i] ? direction_[i].velocity : 0.0;
     }
-    const auto found = mechanics::jointVelocities(jacobian_, twist, directions_);
-    manipulability_ = found.manipulability;
-    singularDistance_ = found.smallest;
-    if (found.damped && jogging_) heldBack_ = Singularity;
-    const double turn = smooth_[ofElbow].velocity;
-    if (turn == 0) return found.joints;
-    elbow_ = mechanics::selfMotion(jacobian_, directions_, elbow_);
-    return found.joints + turn * elbow_;
+    mechanics::TipVelocity found = mechanics::jointVelocities(jacobian_, twist, directions_);
+    const double turn = direction_[ofElbow].velocity;
+    if (turn == 0) return found;
+    // An arm with more axes than six keeps the turn of its tip, too, whatever counts.
+    constexpr mechanics::Directions all{true, true, true, true, true, true};
+    elbow_ = mechanics::selfMotion(jacobian_, axisCount() > ofElbow ? all : directions_, elbow_);
+    found.joints += turn * elbow_;
+    return found;
 }
 
-// How much of it no axis is too fast for, and none comes nearer to a limit than its braking way.
-double CartesianJogController::share(const JointVector& wanted, double seconds) {
-    double share = 1;
+// Where the joints are at the end of this cycle, and a small way further.
+CartesianJogController::Course CartesianJogController::course(double seconds) {
     for (std::size_t i = 0; i < axisCount(); ++i) {
-        const double velocity = wanted[static_cast<Eigen::Index>(i)];
-        const double speed = std::abs(velocity);
-        if (speed == 0) continue;
-        const MotionLimits most = limits(i).motion();
+        const MotionState& axis = demands()[i];
+        joints_[static_cast<Eigen::Index>(i)] = axis.position + axis.velocity * seconds;
+    }
+    Course course{wanted(joints_), JointVector::Zero(joints_.size())};
+    manipulability_ = course.now.manipulability;
+    singularDistance_ = course.now.smallest;
+    const double speed = course.now.joints.norm();
+    if (speed == 0) return course;
+    constexpr double way = 1e-4;  // rad or m
+    const double time = way / speed;
+    const auto ahead = wanted(joints_ + time * course.now.joints);
+    course.bend = (ahead.joints - course.now.joints) / time;
+    course.towardsSingular = (course.now.smallest - ahead.smallest) / time;
+    return course;
+}
+
+// The pace may change as the tip's ramp says, and as each axis can follow.
+MotionLimits CartesianJogController::paceLimits(const JointVector& joints) const {
+    constexpr double any = 1e9;  // per s², per s³: of a direction that is not moved
+    MotionLimits pace{1, any, any};
+    const auto include = [&pace](double speed, double acceleration, double jerk) {
+        if (speed == 0) return;
+        pace.acceleration = std::min(pace.acceleration, acceleration / std::abs(speed));
+        pace.jerk = std::min(pace.jerk, jerk / std::abs(speed));
+    };
+    for (std::size_t i = 0; i < motions; ++i) {
+        const MotionLimits ramp = limitsOf(i);
+        include(direction_[i].velocity, ramp.acceleration, ramp.jerk);
+    }
+    for (std::size_t i = 0; i < axisCount(); ++i) {
+        const MotionLimits axis = limits(i).motion();
+        include(joints[static_cast<Eigen::Index>(i)], shareOfPace * axis.acceleration,
+                shareOfPace * axis.jerk);
+    }
+    return pace;
+}
+
+// The greatest pace at which no axis is too fast, and each can follow the bends of its way.
+void CartesianJogController::keepOnWay(const Course& course, Pace& pace) const {
+    const HeldBack why = course.now.nearSingular() ? Singularity : Speed;
+    const double turning = course.bend.norm() / course.now.joints.norm();  // per s, at pace 1
+    for (std::size_t i = 0; i < axisCount(); ++i) {
+        const double speed = std::abs(course.now.joints[static_cast<Eigen::Index>(i)]);
+        const double bend = std::abs(course.bend[static_cast<Eigen::Index>(i)]);
+        const MotionLimits axis = limits(i).motion();
+        if (speed > 0) pace.atMost(shareOfSpeed * axis.velocity / speed, why);
+        if (bend == 0) continue;
+        pace.atMost(std::sqrt(shareOfBend * axis.acceleration / bend), why);
+        pace.atMost(std::cbrt(shareOfBendsJerk * axis.jerk / (bend * turning)), why);
+    }
+}
+
+// The way, in s at pace 1, before an axis is at a limit or the chain in a singular posture.
+void CartesianJogController::keepBeforeEnds(const Course& course, Pace& pace) {
+    for (std::size_t i = 0; i < axisCount(); ++i) {
+        const double velocity = course.now.joints[static_cast<Eigen::Index>(i)];
+        if (velocity == 0) continue;
         const double position = demands()[i].position;
         const double way = velocity > 0 ? limits(i).max - position : position - limits(i).min;
-        const double stoppable = fastestStopWithin(way - speed * seconds, most);
-        const double allowed = std::min(most.velocity, stoppable);
-        if (allowed >= speed * share) continue;
-        heldBack_ = stoppable < most.velocity ? Limit : Speed;
-        share = allowed / speed;
+        pace.endsAfter(way / std::abs(velocity), Limit);
     }
-    return share;
+    if (course.now.lost > negligible) pace.atMost(0, Singularity);
+    if (course.towardsSingular <= 0 || course.now.weak < 0.1) return;
+    // Half: the smallest value falls the faster, the smaller it is.
+    const double way = course.now.smallest - closest * course.now.largest;
+    pace.endsAfter(way / course.towardsSingular / 2, Singularity);
+}
+
+// The next pace: no more than that, and such that a stop ends before its way does.
+void CartesianJogController::step(Pace pace, double seconds) {
+    const MotionLimits braking = shareOf(pace.limits, shareOfBraking);
+    const MotionLimits stopping = shareOf(pace.limits, shareOfStop);
+    pace.atMost(fastestStopWithin(pace.way - pace_.velocity * seconds, braking), pace.end);
+    const auto next = mechanics::planVelocity(pace_, pace.most, pace.limits);
+    const auto stop = mechanics::planVelocity(pace_, 0, pace.limits);
+    if (!next || !stop) {
+        pace_ = {};
+        return;
+    }
+    const MotionState faster = next->at(seconds);
+    const auto after = mechanics::planVelocity(faster, 0, stopping);
+    const bool ends = after && after->end().position <= pace.way;
+    if (!ends) pace.why = pace.end;
+    pace_ = jogging_ && ends ? faster : stop->at(seconds);
+    pace_.position = 0;
+    heldBack_ = jogging_ ? pace.why : Nothing;
 }
 
 // Each axis by its own limits. False, and nothing is moved: one could not stop before its range
@@ -138,10 +237,16 @@ double CartesianJogController::share(const JointVector& wanted, double seconds) 
 bool CartesianJogController::stepAll(const JointVector& velocities, double seconds) {
     for (std::size_t i = 0; i < axisCount(); ++i) {
         const MotionLimits most = limits(i).motion();
+        const MotionState& before = demands()[i];
         const double velocity = limitedTo(velocities[static_cast<Eigen::Index>(i)], most.velocity);
-        const auto step = mechanics::planVelocity(demands()[i], velocity, most);
-        if (!step) return false;
-        next_[i] = step->at(seconds);
+        const double acceleration = (velocity - before.velocity) / seconds;
+        const double position = before.position + (before.velocity + velocity) / 2 * seconds;
+        next_[i] = {position, velocity, acceleration};
+        if (!reaches(before, next_[i], most, seconds)) {
+            const auto step = mechanics::planVelocity(before, velocity, most);
+            if (!step) return false;
+            next_[i] = step->at(seconds);
+        }
         const auto stop = mechanics::planVelocity(next_[i], 0, most);
         if (!stop || !limits(i).inRange(stop->end().position)) return false;
     }
@@ -154,26 +259,40 @@ void CartesianJogController::loopStart(const Tick&) { jogging_ = false; }
 
 void CartesianJogController::takeOver(const Tick&) {
     until_ = now_;
-    smooth_ = {};
+    stop();
 }
 
 void CartesianJogController::move(const Tick& tick) {
     now_ = tick.nominalTime;
-    heldBack_ = Nothing;
-    for (std::size_t i = 0; i < axisCount(); ++i)
-        joints_[static_cast<Eigen::Index>(i)] = demands()[i].position;
     const double seconds = tick.elapsedSeconds();
-    slowTowardsAim(seconds);
-    const JointVector velocities = wanted();
-    if (stepAll(share(velocities, seconds) * velocities, seconds)) return;
+    turnTowardsAim(seconds);
+    const Course way = course(seconds);
+    Pace pace{.limits = paceLimits(way.now.joints)};
+    keepOnWay(way, pace);
+    keepBeforeEnds(way, pace);
+    step(pace, seconds);
+    if (stepAll(pace_.velocity * way.now.joints, seconds)) return;
+    stop();
     heldBack_ = Limit;
     for (std::size_t i = 0; i < axisCount(); ++i) {
-        const auto stop = mechanics::planVelocity(demands()[i], 0, limits(i).motion());
-        demands()[i] = stop ? stop->at(seconds) : MotionState{demands()[i].position, 0, 0};
+        const auto brake = mechanics::planVelocity(demands()[i], 0, this->limits(i).motion());
+        demands()[i] = brake ? brake->at(seconds) : MotionState{demands()[i].position, 0, 0};
     }
 }
 
+// Each axis by itself, as fast as it can; a jog that goes on begins anew from there.
+void CartesianJogController::stop() {
+    pace_ = {};
+    direction_ = {};
+}
+
 // --- commands ---------------------------------------------------------------------------------
+
+// A velocity of zero ends the jog: the tip comes to rest on its straight way.
+void CartesianJogController::hold() {
+    const bool moves = std::ranges::any_of(aim_, [](double velocity) { return velocity != 0; });
+    until_ = now_ + (moves ? static_cast<std::int64_t>(holdTime_ * 1e9) : 0);
+}
 
 Outcome CartesianJogController::jog(Call& call) {
     if (!allFollow(call)) return Outcome::Rejected;
@@ -185,7 +304,7 @@ Outcome CartesianJogController::jog(Call& call) {
         aim_[i + 3] = limitedTo(angular[i], angularSpeed_);
     }
     aim_[ofElbow] = 0;
-    until_ = now_ + static_cast<std::int64_t>(holdTime_ * 1e9);
+    hold();
     return Outcome::Done;
 }
 
@@ -195,19 +314,20 @@ Outcome CartesianJogController::elbow(Call& call) {
         return call.reject(Reason::State, "no axis is to spare: each is needed for the tip");
     aim_ = {};
     aim_[ofElbow] = limitedTo(call[elbowVelocity_], elbowSpeed_);
-    until_ = now_ + static_cast<std::int64_t>(holdTime_ * 1e9);
+    hold();
     return Outcome::Done;
 }
 
 Outcome CartesianJogController::halt(Call&) {
     until_ = now_;
+    stop();
     return Outcome::Done;
 }
 
 void CartesianJogController::keep(Archive& archive) {
     AxisController::keep(archive);
-    archive.version("CartesianJogController", 1);
-    archive & smooth_ & aim_ & now_ & until_;
+    archive.version("CartesianJogController", 2);
+    archive & direction_ & pace_ & aim_ & now_ & until_;
     toolkit::keep(archive, elbow_);
 }
 

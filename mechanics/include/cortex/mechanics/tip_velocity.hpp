@@ -12,24 +12,26 @@ namespace cortex::mechanics {
 using Directions = std::array<bool, 6>;
 int count(const Directions& directions);
 
-// Joint velocities for one of the tip, and how near the chain is to a posture in which it cannot
-// move its tip in every direction.
+// Joint velocities for one of the tip, and how near the chain is to a singular posture, in which it
+// cannot move its tip in every direction.
 struct TipVelocity {
-    SerialChain::JointVector joints;  // per s
-    double smallest = 0;              // singular value of the Jacobian
-    double manipulability = 0;        // product of the singular values
-    bool damped = false;              // near such a posture: the tip moves less than was asked for
+    SerialChain::JointVector joints;   // per s
+    double smallest = 0, largest = 0;  // singular values of the Jacobian
+    double manipulability = 0;         // product of the singular values
+    double lost = 0;                   // share of the tip's velocity that no joints give
+    double weak = 0;                   // share of joints that the smallest value takes
+    bool nearSingular() const { return smallest < 0.02 * largest; }
 };
 
-// Damped least squares: q' = J'(JJ' + λ²I)^-1 x', with λ² = (1 − (σ/σ0)²)·λmax² where the smallest
-// singular value σ is below σ0 = 0.05, and λmax = 0.05 (Y. Nakamura, H. Hanafusa, J. Dyn. Sys.
-// Meas. Control 108 (1986); A. Maciejewski, C. Klein, J. Robotic Systems 5 (1988)). Jacobian and
-// tip are in one frame. Allocates nothing.
+// The shortest q' with J q' = x': by the pseudoinverse of J (T. Yoshikawa, Foundations of Robotics,
+// MIT Press 1990, section 4.6). It is not damped: near a singular posture q' grows beyond bounds,
+// and the tip goes straight for whoever slows down. Directions whose singular value is below 1e-5
+// are left out, and counted in `lost`. Jacobian and tip are in one frame. Allocates nothing.
 TipVelocity jointVelocities(const SerialChain::Jacobian& jacobian, const Twist& tip,
                             const Directions& directions);
 
 // A motion of the joints, of length 1, that leaves the tip where it is: an arm of seven axes turns
-// its elbow. Of both signs the one that goes on like `before`; zero where the chain has none.
+// its elbow. The one that goes on like `before` where there are several; zero where there is none.
 SerialChain::JointVector selfMotion(const SerialChain::Jacobian& jacobian,
                                     const Directions& directions,
                                     const SerialChain::JointVector& before);

@@ -36,11 +36,44 @@ private:
     Outcome elbow(Call& call) CORTEX_REALTIME;
     Outcome halt(Call& call) CORTEX_REALTIME;
 
+    // What the joints do at pace 1, and what the posture becomes on the way.
+    struct Course {
+        mechanics::TipVelocity now;
+        mechanics::SerialChain::JointVector bend;  // of their velocities, per s
+        double towardsSingular = 0;                // of the smallest singular value, per s
+    };
+
+    // What the pace may be, and why it is not 1; how long it lasts at pace 1, and why no longer.
+    struct Pace {
+        mechanics::MotionLimits limits;
+        double most = 1, way = 1e9;  // way: s
+        HeldBack why = Nothing, end = Nothing;
+
+        void atMost(double pace, HeldBack because) {
+            if (pace >= most) return;
+            most = pace;
+            why = because;
+        }
+        void endsAfter(double time, HeldBack because) {
+            if (time >= way) return;
+            way = time;
+            end = because;
+        }
+    };
+
     void readDirections();
+    void hold() CORTEX_REALTIME;
+    void stop() CORTEX_REALTIME;
     mechanics::MotionLimits limitsOf(std::size_t motion) const CORTEX_REALTIME;
-    void slowTowardsAim(double seconds) CORTEX_REALTIME;
-    mechanics::SerialChain::JointVector wanted() CORTEX_REALTIME;
-    double share(const mechanics::SerialChain::JointVector& wanted, double seconds) CORTEX_REALTIME;
+    void turnTowardsAim(double seconds) CORTEX_REALTIME;
+    mechanics::TipVelocity wanted(const mechanics::SerialChain::JointVector& joints)
+        CORTEX_REALTIME;
+    Course course(double seconds) CORTEX_REALTIME;
+    mechanics::MotionLimits paceLimits(const mechanics::SerialChain::JointVector& joints) const
+        CORTEX_REALTIME;
+    void keepOnWay(const Course& course, Pace& pace) const CORTEX_REALTIME;
+    void keepBeforeEnds(const Course& course, Pace& pace) CORTEX_REALTIME;
+    void step(Pace pace, double seconds) CORTEX_REALTIME;
     bool stepAll(const mechanics::SerialChain::JointVector& velocities, double seconds)
         CORTEX_REALTIME;
 
@@ -49,7 +82,10 @@ private:
     mechanics::SerialChain::JointVector joints_, elbow_;  // elbow_: its last direction
     mechanics::SerialChain::Jacobian jacobian_;
     std::vector<mechanics::MotionState> next_;
-    std::array<mechanics::MotionState, motions> smooth_{};  // of the tip: velocity, acceleration
+    // What moves at pace 1: velocities of the tip and of the elbow. The pace, its velocity, goes
+    // from 0 to 1.
+    std::array<mechanics::MotionState, motions> direction_{};
+    mechanics::MotionState pace_;
     std::array<double, motions> aim_{};
     std::int64_t now_ = 0, until_ = 0;  // ns
 
