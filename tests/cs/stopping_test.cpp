@@ -237,6 +237,39 @@ TEST(WhatStops, BeginsWhereItIsObservedAndAtRest) {
     EXPECT_EQ(arm.now(cluster)[0].velocity, 0);
 }
 
+TEST(WhatStops, ComesToRestInAStartupToo) {
+    for (const bool shared : {false, true}) {
+        ProbeCluster cluster;
+        Arm arm{cluster, "", shared};
+        bool starting = false;
+        arm.controller->onStartingUp = [&](Probe&, const Tick&) { return !starting; };
+        cluster.start();
+        cluster.startup(*arm.guard);
+        arm.position = {1, 1, 1};
+        arm.velocity = {2, -1.5, 0.5};
+        cluster.startup(*arm.controller);
+        cluster.step(1000);
+        cluster.cluster->send(arm.controller->path(), "shutdown");
+        cluster.step(2);
+        starting = true;
+        cluster.cluster->send(arm.controller->path(), "startup");
+        Nows before = arm.now(cluster);
+        ASSERT_GT(before[0].velocity, 1) << shared;
+        while (before[0].velocity != 0) {
+            cluster.step();
+            const Nows now = arm.now(cluster);
+            for (std::size_t i = 0; i < axes; ++i)
+                EXPECT_EQ(contradiction(before[i], now[i]), "") << shared;
+            before = now;
+        }
+        cluster.step(1000);
+
+        EXPECT_EQ(cluster.state(arm.controller->path()), State::StartingUp);
+        EXPECT_EQ(arm.now(cluster)[0].position, 0.5) << "then it begins where it is observed";
+        EXPECT_EQ(arm.now(cluster)[1].position, -0.5) << shared;
+    }
+}
+
 // The loop stood still for longer than it takes to brake, as of a debugger or an overloaded host.
 TEST(WhatStops, GoesNoFurtherThanItsWayToBrakeHoweverLateItsNextCycleComes) {
     ProbeCluster cluster;

@@ -77,7 +77,9 @@ private:
     void initialiseDemands();
     void latchSafe(int simplex, bool startsUp = false);
     void latchSafe(Link& output, bool startsUp = false);
-    void slowDown(Link& output, double elapsed) const;
+    void takeSafe(Link& output);
+    bool isMoving(const RefSimplex& demand) const;
+    void slowDown(Link& output, double elapsed);
     void writeSafe(int simplex);
     void writeSafe(Link& output, bool all = true);
     void putSafe(int simplex, double elapsed);

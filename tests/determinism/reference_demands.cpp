@@ -117,16 +117,33 @@ void Reference::latchSafe(int simplex, bool startsUp) {
 }
 
 void Reference::latchSafe(Link& output, bool startsUp) {
-    const RefSimplex& demand = at(output.target);
-    if (!demand.demand) return;
+    if (!at(output.target).demand) return;
     output.moved = false;
-    output.slows = !startsUp;
+    output.startsUp = startsUp;
+    takeSafe(output);
+}
+
+// What stops, by what went out last.
+bool Reference::isMoving(const RefSimplex& demand) const {
+    return std::ranges::any_of(demand.shape->items, [&](const Item& item) {
+        for (std::size_t i = 0; stopsWithAnother(item) && i < item.type->length; ++i) {
+            if (demand.previous.floats[item.first + i] != 0) return true;
+        }
+        return false;
+    });
+}
+
+// A startup begins from the observation where all rests, or as soon as it does.
+void Reference::takeSafe(Link& output) {
+    const RefSimplex& demand = at(output.target);
+    output.slows = !output.startsUp || isMoving(demand);
+    const bool observesStops = !output.slows;
     for (const Item& item : demand.shape->items) {
         const Safe::Kind kind = item.type->safe.kind;
         if (kind == Safe::Kind::Given || kind == Safe::Kind::None) continue;
-        const bool observes =
-            kind == Safe::Kind::Observed || (stops(item) && startsUp && !stopsWithAnother(item));
-        if (stopsWithAnother(item) && startsUp) {
+        const bool observes = kind == Safe::Kind::Observed ||
+                              (stops(item) && observesStops && !stopsWithAnother(item));
+        if (stopsWithAnother(item) && observesStops) {
             for (std::size_t i = 0; i < item.type->length; ++i)
                 output.safe.floats[item.first + i] = 0;
         } else if (observes && output.observed->state.quality < Quality::Bad) {
@@ -141,9 +158,11 @@ void Reference::latchSafe(Link& output, bool startsUp) {
 // Each cycle anew from what went out last: the derivative goes to 0 by its rate, and the item by
 // the mean of what its derivative was and is, for as long as it moves. At the end of the range both
 // stand.
-void Reference::slowDown(Link& output, double elapsed) const {
-    const RefSimplex& demand = all_[static_cast<std::size_t>(output.target)];
-    if (!demand.demand || !output.slows) return;
+void Reference::slowDown(Link& output, double elapsed) {
+    const RefSimplex& demand = at(output.target);
+    if (!demand.demand) return;
+    if (output.slows && output.startsUp && !isMoving(demand)) takeSafe(output);
+    if (!output.slows) return;
     for (const Item& derivative : demand.shape->items) {
         if (!stopsWithAnother(derivative)) continue;
         const Item& item = *demand.shape->find(derivative.type->derivativeOf);

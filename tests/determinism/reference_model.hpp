@@ -139,7 +139,8 @@ struct Link {  // a relationship
     bool notFinite = false;  // in this run
     bool moved = false;      // by a hook, since its safe value was latched
     bool standsSafe = true;  // in this run
-    bool slows = false;      // what stops does so: not since a startup
+    bool startsUp = false;   // its safe value was latched by a startup
+    bool slows = false;      // what stops does so: not from rest on in a startup
 };
 
 // One of those that a task hands demands over between.

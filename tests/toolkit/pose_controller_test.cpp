@@ -47,6 +47,12 @@ protected:
             speed_ = std::max(speed_, std::abs(velocity()));
         }
     }
+    // Nobody renews it, so it is lost after 2 s.
+    void takeControl() {
+        const CallResult taken =
+            rig_.call("/rig", "takeControl", {{"prefix", std::string{"/pose"}}});
+        ASSERT_TRUE(taken.done()) << taken.text();
+    }
     double position(const char* number = "1") {
         return rig_.get<double>(std::string{"/demand"} + number, "position");
     }
@@ -134,6 +140,158 @@ TEST_F(PoseController, DoesNotGoOnByItselfAfterAnAxisWasLost) {
     rig_.step(500);
 
     EXPECT_NEAR(position(), stands, 1e-9);
+}
+
+TEST_F(PoseController, BrakesWithinItsLimitsWhenControlIsLost) {
+    begin();
+    takeControl();
+    moveTo(2.9, 0, 0.25);
+    step(1900);
+    ASSERT_GT(velocity(), 0.45);
+    step(400);  // nobody has renewed it for 2 s
+
+    EXPECT_EQ(velocity(), 0);
+    EXPECT_LT(position(), 1.2);
+    EXPECT_EQ(outcome(), static_cast<int>(Outcome::Cancelled));
+    EXPECT_LE(jerk_, 100 * (1 + 1e-9));
+}
+
+TEST_F(PoseController, SaysThatItsMoveEndedBecauseControlWasLost) {
+    begin();
+    moveTo(2.9, 0);
+    takeControl();
+
+    const CallResult ended = rig_.call("/pose", "moveTo", {{"speedShare", 0.02}});
+
+    EXPECT_EQ(ended.outcome, Outcome::Cancelled);
+    EXPECT_EQ(ended.why, "control was lost");
+}
+
+TEST_F(PoseController, GoesOnWhenControlIsReleased) {
+    begin();
+    takeControl();
+    moveTo(2.9, 0, 0.25);
+    step(1000);
+    rig_.call("/rig", "releaseControl", {{"prefix", std::string{"/pose"}}});
+    step(6000);
+
+    EXPECT_EQ(position(), 2.9);
+    EXPECT_EQ(outcome(), static_cast<int>(Outcome::Done));
+}
+
+// --- a start in motion ------------------------------------------------------------------------
+
+// Two controllers of one limited axis with a drive, or one of each of two, and their selector.
+class SelectedInMotion {
+public:
+    explicit SelectedInMotion(const char* axisOfSecond) {
+        for (const std::string number : {"1", "2"}) {
+            const std::string demand = "/demand" + number, axis = "/axis" + number;
+            rig.add(demand, "LimitedAxis");
+            rig.add(axis, "RotaryAxisObservation");
+            rig.add("/drive" + number, "SimulatedAxis",
+                    {{"demand", demand}, {"observation", axis}});
+        }
+        rig.add("/pose", "AxisPoseController", axes("1"));
+        rig.add("/hold", "HoldAxisController", axes(axisOfSecond));
+        rig.add("/selector", "AxisControllerSelector",
+                {{"choices", "/pose"}, {"choices", "/hold"}});
+        rig.start();
+        rig.cluster().send("/rig", "startup", {{"prefix", std::string{"/"}}});
+        rig.step(30);
+        std::vector<double> pose(16);
+        pose[0] = 2;
+        rig.call("/pose", "set", {{"pose", pose}});
+        rig.cluster().send("/pose", "moveTo", {{"speedShare", 1.0}});
+        rig.step(200);  // it accelerates, so the axis is not quite where it is wished to be
+        last_ = demand();
+    }
+    void select(std::int64_t group) {
+        rig.cluster().send("/selector", "select", {{"group", group}});
+    }
+    // In each cycle the way is what the velocity says, which changes by 10 rad/s2 at most.
+    void step(int cycles) {
+        constexpr double seconds = 1e-3;
+        for (int i = 0; i < cycles; ++i) {
+            rig.step();
+            const Motion now = demand();
+            const double way = (last_.velocity + now.velocity) / 2 * seconds;
+            EXPECT_NEAR(now.position - last_.position, way, 10 * seconds * seconds)
+                << "cycle " << rig.cycle() << " at " << now.velocity;
+            EXPECT_LE(std::abs(now.velocity - last_.velocity), 10 * seconds * (1 + 1e-9));
+            last_ = now;
+        }
+    }
+    double velocity() const { return last_.velocity; }
+
+    Rig rig;
+
+private:
+    struct Motion {
+        double position = 0, velocity = 0;
+    };
+    static Rig::Pairs axes(const std::string& number) {
+        return {{"axes", "/axis" + number}, {"demands", "/demand" + number}};
+    }
+    Motion demand() {
+        return {rig.get<double>("/demand1", "position"), rig.get<double>("/demand1", "velocity")};
+    }
+
+    Motion last_;
+};
+
+TEST(ADemandInMotion, StaysContinuousWhenItsSelectorIsShutDown) {
+    SelectedInMotion plant{"1"};
+    ASSERT_GT(plant.velocity(), 1);
+    plant.rig.cluster().send("/selector", "shutdown", {});
+    plant.step(400);
+
+    EXPECT_EQ(plant.velocity(), 0);
+}
+
+TEST(ADemandInMotion, StaysContinuousWhenAnotherGroupOfItsAxisIsSelected) {
+    SelectedInMotion plant{"1"};
+    plant.select(2);
+    plant.step(400);
+
+    EXPECT_EQ(plant.rig.state("/hold"), State::Active);
+    EXPECT_EQ(plant.velocity(), 0);
+}
+
+TEST(ADemandInMotion, StaysContinuousWhenItsControllerStartsAnewBeforeItRests) {
+    SelectedInMotion plant{"1"};
+    plant.rig.cluster().send("/pose", "shutdown", {});  // the selector starts it again
+    plant.step(10);
+
+    EXPECT_EQ(plant.rig.state("/pose"), State::Active);
+    plant.step(400);
+    EXPECT_EQ(plant.velocity(), 0);
+}
+
+TEST(ADemandInMotion, StaysContinuousWhenItsGroupIsSelectedAgainBeforeItRests) {
+    SelectedInMotion plant{"2"};
+    plant.select(2);
+    plant.step(20);
+    ASSERT_GT(plant.velocity(), 0.5);
+    ASSERT_EQ(plant.rig.state("/pose"), State::Standby);
+    plant.select(1);
+    plant.step(400);
+
+    EXPECT_EQ(plant.rig.state("/pose"), State::Active);
+    EXPECT_EQ(plant.velocity(), 0);
+}
+
+TEST(ADemandInMotion, StaysContinuousWhenItsControllerIsShutDownAsItStarts) {
+    SelectedInMotion plant{"2"};
+    plant.select(2);
+    plant.step(20);
+    plant.select(1);
+    plant.step(1);
+    plant.select(2);
+    plant.step(400);
+
+    EXPECT_EQ(plant.rig.state("/pose"), State::Standby);
+    EXPECT_EQ(plant.velocity(), 0);
 }
 
 }  // namespace

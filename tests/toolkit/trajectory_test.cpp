@@ -49,6 +49,11 @@ public:
     void send(const std::string& command, const ProgramInterface::Arguments& arguments = {}) {
         cluster_.send("/points", command, arguments);
     }
+    // Nobody renews it, so it is lost after 2 s.
+    void takeControl() {
+        cluster_.send("/arm", "takeControl", {{"prefix", std::string{"/points"}}});
+        step(2);
+    }
     CallResult goTo(std::vector<double> pose) {
         pose.resize(16);
         call("set", {{"pose", pose}});
@@ -207,6 +212,20 @@ TEST(ATrajectory, BeginsAgainWhileItLoopsAndStopsWhereItIsCancelled) {
     const std::vector<double> rests = arm.pose();
     arm.step(200);
     EXPECT_TRUE(isAt(arm.pose(), rests));
+}
+
+TEST(ATrajectory, BrakesAndSaysWhyWhenControlIsLost) {
+    Taught arm;
+    arm.teachThree();
+    arm.call("set", {{"loop", std::vector{true}}});
+    arm.takeControl();
+
+    const CallResult ended = arm.call("run", {{"from", std::int64_t{1}}});
+
+    EXPECT_EQ(ended.outcome, Outcome::Cancelled);
+    EXPECT_EQ(ended.why, "control was lost");
+    arm.step(400);
+    EXPECT_EQ(arm.fastest(), 0);
 }
 
 TEST(ATrajectory, IsTaughtAtRestOnly) {

@@ -285,7 +285,12 @@ void SafeDemands::addStops() {
 
 void SafeDemands::latch(Latch why) {
     moved_ = false;
-    slows_ = why == Latch::Stop;
+    startsUp_ = why == Latch::Startup;
+    takeSafe();
+}
+
+void SafeDemands::takeSafe() {
+    slows_ = !startsUp_ || isMoving();
     const bool usable = observedState_ != nullptr && observedState_->quality < Quality::Bad;
     for (const Item& item : items_) {
         if (item.given) continue;

@@ -6,6 +6,7 @@
 
 #include "tasks/stopping.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -89,12 +90,14 @@ public:
 
     // On leaving Active and on startup: `observed` takes the observation, `hold` the last demand.
     // An observation that is bad or lost cannot be taken; then the last demand stands in. `stop`
-    // takes the observation on startup, at rest; otherwise it goes on from the last demand.
+    // takes the observation on startup, at rest; otherwise it goes on from the last demand. So does
+    // a startup of what still slows down, until it rests.
     enum class Latch : std::uint8_t { Startup, Stop };
     void latch(Latch why) CORTEX_REALTIME;
     // What stops is slower by this time. Called again before the demand goes out, it gives the
     // same.
     void slow(double elapsedSeconds) CORTEX_REALTIME {
+        if (slows_ && startsUp_ && !isMoving()) takeSafe();
         if (!slows_) return;
         for (const Stopping& each : stops_) each.step(elapsedSeconds);
     }
@@ -135,12 +138,18 @@ private:
         bool given;
     };
     void addStops();
+    void takeSafe() CORTEX_REALTIME;
+    // What stops, by what went out last.
+    bool isMoving() const CORTEX_REALTIME {
+        return std::ranges::any_of(stops_, [](const Stopping& each) { return each.moving() >= 0; });
+    }
     std::vector<Item> items_;
     std::vector<std::byte> memory_;
     const SlotState* observedState_ = nullptr;
     std::vector<Stopping> stops_;
     bool moved_ = false;
-    bool slows_ = false;  // not since a startup
+    bool startsUp_ = false;  // the last latch() was one on startup
+    bool slows_ = false;     // not from rest on in a startup
 };
 
 }  // namespace cortex::cs
