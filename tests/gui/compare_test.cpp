@@ -6,10 +6,15 @@
 #include "widgets/text_label.hpp"
 #include "window/workspace.hpp"
 
+#include <QApplication>
 #include <QFile>
+#include <QLineEdit>
 #include <QTemporaryDir>
 #include <QTreeView>
 #include <csignal>
+#include <memory>
+
+#include <QtTest/QTest>
 
 namespace cortex::test {
 namespace {
@@ -121,6 +126,26 @@ TEST_F(Compared, RowsGoToAPlotAndToAFile) {
     const auto* plot = qobject_cast<PlotView*>(window.current());
     ASSERT_NE(plot, nullptr);
     EXPECT_TRUE(comes([&] { return plot->drawn().size() == 2; }));
+}
+
+// A field ends its editing when it loses the focus, which it does while its view goes.
+TEST_F(Compared, AViewThatGoesWithTheFocusInItsFieldSearchesNoMore) {
+    ASSERT_TRUE(everythingComes());
+    auto view = std::make_unique<CompareView>();
+    view->show();
+    view->compare("position");
+    QApplication::setActiveWindow(view.get());
+    auto* field = view->findChild<QLineEdit*>();
+    field->setFocus();
+    ASSERT_TRUE(comes([&] { return field->hasFocus(); }));
+    QTest::keyClicks(field, "s");
+    int searches = 0;
+    const QObject here;
+    QObject::connect(&view->rows(), &QAbstractItemModel::modelReset, &here, [&] { ++searches; });
+
+    view.reset();
+
+    EXPECT_EQ(searches, 0);
 }
 
 TEST_F(Compared, ALayoutKeepsWhatIsComparedAndItsOrder) {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The views of motion can be read: in three themes, in all sizes, fonts and units. With
 // CORTEX_PICTURES=FOLDER it writes what it has seen there.
+#include "cortex/explorer/small_plot.hpp"
+
 #include "gui/audit.hpp"
+#include "gui/audit_texts.hpp"
 #include "gui/motion_fixture.hpp"
+#include "motion/axis_plots.hpp"
 #include "motion/tip_pad.hpp"
 #include "style/look.hpp"
 
@@ -144,6 +148,98 @@ TEST_F(AuditedMotion, ThePoseCanBeReadInEveryThemeAndSize) {
     enter(0, "-0.5");
     audit("pose", "Open Sans");
     audit("pose-dejavu", "DejaVu Sans");
+}
+
+// Where a text is painted whole; nowhere: an empty box.
+QRect placeOf(QWidget& widget, const QString& text) {
+    for (const PaintedText& each : paintedTexts(widget)) {
+        if (each.text == text) return each.box;
+    }
+    return {};
+}
+
+class MotionParts : public testing::TestWithParam<const char*> {
+protected:
+    MotionParts() { Look::apply(Theme::Light, 1, QLatin1String{GetParam()}); }
+    ~MotionParts() override { Look::apply(Theme::Light, 1, QStringLiteral("Open Sans")); }
+};
+
+TEST_P(MotionParts, TitlesOfColumnsAreWholeAndStandApartInTheNarrowestRow) {
+    explorer::MotionAxis axis;
+    axis.name = "shoulder";
+    AxisRows shown;
+    shown.make({axis}, explorer::RowPart::Demand, true);
+    for (const QString unit : {"rad", "mm"}) {
+        const auto titled = [&](const char* name) { return QString{"%1 (%2)"}.arg(name, unit); };
+        shown.setTitles(titled("Value"), titled("Target"), titled("Demand"));
+        shown.resize(shown.minimumWidth(), 200);
+        const QRect value = placeOf(shown, titled("Value")),
+                    target = placeOf(shown, titled("Target"));
+        const QRect demand = placeOf(shown, titled("Demand"));
+        EXPECT_FALSE(value.isEmpty() || target.isEmpty() || demand.isEmpty()) << unit.toStdString();
+        EXPECT_GE(target.left() - value.right(), explorer::units(1)) << unit.toStdString();
+        EXPECT_GE(demand.left() - target.right(), explorer::units(1)) << unit.toStdString();
+    }
+}
+
+TEST_P(MotionParts, ASmallPlotKeepsItsUnitAndTheNamesOfItsLines) {
+    explorer::SmallPlot plot{"position", "rad"};
+    plot.addLine("now");
+    plot.addLine("target", true);
+    plot.resize(plot.minimumSizeHint());
+    const QRect head = placeOf(plot, "position (rad)"), target = placeOf(plot, "target");
+    EXPECT_FALSE(head.isEmpty() || target.isEmpty());
+    int names = 0;
+    for (const PaintedText& each : paintedTexts(plot)) {
+        names += each.text == "now" && each.box.left() > head.right() &&
+                 each.box.right() < target.left() && each.box.intersects(plot.rect());
+    }
+    EXPECT_EQ(names, 1);
+}
+
+TEST_P(MotionParts, ALongTitleOfASmallPlotGivesWayBeforeItsUnit) {
+    explorer::SmallPlot plot{"velocity of the carriage on the long rail", "mm/s"};
+    plot.addLine("now");
+    plot.resize(plot.minimumSizeHint());
+    QString texts;
+    for (const PaintedText& each : paintedTexts(plot)) {
+        texts += each.text;
+        EXPECT_TRUE(plot.rect().contains(each.box)) << each.text.toStdString();
+    }
+    EXPECT_TRUE(texts.contains("… (mm/s)")) << texts.toStdString();
+}
+
+TEST_P(MotionParts, ALongNameOfAnAxisIsCutWithAnEllipsisAndWidensNoPlot) {
+    explorer::MotionAxis axis;
+    axis.name = "gantry/left-hand-side/shoulder-rotation-drive";
+    explorer::AxisPlots plots;
+    plots.forget(1);
+    plots.add({axis}, 1);
+    plots.show(axis, 0, {}, {});
+    EXPECT_LE(plots.minimumSizeHint().width(), explorer::units(60));
+    plots.resize(plots.minimumSizeHint());
+    plots.QWidget::show();
+    const auto* title = plots.findChild<QLabel*>();
+    EXPECT_TRUE(title->text().contains(QChar{0x2026})) << title->text().toStdString();
+    EXPECT_TRUE(title->text().endsWith(", last 10 s")) << title->text().toStdString();
+    EXPECT_EQ(title->toolTip(), axis.name + ", last 10 s");
+    axis.name = "A2";
+    plots.forget(1);
+    plots.add({axis}, 1);
+    plots.show(axis, 0, {}, {});
+    EXPECT_EQ(title->text(), "A2, last 10 s");
+}
+
+INSTANTIATE_TEST_SUITE_P(Fonts, MotionParts, testing::Values("Open Sans", "DejaVu Sans"));
+
+TEST_F(AuditedMotion, DemandsThatWereRefusedCanBeReadInEveryThemeAndSize) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/pose"));
+    enter(0, "9");
+    enter(1, "0.03");
+    named("Move").click();
+    ASSERT_TRUE(says("Rejected")) << said().toStdString();
+    audit("refused", "Open Sans");
+    audit("refused-dejavu", "DejaVu Sans");
 }
 
 }  // namespace

@@ -18,6 +18,24 @@ protected:
     bool canMove(const QString& text) {
         return comes([&] { return named(text).isEnabled(); });
     }
+    bool hasAmberEdge(int axis) { return row(axis).field().property("wrongInput").toBool(); }
+    // The dot before the field.
+    bool isMarked(int axis) {
+        const QRect field = row(axis).field().geometry();
+        const QPoint dot{field.left() - explorer::units(2), field.center().y()};
+        return row(axis).grab().toImage().pixelColor(dot) ==
+               row(axis).palette().color(QPalette::Highlight);
+    }
+    static bool isWhole(const QWidget& widget) {
+        return widget.isVisible() && widget.visibleRegion() == QRegion{widget.rect()};
+    }
+    // The sentence that has these words can be read without scrolling.
+    bool isSeen(const QString& words) {
+        for (const auto* each : view().findChildren<QLabel*>()) {
+            if (each->text().contains(words)) return isWhole(*each);
+        }
+        return false;
+    }
 };
 
 TEST_F(Demands, AnotherModeIsAskedForByAButtonAndThenFieldsStandInThePlaceOfButtons) {
@@ -57,6 +75,72 @@ TEST_F(Demands, ADemandBeyondALimitIsRefusedInTheWordsOfTheController) {
     named("Move A1").click();
     EXPECT_TRUE(says("demandPosition[0] is 9, above 2.6, the limit of /arm/demands/1"))
         << said().toStdString();
+}
+
+TEST_F(Demands, ADemandBeyondALimitHasAnAmberEdgeAndItsReasonBeforeItIsSent) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/pose"));
+    EXPECT_FALSE(hasAmberEdge(0));
+    enter(0, "9");
+    EXPECT_TRUE(hasAmberEdge(0));
+    EXPECT_TRUE(said().contains("A1: above its limit of 2.600 rad.")) << said().toStdString();
+    enter(1, "-1");
+    EXPECT_TRUE(hasAmberEdge(1));
+    EXPECT_TRUE(said().contains("A2: below its limit of −0.010 m.")) << said().toStdString();
+    enter(0, "left");
+    EXPECT_TRUE(hasAmberEdge(0));
+    enter(0, "2.6");
+    enter(1, "0");
+    EXPECT_FALSE(hasAmberEdge(0) || hasAmberEdge(1));
+    EXPECT_FALSE(said().contains("limit")) << said().toStdString();
+}
+
+TEST_F(Demands, WhatTheControllerRefusedStaysMarkedAndIsMarkedNoMoreOnceItIsReached) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/pose"));
+    speed().setValue(100);
+    enter(0, "9");
+    enter(1, "0.01");
+    EXPECT_TRUE(isMarked(0));
+    ASSERT_TRUE(canMove("Move"));
+    named("Move").click();
+    ASSERT_TRUE(says("above 2.6, the limit of")) << said().toStdString();
+    EXPECT_TRUE(says("0 not sent, 2 not reached")) << said().toStdString();
+    EXPECT_TRUE(isMarked(0) && isMarked(1));
+    EXPECT_TRUE(hasAmberEdge(0));
+    EXPECT_EQ(row(0).field().text(), "9.000");
+    enter(0, "0.1");
+    ASSERT_TRUE(canMove("Move"));
+    named("Move").click();
+    EXPECT_TRUE(isAt("/arm/axes/1", 0.1)) << said().toStdString();
+    EXPECT_TRUE(says("Done")) << said().toStdString();
+    EXPECT_TRUE(comes([this] { return !isMarked(0) && !isMarked(1); }));
+    EXPECT_FALSE(said().contains("not reached")) << said().toStdString();
+}
+
+TEST_F(Demands, WhatCameOfAMoveIsSeenWithoutScrolling) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/pose"));
+    speed().setValue(100);
+    for (const QSize size : {QSize{1280, 800}, QSize{1270, 765}, QSize{800, 600}}) {
+        window.resize(size);
+        enter(0, "9");
+        ASSERT_TRUE(canMove("Move"));
+        named("Move").click();
+        EXPECT_TRUE(says("Rejected")) << said().toStdString();
+        EXPECT_TRUE(comes([this] { return isSeen("Rejected"); })) << size.width();
+        enter(0, "0.01");
+        named("Move").click();
+        EXPECT_TRUE(says("Done")) << said().toStdString();
+        EXPECT_TRUE(comes([this] { return isSeen("Done"); })) << size.width();
+        EXPECT_TRUE(isWhole(named("Move")) && isWhole(named("Halt"))) << size.width();
+    }
+}
+
+TEST_F(Demands, ADemandThatIsNotSentIsShownInTheUnitThatIsChosen) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/pose"));
+    enter(0, "0.5");
+    named("deg").click();
+    EXPECT_TRUE(comes([this] { return row(0).field().text() == "28.65"; }))
+        << row(0).field().text().toStdString();
+    EXPECT_TRUE(says("1 not sent")) << said().toStdString();
 }
 
 TEST_F(Demands, WhatIsNoNumberIsNotSent) {

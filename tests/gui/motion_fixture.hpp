@@ -170,11 +170,12 @@ protected:
     }
     std::int64_t cycle() { return session.frame()->agents.front().status.cycle; }
     bool jogs() { return number(jogger, "jogging") == 1; }
-    // It is pressed again where the machine held the window up, which then lets go by itself.
+    // It is pressed again where the machine held window or agent up, which ends it by itself.
     bool moves(const std::function<void()>& release, const std::function<void()>& press,
                const std::function<bool()>& hasMoved) {
         return comes([&] {
-            if (said().contains("Ended: the window hung")) {
+            const QString seen = said();
+            if (seen.contains("Ended: the window hung") || seen.contains("did not answer")) {
                 release();
                 press();
             }

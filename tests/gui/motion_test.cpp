@@ -8,6 +8,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <array>
+#include <csignal>
 #include <memory>
 #include <span>
 #include <tuple>
@@ -192,6 +193,46 @@ TEST_F(Jogging, WhatTheControllerEndsStaysEnded) {
     EXPECT_FALSE(again);
 }
 
+TEST_F(Jogging, AnAgentThatStoodStillForLongerThanTheHoldTimeGoesOnWithoutIt) {
+    ASSERT_NO_FATAL_FAILURE(holdsButton());
+    agent->send(SIGSTOP);
+    EXPECT_TRUE(says("Ended: /jog did not answer for 0.")) << said().toStdString();
+    agent->send(SIGCONT);
+    const std::int64_t then = cycle();
+    EXPECT_TRUE(comes([&] { return cycle() > then && number("/arm/demands/1", "velocity") == 0; }));
+    const double rests = number("/arm/demands/1", "position");
+    const std::int64_t since = cycle();
+    EXPECT_TRUE(comes([&] { return cycle() > since + 300; }));
+    EXPECT_EQ(number("/arm/demands/1", "position"), rests);
+    EXPECT_FALSE(jogs());
+}
+
+TEST_F(Jogging, EndsWhenTheButtonMovesAwayFromUnderThePointer) {
+    ASSERT_NO_FATAL_FAILURE(holdsButton());
+    const QPoint pointer = button(0, 1).mapToGlobal(button(0, 1).rect().center());
+    window.resize(1000, 800);
+    QApplication::processEvents();
+    ASSERT_FALSE(button(0, 1).rect().contains(button(0, 1).mapFromGlobal(pointer)));
+    ends("the button moved away");
+}
+
+TEST_F(Jogging, EndsWhenTheWindowIsResizedByOthers) {
+    ASSERT_NO_FATAL_FAILURE(holdsButton());
+    window.windowHandle()->resize(1280, 801);
+    ends("the window was resized");
+}
+
+TEST_F(Jogging, AKeyJogsOnWhereTheRowsMoveAsNoPointerHoldsIt) {
+    ASSERT_NO_FATAL_FAILURE(holdsKey());
+    const QPoint before = button(0, -1).mapTo(&window, {});
+    window.resize(1000, 800);
+    QApplication::processEvents();
+    ASSERT_NE(button(0, -1).mapTo(&window, {}), before);
+    EXPECT_TRUE(button(0, -1).isDown()) << said().toStdString();
+    QTest::keyRelease(&rows(), Qt::Key_Left);
+    ends("let go");
+}
+
 TEST_F(Jogging, EndsWhenTheFocusGoesElsewhere) {
     ASSERT_NO_FATAL_FAILURE(holdsKey());
     speed().setFocus();
@@ -323,6 +364,16 @@ TEST_F(Jogging, TheSpeedStartsAtATenthEachTime) {
     window.open("/arm/axes/1");
     window.open("/jog");
     ASSERT_TRUE(comes([this] { return window.current()->findChild<MotionBar*>() != nullptr; }));
+    EXPECT_EQ(speed().value(), 10);
+}
+
+TEST_F(Jogging, TheSpeedStartsAtATenthWheneverControlIsTakenAnew) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+    speed().setValue(80);
+    window.control().release();
+    ASSERT_TRUE(says("read-only: take control of /jog")) << said().toStdString();
+    ASSERT_TRUE(takes("/"));
+    ASSERT_TRUE(comes([this] { return button(0, 1).isEnabled(); })) << said().toStdString();
     EXPECT_EQ(speed().value(), 10);
 }
 

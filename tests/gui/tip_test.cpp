@@ -33,7 +33,15 @@ const char* const slides = R"(<ontology name="plant" version="1.0">
   </type>
 </ontology>)";
 
-std::string crane() {
+std::string kinematics(const std::string& path, const std::string& tip, const std::string& axes,
+                       const std::string& tipPosition) {
+    return "<simplex path=\"" + tip + "\" type=\"CartesianObservation\"/><simplex path=\"" + path +
+           "\" type=\"ForwardKinematics\">" + axes + "<relate rule=\"tip\" to=\"" + tip +
+           "\"/><set data=\"tipPosition\" value=\"" + tipPosition + "\"/></simplex>";
+}
+
+// The place of the hook in the frame of the last axis; `sling`: another tip at its origin.
+std::string crane(const std::string& hook = "0 0 0", bool sling = false) {
     std::string text =
         "<system name=\"robot\"><ontology file=\"plant.xml\"/>"
         "<morphology file=\"cortex-morphology.xml\"/>";
@@ -52,9 +60,8 @@ std::string crane() {
         axes += "<relate rule=\"axes\" " + axis;
         demands += "<relate rule=\"demands\" " + demand;
     }
-    return text + "<simplex path=\"/hook\" type=\"CartesianObservation\"/>" +
-           "<simplex path=\"/kinematics\" type=\"ForwardKinematics\">" + axes +
-           "<relate rule=\"tip\" to=\"/hook\"/></simplex>" +
+    return text + kinematics("/kinematics", "/hook", axes, hook) +
+           (sling ? kinematics("/sling", "/end", axes, "0 0 0") : "") +
            "<simplex path=\"/tip\" type=\"CartesianJogController\">" + axes + demands +
            R"(<set data="directions" value="true true true false false false"/></simplex>)" +
            R"(<cluster name="robot" frequency="500" overflow="skip" control="open"/></system>)";
@@ -62,7 +69,9 @@ std::string crane() {
 
 class JoggingTheTip : public MotionWindow {
 protected:
-    JoggingTheTip() : MotionWindow{slides, crane()} { jogger = "/tip"; }
+    explicit JoggingTheTip(const std::string& system = crane()) : MotionWindow{slides, system} {
+        jogger = "/tip";
+    }
 
     void opensTip() {
         ASSERT_NO_FATAL_FAILURE(opens("/tip"));
@@ -143,6 +152,22 @@ TEST_F(JoggingTheTip, DirectionsThatDoNotCountHaveNoButtonsAndAreNamed) {
     EXPECT_TRUE(said().contains("RX RY RZ: masked by the item directions")) << said().toStdString();
 }
 
+TEST_F(JoggingTheTip, WhereNoTurnCountsNoKeyIsNamedThatWouldTurn) {
+    ASSERT_NO_FATAL_FAILURE(opensTipInControl());
+    // At its limit an axis takes the line of the help.
+    ASSERT_NO_FATAL_FAILURE(holds(2, -1, [this] { return hook(2) < -0.005; }));
+    QTest::mouseRelease(&pad().button(2, -1), Qt::LeftButton);
+    EXPECT_TRUE(says("Page Up and Page Down for X, Y and Z.")) << said().toStdString();
+    EXPECT_FALSE(said().contains("Shift")) << said().toStdString();
+}
+
+TEST_F(JoggingTheTip, WhatTheAgentRefusesIsSaidInItsWordsAlone) {
+    ASSERT_NO_FATAL_FAILURE(opensTipInControl());
+    ASSERT_NO_FATAL_FAILURE(holds(0, 1, [this] { return hook(0) > 0.002; }));
+    session.send("/drives/2", "shutdown");
+    ends("/arm/axes/2 does not follow");
+}
+
 TEST_F(JoggingTheTip, TheFrameIsThatOfTheAgentAndAnotherOneEndsTheJog) {
     ASSERT_NO_FATAL_FAILURE(opensTipInControl());
     EXPECT_TRUE(comes([this] { return named("Base").isChecked(); }));
@@ -161,6 +186,11 @@ TEST_F(JoggingTheTip, AtALimitOfAnAxisItIsHeldBackAndSaysSo) {
     speed().setValue(100);
     QTest::mousePress(&pad().button(2, -1), Qt::LeftButton);
     EXPECT_TRUE(says("Held back: an axis is near its limit")) << said().toStdString();
+    EXPECT_TRUE(
+        says("Held at a limit: Z asked for −0.250 m/s in the frame Base; "
+             "the tip moves at 0.000 m/s. It brakes"))
+        << said().toStdString();
+    EXPECT_FALSE(said().contains("Jogging Z")) << said().toStdString();
     EXPECT_TRUE(comes([this] { return number("/arm/demands/3", "position") > 0.045; }));
     const std::int64_t then = cycle();
     EXPECT_TRUE(comes([&] { return cycle() > then + 200; }));
@@ -205,6 +235,29 @@ TEST_F(JoggingTheTip, WhereTheTipIsStandsInBracketsWhileNobodyComputesIt) {
     EXPECT_TRUE(comes([this] { return said().contains("|0.000|"); })) << said().toStdString();
     ASSERT_EQ(live({"call", "/kinematics", "shutdown"}).exit, 0);
     EXPECT_TRUE(comes([this] { return said().contains("|[0.000]|"); })) << said().toStdString();
+    EXPECT_TRUE(said().contains("Not live: these are the last numbers")) << said().toStdString();
+}
+
+class JoggingAnotherTip : public JoggingTheTip {
+protected:
+    JoggingAnotherTip() : JoggingTheTip{crane("0 0 0.2")} {}
+};
+
+TEST_F(JoggingAnotherTip, ATipThatIsNotThatOfTheControllerSaysSo) {
+    ASSERT_NO_FATAL_FAILURE(opensTip());
+    EXPECT_TRUE(says("The tip of /kinematics, with another tipPosition than /tip"))
+        << said().toStdString();
+}
+
+class JoggingOneOfTwoTips : public JoggingTheTip {
+protected:
+    JoggingOneOfTwoTips() : JoggingTheTip{crane("0 0 0.2", true)} {}
+};
+
+TEST_F(JoggingOneOfTwoTips, TheTipOfTheControllerIsShown) {
+    ASSERT_NO_FATAL_FAILURE(opensTip());
+    EXPECT_TRUE(says("): /end")) << said().toStdString();
+    EXPECT_FALSE(said().contains("tipPosition")) << said().toStdString();
 }
 
 }  // namespace

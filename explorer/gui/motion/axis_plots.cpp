@@ -26,8 +26,23 @@ AxisPlots::AxisPlots(QWidget* parent)
     QFont strong = font();
     strong.setWeight(QFont::DemiBold);
     title_->setFont(strong);
+    title_->setMinimumWidth(1);
     rows_->addWidget(title_);
 }
+
+// A long name gives way, so that the plots are never wider than there is room.
+void AxisPlots::entitle() {
+    if (name_.isEmpty()) return;
+    const QString whole = tr("%1, last 10 s").arg(name_);
+    const int spare = title_->fontMetrics().horizontalAdvance(whole) - width();
+    const int wide = title_->fontMetrics().horizontalAdvance(name_) - spare;
+    const QString name =
+        spare <= 0 ? name_ : title_->fontMetrics().elidedText(name_, Qt::ElideMiddle, wide);
+    title_->setText(tr("%1, last 10 s").arg(name));
+    title_->setToolTip(name == name_ ? QString{} : whole);
+}
+
+void AxisPlots::resizeEvent(QResizeEvent* /*event*/) { entitle(); }
 
 void AxisPlots::forget(std::size_t axes) {
     past_.assign(axes, {});
@@ -59,7 +74,8 @@ double AxisPlots::length() const {
 void AxisPlots::begin(const MotionAxis& axis, const ShownNumber& position,
                       const ShownNumber& velocity) {
     for (SmallPlot* each : {position_, velocity_}) delete each;
-    title_->setText(tr("%1, last 10 s").arg(axis.name));
+    name_ = axis.name;
+    entitle();
     position_ = new SmallPlot{tr("position"), position.unit.text};
     velocity_ = new SmallPlot{tr("velocity"), velocity.unit.text};
     position_->addLine(tr("now"));

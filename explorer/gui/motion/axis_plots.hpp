@@ -27,6 +27,9 @@ public:
     void show(const MotionAxis& axis, std::size_t index, const ShownNumber& position,
               const ShownNumber& velocity);
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
     struct Moment {
         double seconds = 0;
@@ -34,13 +37,14 @@ private:
     };
     void begin(const MotionAxis& axis, const ShownNumber& position, const ShownNumber& velocity);
     void put(const Moment& moment, const ShownNumber& position, const ShownNumber& velocity);
+    void entitle();
 
     std::vector<std::deque<Moment>> past_;
     QLabel* title_;
     QVBoxLayout* rows_;
     SmallPlot *position_ = nullptr, *velocity_ = nullptr;
     std::size_t shown_ = 0;
-    QString unit_;
+    QString unit_, name_;
 };
 
 }  // namespace cortex::explorer

@@ -74,6 +74,7 @@ std::optional<double> AxisRow::most() const { return axis_.most ? axis_.most : s
 
 void AxisRow::show(const MotionAxis& axis, const RowLook& look) {
     const bool moved = look.nameWidth != look_.nameWidth;
+    const bool otherUnit = look.position.unit.text != look_.position.unit.text;
     axis_ = axis;
     look_ = look;
     if (moved) place();
@@ -85,11 +86,7 @@ void AxisRow::show(const MotionAxis& axis, const RowLook& look) {
         button.setEnabled(look.whyNot.isEmpty() && !atLimit);
         button.setToolTip(atLimit ? axis.limitText() : look.whyNot);
     }
-    field_->setEnabled(true);
-    if (!look.edited && !field_->hasFocus()) {
-        const QString text = look.entered ? look.position.text(*look.entered) : QString{};
-        if (field_->text() != text) field_->setText(text);
-    }
+    showField(otherUnit);
     if (noSpeed_ != nullptr) {
         const QString text = tr("%1 states no greatest speed. Speed (%2) at 100 %:")
                                  .arg(axis.demandType, look.velocity.unit.text);
@@ -100,6 +97,21 @@ void AxisRow::show(const MotionAxis& axis, const RowLook& look) {
     }
     describe();
     update();
+}
+
+// What is being typed stays as it is, but never as a number of another unit.
+void AxisRow::showField(bool otherUnit) {
+    field_->setEnabled(true);
+    const bool typed = look_.edited || field_->hasFocus();
+    if (!typed || (otherUnit && look_.entered)) {
+        const QString text = look_.entered ? look_.position.text(*look_.entered) : QString{};
+        if (field_->text() != text) field_->setText(text);
+    }
+    if (field_->toolTip() == look_.wrong) return;
+    field_->setToolTip(look_.wrong);
+    field_->setAccessibleDescription(look_.wrong);
+    field_->setProperty(wrongInput, !look_.wrong.isEmpty());
+    field_->update();
 }
 
 // What is painted, in words: for those who do not see it, and for tests.

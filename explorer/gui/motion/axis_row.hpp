@@ -25,7 +25,8 @@ struct RowLook {
     int nameWidth = 0;                // of the longest name
     int held = 0;                     // direction in which it jogs now
     QString whyNot{};                 // it can not be jogged; empty: it can
-    std::optional<double> entered{};  // demand that was entered, but not sent
+    std::optional<double> entered{};  // demand as it was entered, otherwise as it was sent
+    QString wrong{};                  // with that demand; empty: nothing
 };
 
 // One axis of a controller: its range with what is and what is wished, both as numbers, and how its
@@ -59,6 +60,7 @@ private:
     void place();
     void fit();
     int secondHeight() const;  // of the line of an axis without a stated speed
+    void showField(bool otherUnit);
     void describe();
     void paintBar(QPainter& painter, const QRect& box) const;
     void paintCaptions(QPainter& painter, const QRect& box) const;

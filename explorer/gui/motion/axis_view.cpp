@@ -18,6 +18,8 @@ namespace cortex::explorer {
 
 namespace {
 
+constexpr double leastHeight = 50;  // units; below it the demands are scrolled with the axes
+
 constexpr std::array modes{"Hold", "Position", "Velocity", "Step"};
 
 }  // namespace
@@ -41,12 +43,27 @@ void AxisView::build() {
         choices = {{QStringLiteral("Velocity"), tr("Velocity")},
                    {QStringLiteral("Position"), tr("Position")}};
     bar_ = new MotionBar{tr("Mode"), choices};
-    page_ = new MotionPage{{bar_, rows_, demands_}};
-    auto* all = new QVBoxLayout{this};
-    all->setContentsMargins(0, 0, 0, 0);
-    all->addWidget(page_);
+    auto* low = new QWidget;
+    low_ = new QVBoxLayout{low};
+    low_->setContentsMargins(0, 0, 0, 0);
+    page_ = new MotionPage{{bar_, rows_, low}};
+    whole_ = new QVBoxLayout{this};
+    whole_->setContentsMargins(0, 0, 0, 0);
+    whole_->setSpacing(0);
+    whole_->addWidget(page_, 1);
+    demands_->setVisible(!jogs_);  // until its mode is known
+    arrange();
     connectParts();
 }
+
+// The demands stand still below the axes: what came of them is seen wherever these are scrolled.
+void AxisView::arrange() {
+    if (whole_ == nullptr) return;
+    QVBoxLayout* place = height() < units(leastHeight) ? low_ : whole_;
+    if (place->indexOf(demands_) < 0) place->addWidget(demands_);
+}
+
+void AxisView::resizeEvent(QResizeEvent* /*event*/) { arrange(); }
 
 void AxisView::connectParts() {
     connect(rows_, &AxisRows::chosen, this, &AxisView::choose);
@@ -121,6 +138,7 @@ void AxisView::takeIn(const SystemNow& now) {
     const auto known = mode ? static_cast<std::size_t>(*mode) : modes.size();
     mode_ = known < modes.size() ? QLatin1String{modes[known]} : QString{};
     whyNot_ = whyNot(path_, jogs_ ? "jog" : "moveTo");
+    bar_->setAllowed(whyNot_.isEmpty());
 }
 
 void AxisView::refresh(const SystemNow& now) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+class QVBoxLayout;
+
 namespace cortex::explorer {
 
 class DemandBar;
@@ -26,9 +28,13 @@ public:
     std::vector<Watch> watches() const override;
     bool settled() const override;  // there is something of the past to see
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
     void build();
     void connectParts();
+    void arrange();
 
     void takeIn(const SystemNow& now);
     void showRows();
@@ -47,13 +53,15 @@ private:
     void enter(int axis);
     void copyCurrent();
     void move();
-    void go();
+    void go(int axis, int motion);
+    void tell(int motion, const Answer& answer);  // what came of it
     void setMode(const QString& mode);
 
     ShownNumber positionOf(const MotionAxis& axis) const;
     ShownNumber velocityOf(const MotionAxis& axis) const;
     const MotionAxis& axis(int index) const { return axes_[static_cast<std::size_t>(index)]; }
     std::optional<double> demandOf(int axis) const;  // as entered, otherwise as it was sent
+    QString wrongDemand(int axis) const;             // why it is refused; empty: nothing is wrong
 
     std::string path_, item_;  // of the demands: "demandPosition", "pose"
     bool jogs_ = true;         // false: an AxisPoseController
@@ -68,6 +76,7 @@ private:
     AxisRows* rows_;
     DemandBar* demands_;
     MotionPage* page_ = nullptr;
+    QVBoxLayout *whole_ = nullptr, *low_ = nullptr;  // where the demands stand
     Jog* jog_;
 };
 

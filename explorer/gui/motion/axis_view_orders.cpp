@@ -15,6 +15,10 @@ namespace {
 
 constexpr std::int64_t positionMode = 1, velocityMode = 2;
 
+std::optional<std::size_t> movedBy(int axis) {
+    return axis < 0 ? std::nullopt : std::optional{static_cast<std::size_t>(axis)};
+}
+
 }  // namespace
 
 void AxisView::choose(int axis) {
@@ -92,23 +96,33 @@ void AxisView::move() {
     Arguments items{{item_, demands}};
     if (jogs_) items.emplace("speedShare", std::vector{bar_->share()});
     demands_->say({});
-    send({path_, "set", items}, [this](const Answer& answer) {
+    const int axis = jogs_ ? rows_->selected() : -1;
+    const int motion = demands_->send(movedBy(axis));
+    send({path_, "set", items}, [this, axis, motion](const Answer& answer) {
         if (answer.done) {
-            go();
+            go(axis, motion);
         } else {
-            demands_->say(answer.text);
+            tell(motion, answer);
         }
     });
 }
 
-void AxisView::go() {
-    const auto said = [this](const Answer& answer) { demands_->say(answer.text); };
-    demands_->discard();
+// One axis, or all of them at once.
+void AxisView::go(int axis, int motion) {
+    demands_->taken(motion, movedBy(axis));
+    const auto told = [this, motion](const Answer& answer) { tell(motion, answer); };
     if (jogs_) {
-        send({path_, "go", {{"axis", std::int64_t{rows_->selected()} + 1}}}, said);
+        send({path_, "go", {{"axis", std::int64_t{axis} + 1}}}, told);
     } else {
-        send({path_, "moveTo", {{"speedShare", bar_->share()}}}, said);
+        send({path_, "moveTo", {{"speedShare", bar_->share()}}}, told);
     }
+}
+
+void AxisView::tell(int motion, const Answer& answer) {
+    demands_->answer(motion, answer.done);
+    demands_->say(answer.text);
+    showRows();
+    showDemands();
 }
 
 }  // namespace cortex::explorer

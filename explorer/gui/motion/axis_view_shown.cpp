@@ -13,6 +13,8 @@ namespace cortex::explorer {
 
 namespace {
 
+constexpr int mostTold = 2;  // demands that are wrong
+
 bool isDemands(const QString& mode) { return mode == QLatin1String{"Position"}; }
 
 }  // namespace
@@ -27,8 +29,21 @@ ShownNumber AxisView::velocityOf(const MotionAxis& axis) const {
 
 std::optional<double> AxisView::demandOf(int axis) const {
     const auto index = static_cast<std::size_t>(axis);
-    if (demands_->isEdited(index)) return demands_->entered(index);
+    if (demands_->has(index)) return demands_->entered(index);
     return index < sent_.size() ? std::optional{sent_[index]} : std::nullopt;
+}
+
+// The controller has the last word: what is beyond a limit is marked, and can be sent.
+QString AxisView::wrongDemand(int index) const {
+    const auto demand = demandOf(index);
+    if (!demand)
+        return demands_->has(static_cast<std::size_t>(index)) ? tr("no number") : QString{};
+    const MotionAxis& each = axis(index);
+    if (each.max && *demand > *each.max)
+        return tr("above its limit of %1").arg(positionOf(each).withUnit(*each.max));
+    if (each.min && *demand < *each.min)
+        return tr("below its limit of %1").arg(positionOf(each).withUnit(*each.min));
+    return {};
 }
 
 // In the titles where all axes have one unit.
@@ -64,8 +79,9 @@ void AxisView::showRow(int index) {
     look.focused = rows_->hasFocus();
     look.held = jog_->runs() && jog_->axis() == index ? jog_->direction() : 0;
     look.whyNot = whyNoJog(index);
-    look.edited = demands_->isEdited(static_cast<std::size_t>(index));
+    look.edited = demands_->isMarked(static_cast<std::size_t>(index));
     look.entered = demandOf(index);
+    look.wrong = wrongDemand(index);
     rows_->row(index).show(each, look);
 }
 
@@ -133,9 +149,17 @@ void AxisView::showDemands() {
                         : demands_->isWrong() ? tr("What was entered is no number")
                                               : QString{};
     const int share = qRound(bar_->share() * 100);
-    QString note = tr("%1 not sent").arg(demands_->edited()) + tr(", %1 % of the speed").arg(share);
+    QStringList wrong;
+    for (int i = 0; i < rows_->count(); ++i) {
+        const QString what = wrongDemand(i);
+        if (!what.isEmpty()) wrong << tr("%1: %2.").arg(axis(i).name, what);
+    }
+    const int more = wrong.size() - mostTold;
+    if (more > 0) wrong = wrong.mid(0, mostTold) << tr("%1 more are wrong.").arg(more);
+    QString note = demands_->counts();
+    if (wrong.isEmpty()) note += tr(", %1 % of the speed").arg(share);
     if (remaining_ && *remaining_ > 0) note += tr(", there in %1 s").arg(*remaining_, 0, 'f', 1);
-    demands_->show(action, why, note);
+    demands_->show(action, why, wrong.join(' '), note);
     const QString whyNoHalt = whyNot(path_, jogs_ ? "halt" : "cancel");
     demands_->haltButton().setEnabled(whyNoHalt.isEmpty());
 }

@@ -45,7 +45,7 @@ Plate::Plate(QWidget* parent) : QLabel{parent} {
     setTextFormat(Qt::PlainText);
     setWordWrap(true);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-    setMargin(units(1));
+    fit();
     hide();
 }
 
@@ -74,7 +74,19 @@ void Plate::paintEvent(QPaintEvent* /*event*/) {
 
 void Plate::changeEvent(QEvent* event) {
     QLabel::changeEvent(event);
-    if (event->type() == QEvent::StyleChange) setMargin(units(1));
+    if (event->type() == QEvent::StyleChange || event->type() == QEvent::FontChange) fit();
+}
+
+void Plate::fit() {
+    setMargin(units(1));
+    setMinimumHeight(fontMetrics().height() + 2 * margin());
+}
+
+void Plate::keepPlace(bool keeps) {
+    QSizePolicy policy = sizePolicy();
+    if (policy.retainSizeWhenHidden() == keeps) return;
+    policy.setRetainSizeWhenHidden(keeps);
+    setSizePolicy(policy);
 }
 
 }  // namespace cortex::explorer

@@ -27,17 +27,21 @@ private:
     bool dressing_ = false;
 };
 
-// One line on a plate in the colour of what the operator holds; without text it is gone.
+// Lines on a plate in the colour of what the operator holds; without text it is gone.
 class Plate : public QLabel {
     Q_OBJECT
 public:
     explicit Plate(QWidget* parent = nullptr);
 
     void say(const QString& text);
+    void keepPlace(bool keeps);  // of one line, also where it is gone
 
 protected:
     void paintEvent(QPaintEvent* event) override;
     void changeEvent(QEvent* event) override;
+
+private:
+    void fit();
 };
 
 }  // namespace cortex::explorer

@@ -57,23 +57,24 @@ void MotionBar::layOut(bool hasModes) {
     first->addWidget(speed_, 1);
     second->addWidget(modeName_);
     second->addWidget(modes_);
-    second->addStretch(1);
+    second->addWidget(mode_, 1);  // below, it would move the axes when it comes and goes
     for (Choices* each : {angles_, lengths_}) (hasModes ? second : first)->addWidget(each);
     auto* rows = new QVBoxLayout{this};
     rows->setContentsMargins(units(4), 0, units(2), 0);
     rows->setSpacing(units(1));
     rows->addLayout(first);
     rows->addLayout(second);
-    rows->addWidget(mode_);
 }
 
 double MotionBar::share() const { return slider_->value() / 100.0; }
 
+void MotionBar::setAllowed(bool allowed) {
+    if (allowed && !allowed_) slider_->setValue(firstPercent);
+    allowed_ = allowed;
+}
+
 void MotionBar::saySpeed(const QString& text) { speed_->say(text); }
 
-void MotionBar::sayMode(const QString& text) {
-    mode_->say(text);
-    mode_->setVisible(!text.isEmpty());
-}
+void MotionBar::sayMode(const QString& text) { mode_->say(text); }
 
 }  // namespace cortex::explorer

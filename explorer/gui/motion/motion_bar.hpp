@@ -23,6 +23,8 @@ public:
               QWidget* parent = nullptr);
 
     double share() const;  // 0.01 to 1; 0.1 at the beginning, always
+    // Whether it may move anything. Whenever that begins, as with control, the share is 0.1 again.
+    void setAllowed(bool allowed);
     QSlider& slider() const { return *slider_; }
     Choices& modes() const { return *modes_; }
     Choices& angles() const { return *angles_; }
@@ -36,6 +38,7 @@ Q_SIGNALS:
 private:
     void layOut(bool hasModes);
 
+    bool allowed_ = false;
     QSlider* slider_;
     QLabel* percent_;
     Sentence* speed_;

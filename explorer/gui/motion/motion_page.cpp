@@ -74,6 +74,8 @@ void MotionPage::reveal(QWidget& part) { left_->ensureWidgetVisible(&part, 0, un
 
 void MotionPage::say(const QString& jogging, const QString& ended, const QString& hint,
                      std::optional<Tone> tone) {
+    // Where there is room, a line for it stays free: no button moves when a jog begins.
+    jogging_->keepPlace(height() >= units(lowUnits));
     jogging_->say(jogging);
     ended_->say(ended);
     ended_->setVisible(!ended.isEmpty());

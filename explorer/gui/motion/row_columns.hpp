@@ -19,7 +19,7 @@ inline constexpr double leastName = 10, mostName = 22;
 
 // `name`: width of the longest name.
 inline RowColumns columnsOf(int width, int height, int name) {
-    const int edge = units(4), gap = units(2), number = units(17);
+    const int edge = units(4), gap = units(2), number = units(19);
     const bool words = width >= units(wordUnits);  // otherwise a drive is a mark alone
     const int act = units(2 * buttonWide + buttonGap), drive = units(words ? 17 : 4);
     RowColumns columns;

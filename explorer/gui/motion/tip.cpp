@@ -23,17 +23,59 @@ std::array<double, 3> rollPitchYaw(double x, double y, double z, double w) {
             std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))};
 }
 
-// Where the tip of these axes is computed: by kinematics of just these.
-std::string poseOf(const SystemNow& now, const std::vector<std::string>& axes) {
-    if (axes.empty()) return {};
+// The constant in which the tips of these two differ.
+QString differingTip(const SimplexNow& one, const SimplexNow& other) {
+    for (const char* item : {"tipPosition", "tipRotation"}) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (one.number(item, i) != other.number(item, i)) return QLatin1String{item};
+        }
+    }
+    return {};
+}
+
+// Where the tip of these axes is computed: by kinematics of just these, and of this tip if there
+// are any.
+void findPose(Tip& tip, const SystemNow& now, const SimplexNow& controller) {
+    const auto axes = controller.related("axes");
+    if (axes.empty()) return;
     for (const std::string& each : now.at(axes.front()).relatedBy("axes")) {
         const SimplexNow kinematics = now.at(each);
         const Type* type = kinematics.type();
         if (type == nullptr || !type->isA("ForwardKinematics")) continue;
         const auto tips = kinematics.related("tip");
-        if (kinematics.related("axes") == axes && !tips.empty()) return tips.front();
+        if (kinematics.related("axes") != axes || tips.empty()) continue;
+        const QString another = differingTip(kinematics, controller);
+        if (!tip.pose.empty() && !another.isEmpty()) continue;
+        tip.pose = tips.front();
+        tip.kinematics = each;
+        tip.another = another;
+        if (another.isEmpty()) return;
     }
-    return {};
+}
+
+std::optional<double> lengthOf(const SimplexNow& simplex, const char* item) {
+    double squares = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto number = simplex.number(item, i);
+        if (!number) return std::nullopt;
+        squares += *number * *number;
+    }
+    return std::sqrt(squares);
+}
+
+void readPlace(Tip& tip, const SimplexNow& pose) {
+    std::array<double, 4> turned{};
+    bool known = true;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto number = pose.number("rotation", i);
+        known = known && number;
+        turned[i] = number.value_or(0);
+    }
+    const auto angles = rollPitchYaw(turned[0], turned[1], turned[2], turned[3]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        tip.at[i] = pose.number("position", i);
+        tip.at[i + 3] = known ? std::optional{angles[i]} : std::nullopt;
+    }
 }
 
 // What the type calls the number that the item has.
@@ -65,7 +107,7 @@ Tip tipOf(const SystemNow& now, const std::string& controller) {
         counted += tip.moves[at] ? 1 : 0;
     }
     tip.moves[tipElbow] = axes.size() > counted;  // an axis is to spare
-    tip.pose = poseOf(now, axes);
+    findPose(tip, now, simplex);
     return tip;
 }
 
@@ -82,18 +124,10 @@ void refresh(Tip& tip, const SystemNow& now, const std::string& controller) {
     tip.heldBack = computes ? label(simplex, "heldBack") : QString{};
     tip.singularDistance = computes ? simplex.number("singularDistance") : std::nullopt;
     tip.live = pose.live();
-    std::array<double, 4> turned{};
-    bool known = true;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const auto number = pose.number("rotation", i);
-        known = known && number;
-        turned[i] = number.value_or(0);
-    }
-    const auto angles = rollPitchYaw(turned[0], turned[1], turned[2], turned[3]);
-    for (std::size_t i = 0; i < 3; ++i) {
-        tip.at[i] = pose.number("position", i);
-        tip.at[i + 3] = known ? std::optional{angles[i]} : std::nullopt;
-    }
+    const bool known = tip.live && tip.another.isEmpty();
+    tip.speed = {known ? lengthOf(pose, "linearVelocity") : std::nullopt,
+                 known ? lengthOf(pose, "angularVelocity") : std::nullopt};
+    readPlace(tip, pose);
 }
 
 Order tipOrder(const std::string& controller, int motion, double velocity) {

@@ -22,7 +22,10 @@ struct Tip {
     std::array<bool, tipMotions> moves{};                // the controller may be asked for these
     std::array<std::optional<double>, tipMotions> most;  // greatest speed
     std::string pose;                                    // who has it; empty: nobody computes it
-    std::array<std::optional<double>, 6> at;             // x y z, roll pitch yaw, in the base
+    std::string kinematics;                              // who computes it
+    QString another;  // the item by which that is another tip: "tipPosition"; empty: it is this one
+    std::array<std::optional<double>, 6> at;     // x y z, roll pitch yaw, in the base
+    std::array<std::optional<double>, 2> speed;  // along and about any axis; none: not known now
     bool live = false;
     QString frame, heldBack;  // as the labels of the type say it: "Tip", "Singularity"
     double holdTime = 0;

@@ -10,7 +10,7 @@ namespace cortex::explorer {
 
 namespace {
 
-constexpr double nearSingular = 0.05;  // below it the tip moves less than was asked for
+constexpr double nearSingular = 0.05;  // of an arm about a metre long: from here on it slows down
 
 constexpr std::array names{"x", "y", "z", "roll", "pitch", "yaw"};
 
@@ -30,6 +30,7 @@ QString heldBackText(const QString& label) {
 TipNumbers::TipNumbers(QWidget* parent)
     : QWidget{parent},
       title_{new QLabel},
+      note_{new Sentence{Tone::Limit}},
       heldBack_{new Sentence{Tone::Limit}},
       distance_{new Sentence{Tone::Quiet}} {
     auto* grid = new QGridLayout{this};
@@ -37,8 +38,9 @@ TipNumbers::TipNumbers(QWidget* parent)
     grid->setSpacing(units(1));
     title_->setTextFormat(Qt::PlainText);
     grid->addWidget(title_, 0, 0, 1, 9);
+    grid->addWidget(note_, 1, 0, 1, 9);
     for (std::size_t i = 0; i < names.size(); ++i) {
-        const int row = 1 + static_cast<int>(i / 3), column = 3 * static_cast<int>(i % 3);
+        const int row = 2 + static_cast<int>(i / 3), column = 3 * static_cast<int>(i % 3);
         grid->addWidget(new QLabel{QLatin1String{names[i]}}, row, column);
         numbers_[i] = new QLabel;
         numbers_[i]->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -47,17 +49,33 @@ TipNumbers::TipNumbers(QWidget* parent)
     }
     for (const int gap : {2, 5}) grid->setColumnMinimumWidth(gap, units(5));
     grid->setColumnStretch(8, 1);
-    grid->addWidget(distance_, 3, 0, 1, 9);
-    grid->addWidget(heldBack_, 4, 0, 1, 9);
+    grid->addWidget(distance_, 4, 0, 1, 9);
+    grid->addWidget(heldBack_, 5, 0, 1, 9);
 }
 
-void TipNumbers::show(const Tip& tip, const ShownNumber& lengths, const ShownNumber& angles) {
+QString TipNumbers::noteOf(const Tip& tip, const std::string& controller) {
+    QStringList all;
+    if (tip.pose.empty()) return {};
+    if (!tip.another.isEmpty()) {
+        all << tr("The tip of %1, with another %2 than %3.")
+                   .arg(QString::fromStdString(tip.kinematics), tip.another,
+                        QString::fromStdString(controller));
+    }
+    if (!tip.live) all << tr("Not live: these are the last numbers.");
+    return all.join(' ');
+}
+
+void TipNumbers::show(const Tip& tip, const std::string& controller, const ShownNumber& lengths,
+                      const ShownNumber& angles) {
     title_->setText(
         tip.pose.empty()
             ? tr("No simplex computes where the tip is: relate a ForwardKinematics "
                  "with these axes")
             : tr("Tip in the base (%1, %2): %3")
                   .arg(lengths.unit.text, angles.unit.text, QString::fromStdString(tip.pose)));
+    const QString note = noteOf(tip, controller);
+    note_->say(note);
+    note_->setVisible(!note.isEmpty());
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
         const QString text = (i < 3 ? lengths : angles).text(tip.at[i]);
         numbers_[i]->setText(tip.at[i] && !tip.live ? '[' + text + ']' : text);

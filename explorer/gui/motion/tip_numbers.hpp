@@ -6,6 +6,7 @@
 
 #include <QWidget>
 #include <array>
+#include <string>
 
 class QLabel;
 
@@ -19,10 +20,14 @@ class TipNumbers : public QWidget {
 public:
     explicit TipNumbers(QWidget* parent = nullptr);
 
-    void show(const Tip& tip, const ShownNumber& lengths, const ShownNumber& angles);
+    void show(const Tip& tip, const std::string& controller, const ShownNumber& lengths,
+              const ShownNumber& angles);
 
 private:
+    static QString noteOf(const Tip& tip, const std::string& controller);
+
     QLabel* title_;
+    Sentence* note_;  // why these are not the numbers of this tip, or of now
     std::array<QLabel*, 6> numbers_{};
     Sentence *heldBack_, *distance_;
 };

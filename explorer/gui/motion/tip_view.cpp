@@ -58,6 +58,8 @@ void TipView::bind(const SystemNow& now) {
     const bool same = std::ranges::equal(
         axes, axes_, [](const auto& one, const auto& other) { return one.isSame(other); });
     tip_.pose = tip.pose;
+    tip_.kinematics = tip.kinematics;
+    tip_.another = tip.another;
     if (same && bound_ && tip.moves == tip_.moves) return;
     bound_ = true;
     axes_ = std::move(axes);
@@ -87,10 +89,11 @@ void TipView::refresh(const SystemNow& now) {
     if (jog_->runs() && tip_.frame != frame) jog_->end(tr("the frame was changed"));
     if (now.at(path_).live()) jog_->see(now.at(path_).text("jogging") == QLatin1String{"true"});
     whyNot_ = whyNot(path_, "jog");
+    bar_->setAllowed(whyNot_.isEmpty());
     showBar();
     pad_->show(tip_.frame.toLower(), whyNoJog(), jog_->runs() ? jog_->axis() : -1,
                jog_->runs() ? jog_->direction() : 0);
-    numbers_->show(tip_, shown("m"), shown("rad"));
+    numbers_->show(tip_, path_, shown("m"), shown("rad"));
     showRows();
     showLines();
     page_->plots().add(axes_, SmallPlot::clock());
@@ -195,25 +198,43 @@ QString TipView::limitSentence() const {
     return all.join(' ');
 }
 
+// What keeps the tip from the velocity that was asked for; empty: nothing does.
+QString TipView::heldBackBy() const {
+    if (tip_.heldBack == QLatin1String{"Limit"}) return tr("Held at a limit");
+    if (tip_.heldBack == QLatin1String{"Speed"}) return tr("Slowed to the speed of an axis");
+    if (tip_.heldBack == QLatin1String{"Singularity"}) return tr("Slowed near a singular posture");
+    return {};
+}
+
+// An elbow turns about no axis of a frame, and moves no tip.
+QString TipView::jogSentence() const {
+    if (!jog_->runs()) return {};
+    const int motion = jog_->axis();
+    const bool elbow = motion == tipElbow;
+    const QString heldBack = heldBackBy();
+    QString text = heldBack.isEmpty() ? tr("Jogging %1 at %2") : tr("%1: %2 asked for %3");
+    if (!heldBack.isEmpty()) text = text.arg(heldBack);
+    text = text.arg(tipMotionName(motion), shownOf(motion).withSign(jog_->velocity()));
+    if (!elbow) text += tr(" in the frame %1").arg(tip_.frame);
+    const auto speed = tip_.speed[turns(motion) ? 1 : 0];
+    if (!elbow && !heldBack.isEmpty() && speed)
+        text += tr("; the tip moves at %1").arg(shownOf(motion).withUnit(*speed));
+    return text +
+           tr(". It brakes when you let go, after %1 s at the latest.").arg(jog_->holdTime());
+}
+
+QString TipView::help() const {
+    const bool turning = tip_.moves[3] || tip_.moves[4] || tip_.moves[5];
+    const QString text = tr("Hold a button; or ← → ↑ ↓, Page Up and Page Down for X, Y and Z");
+    return text + (turning ? tr(", with Shift to turn.") : QStringLiteral("."));
+}
+
 void TipView::showLines() {
-    QString jogging;
-    if (jog_->runs()) {
-        const bool elbow = jog_->axis() == tipElbow;  // it turns about no axis of a frame
-        jogging =
-            (elbow ? tr("Jogging %1 at %2.") : tr("Jogging %1 at %2 in the frame %3."))
-                .arg(tipMotionName(jog_->axis()), shownOf(jog_->axis()).withSign(jog_->velocity()));
-        if (!elbow) jogging = jogging.arg(tip_.frame);
-        jogging +=
-            tr(" It brakes when you let go, after %1 s at the latest.").arg(jog_->holdTime());
-    }
     const QString limits = limitSentence();
     const bool refused = !whyNot_.isEmpty() && !jog_->runs();
-    const QString help =
-        tr("Hold a button; or ← → ↑ ↓, Page Up and Page Down for X, Y and Z, with "
-           "Shift to turn.");
-    page_->say(jogging, jog_->said(),
+    page_->say(jogSentence(), jog_->said(),
                refused            ? whyNot_
-               : limits.isEmpty() ? help
+               : limits.isEmpty() ? help()
                                   : limits,
                refused || limits.isEmpty() ? Tone::Quiet : Tone::Limit);
 }

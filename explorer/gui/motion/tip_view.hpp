@@ -38,6 +38,9 @@ private:
     void showBar();
     void showRows();
     void showLines();
+    QString jogSentence() const;
+    QString heldBackBy() const;
+    QString help() const;
     QString limitSentence() const;
     ShownNumber shown(const std::string& unit) const;
     ShownNumber shownOf(int motion) const;  // its velocity

@@ -98,6 +98,7 @@ struct SmallPlot::Content {
     Place place(const QRect& all) const;
     void paintLimits(QPainter& painter, const Place& place) const;
     void paintLine(QPainter& painter, const Place& place, const Line& line) const;
+    QString head(double width) const;
     void paintTexts(QPainter& painter, const Place& place, const QRect& all) const;
     void paintNames(QPainter& painter, const Place& place) const;
 };
@@ -172,15 +173,22 @@ void SmallPlot::Content::paintLine(QPainter& painter, const Place& place, const 
     flush();
 }
 
+// Where there is little room the title is cut, but never its unit.
+QString SmallPlot::Content::head(double width) const {
+    const QFontMetricsF metrics{Look::font(TextSize::Note, true)};
+    const QString behind = unit.isEmpty() ? QString{} : QStringLiteral(" (%1)").arg(unit);
+    if (metrics.horizontalAdvance(title + behind) <= width) return title + behind;
+    const double left = width - metrics.horizontalAdvance(behind);
+    return metrics.elidedText(title, Qt::ElideRight, left) + behind;
+}
+
 void SmallPlot::Content::paintTexts(QPainter& painter, const Place& place, const QRect& all) const {
     const Tokens& c = Look::colours();
     painter.setFont(Look::font(TextSize::Note, true));
     painter.setPen(c.ink);
     const double line = QFontMetricsF{painter.font()}.height(), gap = Look::length(1);
-    const QString head = unit.isEmpty() ? title : QStringLiteral("%1 (%2)").arg(title, unit);
-    painter.drawText(
-        QRectF{place.box.left(), 0, place.box.width() / 2, line}, Qt::AlignLeft | Qt::AlignVCenter,
-        QFontMetricsF{painter.font()}.elidedText(head, Qt::ElideRight, place.box.width() / 2));
+    const double wide = place.box.right() - gap;
+    painter.drawText(QRectF{gap, 0, wide, line}, Qt::AlignLeft | Qt::AlignVCenter, head(wide));
     painter.setFont(Look::font(TextSize::Note));
     painter.setPen(c.ink2);
     const double width = place.box.left() - gap;
@@ -196,20 +204,22 @@ void SmallPlot::Content::paintTexts(QPainter& painter, const Place& place, const
     painter.drawText(foot, Qt::AlignRight | Qt::AlignVCenter, tr("now"));
 }
 
-// At the right of the title: a stroke as the line has it, and its name.
+// At the right of the title: a stroke as the line has it, and its name, as far as there is room.
 void SmallPlot::Content::paintNames(QPainter& painter, const Place& place) const {
     const QFontMetricsF metrics{painter.font()};
     const double line = metrics.height(), gap = Look::length(1), stroke = Look::length(4);
-    const QString head = unit.isEmpty() ? title : QStringLiteral("%1 (%2)").arg(title, unit);
-    const double wideHead = QFontMetricsF{Look::font(TextSize::Note, true)}.horizontalAdvance(head);
-    const double free = place.box.left() + std::min(wideHead, place.box.width() / 2) + 2 * gap;
     double right = place.box.right();
+    const double wideHead =
+        QFontMetricsF{Look::font(TextSize::Note, true)}.horizontalAdvance(head(right - gap));
+    const double free = wideHead + 3 * gap;
     for (auto each = lines.rbegin(); each != lines.rend(); ++each) {
         if (each->name.isEmpty()) continue;
-        const double wide = metrics.horizontalAdvance(each->name) + 1;
-        if (right - wide - stroke - gap < free) return;
+        const double room = right - stroke - gap - free;
+        if (room < metrics.horizontalAdvance(QChar{0x2026})) return;
+        const QString name = metrics.elidedText(each->name, Qt::ElideRight, room);
+        const double wide = std::min(metrics.horizontalAdvance(name) + 1, room);
         painter.setPen(Look::colours().ink2);
-        painter.drawText(QRectF{right - wide, 0, wide, line}, Qt::AlignCenter, each->name);
+        painter.drawText(QRectF{right - wide, 0, wide, line}, Qt::AlignCenter, name);
         QPen pen{Look::colours().series[each->colour % Look::colours().series.size()], 2};
         if (each->demand) pen.setDashPattern({3, 2});
         painter.setPen(pen);

@@ -41,13 +41,21 @@ public:
     bool any() const { return !held_.empty(); }
 
 private:
+    struct Sent {
+        std::uint64_t number = 0;  // the mirror's
+        Moment at{};
+    };
     struct Held {
         std::uint64_t number = 0;
         HeldCommand command;
-        std::uint64_t sent = 0;  // the mirror's number of the last one; 0: none, or answered
+        std::vector<Sent> sent;  // and not yet answered
         Moment due{};
+        // The last one that was executed was so at this moment or later; at first when it began.
+        Moment executed{};
     };
     std::string whyNot(Held& held, const Frame& frame, Moment now, Moment alive);
+    std::string whyNotAnswered(Held& held, Moment now);
+    void abandon(const Held& held);
     void sayEnd(Held& held, const Frame& frame);
 
     comms::Mirror& mirror_;

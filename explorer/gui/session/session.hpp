@@ -67,7 +67,8 @@ public:
     std::vector<CommandOutcome> takeOutcomes();
 
     // Repeats a command until endHold(), or until it ends by itself: control or the agent is lost,
-    // an answer is no success, or isAlive() is not called for 0.25 s. Gives its number.
+    // an answer is no success or takes longer than the budget, or isAlive() is not called for
+    // 0.25 s. Gives its number.
     std::uint64_t hold(HeldCommand command);
     void changeHold(std::uint64_t number, comms::Mirror::Arguments arguments);
     void endHold(std::uint64_t number);

@@ -107,6 +107,12 @@ CompareView::CompareView(QWidget* parent)
             [this](const QModelIndex& index) { Q_EMIT opened(rows_->recorded(index.row()).path); });
 }
 
+// A field that has the focus ends its editing while its view goes, when there is no search any
+// more.
+CompareView::~CompareView() {
+    for (const QLineEdit* each : {item_, filter_}) each->disconnect(this);
+}
+
 void CompareView::addMenu() {
     auto* plot = new QAction{tr("Plot"), this};
     connect(plot, &QAction::triggered, plot_, &QPushButton::click);

@@ -22,6 +22,7 @@ class CompareView : public QWidget {
     Q_OBJECT
 public:
     explicit CompareView(QWidget* parent = nullptr);
+    ~CompareView() override;
 
     void compare(const std::string& item, const QString& filter = {});
     void refresh(const std::shared_ptr<const Frame>& frame);

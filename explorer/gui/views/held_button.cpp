@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/held_button.hpp"
 
+#include <QAbstractButton>
 #include <QApplication>
+#include <QCursor>
 #include <QEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
@@ -9,9 +11,22 @@
 
 namespace cortex::gui {
 
+namespace {
+
+// In the middle of the button, where the cursor is known to be elsewhere, as of a touch.
+std::optional<QPoint> pointerAt(const QWidget& button) {
+    const bool pressed = qobject_cast<const QAbstractButton*>(&button) != nullptr;
+    if (!pressed || QApplication::mouseButtons() == Qt::NoButton) return std::nullopt;
+    const QPoint cursor = QCursor::pos();
+    if (button.rect().contains(button.mapFromGlobal(cursor))) return cursor;
+    return button.mapToGlobal(button.rect().center());
+}
+
+}  // namespace
+
 HeldButton::HeldButton(Session& session, QWidget& button, const explorer::HeldOrder& order,
                        const QString& whyNot)
-    : Hold{&button}, session_{session}, button_{button}, why_{whyNot} {
+    : Hold{&button}, session_{session}, button_{button}, pointer_{pointerAt(button)}, why_{whyNot} {
     if (!runs()) return;
     HeldCommand command{order.order.path, order.order.command, order.order.arguments, {},
                         order.every,      order.order.budget};
@@ -50,7 +65,7 @@ bool HeldButton::eventFilter(QObject* object, QEvent* event) {
 }
 
 // Why this event ends it; empty: it does not. Events of the button's own window reach its widgets.
-QString HeldButton::endOf(QObject* object, QEvent* event) const {
+QString HeldButton::endOf(QObject* object, QEvent* event) {
     const QEvent::Type type = event->type();
     if (type == QEvent::ApplicationStateChange &&
         static_cast<QApplicationStateChangeEvent*>(event)->applicationState() !=
@@ -70,13 +85,29 @@ QString HeldButton::endOf(QObject* object, QEvent* event) const {
         static_cast<QWidget*>(object)->windowType() == Qt::Popup) {
         return tr("focus left");
     }
-    if (object != &button_) return {};
-    switch (type) {
+    if (type == QEvent::Move || type == QEvent::Resize) return endOfPlace(object, event);
+    return object == &button_ ? endOfButton(event) : QString{};
+}
+
+// The button moves with each widget that it lies in. Only others resize a window spontaneously.
+QString HeldButton::endOfPlace(QObject* object, QEvent* event) const {
+    const auto* widget = qobject_cast<QWidget*>(object);
+    if (widget == nullptr || (widget != &button_ && !widget->isAncestorOf(&button_))) return {};
+    if (event->type() == QEvent::Resize && widget->isWindow() && event->spontaneous()) {
+        return tr("the window was resized");
+    }
+    const bool isLeft = pointer_ && !button_.rect().contains(button_.mapFromGlobal(*pointer_));
+    return isLeft ? tr("the button moved away") : QString{};
+}
+
+QString HeldButton::endOfButton(QEvent* event) {
+    switch (event->type()) {
         case QEvent::MouseButtonRelease:
             return tr("let go");
         case QEvent::KeyRelease:
             return static_cast<QKeyEvent*>(event)->isAutoRepeat() ? QString{} : tr("let go");
         case QEvent::MouseMove:
+            pointer_ = static_cast<QMouseEvent*>(event)->globalPos();
             return button_.rect().contains(static_cast<QMouseEvent*>(event)->pos())
                        ? QString{}
                        : tr("the pointer left the button");

@@ -5,6 +5,9 @@
 
 #include "session/session.hpp"
 
+#include <QPoint>
+#include <optional>
+
 class QWidget;
 
 namespace cortex::gui {
@@ -31,10 +34,13 @@ protected:
 
 private:
     void stop(const QString& why);
-    QString endOf(QObject* object, QEvent* event) const;
+    QString endOf(QObject* object, QEvent* event);
+    QString endOfPlace(QObject* object, QEvent* event) const;
+    QString endOfButton(QEvent* event);
 
     Session& session_;
     QWidget& button_;
+    std::optional<QPoint> pointer_;  // on the screen, where it was last; none: a key holds it
     std::uint64_t number_ = 0;
     QString why_;
 };

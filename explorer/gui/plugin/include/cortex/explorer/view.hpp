@@ -50,8 +50,9 @@ struct HeldOrder {
 };
 
 // An order that is being repeated. It ends with this object, and by itself when the button is let
-// go, hidden or disabled, the keyboard's focus or the program's leaves it, Escape is pressed,
-// control is lost, an answer is no success, or the window's thread hangs.
+// go, hidden or disabled, moves away from under the pointer, its window is resized, the keyboard's
+// focus or the program's leaves it, another key or button is pressed, control is lost, an answer is
+// no success or takes longer than the budget, or the window's thread hangs.
 class Hold : public QObject {
     Q_OBJECT
 public:
