@@ -14,8 +14,6 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, SerialC
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using Counted = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
-constexpr double least = 1e-5;  // of a singular value: below, the direction is lost
-
 Rows countedRows(const SerialChain::Jacobian& jacobian, const Directions& directions) {
     Rows rows(count(directions), jacobian.cols());
     Eigen::Index next = 0;
@@ -54,21 +52,22 @@ TipVelocity jointVelocities(const SerialChain::Jacobian& jacobian, const Twist& 
     const Counted asked = countedOf(tip, directions);
     const Counted along = parts.eigenvectors().transpose().lazyProduct(asked);
     Counted weights(values.size());
+    TipVelocity result;
+    result.counted = static_cast<int>(values.size());
     double lost = 0;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
-        const bool given = values[i] >= least;
+        const bool given = values[i] > lostBelow * values[values.size() - 1];
         weights[i] = given ? along[i] / (values[i] * values[i]) : 0.0;
         if (!given) lost = std::hypot(lost, along[i]);
+        result.values[static_cast<std::size_t>(i)] = values[i];
     }
-    TipVelocity result;
-    result.smallest = values[0];
-    result.largest = values[values.size() - 1];
     result.manipulability = values.prod();
     const Counted combined = parts.eigenvectors().lazyProduct(weights);
     result.joints = rows.transpose().lazyProduct(combined);
     const double length = asked.norm(), speed = result.joints.norm();
     if (length > 0) result.lost = lost / length;
-    if (speed > 0) result.weak = std::abs(weights[0]) * values[0] / speed;
+    for (Eigen::Index i = 0; speed > 0 && i < values.size(); ++i)
+        result.needs[static_cast<std::size_t>(i)] = std::abs(weights[i]) * values[i] / speed;
     return result;
 }
 
@@ -80,13 +79,14 @@ SerialChain::JointVector selfMotion(const SerialChain::Jacobian& jacobian,
     if (joints <= count(directions)) return motion;
     const Rows rows = countedRows(jacobian, directions);
     const auto parts = decomposed(rows);
+    constexpr double least = 1e-10;  // of a square: below, it is none
     const auto withoutTip =
         [&](const SerialChain::JointVector& velocities) -> SerialChain::JointVector {  // I − J⁺J
         const Counted tip = rows.lazyProduct(velocities);
         Counted along = parts.eigenvectors().transpose().lazyProduct(tip);
         for (Eigen::Index k = 0; k < along.size(); ++k) {
             const double square = parts.eigenvalues()[k];
-            along[k] = square > least * least ? along[k] / square : 0.0;
+            along[k] = square > least ? along[k] / square : 0.0;
         }
         const Counted weights = parts.eigenvectors().lazyProduct(along);
         return velocities - rows.transpose().lazyProduct(weights);

@@ -218,6 +218,68 @@ TEST(ATipThatIsJogged, GoesStraightAtFullSpeedWhicheverWay) {
     EXPECT_LE(arm.mostOfLimits, 1 + 1e-9);
 }
 
+TEST(ATipThatIsJogged, StaysOnItsLineWhereItTurnsBackOrSlowsDown) {
+    for (const double next : {-1.0, 0.05, 0.5}) {
+        JoggedTip arm;
+        const JoggedTip::Posture begin = arm.posture();
+        for (int i = 0; i < 2500; ++i) {
+            if (i % 100 == 0) arm.jog({0.25 * (i < 500 || i >= 1500 ? 1 : next), 0, 0});
+            arm.stepJudged();
+            arm.mostAway = std::max(arm.mostAway, arm.awayFrom(begin, {1, 0, 0}));
+        }
+        EXPECT_LT(arm.mostAway, 1e-5) << next;
+        EXPECT_LE(arm.mostOfLimits, 1 + 1e-9);
+    }
+}
+
+TEST(ATipThatIsJogged, TurnsToAnotherDirectionInThePlaneOfBoth) {
+    JoggedTip arm;
+    const JoggedTip::Posture begin = arm.posture();
+    for (int i = 0; i < 1200; ++i) {
+        if (i % 100 == 0)
+            arm.jog(i < 500 ? std::vector{0.0, 0.25, 0.0} : std::vector{0.0, 0.0, 0.25});
+        arm.stepJudged();
+        const JoggedTip::Posture now = arm.posture();
+        arm.mostAway = std::max({arm.mostAway, std::abs(now.position[0] - begin.position[0]),
+                                 now.rotation.angularDistance(begin.rotation)});
+    }
+    EXPECT_NEAR(arm.tipVelocity()[1], 0, 1e-6);
+    EXPECT_GT(arm.tipVelocity()[2], 0.1);
+    EXPECT_LT(arm.mostAway, 1e-5);
+    EXPECT_LE(arm.mostOfLimits, 1 + 1e-9);
+}
+
+TEST(ATipThatIsJogged, IsNotThrownFromPosturesThatAreNearlyStretched) {
+    struct Case {
+        JoggedTip::Start start;
+        Eigen::Vector3d linear, angular;
+        bool ofTip;
+    };
+    const std::vector<Case> cases{
+        {{"0", "0", "0.0396", "0", "0", "0", "0"}, {0, 0, 0}, {0, -0.5, 0}, true},
+        {{"0", "0", "0", "0", "0", "0", "0"}, {0, 0, 0}, {0, 0.05, 0}, false},
+        {{"0", "0", "-0.0283", "0", "0.0298", "-0.0270", "0"}, {0, 0, 0}, {0, 0, -0.5}, false},
+        {{"0.0203", "-0.0344", "0", "0", "0.023", "0", "-0.0066"}, {0, 0, -0.25}, {0, 0, 0}, false},
+        {{"0", "0", "0", "0", "0", "0", "0"}, {0.25, 0, 0}, {0, 0, 0}, false},
+        {{"0.3", "0.5", "0.2", "-0.02", "0.1", "0.7", "0.1"}, {0, 0, 0}, {0, 0, -0.5}, false},
+        {{"-0.739", "0.992", "-2.064", "-0.1", "2.226", "-0.361", "1.485"},
+         {0, 0, 0},
+         {0.5, 0, 0},
+         true},
+        {{"0.764", "-1.221", "0.76", "-0.02", "1.241", "0.225", "-1.409"},
+         {0, 0, -0.25},
+         {0, 0, 0},
+         false}};
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const Case& each = cases[i];
+        JoggedTip arm{each.start};
+        if (each.ofTip) arm.call("/jog", "set", {{"frame", std::int64_t{1}}});
+        arm.jogStraight(1200, each.linear, each.angular, each.ofTip);
+        EXPECT_LT(arm.mostAway, 1e-3) << i;
+        EXPECT_LE(arm.mostOfLimits, 1 + 1e-9) << i;
+    }
+}
+
 TEST(ATipThatIsJogged, ComesToRestOnItsStraightWayBeforeTheArmIsStretched) {
     for (const JoggedTip::Start& start :
          {JoggedTip::Start{"0", "0.6", "0", "-0.3", "0", "0.6", "0"},

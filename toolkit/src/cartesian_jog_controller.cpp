@@ -19,14 +19,16 @@ namespace {
 
 constexpr std::size_t ofElbow = 6;
 
-// Of an axis' A and J: what a change of the pace takes, and what the bends of its way. The pace
-// makes up for a bend that sharpens, which takes half as much again; so the tip goes straight.
-constexpr double shareOfPace = 0.5, shareOfBend = 0.25, shareOfBendsJerk = 0.05;
+// Of an axis' A and J: what a change of the pace takes, what another direction, and what the bends
+// of its way. The pace makes up for a bend that sharpens, which takes half as much again. So all
+// axes can follow at one pace, and the tip goes straight.
+constexpr double shareOfPace = 0.5, shareOfTurn = 0.2, shareOfBend = 0.25, shareOfBendsJerk = 0.05;
 constexpr double shareOfSpeed = 0.95;  // of V, for the same reason
 // Of what the pace may: what it slows down by before the end of its way, and what it could at most.
 constexpr double shareOfBraking = 0.3, shareOfStop = 0.5;
-constexpr double closest = 0.005;    // to a singular posture: smallest by largest value
-constexpr double negligible = 1e-3;  // share of a velocity
+constexpr double closest = 2 * mechanics::lostBelow;  // where it stops before a lost direction
+constexpr double negligible = 1e-3;                   // share of a velocity
+constexpr double leastNeed = 0.02;                    // share of the joints' velocity
 
 // The greatest velocity from which a stop takes no more than the way, as with a trapezoid of the
 // acceleration: a step of the velocity by v takes v/A + A/J, or 2·sqrt(v/J) below A²/J.
@@ -50,6 +52,12 @@ bool reaches(const MotionState& before, const MotionState& next, const MotionLim
 
 MotionLimits shareOf(const MotionLimits& limits, double share) {
     return {limits.velocity, share * limits.acceleration, share * limits.jerk};
+}
+
+// The greatest p with speed·p + gain·p² <= most.
+double below(double most, double speed, double gain) {
+    if (gain == 0) return speed == 0 ? 1 : most / speed;
+    return (std::sqrt(speed * speed + 4 * gain * most) - speed) / (2 * gain);
 }
 
 double limitedTo(double value, double most) { return std::clamp(value, -most, most); }
@@ -101,26 +109,31 @@ MotionLimits CartesianJogController::limitsOf(std::size_t motion) const {
     return {speed, 2 * speed / ramp, 4 * speed / (ramp * ramp)};
 }
 
-// At rest it is what was asked for; in motion it turns there with a limited acceleration.
-void CartesianJogController::turnTowardsAim(double seconds) {
-    const bool rests = pace_.velocity == 0 && pace_.acceleration == 0;
-    jogging_ = now_ < until_;
-    for (std::size_t i = 0; i < motions; ++i) {
-        MotionState& direction = direction_[i];
-        if (rests) {
-            direction = {0, jogging_ ? aim_[i] : 0.0, 0};
-        } else if (jogging_) {
-            const auto step = mechanics::planVelocity(direction, aim_[i], limitsOf(i));
-            direction = step ? step->at(seconds) : MotionState{0, aim_[i], 0};
-        }
-        direction.position = 0;
-    }
+CartesianJogController::Motion CartesianJogController::direction() const {
+    Motion motion{};
+    for (std::size_t i = 0; i < motions; ++i)
+        motion[i] = from_[i] + turn_.velocity * (to_[i] - from_[i]);
+    return motion;
 }
 
-// Of the joints, at pace 1.
-mechanics::TipVelocity CartesianJogController::wanted(const JointVector& joints) {
+// From rest it moves as it was asked to. In motion it turns there, and in another frame it begins
+// from rest.
+void CartesianJogController::aim() {
+    jogging_ = now_ < until_;
+    if (pace_.velocity == 0 && pace_.acceleration == 0) {
+        usedFrame_ = frame_;
+        from_ = to_ = jogging_ ? aim_ : Motion{};
+        turn_ = {};
+    }
+    drives_ = jogging_ && usedFrame_ == frame_;
+    if (drives_ && !turns()) to_ = aim_;
+}
+
+// Of the joints, for this motion of tip and elbow.
+mechanics::TipVelocity CartesianJogController::wanted(const Motion& motion,
+                                                      const JointVector& joints) {
     const Pose tip = chain_->forward(joints, jacobian_);
-    if (frame_ == Tip) {
+    if (usedFrame_ == Tip) {
         const Eigen::Matrix3d back = tip.rotation.conjugate().toRotationMatrix();
         for (Eigen::Index i = 0; i < jacobian_.cols(); ++i) {
             jacobian_.col(i).head<3>() = back * jacobian_.col(i).head<3>().eval();
@@ -128,75 +141,71 @@ mechanics::TipVelocity CartesianJogController::wanted(const JointVector& joints)
         }
     }
     Twist twist;
-    for (std::size_t i = 0; i < ofElbow; ++i) {
-        twist[static_cast<Eigen::Index>(i)] = directions_[i] ? direction_[i].velocity : 0.0;
-    }
+    for (std::size_t i = 0; i < ofElbow; ++i)
+        twist[static_cast<Eigen::Index>(i)] = directions_[i] ? motion[i] : 0.0;
     mechanics::TipVelocity found = mechanics::jointVelocities(jacobian_, twist, directions_);
-    const double turn = direction_[ofElbow].velocity;
-    if (turn == 0) return found;
+    if (motion[ofElbow] == 0) return found;
     // An arm with more axes than six keeps the turn of its tip, too, whatever counts.
     constexpr mechanics::Directions all{true, true, true, true, true, true};
     elbow_ = mechanics::selfMotion(jacobian_, axisCount() > ofElbow ? all : directions_, elbow_);
-    found.joints += turn * elbow_;
+    found.joints += motion[ofElbow] * elbow_;
     return found;
 }
 
-// Where the joints are at the end of this cycle, and a small way further.
-CartesianJogController::Course CartesianJogController::course(double seconds) {
-    for (std::size_t i = 0; i < axisCount(); ++i) {
-        const MotionState& axis = demands()[i];
-        joints_[static_cast<Eigen::Index>(i)] = axis.position + axis.velocity * seconds;
-    }
-    Course course{wanted(joints_), JointVector::Zero(joints_.size())};
-    manipulability_ = course.now.manipulability;
-    singularDistance_ = course.now.smallest;
+// From where the joints are at the end of this cycle, and a small way further.
+CartesianJogController::Course CartesianJogController::course(const Motion& motion) {
+    Course course{wanted(motion, joints_), JointVector::Zero(joints_.size())};
     const double speed = course.now.joints.norm();
     if (speed == 0) return course;
     constexpr double way = 1e-4;  // rad or m
     const double time = way / speed;
-    const auto ahead = wanted(joints_ + time * course.now.joints);
+    const auto ahead = wanted(motion, joints_ + time * course.now.joints);
     course.bend = (ahead.joints - course.now.joints) / time;
-    course.towardsSingular = (course.now.smallest - ahead.smallest) / time;
+    course.loses = (ahead.lost - course.now.lost) / time;
+    for (std::size_t i = 0; i < course.falls.size(); ++i)
+        course.falls[i] = (course.now.values[i] - ahead.values[i]) / time;
     return course;
 }
 
-// The pace may change as the tip's ramp says, and as each axis can follow.
-MotionLimits CartesianJogController::paceLimits(const JointVector& joints) const {
+MotionLimits CartesianJogController::rampOf(const Motion& motion, const JointVector& joints,
+                                            double share) const {
     constexpr double any = 1e9;  // per s², per s³: of a direction that is not moved
-    MotionLimits pace{1, any, any};
-    const auto include = [&pace](double speed, double acceleration, double jerk) {
+    MotionLimits ramp{1, any, any};
+    const auto include = [&ramp](double speed, double acceleration, double jerk) {
         if (speed == 0) return;
-        pace.acceleration = std::min(pace.acceleration, acceleration / std::abs(speed));
-        pace.jerk = std::min(pace.jerk, jerk / std::abs(speed));
+        ramp.acceleration = std::min(ramp.acceleration, acceleration / std::abs(speed));
+        ramp.jerk = std::min(ramp.jerk, jerk / std::abs(speed));
     };
     for (std::size_t i = 0; i < motions; ++i) {
-        const MotionLimits ramp = limitsOf(i);
-        include(direction_[i].velocity, ramp.acceleration, ramp.jerk);
+        const MotionLimits tip = limitsOf(i);
+        include(motion[i], tip.acceleration, tip.jerk);
     }
     for (std::size_t i = 0; i < axisCount(); ++i) {
         const MotionLimits axis = limits(i).motion();
-        include(joints[static_cast<Eigen::Index>(i)], shareOfPace * axis.acceleration,
-                shareOfPace * axis.jerk);
+        include(joints[static_cast<Eigen::Index>(i)], share * axis.acceleration, share * axis.jerk);
     }
-    return pace;
+    return ramp;
 }
 
 // The greatest pace at which no axis is too fast, and each can follow the bends of its way.
 void CartesianJogController::keepOnWay(const Course& course, Pace& pace) const {
-    const HeldBack why = course.now.nearSingular() ? Singularity : Speed;
+    const bool near = course.now.smallest() < 4 * closest * course.now.largest();
+    const HeldBack why = near ? Singularity : Speed;
     const double turning = course.bend.norm() / course.now.joints.norm();  // per s, at pace 1
     for (std::size_t i = 0; i < axisCount(); ++i) {
-        const double speed = std::abs(course.now.joints[static_cast<Eigen::Index>(i)]);
-        const double bend = std::abs(course.bend[static_cast<Eigen::Index>(i)]);
+        const double velocity = course.now.joints[static_cast<Eigen::Index>(i)];
+        const double bend = course.bend[static_cast<Eigen::Index>(i)];
         const MotionLimits axis = limits(i).motion();
-        if (speed > 0) pace.atMost(shareOfSpeed * axis.velocity / speed, why);
+        const double gain = velocity * bend > 0 ? axis.acceleration / axis.jerk / 2 : 0;
+        pace.atMost(below(shareOfSpeed * axis.velocity, std::abs(velocity), gain * std::abs(bend)),
+                    why);
         if (bend == 0) continue;
-        pace.atMost(std::sqrt(shareOfBend * axis.acceleration / bend), why);
-        pace.atMost(std::cbrt(shareOfBendsJerk * axis.jerk / (bend * turning)), why);
+        pace.atMost(std::sqrt(shareOfBend * axis.acceleration / std::abs(bend)), why);
+        pace.atMost(std::cbrt(shareOfBendsJerk * axis.jerk / (std::abs(bend) * turning)), why);
     }
 }
 
-// The way, in s at pace 1, before an axis is at a limit or the chain in a singular posture.
+// The way, in s at pace 1, before an axis is at a limit or the chain loses a direction.
 void CartesianJogController::keepBeforeEnds(const Course& course, Pace& pace) {
     for (std::size_t i = 0; i < axisCount(); ++i) {
         const double velocity = course.now.joints[static_cast<Eigen::Index>(i)];
@@ -205,11 +214,15 @@ void CartesianJogController::keepBeforeEnds(const Course& course, Pace& pace) {
         const double way = velocity > 0 ? limits(i).max - position : position - limits(i).min;
         pace.endsAfter(way / std::abs(velocity), Limit);
     }
-    if (course.now.lost > negligible) pace.atMost(0, Singularity);
-    if (course.towardsSingular <= 0 || course.now.weak < 0.1) return;
-    // Half: the smallest value falls the faster, the smaller it is.
-    const double way = course.now.smallest - closest * course.now.largest;
-    pace.endsAfter(way / course.towardsSingular / 2, Singularity);
+    const double left = negligible - course.now.lost;
+    if (left <= 0) pace.atMost(0, Singularity);
+    if (course.loses > 0) pace.endsAfter(left / course.loses / 2, Singularity);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(course.now.counted); ++i) {
+        if (course.falls[i] <= 0 || course.now.needs[i] < leastNeed) continue;
+        // Half: the smallest value falls the faster, the smaller it is.
+        const double way = course.now.values[i] - closest * course.now.largest();
+        pace.endsAfter(way / course.falls[i] / 2, Singularity);
+    }
 }
 
 // The next pace: no more than that, and such that a stop ends before its way does.
@@ -227,9 +240,48 @@ void CartesianJogController::step(Pace pace, double seconds) {
     const auto after = mechanics::planVelocity(faster, 0, stopping);
     const bool ends = after && after->end().position <= pace.way;
     if (!ends) pace.why = pace.end;
-    pace_ = jogging_ && ends ? faster : stop->at(seconds);
+    pace_ = drives_ && ends ? faster : stop->at(seconds);
     pace_.position = 0;
     heldBack_ = jogging_ ? pace.why : Nothing;
+}
+
+// To another direction once the pace is one that suits both.
+void CartesianJogController::turn(const Pace& pace, double mostAfterIt, double seconds) {
+    if (turn_.velocity == 0 && turn_.acceleration == 0 && pace_.velocity > mostAfterIt) return;
+    Motion change{};
+    for (std::size_t i = 0; i < motions; ++i) change[i] = to_[i] - from_[i];
+    const double fastest = std::max(pace_.velocity, pace.most);
+    const JointVector joints = fastest * wanted(change, joints_).joints;
+    const auto way = mechanics::planVelocity(turn_, 1, rampOf(change, joints, shareOfTurn));
+    turn_ = way ? way->at(seconds) : MotionState{0, 1, 0};
+    turn_.position = 0;
+    if (turn_.velocity != 1 || turn_.acceleration != 0) return;
+    from_ = to_;
+    turn_ = {};
+}
+
+// Where an axis cannot follow in this cycle, the pace becomes one that all can have.
+void CartesianJogController::stayTogether(const JointVector& joints, double before,
+                                          double seconds) {
+    constexpr double inside = 1 - 1e-6;  // of the limits, for rounding
+    double low = -1e9, high = 1e9;
+    for (std::size_t i = 0; i < axisCount(); ++i) {
+        const double velocity = joints[static_cast<Eigen::Index>(i)];
+        if (velocity == 0) continue;
+        const MotionLimits most = limits(i).motion();
+        const MotionState& axis = demands()[i];
+        const double change = inside * most.jerk * seconds, all = inside * most.acceleration;
+        const double least = std::max(axis.acceleration - change, -all) * seconds;
+        const double greatest = std::min(axis.acceleration + change, all) * seconds;
+        const double one = (axis.velocity + least) / velocity;
+        const double other = (axis.velocity + greatest) / velocity;
+        low = std::max(low, std::min(one, other));
+        high = std::min(high, std::max(one, other));
+    }
+    if (low > high || high < 0) return;
+    const double pace = std::clamp(pace_.velocity, std::max(low, 0.0), high);
+    if (pace == pace_.velocity) return;
+    pace_ = {0, pace, (pace - before) / seconds};
 }
 
 // Each axis by its own limits. False, and nothing is moved: one could not stop before its range
@@ -265,25 +317,46 @@ void CartesianJogController::takeOver(const Tick&) {
 void CartesianJogController::move(const Tick& tick) {
     now_ = tick.nominalTime;
     const double seconds = tick.elapsedSeconds();
-    turnTowardsAim(seconds);
-    const Course way = course(seconds);
-    Pace pace{.limits = paceLimits(way.now.joints)};
+    for (std::size_t i = 0; i < axisCount(); ++i) {
+        const MotionState& axis = demands()[i];
+        joints_[static_cast<Eigen::Index>(i)] = axis.position + axis.velocity * seconds;
+    }
+    aim();
+    const Course way = course(direction());
+    manipulability_ = way.now.manipulability;
+    singularDistance_ = way.now.smallest();
+    Pace pace{.limits = rampOf(direction(), way.now.joints, shareOfPace)};
+    if (turns()) {
+        const Course later = course(to_);
+        Pace after{.limits = pace.limits};
+        keepOnWay(later, after);
+        keepBeforeEnds(later, after);
+        pace.atMost(after.most, after.why);
+        pace.endsAfter(after.way, after.end);
+    }
+    const double mostAfterTurn = pace.most;
     keepOnWay(way, pace);
     keepBeforeEnds(way, pace);
+    if (turns()) turn(pace, mostAfterTurn, seconds);
+    const double before = pace_.velocity;
     step(pace, seconds);
-    if (stepAll(pace_.velocity * way.now.joints, seconds)) return;
+    stayTogether(way.now.joints, before, seconds);
+    if (!stepAll(pace_.velocity * way.now.joints, seconds)) brakeAll(seconds);
+}
+
+// Each axis by itself, as fast as it can; a jog that goes on begins anew from there.
+void CartesianJogController::brakeAll(double seconds) {
     stop();
     heldBack_ = Limit;
     for (std::size_t i = 0; i < axisCount(); ++i) {
-        const auto brake = mechanics::planVelocity(demands()[i], 0, this->limits(i).motion());
+        const auto brake = mechanics::planVelocity(demands()[i], 0, limits(i).motion());
         demands()[i] = brake ? brake->at(seconds) : MotionState{demands()[i].position, 0, 0};
     }
 }
 
-// Each axis by itself, as fast as it can; a jog that goes on begins anew from there.
 void CartesianJogController::stop() {
-    pace_ = {};
-    direction_ = {};
+    from_ = to_ = {};
+    turn_ = pace_ = {};
 }
 
 // --- commands ---------------------------------------------------------------------------------
@@ -327,7 +400,7 @@ Outcome CartesianJogController::halt(Call&) {
 void CartesianJogController::keep(Archive& archive) {
     AxisController::keep(archive);
     archive.version("CartesianJogController", 2);
-    archive & direction_ & pace_ & aim_ & now_ & until_;
+    archive & from_ & to_ & turn_ & pace_ & aim_ & usedFrame_ & now_ & until_;
     toolkit::keep(archive, elbow_);
 }
 

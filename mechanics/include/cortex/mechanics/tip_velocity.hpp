@@ -4,6 +4,7 @@
 #include "cortex/mechanics/serial_chain.hpp"
 
 #include <array>
+#include <cstddef>
 
 namespace cortex::mechanics {
 
@@ -15,18 +16,24 @@ int count(const Directions& directions);
 // Joint velocities for one of the tip, and how near the chain is to a singular posture, in which it
 // cannot move its tip in every direction.
 struct TipVelocity {
-    SerialChain::JointVector joints;   // per s
-    double smallest = 0, largest = 0;  // singular values of the Jacobian
-    double manipulability = 0;         // product of the singular values
-    double lost = 0;                   // share of the tip's velocity that no joints give
-    double weak = 0;                   // share of joints that the smallest value takes
-    bool nearSingular() const { return smallest < 0.02 * largest; }
+    SerialChain::JointVector joints;  // per s
+    int counted = 0;                  // singular values of the Jacobian, the smallest first
+    std::array<double, 6> values{};
+    std::array<double, 6> needs{};  // share of the joints' velocity that each of them takes
+    double manipulability = 0;      // product of the singular values
+    double lost = 0;                // share of the tip's velocity that is left out
+
+    double smallest() const { return values[0]; }
+    double largest() const { return values[static_cast<std::size_t>(counted) - 1]; }
 };
 
+// A direction of which the singular value is below this share of the largest one is lost.
+inline constexpr double lostBelow = 0.0025;
+
 // The shortest q' with J q' = x': by the pseudoinverse of J (T. Yoshikawa, Foundations of Robotics,
-// MIT Press 1990, section 4.6). It is not damped: near a singular posture q' grows beyond bounds,
-// and the tip goes straight for whoever slows down. Directions whose singular value is below 1e-5
-// are left out, and counted in `lost`. Jacobian and tip are in one frame. Allocates nothing.
+// MIT Press 1990, section 4.6). It is not damped: near a singular posture q' becomes long, and the
+// tip goes straight for whoever slows down. What is asked for in lost directions is left out.
+// Jacobian and tip are in one frame, and a direction counts at least. Allocates nothing.
 TipVelocity jointVelocities(const SerialChain::Jacobian& jacobian, const Twist& tip,
                             const Directions& directions);
 

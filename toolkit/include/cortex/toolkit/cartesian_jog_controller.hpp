@@ -36,11 +36,14 @@ private:
     Outcome elbow(Call& call) CORTEX_REALTIME;
     Outcome halt(Call& call) CORTEX_REALTIME;
 
-    // What the joints do at pace 1, and what the posture becomes on the way.
+    using Motion = std::array<double, motions>;
+
+    // What the joints do at pace 1, and what becomes of it on the way.
     struct Course {
         mechanics::TipVelocity now;
         mechanics::SerialChain::JointVector bend;  // of their velocities, per s
-        double towardsSingular = 0;                // of the smallest singular value, per s
+        std::array<double, 6> falls{};             // of the singular values, per s
+        double loses = 0;                          // of the tip's velocity, per s
     };
 
     // What the pace may be, and why it is not 1; how long it lasts at pace 1, and why no longer.
@@ -65,28 +68,40 @@ private:
     void hold() CORTEX_REALTIME;
     void stop() CORTEX_REALTIME;
     mechanics::MotionLimits limitsOf(std::size_t motion) const CORTEX_REALTIME;
-    void turnTowardsAim(double seconds) CORTEX_REALTIME;
-    mechanics::TipVelocity wanted(const mechanics::SerialChain::JointVector& joints)
+    void aim() CORTEX_REALTIME;
+    Motion direction() const CORTEX_REALTIME;
+    bool turns() const CORTEX_REALTIME { return from_ != to_; }
+    void turn(const Pace& pace, double mostAfterIt, double seconds) CORTEX_REALTIME;
+    mechanics::TipVelocity wanted(const Motion& motion,
+                                  const mechanics::SerialChain::JointVector& joints)
         CORTEX_REALTIME;
-    Course course(double seconds) CORTEX_REALTIME;
-    mechanics::MotionLimits paceLimits(const mechanics::SerialChain::JointVector& joints) const
-        CORTEX_REALTIME;
+    Course course(const Motion& motion) CORTEX_REALTIME;
+    // How fast a share of what moves may change: by the tip's ramp, and by a share of A and of J.
+    mechanics::MotionLimits rampOf(const Motion& motion,
+                                   const mechanics::SerialChain::JointVector& joints,
+                                   double share) const CORTEX_REALTIME;
     void keepOnWay(const Course& course, Pace& pace) const CORTEX_REALTIME;
     void keepBeforeEnds(const Course& course, Pace& pace) CORTEX_REALTIME;
     void step(Pace pace, double seconds) CORTEX_REALTIME;
+    void stayTogether(const mechanics::SerialChain::JointVector& joints, double before,
+                      double seconds) CORTEX_REALTIME;
     bool stepAll(const mechanics::SerialChain::JointVector& velocities, double seconds)
         CORTEX_REALTIME;
+    void brakeAll(double seconds) CORTEX_REALTIME;
 
     std::optional<mechanics::SerialChain> chain_;
     mechanics::Directions directions_{};
     mechanics::SerialChain::JointVector joints_, elbow_;  // elbow_: its last direction
     mechanics::SerialChain::Jacobian jacobian_;
     std::vector<mechanics::MotionState> next_;
-    // What moves at pace 1: velocities of the tip and of the elbow. The pace, its velocity, goes
-    // from 0 to 1.
-    std::array<mechanics::MotionState, motions> direction_{};
-    mechanics::MotionState pace_;
-    std::array<double, motions> aim_{};
+    // Velocities of the tip and of the elbow at pace 1. What moves goes from the first to the
+    // second by the share turn_, and then as fast as pace_: both are velocities of these states, 0
+    // to 1.
+    Motion from_{}, to_{};
+    mechanics::MotionState turn_, pace_;
+    Motion aim_{};
+    bool drives_ = false;  // else it slows down
+    std::int64_t usedFrame_ = Base;
     std::int64_t now_ = 0, until_ = 0;  // ns
 
     Data<const std::int64_t> frame_;
