@@ -124,6 +124,30 @@ TEST_F(JogControllerTest, BrakesWhenTheJogIsNotRepeated) {
     EXPECT_EQ(velocity(), 0);
 }
 
+TEST_F(JogControllerTest, JogsAgainOnlyWithANewPressOnceTheJogWasEnded) {
+    ASSERT_TRUE(setMode(Velocity).done());
+    const auto press = [&](double wanted) {
+        const Outcome outcome =
+            call("jog", {{"axis", std::int64_t{1}}, {"velocity", wanted}}).outcome;
+        last_ = velocity();
+        return outcome;
+    };
+    EXPECT_EQ(press(0.5), Outcome::Done);
+    step(100);
+    EXPECT_TRUE(call("halt").done());
+    last_ = velocity();
+    for (int i = 0; i < 8; ++i) {
+        EXPECT_EQ(press(0.5), Outcome::Rejected) << i;
+        step(100);
+    }
+    EXPECT_EQ(velocity(), 0);
+    EXPECT_FALSE(rig_.get<bool>("/jog", "jogging"));
+    step(300);  // let go
+    EXPECT_EQ(press(0.5), Outcome::Done);
+    step(100);
+    EXPECT_GT(velocity(), 0);
+}
+
 TEST_F(JogControllerTest, GoesToAPositionAndSaysWhenItIsThere) {
     ASSERT_TRUE(setMode(Position).done());
     set("demandPosition", -1.5);

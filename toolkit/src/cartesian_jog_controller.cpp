@@ -19,10 +19,10 @@ namespace {
 
 constexpr std::size_t ofElbow = 6;
 
-// Of an axis' A and J: what a change of the pace takes, what another direction, and what the bends
-// of its way. The pace makes up for a bend that sharpens, which takes half as much again. So all
-// axes can follow at one pace, and the tip goes straight.
-constexpr double shareOfPace = 0.5, shareOfTurn = 0.2, shareOfBend = 0.25, shareOfBendsJerk = 0.05;
+// Of an axis' A and J: what a change of the pace takes, and what the bends of its way. The pace
+// makes up for a bend that sharpens, which takes half as much again. So all axes can follow at one
+// pace, and the tip goes straight.
+constexpr double shareOfPace = 0.5, shareOfBend = 0.25, shareOfBendsJerk = 0.05;
 constexpr double shareOfSpeed = 0.95;  // of V, for the same reason
 // Of what the pace may: what it slows down by before the end of its way, and what it could at most.
 constexpr double shareOfBraking = 0.3, shareOfStop = 0.5;
@@ -58,6 +58,12 @@ MotionLimits shareOf(const MotionLimits& limits, double share) {
 double below(double most, double speed, double gain) {
     if (gain == 0) return speed == 0 ? 1 : most / speed;
     return (std::sqrt(speed * speed + 4 * gain * most) - speed) / (2 * gain);
+}
+
+double lengthOf(std::span<const double> motion) {
+    double squares = 0;
+    for (const double velocity : motion) squares += velocity * velocity;
+    return std::sqrt(squares);
 }
 
 double limitedTo(double value, double most) { return std::clamp(value, -most, most); }
@@ -109,29 +115,29 @@ MotionLimits CartesianJogController::limitsOf(std::size_t motion) const {
     return {speed, 2 * speed / ramp, 4 * speed / (ramp * ramp)};
 }
 
-CartesianJogController::Motion CartesianJogController::direction() const {
-    Motion motion{};
-    for (std::size_t i = 0; i < motions; ++i)
-        motion[i] = from_[i] + turn_.velocity * (to_[i] - from_[i]);
-    return motion;
-}
-
-// From rest it moves as it was asked to. In motion it turns there, and in another frame it begins
-// from rest.
+// In motion it only becomes faster or slower: another direction, or frame, begins from rest.
 void CartesianJogController::aim() {
-    jogging_ = now_ < until_;
-    if (pace_.velocity == 0 && pace_.acceleration == 0) {
-        usedFrame_ = frame_;
-        from_ = to_ = jogging_ ? aim_ : Motion{};
-        turn_ = {};
+    jogging_ = held_.lasts(now_);
+    drives_ = jogging_;
+    if (!jogging_) return;
+    const bool rests = pace_.velocity == 0 && pace_.acceleration == 0;
+    const double was = lengthOf(direction_), is = lengthOf(aim_);
+    double alike = 0;
+    for (std::size_t i = 0; i < motions; ++i) alike += aim_[i] * direction_[i];
+    drives_ = rests || (usedFrame_ == frame_ && alike > (1 - 1e-9) * was * is);
+    if (!drives_) return;
+    usedFrame_ = frame_;
+    mostPace_ = rests ? 1 : std::min(1.0, is / was);
+    if (mostPace_ < 1) return;
+    if (!rests) {  // faster: as it is, it becomes a smaller share
+        pace_.velocity *= was / is;
+        pace_.acceleration *= was / is;
     }
-    drives_ = jogging_ && usedFrame_ == frame_;
-    if (drives_ && !turns()) to_ = aim_;
+    direction_ = aim_;
 }
 
-// Of the joints, for this motion of tip and elbow.
-mechanics::TipVelocity CartesianJogController::wanted(const Motion& motion,
-                                                      const JointVector& joints) {
+// Of the joints, at pace 1.
+mechanics::TipVelocity CartesianJogController::wanted(const JointVector& joints) {
     const Pose tip = chain_->forward(joints, jacobian_);
     if (usedFrame_ == Tip) {
         const Eigen::Matrix3d back = tip.rotation.conjugate().toRotationMatrix();
@@ -142,24 +148,24 @@ mechanics::TipVelocity CartesianJogController::wanted(const Motion& motion,
     }
     Twist twist;
     for (std::size_t i = 0; i < ofElbow; ++i)
-        twist[static_cast<Eigen::Index>(i)] = directions_[i] ? motion[i] : 0.0;
+        twist[static_cast<Eigen::Index>(i)] = directions_[i] ? direction_[i] : 0.0;
     mechanics::TipVelocity found = mechanics::jointVelocities(jacobian_, twist, directions_);
-    if (motion[ofElbow] == 0) return found;
+    if (direction_[ofElbow] == 0) return found;
     // An arm with more axes than six keeps the turn of its tip, too, whatever counts.
     constexpr mechanics::Directions all{true, true, true, true, true, true};
     elbow_ = mechanics::selfMotion(jacobian_, axisCount() > ofElbow ? all : directions_, elbow_);
-    found.joints += motion[ofElbow] * elbow_;
+    found.joints += direction_[ofElbow] * elbow_;
     return found;
 }
 
 // From where the joints are at the end of this cycle, and a small way further.
-CartesianJogController::Course CartesianJogController::course(const Motion& motion) {
-    Course course{wanted(motion, joints_), JointVector::Zero(joints_.size())};
+CartesianJogController::Course CartesianJogController::course() {
+    Course course{wanted(joints_), JointVector::Zero(joints_.size())};
     const double speed = course.now.joints.norm();
     if (speed == 0) return course;
     constexpr double way = 1e-4;  // rad or m
     const double time = way / speed;
-    const auto ahead = wanted(motion, joints_ + time * course.now.joints);
+    const auto ahead = wanted(joints_ + time * course.now.joints);
     course.bend = (ahead.joints - course.now.joints) / time;
     course.loses = (ahead.lost - course.now.lost) / time;
     for (std::size_t i = 0; i < course.falls.size(); ++i)
@@ -167,8 +173,8 @@ CartesianJogController::Course CartesianJogController::course(const Motion& moti
     return course;
 }
 
-MotionLimits CartesianJogController::rampOf(const Motion& motion, const JointVector& joints,
-                                            double share) const {
+// The pace may change as the tip's ramp says, and as each axis can follow.
+MotionLimits CartesianJogController::paceLimits(const JointVector& joints) const {
     constexpr double any = 1e9;  // per s², per s³: of a direction that is not moved
     MotionLimits ramp{1, any, any};
     const auto include = [&ramp](double speed, double acceleration, double jerk) {
@@ -178,11 +184,12 @@ MotionLimits CartesianJogController::rampOf(const Motion& motion, const JointVec
     };
     for (std::size_t i = 0; i < motions; ++i) {
         const MotionLimits tip = limitsOf(i);
-        include(motion[i], tip.acceleration, tip.jerk);
+        include(direction_[i], tip.acceleration, tip.jerk);
     }
     for (std::size_t i = 0; i < axisCount(); ++i) {
         const MotionLimits axis = limits(i).motion();
-        include(joints[static_cast<Eigen::Index>(i)], share * axis.acceleration, share * axis.jerk);
+        include(joints[static_cast<Eigen::Index>(i)], shareOfPace * axis.acceleration,
+                shareOfPace * axis.jerk);
     }
     return ramp;
 }
@@ -230,6 +237,8 @@ void CartesianJogController::step(Pace pace, double seconds) {
     const MotionLimits braking = shareOf(pace.limits, shareOfBraking);
     const MotionLimits stopping = shareOf(pace.limits, shareOfStop);
     pace.atMost(fastestStopWithin(pace.way - pace_.velocity * seconds, braking), pace.end);
+    // Joints that become fast on the way leave less of it.
+    pace_.acceleration = limitedTo(pace_.acceleration, pace.limits.acceleration);
     const auto next = mechanics::planVelocity(pace_, pace.most, pace.limits);
     const auto stop = mechanics::planVelocity(pace_, 0, pace.limits);
     if (!next || !stop) {
@@ -245,24 +254,10 @@ void CartesianJogController::step(Pace pace, double seconds) {
     heldBack_ = jogging_ ? pace.why : Nothing;
 }
 
-// To another direction once the pace is one that suits both.
-void CartesianJogController::turn(const Pace& pace, double mostAfterIt, double seconds) {
-    if (turn_.velocity == 0 && turn_.acceleration == 0 && pace_.velocity > mostAfterIt) return;
-    Motion change{};
-    for (std::size_t i = 0; i < motions; ++i) change[i] = to_[i] - from_[i];
-    const double fastest = std::max(pace_.velocity, pace.most);
-    const JointVector joints = fastest * wanted(change, joints_).joints;
-    const auto way = mechanics::planVelocity(turn_, 1, rampOf(change, joints, shareOfTurn));
-    turn_ = way ? way->at(seconds) : MotionState{0, 1, 0};
-    turn_.position = 0;
-    if (turn_.velocity != 1 || turn_.acceleration != 0) return;
-    from_ = to_;
-    turn_ = {};
-}
-
-// Where an axis cannot follow in this cycle, the pace becomes one that all can have.
-void CartesianJogController::stayTogether(const JointVector& joints, double before,
-                                          double seconds) {
+// Where an axis cannot follow in this cycle, the pace becomes one that all can have. False: there
+// is none.
+bool CartesianJogController::stayTogether(const JointVector& joints, double before,
+                                          double mostChange, double seconds) {
     constexpr double inside = 1 - 1e-6;  // of the limits, for rounding
     double low = -1e9, high = 1e9;
     for (std::size_t i = 0; i < axisCount(); ++i) {
@@ -278,10 +273,12 @@ void CartesianJogController::stayTogether(const JointVector& joints, double befo
         low = std::max(low, std::min(one, other));
         high = std::min(high, std::max(one, other));
     }
-    if (low > high || high < 0) return;
+    if (low > high || high < 0) return std::abs(pace_.velocity) < 0.01;
     const double pace = std::clamp(pace_.velocity, std::max(low, 0.0), high);
-    if (pace == pace_.velocity) return;
-    pace_ = {0, pace, (pace - before) / seconds};
+    if (pace == pace_.velocity) return true;
+    pace_.velocity = pace;
+    pace_.acceleration = limitedTo((pace - before) / seconds, mostChange);
+    return true;
 }
 
 // Each axis by its own limits. False, and nothing is moved: one could not stop before its range
@@ -310,7 +307,7 @@ bool CartesianJogController::stepAll(const JointVector& velocities, double secon
 void CartesianJogController::loopStart(const Tick&) { jogging_ = false; }
 
 void CartesianJogController::takeOver(const Tick&) {
-    until_ = now_;
+    held_.end(now_);
     stop();
 }
 
@@ -322,26 +319,18 @@ void CartesianJogController::move(const Tick& tick) {
         joints_[static_cast<Eigen::Index>(i)] = axis.position + axis.velocity * seconds;
     }
     aim();
-    const Course way = course(direction());
+    const Course way = course();
     manipulability_ = way.now.manipulability;
     singularDistance_ = way.now.smallest();
-    Pace pace{.limits = rampOf(direction(), way.now.joints, shareOfPace)};
-    if (turns()) {
-        const Course later = course(to_);
-        Pace after{.limits = pace.limits};
-        keepOnWay(later, after);
-        keepBeforeEnds(later, after);
-        pace.atMost(after.most, after.why);
-        pace.endsAfter(after.way, after.end);
-    }
-    const double mostAfterTurn = pace.most;
+    Pace pace{.limits = paceLimits(way.now.joints), .most = mostPace_};
     keepOnWay(way, pace);
     keepBeforeEnds(way, pace);
-    if (turns()) turn(pace, mostAfterTurn, seconds);
     const double before = pace_.velocity;
     step(pace, seconds);
-    stayTogether(way.now.joints, before, seconds);
-    if (!stepAll(pace_.velocity * way.now.joints, seconds)) brakeAll(seconds);
+    const bool together = stayTogether(way.now.joints, before, pace.limits.acceleration, seconds);
+    if (together && stepAll(pace_.velocity * way.now.joints, seconds)) return;
+    held_.end(now_);
+    brakeAll(seconds);
 }
 
 // Each axis by itself, as fast as it can; a jog that goes on begins anew from there.
@@ -355,44 +344,44 @@ void CartesianJogController::brakeAll(double seconds) {
 }
 
 void CartesianJogController::stop() {
-    from_ = to_ = {};
-    turn_ = pace_ = {};
+    direction_ = {};
+    pace_ = {};
 }
 
 // --- commands ---------------------------------------------------------------------------------
 
 // A velocity of zero ends the jog: the tip comes to rest on its straight way.
-void CartesianJogController::hold() {
-    const bool moves = std::ranges::any_of(aim_, [](double velocity) { return velocity != 0; });
-    until_ = now_ + (moves ? static_cast<std::int64_t>(holdTime_ * 1e9) : 0);
+Outcome CartesianJogController::moveAs(Call& call, const Motion& motion) {
+    const bool moves = std::ranges::any_of(motion, [](double velocity) { return velocity != 0; });
+    if (!held_.begin(call, holdTime_, moves)) return Outcome::Rejected;
+    aim_ = motion;
+    return Outcome::Done;
 }
 
 Outcome CartesianJogController::jog(Call& call) {
     if (!allFollow(call)) return Outcome::Rejected;
     const auto linear = call[linear_], angular = call[angular_];
+    Motion motion{};
     for (std::size_t i = 0; i < 3; ++i) {
         if ((linear[i] != 0 && !directions_[i]) || (angular[i] != 0 && !directions_[i + 3]))
             return call.reject(Reason::Range, "directions says that one of these does not count");
-        aim_[i] = limitedTo(linear[i], linearSpeed_);
-        aim_[i + 3] = limitedTo(angular[i], angularSpeed_);
+        motion[i] = limitedTo(linear[i], linearSpeed_);
+        motion[i + 3] = limitedTo(angular[i], angularSpeed_);
     }
-    aim_[ofElbow] = 0;
-    hold();
-    return Outcome::Done;
+    return moveAs(call, motion);
 }
 
 Outcome CartesianJogController::elbow(Call& call) {
     if (!allFollow(call)) return Outcome::Rejected;
     if (axisCount() <= static_cast<std::size_t>(mechanics::count(directions_)))
         return call.reject(Reason::State, "no axis is to spare: each is needed for the tip");
-    aim_ = {};
-    aim_[ofElbow] = limitedTo(call[elbowVelocity_], elbowSpeed_);
-    hold();
-    return Outcome::Done;
+    Motion motion{};
+    motion[ofElbow] = limitedTo(call[elbowVelocity_], elbowSpeed_);
+    return moveAs(call, motion);
 }
 
 Outcome CartesianJogController::halt(Call&) {
-    until_ = now_;
+    held_.end(now_);
     stop();
     return Outcome::Done;
 }
@@ -400,7 +389,7 @@ Outcome CartesianJogController::halt(Call&) {
 void CartesianJogController::keep(Archive& archive) {
     AxisController::keep(archive);
     archive.version("CartesianJogController", 2);
-    archive & from_ & to_ & turn_ & pace_ & aim_ & usedFrame_ & now_ & until_;
+    archive & direction_ & aim_ & pace_ & mostPace_ & usedFrame_ & now_ & held_;
     toolkit::keep(archive, elbow_);
 }
 

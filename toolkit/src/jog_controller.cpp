@@ -63,7 +63,7 @@ void JogController::begin(std::size_t axis, const Profile& profile) {
 }
 
 void JogController::brake(std::size_t axis) {
-    motions_[axis].until = now_;
+    motions_[axis].held.end(now_);
     motions_[axis].aim = 0;
     begin(axis, stopFrom(demands()[axis], limits(axis).motion()));
 }
@@ -115,7 +115,7 @@ void JogController::move(const Tick& tick) {
     const double seconds = tick.elapsedSeconds();
     for (std::size_t i = 0; i < axisCount(); ++i) {
         Motion& motion = motions_[i];
-        const bool lasts = now_ < motion.until;
+        const bool lasts = motion.held.lasts(now_);
         if (mode() == Velocity) aimAt(i, lasts ? motion.velocity : 0);
         keepBeforeLimits(i, seconds);
         motion.time += seconds;
@@ -154,8 +154,9 @@ Outcome JogController::jog(Call& call) {
     const auto axis = axisOf(call, call[jogAxis_], "jog", Velocity);
     if (!axis) return Outcome::Rejected;
     const double most = limits(*axis).motion().velocity;
-    motions_[*axis].velocity = std::clamp(call[jogVelocity_].get(), -most, most);
-    motions_[*axis].until = now_ + static_cast<std::int64_t>(holdTime_ * 1e9);
+    const double velocity = std::clamp(call[jogVelocity_].get(), -most, most);
+    if (!motions_[*axis].held.begin(call, holdTime_, velocity != 0)) return Outcome::Rejected;
+    motions_[*axis].velocity = velocity;
     return Outcome::Done;
 }
 
@@ -220,7 +221,7 @@ Outcome JogController::setMode(Call& call) {
 
 void JogController::keep(Archive& archive) {
     AxisController::keep(archive);
-    archive.version("JogController", 3);
+    archive.version("JogController", 4);
     archive & motions_ & now_ & running_ & interrupted_;
 }
 

@@ -3,6 +3,7 @@
 
 #include "cortex/mechanics/tip_velocity.hpp"
 #include "cortex/toolkit/axis_controller.hpp"
+#include "cortex/toolkit/held_jog.hpp"
 
 #include <array>
 #include <cstdint>
@@ -30,13 +31,13 @@ protected:
 private:
     enum Frame : std::int64_t { Base, Tip };
     static constexpr std::size_t motions = 7;  // six of the tip, one of the elbow
+    using Motion = std::array<double, motions>;
 
     // The commands.
     Outcome jog(Call& call) CORTEX_REALTIME;
+    Outcome moveAs(Call& call, const Motion& motion) CORTEX_REALTIME;
     Outcome elbow(Call& call) CORTEX_REALTIME;
     Outcome halt(Call& call) CORTEX_REALTIME;
-
-    using Motion = std::array<double, motions>;
 
     // What the joints do at pace 1, and what becomes of it on the way.
     struct Course {
@@ -65,26 +66,19 @@ private:
     };
 
     void readDirections();
-    void hold() CORTEX_REALTIME;
     void stop() CORTEX_REALTIME;
     mechanics::MotionLimits limitsOf(std::size_t motion) const CORTEX_REALTIME;
     void aim() CORTEX_REALTIME;
-    Motion direction() const CORTEX_REALTIME;
-    bool turns() const CORTEX_REALTIME { return from_ != to_; }
-    void turn(const Pace& pace, double mostAfterIt, double seconds) CORTEX_REALTIME;
-    mechanics::TipVelocity wanted(const Motion& motion,
-                                  const mechanics::SerialChain::JointVector& joints)
+    mechanics::TipVelocity wanted(const mechanics::SerialChain::JointVector& joints)
         CORTEX_REALTIME;
-    Course course(const Motion& motion) CORTEX_REALTIME;
-    // How fast a share of what moves may change: by the tip's ramp, and by a share of A and of J.
-    mechanics::MotionLimits rampOf(const Motion& motion,
-                                   const mechanics::SerialChain::JointVector& joints,
-                                   double share) const CORTEX_REALTIME;
+    Course course() CORTEX_REALTIME;
+    mechanics::MotionLimits paceLimits(const mechanics::SerialChain::JointVector& joints) const
+        CORTEX_REALTIME;
     void keepOnWay(const Course& course, Pace& pace) const CORTEX_REALTIME;
     void keepBeforeEnds(const Course& course, Pace& pace) CORTEX_REALTIME;
     void step(Pace pace, double seconds) CORTEX_REALTIME;
-    void stayTogether(const mechanics::SerialChain::JointVector& joints, double before,
-                      double seconds) CORTEX_REALTIME;
+    bool stayTogether(const mechanics::SerialChain::JointVector& joints, double before,
+                      double mostChange, double seconds) CORTEX_REALTIME;
     bool stepAll(const mechanics::SerialChain::JointVector& velocities, double seconds)
         CORTEX_REALTIME;
     void brakeAll(double seconds) CORTEX_REALTIME;
@@ -94,15 +88,14 @@ private:
     mechanics::SerialChain::JointVector joints_, elbow_;  // elbow_: its last direction
     mechanics::SerialChain::Jacobian jacobian_;
     std::vector<mechanics::MotionState> next_;
-    // Velocities of the tip and of the elbow at pace 1. What moves goes from the first to the
-    // second by the share turn_, and then as fast as pace_: both are velocities of these states, 0
-    // to 1.
-    Motion from_{}, to_{};
-    mechanics::MotionState turn_, pace_;
-    Motion aim_{};
+    // Velocities of the tip and of the elbow at pace 1; the pace is a velocity from 0 to 1.
+    Motion direction_{}, aim_{};
+    mechanics::MotionState pace_;
+    double mostPace_ = 1;  // at which it moves as slowly as it was asked to
     bool drives_ = false;  // else it slows down
     std::int64_t usedFrame_ = Base;
-    std::int64_t now_ = 0, until_ = 0;  // ns
+    HeldJog held_;
+    std::int64_t now_ = 0;  // ns
 
     Data<const std::int64_t> frame_;
     Data<const double> holdTime_, linearSpeed_, angularSpeed_, elbowSpeed_, rampTime_;

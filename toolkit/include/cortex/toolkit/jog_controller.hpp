@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/toolkit/axis_controller.hpp"
+#include "cortex/toolkit/held_jog.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -34,13 +35,13 @@ protected:
 private:
     struct Motion {
         mechanics::Profile profile;
-        double time = 0;         // s, since the profile began
-        double velocity = 0;     // that jog asked for
-        double aim = 0;          // velocity that the profile leads to
-        std::int64_t until = 0;  // ns, how long jog lasts
-        bool toLimit = false;    // the profile ends at a limit
+        double time = 0;      // s, since the profile began
+        double velocity = 0;  // that jog asked for
+        double aim = 0;       // velocity that the profile leads to
+        HeldJog held;
+        bool toLimit = false;  // the profile ends at a limit
 
-        void keep(Archive& archive) { archive & profile & time & velocity & aim & until & toLimit; }
+        void keep(Archive& archive) { archive & profile & time & velocity & aim & held & toLimit; }
         bool rests() const { return time >= profile.duration() && profile.end().velocity == 0; }
     };
     // The commands.
