@@ -10,7 +10,9 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::uint32_t imageReaders = 16;
-constexpr std::int64_t mostKept = 32;  // cycles, by an agent for views of every cycle
+// Cycles by which the first blocks of every cycle may come after one of a slower stream: those that
+// the agent has kept, and on a busy machine those that are long on their way.
+constexpr std::int64_t mostBehind = 10'000;
 
 }  // namespace
 
@@ -48,11 +50,11 @@ bool MirrorTables::apply(const Block& block, std::size_t stream, Moment now) {
     return true;
 }
 
-// When a view begins, cycles that were kept may come after a newer one on a slower stream. Without
-// them the cycles of the images do not go back.
+// When a view begins, cycles that were kept, or are on their way for long, may come after a newer
+// one on a slower stream. Without them the cycles of the images do not go back.
 bool MirrorTables::isFromBefore(const Block& block, std::size_t stream) const {
     if (stream != fastest_ || streams_.at(stream).last != 0) return false;
-    return block.cycle < cycle_ && block.cycle >= cycle_ - mostKept;
+    return block.cycle < cycle_ && block.cycle >= cycle_ - mostBehind;
 }
 
 // A cycle may be sent again, with another choice of simplexes. In the stream of every cycle a gap
