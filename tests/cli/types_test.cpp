@@ -34,6 +34,22 @@ TEST(CortexTypes, PrintsATypeUnderEachOfItsParents) {
     EXPECT_TRUE(contains(outcome.output, "Robotiq2Finger (also Gripper)")) << outcome.output;
 }
 
+TEST(CortexTypes, SaysWhichItemIsAboveWhich) {
+    const ModelFolder folder;
+    folder.write("t.xml",
+                 "<ontology name=\"t\"><type name=\"A\">"
+                 "<data name=\"loss\" kind=\"int\" constant=\"true\" default=\"2\" above=\"wait\"/>"
+                 "<data name=\"wait\" kind=\"int\" constant=\"true\"/></type></ontology>");
+
+    const Outcome text = cortex({"types", "A", "--file", "t.xml"}, {}, folder.path());
+    const Outcome asJson = cortex({"types", "A", "--file", "t.xml", "--json"}, {}, folder.path());
+
+    EXPECT_TRUE(contains(text.output, "above wait")) << text.output;
+    EXPECT_EQ(violationsOf("type", asJson.output), "");
+    EXPECT_EQ(json::parse(asJson.output)["data"][0]["above"], "wait") << asJson.output;
+    EXPECT_EQ(json::parse(asJson.output)["data"][1]["above"], "") << asJson.output;
+}
+
 TEST(CortexTypes, ListsAllAsJsonOfTheCommittedSchema) {
     const Outcome outcome = cortex({"types", "--json", "--file", robotics});
 

@@ -114,6 +114,7 @@ constexpr std::array dataAttributes{
         "rate",
         [](D& item, std::string_view text) { return readFloat(item.rate.emplace(), text); }},
     AttributeReader<D>{"derivativeOf", textInto<&D::derivativeOf>},
+    AttributeReader<D>{"above", textInto<&D::above>},
     AttributeReader<D>{"safe",
                        [](D& item, std::string_view text) { return readSafe(item.safe, text); }},
     AttributeReader<D>{"onLimit", enumInto<&D::onLimit>},

@@ -17,8 +17,8 @@ using Attributes = std::vector<DescribedAttribute>;
 
 // What canonical text writes otherwise than XML.
 bool isSpelled(std::string_view attribute) {
-    constexpr std::array<std::string_view, 8> names{"default",  "extends", "format", "icon",
-                                                    "replaces", "safe",    "since",  "version"};
+    constexpr std::array<std::string_view, 9> names{
+        "above", "default", "extends", "format", "icon", "replaces", "safe", "since", "version"};
     return attribute.starts_with("label ") || std::ranges::find(names, attribute) != names.end();
 }
 
@@ -69,6 +69,7 @@ DescribedItem describe(const DataItem& item) {
     // Even if it is the implicit one: a parent may have another.
     if (item.hasDefault) spelled.push_back({"default", toText(item.initial)});
     if (item.safe.kind != Safe::Kind::None) spelled.push_back({"safe", safeText(item.safe)});
+    addText(spelled, "above", item.above);
     addText(spelled, "format", item.format);
     addText(spelled, "labels", labelsText(item));
     return {item.name, attributesFrom(attributesOf(item), item.unknown, std::move(spelled)),

@@ -92,6 +92,7 @@ Report validate(const SimplexTree& tree) {
         checkCounts(checked, *simplex);
         checkUnits(checked, *simplex);
         checkSettings(checked, *simplex);
+        checkAboveOther(checked, *simplex);
     }
     checkFlow(checked);
     return report;

@@ -35,6 +35,8 @@ void checkCounts(const Checked& checked, const Simplex& simplex);
 // Items that belong together but have different units.
 void checkUnits(const Checked& checked, const Simplex& owner);
 void checkSettings(const Checked& checked, const Simplex& simplex);
+// Items that must be above another one, as settings and defaults give them.
+void checkAboveOther(const Checked& checked, const Simplex& simplex);
 void reportUnknownItem(const TypeModel& types, const Simplex& simplex,
                        const Simplex::Setting& setting, Report& report);
 // Over all relationships: writers, demands without a safe value, loops.

@@ -154,12 +154,11 @@ void checkNames(const Command& own, const ItemContext& context) {
             const bool other = each.safe.kind != Safe::Kind::None || !each.settable.empty() ||
                                each.constant || each.measured || each.retain || each.rate ||
                                each.onLimit != OnLimit::Clamp || each.atRest != AtRest::Safe ||
-                               !each.derivativeOf.empty();
+                               !each.derivativeOf.empty() || !each.above.empty();
             if (other) {
                 parameter.error(finding::parameterAttribute, "has an attribute of data items",
                                 "remove safe, settable, constant, measured, retain, rate, "
-                                "derivativeOf, onLimit "
-                                "and atRest");
+                                "derivativeOf, above, onLimit and atRest");
             }
         }
     }

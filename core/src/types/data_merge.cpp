@@ -119,12 +119,35 @@ void intersectSettable(DataItem& item, const FromParent<DataItem>& second, const
     item.settable = item.settable & other;
 }
 
-void intersectDerivative(DataItem& item, const FromParent<DataItem>& second,
-                         const std::string& first, const ItemContext& context) {
-    const std::string& other = second.item->derivativeOf;
-    if (item.derivativeOf.empty()) item.derivativeOf = other;
-    if (other.empty() || item.derivativeOf == other) return;
-    context.exclude("derivativeOf", item.derivativeOf, other, first, second.parent);
+// What names another item of the type: once named, it stays.
+struct Link {
+    const char* attribute;
+    const char* rule;
+    std::string DataItem::* name;
+};
+
+constexpr Link links[] = {{"derivativeOf", finding::derivative, &DataItem::derivativeOf},
+                          {"above", finding::above, &DataItem::above}};
+
+void intersectLink(const Link& link, DataItem& item, const FromParent<DataItem>& second,
+                   const std::string& first, const ItemContext& context) {
+    std::string& ours = item.*link.name;
+    const std::string& other = second.item->*link.name;
+    if (ours.empty()) ours = other;
+    if (other.empty() || ours == other) return;
+    context.exclude(link.attribute, ours, other, first, second.parent);
+}
+
+void narrowLink(const Link& link, DataItem& item, const DataItem& own, const ItemContext& context) {
+    std::string& ours = item.*link.name;
+    const std::string& now = own.*link.name;
+    if (ours.empty()) ours = now;
+    if (now.empty() || ours == now) return;
+    const std::string attribute = link.attribute;
+    context.error(
+        link.rule,
+        "changes the inherited " + attribute + " from " + inQuotes(ours) + " to " + inQuotes(now),
+        "leave " + attribute + " out, or take another name");
 }
 
 void finer(double& step, double other) {
@@ -145,7 +168,7 @@ void intersect(DataItem& item, const FromParent<DataItem>& second, const std::st
     intersectRange(item, second, first, context);
     intersectValues(item, second, first, stated, context);
     intersectSettable(item, second, first, context);
-    intersectDerivative(item, second, first, context);
+    for (const Link& each : links) intersectLink(each, item, second, first, context);
     joinLabels(item, other, finding::intersectionEmpty, "in " + second.parent, context);
     item.onLimit = std::max(item.onLimit, other.onLimit);
     item.retain = item.retain || other.retain;
@@ -227,16 +250,7 @@ void narrow(DataItem& item, const DataItem& own, const Stated& stated, const Ite
             item.settable = own.settable;
         }
     }
-    if (!own.derivativeOf.empty()) {
-        if (!item.derivativeOf.empty() && own.derivativeOf != item.derivativeOf) {
-            context.error(finding::derivative,
-                          "changes the inherited derivativeOf from " + inQuotes(item.derivativeOf) +
-                              " to " + inQuotes(own.derivativeOf),
-                          "leave derivativeOf out, or take another name");
-        } else {
-            item.derivativeOf = own.derivativeOf;
-        }
-    }
+    for (const Link& each : links) narrowLink(each, item, own, context);
     if (stated("onLimit", own.onLimit != OnLimit::Clamp)) {
         if (own.onLimit < item.onLimit) {
             context.error(finding::limitLoosened,

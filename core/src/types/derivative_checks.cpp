@@ -2,12 +2,12 @@
 #include "types/derivative_checks.hpp"
 
 #include "cortex/core/findings.hpp"
-#include "cortex/core/nearest_names.hpp"
 
 #include "base/text.hpp"
+#include "types/item_problems.hpp"
 #include "types/unit.hpp"
 
-#include <algorithm>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -34,15 +34,10 @@ std::string ratio(const std::string& unit) {
     return parsed ? parsed->canonical : unit + "/s";
 }
 
-struct Problem {
-    const DataItem* item;
-    const char* rule;
-    std::string message, remedy;
-};
-
 class Derivatives {
 public:
-    explicit Derivatives(const Type& type) : type_{type} {
+    explicit Derivatives(const Type& type)
+        : type_{type}, loops_{loopsOf(type, &DataItem::derivativeOf)} {
         for (const DataItem& item : type_.data) {
             const DataItem* base = type_.findData(item.derivativeOf);
             if (!item.derivativeOf.empty() && checkShape(item, base) && checkOrder(item))
@@ -50,7 +45,7 @@ public:
             checkStop(item);
         }
     }
-    const std::vector<Problem>& problems() const { return problems_; }
+    ItemProblems& problems() { return problems_; }
 
 private:
     void error(const DataItem& item, const char* rule, std::string message, std::string remedy) {
@@ -64,17 +59,16 @@ private:
     std::vector<const DataItem*> derivativesOf(const DataItem& item) const;
 
     const Type& type_;
-    std::vector<Problem> problems_;
+    std::set<const DataItem*> loops_;
+    ItemProblems problems_;
 };
 
 bool Derivatives::checkShape(const DataItem& item, const DataItem* base) {
     const std::string what = "has derivativeOf=" + inQuotes(item.derivativeOf);
     if (base == nullptr) {
-        std::vector<std::string> names;
-        for (const DataItem& each : type_.data) names.push_back(each.name);
-        const std::string near = nearestNames(item.derivativeOf, names);
-        error(item, finding::derivative, what + ", which is no item of this type",
-              near.empty() ? "name the item whose change per second it is" : near);
+        error(
+            item, finding::derivative, what + ", which is no item of this type",
+            nearestItems(type_, item.derivativeOf, "name the item whose change per second it is"));
     } else if (item.kind != Kind::Float || base->kind != Kind::Float) {
         error(item, finding::derivative, what + ", but not both are float",
               "write kind=\"float\" for both, or remove derivativeOf");
@@ -97,15 +91,10 @@ bool Derivatives::checkShape(const DataItem& item, const DataItem* base) {
 
 // Nothing is, by way of others, its own derivative.
 bool Derivatives::checkOrder(const DataItem& item) {
-    const DataItem* each = &item;
-    for (std::size_t steps = 0; each != nullptr && steps <= type_.data.size(); ++steps) {
-        each = each->derivativeOf.empty() ? nullptr : type_.findData(each->derivativeOf);
-        if (each != &item) continue;
-        error(item, finding::derivative, "is a derivative of itself",
-              "name the item whose change per second it is");
-        return false;
-    }
-    return true;
+    if (!loops_.contains(&item)) return true;
+    error(item, finding::derivative, "is a derivative of itself",
+          "name the item whose change per second it is");
+    return false;
 }
 
 // One limit that stands in two places is one number. What is not stated is not judged.
@@ -171,24 +160,14 @@ void Derivatives::checkStopOfDerivative(const DataItem& item, const DataItem& ba
           "widen the range, or write another safe value");
 }
 
+ItemProblems derivativeProblems(const Type& type) {
+    return std::move(Derivatives{type}.problems());
+}
+
 }  // namespace
 
 void checkDerivatives(const Type& type, std::span<const Type* const> parents, Report& report) {
-    const auto isInherited = [&](const Problem& problem) {
-        return std::ranges::any_of(parents, [&](const Type* parent) {
-            const Derivatives inherited{*parent};
-            return std::ranges::any_of(inherited.problems(), [&](const Problem& each) {
-                return each.item->name == problem.item->name && each.message == problem.message;
-            });
-        });
-    };
-    const Derivatives found{type};
-    for (const Problem& each : found.problems()) {
-        if (isInherited(each)) continue;
-        const bool own = each.item->definedBy == type.name && !each.item->place.file.empty();
-        report.error(type.name, each.rule, own ? each.item->place : type.place,
-                     "data " + inQuotes(each.item->name) + " " + each.message, each.remedy);
-    }
+    reportProblems(type, parents, derivativeProblems, report);
 }
 
 }  // namespace cortex

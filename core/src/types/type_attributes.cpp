@@ -103,6 +103,8 @@ std::vector<TypeAttribute> attributesOf(const Type& type) {
 std::vector<TypeAttribute> attributesOf(const DataItem& item) {
     const DataItem plain;
     std::vector<TypeAttribute> result{
+        // Quoted, as agents hand it on that do not know it.
+        {"above", freeText(item.above), ""},
         {"atRest", name(item.atRest), name(plain.atRest)},
         {"capacity", std::to_string(item.capacity), std::to_string(plain.capacity)},
         {"constant", truth(item.constant), "false"},

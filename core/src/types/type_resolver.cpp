@@ -5,6 +5,7 @@
 
 #include "base/bounds.hpp"
 #include "base/text.hpp"
+#include "types/above_checks.hpp"
 #include "types/derivative_checks.hpp"
 
 #include <algorithm>
@@ -76,16 +77,17 @@ TypeResolver::Types TypeResolver::run() {
         checkRules(type);
         checkBehaviour(type);
         checkUnits(type);
-        checkDerivatives(type);
+        checkItems(type);
     }
     return std::move(types_);
 }
 
-void TypeResolver::checkDerivatives(const Type& type) {
+void TypeResolver::checkItems(const Type& type) {
     if (graph_.incomplete(type.name)) return;
     std::vector<const Type*> parents;
     for (const std::string& parent : type.parents) parents.push_back(&types_.find(parent)->second);
-    cortex::checkDerivatives(type, parents, report_);
+    checkDerivatives(type, parents, report_);
+    checkAbove(type, parents, report_);
 }
 
 Type TypeResolver::resolve(const TypeDeclaration& declaration) {

@@ -44,7 +44,7 @@ private:
     void checkRefines(const Type& type, const Rule& rule);
     void checkCounterpart(const Type& type, const Rule& rule);
     void checkUnits(const Type& type);
-    void checkDerivatives(const Type& type);
+    void checkItems(const Type& type);
     void checkSameCount(const Type& type, const Rule& rule);
     void checkBehaviour(const Type& type);
 

@@ -84,6 +84,7 @@ Json dataJson(const DataItem& item) {
     json["at_rest"] = name(item.atRest);
     json["rate"] = orNull(item.rate);
     json["derivative_of"] = item.derivativeOf;
+    json["above"] = item.above;
     json["settable"] = statesJson(item.settable);
     json["constant"] = item.constant;
     json["measured"] = item.measured;

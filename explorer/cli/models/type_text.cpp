@@ -80,6 +80,7 @@ void printData(std::ostream& stream, const Type& type) {
         if (item.atRest != AtRest::Safe) more.emplace_back("at rest its writer's");
         if (item.rate) more.push_back("rate " + toText(*item.rate) + " per s");
         if (!item.derivativeOf.empty()) more.push_back("derivative of " + item.derivativeOf);
+        if (!item.above.empty()) more.push_back("above " + item.above);
         if (!item.settable.empty()) more.push_back("settable: " + item.settable.text());
         if (item.constant) more.emplace_back("constant");
         if (item.measured) more.emplace_back("measured");

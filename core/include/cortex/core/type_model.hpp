@@ -64,6 +64,7 @@ struct DataItem {
     std::optional<Number> min, max;
     std::optional<double> rate;  // largest change of a demand, unit per second
     std::string derivativeOf;    // the item of the type whose change per second this one is
+    std::string above;           // the constant item of the type that this one must be greater than
     Value initial;               // the XML attribute `default`
     bool hasDefault = false;     // false: `initial` is zero, false or "" moved into the range
     std::map<std::int64_t, std::string> labels;

@@ -43,6 +43,7 @@ inline constexpr char settingKind[] = "setting-kind";
 inline constexpr char settingLength[] = "setting-length";
 inline constexpr char settingFinite[] = "setting-finite";
 inline constexpr char settingRange[] = "setting-range";
+inline constexpr char settingAbove[] = "setting-above";
 inline constexpr char settingFramework[] = "setting-framework";
 
 // The flow of data
