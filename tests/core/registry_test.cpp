@@ -123,7 +123,7 @@ TEST(ClassRegistry, StatesTheHashOfTheTypeThatThePluginWasMadeFor) {
 }
 
 TEST(ClassRegistry, RefusesAnotherAbiCompilerOrLibrary) {
-    EXPECT_TRUE(contains(refusal("wrong-abi"), "has plug-in ABI 999, this program has 3"));
+    EXPECT_TRUE(contains(refusal("wrong-abi"), "has plug-in ABI 999, this program has 4"));
     EXPECT_TRUE(contains(refusal("wrong-compiler"), "built with compiler 'another compiler 1.0'"));
     EXPECT_TRUE(contains(refusal("wrong-compiler"), compilerOfThisBuild()));
     EXPECT_TRUE(contains(refusal("wrong-library"), "built with 'another library'"));

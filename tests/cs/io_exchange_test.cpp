@@ -3,8 +3,7 @@
 
 #include "cortex/core/error.hpp"
 
-#include "support/probe.hpp"
-#include "support/waiting.hpp"
+#include "cs/io_drive.hpp"
 #include "threads/realtime_thread.hpp"
 
 #include <atomic>
@@ -26,98 +25,6 @@ namespace cortex::test {
 namespace {
 
 using namespace std::chrono_literals;
-
-struct Sample {
-    double position = 0;
-    std::int64_t number = 0;
-};
-struct Wish {
-    double position = 0;
-    std::int64_t cycle = 0;
-};
-
-// A drive whose thread is a function of the test.
-class IoDrive final : public cs::IoSimplex<Sample, Wish> {
-public:
-    using IoSimplex::IoSimplex;
-    std::function<void(Line&)> talk;
-    std::atomic<int> talks{0};
-    // As its last hook saw it.
-    Sample seen;
-    std::int64_t ageSeen = -1;
-    bool lost = false;
-
-private:
-    void populate() override {
-        demand_ = input("demand").data<double>("position");
-        position_ = output("observation").data<double>("position");
-        loseAfter(5ms);
-    }
-    void loopEnd(const Tick& tick) override {
-        seen = received();
-        ageSeen = age();
-        lost = isLost();
-        position_ = seen.position;
-        give({demand_, tick.cycle});
-    }
-    void communicate(Line& line) override {
-        ++talks;
-        talk(line);
-    }
-    Data<const double> demand_;
-    Data<double> position_;
-};
-
-class IoExchange : public testing::Test {
-protected:
-    using Line = IoDrive::Line;
-
-    void start(std::function<void(Line&)> talk) {
-        drive.talk = std::move(talk);
-        cluster.start();
-    }
-    // The next thing that the thread does; returns when it is done.
-    void onThread(std::function<void(Line&)> step) {
-        next = std::move(step);
-        turn = 1;
-        waitUntil("the thread's step", [this] { return turn == 0; });
-    }
-    // Does what onThread() says.
-    std::function<void(Line&)> obeying() {
-        return [this](Line& line) {
-            while (!line.isEnding()) {
-                if (turn != 1) {
-                    line.waitFor(1ms);
-                    continue;
-                }
-                const auto done = [this](void*) { turn = 0; };
-                const std::unique_ptr<void, decltype(done)> atEnd{this, done};
-                next(line);
-            }
-        };
-    }
-    template <class Condition>
-    void stepUntil(const Condition& condition) {
-        waitUntil("what the thread does", [&] {
-            if (condition()) return true;
-            cluster.step();
-            return false;
-        });
-    }
-    Quality quality() { return cluster.quality("/axis"); }
-
-    ProbeCluster cluster;
-    IoDrive& drive = cluster.tree.add<IoDrive>("/drive", "Drive");
-    std::atomic<int> turn{0};
-    std::function<void(Line&)> next;
-
-private:
-    void SetUp() override {
-        cluster.tree.relate(drive, "demand", cluster.tree.add("/wish", "Demand"));
-        cluster.tree.relate(drive, "observation", cluster.tree.add("/axis", "Observation"));
-    }
-    void TearDown() override { cluster.cluster->stop(); }
-};
 
 TEST(Newest, IsWholeAndNeverOlderThanTheOneBefore) {
     struct Pair {

@@ -163,8 +163,9 @@ void ClusterLoop::cycle(const Trigger& trigger) {
     judgePace(tick.nominalTime, begin);
     judgeLateness(tick);
     if (rescheduler_) adoptPlan();
-    runner_.beginCycle(tick);
-    plan_->pool->cycle(trigger_.nextDeadline());
+    const std::int64_t next = trigger_.nextDeadline();
+    runner_.beginCycle(tick, next);
+    plan_->pool->cycle(next);
     const RunnerCounts counts = runner_.counts();
     if (watchdog_->reported() == tick.cycle - 1) metrics_.hung(true);
     metrics_.write(counts, tick);

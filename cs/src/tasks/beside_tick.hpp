@@ -33,7 +33,8 @@ struct ThreadedSimplex::Thread {
     Thread(const Thread&) = delete;
     Thread& operator=(const Thread&) = delete;
 
-    void begin(std::function<void()> function);
+    // `whileDead`: called 20 times a second, while it waits to go on.
+    void begin(std::function<void()> function, std::function<void()> whileDead);
     void askToEnd();
     bool waitForEnd(std::int64_t until);  // ns of the monotonic clock
 
@@ -57,7 +58,7 @@ private:
     void die(std::string_view why);
 
     const std::string name_;
-    std::function<void()> function_;
+    std::function<void()> function_, whileDead_;
     std::thread thread_;
     int endDescriptor_ = -1;
     EventText why_;

@@ -14,14 +14,18 @@ void IoThreads::begin(std::span<SimplexCS* const> simplexes) {
     for (SimplexCS* simplex : simplexes) {
         auto* threaded = dynamic_cast<ThreadedSimplex*>(simplex);
         if (threaded == nullptr) continue;
-        threaded->beside_->begin([threaded, phase = "communicate() of " + threaded->path()] {
-            Escape escape;
-            const PhaseOfThread present{phase.c_str(), &escape};
-            if (_setjmp(escape.place) == 0)
-                threaded->runThread();
-            else
-                throw Error(refusedExitText());
-        });
+        threaded->beside_->begin(
+            [threaded, phase = "communicate() of " + threaded->path()] {
+                Escape escape;
+                const PhaseOfThread present{phase.c_str(), &escape};
+                if (_setjmp(escape.place) == 0)
+                    threaded->runThread();
+                else
+                    throw Error(refusedExitText());
+            },
+            [threaded] {
+                if (const EventText* death = threaded->beside_->death()) threaded->doWork(death);
+            });
         simplexes_.push_back(threaded);
     }
 }

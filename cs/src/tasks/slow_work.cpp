@@ -1,43 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cortex/cs/slow_work.hpp"
+#include "tasks/slow_job.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <cstring>
-#include <exception>
 #include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
 
 namespace cortex::cs {
-
-struct SlowWork::Job {
-    enum class State : std::uint8_t { Rests, Asked, Runs };
-
-    std::function<void()> work;
-    std::atomic<State> state{State::Rests};
-    std::array<char, 200> failure{};
-    std::size_t failureLength = 0;
-
-    void run() {
-        failureLength = 0;
-        try {
-            work();
-        } catch (const std::exception& error) {
-            failed(error.what());
-        } catch (...) {
-            failed("it threw something that is no std::exception");
-        }
-    }
-    void failed(std::string_view why) {
-        failureLength = std::min(why.size(), failure.size());
-        std::memcpy(failure.data(), why.data(), failureLength);
-    }
-};
 
 namespace {
 
@@ -79,15 +51,12 @@ private:
         }
     }
     bool runOne(std::unique_lock<std::mutex>& lock) {
-        const auto asked = std::ranges::find_if(jobs_, [](const std::shared_ptr<Job>& job) {
-            return job->state.load(std::memory_order_acquire) == Job::State::Asked;
-        });
+        const auto asked = std::ranges::find_if(
+            jobs_, [](const std::shared_ptr<Job>& job) { return job->isAsked(); });
         if (asked == jobs_.end()) return false;
         running_ = *asked;
-        running_->state.store(Job::State::Runs, std::memory_order_relaxed);
         lock.unlock();
         running_->run();
-        running_->state.store(Job::State::Rests, std::memory_order_release);
         lock.lock();
         running_.reset();
         changed_.notify_all();
@@ -115,8 +84,10 @@ SlowWork& SlowWork::operator=(SlowWork&& other) noexcept {
     return *this;
 }
 
+SlowWork::SlowWork(std::shared_ptr<Job> job) : job_{std::move(job)} {}
+
 SlowWork::~SlowWork() {
-    if (job_) SlowThread::ofProcess().remove(job_);
+    if (job_ && !job_->isOfDevice) SlowThread::ofProcess().remove(job_);
 }
 
 bool SlowWork::begin() {

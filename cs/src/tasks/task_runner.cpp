@@ -35,12 +35,15 @@ TaskRunner::TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64
       timed_{agent.options().realTime && set_.tasks.size() <= timedWhole ? timedWhole
                                                                          : timedInTurn} {}
 
-void TaskRunner::beginCycle(const Tick& tick) {
+void TaskRunner::beginCycle(const Tick& tick, std::int64_t next) {
     states_.beginCycle();
     tick_ = tick;
     noteStandstill(tick);
     const bool slow = longest().time > set_.period / 2;
-    for (TaskThread& thread : set_.threads) thread.longest = {};
+    for (TaskThread& thread : set_.threads) {
+        thread.longest = {};
+        thread.nextDeadline = next;
+    }
     if (tick.cycle == 1 || (slow && timedAll_)) return;  // a slow one is timed again
     firstTimed_ += timed_;
     if (firstTimed_ < set_.tasks.size()) return;

@@ -27,8 +27,9 @@ public:
     // `schedule` stays as long as it is used.
     TaskRunner(AgentRuntime& agent, const Schedule& schedule, std::int64_t period);
 
-    // Loop thread, before the chunks of a cycle.
-    void beginCycle(const Tick& tick) CORTEX_REALTIME;
+    // Loop thread, before the chunks of a cycle. `next`: when the loop's next one is due, ns of the
+    // monotonic clock; 0: not known.
+    void beginCycle(const Tick& tick, std::int64_t next = 0) CORTEX_REALTIME;
     void run(std::uint32_t chunk, std::uint32_t worker) CORTEX_REALTIME;
     // One task, by its place in the execution order, for measurements that order them otherwise
     // (without delayed commands: the clock of the thread stays as it is).

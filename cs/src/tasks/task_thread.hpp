@@ -19,6 +19,7 @@ struct alignas(64) TaskThread {
     std::uint64_t limits = 0, conflicts = 0, startups = 0;  // counted since the start
     std::int64_t measuredAt = 0;                            // setQuality()
     std::int64_t faultCode = 0;                             // fault()
+    std::int64_t nextDeadline = 0;                          // of the loop, 0: not known
     LongestTask longest;                                    // of this cycle
     EventText text;   // of the fault, or why a command was refused
     EventText brief;  // of the fault, for the item faultText

@@ -3,6 +3,7 @@
 #include "cortex/core/error.hpp"
 
 #include "tasks/beside_tick.hpp"
+#include "tasks/slow_job.hpp"
 #include "tasks/task_set.hpp"
 #include "threads/realtime_thread.hpp"
 
@@ -29,13 +30,15 @@ ThreadedSimplex::Thread::~Thread() {
     if (endDescriptor_ >= 0) ::close(endDescriptor_);
 }
 
-void ThreadedSimplex::Thread::begin(std::function<void()> function) {
+void ThreadedSimplex::Thread::begin(std::function<void()> function,
+                                    std::function<void()> whileDead) {
     endDescriptor_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     if (endDescriptor_ < 0) {
         throw Error("thread " + name_ + " cannot begin: " + std::strerror(errno) +
                     "; let the process have more open files (ulimit -n)");
     }
     function_ = std::move(function);
+    whileDead_ = std::move(whileDead);
     thread_ = std::thread{[this] { run(); }};
 }
 
@@ -82,8 +85,7 @@ void ThreadedSimplex::Thread::run() {
         } catch (...) {
             die("communicate() threw something that is no std::exception");
         }
-        while (death() != nullptr && waitFor(50ms)) {
-        }
+        while (death() != nullptr && waitFor(50ms)) whileDead_();
     }
     hasEnded_.store(true, std::memory_order_release);
     end_.advance();
@@ -104,6 +106,37 @@ void ThreadedSimplex::loseAfter(std::chrono::nanoseconds time) {
     lostAfter_ = time.count();
 }
 
+void ThreadedSimplex::staleAfter(std::chrono::nanoseconds time) {
+    if (time.count() <= 0) throw Error(path() + ": staleAfter() needs a time above 0");
+    staleAfter_ = time.count();
+}
+
+SlowWork ThreadedSimplex::atDevice(std::function<void()> work) {
+    auto job = std::make_shared<SlowWork::Job>();
+    job->work = std::move(work);
+    job->isOfDevice = true;
+    works_.push_back(job);
+    return SlowWork{std::move(job)};
+}
+
+std::chrono::nanoseconds ThreadedSimplex::period() const {
+    const AgentRuntime& agent = runtime();
+    return std::chrono::nanoseconds{agent.options().period} *
+           agent.structure().simplexes[index()].every;
+}
+
+bool ThreadedSimplex::isRealTime() const { return runtime().options().realTime; }
+
+void ThreadedSimplex::doWork(const EventText* away) {
+    for (const std::shared_ptr<SlowWork::Job>& work : works_) {
+        if (!work->isAsked()) continue;
+        if (away == nullptr)
+            work->run();
+        else
+            work->refuse("the device is away: " + std::string{away->view()});
+    }
+}
+
 bool ThreadedSimplex::isEnding() const { return beside_->isEnding(); }
 int ThreadedSimplex::endDescriptor() const { return beside_->endDescriptor(); }
 bool ThreadedSimplex::waitFor(std::chrono::nanoseconds time) const {
@@ -113,14 +146,28 @@ bool ThreadedSimplex::waitFor(std::chrono::nanoseconds time) const {
 void ThreadedSimplex::loopStart(const Tick& tick) {
     if (since_ < 0) since_ = tick.nominalTime;
     lookAtThread();
-    if (!deathTold_) takeTold(tick);
+    const bool isNew = !deathTold_ && takeTold(tick);
     age_ = tick.nominalTime - since_;
-    isGood_ = told_.isThere && age_ <= lostAfter_;
-    if (isGood_ && lossTold_) event(Severity::Info, "the device is back");
+    isThere_ = told_.isThere && age_ <= lostAfter_;
+    if (isThere_ && lossTold_) event(Severity::Info, "the device is back");
     const bool isAwaited = isFirstAwaited_ && age_ <= lostAfter_;
-    if (!isGood_ && !lossTold_ && !isAwaited) tellLoss();
-    lossTold_ = !isGood_ && !isAwaited;
-    setQuality(isGood_ ? Quality::Good : Quality::Lost, since_);
+    if (!isThere_ && !lossTold_ && !isAwaited) tellLoss();
+    lossTold_ = !isThere_ && !isAwaited;
+    const Quality present = age_ > staleAfter_ ? Quality::Stale : Quality::Good;
+    setQuality(isThere_ ? present : Quality::Lost, since_);
+    setPace(tick);
+    valuesTaken(tick, isNew);
+}
+
+// The loop knows its own next deadline; a simplex that runs every n-th cycle skips n - 1 of them.
+void ThreadedSimplex::setPace(const Tick& tick) {
+    if (pace_.cycle == 0) pace_.period = period();
+    pace_.cycle = tick.cycle;
+    pace_.next = {};
+    if (thread_->nextDeadline == 0) return;
+    const std::chrono::nanoseconds skipped =
+        pace_.period - std::chrono::nanoseconds{runtime().options().period};
+    pace_.next += std::chrono::nanoseconds{thread_->nextDeadline} + skipped;
 }
 
 // What was put before a death is no present value, whatever becomes of the thread.
@@ -140,14 +187,16 @@ void ThreadedSimplex::lookAtThread() {
     }
 }
 
-void ThreadedSimplex::takeTold(const Tick& tick) {
+// Whether there is a new value.
+bool ThreadedSimplex::takeTold(const Tick& tick) {
     const Told* told = takeNewest();
-    if (told == nullptr) return;
+    if (told == nullptr) return false;
     // Another reason is told, too; the same one is told once.
     if (!told->isThere && told->why.view() != told_.why.view()) lossTold_ = false;
     told_ = *told;
     isFirstAwaited_ = false;
     if (told_.isThere) since_ = tick.nominalTime;
+    return told_.isThere;
 }
 
 void ThreadedSimplex::tellLoss() {

@@ -14,7 +14,7 @@
 
 namespace cortex {
 
-inline constexpr int pluginAbi = 3;
+inline constexpr int pluginAbi = 4;
 
 // C++ classes of active types, by type name; also from shared-object plug-ins. Setup phase.
 class ClassRegistry {

@@ -1,59 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/cs/newest.hpp"
 #include "cortex/cs/simplex_cs.hpp"
+#include "cortex/cs/slow_work.hpp"
 
-#include <array>
-#include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <string_view>
-#include <type_traits>
+#include <vector>
 
 namespace cortex::cs {
 
-// The newest value from one thread to another one. Neither waits for the other.
-//
-// **Invariants**
-// 1. Of the three slots one belongs to the writer, one to the reader, one lies between them. Which
-//    one lies there is in `between_`; each side keeps the number of its own to itself.
-// 2. A side gets another slot only by exchanging its own for the one between, in one atomic step.
-//    So no slot ever belongs to two, and each of the three always belongs to somebody.
-// 3. put() writes only the writer's slot and then exchanges it; the bit `isNew` goes with it.
-// 4. take() exchanges only where that bit is set, and what it leaves between has no such bit. So
-//    the reader never gets a value that it had before.
-// 5. The exchange releases what was written and acquires what the other side has done with the
-//    slot: a value is seen whole, and a slot is written after its reader has let go of it.
-// 6. Values that are not taken in time are replaced by newer ones; the newest one is never lost.
-// 7. One thread at a time writes, and one reads; each step is bounded.
-template <class T>
-class Newest {
-    static_assert(std::is_trivially_copyable_v<T>, "values are plain structs, copied whole");
+// When the hooks run next, for a thread that wakes shortly after them: nobody wakes it.
+struct Pace {
+    using Clock = std::chrono::steady_clock;
 
-public:
-    void put(const T& value) CORTEX_REALTIME {
-        slots_[written_].value = value;
-        const unsigned offered = written_ | isNew;
-        written_ = between_.exchange(offered, std::memory_order_acq_rel) & ~isNew;
-    }
-    // True: value() is another one now.
-    bool take() CORTEX_REALTIME {
-        if ((between_.load(std::memory_order_relaxed) & isNew) == 0) return false;
-        read_ = between_.exchange(read_, std::memory_order_acq_rel) & ~isNew;
-        return true;
-    }
-    const T& value() const CORTEX_REALTIME { return slots_[read_].value; }  // reader
+    std::int64_t cycle = 0;    // of the loop, in which the demand was given; 0: none was
+    Clock::time_point next{};  // when the next run is due; {}: not known, as in a stepped loop
+    std::chrono::nanoseconds period{};  // nominal, from one run to the next
 
-private:
-    static constexpr unsigned isNew = 4;
-    struct alignas(64) Slot {
-        T value{};
-    };
-    std::array<Slot, 3> slots_{};
-    alignas(64) unsigned written_ = 0;
-    alignas(64) std::atomic<unsigned> between_{1};
-    alignas(64) unsigned read_ = 2;
+    bool isKnown() const { return next != Clock::time_point{}; }
+    // The first run that is due after `time`, if the loop keeps its pace. Where isKnown().
+    Clock::time_point after(Clock::time_point time) const {
+        if (time < next) return next;
+        return next + ((time - next) / period + 1) * period;
+    }
 };
 
 // An active simplex with a thread of its own beside the tick, for what may block: the part that
@@ -72,15 +47,30 @@ protected:
 
     // In populate(): without a newer value for so long (nominal time) the device is lost.
     void loseAfter(std::chrono::nanoseconds time);
+    // In populate(): before that, from so long on, its quality is stale. Without it: never.
+    void staleAfter(std::chrono::nanoseconds time);
+    // In populate(): work that a hook may begin and that the thread does, in line.doWork(). It is
+    // never lost: it is done, or ends with a failure() that says why the device is away.
+    SlowWork atDevice(std::function<void()> work);
+    // From populate() on: nominal time from one run to the next.
+    std::chrono::nanoseconds period() const;
+
+    // In loopStart(): received(), age() and isLost() are those of this cycle; `isNew`: there is a
+    // value that no cycle has seen before.
+    virtual void valuesTaken(const Tick&, bool /*isNew*/) CORTEX_REALTIME {}
     // In hooks: nominal time, ns, since the run of this task that first saw the newest value.
     std::int64_t age() const CORTEX_REALTIME { return age_; }
     // In hooks: there is no value yet, or it is too old, or the thread says so or has ended.
-    bool isLost() const CORTEX_REALTIME { return !isGood_; }
+    bool isLost() const CORTEX_REALTIME { return !isThere_; }
+    Pace pace() const CORTEX_REALTIME { return pace_; }  // in hooks
 
     // The thread's side, in communicate().
     bool isEnding() const;                         // return soon: the loop has stopped
     int endDescriptor() const;                     // readable from then on; to poll() beside others
     bool waitFor(std::chrono::nanoseconds) const;  // false: it is ending
+    bool isRealTime() const;                       // false: the loop is stepped
+    // `away`: why the device is, which ends all work that is asked for; null: it is there.
+    void doWork(const EventText* away);
 
 private:
     friend class IoThreads;
@@ -91,13 +81,17 @@ private:
     virtual void runThread() = 0;
 
     void lookAtThread() CORTEX_REALTIME;
-    void takeTold(const Tick& tick) CORTEX_REALTIME;
+    bool takeTold(const Tick& tick) CORTEX_REALTIME;
+    void setPace(const Tick& tick) CORTEX_REALTIME;
     void tellLoss() CORTEX_REALTIME;
 
     std::unique_ptr<Thread> beside_;
+    std::vector<std::shared_ptr<SlowWork::Job>> works_;
     Told told_;  // last
+    Pace pace_;
     std::int64_t lostAfter_ = 1'000'000'000, since_ = -1, age_ = 0;
-    bool isGood_ = false, isFirstAwaited_ = true, lossTold_ = false, deathTold_ = false;
+    std::int64_t staleAfter_ = std::numeric_limits<std::int64_t>::max();
+    bool isThere_ = false, isFirstAwaited_ = true, lossTold_ = false, deathTold_ = false;
 };
 
 // An active simplex whose device blocks. A thread of its own hands values to the hooks and takes
@@ -108,6 +102,10 @@ class IoSimplex : public ThreadedSimplex {
     struct Message {
         In value{};
         Told told{};
+    };
+    struct Demand {
+        Out value{};
+        Pace pace{};
     };
 
 public:
@@ -120,32 +118,45 @@ public:
 
         void put(const In& value) { say({value, {true, {}}}); }
         // The device is away: quality `lost` at once, with the reason as an event.
-        void lose(std::string_view why) { say({last_, {false, EventText{why}}}); }
+        void lose(std::string_view why) { say({last_.value, {false, EventText{why}}}); }
         // The newest demand; null before the first.
         const Out* demand() {
             if (simplex_.out_.take()) {
                 hasDemand_ = true;
-                demandSince_ = std::chrono::steady_clock::now();
+                demandSince_ = Pace::Clock::now();
             }
-            return hasDemand_ ? &simplex_.out_.value() : nullptr;
+            return hasDemand_ ? &simplex_.out_.value().value : nullptr;
         }
         // How long the loop has given no demand, as far as demand() was asked.
-        std::chrono::nanoseconds demandAge() const {
-            return std::chrono::steady_clock::now() - demandSince_;
+        std::chrono::nanoseconds demandAge() const { return Pace::Clock::now() - demandSince_; }
+        // The same for longer than `time`, in a loop that is not stepped.
+        bool loopHangs(std::chrono::nanoseconds time) const {
+            return simplex_.isRealTime() && demandAge() > time;
         }
+        // Of the newest demand, as far as demand() was asked.
+        Pace pace() const {
+            return hasDemand_ ? simplex_.out_.value().pace : Pace{0, {}, simplex_.period()};
+        }
+        // Does what hooks have begun by atDevice(); call it between two exchanges, and now and
+        // then while the device is away.
+        void doWork() { simplex_.doWork(last_.told.isThere ? nullptr : &last_.told.why); }
         bool isEnding() const { return simplex_.isEnding(); }
         int endDescriptor() const { return simplex_.endDescriptor(); }
         bool waitFor(std::chrono::nanoseconds time) const { return simplex_.waitFor(time); }
+        bool waitUntil(Pace::Clock::time_point time) const {
+            return simplex_.waitFor(time - Pace::Clock::now());
+        }
 
     private:
+        friend class IoSimplex;
         void say(const Message& message) {
-            last_ = message.value;
+            last_ = message;
             simplex_.in_.put(message);
         }
         IoSimplex& simplex_;
-        In last_{};  // stays received() while the device is lost
+        Message last_{{}, {false, "it has not answered yet"}};  // its value stays received()
         bool hasDemand_ = false;
-        std::chrono::steady_clock::time_point demandSince_{};
+        Pace::Clock::time_point demandSince_{};
     };
 
 protected:
@@ -155,16 +166,19 @@ protected:
 
     // In hooks, from loopStart on; where isLost() says so it is no present value.
     const In& received() const CORTEX_REALTIME { return in_.value().value; }
-    void give(const Out& demand) CORTEX_REALTIME { out_.put(demand); }
+    void give(const Out& demand) CORTEX_REALTIME { out_.put({demand, pace()}); }
 
 private:
     const Told* takeNewest() CORTEX_REALTIME final {
         return in_.take() ? &in_.value().told : nullptr;
     }
-    void runThread() final { communicate(line_); }
+    void runThread() final {
+        line_.last_.told = {false, "it has not answered yet"};
+        communicate(line_);
+    }
 
     Newest<Message> in_;
-    Newest<Out> out_;
+    Newest<Demand> out_;
     Line line_{*this};
 };
 

@@ -12,7 +12,7 @@ namespace cortex::cs {
 // Work that may block, such as to read a file, for a simplex whose hooks may not. One thread of the
 // process does all of it, one at a time, and looks every 5 ms. What the
 // work reads and writes is its own from begin() until isRunning() is false. In which cycle that is,
-// differs from run to run.
+// differs from run to run. Work that talks to a device has its thread: IoSimplex::atDevice().
 //
 //     populate():   load_ = cs::SlowWork{[this] { points_ = readPoints(file_); }};
 //     in a hook:    load_.begin();   later   if (!load_.isRunning()) … load_.failure() …
@@ -33,6 +33,9 @@ public:
     struct Job;  // of the thread
 
 private:
+    friend class ThreadedSimplex;
+    explicit SlowWork(std::shared_ptr<Job> job);
+
     std::shared_ptr<Job> job_;
 };
 
