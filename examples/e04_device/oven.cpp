@@ -2,13 +2,14 @@
 // An oven behind a serial line, as a plug-in for cortex-agent: the line blocks, the tick does not.
 // The program writes "H 350.0", heater at 350 W; the oven answers "T 81.25", 81.25 degrees inside.
 #include "cortex/core/registry.hpp"
-#include "cortex/cs/io_exchange.hpp"
+#include "cortex/toolkit/fieldbus_device.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstring>
-#include <stdexcept>
+#include <optional>
 #include <string>
 
 #include <fcntl.h>
@@ -18,15 +19,16 @@
 
 namespace {
 
-using namespace std::chrono_literals;
 using cortex::Data;
 using cortex::Tick;
+using cortex::toolkit::FieldbusDevice;
+using cortex::toolkit::LinkError;
 
 // One connection to the oven; it blocks, and throws when the oven is away or answers nonsense.
 class SerialLine {
 public:
-    explicit SerialLine(const std::string& path)
-        : SerialLine{path, open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)} {
+    SerialLine(const std::string& path, std::chrono::milliseconds answerTime)
+        : SerialLine{path, answerTime, open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)} {
         termios raw{};
         if (tcgetattr(file_, &raw) != 0) refuse(std::strerror(errno));
         cfmakeraw(&raw);
@@ -52,27 +54,27 @@ public:
     }
 
 private:
-    SerialLine(const std::string& path, int file) : path_{path}, file_{file} {
+    SerialLine(const std::string& path, std::chrono::milliseconds answerTime, int file)
+        : path_{path}, answerTime_{static_cast<int>(answerTime.count())}, file_{file} {
         if (file_ < 0) refuse(std::strerror(errno));
     }
     std::string readLine() const {
         std::string line;
         for (char next = 0; line.size() < longestLine;) {
             pollfd answer{file_, POLLIN, 0};
-            if (poll(&answer, 1, answerTime) <= 0) refuse("no answer for 200 ms");
+            if (poll(&answer, 1, answerTime_) <= 0)
+                refuse("no answer for " + std::to_string(answerTime_) + " ms; is the oven on?");
             if (read(file_, &next, 1) != 1) refuse("the oven is gone");
             if (next == '\n') return line;
             line += next;
         }
         refuse("its answer has no end");
     }
-    [[noreturn]] void refuse(const std::string& why) const {
-        throw std::runtime_error(path_ + ": " + why);
-    }
+    [[noreturn]] void refuse(const std::string& why) const { throw LinkError(path_ + ": " + why); }
 
     static constexpr std::size_t longestLine = 40;
-    static constexpr int answerTime = 200;  // ms
     std::string path_;
+    int answerTime_;  // ms
     int file_;
 };
 
@@ -83,50 +85,40 @@ struct Wish {
     double power = 0;
 };
 
-class Oven final : public cortex::cs::IoSimplex<Reading, Wish> {
+class Oven final : public FieldbusDevice<Reading, Wish> {
 public:
-    using IoSimplex::IoSimplex;
+    using FieldbusDevice::FieldbusDevice;
 
 private:
     void populate() override {
         power_ = input("heater").data<double>("power", "W");
         safePower_ = input("heater").safeValue<double>("power", "W");
         temperature_ = output("inside").data<double>("temperature", "Cel");
-        port_ = data<const std::string_view>("port").get();
-        loseAfter(500ms);
+        populateLink();
     }
+
+    // On a thread of its own. Whatever goes wrong, it is closed and connected anew after a while.
+    void connect() override {
+        line_.emplace(settings().address, std::chrono::duration_cast<std::chrono::milliseconds>(
+                                              settings().responseTimeout));
+    }
+    void exchange(const Wish& wish, Reading& reading) override {
+        reading.temperature = line_->exchange(wish.power);
+    }
+    void close() noexcept override { line_.reset(); }
 
     // In the tick. A lost oven keeps the temperature that it had, with the quality `lost`.
-    void loopEnd(const Tick&) CORTEX_REALTIME override {
-        if (!isLost()) temperature_ = received().temperature;
-        give({inputLost() ? safePower_ : power_.get()});  // nobody speaks for the demand any more
+    void unpack(const Reading& reading) CORTEX_REALTIME override {
+        temperature_ = reading.temperature;
     }
-
-    // On a thread of its own: whatever goes wrong, it connects anew after a while.
-    void communicate(Line& line) override {
-        do {
-            try {
-                const SerialLine serial{port_};
-                do {
-                    line.put({serial.exchange(wished(line))});
-                } while (line.waitFor(20ms));
-                serial.exchange(wished(line));  // the loop has waited: it is safe
-            } catch (const std::runtime_error& error) {
-                line.lose(error.what());
-            }
-        } while (line.waitFor(200ms));
-    }
-
-    static double wished(Line& line) {
-        const Wish* wish = line.demand();
-        const bool isFresh = wish != nullptr && line.demandAge() < 1s;
-        return isFresh ? wish->power : 0;  // a loop that hangs must not heat
-    }
+    void pack(Wish& wish) CORTEX_REALTIME override { wish.power = power_; }
+    // Nobody speaks for the demand any more, or the loop hangs.
+    void quiet(Wish& wish) CORTEX_REALTIME override { wish.power = safePower_; }
 
     Data<const double> power_;
     Data<double> temperature_;
     double safePower_ = 0;
-    std::string port_;
+    std::optional<SerialLine> line_;  // of the thread
 };
 
 class OvenController final : public cortex::cs::SimplexCS {

@@ -56,7 +56,7 @@ protected:
         return SimplexTree::load(file("oven.xml"), &registry);
     }
     void SetUp() override {
-        tree.at("/oven").set("port", port());
+        tree.at("/oven").set("address", port());
         bakery.addSimplexTree(tree);
         bakery.setTriggerSource<cs::InternalClock>(10ms);
         bakery.addEventSink([this](const Event& event, const Structure&) {
@@ -125,7 +125,7 @@ TEST_F(Bakery, SaysThatTheOvenDoesNotAnswerAndGoesOnWhenItDoes) {
 
     oven.signal(SIGSTOP);
     waitUntil("a lost value", [&] { return quality() == Quality::Lost; });
-    waitForEvent("the device is lost: " + port() + ": no answer for 200 ms");
+    waitForEvent("the device is lost: " + port() + ": no answer for 200 ms; is the oven on?");
     oven.signal(SIGCONT);
 
     waitUntil("a good value", [&] { return quality() == Quality::Good; });

@@ -90,5 +90,32 @@ TEST(CheckHooks, EndsWithZeroWhereItFindsNothing) {
     EXPECT_TRUE(checked.says("hook check: no violation\n")) << checked.output;
 }
 
+#ifdef CORTEX_HAS_MODBUS
+// With nobody at its address, and with a number that its register cannot hold.
+TEST(CheckHooks, FindsNothingInACouplerBehindModbus) {
+    const ModelFolder folder;
+    const auto system = folder.write(
+        "coupler.xml",
+        "<system name='s'><morphology file='devices-morphology.xml'/>"
+        "<cluster name='plant' frequency='100'/><simplex path='/lamps' type='DigitalOutputGroup'/>"
+        "<simplex path='/fans' type='AnalogueOutputGroup'><set data='value' value='1e9 "
+        "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0'/>"
+        "</simplex><simplex path='/buttons' type='DigitalInputGroup'/>"
+        "<simplex path='/levels' type='AnalogueInputGroup'/>"
+        "<simplex path='/coupler' type='ModbusIoDevice'>"
+        "<relate rule='digitalOutputs' to='/lamps'/><relate rule='analogueOutputs' to='/fans'/>"
+        "<relate rule='digitalInputs' to='/buttons'/><relate rule='analogueInputs' to='/levels'/>"
+        "<set data='coilsAt' value='0'/><set data='discreteInputsAt' value='0'/>"
+        "<set data='inputRegistersAt' value='0'/><set data='holdingRegistersAt' value='0'/>"
+        "<set data='address' value='127.0.0.1:1'/></simplex></system>");
+
+    const Checked checked = check(system.string() + " --seconds 2 --priority 0");
+
+    EXPECT_EQ(checked.exitCode, 0) << checked.output;
+    EXPECT_TRUE(checked.says("cannot hold")) << checked.output;
+    EXPECT_TRUE(checked.says("hook check: no violation\n")) << checked.output;
+}
+#endif
+
 }  // namespace
 }  // namespace cortex::test

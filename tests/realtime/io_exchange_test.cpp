@@ -2,6 +2,8 @@
 // A device that blocks, is lost, throws and is back: the tick beside it stays what it was.
 #include "cortex/cs/io_exchange.hpp"
 
+#include "cortex/toolkit/fieldbus_device.hpp"
+
 #include "realtime/watched_cluster.hpp"
 
 #include <atomic>
@@ -77,6 +79,69 @@ TEST(BlockingDevice, DisturbsNoTickWhateverItsThreadDoes) {
 
     EXPECT_EQ(violations(), "");
     EXPECT_EQ(checker().counts().pageFaults, faultsBefore);
+    cluster.stop();
+}
+
+// Its link is refused, breaks and is opened again; a hook asks for work all the time.
+class RestlessBoiler final : public toolkit::FieldbusDevice<double, double> {
+public:
+    using FieldbusDevice::FieldbusDevice;
+
+private:
+    void populate() override {
+        power_ = input("heater").data<double>("power");
+        temperature_ = output("water").data<double>("temperature");
+        populateLink();
+        work_ = atDevice([this] {
+            if (++works_ % 30 == 0) throw toolkit::LinkError("it was asked to break");
+        });
+    }
+    void connect() override {
+        if (++connects_ % 3 == 0) throw toolkit::LinkRefused("it is refused now and then");
+    }
+    void exchange(const double& power, double& temperature) override {
+        if (++exchanges_ % 50 == 0) throw toolkit::LinkError("it breaks now and then");
+        temperature = power;
+    }
+    void close() noexcept override {}
+    void pack(double& power) override { power = power_; }
+    void quiet(double& power) override { power = 0; }
+    void unpack(const double& temperature) override { temperature_ = temperature; }
+    void stateStandby(const Tick&) override {
+        if (!work_.isRunning() && !work_.failure().empty()) ++failures_;
+        work_.begin();
+    }
+    Data<const double> power_;
+    Data<double> temperature_;
+    cs::SlowWork work_;
+    int works_ = 0, connects_ = 0, exchanges_ = 0;  // of the thread
+    int failures_ = 0;
+};
+
+TEST(FieldbusDevice, DisturbsNoTickWhileItsLinkBreaksAndComesBack) {
+    checker().reset();
+    SimplexTree tree{
+        TypeModel::load(std::string{CORTEX_SOURCE_DIR} + "/tests/data/fieldbus-rules.xml")};
+    auto& boiler = tree.add<RestlessBoiler>("/boiler", "Boiler");
+    boiler.set("reconnectTime", 0.01);
+    tree.relate(boiler, "heater", tree.add("/power", "BoilerPower"));
+    tree.relate(boiler, "water", tree.add("/water", "BoilerTemperature"));
+    cs::ClusterCS cluster{"watched", optionsOf(1, geteuid() == 0 ? 10 : 0)};
+    watch(cluster, 1);
+    cluster.addSimplexTree(tree);
+    cluster.setTriggerSource<WatchedClock>();
+    cluster.start();
+    const auto count = [&](const char* item) {
+        return cluster.image().get<std::int64_t>("/boiler", item);
+    };
+    waitUntil("links that broke", [&] { return count("reconnectCount") >= 4; });
+    EXPECT_EQ(cluster.call("/boiler", "reconnect").outcome, Outcome::Done);
+    const std::int64_t before = count("reconnectCount");
+    waitUntil("one more", [&] { return count("reconnectCount") > before; });
+
+    EXPECT_GT(count("exchangeCount"), 50);
+    EXPECT_GE(count("errorCount"), 4);
+    EXPECT_EQ(violations(), "");
     cluster.stop();
 }
 

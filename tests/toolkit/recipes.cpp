@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recipes.hpp"
 
+#include "ds402_plant.hpp"
 #include "mechanics/lbr_chain.hpp"
 
 #include <algorithm>
@@ -109,6 +110,19 @@ void feedNumber(Rig& rig, std::int64_t cycle, double past) {
 void feedNothing(Rig&, std::int64_t, double) {}
 
 const std::vector<Recipe> allRecipes{
+    // The axis is still on its slow way to the demand that it joined.
+    {"Ds402AxisProcessor", true, [](Rig& rig) { buildDrives(rig, {}); },
+     [](Rig& rig, std::int64_t cycle, double past) {
+         write(rig, "/demand/a", "position", cycle < runUp ? 0.009 / past : 0.005);
+     }},
+    {"SimulatedSafetyPanel", true,
+     [](Rig& rig) {
+         rig.add("/safety", "SafetyStatus");
+         rig.add("/it", "SimulatedSafetyPanel", {{"status", "/safety"}});
+     },
+     [](Rig& rig, std::int64_t cycle, double past) {
+         if (cycle == runUp - 50 && past == 1) rig.cluster().send("/it", "press");
+     }},
     {"ForwardKinematics", false, [](Rig& rig) { buildChain(rig, "ForwardKinematics", {}); },
      feedChain},
     {"InverseKinematics", true,
@@ -236,6 +250,19 @@ const std::vector<Recipe> allRecipes{
      },
      [](Rig& rig, std::int64_t cycle, double past) {
          if (cycle > 50) write(rig, "/demand", "position", std::sin(angleAt(cycle, past)));
+     }},
+    // Enabled since cycle 100; where its target was differs until `runUp`.
+    {"Ds402SimulatedDrive", true,
+     [](Rig& rig) {
+         rig.add("/axis", "Ds402RotaryObservation");
+         rig.add("/demand", "Ds402RotaryModification");
+         rig.add("/it", "Ds402SimulatedDrive", {{"demands", "/demand"}, {"observations", "/axis"}});
+     },
+     [](Rig& rig, std::int64_t cycle, double past) {
+         const std::int64_t word = cycle < 100 ? 0x06 : 0x0F;
+         rig.tree().at("/demand").data<std::int64_t>("controlWord") = word;
+         write(rig, "/demand", "position", 0.05 * std::sin(angleAt(cycle, past)));
+         if (cycle == runUp - 30) rig.cluster().send("/it", "jumpEncoder", {{"by", 0.01 * past}});
      }},
     {"HandsetPlayback", true,
      [](Rig& rig) {

@@ -17,6 +17,7 @@ class Rig : public cs::TestPlant {
 public:
     explicit Rig(const std::string& name = "rig")
         : TestPlant{{CORTEX_SOURCE_DIR "/ontology/cortex-morphology.xml",
+                     CORTEX_SOURCE_DIR "/tests/data/ds402-types.xml",
                      CORTEX_SOURCE_DIR "/tests/data/limited-axes.xml",
                      CORTEX_SOURCE_DIR "/tests/data/process-types.xml"},
                     std::chrono::milliseconds{1},

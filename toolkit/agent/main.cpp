@@ -11,6 +11,7 @@
 #include "hook_check.hpp"
 #include "options.hpp"
 #include "patient_output.hpp"
+#include "plugin_folders.hpp"
 #include "retained_file.hpp"
 #include "start_up.hpp"
 #include "stored_values.hpp"
@@ -127,6 +128,8 @@ SimplexTree readSystem(const CommandLine& line, ClassRegistry& registry, Retaine
         registry.loadPlugin(plugin, model.types);
     }
     SimplexTree tree{std::move(model.types)};
+    for (const std::string& problem : offerPlugins(tree.sharedTypes(), registry))
+        std::cerr << problem << std::endl;
     const cs::BoundedStep step{"making the simplexes of " + line.system.string()};
     tree.add(model.system, &registry, report);
     if (!report.ok()) throw ModelError(std::move(report));

@@ -25,7 +25,9 @@ constexpr const char* footerText =
 5 another start of its name was there first; 6 ended, but --check-hooks found something, and nothing of the above.
 Settings of the loop stand in the system file, <cluster name="…" frequency="…" threads="…"
 priority="…" overflow="…"/>; options outrank them. Files are looked for beside the file that names
-them, in $CORTEX_PATH, and where CorteX is installed.)";
+them, in $CORTEX_PATH, and where CorteX is installed. A plug-in that brings the class of a type is
+looked for in $CORTEX_AGENT_PLUGINS, ~/.local/lib/cortex/agent, and lib/cortex/agent beside the
+program.)";
 
 using Attributes = std::map<std::string, std::string>;
 

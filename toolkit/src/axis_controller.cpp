@@ -26,6 +26,8 @@ std::string_view whyStanding(std::int64_t status) {
     switch (status) {
         case 4:
             return "Fault";
+        case 5:
+            return "NotHomed";
         case 6:
             return "Disabled";
         case 7:

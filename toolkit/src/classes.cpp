@@ -10,6 +10,8 @@
 #include "cortex/toolkit/pid_controller.hpp"
 
 #include "cartesian_follow_controller.hpp"
+#include "ds402/ds402_processor.hpp"
+#include "ds402/simulated_drive.hpp"
 #include "handset_playback.hpp"
 #include "kinematics.hpp"
 #include "process/filter.hpp"
@@ -17,6 +19,7 @@
 #include "process/rate_limiter.hpp"
 #include "process/watchdog.hpp"
 #include "processor_selector.hpp"
+#include "safety_panel.hpp"
 #include "simulated_axis.hpp"
 #include "sine_controller.hpp"
 #include "tracking_monitor.hpp"
@@ -44,6 +47,9 @@ void addClasses(ClassRegistry& registry) {
     registry.add<Filter>("Filter");
     registry.add<Ramp>("Ramp");
     registry.add<Watchdog>("Watchdog");
+    registry.add<Ds402AxisProcessor>("Ds402AxisProcessor");
+    registry.add<Ds402SimulatedDrive>("Ds402SimulatedDrive");
+    registry.add<SimulatedSafetyPanel>("SimulatedSafetyPanel");
 }
 
 }  // namespace cortex::toolkit

@@ -18,8 +18,8 @@ namespace cortex::toolkit {
 // cycle it finds in demands() what went out in the cycle before, and leaves there what is to go out
 // now, in rad or m and s. So a controller goes on from where another one stopped writing, in motion
 // too, and not from the observation, which lags behind.
-// While the drive of an axis says that it is in fault, disabled or braked, the demand of that axis
-// is led back to the observed position within its limits, whatever move() leaves there.
+// While the drive of an axis says that it is in fault, not homed, disabled or braked, the demand of
+// that axis is led back to the observed position within its limits, whatever move() leaves there.
 class AxisController : public cs::SimplexCS {
 public:
     using SimplexCS::SimplexCS;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cortex/core/simplex.hpp"
+#include "cortex/drives/ds402_parameters.hpp"
+#include "cortex/drives/ds402_signals.hpp"
+
+#include <cstdint>
+
+namespace cortex::toolkit {
+
+// What a device of CiA 402 drives reads and writes of one axis. Made in populate(), for its hooks.
+
+// The items of a Ds402Modification.
+class Ds402DemandItems {
+public:
+    explicit Ds402DemandItems(const InputSimplex& demand);
+
+    // Targets and offsets as the mode that the drive shows takes them.
+    drives::Ds402Inputs inputs(std::int64_t modeDisplay) const CORTEX_REALTIME;
+    // Replaces the parameters that its processor wishes.
+    void wish(drives::Ds402Parameters& parameters) const CORTEX_REALTIME;
+
+private:
+    Data<const std::int64_t> controlWord_, mode_, digitalOutputs_, homingMethod_, quickStopOption_,
+        faultReactionOption_;
+    Data<const double> position_, velocity_, effort_, homingSpeed_, homingCreep_, homeOffset_;
+};
+
+// The items of a Ds402Observation.
+class Ds402ObservationItems {
+public:
+    explicit Ds402ObservationItems(const OutputSimplex& observation);
+
+    // What the drive says. A status word that fits no state leaves `driveState` as it was.
+    void write(const drives::Ds402Outputs& outputs, double acceleration) CORTEX_REALTIME;
+
+    double countsPerUnit() const { return countsPerUnit_; }
+    double ratedEffort() const { return ratedEffort_; }
+    bool homingNeeded() const { return homingNeeded_; }
+
+private:
+    Data<std::int64_t> status_, statusWord_, driveState_, modeDisplay_, errorCode_, digitalInputs_;
+    Data<bool> voltageEnabled_, warning_, remote_, targetReached_, internalLimit_, homed_;
+    Data<double> position_, velocity_, acceleration_, effort_, followingError_, temperature_;
+    double countsPerUnit_, ratedEffort_;
+    bool homingNeeded_;
+};
+
+}  // namespace cortex::toolkit

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// What commands ask of one axis, and why not.
+#include "ds402/drive_words.hpp"
+#include "ds402/processor_axis.hpp"
+
+#include <cmath>
+
+namespace cortex::toolkit {
+
+bool Ds402ProcessorAxis::isHoming(EventText& why) const {
+    if (homing_.runs()) why = name() << " is homing: cancel that first";
+    return homing_.runs();
+}
+
+bool Ds402ProcessorAxis::mayEnable(EventText& why) const {
+    if (isHoming(why)) return false;
+    if (isFaulty()) {
+        why = inState() << "; send resetFault first";
+        return false;
+    }
+    const double away = demandAway();
+    if (lead_.hasArrived() || away <= AxisTargets::tolerance) return true;
+    why = name() << ": its demand is " << away << " away from it, allowed is "
+                 << AxisTargets::tolerance << ": bring it there first";
+    return false;
+}
+
+bool Ds402ProcessorAxis::mayDisable(EventText& why) const {
+    if (isHoming(why)) return false;
+    if (state_ == State::OperationEnabled) return true;
+    why = inState() << ", not in Operation enabled";
+    return false;
+}
+
+bool Ds402ProcessorAxis::mayReset(EventText& why) const {
+    if (state_ == State::Fault) return true;
+    why = name() << " is in " << nameOf(state_) << ", not in Fault";
+    return false;
+}
+
+bool Ds402ProcessorAxis::mayChangeMode(EventText& why, std::int64_t mode) const {
+    if (isHoming(why)) return false;
+    if (mode == followMode_ || state_ != State::OperationEnabled) return true;
+    const double demanded = targets_.follows() ? targets_.target().velocity : 0;
+    if (stands() && std::abs(demanded) <= AxisTargets::tolerance) return true;
+    const double fastest = std::max(std::abs(velocity_.get()), std::abs(demanded));
+    why = name() << " moves at " << fastest << ": its mode changes at standstill only";
+    return false;
+}
+
+bool Ds402ProcessorAxis::mayHome(EventText& why) const {
+    if (isHoming(why)) return false;
+    if (!homingNeeded_) {
+        why = name() << " needs no homing: its encoder is absolute";
+        return false;
+    }
+    if (!lead_.hasArrived() || state_ != State::OperationEnabled) {
+        why = inState() << ": enable it first";
+        return false;
+    }
+    if (stands()) return true;
+    why = name() << " moves at " << velocity_.get() << ": homing begins at standstill only";
+    return false;
+}
+
+void Ds402ProcessorAxis::enable() {
+    if (!lead_.hasArrived()) lead_.aimAt(TransitionLead::Aim::Enable);
+}
+
+// A startup resets it itself.
+void Ds402ProcessorAxis::reset() {
+    if (lead_.aim() != TransitionLead::Aim::Enable) lead_.aimAt(TransitionLead::Aim::Reset);
+}
+
+void Ds402ProcessorAxis::quickStop() {
+    homing_.abort(AxisHoming::Result::Stopped);
+    lead_.aimAt(TransitionLead::Aim::QuickStop);
+}
+
+void Ds402ProcessorAxis::changeMode(std::int64_t mode) {
+    if (mode != followMode_) targets_.standAt(position_);
+    followMode_ = mode;
+    driveWaited_ = 0;
+}
+
+}  // namespace cortex::toolkit
