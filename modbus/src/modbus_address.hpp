@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <sys/socket.h>
+
+#include <netinet/in.h>
+
+namespace cortex::modbus {
+
+inline constexpr std::uint16_t defaultPort = 502;
+
+// Where a Modbus/TCP server listens: an IPv4 or IPv6 address or "localhost", and a port. A name is
+// none, as nobody can say how long looking it up takes.
+class ModbusAddress {
+public:
+    // "192.168.1.10", "192.168.1.10:502", "[fe80::1]:502", "localhost:1502". Throws Error.
+    static ModbusAddress parse(std::string_view text);
+
+    std::string text() const;  // with the port
+    const sockaddr* socketAddress() const;
+    socklen_t length() const;
+
+private:
+    std::string host_;
+    sockaddr_in v4_{};
+    sockaddr_in6 v6_{};
+};
+
+}  // namespace cortex::modbus

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// A coupler of XML alone in a real cortex-agent, which finds the plug-in by itself.
+#include "modbus/test_servers.hpp"
+#include "processes/agent_process.hpp"
+#include "support/waiting.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <modbus/modbus.h>
+
+namespace cortex::modbus::test {
+namespace {
+
+using cortex::test::AgentProcess;
+using cortex::test::comesTrue;
+using cortex::test::ModelFolder;
+
+TEST(ModbusAgent, RunsACouplerOfXmlAlone) {
+    ModbusServer server;
+    const ModelFolder folder;
+    const auto system = folder.write(
+        "hall.xml",
+        "<system name='hall'><morphology file='" CORTEX_SOURCE_DIR
+        "/tests/data/modbus-rules.xml'/>"
+        "<cluster name='hall' frequency='100'/>"
+        "<simplex path='/valves' type='DigitalOutputGroup'><set data='count' value='2'/></simplex>"
+        "<simplex path='/levels' type='AnalogueInputGroup'><set data='count' value='4'/></simplex>"
+        "<simplex path='/coupler' type='MyCoupler'>"
+        "<relate rule='digitalOutputs' to='/valves'/><relate rule='analogueInputs' to='/levels'/>"
+        "<set data='address' value='" +
+            server.address() +
+            "'/><set data='coilsAt' value='8'/><set data='inputRegistersAt' value='16'/>"
+            "<set data='responseTimeout' value='0.7'/><set data='lossTime' value='60'/>"
+            "</simplex></system>");
+    server.look([](modbus_mapping_t& map) { std::fill_n(map.tab_bits, 20, 1); });
+
+    AgentProcess agent{folder, system};
+
+    EXPECT_TRUE(agent.prints("plug-in " CORTEX_BINARY_DIR
+                             "/lib/cortex/agent/cortex-modbus.so: loaded for ModbusIoDevice"));
+    EXPECT_TRUE(comesTrue("outputs that are off", [&] {
+        return server.look([](modbus_mapping_t& map) {
+            return map.tab_bits[7] == 1 && map.tab_bits[8] == 0 && map.tab_bits[9] == 0 &&
+                   map.tab_bits[10] == 1;
+        });
+    })) << agent.output();
+    EXPECT_EQ(agent.endInOrder(), 0) << agent.output();
+    const auto requests = server.requests();
+    EXPECT_EQ(hex({requests[0].begin() + 7, requests[0].end()}), "04 00 10 00 04");
+    EXPECT_EQ(hex({requests[1].begin() + 7, requests[1].end()}), "0f 00 08 00 02 01 00");
+}
+
+}  // namespace
+}  // namespace cortex::modbus::test
