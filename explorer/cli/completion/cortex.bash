@@ -4,8 +4,8 @@ _cortex() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
     local verb=${COMP_WORDS[1]} options i
     local network="--domain --interface --peer --discovery-server --security --timeout --json --help"
-    local verbs="agents list show watch call set leases shell events top save restore doctor validate diff"
-    verbs+=" types graph new-type new-system security"
+    local verbs="agents list show watch call set leases shell events top save restore conform doctor"
+    verbs+=" validate diff types graph new-type new-system security"
     COMPREPLY=()
     if ((COMP_CWORD == 1)); then
         mapfile -t COMPREPLY < <(compgen -W "$verbs --help --version" -- "$word")
@@ -17,6 +17,7 @@ _cortex() {
         shell) options="--keep-going ${network/--json /}" ;;
         top) options="--rate --seconds --once --until-gone $network" ;;
         save) options="--force $network" ;;
+        conform) options="--move --speed --home --seconds --junit --force --take $network" ;;
         restore) options="--dry-run --take $network" ;;
         watch) options="--rate --count --csv $network" ;;
         events) options="--follow --severity --csv $network" ;;
@@ -39,7 +40,7 @@ _cortex() {
         mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
         return
     fi
-    if [[ $verb =~ ^(agents|list|show|watch|call|set|events|top|doctor)$ ]]; then
+    if [[ $verb =~ ^(agents|list|show|watch|call|set|events|top|conform|doctor)$ ]]; then
         _cortex_live "$@"
         return
     fi

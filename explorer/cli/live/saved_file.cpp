@@ -47,6 +47,12 @@ std::string savedText(const std::vector<SavedSimplex>& simplexes, const std::str
     return text + "</system>\n";
 }
 
+void refuseExisting(const std::string& file) {
+    std::error_code ignored;
+    if (!fs::exists(fs::symlink_status(file, ignored))) return;
+    throw Failure{No, "'" + file + "' exists; give another name, or --force to replace it"};
+}
+
 void writeSaved(const fs::path& file, const std::string& text) {
     std::error_code ignored;
     const fs::file_status there = fs::symlink_status(file, ignored);

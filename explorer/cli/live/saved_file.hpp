@@ -27,6 +27,8 @@ struct SavedSimplex {
 };
 
 std::string savedText(const std::vector<SavedSimplex>& simplexes, const std::string& title);
+// Throws Failure where there is something of that name, for verbs that replace it by --force alone.
+void refuseExisting(const std::string& file);
 // Takes the place of the file in one step, or leaves it as it was; throws Failure.
 void writeSaved(const std::filesystem::path& file, const std::string& text);
 // Throws Failure with everything that is wrong with the file.

@@ -13,14 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void checkFolder(const fs::path& file) {
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path{"."};
-    std::error_code ignored;
-    if (fs::is_directory(folder, ignored)) return;
-    throw Failure{NotFound, "there is no folder '" + folder.string() +
-                                "'; make it first: mkdir -p " + folder.string()};
-}
-
 void checkAbsent(const fs::path& file) {
     std::error_code ignored;
     if (!fs::exists(fs::symlink_status(file, ignored))) return;
@@ -46,6 +38,14 @@ void writeFile(const NewFile& file, bool force) {
 }
 
 }  // namespace
+
+void checkFolder(const fs::path& file) {
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path{"."};
+    std::error_code ignored;
+    if (fs::is_directory(folder, ignored)) return;
+    throw Failure{NotFound, "there is no folder '" + folder.string() +
+                                "'; make it first: mkdir -p " + folder.string()};
+}
 
 void deliver(const std::vector<NewFile>& files, const NewFileOptions& options) {
     const bool toFiles = !options.output.empty();

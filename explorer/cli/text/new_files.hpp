@@ -21,6 +21,9 @@ struct NewFileOptions {
     bool json = false;
 };
 
+// Throws Failure, with what to do, unless there is the folder of the file.
+void checkFolder(const std::filesystem::path& file);
+
 // Writes the files, or prints them where no output is named. Throws Failure, with none of them
 // touched, if one exists and force is off.
 void deliver(const std::vector<NewFile>& files, const NewFileOptions& options);

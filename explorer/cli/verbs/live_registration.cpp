@@ -226,6 +226,41 @@ Examples:
                    "End when the last agent is gone, after one was there");
 }
 
+void addConform(LiveVerbs& verbs) {
+    const auto conform = std::make_shared<ConformOptions>();
+    CLI::App* verb = verbs.add(
+        "conform", "Test whether devices do what their types promise",
+        R"(Tests each device by the types that it is, on any agent: a simulator or the real machine. What moves
+something or gives it torque is skipped unless --move says how far. All else may lead a device that
+is in Standby to Active and back, which needs control as 'cortex call' does. In the end everything is
+as it was found, also after Ctrl-C. Exit code 1: a test failed.
+Examples:
+  cortex conform /drive
+  cortex conform /drive --move 0.1 --take      by 0.1 rad or m, to and fro
+  cortex conform /a /b --seconds 10 --junit results.xml)",
+        conform, testConformance);
+    verb->add_option("PATH", conform->paths, "Paths of devices")->required()->type_name("");
+    verb->add_option("--move", conform->move,
+                     "Move each axis so far either way, in its unit; otherwise nothing moves")
+        ->type_name("AMPLITUDE")
+        ->check(aNumber)
+        ->check(CLI::Range(1e-6, 1e6));
+    verb->add_option("--speed", conform->speed,
+                     "Greatest share of an axis' greatest speed, 0.25 if not given")
+        ->type_name("SHARE")
+        ->check(aNumber)
+        ->check(CLI::Range(0.01, 1.0));
+    verb->add_flag("--home", conform->home, "With --move: let drives look for their zero position");
+    verb->add_option("--seconds", conform->seconds, "How long to count exchanges, 60 if not given")
+        ->type_name("S")
+        ->check(ofSeconds)
+        ->check(CLI::Range(0.1, 86400.0));
+    verb->add_option("--junit", conform->junit, "Write the results as JUnit XML, too")
+        ->type_name("FILE");
+    verb->add_flag("--force", conform->force, "Replace a file that exists");
+    addTake(*verb, conform->take);
+}
+
 }  // namespace
 
 void addNetwork(CLI::App& verb, NetworkArguments& network,
@@ -270,6 +305,7 @@ void addLiveVerbs(Verbs& all) {
     addEvents(verbs);
     addSave(verbs);
     addTop(verbs);
+    addConform(verbs);
     verbs.add(
         "doctor", "Look whether this machine and network can run CorteX, with remedies",
         R"(Looks at network interfaces, multicast, ports, buffers, clocks, real-time limits and the agents that

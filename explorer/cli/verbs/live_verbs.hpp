@@ -74,6 +74,16 @@ struct RestoreOptions : LiveOptions {
 };
 Exit restoreItems(const RestoreOptions& options);
 
+struct ConformOptions : LiveOptions {
+    std::vector<std::string> paths;  // of devices
+    std::string junit;               // file; empty: none
+    bool force = false, home = false, take = false;
+    std::optional<double> move;  // amplitude in the unit of the axis; none: nothing moves
+    double speed = 0.25;         // share of the axis' greatest speed
+    double seconds = 60;         // in which exchanges are counted
+};
+Exit testConformance(const ConformOptions& options);
+
 struct TopOptions : LiveOptions {
     std::string prefix = "/";
     std::optional<double> rate;     // refreshes per second; none: as fits where they go

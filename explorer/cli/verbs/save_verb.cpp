@@ -4,7 +4,6 @@
 #include "verbs/live_verbs.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <map>
 
@@ -39,19 +38,13 @@ bool hasSettable(const FoundSimplex& simplex) {
                                [](const ItemLayout& each) { return !each.item->settable.empty(); });
 }
 
-void checkAbsent(const std::string& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) return;
-    throw Failure{No, "'" + file + "' exists; give another name, or --force to replace it"};
-}
-
 }  // namespace
 
 // A file is written if anything came; what did not is listed, with exit code 3. Of a path that
 // several agents have, the values of its owner.
 Exit saveItems(const SaveOptions& options) {
     checkPrefix(options.prefix);
-    if (!options.force) checkAbsent(options.file);
+    if (!options.force) refuseExisting(options.file);
     Live live{options.network};
     live.view({options.prefix}, 100);
     live.waitForAll(options.prefix);

@@ -20,7 +20,7 @@ struct Places {
     std::string_view verb;
     std::array<What, 3> kinds;
 };
-constexpr std::array<Places, 16> places{{
+constexpr std::array<Places, 17> places{{
     {"list", {What::Path, What::Nothing, What::Nothing}},
     {"show", {What::Path, What::Nothing, What::Nothing}},
     {"watch", {What::Item, What::Item, What::Item}},
@@ -28,6 +28,7 @@ constexpr std::array<Places, 16> places{{
     {"set", {What::Path, What::Setting, What::Setting}},
     {"events", {What::Path, What::Nothing, What::Nothing}},
     {"top", {What::Path, What::Nothing, What::Nothing}},
+    {"conform", {What::Path, What::Path, What::Path}},
     {"save", {What::File, What::Path, What::Nothing}},
     {"restore", {What::File, What::Nothing, What::Nothing}},
     {"validate", {What::File, What::File, What::File}},

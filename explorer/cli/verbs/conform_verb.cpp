@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "conform/conform.hpp"
+#include "conform/junit.hpp"
+#include "live/saved_file.hpp"
+#include "text/interrupts.hpp"
+#include "text/new_files.hpp"
+#include "text/text_table.hpp"
+#include "verbs/live_verbs.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+namespace cortex::cli {
+namespace {
+
+using conform::DeviceResults;
+using conform::Verdict;
+
+Look lookOf(Verdict verdict) {
+    if (verdict == Verdict::Passed) return Look::Good;
+    return verdict == Verdict::Failed ? Look::Error : Look::Faint;
+}
+
+std::string padded(std::string text, std::size_t width) {
+    text.resize(std::max(width, text.size()), ' ');
+    return text;
+}
+
+// As it comes: some tests take a minute.
+void printResult(const conform::Result& result, bool colours) {
+    constexpr std::size_t verdictWidth = 9, testWidth = 36;
+    const Verdict verdict = result.judgement.verdict;
+    const TextLine line{{padded(name(verdict), verdictWidth), lookOf(verdict)},
+                        {padded(result.test, testWidth)},
+                        {result.judgement.text}};
+    std::string text = rendered(line, anyWidth, colours);
+    text.erase(text.find_last_not_of(' ') + 1);
+    std::cout << text << std::endl;
+}
+
+std::size_t total(const std::vector<DeviceResults>& devices, Verdict verdict) {
+    std::size_t all = 0;
+    for (const DeviceResults& each : devices) all += conform::count(each, verdict);
+    return all;
+}
+
+Json resultJson(const conform::Result& result) {
+    return {{"test", result.test},
+            {"moves", result.moves},
+            {"verdict", name(result.judgement.verdict)},
+            {"text", result.judgement.text},
+            {"seconds", result.seconds}};
+}
+
+Json allJson(const std::vector<DeviceResults>& devices) {
+    Json list = Json::array();
+    for (const DeviceResults& each : devices) {
+        Json results = Json::array();
+        for (const conform::Result& result : each.results) results.push_back(resultJson(result));
+        list.push_back({{"path", each.path},
+                        {"type", each.type},
+                        {"agent", each.agent},
+                        {"results", results}});
+    }
+    return {{"devices", list},
+            {"passed", total(devices, Verdict::Passed)},
+            {"failed", total(devices, Verdict::Failed)},
+            {"skipped", total(devices, Verdict::Skipped)}};
+}
+
+std::int64_t utcNow() {
+    const auto since = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
+}
+
+}  // namespace
+
+// All are looked for before the first is tested. An interrupt puts back what was changed.
+Exit testConformance(const ConformOptions& options) {
+    if (!options.junit.empty()) checkFolder(options.junit);
+    if (!options.junit.empty() && !options.force) refuseExisting(options.junit);
+    const Interrupts interrupts;
+    Live live{options.network};
+    std::vector<conform::Plant> plants;
+    for (const std::string& each : options.paths) plants.push_back(conform::findPlant(live, each));
+    const std::int64_t began = utcNow();
+    const bool colours = coloured(Stream::Output);
+    const conform::Wishes wishes{options.move, options.speed, options.home, options.take,
+                                 options.seconds};
+    std::vector<DeviceResults> devices;
+    for (const conform::Plant& each : plants) {
+        if (!options.json) {
+            std::cout << (devices.empty() ? "" : "\n") << each.path(each.device) << " ("
+                      << each.deviceType().name << " of " << printable(each.agent) << ")"
+                      << std::endl;
+        }
+        devices.push_back(
+            conform::testDevice(live, each, wishes, [&](const conform::Result& result) {
+                if (!options.json) printResult(result, colours);
+            }));
+    }
+    if (!options.junit.empty()) writeSaved(options.junit, conform::junitText(devices, began));
+    if (options.json) {
+        print(allJson(devices));
+    } else {
+        std::cout << '\n'
+                  << total(devices, Verdict::Passed) << " passed, "
+                  << total(devices, Verdict::Failed) << " failed, "
+                  << total(devices, Verdict::Skipped) << " skipped\n";
+    }
+    return total(devices, Verdict::Failed) == 0 ? Yes : No;
+}
+
+}  // namespace cortex::cli
