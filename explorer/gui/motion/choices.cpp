@@ -54,6 +54,13 @@ void Choices::setWhyNot(const QString& why) {
     }
 }
 
+void Choices::rename(const QString& name, const QString& text) {
+    QPushButton* each = button(name);
+    if (each == nullptr || each->text() == text) return;
+    each->setText(text);
+    fit();
+}
+
 QPushButton* Choices::button(const QString& name) const {
     for (const auto& [each, button] : buttons_) {
         if (each == name) return button;

@@ -20,6 +20,7 @@ public:
 
     void show(const QString& chosen);    // its name; another one: none is on
     void setWhyNot(const QString& why);  // they cannot be pressed; empty: they can
+    void rename(const QString& name, const QString& text);
     QPushButton* button(const QString& name) const;
 
 Q_SIGNALS:

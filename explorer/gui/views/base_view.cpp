@@ -29,6 +29,8 @@ namespace {
 
 enum Tab { OwnTab, DataTab, RelationsTab, CommandsTab, TypeTab, TabCount };
 
+constexpr double lowWindow = 240;  // units
+
 constexpr std::array<std::string_view, TabCount> partNames{"own", "data", "relationships",
                                                            "commands", "type"};
 
@@ -49,11 +51,9 @@ BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, 
       relations_{new RelationTable},
       commands_{new CommandList{commands}},
       type_{new TypePage} {
-    auto* header = new QVBoxLayout;
-    header->setContentsMargins(Look::units(4), Look::units(3), Look::units(4), Look::units(2));
-    header->setSpacing(Look::units(2));
-
-    header->addWidget(header_);
+    headerRow_ = new QVBoxLayout;
+    headerRow_->addWidget(header_);
+    makeRoom();
     connect(lifeCycle_, &LifeCycleBar::told, header_, &SimplexHeader::tell);
 
     pages_->setMinimumHeight(1);  // what is above them is never cut
@@ -93,7 +93,7 @@ BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, 
     auto* rows = new QVBoxLayout{content};
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(0);
-    rows->addLayout(header);
+    rows->addLayout(headerRow_);
     rows->addWidget(tabs_);
     rows->addWidget(pages_, 1);
 
@@ -151,6 +151,7 @@ void BaseView::refresh(const std::shared_ptr<const Frame>& frame) {
     }
     types_ = frame->agents[place->agent].structure;
     if (fresh_ || structures_ != frame->structures) refreshTabs(*frame, place);
+    makeRoom();
     header_->refresh(*frame, *place);
     lifeCycle_->refresh(*frame, *place);
     edits_->refresh(frame, *place);
@@ -159,6 +160,21 @@ void BaseView::refresh(const std::shared_ptr<const Frame>& frame) {
     own_->refresh(*frame);
     fresh_ = false;
     structures_ = frame->structures;
+}
+
+bool BaseView::wantsRoom() const {
+    return whole_->currentIndex() == 1 && tabs_->currentIndex() == OwnTab && own_->wantsRoom() &&
+           window()->height() < Look::units(lowWindow);
+}
+
+// In a low window the header leaves a view the height that it needs.
+void BaseView::makeRoom() {
+    const bool brief = wantsRoom();
+    header_->setBrief(brief);
+    lifeCycle_->setBrief(brief);
+    const int side = Look::units(4);
+    headerRow_->setContentsMargins(side, Look::units(brief ? 1.5 : 3), side,
+                                   Look::units(brief ? 1 : 2));
 }
 
 // Nobody is heard, the domain cannot be joined, the path is not there, nothing is chosen.

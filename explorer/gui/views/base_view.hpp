@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+class QLayout;
 class QStackedWidget;
 
 namespace cortex::gui {
@@ -43,6 +44,8 @@ public:
     // The row of data that is chosen, otherwise all numbers of its own type that are not constant.
     std::vector<RecordedItem> chosenItems() const;
     OwnView& own() { return *own_; }  // of a plug-in, where there is one
+    // The view in front needs the height of what else the window shows, and the window is low.
+    bool wantsRoom() const;
 
 Q_SIGNALS:
     void opened(const std::string& path);    // the user followed a link
@@ -57,6 +60,7 @@ private:
     void openType(const std::string& name);
     void refreshTabs(const Frame& frame, std::optional<Place> place);
     void showOwnView(const Type& type, const TypeModel& types);
+    void makeRoom();
     void showNothing(const Frame& frame);
 
     std::string path_;
@@ -67,6 +71,7 @@ private:
     TextLabel *emptyTitle_, *emptyText_;
     LifeCycleBar* lifeCycle_;
     SimplexHeader* header_;
+    QLayout* headerRow_;
     std::shared_ptr<const Structure> types_;  // of what is shown
     QTabBar* tabs_;
     int wanted_ = 0;  // tab that the user chose

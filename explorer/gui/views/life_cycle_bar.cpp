@@ -71,11 +71,11 @@ QSize LifeCycleBar::sizeHint() const {
 
 QSize LifeCycleBar::minimumSizeHint() const { return sizeWith(leastWidth()); }
 
-// Two lines for the reasons, whether they are needed or not, and more where one is longer.
+// Room for the reasons, whether it is needed or not, and more where one is longer.
 void LifeCycleBar::fit() {
     const auto* grid = static_cast<const QGridLayout*>(layout());
     const int width = std::max((this->width() - 2 * grid->horizontalSpacing()) / 3, leastWidth());
-    int height = buttons_.front().reason->heightOfLines(2);
+    int height = buttons_.front().reason->heightOfLines(lines_);
     for (const Button& each : buttons_)
         height = std::max(height, each.reason->heightForWidth(width));
     for (Button& each : buttons_) {

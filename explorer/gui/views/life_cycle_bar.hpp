@@ -19,6 +19,7 @@ public:
     explicit LifeCycleBar(Commands& commands, QWidget* parent = nullptr);
 
     void show(const std::string& path);
+    void setBrief(bool brief) { lines_ = brief ? 1 : 2; }  // from the next refresh on
     void refresh(const Frame& frame, Place place);
 
     QSize sizeHint() const override;         // with room for most reasons
@@ -44,6 +45,7 @@ private:
     Commands& commands_;
     std::string path_;
     QString told_;
+    int lines_ = 2;  // of each reason
     std::array<Button, 3> buttons_;
 };
 

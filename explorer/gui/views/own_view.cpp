@@ -77,6 +77,10 @@ bool OwnView::settled() {
     return settled;
 }
 
+bool OwnView::wantsRoom() const {
+    return view_ != nullptr && view_->property("cortexRoom").toBool();
+}
+
 QJsonObject OwnView::saved() {
     QJsonObject saved;
     if (view_ != nullptr) guarded([&] { saved = view_->saved(); });

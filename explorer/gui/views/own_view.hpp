@@ -23,6 +23,7 @@ public:
     void refresh(const Frame& frame);  // does nothing while it is hidden
     bool select(const std::string& path);
     bool settled();
+    bool wantsRoom() const;  // it needs the height that the window can spare
     const std::vector<explorer::Watch>& watches() const { return watches_; }
     const ViewType* type() const { return type_; }
     QJsonObject saved();

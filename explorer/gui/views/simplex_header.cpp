@@ -95,18 +95,18 @@ void SimplexHeader::layOut() {
     rows_ = new QVBoxLayout{this};
     rows_->setContentsMargins(0, 0, 0, 0);
     rows_->setSpacing(Look::units(2));
-    auto* states = new QVBoxLayout;
-    states->setSpacing(0);
+    states_ = new QVBoxLayout;
+    states_->setSpacing(0);
     title_ = new QVBoxLayout;
     title_->setSpacing(0);
     for (QWidget* each : {state_, since_, outcome_}) title_->addWidget(each, 0, Qt::AlignLeft);
-    states->addLayout(title_);
-    states->addWidget(fault_);
-    states->addStretch(1);
+    states_->addLayout(title_);
+    states_->addWidget(fault_);
+    states_->addStretch(1);
     auto* state = new QHBoxLayout;
     state->setSpacing(Look::units(3));
     state->addWidget(mark_, 0, Qt::AlignTop);
-    state->addLayout(states, 1);
+    state->addLayout(states_, 1);
     first_ = new QHBoxLayout;
     first_->addLayout(state, 1);
     first_->addWidget(lifeCycle_, 0, Qt::AlignTop);
@@ -136,6 +136,16 @@ void SimplexHeader::layOut() {
     rows_->addLayout(notices);
 }
 
+// Below the state, beside the buttons of the life cycle; or in a row of their own.
+void SimplexHeader::placeNames(bool beside) {
+    QBoxLayout* place = beside ? states_ : rows_;
+    auto* now = static_cast<QBoxLayout*>(second_->parent());
+    if (now == place) return;
+    now->removeItem(second_);
+    second_->setParent(nullptr);
+    place->insertLayout(1, second_);
+}
+
 // What gives way in a small window: ancestors and description, then the agent and the buttons take
 // lines of their own. State, quality and buttons are never cut.
 void SimplexHeader::fit() {
@@ -145,21 +155,31 @@ void SimplexHeader::fit() {
     const int state = wide(*mark_) + std::max(wide(*state_), wide(*since_));
     const bool one = state + wide(*lifeCycle_) <= width();
     first_->setDirection(one ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
-    title_->setDirection(one ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
-    title_->setSpacing(one ? 0 : Look::units(3));
-    title_->setAlignment(since_, one ? Qt::AlignLeft : Qt::AlignLeft | Qt::AlignVCenter);
-    title_->setAlignment(outcome_, one ? Qt::AlignLeft : Qt::AlignRight | Qt::AlignVCenter);
-    first_->setAlignment(lifeCycle_, one ? Qt::AlignTop : Qt::AlignTop | Qt::AlignLeft);
     const int names = wide(*path_) + wide(*type_);
+    if (brief_) task_->hide();  // it stands among the data
     const int facts = wide(*agent_) + wide(*quality_) + wide(*task_);
+    const int room = width() - wide(*lifeCycle_) - wide(*mark_);  // beside the buttons
+    const int line = wide(*state_) + wide(*since_);
+    const bool brief = brief_ && one && std::max({names, facts, line}) <= room;
+    placeNames(brief);
+    // What became of a command has no line of its own then: it takes the place of the time.
+    if (brief && !outcome_->text().isEmpty() && line + wide(*outcome_) > room) since_->hide();
+    const bool below = one && !brief;
+    title_->setDirection(below ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+    title_->setSpacing(below ? 0 : Look::units(3));
+    title_->setStretchFactor(outcome_, brief ? 1 : 0);
+    title_->setAlignment(since_, below ? Qt::AlignLeft : Qt::AlignLeft | Qt::AlignVCenter);
+    title_->setAlignment(outcome_, below ? Qt::AlignLeft : Qt::AlignRight | Qt::AlignVCenter);
+    first_->setAlignment(lifeCycle_, one ? Qt::AlignTop : Qt::AlignTop | Qt::AlignLeft);
     const int chain = ancestors_->sizeHint().width() + Look::units(3);
-    const bool beside = names + facts <= width();
+    const bool beside = names + facts <= (brief ? room : width());
     second_->setDirection(beside ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
-    const bool low = window()->height() < Look::units(175);
+    const bool low = brief_ || window()->height() < Look::units(175);
     ancestors_->setVisible(!low && names + chain + (beside ? facts : 0) <= width());
     description_->setVisible(!low && !description_->text().isEmpty());
     const int gap = Look::units(low ? 0.5 : 2);
-    if (rows_->spacing() != gap) rows_->setSpacing(gap), first_->setSpacing(gap);
+    if (rows_->spacing() != gap) rows_->setSpacing(gap);
+    first_->setSpacing(brief ? Look::units(4) : gap);
     // A request to lay it out is lost while it is hidden, and then none is made any more.
     layout()->activate();
 }

@@ -23,7 +23,8 @@ public:
 
     void show(const Frame& frame, Place place);  // another simplex, or its structure has changed
     void refresh(const Frame& frame, Place place);
-    void tell(const QString& outcome);  // what became of a command of the life cycle
+    void setBrief(bool brief) { brief_ = brief; }  // from the next refresh on
+    void tell(const QString& outcome);             // what became of a command of the life cycle
 
 Q_SIGNALS:
     void dismissed(const std::string& agent);  // a lost agent may go
@@ -35,6 +36,7 @@ protected:
 private:
     void layOut();
     void fit();
+    void placeNames(bool beside);
     void refreshState(const Frame& frame, Place place);
     void refreshFault(const Frame& frame, Place place);
     void refreshAgent(const Frame& frame, Place place);
@@ -49,8 +51,10 @@ private:
     TextLabel *agent_, *quality_, *task_;
     TextLabel *description_, *why_, *notice_;
     QPushButton* dismiss_;
-    QBoxLayout *title_ = nullptr, *first_ = nullptr, *second_ = nullptr, *rows_ = nullptr;
+    QBoxLayout *title_ = nullptr, *first_ = nullptr, *second_ = nullptr, *rows_ = nullptr,
+               *states_ = nullptr;
     std::string agentName_;
+    bool brief_ = false;
 };
 
 }  // namespace cortex::gui

@@ -2,6 +2,7 @@
 #include "window/arrangement.hpp"
 
 #include "style/look.hpp"
+#include "window/workspace.hpp"
 
 #include <QCoreApplication>
 #include <QJsonArray>
@@ -131,18 +132,22 @@ void Arrangement::leaveTree() {
 
 void Arrangement::toggleEvents() {
     bool& shown = narrow_ ? eventsWhileNarrow_ : events_.shown;
-    shown = !shown;
+    shown = roomMade_ || !shown;
+    roomMade_ = false;
     showEvents();
     if (!narrow_) changed_();
 }
 
-void Arrangement::giveWay(bool elsewhere) {
-    eventsElsewhere_ = elsewhere;
+void Arrangement::giveWay(const Workspace& views) {
+    eventsElsewhere_ = views.shows(QStringLiteral("events"));
+    const bool room = views.wantsRoom();
+    if (room != roomWanted_) roomMade_ = room;
+    roomWanted_ = room;
     showEvents();
 }
 
 bool Arrangement::seesEvents() const {
-    return (narrow_ ? eventsWhileNarrow_ : events_.shown) && !eventsElsewhere_;
+    return (narrow_ ? eventsWhileNarrow_ : events_.shown) && !eventsElsewhere_ && !roomMade_;
 }
 
 void Arrangement::showEvents() { show(events_, seesEvents()); }

@@ -11,6 +11,8 @@ class QWidget;
 
 namespace cortex::gui {
 
+class Workspace;
+
 // How the tree, the views and the events share the window. Where it is narrow, the views have all
 // of it: the tree is a button before the tabs, and takes their place.
 class Arrangement {
@@ -26,7 +28,9 @@ public:
     void showTree();
     void leaveTree();  // something was chosen in it: the views have the place again
     void toggleEvents();
-    void giveWay(bool elsewhere);  // the events do while a tab shows them
+    // The events do, while a tab shows them, and where a view needs the room unless the user wants
+    // to see them all the same.
+    void giveWay(const Workspace& views);
     // For a layout. What was restored before the window has its size is there when it has.
     QJsonObject saved() const;
     bool wantsEvents() const { return events_.shown; }
@@ -56,6 +60,7 @@ private:
     QPushButton* treeButton_;
     bool narrow_ = false, fitted_ = false;
     bool eventsWhileNarrow_ = false, eventsElsewhere_ = false;
+    bool roomWanted_ = false, roomMade_ = false;
 };
 
 }  // namespace cortex::gui

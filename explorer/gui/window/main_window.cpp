@@ -249,7 +249,7 @@ void MainWindow::restore(const QJsonObject& saved) {
     setLocalTime(saved[QStringLiteral("localTime")].toBool());
 }
 
-void MainWindow::showStrip() { arrangement_.giveWay(workspace_->shows(QStringLiteral("events"))); }
+void MainWindow::showStrip() { arrangement_.giveWay(*workspace_); }
 
 void MainWindow::openManual() {
     const QString section = ManualView::sectionOf(QApplication::focusWidget());

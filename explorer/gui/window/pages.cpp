@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window/pages.hpp"
 
+#include "drive/drive_views.hpp"
 #include "motion/motion_views.hpp"
 #include "plots/plot_view.hpp"
 #include "plugin/plugins.hpp"
@@ -197,6 +198,7 @@ std::pair<Page, QString> makePage(const PageParts& parts, const QString& kind,
 
 Page makeSimplexPage(const PageParts& parts, const std::string& path) {
     Plugins::all().add(explorer::motionViews());
+    Plugins::all().add(explorer::driveViews());
     auto* view = new BaseView{parts.commands, parts.host, parts.times};
     view->show(path);
     QObject::connect(view, &BaseView::opened, view, parts.open);

@@ -290,6 +290,14 @@ bool Workspace::shows(const QString& kind) const {
     });
 }
 
+bool Workspace::wantsRoom() const {
+    return std::ranges::any_of(panes_, [](const Pane* each) {
+        const auto* view =
+            each->current() ? qobject_cast<BaseView*>(each->current()->widget) : nullptr;
+        return view != nullptr && view->wantsRoom();
+    });
+}
+
 bool Workspace::settled() const {
     return std::ranges::all_of(findChildren<OwnView*>(),
                                [](OwnView* each) { return each->settled(); });
@@ -315,6 +323,9 @@ void Workspace::refresh(const std::shared_ptr<const Frame>& frame) {
             if (page.refresh && (page.goesOn || tab == each->chosen())) page.refresh(frame);
         }
     }
+    if (wantsRoom() == wantedRoom_) return;
+    wantedRoom_ = !wantedRoom_;
+    Q_EMIT currentChanged();
 }
 
 void Workspace::restyle() {

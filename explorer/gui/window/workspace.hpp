@@ -45,6 +45,7 @@ public:
     std::string path() const;   // of the simplex in front; empty: another kind of view is
     UnitsOfView units() const;  // of the view in front
     bool shows(const QString& kind) const;
+    bool wantsRoom() const;  // a view in front needs the height of the strip of events
     bool settled() const;
     Wanted wanted(const Frame& frame) const;  // by all pages that are seen
     void refresh(const std::shared_ptr<const Frame>& frame);
@@ -78,6 +79,7 @@ private:
     QSplitter* sides_;
     std::array<Pane*, 2> panes_;
     std::size_t active_ = 0;
+    bool wantedRoom_ = false;
     struct Closed {
         std::size_t pane = 0;
         QJsonObject page;
