@@ -26,6 +26,12 @@ mount -t proc proc "$1/proc"; mount --rbind /dev "$1/dev"
 run() { LC_ALL=C.UTF-8 HOME=/root DEBIAN_FRONTEND=noninteractive chroot "$1" "${@:2}"; }
 '
 
+echo 'only the package for Modbus needs libmodbus'
+for deb in "$debs"/*.deb; do
+    [[ $(dpkg-deb -f "$deb" Depends) != *libmodbus* ]] || dpkg-deb -f "$deb" Package
+done >"$work/needModbus"
+[[ $(<"$work/needModbus") == cortex-modbus ]] || { cat "$work/needModbus"; exit 1; }
+
 echo 'installed with what they depend on'
 mkdir "$root/debs"
 cp "$debs"/*.deb "$root/debs"
@@ -37,7 +43,7 @@ inside "$prepare"'
 
 echo 'each program and verb has its page'
 verbs=$(chroot "$root" cortex --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z-]*\) .*/cortex-\1/p')
-for page in cortex{,-agent,-explorer} $verbs; do
+for page in cortex{,-agent,-ds402-sim,-explorer} $verbs; do
     [[ -f $root/usr/share/man/man1/$page.1.gz ]] || { echo "error: no page $page.1"; exit 1; }
 done
 

@@ -9,6 +9,8 @@ set(exact_comms-network-tests Wire.* WireOf*)
 set(exact_cs-tests *SafeDemands* *SafeStop* *DemandsAtRest.* *DemandQuality.* *AcceptedDemands.*
     *HandOver*)
 set(exact_determinism-tests Shards/*)
+set(exact_drives-tests *)
+set(exact_modbus-sim-tests FramesOfSim.* InboxOfSim.* RegistersOfSim.* Ds402Registers.*)
 set(exact_text-tests *)
 
 # `whole`: dear. They do a share of their work in the gate, and all of it in stage `long`, with
@@ -30,6 +32,7 @@ set(long_integration-tests LbrTeleop/FlippedJoint.*/1 LbrTeleop/FlippedJoint.*/2
 set(long_process-tests ExternallyTriggeredAgent.EndsWithFour*)
 
 # `timed`: they judge time, or need CPUs that nobody else uses, or take them all with a priority.
+set(timed_cli-drive-tests *)
 set(timed_cli-live-tests CortexShipped.* CortexControl.TakeCommands*
     CortexControl.AnInterruptReleases*)
 set(timed_comms-network-tests Leases.AreRenewed*)

@@ -63,10 +63,31 @@ built e04_device
 "$outside/e04_device/build/simulated_oven" "$outside/oven" &
 oven=$!
 "$prefix/bin/cortex-agent" "$outside/e04_device/oven.xml" --offline --startup --seconds 1 \
-    --plugin "$outside/e04_device/build/oven.so" --set "/oven.port=$outside/oven" \
+    --plugin "$outside/e04_device/build/oven.so" --set "/oven.address=$outside/oven" \
     >"$outside/bakery" 2>&1
 kill "$oven"
 grep 'all active simplexes are started' "$outside/bakery"
+
+echo 'only the plug-in for Modbus needs libmodbus, and the agent finds it'
+needsModbus() { [[ $(readelf -d "$1") == *NEEDED*libmodbus* ]]; }
+for file in "$prefix"/lib/libcortex*.so "$prefix"/bin/cortex-agent "$prefix"/bin/cortex; do
+    if needsModbus "$file"; then echo "error: $file needs libmodbus" >&2; exit 1; fi
+done
+needsModbus "$prefix/lib/cortex/agent/cortex-modbus.so"
+cat >"$outside/coupler.xml" <<'END'
+<system name="coupler">
+  <morphology file="devices-morphology.xml"/>
+  <cluster name="coupler" frequency="100"/>
+  <simplex path="/lamps" type="DigitalOutputGroup"/>
+  <simplex path="/coupler" type="ModbusIoDevice">
+    <relate rule="digitalOutputs" to="/lamps"/>
+    <set data="address" value="127.0.0.1:1"/>
+    <set data="coilsAt" value="0"/>
+  </simplex>
+</system>
+END
+"$prefix/bin/cortex-agent" "$outside/coupler.xml" --offline --seconds 0.1 --log /dev/null 2>&1 |
+    grep "plug-in $prefix/lib/cortex/agent/cortex-modbus.so: loaded for ModbusIoDevice"
 
 echo 'the examples of XML alone run as they are installed'
 for plant in gantry jog_axis lbr_teleop; do

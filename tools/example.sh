@@ -3,8 +3,9 @@
 # `./run example [NAME [--seconds N] [--secure] [ARG…]]`: the agents of a plant in examples/, and
 # `cortex top` to look at them; where there is a display, the window too. They use the loopback
 # interface and a domain of their own, so that they meet nothing else. Other ARGs go to all agents.
-# A plant is a folder with a file `agents`: a line for each agent's system file, then one with
-# `show`, the path that the window shows first. The programs are in build/release/bin.
+# A plant is a folder with a file `agents`: a line for each agent's system file, perhaps one with
+# `simulator`, the item of an address and the options of cortex-ds402-sim, which listens there, then
+# one with `show`, the path that the window shows first. The programs are in build/release/bin.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -23,18 +24,35 @@ list() {
     printf './run example NAME runs one; its page is examples/NAME/README.md.\n'
 }
 
-# readAgents PLANT: fills names (of the agents) and view (the path to show).
+# readAgents PLANT: fills names (of the agents), view (the path to show) and simulator.
 readAgents() {
-    local first second
+    local first rest
     [[ -f examples/$1/agents ]] ||
         die "there is no plant '$1' in examples/; './run example' lists them"
-    while read -r first second; do
-        if [[ $first == show ]]; then view=$second; else names+=("${first%.xml}"); fi
+    while read -r first rest; do
+        case $first in
+            show) view=$rest ;;
+            simulator) read -ra simulator <<<"$rest" ;;
+            *) names+=("${first%.xml}") ;;
+        esac
     done <"examples/$1/agents"
+}
+
+# Starts the simulator of the plant, which ends after the agents; fills address for them.
+startSimulator() {
+    local file=$folder/simulator.txt line
+    "$bin/cortex-ds402-sim" "${simulator[@]:1}" >"$file" 2>&1 &
+    simulatorPid=$!
+    trap 'kill "$simulatorPid" 2>/dev/null || true' EXIT
+    until [[ -s $file ]] || ! kill -0 "$simulatorPid" 2>/dev/null; do sleep 0.05; done
+    read -r line <"$file" || true
+    [[ $line == *" listening on "* ]] || die "no simulator: ${line:-it ended}"
+    address=(--set "${simulator[0]}=${line##* }")
 }
 
 runPlant() {
     local plant=$1 seconds=20 secure="" names=() view=/ folder=build/examples/$1
+    local simulator=() address=()
     local bin=build/release/bin name look="" pids ended="" window=""
     shift
     readAgents "$plant"
@@ -60,12 +78,13 @@ runPlant() {
    cortex list          # what there is${secure:+; without a folder of this authority, nobody is seen}
    cortex-explorer      # the same in a window
    what to try: examples/$plant/README.md"
+    if ((${#simulator[@]})); then startSimulator; fi
     pids=()
     trap 'ended=signal' INT TERM HUP
     for name in "${names[@]}"; do
         "$bin/cortex-agent" "examples/$plant/$name.xml" --startup --interface lo \
             --files "$folder/files" \
-            ${secure:+--security "$folder/$name"} --log "$folder/$name.log" "$@" \
+            ${secure:+--security "$folder/$name"} --log "$folder/$name.log" "${address[@]}" "$@" \
             >"$folder/$name.txt" 2>&1 &
         pids+=($!)
     done

@@ -17,8 +17,8 @@ ROOMS = {
     "core": ["base", "types", "files", "tables", "commands", "model", "agent"],
     "comms": ["wire", "security", "peers", "rtps", "dds", "agent", "mirror", "leases"],
     "cs": ["threads", "clocks", "tasks", "loop", "hook_checker"],
-    "explorer/cli": ["text", "models", "live", "doctor", "verbs"],
-    "explorer/gui": ["style", "record", "session", "model", "plugin", "motion", "widgets", "plots", "views",
+    "explorer/cli": ["text", "models", "live", "doctor", "conform", "verbs"],
+    "explorer/gui": ["style", "record", "session", "model", "plugin", "motion", "drive", "widgets", "plots", "views",
                      "window", "program"],
 }
 # Rooms of one folder that do not know each other, although one stands before the other.
@@ -26,6 +26,7 @@ STRANGERS = {
     ("comms", "mirror"): ["agent"],
     # A view that a user could have written sees what is installed.
     ("explorer/gui", "motion"): ["style", "record", "session", "model"],
+    ("explorer/gui", "drive"): ["style", "record", "session", "model"],
 }
 # A folder may include its own headers and those of these folders.
 LAYERS = {
@@ -33,10 +34,12 @@ LAYERS = {
     "cs": ["core"],
     "comms": ["core"],
     "mechanics": [],
-    "toolkit": ["core", "cs", "comms", "mechanics"],
+    "drives": [],
+    "toolkit": ["core", "cs", "comms", "mechanics", "drives"],
+    "modbus": ["core", "cs", "toolkit", "drives"],
     "explorer/common": ["core", "comms"],
     "explorer/cli": ["core", "comms", "explorer/common"],
-    "explorer/gui": ["core", "comms", "explorer/common"],
+    "explorer/gui": ["core", "comms", "drives", "explorer/common"],
 }
 # The room of each header that other folders see (include/ and internal/).
 PUBLIC = {
@@ -61,7 +64,7 @@ PUBLIC = {
     "explorer/gui": {"plugin": "now small_plot theme view"},
     "cs": {
         "clocks": "trigger_source",
-        "tasks": "io_exchange simplex_cs slow_work",
+        "tasks": "io_exchange newest simplex_cs slow_work",
         "loop": "cluster_cs testing",
         "hook_checker": "hook_checker",
     },

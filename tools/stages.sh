@@ -107,12 +107,15 @@ measureCoverage() {
     local status=0
     say "counting covered lines of libraries and programs"
     gcovr --gcov-executable "llvm-cov-19 gcov" --filter core/ --filter cs/ --filter comms/ \
-        --filter mechanics/ --filter toolkit/ --filter explorer/ --exclude ".*_autogen.*" \
+        --filter mechanics/ --filter drives/ --filter modbus/ --filter toolkit/ \
+        --filter explorer/ --exclude ".*_autogen.*" \
         -j "$jobs" --json build/coverage/coverage.json build/coverage >"$logs/gcovr.log" 2>&1 ||
         { cat "$logs/gcovr.log"; return 1; }
     requireCoverage 90 core cs || status=$?
     requireCoverage 85 comms || status=$?
     requireCoverage 85 mechanics || status=$?
+    requireCoverage 85 drives || status=$?
+    requireCoverage 85 modbus/src modbus/drive modbus/sim || status=$?
     requireCoverage 85 toolkit/src toolkit/include || status=$?
     requireCoverage 80 toolkit/agent || status=$?
     requireCoverage 80 explorer/cli || status=$?

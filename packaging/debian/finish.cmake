@@ -7,7 +7,7 @@ foreach(component ${CPACK_COMPONENTS_ALL})
     set(root ${CPACK_TEMPORARY_DIRECTORY}/${component}/usr)
 
     # In /usr the loader finds libcortex by itself.
-    file(GLOB binaries ${root}/bin/* ${root}/lib/*.so.*.*.*)
+    file(GLOB binaries ${root}/bin/* ${root}/lib/*.so.*.*.* ${root}/lib/cortex/agent/*.so)
     foreach(binary ${binaries})
         if(NOT IS_SYMLINK ${binary})
             file(RPATH_REMOVE FILE ${binary})

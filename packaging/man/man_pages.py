@@ -21,6 +21,8 @@ ENVIRONMENT = {
     "CORTEX_TIMEOUT": "Seconds to wait for agents, as with --timeout.",
     "CORTEX_PATH": "Folders, separated by colons, in which files of models are looked for before "
                    "the installed ones.",
+    "CORTEX_AGENT_PLUGINS": "Folders, separated by colons, with plug-ins that are loaded for "
+                            "the types that they list.",
 }
 HEADINGS = {"Positionals": "ARGUMENTS", "Options": "OPTIONS", "Subcommands": "COMMANDS",
             "Examples": "EXAMPLES"}
