@@ -13,6 +13,8 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSlider>
+#include <set>
+#include <string>
 
 #include <QtTest/QTest>
 
@@ -175,6 +177,8 @@ protected:
                const std::function<bool()>& hasMoved) {
         return comes([&] {
             const QString seen = said();
+            const int at = seen.indexOf("Ended: ");
+            if (at >= 0) endings.insert(seen.mid(at, 120).toStdString());
             if (seen.contains("Ended: the window hung") || seen.contains("did not answer")) {
                 release();
                 press();
@@ -200,6 +204,7 @@ protected:
     }
 
     std::string jogger = "/jog";
+    std::set<std::string> endings;  // of what was pressed in vain
     Session session;
     MainWindow window;
 };

@@ -24,7 +24,7 @@ protected:
         ASSERT_TRUE(moves([this] { QTest::mouseRelease(&button(0, 1), Qt::LeftButton); },
                           [this] { QTest::mousePress(&button(0, 1), Qt::LeftButton); },
                           [this] { return number("/arm/axes/1", "position") > 0.01; }))
-            << said().toStdString();
+            << said().toStdString() << testing::PrintToString(endings);
         ASSERT_TRUE(said().contains(
             "Jogging A1 at +0.100 rad/s. It brakes when you let go, after 0.25 s at the latest."))
             << said().toStdString();
@@ -36,7 +36,7 @@ protected:
         ASSERT_TRUE(moves([this] { QTest::keyRelease(&rows(), Qt::Key_Left); },
                           [this] { QTest::keyPress(&rows(), Qt::Key_Left); },
                           [this] { return number("/arm/axes/1", "position") < -0.01; }))
-            << said().toStdString();
+            << said().toStdString() << testing::PrintToString(endings);
     }
 };
 

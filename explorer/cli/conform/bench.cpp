@@ -18,6 +18,7 @@ using Milliseconds = std::chrono::milliseconds;
 
 constexpr Milliseconds look{20};
 constexpr int clearings = 6;
+constexpr int attempts = 4;
 constexpr double betweenClearings = 0.5;  // s
 constexpr Milliseconds backTime{3000};    // for the answer to a command that puts something back
 
@@ -164,15 +165,32 @@ void Bench::set(std::uint32_t simplex, const std::string& item, Value wanted) {
     const DataItem* data = plant_.type(simplex).findData(item);
     const bool always = data != nullptr && data->settable.has(State::Active);
     (always ? undo_ : undoAtRest_).push_back([=, this] {
-        quietly(simplex, "set", {{item, *before}});
+        const std::string why = order(simplex, "set", {{item, *before}});
+        if (!why.empty()) left_.push_back(what + ": " + why);
     });
 }
 
-void Bench::quietly(std::uint32_t simplex, const std::string& command, const Arguments& arguments) {
-    try {
-        live_.mirror().call(plant_.path(simplex), command, arguments, backTime);
-    } catch (const Error&) {  // it is gone, and putBack() says so
+// What expired was never done, so it is asked for again.
+std::string Bench::order(std::uint32_t simplex, const std::string& command,
+                         const Arguments& arguments) {
+    std::string why;
+    for (int i = 0; i < attempts; ++i) {
+        try {
+            const comms::CommandAnswer answer =
+                live_.mirror().call(plant_.path(simplex), command, arguments, backTime);
+            if (answer.done()) return {};
+            why = answer.text();
+            if (answer.outcome != Outcome::Expired) return why;
+        } catch (const Error& error) {
+            return error.what();
+        }
     }
+    return why;
+}
+
+// Where it is gone, putBack() says so.
+void Bench::quietly(std::uint32_t simplex, const std::string& command, const Arguments& arguments) {
+    order(simplex, command, arguments);
 }
 
 // A fault clears only once its cause is gone, which may take a while.
@@ -194,7 +212,7 @@ void Bench::leadBack(std::uint32_t simplex, State to) {
 // their ramps while the device still follows.
 std::string Bench::putBack() {
     if (!recording_) return {};
-    std::vector<std::string> left;
+    left_.clear();
     recording_->setInterruptible(false);
     try {
         for (; !undo_.empty(); undo_.pop_back()) undo_.back()();
@@ -206,18 +224,18 @@ std::string Bench::putBack() {
         for (; !undoAtRest_.empty(); undoAtRest_.pop_back()) undoAtRest_.back()();
         for (const auto& [simplex, before] : found_) {
             if (now().stateOf(simplex) == before) continue;
-            left.push_back(plant_.path(simplex) + " was " + name(before) + " and is now " +
-                           stateText(now(), simplex));
+            left_.push_back(plant_.path(simplex) + " was " + name(before) + " and is now " +
+                            stateText(now(), simplex));
         }
     } catch (const std::exception& error) {
-        left.emplace_back(error.what());
+        left_.emplace_back(error.what());
     }
     recording_->setInterruptible(true);
     undo_.clear();
     undoAtRest_.clear();
     changed_.clear();
     found_.clear();
-    return left.empty() ? "" : "it could not be put back: " + joined(left, "; ");
+    return left_.empty() ? "" : "it could not be put back: " + joined(left_, "; ");
 }
 
 }  // namespace cortex::cli::conform

@@ -78,6 +78,9 @@ public:
 private:
     void takeControl();
     void leadBack(std::uint32_t simplex, State to);
+    // Why it was not done; "": it was.
+    std::string order(std::uint32_t simplex, const std::string& command,
+                      const Arguments& arguments);
 
     Live& live_;
     Plant plant_;
@@ -87,6 +90,7 @@ private:
     std::vector<std::pair<std::uint32_t, State>> found_;  // in the order in which they were led
     std::set<std::pair<std::uint32_t, std::string>> changed_;  // items that are put back
     std::vector<std::function<void()>> undo_, undoAtRest_;
+    std::vector<std::string> left_;  // what putBack() could not put back
 };
 
 std::string stateText(const Sample& sample, std::uint32_t simplex);
