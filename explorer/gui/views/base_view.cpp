@@ -173,8 +173,8 @@ void BaseView::makeRoom() {
     header_->setBrief(brief);
     lifeCycle_->setBrief(brief);
     const int side = Look::units(4);
-    headerRow_->setContentsMargins(side, Look::units(brief ? 1.5 : 3), side,
-                                   Look::units(brief ? 1 : 2));
+    const QMargins margins{side, Look::units(brief ? 1.5 : 3), side, Look::units(brief ? 1 : 2)};
+    if (headerRow_->contentsMargins() != margins) headerRow_->setContentsMargins(margins);
 }
 
 // Nobody is heard, the domain cannot be joined, the path is not there, nothing is chosen.

@@ -179,7 +179,8 @@ void SimplexHeader::fit() {
     description_->setVisible(!low && !description_->text().isEmpty());
     const int gap = Look::units(low ? 0.5 : 2);
     if (rows_->spacing() != gap) rows_->setSpacing(gap);
-    first_->setSpacing(brief ? Look::units(4) : gap);
+    const int between = brief ? Look::units(4) : gap;
+    if (first_->spacing() != between) first_->setSpacing(between);
     // A request to lay it out is lost while it is hidden, and then none is made any more.
     layout()->activate();
 }
