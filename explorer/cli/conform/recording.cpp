@@ -12,10 +12,10 @@ namespace cortex::cli::conform {
 
 // It lives for as long as the mirror has its listener, and does nothing once it is closed.
 struct Recording::Shared {
-    explicit Shared(const Plant& plant)
-        : plant{&plant},
-          layout{std::make_shared<const SampleLayout>(*plant.structure, plant.followed())},
-          honesty{plant} {}
+    explicit Shared(const Plant& whole)
+        : plant{&whole},
+          layout{std::make_shared<const SampleLayout>(*whole.structure, whole.followed())},
+          honesty{whole} {}
 
     void take(const std::string& agent, const comms::AgentImage& image) {
         const std::scoped_lock lock{mutex};

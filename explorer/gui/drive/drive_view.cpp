@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drive/drive_view.hpp"
 
+#include "cortex/explorer/theme.hpp"
+
 #include "drive/axis_band.hpp"
 #include "drive/link_row.hpp"
 #include "drive/transitions.hpp"

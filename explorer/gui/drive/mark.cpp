@@ -4,6 +4,7 @@
 #include "cortex/explorer/theme.hpp"
 
 #include <QPainter>
+#include <QPalette>
 #include <QPolygonF>
 
 namespace cortex::explorer {
