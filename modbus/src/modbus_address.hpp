@@ -17,7 +17,7 @@ inline constexpr std::uint16_t defaultPort = 502;
 // none, as nobody can say how long looking it up takes.
 class ModbusAddress {
 public:
-    // "192.168.1.10", "192.168.1.10:502", "[fe80::1]:502", "localhost:1502". Throws Error.
+    // "192.168.1.10", "192.168.1.10:502", "[2001:db8::7]:502", "localhost:1502". Throws Error.
     static ModbusAddress parse(std::string_view text);
 
     std::string text() const;  // with the port

@@ -116,7 +116,8 @@ TEST(CortexConform, MovesNothingUnlessItIsToldHowFar) {
         }
     }
     EXPECT_EQ(moving, 9U);
-    EXPECT_TRUE(saidOf(all, "/arm", "states are reached").starts_with("passed"));
+    EXPECT_EQ(saidOf(all, "/arm", "states are reached"),
+              "skipped: its startup may move it or give it power; --move AMPLITUDE allows that");
     EXPECT_EQ(plant.number("/arm/is", "position"), 0);
 }
 
@@ -129,8 +130,9 @@ TEST(CortexConform, LeavesADeviceThatIsActiveAsItIs) {
     const json still = conform({"/arm"}, 0);
     const json moved = conform({"/arm", "--move", "0.2", "--speed", "1"}, 0);
 
-    EXPECT_TRUE(contains(saidOf(still, "/arm", "states are reached"),
+    EXPECT_TRUE(contains(saidOf(moved, "/arm", "states are reached"),
                          "skipped: it is Active, and somebody may need it"));
+    EXPECT_TRUE(contains(saidOf(still, "/arm", "states are reached"), "may move it"));
     EXPECT_TRUE(saidOf(moved, "/arm", "it arrives").starts_with("passed")) << moved.dump(1);
     EXPECT_EQ(plant.state("/arm"), State::Active);
     EXPECT_EQ(plant.state("/arm/move"), State::Active);
@@ -292,13 +294,13 @@ TEST(CortexConform, PutsEverythingBackWhereItIsInterrupted) {
 }
 
 TEST_F(CortexControl, ConformSaysThatItNeedsControlAndTakesIt) {
-    const json without = conform({"/drive"}, 0);
+    const json without = conform({"/drive", "--move", "0.1"}, 0);
     const std::string said = saidOf(without, "/drive", "states are reached");
     EXPECT_TRUE(contains(said, "skipped: startup of /drive was not allowed: control is required"))
         << said;
     EXPECT_TRUE(contains(said, "--take takes control")) << said;
 
-    const json with = conform({"/drive", "--take"}, 0);
+    const json with = conform({"/drive", "--move", "0.1", "--take"}, 0);
 
     EXPECT_TRUE(saidOf(with, "/drive", "states are reached").starts_with("passed")) << with.dump(1);
     EXPECT_TRUE(leases().empty()) << leases();

@@ -15,6 +15,7 @@
 #include <QSlider>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <QtTest/QTest>
 
@@ -134,6 +135,13 @@ protected:
             return row(0).field().isVisible() ? named("Copy current").isEnabled()
                                               : button(0, 1).isEnabled();
         })) << said().toStdString();
+        QPoint place;
+        int looks = 0;  // a press while the view still settles would end at once
+        ASSERT_TRUE(comes([&] {
+            const QPoint now = row(0).mapToGlobal({});
+            looks = now == std::exchange(place, now) ? looks + 1 : 0;
+            return looks > 5;
+        }));
     }
     explorer::View& view() { return *window.current()->findChild<explorer::View*>(); }
     AxisRows& rows() { return *view().findChild<AxisRows*>(); }

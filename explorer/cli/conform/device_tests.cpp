@@ -102,9 +102,16 @@ Judgement observationsGood(Bench& bench, std::size_t) {
                   "' since when");
 }
 
+// Of a drive of CiA 402 the processor gives torque, and its own startup waits for the link alone.
+bool mayMoveAtStartup(const Plant& plant) {
+    return !plant.demands.empty() && !plant.deviceIs("Ds402Device");
+}
+
 Judgement states(Bench& bench, std::size_t) {
     const std::uint32_t device = bench.plant().device;
     const std::string& path = bench.plant().path(device);
+    if (mayMoveAtStartup(bench.plant()) && !bench.wishes().move)
+        return skipped("its startup may move it or give it power; --move AMPLITUDE allows that");
     if (bench.now().stateOf(device) == State::Active) {
         return skipped("it is Active, and somebody may need it; shut it down first: cortex call " +
                        path + " shutdown");

@@ -232,8 +232,8 @@ void addConform(LiveVerbs& verbs) {
         "conform", "Test whether devices do what their types promise",
         R"(Tests each device by the types that it is, on any agent: a simulator or the real machine. What moves
 something or gives it torque is skipped unless --move says how far. All else may lead a device that
-is in Standby to Active and back, which needs control as 'cortex call' does. In the end everything is
-as it was found, also after Ctrl-C. Exit code 1: a test failed.
+only measures, or that is a drive of CiA 402, to Active and back, which needs control as 'cortex call'
+does. In the end everything is as it was found, also after Ctrl-C. Exit code 1: a test failed.
 Examples:
   cortex conform /drive
   cortex conform /drive --move 0.1 --take      by 0.1 rad or m, to and fro
