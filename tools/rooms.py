@@ -51,7 +51,7 @@ PUBLIC = {
         "files": "model_files type_description",
         "tables": "archive command_sentence event event_fold event_sinks image image_pool structure tables",
         "commands": "argument_checks command loop_thread mailbox proposed_settings record",
-        "model": "header_hash make_structure registry simplex simplex_tree validation",
+        "model": "crossed_pairs header_hash make_structure registry simplex simplex_tree validation",
         "agent": "agent command_exchange framework_item loopback program_interface transport",
     },
     "comms": {

@@ -8,6 +8,8 @@
 #include "model/remedies.hpp"
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
 #include <set>
 
 #include <dlfcn.h>
@@ -36,8 +38,12 @@ void setFloatingPointMode([[maybe_unused]] unsigned mode) {
 #endif
 }
 
-// Loading runs the constructors of the plug-in and of what it links.
+// Loading runs the constructors of the plug-in and of what it links. To open a pipe would wait for
+// a writer.
 Library open(const std::filesystem::path& file, const std::string& who) {
+    std::error_code error;
+    if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+        throw Error{who + "cannot be loaded: it is no file; name the shared object itself"};
     const unsigned before = floatingPointMode();
     Library library{dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL),
                     &dlclose};
@@ -70,6 +76,13 @@ void checkBuild(const PluginDescription& plugin, const std::string& who) {
         throw Error{who + "has plug-in ABI " + std::to_string(plugin.abi) + ", this program has " +
                     std::to_string(pluginAbi) + "; build it against this version of cortex"};
     }
+    const std::array<const char*, 3> texts{plugin.compiler, plugin.standardLibrary, plugin.headers};
+    if (std::ranges::find(texts, nullptr) != texts.end() || plugin.types == nullptr ||
+        plugin.registerClasses == nullptr) {
+        throw Error{who +
+                    "describes itself with null pointers; let CORTEX_PLUGIN(…) make its "
+                    "cortexPlugin()"};
+    }
     const std::string compiler = plugin.compiler, library = plugin.standardLibrary;
     if (compiler != compilerOfThisBuild()) {
         throw Error{who + "was built with compiler '" + compiler + "', this program with '" +
@@ -93,7 +106,7 @@ std::set<std::string> checkTypes(const PluginDescription& plugin, const TypeMode
     for (const auto* each = plugin.types; each->name != nullptr; ++each) {
         stated.insert(each->name);
         const Type* type = types.find(each->name);
-        const std::string hash = each->hash;
+        const std::string hash = each->hash != nullptr ? each->hash : "";
         if (type == nullptr || hash.empty()) continue;
         const std::string ours = toHex(typeHash(*type));
         if (hash == ours) continue;

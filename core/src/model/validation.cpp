@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/validation.hpp"
 
+#include "cortex/core/crossed_pairs.hpp"
 #include "cortex/core/error.hpp"
 #include "cortex/core/make_structure.hpp"
 #include "cortex/core/system_findings.hpp"
 
 #include "model/remedies.hpp"
 #include "model/validation_checks.hpp"
+
+#include <array>
 
 namespace cortex {
 namespace {
@@ -94,6 +97,7 @@ Report validate(const SimplexTree& tree) {
         checkSettings(checked, *simplex);
         checkAboveOther(checked, *simplex);
     }
+    checkCrossedPairs(tree, std::array{&tree}, report);
     checkFlow(checked);
     return report;
 }

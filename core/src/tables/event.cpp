@@ -258,22 +258,31 @@ bool EventLog::handOut(std::int64_t upTo) {
     addDrops();
     {
         const std::lock_guard outsideLock{mutex_};
-        std::ranges::move(outside_, std::back_inserter(batch_));
-        outside_.clear();
+        std::swap(outside_, batchOutside_);
     }
-    const std::int64_t offset = utcOffset();
-    for (Event& each : batch_) {
-        each.wallClock =
-            each.clock > 0 ? each.clock + offset : structure_->epoch * 1000 + each.time;
-        handOn(each);
-    }
-    if (batch_.empty()) fold_->pass(monotonicNow());
-    const bool any = !batch_.empty();
+    handOnInOrder();
+    const bool any = !batch_.empty() || !batchOutside_.empty();
+    if (!any) fold_->pass(monotonicNow());
     batch_.clear();
+    batchOutside_.clear();
     return any;
 }
 
-void EventLog::handOn(Event& event) {
+// Those of the cycles keep their order. Those from outside come where their time is.
+void EventLog::handOnInOrder() {
+    const std::int64_t offset = utcOffset();
+    auto outside = batchOutside_.begin();
+    for (Event& each : batch_) {
+        for (; outside != batchOutside_.end() && outside->clock < each.clock; ++outside)
+            handOn(*outside, offset);
+        handOn(each, offset);
+    }
+    for (; outside != batchOutside_.end(); ++outside) handOn(*outside, offset);
+}
+
+void EventLog::handOn(Event& event, std::int64_t offset) {
+    event.wallClock =
+        event.clock > 0 ? event.clock + offset : structure_->epoch * 1000 + event.time;
     event.number = ++number_;
     if (event.repeatable != 0) event.repeatable += repeatable_++;  // those lost before it count
     for (const Sink& sink : sinks_) sink(event, *structure_);

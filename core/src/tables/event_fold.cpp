@@ -10,6 +10,8 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace cortex {
 namespace {
@@ -74,8 +76,9 @@ void EventFold::take(const Event& event, std::int64_t now) {
     handOn(event);
 }
 
-// A second in which nothing was counted ends the folding.
+// A second in which nothing was counted ends the folding. Of those that are told, the oldest first.
 void EventFold::pass(std::int64_t now) {
+    std::vector<Folded*> due;
     for (auto each = open_.begin(); each != open_.end();) {
         Folded& folded = each->second;
         if (now < std::numeric_limits<std::int64_t>::max() && now - folded.since < foldedFor) {
@@ -86,10 +89,16 @@ void EventFold::pass(std::int64_t now) {
             each = open_.erase(each);
             continue;
         }
-        tell(folded);
-        folded.since = now;
-        folded.count = 0;
+        due.push_back(&folded);
         ++each;
+    }
+    std::ranges::sort(due, {}, [](const Folded* each) {
+        return std::pair{each->last.wallClock, each->last.number};
+    });
+    for (Folded* each : due) {
+        tell(*each);
+        each->since = now;
+        each->count = 0;
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/remote_paths.hpp"
 
+#include "cortex/core/crossed_pairs.hpp"
 #include "cortex/core/nearest_names.hpp"
 #include "cortex/core/structure.hpp"
 #include "cortex/core/transport.hpp"
@@ -75,6 +76,15 @@ void checkRelation(Model& reader, const Simplex& owner, const Simplex::Relation&
         addMissing(reader, owner, relation, systems);
 }
 
+// A drive of one agent that a processor of another one leads.
+void checkPairs(Model& writer, std::span<Model* const> systems) {
+    std::vector<const SimplexTree*> others;
+    for (const Model* each : systems) {
+        if (each != &writer) others.push_back(each->tree.get());
+    }
+    checkCrossedPairs(*writer.tree, others, writer.report);
+}
+
 }  // namespace
 
 void checkRemotePaths(std::span<Model* const> systems) {
@@ -86,6 +96,7 @@ void checkRemotePaths(std::span<Model* const> systems) {
                 if (relation.remote && !again) checkRelation(*reader, *simplex, relation, systems);
             }
         }
+        checkPairs(*reader, systems);
     }
 }
 

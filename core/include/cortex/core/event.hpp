@@ -151,7 +151,8 @@ public:
 private:
     void run();
     bool handOut(std::int64_t upTo);  // whether there were any
-    void handOn(Event& event);
+    void handOnInOrder();
+    void handOn(Event& event, std::int64_t offset);  // of UTC, ns
     void addDrops();
     void countLost() CORTEX_REALTIME;
 
@@ -168,7 +169,7 @@ private:
     bool stopping_ = false;
 
     std::mutex merging_;  // guards the rest, and the rings' consumer end
-    std::vector<Event> batch_;
+    std::vector<Event> batch_, batchOutside_;
     std::unique_ptr<EventFold> fold_;
     std::uint64_t number_ = 0, repeatable_ = 0;
     std::uint64_t reportedDrops_ = 0;
