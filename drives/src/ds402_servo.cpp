@@ -219,10 +219,19 @@ void Ds402Drive::move(double effort) noexcept {
     const double velocity = std::abs(pushed) <= lost ? 0 : pushed - std::copysign(lost, pushed);
     motor_.velocity = disturbance.blockedRotor ? 0 : finite(velocity, 0);
     const double place = motor_.position + motor_.velocity * t;
-    motor_.position = finite(std::clamp(place, axis_.negativeSwitch - axis_.overtravel,
-                                        axis_.positiveSwitch + axis_.overtravel),
-                             motor_.position);
+    motor_.position = finite(betweenStops(place), motor_.position);
     if (motor_.position != place) motor_.velocity = 0;
+}
+
+// The place that the ends of the axis leave of this one, and what is in its way.
+double Ds402Drive::betweenStops(double place) const noexcept {
+    const double min = disturbance.stopMin, max = disturbance.stopMax;
+    if (min <= max && (min != 0 || max != 0)) {
+        if (place < motor_.position) place = std::max(place, std::min(min, motor_.position));
+        if (place > motor_.position) place = std::min(place, std::max(max, motor_.position));
+    }
+    return std::clamp(place, axis_.negativeSwitch - axis_.overtravel,
+                      axis_.positiveSwitch + axis_.overtravel);
 }
 
 }  // namespace cortex::drives

@@ -68,6 +68,8 @@ public:
         if (in(0, 4999) == 0) drive.powerCycle();
         if (in(0, 199) == 0) drive.disturbance.load = in(-40, 40);
         if (in(0, 499) == 0) drive.disturbance.blockedRotor = in(0, 2) == 0;
+        if (in(0, 499) == 0) drive.disturbance.stopMin = in(-30, 0) / 10.0;
+        if (in(0, 499) == 0) drive.disturbance.stopMax = in(-1, 30) / 10.0;
         if (in(0, 499) == 0) drive.disturbance.stuckOn = static_cast<std::uint32_t>(in(0, 7));
         Ds402Parameters parameters = drive.parameters();
         parameters.quickStopOption = in(0, 8);

@@ -135,6 +135,43 @@ TEST(Ds402Drive, DoesNotWindUpWhileItsRotorIsBlocked) {
     EXPECT_LT(fastest, 2.2);
 }
 
+TEST(Ds402Drive, DoesNotPassAStopAndPressesHarderTheLongerItWouldGoOn) {
+    DriveRig rig;
+    rig.drive.disturbance.stopMin = -0.02;
+    rig.drive.disturbance.stopMax = 0.03;
+    rig.enable(Ds402Mode::CyclicPosition);
+    for (const double way : {-1.0, 1.0}) {
+        const double stop = way < 0 ? -0.02 : 0.03;
+        rig.in.position = stop + way * 0.001;
+        rig.run(0.2);
+        const double pressed = rig.out().effort;
+        rig.run(0.2);
+        EXPECT_NEAR(rig.out().position, stop, 1e-5);
+        EXPECT_EQ(rig.out().velocity, 0);
+        EXPECT_GT(way * pressed, 0);
+        EXPECT_GT(way * rig.out().effort, way * pressed) << "its speed controller integrates";
+    }
+    rig.in.position = 0;
+    rig.run(1);
+    EXPECT_NEAR(rig.out().position, 0, 1e-4);
+}
+
+TEST(Ds402Drive, IsNotMovedByAStopThatItIsBeyondAndOnlyComesBack) {
+    DriveRig rig;
+    rig.enable(Ds402Mode::CyclicPosition);
+    rig.drive.disturbance.stopMin = 0.02;
+    rig.drive.disturbance.stopMax = 0.1;
+    rig.in.position = -0.01;
+    rig.run(0.2);
+    EXPECT_NEAR(rig.out().position, 0, 1e-5);
+    rig.in.position = 0.05;
+    rig.run(1);
+    EXPECT_NEAR(rig.out().position, 0.05, 1e-4);
+    rig.in.position = 0;
+    rig.run(0.2);
+    EXPECT_NEAR(rig.out().position, 0.02, 1e-5);
+}
+
 TEST(Ds402Drive, HaltsOnTheRampOfItsOptionAndGoesOn) {
     for (const auto& [option, ramp] : {std::pair{1, 0.5}, std::pair{2, 0.1}}) {
         Ds402Parameters parameters;

@@ -231,6 +231,7 @@ TEST(ATipThatIsJogged, BeginsAgainOnlyWithANewPressOnceItWasEnded) {
         ASSERT_EQ(press(0.05), Outcome::Done);
         ASSERT_EQ(arm.call("/jog", restarts ? "shutdown" : "halt").outcome, Outcome::Done);
         if (restarts) {
+            for (int i = 0; i < 300; ++i) arm.stepJudged();  // longer than an order lasts
             EXPECT_EQ(arm.call("/jog", "startup").outcome, Outcome::Done);
         }
         for (int i = 0; i < 8; ++i) EXPECT_EQ(press(0.05), Outcome::Rejected) << i;

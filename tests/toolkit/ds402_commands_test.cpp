@@ -101,6 +101,7 @@ TEST_F(DriveCommands, EnableRejectsAnAxisInFaultWithTheWayOut) {
 TEST_F(DriveCommands, ResetFaultIsRejectedWithoutAFaultAndTellsWhereTheCauseStands) {
     begin();
     expectRejected(ask("resetFault", 1), "axis 1 is in Operation enabled, not in Fault");
+    expectRejected(ask("resetFault", 0), "axis 1 is in Operation enabled, not in Fault; axis 2 is");
     plant().axis(2).model.fail(0x3210, true);
     plant().step(200);
     EXPECT_EQ(plant().state("/it"), State::Fault);

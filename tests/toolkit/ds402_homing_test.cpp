@@ -113,6 +113,7 @@ TEST_F(Homing, LetsAControllerGoOnFromWhereTheAxisIsThen) {
 
     EXPECT_GT(plant().get<double>("/drive/a", "position"), before + 0.1);
     EXPECT_EQ(plant().state("/it"), State::Active);
+    EXPECT_FALSE(plant().hasTold("waits")) << plant().told();
 }
 
 TEST_F(Homing, OfAllAxesIsOneAfterTheOther) {
@@ -130,7 +131,7 @@ TEST_F(Homing, FailsWithTheDrivesReason) {
     const CallResult answer = home(1);
 
     EXPECT_EQ(answer.outcome, Outcome::Failed);
-    EXPECT_EQ(answer.why, "axis 1: the drive says that homing has failed");
+    EXPECT_EQ(answer.why, "axis 1: the drive says that homing has failed, by method 3");
     EXPECT_EQ(mode(), 8);
     EXPECT_FALSE(homed(1));
     EXPECT_TRUE(plant().enabled(1));
@@ -222,6 +223,16 @@ TEST_F(Homing, IsRejectedWhereNothingNeedsIt) {
     EXPECT_EQ(home(1).why, "axis 1 needs no homing: its encoder is absolute");
     EXPECT_EQ(home(0).why, "no axis needs homing: their encoders are absolute");
     EXPECT_EQ(mode(), 8);
+}
+
+TEST_F(Homing, IsRejectedByAMethodThatNoDriveHas) {
+    for (const std::int64_t method : {0, 15, 32, 38, 99}) {
+        begin(method);
+        EXPECT_EQ(home(1).why, "axis 1: homingMethod " + std::to_string(method) +
+                                   " is none of CiA 402; the drives of CorteX have 1, 2, 17, 18, "
+                                   "33, 34, 35, 37");
+        EXPECT_EQ(mode(), 8);
+    }
 }
 
 TEST_F(Homing, IsRejectedForAnAxisThatIsNotEnabled) {

@@ -17,8 +17,9 @@ using Names = std::vector<std::string>;
 
 constexpr double periodOfDrives = 1e-3;  // s
 
-drives::Ds402Axis mechanismOf(bool homingNeeded) {
+drives::Ds402Axis mechanismOf(bool homingNeeded, double start) {
     drives::Ds402Axis axis;
+    axis.startPosition = start;
     axis.selfTestTime = 0.02;
     axis.negativeSwitch = -0.05;
     axis.absoluteEncoder = !homingNeeded;
@@ -26,10 +27,11 @@ drives::Ds402Axis mechanismOf(bool homingNeeded) {
 }
 
 // What it says of itself as an axis.
-std::int64_t statusOf(Ds402State state, bool homing, bool homed, bool moves) {
+std::int64_t statusOf(Ds402State state, bool homing, bool homed, bool waits, bool moves) {
     if (state == Ds402State::Fault || state == Ds402State::FaultReactionActive) return 4;
     if (state != Ds402State::OperationEnabled) return 6;
     if (homing || !homed) return 5;
+    if (waits) return 6;
     return moves ? 2 : 1;
 }
 
@@ -39,6 +41,7 @@ void ScriptedDrive::populate() {
     on<&ScriptedDrive::reconnect>("reconnect");
     const auto demands = inputs("demands");
     const auto observations = outputs("observations");
+    const auto start = array<const double>("startPosition");
     for (std::size_t i = 0; i < demands.size(); ++i) {
         const InputSimplex& in = demands[i];
         const OutputSimplex& out = observations[i];
@@ -54,6 +57,7 @@ void ScriptedDrive::populate() {
                           in.data<double>("homingSpeed"),
                           in.data<double>("homingCreep"),
                           in.data<double>("homeOffset"),
+                          in.data<bool>("waits"),
                           out.data<std::int64_t>("statusWord"),
                           out.data<std::int64_t>("driveState"),
                           out.data<std::int64_t>("modeDisplay"),
@@ -65,7 +69,7 @@ void ScriptedDrive::populate() {
                           out.data<double>("followingError"),
                           out.data<bool>("homed"),
                           needed});
-        axes_.push_back({Ds402Drive{mechanismOf(needed), {}}});
+        axes_.push_back({Ds402Drive{mechanismOf(needed, start[i]), {}}});
     }
 }
 
@@ -120,7 +124,7 @@ void ScriptedDrive::tell(std::size_t place) {
     out.errorCode = outputs.errorCode;
     const bool homed = outputs.homed || !wires.homingNeeded;
     const bool moves = std::abs(outputs.velocity) > 1e-3;
-    out.status = statusOf(told, outputs.modeDisplay == 6, homed, moves);
+    out.status = statusOf(told, outputs.modeDisplay == 6, homed, wires.waits, moves);
     out.observed = outputs.position;
     out.observedVelocity = outputs.velocity;
     out.observedEffort = outputs.effort;
@@ -163,7 +167,7 @@ void buildDrives(Rig& rig, const PlantOptions& options) {
     rig.add("/safety", "SafetyStatus");
     rig.add("/panel", "SimulatedSafetyPanel", {{"status", "/safety"}});
     rig.add("/it", "Ds402AxisProcessor", processor, {{"quickStopOption", options.quickStopOption}});
-    rig.add("/bus", "ScriptedDrive", drive);
+    rig.add("/bus", "ScriptedDrive", drive, {{"startPosition", options.startPosition}});
     if (!options.jogs) return;
     rig.add("/jog", "JogController",
             {{"axes", "/drive/a"},

@@ -40,6 +40,7 @@ private:
     struct Wires {
         Data<const std::int64_t> controlWord, mode, method, quickStopOption, faultReactionOption;
         Data<const double> position, velocity, effort, speed, creep, offset;
+        Data<const bool> waits;
         Data<std::int64_t> statusWord, driveState, modeDisplay, errorCode, status;
         Data<double> observed, observedVelocity, observedEffort, followingError;
         Data<bool> homed;
@@ -65,6 +66,7 @@ struct PlantOptions {
     bool homingNeeded = false;
     bool jogs = false;  // a JogController writes the demands; otherwise the test
     std::string quickStopOption = "2 2";
+    std::string startPosition = "0 0";
 };
 
 // Two axes with a processor, at 1 kHz. The demands are written by the test, or by `/jog`.
@@ -93,6 +95,9 @@ public:
     bool enabled(int number) { return driveState(number) == drives::Ds402State::OperationEnabled; }
     // Numbers of the transitions that the processor has seen of an axis while this runs.
     std::vector<std::int64_t> transitionsWhile(int number, std::int64_t cycles);
+    std::int64_t status(int number) {  // of an axis, as its controllers see it
+        return get<std::int64_t>(number == 1 ? "/drive/a" : "/drive/b", "status");
+    }
     // Texts of all events so far, a line each.
     std::string told();
     bool hasTold(const std::string& words) { return told().find(words) != std::string::npos; }

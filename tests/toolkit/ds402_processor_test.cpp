@@ -295,8 +295,9 @@ TEST_F(ProcessorOfDrives, DoesNotWaitForeverForADriveThatIsLostInItsShutdown) {
 
     expectState(State::Fault);
     EXPECT_EQ(plant_.faultCode(), 31);
-    EXPECT_TRUE(plant_.hasTold("axis 1: wanted Quick stop active, is Operation enabled"))
+    EXPECT_TRUE(plant_.hasTold("axis 1: its drive is lost; it was in Operation enabled"))
         << plant_.told();
+    EXPECT_EQ(plant_.item("refusedCount", 1), 0) << "it has refused nothing";
 }
 
 TEST_F(ProcessorOfDrives, StopsAxesWhoseDemandsAreLostAndStaysActive) {

@@ -174,6 +174,23 @@ TEST(Ds402SimulatedDrive, FeelsLoadAndFrictionAsSharesOfItsRatedEffort) {
     EXPECT_EQ(rig.get<std::int64_t>("/axis", "errorCode"), 0x8611) << "it cannot hold that";
 }
 
+TEST(Ds402SimulatedDrive, StopsHardWhereSomethingIsInItsWay) {
+    WordedDrive rig{{}, {{"homingNeeded", "false"}}};
+    rig.enable();
+    const auto stop = [&](double least, double greatest) {
+        return rig.call("/it", "set", {{"stops", Value{std::vector{least, greatest, 0.0, 0.0}}}});
+    };
+    EXPECT_TRUE(stop(-1, 0.02).done());
+    rig.demand("position", 0.021);
+    rig.step(200);
+    EXPECT_NEAR(rig.position(), 0.02, 1e-5);
+    EXPECT_GT(rig.get<double>("/axis", "effort"), 1);
+    EXPECT_TRUE(stop(0, 0).done());
+    rig.step(500);
+    EXPECT_NEAR(rig.position(), 0.021, 1e-4);
+    EXPECT_EQ(stop(0.2, 0.1).why, "stops: the least place of an axis is above its greatest");
+}
+
 TEST(Ds402SimulatedDrive, StaysAsItIsSetWhereAWishIsWrongAndSaysSoOnce) {
     WordedDrive rig;
     rig.enable(6);
@@ -196,6 +213,16 @@ TEST(Ds402SimulatedDrive, DoesNotStartWithSettingsThatCannotBe) {
                   std::string::npos)
             << error.what();
     }
+}
+
+TEST(Ds402SimulatedDrive, SaysDisabledWhileItsAxisIsHeld) {
+    WordedDrive rig{{}, {{"homingNeeded", "false"}}};
+    rig.enable();
+    EXPECT_EQ(rig.get<std::int64_t>("/axis", "status"), 1);
+    rig.tree().at("/demand").data<bool>("waits") = true;
+    rig.step(2);
+    EXPECT_EQ(rig.driveState(), Ds402State::OperationEnabled);
+    EXPECT_EQ(rig.get<std::int64_t>("/axis", "status"), 6);
 }
 
 TEST(Ds402SimulatedDrive, StandsFirstWhereItIsToStart) {

@@ -148,6 +148,39 @@ TEST_F(JogControllerTest, JogsAgainOnlyWithANewPressOnceTheJogWasEnded) {
     EXPECT_GT(velocity(), 0);
 }
 
+// A window repeats its order until it has heard of the end, and one may be on its way that long.
+TEST_F(JogControllerTest, OrdersThatCameWhileItWasNotActiveCountAsRepeatedOnceItIs) {
+    const auto press = [&] {
+        const Outcome outcome = call("jog", {{"axis", std::int64_t{1}}, {"velocity", 0.5}}).outcome;
+        last_ = velocity();
+        return outcome;
+    };
+    ASSERT_EQ(press(), Outcome::Done);
+    step(50);
+    ASSERT_TRUE(call("shutdown").done());
+    for (int i = 0; i < 5; ++i) {  // longer than an order lasts
+        EXPECT_EQ(press(), Outcome::Rejected) << i;
+        step(80);
+    }
+    ASSERT_TRUE(call("startup").done());
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_EQ(press(), Outcome::Rejected) << i;
+        EXPECT_FALSE(rig_.get<bool>("/jog", "jogging")) << i;
+        step(240);
+    }
+    step(20);  // let go
+    EXPECT_EQ(press(), Outcome::Done);
+}
+
+TEST_F(JogControllerTest, AJogThatRanOutLongAgoIsNoReasonToRefuseOneAfterAStartup) {
+    jog(0.5, 100);
+    step(600);
+    ASSERT_TRUE(call("shutdown").done());
+    ASSERT_TRUE(call("startup").done());
+    step();
+    EXPECT_EQ(call("jog", {{"axis", std::int64_t{1}}, {"velocity", 0.5}}).outcome, Outcome::Done);
+}
+
 TEST_F(JogControllerTest, GoesToAPositionAndSaysWhenItIsThere) {
     ASSERT_TRUE(setMode(Position).done());
     set("demandPosition", -1.5);

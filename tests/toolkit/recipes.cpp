@@ -185,6 +185,17 @@ const std::vector<Recipe> allRecipes{
          if (cycle != runUp - 50 - startedIn(past)) return;
          rig.cluster().send("/it", "jog", {{"axis", std::int64_t{1}}, {"velocity", past}});
      }},
+    // It presses something that gives way less in another past.
+    {"GripperController", true,
+     [](Rig& rig) {
+         for (const char* path : {"/axis", "/demand"}) rig.add(path, "SlideGripperAxis");
+         rig.add("/it", "GripperController", {{"axes", "/axis"}, {"demands", "/demand"}});
+     },
+     [](Rig& rig, std::int64_t cycle, double past) {
+         write(rig, "/axis", "position", 0.05);
+         write(rig, "/axis", "effort", cycle < runUp ? -20 * past : -20);
+         if (cycle == 150) rig.cluster().send("/it", "grip", {{"force", 15 * past}});
+     }},
     {"CartesianJogController", true,
      [](Rig& rig) {
          rig.add("/lbr", "KukaLbr");
@@ -264,6 +275,15 @@ const std::vector<Recipe> allRecipes{
          write(rig, "/demand", "position", 0.05 * std::sin(angleAt(cycle, past)));
          if (cycle == runUp - 30) rig.cluster().send("/it", "jumpEncoder", {{"by", 0.01 * past}});
      }},
+    {"FieldbusMonitor", false,
+     [](Rig& rig) {
+         rig.add("/axis", "Ds402RotaryObservation");
+         rig.add("/demand", "Ds402RotaryModification");
+         rig.add("/drive", "Ds402SimulatedDrive",
+                 {{"demands", "/demand"}, {"observations", "/axis"}});
+         rig.add("/it", "FieldbusMonitor", {{"devices", "/drive"}});
+     },
+     feedNothing},
     {"HandsetPlayback", true,
      [](Rig& rig) {
          rig.add("/hand", "CartesianObservation");

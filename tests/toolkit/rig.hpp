@@ -12,15 +12,16 @@
 
 namespace cortex::toolkit::test {
 
-// A few simplexes of the shipped types, and axes with all limits, at 1 kHz.
+// A few simplexes of the shipped types, and axes with all limits, at 1 kHz unless told otherwise.
 class Rig : public cs::TestPlant {
 public:
-    explicit Rig(const std::string& name = "rig")
+    explicit Rig(const std::string& name = "rig",
+                 std::chrono::milliseconds cycle = std::chrono::milliseconds{1})
         : TestPlant{{CORTEX_SOURCE_DIR "/ontology/cortex-morphology.xml",
                      CORTEX_SOURCE_DIR "/tests/data/ds402-types.xml",
                      CORTEX_SOURCE_DIR "/tests/data/limited-axes.xml",
                      CORTEX_SOURCE_DIR "/tests/data/process-types.xml"},
-                    std::chrono::milliseconds{1},
+                    cycle,
                     name} {
         addClasses(classes());
     }

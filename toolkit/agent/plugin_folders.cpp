@@ -22,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view packageWord = "package ";
+constexpr std::string_view byteOrderMark = "\xef\xbb\xbf";
 
 std::string printed(const fs::path& path) { return printable(path.string()); }
 
@@ -84,11 +85,24 @@ bool isName(std::string_view text) {
     });
 }
 
+// As the ontology writes it; "": it has no such type, or just that.
+std::string writtenOtherwise(const std::string& name, const TypeModel& types) {
+    const auto isSame = [](unsigned char one, unsigned char other) {
+        return std::tolower(one) == std::tolower(other);
+    };
+    if (types.find(name) != nullptr) return {};
+    for (const auto& [each, type] : types.types()) {
+        if (std::ranges::equal(each, name, isSame)) return each;
+    }
+    return {};
+}
+
 // "" or what is wrong.
-std::string readList(Offer& offer) {
+std::string readList(Offer& offer, const TypeModel& types) {
     std::ifstream in{offer.list};
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
+        if (number == 1 && line.starts_with(byteOrderMark)) line.erase(0, byteOrderMark.size());
         const std::string text = trimmed(line);
         const bool isPackage = text.starts_with(packageWord);
         const std::string name = isPackage ? trimmed(text.substr(packageWord.size())) : text;
@@ -96,6 +110,11 @@ std::string readList(Offer& offer) {
         if (!isName(name)) {
             return printed(offer.list) + ":" + std::to_string(number) + ": '" + printable(text) +
                    "' is no name of a type; write one in each line, or 'package NAME'";
+        }
+        const std::string right = isPackage ? "" : writtenOtherwise(name, types);
+        if (!right.empty()) {
+            return printed(offer.list) + ":" + std::to_string(number) + ": type " + name +
+                   " is written " + right + " in the ontology; write it so";
         }
         if (isPackage)
             offer.package = name;
@@ -112,18 +131,28 @@ std::string readList(Offer& offer) {
 
 using Found = std::map<std::string, std::vector<std::shared_ptr<Offer>>>;  // by type
 
-// Of one folder, in the order of names.
-Found look(const fs::path& folder, std::vector<std::string>& problems) {
+// In the order of names. To open what is no file, such as a pipe, might wait without an end.
+std::vector<fs::path> filesOf(const fs::path& folder, std::vector<std::string>& problems) {
     std::error_code error;
     std::vector<fs::path> files;
     for (fs::directory_iterator each{folder, error}, end; !error && each != end;
          each.increment(error)) {
-        if (each->is_regular_file(error)) files.push_back(each->path());
+        const fs::path& path = each->path();
+        if (each->is_regular_file(error))
+            files.push_back(path);
+        else if (path.extension() == ".types" || path.extension() == ".so")
+            problems.push_back(printed(path) + " is no file; put one there, or take it away");
         error.clear();
     }
     std::ranges::sort(files);
+    return files;
+}
+
+// Of one folder.
+Found look(const fs::path& folder, const TypeModel& types, std::vector<std::string>& problems) {
+    std::error_code error;
     Found found;
-    for (const fs::path& file : files) {
+    for (const fs::path& file : filesOf(folder, problems)) {
         fs::path other = file;
         if (file.extension() == ".so" && !fs::exists(other.replace_extension(".types"), error)) {
             problems.push_back(printed(file) + " is never loaded: " + printed(other.filename()) +
@@ -133,7 +162,7 @@ Found look(const fs::path& folder, std::vector<std::string>& problems) {
         auto offer = std::make_shared<Offer>();
         offer->list = file;
         offer->library = other.replace_extension(".so");
-        if (std::string wrong = readList(*offer); !wrong.empty()) {
+        if (std::string wrong = readList(*offer, types); !wrong.empty()) {
             problems.push_back(std::move(wrong));
             continue;
         }
@@ -188,7 +217,7 @@ std::vector<std::string> offerPlugins(const std::shared_ptr<const TypeModel>& ty
                                       ClassRegistry& registry) {
     std::vector<std::string> problems;
     for (const fs::path& folder : pluginFolders(problems)) {
-        for (const auto& [type, offers] : look(folder, problems)) {
+        for (const auto& [type, offers] : look(folder, *types, problems)) {
             if (registry.find(type) != nullptr) continue;
             registry.addFactory(type, factoryFor(type, offers, types));
         }

@@ -42,6 +42,7 @@ AxisLimits::AxisLimits(const Type& axis) {
     speed = std::min(magnitude(velocity), rate(position));
     acceleration = std::min(magnitude(change), rate(velocity));
     jerk = rate(change);
+    effort = magnitude(axis.findData("effort"));
 }
 
 mechanics::MotionLimits AxisLimits::motion(double speedShare) const {

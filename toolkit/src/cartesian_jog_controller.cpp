@@ -306,8 +306,8 @@ bool CartesianJogController::stepAll(const JointVector& velocities, double secon
 // Also where it is not Active, or an axis is lost: then move() is not called.
 void CartesianJogController::loopStart(const Tick&) { jogging_ = false; }
 
-void CartesianJogController::takeOver(const Tick&) {
-    held_.end(now_);
+void CartesianJogController::takeOver(const Tick& tick) {
+    held_.end(now_, tick.nominalTime);
     stop();
 }
 
@@ -329,7 +329,7 @@ void CartesianJogController::move(const Tick& tick) {
     step(pace, seconds);
     const bool together = stayTogether(way.now.joints, before, pace.limits.acceleration, seconds);
     if (together && stepAll(pace_.velocity * way.now.joints, seconds)) return;
-    held_.end(now_);
+    held_.end(now_, now_);
     brakeAll(seconds);
 }
 
@@ -381,7 +381,7 @@ Outcome CartesianJogController::elbow(Call& call) {
 }
 
 Outcome CartesianJogController::halt(Call&) {
-    held_.end(now_);
+    held_.end(now_, now_);
     stop();
     return Outcome::Done;
 }

@@ -5,6 +5,7 @@
 #include "cortex/toolkit/axis_controllers.hpp"
 #include "cortex/toolkit/axis_pose_controller.hpp"
 #include "cortex/toolkit/cartesian_jog_controller.hpp"
+#include "cortex/toolkit/gripper_controller.hpp"
 #include "cortex/toolkit/jog_controller.hpp"
 #include "cortex/toolkit/joint_trajectory_controller.hpp"
 #include "cortex/toolkit/pid_controller.hpp"
@@ -12,6 +13,7 @@
 #include "cartesian_follow_controller.hpp"
 #include "ds402/ds402_processor.hpp"
 #include "ds402/simulated_drive.hpp"
+#include "fieldbus/fieldbus_monitor.hpp"
 #include "handset_playback.hpp"
 #include "kinematics.hpp"
 #include "process/filter.hpp"
@@ -36,6 +38,7 @@ void addClasses(ClassRegistry& registry) {
     registry.add<JogController>("JogController");
     registry.add<CartesianJogController>("CartesianJogController");
     registry.add<JointTrajectoryController>("JointTrajectoryController");
+    registry.add<GripperController>("GripperController");
     registry.add<SineController>("SineController");
     registry.add<CartesianFollowController>("CartesianFollowController");
     registry.add<ProcessorSelector>("ProcessorSelector");
@@ -49,6 +52,7 @@ void addClasses(ClassRegistry& registry) {
     registry.add<Watchdog>("Watchdog");
     registry.add<Ds402AxisProcessor>("Ds402AxisProcessor");
     registry.add<Ds402SimulatedDrive>("Ds402SimulatedDrive");
+    registry.add<FieldbusMonitor>("FieldbusMonitor");
     registry.add<SimulatedSafetyPanel>("SimulatedSafetyPanel");
 }
 

@@ -62,8 +62,8 @@ void JogController::begin(std::size_t axis, const Profile& profile) {
     motions_[axis].toLimit = false;
 }
 
-void JogController::brake(std::size_t axis) {
-    motions_[axis].held.end(now_);
+void JogController::brake(std::size_t axis, std::int64_t now) {
+    motions_[axis].held.end(now_, now);
     motions_[axis].aim = 0;
     begin(axis, stopFrom(demands()[axis], limits(axis).motion()));
 }
@@ -99,10 +99,10 @@ void JogController::keepBeforeLimits(std::size_t axis, double seconds) {
     motion.toLimit = true;
 }
 
-void JogController::takeOver(const Tick&) {
+void JogController::takeOver(const Tick& tick) {
     for (std::size_t i = 0; i < axisCount(); ++i) {
         if (!takesOver(i)) continue;
-        brake(i);
+        brake(i, tick.nominalTime);
         if (i == running_) interrupted_ = Interrupted::ByOthers;
     }
 }
@@ -162,7 +162,7 @@ Outcome JogController::jog(Call& call) {
 
 Outcome JogController::runTo(Call& call, std::size_t axis) {
     if (call.cancelling()) {
-        brake(axis);
+        brake(axis, now_);
         return Outcome::Cancelled;
     }
     if (inputLost()) return call.fail("an axis was lost on the way");
@@ -203,14 +203,14 @@ Outcome JogController::step(Call& call) {
 }
 
 Outcome JogController::halt(Call&) {
-    for (std::size_t i = 0; i < axisCount(); ++i) brake(i);
+    for (std::size_t i = 0; i < axisCount(); ++i) brake(i, now_);
     interrupted_ = Interrupted::ByHalt;
     return Outcome::Done;
 }
 
 Outcome JogController::setMode(Call& call) {
     if (call.first()) {
-        for (std::size_t i = 0; i < axisCount(); ++i) brake(i);
+        for (std::size_t i = 0; i < axisCount(); ++i) brake(i, now_);
         mode_ = Hold;
     }
     if (call.cancelling()) return Outcome::Cancelled;

@@ -12,6 +12,12 @@ namespace cortex::toolkit {
 
 inline constexpr int ds402HomingMode = static_cast<int>(drives::Ds402Mode::Homing);
 
+// A method (6098) that the standard describes, or one of a maker, below 0. No drive has the others.
+constexpr bool isHomingMethodOfCia402(std::int64_t method) {
+    return method < 0 || (method >= 1 && method <= 14) || (method >= 17 && method <= 30) ||
+           (method >= 33 && method <= 37);
+}
+
 // The handshake by which a CiA 402 drive finds its zero position: into the mode Homing, begin by
 // bit 4, watch bits 10, 12 and 13, and back to the mode before. For hooks of one simplex.
 class AxisHoming {

@@ -12,12 +12,8 @@ namespace {
 
 using drives::Ds402Mode;
 
-constexpr double joiningSpeed = 0.02;  // rad/s or m/s, by which the offset becomes less
-
-bool isOfPosition(int mode) {
-    return mode == static_cast<int>(Ds402Mode::CyclicPosition) ||
-           mode == static_cast<int>(Ds402Mode::ProfilePosition);
-}
+constexpr double joiningSpeed = 0.02;        // rad/s or m/s, by which the offset becomes less
+constexpr double joiningAcceleration = 0.2;  // per s2, of this speed
 
 bool isOfSpeed(int mode) {
     return mode == static_cast<int>(Ds402Mode::CyclicVelocity) ||
@@ -26,11 +22,22 @@ bool isOfSpeed(int mode) {
 
 }  // namespace
 
+bool AxisTargets::isOfPosition(int mode) {
+    return mode == static_cast<int>(Ds402Mode::CyclicPosition) ||
+           mode == static_cast<int>(Ds402Mode::ProfilePosition);
+}
+
 void AxisTargets::standAt(double position) {
     target_ = {position, 0, 0, 0};
     wished_ = position;
-    offset_ = 0;
+    offset_ = offsetSpeed_ = 0;
     joined_ = raised_ = false;
+}
+
+// A demand may move without stating a velocity.
+void AxisTargets::see(const AxisTarget& demand, double seconds) {
+    const double way = std::abs(demand.position - std::exchange(seen_, demand.position));
+    demandSpeed_ = std::max(std::abs(demand.velocity), seconds > 0 ? way / seconds : 0);
 }
 
 double AxisTargets::away(const AxisTarget& demand, int mode) const {
@@ -38,9 +45,21 @@ double AxisTargets::away(const AxisTarget& demand, int mode) const {
     return isOfSpeed(mode) ? std::abs(demand.velocity) : 0;
 }
 
+bool AxisTargets::mayJoin(const AxisTarget& demand, int mode) const {
+    return away(demand, mode) <= tolerance && (!isOfPosition(mode) || demandSpeed_ <= tolerance);
+}
+
+// It begins and ends without a step of speed.
+void AxisTargets::reduceOffset(double seconds) {
+    const double landing = std::sqrt(2 * joiningAcceleration * std::abs(offset_));
+    offsetSpeed_ = std::min({joiningSpeed, offsetSpeed_ + joiningAcceleration * seconds, landing});
+    const double step = offsetSpeed_ * seconds;
+    offset_ -= std::clamp(offset_, -step, step);
+}
+
 AxisTargets::Course AxisTargets::follow(const AxisTarget& demand, int mode, bool homed,
                                         double observed, double seconds) {
-    if (!joined_ && away(demand, mode) > tolerance) return Course::Waits;
+    if (!joined_ && !mayJoin(demand, mode)) return Course::Waits;
     if (!isOfPosition(mode)) {
         joined_ = true;
         target_ = {observed, isOfSpeed(mode) ? demand.velocity : 0, demand.acceleration,
@@ -54,8 +73,7 @@ AxisTargets::Course AxisTargets::follow(const AxisTarget& demand, int mode, bool
     }
     if (begins || !homed) offset_ = target_.position - demand.position;
     if (!homed) return Course::Follows;
-    const double step = joiningSpeed * seconds;
-    offset_ -= std::clamp(offset_, -step, step);
+    reduceOffset(seconds);
     wished_ = demand.position + offset_;
     const bool byProfile = mode == static_cast<int>(Ds402Mode::ProfilePosition);
     target_ = {byProfile ? target_.position : wished_, demand.velocity, demand.acceleration,

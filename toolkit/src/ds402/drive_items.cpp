@@ -27,7 +27,7 @@ enum class AxisStatus : std::int64_t {
     Braked
 };
 
-AxisStatus statusOf(Ds402State state, const drives::Ds402Outputs& outputs, bool homed) {
+AxisStatus statusOf(Ds402State state, const drives::Ds402Outputs& outputs, bool homed, bool waits) {
     switch (state) {
         case Ds402State::Unknown:
             return AxisStatus::Unknown;
@@ -44,6 +44,7 @@ AxisStatus statusOf(Ds402State state, const drives::Ds402Outputs& outputs, bool 
     const auto mode = static_cast<Ds402Mode>(outputs.modeDisplay);
     const bool byPosition = mode == Ds402Mode::CyclicPosition || mode == Ds402Mode::ProfilePosition;
     if (mode == Ds402Mode::Homing || (byPosition && !homed)) return AxisStatus::NotHomed;
+    if (waits) return AxisStatus::Disabled;
     if ((outputs.statusWord & Ds402Status::internalLimit) != 0) return AxisStatus::AtLimit;
     return std::abs(outputs.velocity) > movesAbove ? AxisStatus::Moving : AxisStatus::Ready;
 }
@@ -62,7 +63,8 @@ Ds402DemandItems::Ds402DemandItems(const InputSimplex& demand)
       effort_{demand.data<double>("effort")},
       homingSpeed_{demand.data<double>("homingSpeed")},
       homingCreep_{demand.data<double>("homingCreep")},
-      homeOffset_{demand.data<double>("homeOffset")} {}
+      homeOffset_{demand.data<double>("homeOffset")},
+      waits_{demand.data<bool>("waits")} {}
 
 drives::Ds402Inputs Ds402DemandItems::inputs(std::int64_t modeDisplay) const {
     const bool inPosition = modeDisplay == static_cast<int>(Ds402Mode::CyclicPosition);
@@ -111,13 +113,14 @@ Ds402ObservationItems::Ds402ObservationItems(const OutputSimplex& observation)
       ratedEffort_{observation.data<const double>("ratedEffort")},
       homingNeeded_{observation.data<const bool>("homingNeeded")} {}
 
-void Ds402ObservationItems::write(const drives::Ds402Outputs& outputs, double acceleration) {
+void Ds402ObservationItems::write(const drives::Ds402Outputs& outputs, double acceleration,
+                                  bool waits) {
     const auto has = [&](std::uint16_t bit) { return (outputs.statusWord & bit) != 0; };
     const Ds402State told = drives::stateOf(outputs.statusWord);
     statusWord_ = outputs.statusWord;
     if (told != Ds402State::Unknown) driveState_ = static_cast<std::int64_t>(told);
     status_ = static_cast<std::int64_t>(statusOf(static_cast<Ds402State>(driveState_.get()),
-                                                 outputs, outputs.homed || !homingNeeded_));
+                                                 outputs, outputs.homed || !homingNeeded_, waits));
     modeDisplay_ = outputs.modeDisplay;
     voltageEnabled_ = has(Ds402Status::voltageEnabled);
     warning_ = has(Ds402Status::warning);

@@ -18,6 +18,8 @@ public:
 
     // Targets and offsets as the mode that the drive shows takes them.
     drives::Ds402Inputs inputs(std::int64_t modeDisplay) const CORTEX_REALTIME;
+    // The axis is held where it stands, whatever its demand does.
+    bool waits() const CORTEX_REALTIME { return waits_; }
     // Replaces the parameters that its processor wishes.
     void wish(drives::Ds402Parameters& parameters) const CORTEX_REALTIME;
 
@@ -25,6 +27,7 @@ private:
     Data<const std::int64_t> controlWord_, mode_, digitalOutputs_, homingMethod_, quickStopOption_,
         faultReactionOption_;
     Data<const double> position_, velocity_, effort_, homingSpeed_, homingCreep_, homeOffset_;
+    Data<const bool> waits_;
 };
 
 // The items of a Ds402Observation.
@@ -33,7 +36,9 @@ public:
     explicit Ds402ObservationItems(const OutputSimplex& observation);
 
     // What the drive says. A status word that fits no state leaves `driveState` as it was.
-    void write(const drives::Ds402Outputs& outputs, double acceleration) CORTEX_REALTIME;
+    // `waits`: Ds402DemandItems::waits().
+    void write(const drives::Ds402Outputs& outputs, double acceleration, bool waits)
+        CORTEX_REALTIME;
 
     double countsPerUnit() const { return countsPerUnit_; }
     double ratedEffort() const { return ratedEffort_; }

@@ -5,7 +5,9 @@
 
 #include "ds402/drive_words.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cortex::toolkit {
 
@@ -19,7 +21,11 @@ constexpr double patienceWithDemands = 1;  // s
 }  // namespace
 
 Ds402ProcessorAxis::Ds402ProcessorAxis(int number, const Links& links, const Ds402Items& items)
-    : number_{number}, items_{items} {
+    : number_{number},
+      items_{items},
+      driveSlot_{&links.drive.state()},
+      demandPath_{links.demand.path()},
+      limits_{links.demand.type()} {
     const InputSimplex& drive = links.drive;
     statusWord_ = drive.data<std::int64_t>("statusWord");
     driveState_ = drive.data<std::int64_t>("driveState");
@@ -46,6 +52,7 @@ Ds402ProcessorAxis::Ds402ProcessorAxis(int number, const Links& links, const Ds4
     homeOffset_ = setpoint.data<double>("homeOffset");
     quickStopOption_ = setpoint.data<std::int64_t>("quickStopOption");
     faultReactionOption_ = setpoint.data<std::int64_t>("faultReactionOption");
+    waits_ = setpoint.data<bool>("waits");
     followMode_ = mode_;
     if (drives::isBuilt(static_cast<int>(followMode_)) && followMode_ != ds402HomingMode) return;
     throw Error(setpoint.path() + ": mode " + std::to_string(followMode_) +
@@ -87,6 +94,24 @@ bool Ds402ProcessorAxis::takesTargets() const {
            modeDisplay_ == followMode_ && follows;
 }
 
+// It cannot move by position before, so its demand may be anywhere.
+bool Ds402ProcessorAxis::awaitsHoming() const {
+    return AxisTargets::isOfPosition(static_cast<int>(followMode_)) && !isHomed();
+}
+
+// No demand can come to where the axis is. Where that is, is known once it is homed.
+bool Ds402ProcessorAxis::isOutOfReach(std::int64_t mode) const {
+    const double allowed = std::clamp<double>(position_, limits_.min, limits_.max);
+    return AxisTargets::isOfPosition(static_cast<int>(mode)) && state_ != State::Unknown &&
+           isHomed() && std::abs(position_ - allowed) > AxisTargets::tolerance;
+}
+
+EventText Ds402ProcessorAxis::outOfReach() const {
+    EventText text = name() << " stands at " << position_.get() << ", outside of " << limits_.min
+                            << " to " << limits_.max << " of " << demandPath_;
+    return text << ": jog it back " << (homingNeeded_ ? "or home it " : "") << "in CyclicVelocity";
+}
+
 EventText Ds402ProcessorAxis::name() const { return EventText{"axis "} << number_; }
 
 EventText Ds402ProcessorAxis::errorOfDrive() const {
@@ -109,6 +134,10 @@ AxisTarget Ds402ProcessorAxis::demand() const {
 }
 
 Ds402ProcessorAxis::Finding Ds402ProcessorAxis::refused() {
+    if (isLost()) {
+        return {Ds402Faults::refused + number_,
+                name() << ": its drive is lost; it was in " << nameOf(state_)};
+    }
     ++items_.refusedCount[place()];
     if (isFaulty()) return {Ds402Faults::leftEnabled + number_, inState()};
     EventText text = name() << ": wanted " << nameOf(lead_.next()) << ", is " << nameOf(state_);
@@ -123,15 +152,20 @@ double Ds402ProcessorAxis::demandAway() const {
     return targets_.away(demand(), static_cast<int>(followMode_));
 }
 
+bool Ds402ProcessorAxis::mayJoin() const {
+    return targets_.mayJoin(demand(), static_cast<int>(followMode_));
+}
+
 bool Ds402ProcessorAxis::demandIsThere() const {
-    return demandAway() <= AxisTargets::tolerance &&
-           std::abs(demandVelocity_.get()) <= AxisTargets::tolerance;
+    return mayJoin() && std::abs(demandVelocity_.get()) <= AxisTargets::tolerance;
 }
 
 // Torque comes on where target and demand stand at the axis: until then its controller leads the
 // demand there.
 Ds402ProcessorAxis::Found Ds402ProcessorAxis::lead(double seconds, double timeout) {
-    const bool there = targetsThere() && demandIsThere();
+    targets_.see(demand(), seconds);
+    waits_ = true;  // unless write() knows better
+    const bool there = targetsThere() && (awaitsHoming() || demandIsThere());
     const TransitionLead::Seen seen{state_, stands(), modeDisplay_ == wishedMode(), there,
                                     quickStopOption_};
     const auto course = lead_.advance(seen, seconds, timeout);
@@ -152,9 +186,7 @@ void Ds402ProcessorAxis::beginStartup() {
     waited_ = driveWaited_ = 0;
 }
 
-bool Ds402ProcessorAxis::isReady() const {
-    return takesTargets() && demandAway() <= AxisTargets::tolerance;
-}
+bool Ds402ProcessorAxis::isReady() const { return takesTargets() && (awaitsHoming() || mayJoin()); }
 
 bool Ds402ProcessorAxis::isOff() const {
     return state_ == State::SwitchOnDisabled || state_ == State::NotReadyToSwitchOn ||
@@ -172,26 +204,35 @@ Ds402ProcessorAxis::Finding Ds402ProcessorAxis::leftUnasked() {
     return {Ds402Faults::leftEnabled + number_, text};
 }
 
-Ds402ProcessorAxis::Found Ds402ProcessorAxis::waitForDemand(double seconds) {
-    const bool tells = waited_ < patienceWithDemands;
+// A demand that comes nearer is on its way. Told once, until the wait is over.
+Ds402ProcessorAxis::Found Ds402ProcessorAxis::waitForDemand(bool waits, double seconds) {
+    if (!waits) waited_ = 0;
+    if (!waits || waited_ > patienceWithDemands) return std::nullopt;
+    const double away = demandAway();
+    if (waited_ == 0 || away < nearest_) {
+        nearest_ = away;
+        waited_ = 0;
+    }
     waited_ += seconds;
-    if (!tells || waited_ < patienceWithDemands) return std::nullopt;
+    if (waited_ <= patienceWithDemands) return std::nullopt;
+    if (isOutOfReach(followMode_)) return Finding{0, outOfReach()};
     EventText text = name() << " waits for its demand, which ";
-    if (demandAway() > AxisTargets::tolerance)
-        text << "is " << demandAway() << " away";
+    if (away > AxisTargets::tolerance)
+        text << "is " << away << " away: bring it to the axis";
     else
-        text << "moves";
-    return Finding{0, text << "; the controller brings it here"};
+        text << "moves: let it rest";
+    return Finding{0, text};
 }
 
 Ds402ProcessorAxis::Found Ds402ProcessorAxis::startUp(double seconds, double timeout) {
     if (isLeftUnasked()) return leftUnasked();
+    if (isOutOfReach(followMode_)) return Finding{Ds402Faults::outOfReach + number_, outOfReach()};
     Found found = lead(seconds, timeout);
     if (!found) found = waitForDrive(seconds, timeout);
     if (found && found->code == 0) found->code = Ds402Faults::refused + number_;
     if (!takesTargets()) targets_.standAt(position_);
-    const bool waits = lead_.hasArrived() ? !isReady() && takesTargets() : !demandIsThere();
-    if (waits && !found) found = waitForDemand(seconds);
+    const bool there = lead_.hasArrived() ? !takesTargets() || mayJoin() : demandIsThere();
+    if (!found) found = waitForDemand(!there && !awaitsHoming(), seconds);
     write();
     return found;
 }
@@ -232,22 +273,18 @@ Ds402ProcessorAxis::Found Ds402ProcessorAxis::follow(double seconds, double time
     if (!found) found = waitForDrive(seconds, timeout);
     const auto display = static_cast<int>(modeDisplay_.get());
     proceedWithHoming(seconds, timeout);
+    bool waits = false;
     if (!takesTargets()) {
         targets_.standAt(position_);
         const bool enables = lead_.aim() == Aim::Enable && !lead_.hasArrived();
-        if (!enables || demandIsThere())
-            waited_ = 0;
-        else if (!found)
-            found = waitForDemand(seconds);
+        waits = enables && !demandIsThere();
     } else {
         const auto course = targets_.follow(demand(), display, isHomed(), position_, seconds);
-        if (course != AxisTargets::Course::Waits)
-            waited_ = 0;
-        else if (!found)
-            found = waitForDemand(seconds);
+        waits = course == AxisTargets::Course::Waits;
         if (course == AxisTargets::Course::NotHomed)
             found = Finding{Ds402Faults::notHomed + number_, name() << " is to move and not homed"};
     }
+    if (!found) found = waitForDemand(waits && !awaitsHoming(), seconds);
     write();
     return found;
 }
@@ -263,6 +300,7 @@ void Ds402ProcessorAxis::write() {
     }
     controlWord_ = word;
     mode_ = wishedMode();
+    waits_ = !takesTargets() || !targets_.follows();
     const AxisTarget& target = targets_.target();
     targetPosition_ = target.position;
     targetVelocity_ = target.velocity;
@@ -292,7 +330,7 @@ void Ds402ProcessorAxis::tell() {
 
 void Ds402ProcessorAxis::keep(Archive& archive) {
     archive & lead_ & targets_ & homing_ & state_ & followMode_ & lastWord_ & resetsAtStart_ &
-        waited_ & driveWaited_ & demandRested_;
+        waited_ & nearest_ & driveWaited_ & demandRested_;
 }
 
 }  // namespace cortex::toolkit

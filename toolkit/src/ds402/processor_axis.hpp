@@ -4,6 +4,7 @@
 #include "cortex/core/event.hpp"
 #include "cortex/core/simplex.hpp"
 #include "cortex/drives/ds402_words.hpp"
+#include "cortex/toolkit/axis_limits.hpp"
 
 #include "ds402/axis_homing.hpp"
 #include "ds402/axis_targets.hpp"
@@ -12,12 +13,13 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace cortex::toolkit {
 
 // Fault codes of a Ds402Processor; `1` and `2` of an axis are added.
 struct Ds402Faults {
-    static constexpr std::int64_t leftEnabled = 10, notHomed = 20, refused = 30;
+    static constexpr std::int64_t leftEnabled = 10, notHomed = 20, refused = 30, outOfReach = 50;
     static constexpr std::int64_t inputLost = 30, safetyStop = 40;  // of all axes
 };
 
@@ -85,6 +87,7 @@ public:
     int quickStopOption() const { return static_cast<int>(quickStopOption_.get()); }
     EventText name() const CORTEX_REALTIME;          // "axis 1"
     EventText errorOfDrive() const CORTEX_REALTIME;  // in words
+    std::int64_t homingMethod() const { return items_.homingMethod[place()]; }
 
     void keep(Archive& archive) CORTEX_REALTIME;
 
@@ -94,16 +97,21 @@ private:
     bool isFaulty() const { return state_ == State::Fault || state_ == State::FaultReactionActive; }
     bool stands() const CORTEX_REALTIME;
     bool isHomed() const { return homed_ || !homingNeeded_; }
+    bool isLost() const { return driveSlot_->quality == Quality::Lost; }
     bool isLeftUnasked() const { return lead_.hasArrived() && state_ != State::OperationEnabled; }
     bool targetsThere() const CORTEX_REALTIME;
     bool takesTargets() const CORTEX_REALTIME;
+    bool awaitsHoming() const CORTEX_REALTIME;
+    bool isOutOfReach(std::int64_t mode) const CORTEX_REALTIME;
+    EventText outOfReach() const CORTEX_REALTIME;  // in words, with the way out
     std::int64_t wishedMode() const CORTEX_REALTIME;
     AxisTarget demand() const CORTEX_REALTIME;
-    double demandAway() const CORTEX_REALTIME;   // from what goes out
+    double demandAway() const CORTEX_REALTIME;  // from what goes out
+    bool mayJoin() const CORTEX_REALTIME;
     bool demandIsThere() const CORTEX_REALTIME;  // and stands
     Finding leftUnasked() CORTEX_REALTIME;
     Finding refused() CORTEX_REALTIME;
-    Found waitForDemand(double seconds) CORTEX_REALTIME;
+    Found waitForDemand(bool waits, double seconds) CORTEX_REALTIME;
     Found waitForDrive(double seconds, double timeout) CORTEX_REALTIME;
     void proceedWithHoming(double seconds, double timeout) CORTEX_REALTIME;
     void write() CORTEX_REALTIME;
@@ -111,6 +119,9 @@ private:
 
     int number_;
     Ds402Items items_;
+    const SlotState* driveSlot_;
+    std::string demandPath_;
+    AxisLimits limits_;  // of the demand
     Data<const std::int64_t> statusWord_, driveState_, modeDisplay_, errorCode_;
     Data<const double> position_, velocity_;
     Data<const bool> homed_, homingNeeded_;
@@ -118,6 +129,7 @@ private:
     Data<std::int64_t> controlWord_, mode_, homingMethod_, quickStopOption_, faultReactionOption_;
     Data<double> targetPosition_, targetVelocity_, targetAcceleration_, targetEffort_;
     Data<double> homingSpeed_, homingCreep_, homeOffset_;
+    Data<bool> waits_;
 
     TransitionLead lead_;
     AxisTargets targets_;
@@ -126,7 +138,8 @@ private:
     std::int64_t followMode_ = 0;  // that is wished, but for homing
     std::int64_t lastWord_ = 0;
     bool resetsAtStart_ = false;  // faults were cleared while it was in Fault
-    double waited_ = 0;           // s, for its demand
+    double waited_ = 0;           // s, for its demand, while that does not come nearer
+    double nearest_ = 0;          // that this demand was, meanwhile
     double driveWaited_ = 0;      // s, enabled, for the drive to take targets
     double demandRested_ = 0;     // s, while it homes
 };

@@ -18,8 +18,13 @@ bool Ds402ProcessorAxis::mayEnable(EventText& why) const {
         why = inState() << "; send resetFault first";
         return false;
     }
+    if (lead_.hasArrived() || awaitsHoming()) return true;
+    if (isOutOfReach(followMode_)) {
+        why = outOfReach();
+        return false;
+    }
     const double away = demandAway();
-    if (lead_.hasArrived() || away <= AxisTargets::tolerance) return true;
+    if (away <= AxisTargets::tolerance) return true;
     why = name() << ": its demand is " << away << " away from it, allowed is "
                  << AxisTargets::tolerance << ": bring it there first";
     return false;
@@ -41,6 +46,10 @@ bool Ds402ProcessorAxis::mayReset(EventText& why) const {
 bool Ds402ProcessorAxis::mayChangeMode(EventText& why, std::int64_t mode) const {
     if (isHoming(why)) return false;
     if (mode == followMode_ || state_ != State::OperationEnabled) return true;
+    if (isOutOfReach(mode)) {
+        why = outOfReach();
+        return false;
+    }
     const double demanded = targets_.follows() ? targets_.target().velocity : 0;
     if (stands() && std::abs(demanded) <= AxisTargets::tolerance) return true;
     const double fastest = std::max(std::abs(velocity_.get()), std::abs(demanded));
@@ -52,6 +61,12 @@ bool Ds402ProcessorAxis::mayHome(EventText& why) const {
     if (isHoming(why)) return false;
     if (!homingNeeded_) {
         why = name() << " needs no homing: its encoder is absolute";
+        return false;
+    }
+    if (!isHomingMethodOfCia402(homingMethod())) {
+        why =
+            name() << ": homingMethod " << homingMethod()
+                   << " is none of CiA 402; the drives of CorteX have 1, 2, 17, 18, 33, 34, 35, 37";
         return false;
     }
     if (!lead_.hasArrived() || state_ != State::OperationEnabled) {

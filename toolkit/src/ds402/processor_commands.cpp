@@ -53,14 +53,18 @@ Outcome Ds402Processor::forAll(Call& call, std::int64_t axis, Asks asks, Acts ac
 Outcome Ds402Processor::forAny(Call& call, std::int64_t axis, Asks asks, Acts acts) {
     const auto range = rangeOf(call, axis);
     if (!range) return Outcome::Rejected;
-    EventText why;
+    EventText all;
     bool any = false;
     for (std::size_t i = range->first; i < range->end; ++i) {
-        if (!(axes_[i].*asks)(why)) continue;
-        (axes_[i].*acts)();
-        any = true;
+        EventText why;
+        if ((axes_[i].*asks)(why)) {
+            (axes_[i].*acts)();
+            any = true;
+        } else {
+            all << (all.view().empty() ? "" : "; ") << why.view();
+        }
     }
-    return any ? Outcome::Done : call.reject(Reason::State, why.view());
+    return any ? Outcome::Done : call.reject(Reason::State, all.view());
 }
 
 Outcome Ds402Processor::enable(Call& call) {
@@ -177,6 +181,7 @@ Outcome Ds402Processor::goOnHoming(Call& call) {
     const Result result = axis.homing().result();
     if (result != Result::Done) {
         EventText why = axis.name() << ": " << AxisHoming::words(result);
+        if (result == Result::Failed) why << ", by method " << axis.homingMethod();
         if (axis.hasError()) why << ": " << axis.errorOfDrive().view();
         return call.fail(why.view());
     }

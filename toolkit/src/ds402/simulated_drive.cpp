@@ -66,10 +66,11 @@ void Ds402SimulatedDrive::populate() {
             throw Error(path() + ", axis " + std::to_string(i + 1) + ": " + why);
         const drives::Ds402Axis axis = mechanismOf(observations[i], items, start[i]);
         axes_.push_back({Ds402DemandItems{demands[i]}, items, {axis, parameters}});
-        axes_.back().observation.write(axes_.back().drive.outputs(), 0);
+        axes_.back().observation.write(axes_.back().drive.outputs(), 0, false);
     }
     load_ = array<const double>("load");
     friction_ = array<const double>("friction");
+    stops_ = array<const double>("stops");
     faultAxis_ = argument<std::int64_t>("injectFault", "axis");
     faultCode_ = argument<std::int64_t>("injectFault", "code");
     jumpAxis_ = argument<std::int64_t>("jumpEncoder", "axis");
@@ -87,6 +88,14 @@ bool Ds402SimulatedDrive::stateStartingUp(const Tick&) {
     return true;
 }
 
+void Ds402SimulatedDrive::settingsProposed(ProposedSettings& proposed) {
+    const auto stops = proposed[stops_];
+    for (std::size_t i = 0; i < stops.size(); i += 2) {
+        if (stops[i] > stops[i + 1])
+            proposed.refuse("stops: the least place of an axis is above its greatest");
+    }
+}
+
 // What its processor wishes, and what is disturbed.
 void Ds402SimulatedDrive::set(std::size_t place) {
     Axis& axis = axes_[place];
@@ -102,6 +111,8 @@ void Ds402SimulatedDrive::set(std::size_t place) {
     const double share = parameters.ratedEffort / 100;
     axis.drive.disturbance.load = load_[place] * share;
     axis.drive.disturbance.friction = friction_[place] * share;
+    axis.drive.disturbance.stopMin = stops_[2 * place];
+    axis.drive.disturbance.stopMax = stops_[2 * place + 1];
 }
 
 void Ds402SimulatedDrive::loopEnd(const Tick& tick) {
@@ -114,7 +125,8 @@ void Ds402SimulatedDrive::loopEnd(const Tick& tick) {
         if (inputLost() || state() == State::Fault) inputs.controlWord = quickStop;
         axis.drive.step(inputs, seconds);
         const drives::Ds402Outputs& outputs = axis.drive.outputs();
-        axis.observation.write(outputs, seconds > 0 ? (outputs.velocity - before) / seconds : 0);
+        axis.observation.write(outputs, seconds > 0 ? (outputs.velocity - before) / seconds : 0,
+                               axis.demand.waits());
     }
     ++report_.exchanges;
     items_.write(report_, 0);
@@ -149,7 +161,7 @@ Outcome Ds402SimulatedDrive::reconnect(Call&) {
 }
 
 void Ds402SimulatedDrive::keep(Archive& archive) {
-    archive.version("Ds402SimulatedDrive", 1);
+    archive.version("Ds402SimulatedDrive", 2);
     for (Axis& axis : axes_) archive & axis.drive & axis.refuses;
     archive & report_.exchanges & report_.reconnects;
 }

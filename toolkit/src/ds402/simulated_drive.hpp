@@ -29,6 +29,7 @@ private:
 
     void populate() override;
     bool stateStartingUp(const Tick& tick) CORTEX_REALTIME override;
+    void settingsProposed(ProposedSettings& proposed) CORTEX_REALTIME override;
     void loopEnd(const Tick& tick) CORTEX_REALTIME override;
     void keep(Archive& archive) CORTEX_REALTIME override;
 
@@ -42,6 +43,7 @@ private:
 
     std::vector<Axis> axes_;
     std::span<const double> load_, friction_;  // % of the rated effort
+    std::span<const double> stops_;            // least and greatest place of each axis
     Argument<std::int64_t> faultAxis_, faultCode_, jumpAxis_;
     Argument<double> jumpBy_;
     LinkItems items_;

@@ -144,6 +144,7 @@ private:
     double greatestEffort() const noexcept;
     void moveBrake() noexcept;
     void move(double effort) noexcept;
+    double betweenStops(double place) const noexcept;
     // ds402_homing.cpp
     void beginHoming() noexcept;
     double home() noexcept;

@@ -110,10 +110,13 @@ struct Ds402Disturbance {
     std::uint32_t stuckOn = 0;   // bits of the digital inputs that stay 1
     std::uint32_t stuckOff = 0;  // that stay 0
     bool blockedRotor = false;
+    // Least and greatest place that something hard allows; both 0: none. It takes all speed from
+    // the axis, and never moves it: one that is beyond can only come back.
+    double stopMin = 0, stopMax = 0;
 
     template <class Archive>
     void keep(Archive& archive) {
-        archive & load & friction & stuckOn & stuckOff & blockedRotor;
+        archive & load & friction & stuckOn & stuckOff & blockedRotor & stopMin & stopMax;
     }
 };
 

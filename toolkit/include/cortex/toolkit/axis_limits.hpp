@@ -6,17 +6,19 @@
 
 namespace cortex::toolkit {
 
-// Limits that the type of an axis states, in rad or m and s; infinite where it states none:
+// Limits that the type of an axis states, in rad or m, s, and N.m or N; infinite where it states
+// none:
 //   range         position.min, position.max
 //   speed         velocity.max, -velocity.min and position.rate, the lowest one
 //   acceleration  acceleration.max, -acceleration.min and velocity.rate, the lowest one
 //   jerk          acceleration.rate
+//   effort        effort.max, -effort.min, the lowest one
 // Setup phase; what it gives may be read in a tick.
 class AxisLimits {
 public:
     explicit AxisLimits(const Type& axis);
 
-    double min, max, speed, acceleration, jerk;
+    double min, max, speed, acceleration, jerk, effort;
 
     bool inRange(double position) const { return position >= min && position <= max; }
 

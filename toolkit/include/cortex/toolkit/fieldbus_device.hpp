@@ -100,9 +100,10 @@ private:
         const LinkDemand<Out>& newest = *line_->demand();
         const bool hangs = line_->loopHangs(2 * settings().lossTime);
         answer_ = In{};
+        asked_ = cs::Pace::Clock::now();
         exchange(hangs ? newest.quiet : newest.wanted, answer_);
     }
-    void putAnswer() final { line_->put(answer_); }
+    void putAnswer() final { line_->put(answer_, asked_); }
     void lose(std::string_view why) final { line_->lose(why); }
     void doWork() final { line_->doWork(); }
     bool waitUntil(cs::Pace::Clock::time_point time) final { return line_->waitUntil(time); }
@@ -111,8 +112,9 @@ private:
     LinkMachine machine_;
     LinkItems items_;
     LinkReport report_;
-    Line* line_ = nullptr;  // the thread's, as is the next
+    Line* line_ = nullptr;  // the thread's, as are the next two
     In answer_{};
+    cs::Pace::Clock::time_point asked_{};  // no answer is older
 };
 
 }  // namespace cortex::toolkit

@@ -10,8 +10,8 @@ namespace cortex::toolkit {
 
 // A jog that lasts for as long as its command is repeated. Once the controller has ended it, what
 // is repeated is refused, until a command says velocity 0 or none has come for the time that one
-// lasts. So nothing that was ended begins again by itself. Times are nominal, in ns; a value of the
-// tick.
+// lasts. So nothing that was ended begins again by itself. A controller that is not Active hears no
+// command, so that time begins when it is. Times are nominal, in ns; a value of the tick.
 class HeldJog {
 public:
     bool lasts(std::int64_t now) const { return now < until_; }
@@ -28,8 +28,10 @@ public:
         call.reject(Reason::State, "the controller has ended this jog: let go before the next one");
         return false;
     }
-    void end(std::int64_t now) CORTEX_REALTIME {
-        ended_ = ended_ || now < last_ + hold_;
+    // `heard`: the last cycle in which a command could have come.
+    void end(std::int64_t heard, std::int64_t now) CORTEX_REALTIME {
+        ended_ = heard < last_ + hold_;
+        if (ended_) last_ = now;
         until_ = now;
     }
     void keep(Archive& archive) CORTEX_REALTIME { archive & last_ & hold_ & until_ & ended_; }

@@ -27,8 +27,8 @@ protected:
     void keep(Archive& archive) CORTEX_REALTIME override;
 
     Mode mode() const { return static_cast<Mode>(mode_.get()); }
-    bool rests() const CORTEX_REALTIME;  // all axes
-    void brake(std::size_t axis) CORTEX_REALTIME;
+    bool rests() const CORTEX_REALTIME;                              // all axes
+    void brake(std::size_t axis, std::int64_t now) CORTEX_REALTIME;  // now: nominal, ns
     // False where that cannot be planned.
     bool moveTo(std::size_t axis, double position) CORTEX_REALTIME;
 
