@@ -107,7 +107,7 @@ void Ds402ModbusDrive::show(Axis& axis, const Ds402AxisSeen& seen, double second
     const drives::Ds402Outputs out = outputsOf(seen, scale);
     const double change = out.velocity - std::exchange(axis.velocity, out.velocity);
     axis.mode = out.modeDisplay;
-    axis.observation.write(out, seconds > 0 ? change / seconds : 0);
+    axis.observation.write(out, seconds > 0 ? change / seconds : 0, axis.demand.waits());
 }
 
 void Ds402ModbusDrive::tell(Axis& axis, const Ds402AxisSeen& seen,

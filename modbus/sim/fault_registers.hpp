@@ -7,14 +7,17 @@
 #include <cstdint>
 #include <optional>
 
-// Faults on command: registers that the simulator has and no drive. Any connection may write them,
+// Faults on command: registers that the simulator has and no device. Any connection may write them,
 // also while another one commands the drive. As a table for people: docs/ds402-simulator.md.
 namespace cortex::modbus::sim {
+
+// From here on a register is one for faults, of whatever is simulated.
+inline constexpr std::uint16_t faultsFrom = 0xF000;
 
 // From F000 on for axis 1, from F010 on for axis 2. Efforts are thousandths of N.m or N. Those that
 // happen once are 0 again at once.
 struct AxisFaults {
-    static constexpr std::uint16_t base = 0xF000, step = 0x10;
+    static constexpr std::uint16_t base = faultsFrom, step = 0x10;
     static constexpr std::size_t fault = 0x0;       // code: once, its cause is gone
     static constexpr std::size_t lasting = 0x1;     // code: no reset helps until 0 is written
     static constexpr std::size_t load = 0x2;        // two: pulls towards the negative side
@@ -39,8 +42,8 @@ enum class WrongWay : std::uint16_t {
     Refusal            // exception 4
 };
 
-// From F100 on: what goes wrong with the connection. Answers are late and wrong to FC 23 alone, so
-// that whoever commands faults gets his.
+// From F100 on: what goes wrong with the connection. Answers are late and wrong to one kind of
+// function code alone, FC 23 of a drive, so that whoever commands faults gets his.
 struct LinkFaults {
     static constexpr std::uint16_t base = 0xF100;
     static constexpr std::size_t delay = 0;   // ms by which answers are late
@@ -60,7 +63,7 @@ struct LinkFaults {
     }
     bool refuses() const { return registers[refuse] != 0; }
     bool isFrozen() const { return registers[freeze] != 0; }
-    // Of the next answer to FC 23, which then counts.
+    // Of the next such answer, which then counts.
     std::chrono::milliseconds takeDelay() {
         return std::chrono::milliseconds{take(late) ? registers[delay] : 0};
     }

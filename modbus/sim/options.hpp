@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "sim/program.hpp"
 #include "sim/simulated_drive.hpp"
 
 #include <chrono>
-#include <cstdint>
 #include <optional>
-#include <string>
 
 namespace cortex::modbus::sim {
 
+inline constexpr const char* programName = "cortex-ds402-sim";
+
 struct CommandLine {
-    std::string address = "127.0.0.1";
-    std::uint16_t port = 0;
+    ServerOptions server;
     DriveSettings drive;
     std::chrono::milliseconds longestPause{50};
-    bool log = false;
 };
 
 // None: `exitCode` says how the program ends, and what there was to say is printed.

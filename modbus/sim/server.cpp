@@ -27,14 +27,14 @@ public:
     Access(Server& server, const Connection& who) : server_{server}, who_{who} {}
 
     Exception read(std::uint16_t first, std::span<std::uint16_t> to) override {
-        return meetsFrozen(first) ? Exception::Failure : drive().read(first, to);
+        return meetsFrozen(first) ? Exception::Failure : device().read(first, to);
     }
     Exception write(std::uint16_t first, std::span<const std::uint16_t> values) override {
-        if (first >= AxisFaults::base) return drive().write(first, values);
+        if (first >= faultsFrom) return device().write(first, values);
         const Connection*& commander = server_.commander_;
         if (meetsFrozen(first) || (commander != nullptr && commander != &who_))
             return Exception::Failure;
-        const Exception wrong = drive().write(first, values);
+        const Exception wrong = device().write(first, values);
         hasCommanded_ = wrong == Exception::None;
         if (hasCommanded_) commander = &who_;
         return wrong;
@@ -43,9 +43,9 @@ public:
     bool metFrozen() const { return metFrozen_; }
 
 private:
-    SimulatedDrive& drive() { return server_.drive_; }
+    SimulatedDevice& device() { return server_.device_; }
     bool meetsFrozen(std::uint16_t first) {
-        const bool meets = first < AxisFaults::base && drive().link.isFrozen();
+        const bool meets = first < faultsFrom && device().link.isFrozen();
         metFrozen_ = metFrozen_ || meets;
         return meets;
     }
@@ -91,9 +91,9 @@ void Server::goOn() {
     const auto before = std::exchange(now_, Clock::now());
     const auto passed = now_ - before;
     if (longestPause_ > 0ns && passed > longestPause_)
-        drive_.stoodStill(passed);
+        device_.stoodStill(passed);
     else
-        drive_.step(passed);
+        device_.step(passed);
 }
 
 void Server::serve(Connection& connection) {
@@ -105,17 +105,16 @@ void Server::answer(Connection& connection, const Frame& asked) {
     Access access{*this, connection};
     Frame answer{asked.transaction, asked.unit, answerTo(asked.content, access)};
     if (access.metFrozen()) return;
-    if (asked.function() != FunctionCode::readAndWrite)
-        return connection.answer(answer.onTheWire(), now_);
-    if (access.hasCommanded()) drive_.exchanged();
-    const auto due = now_ + drive_.link.takeDelay();
-    const auto way = drive_.link.takeWrongWay();
+    if (!device_.isExchange(asked.function())) return connection.answer(answer.onTheWire(), now_);
+    if (access.hasCommanded()) device_.exchanged();
+    const auto due = now_ + device_.link.takeDelay();
+    const auto way = device_.link.takeWrongWay();
     connection.answer(way ? spoilt(answer, *way) : answer.onTheWire(), due);
     lastImage_ = std::move(answer.content);
 }
 
 Octets Server::spoilt(Frame answer, WrongWay way) const {
-    constexpr std::uint8_t refused = FunctionCode::readAndWrite | FunctionCode::failed;
+    const auto refused = static_cast<std::uint8_t>(answer.function() | FunctionCode::failed);
     if (way == WrongWay::OtherTransaction) ++answer.transaction;
     if (way == WrongWay::OldImage && lastImage_.size() == answer.content.size())
         answer.content = lastImage_;
@@ -134,8 +133,8 @@ Octets Server::spoilt(Frame answer, WrongWay way) const {
 
 // Nobody could end a refusal when the last connection is gone, so that it ends itself.
 void Server::lookAtRefusal() {
-    if (connections_.empty()) drive_.link.registers[LinkFaults::refuse] = 0;
-    if (!drive_.link.refuses()) return listener_.open();
+    if (connections_.empty()) device_.link.registers[LinkFaults::refuse] = 0;
+    if (!device_.link.refuses()) return listener_.open();
     listener_.refuse();
     for (Connection& connection : connections_)
         if (&connection == commander_) connection.hangUp();
@@ -146,7 +145,7 @@ void Server::removeClosed() {
         if (connection.isOpen()) return false;
         if (std::exchange(commander_, &connection == commander_ ? nullptr : commander_) ==
             &connection)
-            drive_.disconnected();
+            device_.disconnected();
         return true;
     });
 }

@@ -3,24 +3,25 @@
 
 #include "sim/connection.hpp"
 #include "sim/listener.hpp"
-#include "sim/simulated_drive.hpp"
+#include "sim/simulated_device.hpp"
 
 #include <chrono>
 #include <list>
+#include <utility>
 
 #include <poll.h>
 
 namespace cortex::modbus::sim {
 
-// The drive behind its socket, in the time of the monotonic clock. One connection commands it: the
+// A device behind its socket, in the time of the monotonic clock. One connection commands it: the
 // first that writes below F000, until it is closed. One thread.
 class Server {
 public:
     using Clock = Connection::Clock;
 
-    // A pause of the process that is longer than `longestPause` is told to the drive; 0: none is.
-    Server(Listener listener, SimulatedDrive& drive, std::chrono::nanoseconds longestPause)
-        : listener_{std::move(listener)}, drive_{drive}, longestPause_{longestPause} {}
+    // A pause of the process that is longer than `longestPause` is told to the device; 0: none is.
+    Server(Listener listener, SimulatedDevice& device, std::chrono::nanoseconds longestPause)
+        : listener_{std::move(listener)}, device_{device}, longestPause_{longestPause} {}
 
     // Until there is something to read from this descriptor.
     void run(int end);
@@ -36,12 +37,12 @@ private:
     void removeClosed();
 
     Listener listener_;
-    SimulatedDrive& drive_;
+    SimulatedDevice& device_;
     std::chrono::nanoseconds longestPause_;
     std::list<Connection> connections_;
     const Connection* commander_ = nullptr;
     Clock::time_point now_ = Clock::now();
-    Octets lastImage_;  // the last answer to FC 23
+    Octets lastImage_;  // the last answer to an exchange
 };
 
 }  // namespace cortex::modbus::sim

@@ -7,11 +7,11 @@
 #include "drive/ds402_registers.hpp"
 #include "sim/fault_registers.hpp"
 #include "sim/modbus_frames.hpp"
+#include "sim/simulated_device.hpp"
 
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,25 +28,22 @@ struct DriveSettings {
     WordOrder wordOrder = WordOrder::HighWordFirst;
 };
 
-// The drive as its registers show it: models of its axes, parameters, watchdog. It knows no socket
-// and no clock: its time is what step() is told. One thread.
-class SimulatedDrive {
+// The drive as its registers show it: models of its axes, parameters, watchdog.
+class SimulatedDrive final : public SimulatedDevice {
 public:
     // `log` gets a line for each transition, refused word and trip of the watchdog.
-    using Log = std::function<void(const std::string& line)>;
     SimulatedDrive(const DriveSettings& settings, Log log);
 
-    void step(std::chrono::nanoseconds time);
-    // The process stood still; what would have happened in that time does not.
-    void stoodStill(std::chrono::nanoseconds time);
+    void step(std::chrono::nanoseconds time) override;
+    void stoodStill(std::chrono::nanoseconds time) override;
 
-    Exception read(std::uint16_t first, std::span<std::uint16_t> to) const;
-    Exception write(std::uint16_t first, std::span<const std::uint16_t> values);
-    // Whoever commands it has sent an FC 23, or has left.
-    void exchanged();
-    void disconnected();
-
-    LinkFaults link;
+    Exception read(std::uint16_t first, std::span<std::uint16_t> to) const override;
+    Exception write(std::uint16_t first, std::span<const std::uint16_t> values) override;
+    bool isExchange(std::uint8_t function) const override {
+        return function == FunctionCode::readAndWrite;
+    }
+    void exchanged() override;
+    void disconnected() override;
 
 private:
     struct Axis {

@@ -4,15 +4,40 @@
 #include "cortex/core/error.hpp"
 #include "cortex/core/printable.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include <arpa/inet.h>
+#include <net/if.h>
 
 namespace cortex::modbus {
 namespace {
 
-[[noreturn]] void refuse(std::string_view text, const std::string& why) {
-    throw Error("address '" + printable(text) + "' " + why + "; write it as in 192.168.1.10:502");
+[[noreturn]] void refuse(std::string_view text, const std::string& why,
+                         const char* example = "192.168.1.10:502") {
+    throw Error("address '" + printable(text) + "' " + why + "; write it as in " + example);
+}
+
+constexpr const char* exampleOfV6 = "[2001:db8::7]:502";
+
+bool isLocalhost(std::string_view host) {
+    constexpr std::string_view name = "localhost";
+    return std::ranges::equal(host, name, {}, [](char c) { return static_cast<char>(c | 0x20); });
+}
+
+// The number of the network interface behind '%', which an address of a link needs; 0: none.
+std::uint32_t zoneOf(std::string_view text, const std::string& host) {
+    const std::size_t at = host.find('%');
+    if (at == std::string::npos) return 0;
+    const std::string zone = host.substr(at + 1);
+    const std::uint32_t number = if_nametoindex(zone.c_str());
+    if (number == 0) {
+        refuse(text,
+               "names the network interface '" + printable(zone) +
+                   "', which this machine does not have (`ip link` lists those it has)",
+               "[fe80::1%eth0]:502");
+    }
+    return number;
 }
 
 // What follows the host: nothing, or a colon and a number.
@@ -32,22 +57,37 @@ ModbusAddress ModbusAddress::parse(std::string_view text) {
     const bool isV6 = text.starts_with('[');
     const std::size_t end = text.find(isV6 ? ']' : ':');
     if (text.empty() || end == 0) refuse(text, "names no device");
-    if (isV6 && end == std::string_view::npos) refuse(text, "has no ']' behind its host");
+    if (isV6 && end == std::string_view::npos)
+        refuse(text, "has no ']' behind its host", exampleOfV6);
+    if (!isV6 && text.find(':') != text.rfind(':'))
+        refuse(text, "has several colons, and an IPv6 address stands in brackets", exampleOfV6);
     ModbusAddress address;
     const std::size_t behind = end == std::string_view::npos ? text.size() : end + (isV6 ? 1 : 0);
     address.host_ = text.substr(0, behind);
     const std::uint16_t port = htons(portOf(text, text.substr(behind)));
-    const std::string number = isV6                           ? address.host_.substr(1, end - 1)
-                               : address.host_ == "localhost" ? "127.0.0.1"
-                                                              : address.host_;
-    const int family = isV6 ? AF_INET6 : AF_INET;
-    void* const into = isV6 ? static_cast<void*>(&address.v6_.sin6_addr) : &address.v4_.sin_addr;
-    if (inet_pton(family, number.c_str(), into) != 1) {
-        refuse(text, "is no IP address, and a name may take long to look up");
-    }
-    (isV6 ? address.v6_.sin6_port : address.v4_.sin_port) = port;
-    (isV6 ? address.v6_.sin6_family : address.v4_.sin_family) = static_cast<sa_family_t>(family);
+    if (isV6)
+        address.takeV6(text, port);
+    else
+        address.takeV4(text, port);
     return address;
+}
+
+void ModbusAddress::takeV4(std::string_view text, std::uint16_t port) {
+    if (isLocalhost(host_)) host_ = "localhost";
+    const std::string number = host_ == "localhost" ? "127.0.0.1" : host_;
+    if (inet_pton(AF_INET, number.c_str(), &v4_.sin_addr) != 1)
+        refuse(text, "is no IP address, and a name may take long to look up");
+    v4_.sin_port = port;
+    v4_.sin_family = AF_INET;
+}
+
+void ModbusAddress::takeV6(std::string_view text, std::uint16_t port) {
+    const std::string number = host_.substr(1, host_.find_first_of("%]") - 1);
+    if (inet_pton(AF_INET6, number.c_str(), &v6_.sin6_addr) != 1)
+        refuse(text, "is no IP address, and a name may take long to look up", exampleOfV6);
+    v6_.sin6_scope_id = zoneOf(text, host_.substr(1, host_.size() - 2));
+    v6_.sin6_port = port;
+    v6_.sin6_family = AF_INET6;
 }
 
 std::string ModbusAddress::text() const {

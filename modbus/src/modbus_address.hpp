@@ -17,7 +17,8 @@ inline constexpr std::uint16_t defaultPort = 502;
 // none, as nobody can say how long looking it up takes.
 class ModbusAddress {
 public:
-    // "192.168.1.10", "192.168.1.10:502", "[2001:db8::7]:502", "localhost:1502". Throws Error.
+    // "192.168.1.10", "192.168.1.10:502", "[2001:db8::7]:502", "[fe80::1%eth0]", "localhost:1502".
+    // Throws Error, also for an interface behind '%' that this machine does not have.
     static ModbusAddress parse(std::string_view text);
 
     std::string text() const;  // with the port
@@ -25,6 +26,9 @@ public:
     socklen_t length() const;
 
 private:
+    void takeV4(std::string_view text, std::uint16_t port);  // in the order of the network
+    void takeV6(std::string_view text, std::uint16_t port);
+
     std::string host_;
     sockaddr_in v4_{};
     sockaddr_in6 v6_{};

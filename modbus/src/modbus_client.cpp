@@ -10,6 +10,8 @@
 #include <new>
 #include <utility>
 
+#include <sys/socket.h>
+
 namespace cortex::modbus {
 namespace {
 
@@ -19,23 +21,51 @@ using std::chrono::microseconds;
 
 // What a server answers in place of values: Modbus Application Protocol 1.1b3, section 7.
 struct Exception {
-    int error;  // of libmodbus
+    std::uint8_t code;
     const char* text;
     bool isRefusal;  // the same request will never be answered otherwise
 };
 constexpr std::array exceptions{
-    Exception{EMBXILFUN, "illegal function (exception 1): it has nothing of this kind", true},
-    Exception{EMBXILADD, "illegal data address (exception 2): addresses count from 0", true},
-    Exception{EMBXILVAL, "illegal data value (exception 3): look into its manual", true},
-    Exception{EMBXSFAIL, "server device failure (exception 4): look at the device", false},
-    Exception{EMBXACK, "acknowledge (exception 5): it needs longer", false},
-    Exception{EMBXSBUSY, "server device busy (exception 6): it is asked again", false},
-    Exception{EMBXNACK, "negative acknowledge (exception 7): look at the device", false},
-    Exception{EMBXMEMPAR, "memory parity error (exception 8): look at the device", false},
-    Exception{EMBXGPATH, "gateway path unavailable (exception 10): look at its item unit", false},
-    Exception{EMBXGTAR, "gateway target failed to respond (exception 11): look at its item unit",
-              false},
+    Exception{1, "illegal function (exception 1): it has nothing of this kind", true},
+    Exception{2, "illegal data address (exception 2): addresses count from 0", true},
+    Exception{3, "illegal data value (exception 3): look into its manual", true},
+    Exception{4, "server device failure (exception 4): look at the device", false},
+    Exception{5, "acknowledge (exception 5): it needs longer", false},
+    Exception{6, "server device busy (exception 6): it is asked again", false},
+    Exception{7, "negative acknowledge (exception 7): look at the device", false},
+    Exception{8, "memory parity error (exception 8): look at the device", false},
+    Exception{10, "gateway path unavailable (exception 10): look at its item unit", false},
+    Exception{11, "gateway target failed to respond (exception 11): look at its item unit", false},
 };
+constexpr std::uint8_t isException = 0x80;  // in the function of an answer
+
+// Before the function: transaction, protocol, how many octets follow, unit. Numbers have two
+// octets, the high one first. MODBUS Messaging on TCP/IP 1.0b, section 3.1.3.
+constexpr std::size_t headSize = 7, lengthAt = 4, protocolAt = 2;
+constexpr int modbusProtocol = 0;
+
+void add(std::vector<std::uint8_t>& octets, std::size_t number) {
+    octets.push_back(static_cast<std::uint8_t>(number >> 8U & 0xFFU));
+    octets.push_back(static_cast<std::uint8_t>(number & 0xFFU));
+}
+
+int numberAt(std::span<const std::uint8_t> octets, std::size_t at) {
+    return octets[at] << 8 | octets[at + 1];
+}
+
+// The first place of a request and how many there are.
+std::vector<std::uint8_t> placesOf(int at, std::size_t count) {
+    std::vector<std::uint8_t> octets;
+    add(octets, static_cast<std::size_t>(at));
+    add(octets, count);
+    return octets;
+}
+
+std::vector<std::uint8_t> octetsOf(std::span<const std::uint16_t> words) {
+    std::vector<std::uint8_t> octets;
+    for (const std::uint16_t word : words) add(octets, word);
+    return octets;
+}
 
 std::unique_ptr<modbus_t, void (*)(modbus_t*)> newContext() {
     // Neither host nor port are used: the socket is connected elsewhere.
@@ -80,6 +110,15 @@ std::string ModbusClient::words(const Request& request) const {
            std::to_string(request.count) + " " + request.what + " at " + std::to_string(request.at);
 }
 
+void ModbusClient::check(const Request& request) const {
+    if (request.count != 0 && request.count <= request.most && request.at >= 0 &&
+        static_cast<std::size_t>(request.at) + request.count <= addresses) {
+        return;
+    }
+    throw Error(words(request) + ": a request has 1 to " + std::to_string(request.most) +
+                " of them, within the addresses 0 to 65535");
+}
+
 void ModbusClient::setTimeout(const Request& request) {
     const auto left = duration_cast<microseconds>(deadline_ - Clock::now()).count();
     if (left <= 0) fail(request, ETIMEDOUT);
@@ -87,13 +126,21 @@ void ModbusClient::setTimeout(const Request& request) {
                                 static_cast<std::uint32_t>(left % 1'000'000));
 }
 
+void ModbusClient::failByException(const Request& request, std::uint8_t code) const {
+    const auto* const found = std::ranges::find(exceptions, code, &Exception::code);
+    if (found == exceptions.end()) failByAnswer(request);
+    const std::string what = words(request) + ": " + found->text;
+    if (found->isRefusal) throw toolkit::LinkRefused(what);
+    throw toolkit::LinkError(what);
+}
+
+void ModbusClient::failByAnswer(const Request& request) const {
+    throw toolkit::LinkError(words(request) +
+                             ": its answer is none to this; is it a Modbus/TCP device?");
+}
+
 void ModbusClient::fail(const Request& request, int error) const {
     const std::string what = words(request) + ": ";
-    for (const Exception& each : exceptions) {
-        if (each.error != error) continue;
-        if (each.isRefusal) throw toolkit::LinkRefused(what + each.text);
-        throw toolkit::LinkError(what + each.text);
-    }
     if (error == ETIMEDOUT) {
         throw toolkit::LinkError(
             what + "no answer within " +
@@ -101,78 +148,126 @@ void ModbusClient::fail(const Request& request, int error) const {
             " ms; look at the device, or raise responseTimeout");
     }
     if (isClosed(error)) throw toolkit::LinkError(what + "it closed the connection");
-    if (error > MODBUS_ENOBASE)
-        throw toolkit::LinkError(what + "its answer is none to this; is it a Modbus/TCP device?");
+    if (error > MODBUS_ENOBASE) failByAnswer(request);
     throw toolkit::LinkError(what + std::strerror(error));
 }
 
-template <class Ask>
-void ModbusClient::ask(const Request& request, const Ask& ask) {
-    if (request.count == 0 || request.count > request.most || request.at < 0 ||
-        static_cast<std::size_t>(request.at) + request.count > addresses) {
-        throw Error(words(request) + ": a request has 1 to " + std::to_string(request.most) +
-                    " of them, within the addresses 0 to 65535");
+void ModbusClient::send(const Request& request, std::uint8_t function, const Octets& data) {
+    Octets frame;
+    add(frame, ++transaction_);
+    add(frame, modbusProtocol);
+    add(frame, 2 + data.size());
+    frame.push_back(static_cast<std::uint8_t>(settings_.unit));
+    frame.push_back(function);
+    frame.insert(frame.end(), data.begin(), data.end());
+    const int socket = modbus_get_socket(context_.get());
+    const ssize_t sent = ::send(socket, frame.data(), frame.size(), MSG_NOSIGNAL);
+    if (sent < 0) fail(request, errno);
+    if (static_cast<std::size_t>(sent) != frame.size()) fail(request, EPIPE);
+}
+
+// What the answer says behind its function.
+std::span<const std::uint8_t> ModbusClient::receive(const Request& request, std::uint8_t function) {
+    const int size = modbus_receive_confirmation(context_.get(), answer_.data());
+    if (size < 0) fail(request, errno);
+    const auto all = std::span<const std::uint8_t>{answer_}.first(static_cast<std::size_t>(size));
+    if (all.size() < headSize + 2 || numberAt(all, 0) != transaction_ ||
+        numberAt(all, protocolAt) != modbusProtocol ||
+        numberAt(all, lengthAt) != size - static_cast<int>(headSize) + 1) {
+        failByAnswer(request);
     }
+    const std::uint8_t answered = all[headSize];
+    if (answered == (function | isException)) failByException(request, all[headSize + 1]);
+    if (answered != function) failByAnswer(request);
+    return all.subspan(headSize + 1);
+}
+
+// Returns what is answered behind the function, which are `answered` octets.
+std::span<const std::uint8_t> ModbusClient::ask(const Request& request, std::uint8_t function,
+                                                const Octets& data, std::size_t answered) {
     if (!isOpen_) fail(request, ECONNRESET);
     setTimeout(request);
-    const int count = ask(context_.get(), request.at, static_cast<int>(request.count));
-    if (count < 0) fail(request, errno);
-    if (static_cast<std::size_t>(count) != request.count) fail(request, EMBBADDATA);
+    send(request, function, data);
+    const auto answer = receive(request, function);
+    if (answer.size() != answered) failByAnswer(request);
+    return answer;
+}
+
+void ModbusClient::readBits(const Request& request, std::uint8_t function,
+                            std::span<std::uint8_t> bits) {
+    check(request);
+    const std::size_t octets = (bits.size() + 7) / 8;
+    const auto answer = ask(request, function, placesOf(request.at, bits.size()), 1 + octets);
+    if (answer[0] != octets) failByAnswer(request);
+    for (std::size_t i = 0; i < bits.size(); ++i)
+        bits[i] = static_cast<std::uint8_t>(answer[1 + i / 8] >> i % 8 & 1);
+}
+
+void ModbusClient::readWords(const Request& request, std::uint8_t function, const Octets& data,
+                             std::span<std::uint16_t> words) {
+    check(request);
+    const std::size_t octets = 2 * words.size();
+    const auto answer = ask(request, function, data, 1 + octets);
+    if (answer[0] != octets) failByAnswer(request);
+    for (std::size_t i = 0; i < words.size(); ++i)
+        words[i] = static_cast<std::uint16_t>(numberAt(answer, 1 + 2 * i));
+}
+
+// The answer repeats which places were written.
+void ModbusClient::write(const Request& request, std::uint8_t function, const Octets& values) {
+    const Octets places = placesOf(request.at, request.count);
+    Octets data = places;
+    data.push_back(static_cast<std::uint8_t>(values.size()));
+    data.insert(data.end(), values.begin(), values.end());
+    if (!std::ranges::equal(ask(request, function, data, places.size()), places))
+        failByAnswer(request);
 }
 
 void ModbusClient::readCoils(int at, std::span<std::uint8_t> bits) {
-    ask({"coils", false, at, bits.size(), mostBitsRead}, [&](modbus_t* to, int from, int count) {
-        return modbus_read_bits(to, from, count, bits.data());
-    });
+    readBits({"coils", false, at, bits.size(), mostBitsRead}, MODBUS_FC_READ_COILS, bits);
 }
 
 void ModbusClient::readDiscreteInputs(int at, std::span<std::uint8_t> bits) {
-    ask({"discrete inputs", false, at, bits.size(), mostBitsRead},
-        [&](modbus_t* to, int from, int count) {
-            return modbus_read_input_bits(to, from, count, bits.data());
-        });
+    readBits({"discrete inputs", false, at, bits.size(), mostBitsRead},
+             MODBUS_FC_READ_DISCRETE_INPUTS, bits);
 }
 
 void ModbusClient::readHoldingRegisters(int at, std::span<std::uint16_t> words) {
-    ask({"holding registers", false, at, words.size(), mostRegistersRead},
-        [&](modbus_t* to, int from, int count) {
-            return modbus_read_registers(to, from, count, words.data());
-        });
+    readWords({"holding registers", false, at, words.size(), mostRegistersRead},
+              MODBUS_FC_READ_HOLDING_REGISTERS, placesOf(at, words.size()), words);
 }
 
 void ModbusClient::readInputRegisters(int at, std::span<std::uint16_t> words) {
-    ask({"input registers", false, at, words.size(), mostRegistersRead},
-        [&](modbus_t* to, int from, int count) {
-            return modbus_read_input_registers(to, from, count, words.data());
-        });
+    readWords({"input registers", false, at, words.size(), mostRegistersRead},
+              MODBUS_FC_READ_INPUT_REGISTERS, placesOf(at, words.size()), words);
 }
 
 void ModbusClient::writeCoils(int at, std::span<const std::uint8_t> bits) {
-    ask({"coils", true, at, bits.size(), mostBitsWritten}, [&](modbus_t* to, int from, int count) {
-        return modbus_write_bits(to, from, count, bits.data());
-    });
+    const Request request{"coils", true, at, bits.size(), mostBitsWritten};
+    check(request);
+    Octets values((bits.size() + 7) / 8);
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+        if (bits[i] != 0) values[i / 8] |= static_cast<std::uint8_t>(1U << i % 8);
+    }
+    write(request, MODBUS_FC_WRITE_MULTIPLE_COILS, values);
 }
 
 void ModbusClient::writeRegisters(int at, std::span<const std::uint16_t> words) {
-    ask({"registers", true, at, words.size(), mostRegistersWritten},
-        [&](modbus_t* to, int from, int count) {
-            return modbus_write_registers(to, from, count, words.data());
-        });
+    const Request request{"registers", true, at, words.size(), mostRegistersWritten};
+    check(request);
+    write(request, MODBUS_FC_WRITE_MULTIPLE_REGISTERS, octetsOf(words));
 }
 
 void ModbusClient::writeAndReadRegisters(int writeAt, std::span<const std::uint16_t> written,
                                          int readAt, std::span<std::uint16_t> read) {
-    const Request writing{"registers", true, writeAt, written.size(), mostWrittenBesideRead};
-    if (written.empty() || written.size() > writing.most || writeAt < 0 ||
-        static_cast<std::size_t>(writeAt) + written.size() > addresses) {
-        throw Error(words(writing) + ": a request that also reads has 1 to " +
-                    std::to_string(writing.most) + " of them, within the addresses 0 to 65535");
-    }
-    ask({"registers (beside writing)", false, readAt, read.size(), mostRegistersRead},
-        [&](modbus_t* to, int from, int count) {
-            return modbus_write_and_read_registers(to, writeAt, static_cast<int>(written.size()),
-                                                   written.data(), from, count, read.data());
-        });
+    check({"registers (beside reading)", true, writeAt, written.size(), mostWrittenBesideRead});
+    const Octets places = placesOf(writeAt, written.size()), values = octetsOf(written);
+    Octets data = placesOf(readAt, read.size());
+    data.insert(data.end(), places.begin(), places.end());
+    data.push_back(static_cast<std::uint8_t>(values.size()));
+    data.insert(data.end(), values.begin(), values.end());
+    readWords({"registers (beside writing)", false, readAt, read.size(), mostRegistersRead},
+              MODBUS_FC_WRITE_AND_READ_REGISTERS, data, read);
 }
 
 }  // namespace cortex::modbus

@@ -5,12 +5,14 @@
 
 #include "modbus_address.hpp"
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <modbus/modbus.h>
 
@@ -21,7 +23,8 @@ namespace cortex::modbus {
 //
 // What goes wrong is told as toolkit::LinkError, "host:port: what; remedy", or as LinkRefused where
 // the server knows no such function, address or value. close() then, and connect() anew: the next
-// request might take a late answer for its own.
+// request might take a late answer for its own. libmodbus waits for an answer and cuts it out; what
+// is no answer to the request is found here, the addresses that are echoed included.
 class ModbusClient {
 public:
     struct Settings {
@@ -66,17 +69,29 @@ private:
         int at;
         std::size_t count, most;
     };
+    using Octets = std::vector<std::uint8_t>;
     std::string words(const Request& request) const;
-    template <class Ask>
-    void ask(const Request& request, const Ask& ask);
+    void check(const Request& request) const;  // throws Error
+    void readBits(const Request& request, std::uint8_t function, std::span<std::uint8_t> bits);
+    void readWords(const Request& request, std::uint8_t function, const Octets& data,
+                   std::span<std::uint16_t> words);
+    void write(const Request& request, std::uint8_t function, const Octets& values);
+    std::span<const std::uint8_t> ask(const Request& request, std::uint8_t function,
+                                      const Octets& data, std::size_t answered);
+    void send(const Request& request, std::uint8_t function, const Octets& data);
+    std::span<const std::uint8_t> receive(const Request& request, std::uint8_t function);
     void setTimeout(const Request& request);
     [[noreturn]] void fail(const Request& request, int error) const;
+    [[noreturn]] void failByException(const Request& request, std::uint8_t code) const;
+    [[noreturn]] void failByAnswer(const Request& request) const;
 
     Settings settings_;
     std::unique_ptr<modbus_t, void (*)(modbus_t*)> context_;
     std::chrono::steady_clock::time_point deadline_{};
     std::chrono::nanoseconds allowed_{};
     bool isOpen_ = false;
+    std::uint16_t transaction_ = 0;  // of the last request
+    std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> answer_{};
 };
 
 }  // namespace cortex::modbus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "io_places.hpp"
 #include "modbus_device.hpp"
 #include "register_format.hpp"
 
@@ -8,10 +9,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace cortex::modbus {
 
-inline constexpr std::size_t mostPlaces = 32;  // of a group
+inline constexpr std::size_t mostPlaces = 32;  // of a kind
 
 struct IoAnswer {
     std::array<std::uint8_t, mostPlaces> bits;
@@ -28,15 +30,13 @@ public:
     using ModbusDevice::ModbusDevice;
 
 private:
-    struct Bits {
-        int at = -1;
-        std::size_t count = 0;
-    };
-
     void populate() override;
     void populateDigital();
-    void populateAnalogue();
-    int startOf(std::string_view item, std::string_view rule, std::size_t size);
+    void populateOutputNumbers();
+    void populateInputNumbers();
+    IoRules rules(std::string_view group, std::string_view singles) const;
+    int startOf(std::string_view item, const IoRules& rules, std::size_t size);
+    bool hasWriter(const InputSimplex& output) const;
 
     void talk(ModbusClient& client, const IoDemand& demand, IoAnswer& answer) override;
     void pack(IoDemand& demand) CORTEX_REALTIME override;
@@ -44,16 +44,21 @@ private:
     void unpack(const IoAnswer& answer) CORTEX_REALTIME override;
     void keep(Archive& archive) CORTEX_REALTIME override { archive & beyond_; }
     void put(std::size_t place, IoDemand& demand) CORTEX_REALTIME;
+    template <class T>
+    bool goesOut(const IoPlace<const T>& output) const CORTEX_REALTIME {
+        return output.hasWriter || state() == State::Active;
+    }
 
-    Bits coils_, discreteInputs_;
-    ScaledRegisters holdingRegisters_, inputRegisters_;
+    std::vector<IoPlace<const bool>> outputSignals_;
+    std::vector<IoPlace<const double>> outputNumbers_;
+    std::vector<IoPlace<bool>> inputSignals_;
+    std::vector<IoPlace<double>> inputNumbers_;
+
+    int coilsAt_ = -1, discreteInputsAt_ = -1;
+    ScaledRegisters outputRegisters_, inputRegisters_;
+    bool areInputsHolding_ = false;  // the inputs stand in holding registers
     IoDemand safe_{};
     std::array<bool, mostPlaces> beyond_{};  // told that the register cannot hold it
-
-    ArrayOf<const bool>::type digitalOutputs_;
-    ArrayOf<const double>::type analogueOutputs_;
-    ArrayOf<bool>::type digitalInputs_;
-    ArrayOf<double>::type analogueInputs_;
 };
 
 }  // namespace cortex::modbus

@@ -3,6 +3,7 @@
 #include "cortex/core/registry.hpp"
 
 #include "drive/ds402_modbus_drive.hpp"
+#include "gripper/robotiq_modbus_gripper.hpp"
 #include "modbus_io_device.hpp"
 
 namespace {
@@ -10,8 +11,10 @@ namespace {
 void addClasses(cortex::ClassRegistry& registry) {
     registry.add<cortex::modbus::Ds402ModbusDrive>("Ds402ModbusDrive");
     registry.add<cortex::modbus::ModbusIoDevice>("ModbusIoDevice");
+    registry.add<cortex::modbus::RobotiqModbusGripper>("RobotiqModbusGripper");
 }
 
 }  // namespace
 
-CORTEX_PLUGIN(addClasses, {"Ds402ModbusDrive", ""}, {"ModbusIoDevice", ""})
+CORTEX_PLUGIN(addClasses, {"Ds402ModbusDrive", ""}, {"ModbusIoDevice", ""},
+              {"RobotiqModbusGripper", ""})

@@ -45,8 +45,8 @@ set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libeigen3-dev")
 cortex_package(tools cortex-tools science "Self-describing, deterministic control systems: programs"
 "The program cortex finds, checks, shows and commands the agents of a network.
 The program cortex-agent runs a control system from an XML file, and
-cortex-ds402-sim simulates a CiA 402 drive behind Modbus/TCP. Examples are in
-/usr/share/cortex/examples.")
+cortex-ds402-sim and cortex-gripper-sim simulate a CiA 402 drive and a Robotiq
+gripper behind Modbus/TCP. Examples are in /usr/share/cortex/examples.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libcortex0 ${same}")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "cortex-modbus")
@@ -55,8 +55,8 @@ if(TARGET cortex-modbus)
     cortex_package(modbus cortex-modbus science
         "Self-describing, deterministic control systems: Modbus/TCP"
 "This package has the behaviour of devices behind Modbus/TCP, such as IO
-couplers and CiA 402 drives. The program cortex-agent loads it when a system
-has one of them.")
+couplers, CiA 402 drives and a gripper. The program cortex-agent loads it when a
+system has one of them.")
     set(CPACK_DEBIAN_MODBUS_PACKAGE_SHLIBDEPS ON)
     set(CPACK_DEBIAN_MODBUS_PACKAGE_DEPENDS "libcortex0 ${same}")
     set(CPACK_DEBIAN_MODBUS_PACKAGE_RECOMMENDS "cortex-tools")

@@ -2,7 +2,7 @@
 # A man page for each program and verb, made from its own help. A build for tests has none.
 find_package(Python3 COMPONENTS Interpreter)
 set(programs)
-foreach(program cortex-cli cortex-agent cortex-ds402-sim cortex-explorer)
+foreach(program cortex-cli cortex-agent cortex-ds402-sim cortex-gripper-sim cortex-explorer)
     if(TARGET ${program})
         list(APPEND programs ${program})
     endif()

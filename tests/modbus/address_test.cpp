@@ -6,6 +6,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <net/if.h>
 
 namespace cortex::modbus::test {
 namespace {
@@ -25,6 +26,7 @@ TEST(ModbusAddress, IsAHostAndAPortOr502) {
     EXPECT_EQ(ModbusAddress::parse("localhost").text(), "localhost:502");
     EXPECT_EQ(ModbusAddress::parse("[fe80::1]").text(), "[fe80::1]:502");
     EXPECT_EQ(ModbusAddress::parse("[::1]:65535").text(), "[::1]:65535");
+    EXPECT_EQ(ModbusAddress::parse("LocalHost:1502").text(), "localhost:1502");
 
     const ModbusAddress v4 = ModbusAddress::parse("localhost:1502");
     EXPECT_EQ(v4.socketAddress()->sa_family, AF_INET);
@@ -35,6 +37,21 @@ TEST(ModbusAddress, IsAHostAndAPortOr502) {
     EXPECT_EQ(ModbusAddress::parse("[::1]").socketAddress()->sa_family, AF_INET6);
 }
 
+TEST(ModbusAddress, OfALinkNamesANetworkInterface) {
+    const ModbusAddress address = ModbusAddress::parse("[fe80::1%lo]:1502");
+    EXPECT_EQ(address.text(), "[fe80::1%lo]:1502");
+    const auto* const place = reinterpret_cast<const sockaddr_in6*>(address.socketAddress());
+    EXPECT_EQ(place->sin6_scope_id, if_nametoindex("lo"));
+    EXPECT_EQ(place->sin6_addr.s6_addr[0], 0xFE);
+    EXPECT_EQ(place->sin6_addr.s6_addr[15], 1);
+    EXPECT_EQ(refusalOfAddress("[fe80::1%nowhere]"),
+              "address '[fe80::1%nowhere]' names the network interface 'nowhere', which this "
+              "machine does not have (`ip link` lists those it has); write it as in "
+              "[fe80::1%eth0]:502");
+    EXPECT_NE(refusalOfAddress("[fe80::1%]").find("the network interface ''"), std::string::npos);
+    EXPECT_NE(refusalOfAddress("[%lo]").find("is no IP address"), std::string::npos);
+}
+
 TEST(ModbusAddress, OfNonsenseIsRefusedInWords) {
     EXPECT_EQ(refusalOfAddress(""), "address '' names no device; write it as in 192.168.1.10:502");
     EXPECT_EQ(refusalOfAddress(":502"),
@@ -43,12 +60,15 @@ TEST(ModbusAddress, OfNonsenseIsRefusedInWords) {
               "address 'coupler:502' is no IP address, and a name may take long to look up; write "
               "it as in 192.168.1.10:502");
     for (const char* port : {"1.2.3.4:", "1.2.3.4:0", "1.2.3.4:65536", "1.2.3.4:502x", "1.2.3.4:-1",
-                             "1.2.3.4:99999999999999", "[::1]502", "fe80::1"}) {
+                             "1.2.3.4:99999999999999", "[::1]502"}) {
         EXPECT_NE(refusalOfAddress(port).find("has no port from 1 to 65535 behind its host"),
                   std::string::npos)
             << port << ": " << refusalOfAddress(port);
     }
     EXPECT_NE(refusalOfAddress("[::1").find("has no ']'"), std::string::npos);
+    EXPECT_EQ(refusalOfAddress("fe80::1%eth0"),
+              "address 'fe80::1%eth0' has several colons, and an IPv6 address stands in brackets; "
+              "write it as in [2001:db8::7]:502");
     for (const char* host : {"1.2.3", "1.2.3.4.5", "256.1.1.1", "[1.2.3.4]", "[]", " 1.2.3.4"})
         EXPECT_NE(refusalOfAddress(host).find("is no IP address"), std::string::npos) << host;
     EXPECT_EQ(refusalOfAddress("a\x1b[2J").find('\x1b'), std::string::npos)

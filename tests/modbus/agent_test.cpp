@@ -52,5 +52,36 @@ TEST(ModbusAgent, RunsACouplerOfXmlAlone) {
     EXPECT_EQ(hex({requests[1].begin() + 7, requests[1].end()}), "0f 00 08 00 02 01 00");
 }
 
+// A value that a person set ends with the agent: nobody would stop it later.
+TEST(ModbusAgent, LeavesTheSafeValuesOfOutputsThatNobodyWritesAtItsEnd) {
+    ModbusServer server;
+    const ModelFolder folder;
+    const auto system = folder.write(
+        "chamber.xml",
+        "<system name='chamber'><morphology file='" CORTEX_SOURCE_DIR
+        "/tests/data/modbus-rules.xml'/>"
+        "<cluster name='chamber' frequency='100'/>"
+        "<simplex path='/setpoint' type='SetPoint'><set data='value' value='40'/></simplex>"
+        "<simplex path='/lamp' type='Lamp'><set data='value' value='true'/></simplex>"
+        "<simplex path='/coupler' type='ModbusIoDevice'>"
+        "<relate rule='outputNumbers' to='/setpoint'/><relate rule='outputSignals' to='/lamp'/>"
+        "<set data='address' value='" +
+            server.address() +
+            "'/><set data='coilsAt' value='3'/><set data='holdingRegistersAt' value='7'/>"
+            "<set data='responseTimeout' value='0.7'/><set data='lossTime' value='60'/>"
+            "</simplex></system>");
+    const auto outputs = [&] {
+        return server.look([](modbus_mapping_t& map) {
+            return std::to_string(map.tab_bits[3]) + " " + std::to_string(map.tab_registers[7]);
+        });
+    };
+
+    AgentProcess agent{folder, system, {"--startup"}};
+
+    EXPECT_TRUE(comesTrue("what was set", [&] { return outputs() == "1 400"; })) << agent.output();
+    EXPECT_EQ(agent.endInOrder(), 0) << agent.output();
+    EXPECT_EQ(outputs(), "0 50");
+}
+
 }  // namespace
 }  // namespace cortex::modbus::test

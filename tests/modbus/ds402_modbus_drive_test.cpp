@@ -132,6 +132,34 @@ TEST_F(Ds402Link, IsLedByItsProcessorAndFollowsDemands) {
     EXPECT_EQ(tool.read(0x2001, 1), (Words{0})) << "the watchdog has not tripped";
 }
 
+TEST_F(Ds402Link, SaysDisabledWhileAnEnabledAxisWaitsForItsDemand) {
+    Ds402LinkPlant plant{sim};
+    plant.open();
+    plant.makeActive();
+    const auto shows = [&](std::int64_t mode, std::int64_t status) {
+        return plant.get<std::int64_t>("/drive/a", "modeDisplay") == mode &&
+               plant.get<std::int64_t>("/drive/a", "status") == status;
+    };
+    const auto setMode = [&](std::int64_t mode) {
+        EXPECT_TRUE(plant.call("/processor", "setMode", {{"mode", mode}}).done());
+    };
+    plant.stepUntil("Ready", [&] { return shows(8, 1); });
+
+    setMode(9);
+    plant.stepUntil("Ready by speed", [&] { return shows(9, 1); });
+    plant.tree().at("/demand/a").data<double>("position") = 0.5;
+    plant.stepWithExchanges(2);
+    setMode(8);
+    plant.stepUntil("Disabled", [&] { return shows(8, 6); });
+    plant.stepWithExchanges(20);
+    EXPECT_TRUE(shows(8, 6));
+    EXPECT_EQ(plant.driveState(), operationEnabled);
+    EXPECT_NEAR(plant.position(), 0, 1e-3);
+
+    plant.tree().at("/demand/a").data<double>("position") = 0.0;
+    plant.stepUntil("Ready again", [&] { return shows(8, 1); });
+}
+
 TEST(SwappedDs402Link, FollowsDemandsInTheOtherOrderOfWords) {
     SimProcess sim{{"--axes", "2", "--absolute", "--low-word-first", "--counts-per-unit",
                     "10430.378", "--rated-effort", "2.5"}};

@@ -75,6 +75,9 @@ TEST(HostileServer, IsNotTakenForWhatWasAsked) {
     };
     EXPECT_EQ(readTwice(with(0, 1)), noAnswer) << "the number of the transaction";
     EXPECT_EQ(readTwice(with(1, 1)), noAnswer);
+    EXPECT_EQ(readTwice(with(2, 1)), noAnswer) << "the protocol";
+    EXPECT_EQ(readTwice(with(3, 1)), noAnswer);
+    EXPECT_EQ(readTwice(with(5, 1)), noAnswer) << "how many octets follow";
     EXPECT_EQ(readTwice(with(7, 1)), noAnswer) << "the function";
     EXPECT_EQ(readTwice([](const Bytes& request) { return Answer{rightAnswer(request, {1})}; }),
               noAnswer)
@@ -85,6 +88,44 @@ TEST(HostileServer, IsNotTakenForWhatWasAsked) {
     EXPECT_EQ(readTwice([](const Bytes& request) { return Answer{exceptionAnswer(request, 99)}; }),
               noAnswer)
         << "an exception that there is not";
+    EXPECT_EQ(readTwice([](const Bytes& request) { return Answer{exceptionAnswer(request, 0)}; }),
+              noAnswer);
+}
+
+// What a request that writes comes to: "", or what was thrown.
+std::string writtenTo(ModbusClient& client, bool bits) {
+    try {
+        if (!client.isOpen()) client.connect();
+        if (bits)
+            client.writeCoils(10, Bytes{1, 0});
+        else
+            client.writeRegisters(10, std::array<std::uint16_t, 2>{7, 8});
+        return "";
+    } catch (const LinkError& error) {
+        client.close();
+        const std::string text = error.what();
+        return text.substr(text.rfind(": ") + 2);
+    }
+}
+
+// Head, unit, function, first address and count: 12 octets.
+TEST(HostileServer, MustEchoWhatWasWrittenAndWhere) {
+    for (const bool bits : {true, false}) {
+        std::atomic<std::size_t> wrong{0};
+        const RawServer server{[&](const Bytes& request) {
+            Bytes answer{request.begin(), request.begin() + 12};
+            answer[5] = 6;
+            return Answer{wrong == 0 ? answer : changed(answer, wrong, 1)};
+        }};
+        ModbusClient client = clientWithin(server, 30s);
+        EXPECT_EQ(writtenTo(client, bits), "");
+        for (const std::size_t place : {1U, 2U, 3U, 5U, 7U, 8U, 9U, 10U, 11U}) {
+            wrong = place;
+            EXPECT_EQ(writtenTo(client, bits), noAnswer) << "octet " << place << " from 0";
+            wrong = 0;
+            EXPECT_EQ(writtenTo(client, bits), "") << "after octet " << place;
+        }
+    }
 }
 
 TEST(HostileServer, MayEndInTheMiddle) {

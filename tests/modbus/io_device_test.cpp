@@ -141,10 +141,13 @@ TEST_F(ModbusIo, OfXmlAloneCarriesItsValuesBothWays) {
     CouplerPlant plant{server.address()};
     plant.start();
     EXPECT_EQ(plant.quality("/levels"), Quality::Lost) << "before the first answer";
+    plant.stepUntil("good inputs", [&] { return plant.isGood(); });
+    EXPECT_EQ(plant.state("/coupler"), State::Standby) << "it measures in every state";
+    plant.startUp();
     plant.demand({true, false, true}, {10, -1.5});
 
     expectOutputs(plant, "101 20 500");
-    plant.stepUntil("good inputs", [&] { return plant.isGood(); });
+    plant.stepUntil("good inputs again", [&] { return plant.isGood(); });
 
     EXPECT_EQ(plant.quality("/buttons"), Quality::Good);
     EXPECT_EQ(plant.link(), Link::Open);
@@ -161,7 +164,33 @@ TEST_F(ModbusIo, OfXmlAloneCarriesItsValuesBothWays) {
     plant.stepUntil("new inputs", [&] { return plant.levels()[1] == 7 && plant.buttons()[1]; });
     EXPECT_EQ(plant.levels()[0], 0);
     EXPECT_TRUE(plant.buttons()[1]);
-    EXPECT_EQ(plant.state("/coupler"), State::Standby) << "it measures in every state";
+}
+
+TEST_F(ModbusIo, GivesSafeValuesUnlessItIsActiveWhereNoSimplexWritesThem) {
+    CouplerPlant plant{server.address()};
+    plant.start();
+    plant.demand({true, false, true}, {10, 5});
+    plant.step(3);
+    expectOutputs(plant, "010 3 0");
+
+    plant.startUp();
+    expectOutputs(plant, "101 20 7000");
+    EXPECT_TRUE(plant.call("/coupler", "shutdown").done());
+    expectOutputs(plant, "010 3 0");
+}
+
+TEST_F(ModbusIo, ReadsItsInputsFromHoldingRegistersWhereTheyStandThere) {
+    server.look([](modbus_mapping_t& map) {
+        map.tab_registers[50] = 100;
+        map.tab_registers[51] = 7;
+    });
+    CouplerPlant plant{server.address(), {{"inputRegistersAt", "-1"}, {"holdingInputsAt", "50"}}};
+    plant.start();
+    plant.stepUntil("good inputs", [&] { return plant.isGood(); });
+    EXPECT_EQ(plant.levels()[0], -5 + 0.1 * 100);
+    EXPECT_EQ(plant.levels()[1], 7);
+    const Bytes request = server.requests()[1];
+    EXPECT_EQ(hex({request.begin() + 7, request.end()}), "03 00 32 00 02");
 }
 
 TEST_F(ModbusIo, HasRegistersInTheFormatAndOrderOfItsItems) {
@@ -169,6 +198,7 @@ TEST_F(ModbusIo, HasRegistersInTheFormatAndOrderOfItsItems) {
     CouplerPlant plant{server.address(),
                        {{"registerFormat", "Float32"}, {"wordOrder", "LowWordFirst"}}};
     plant.start();
+    plant.startUp();
     plant.demand({}, {0.75, -2});
 
     expectOutputs(plant, "000 0 16320 0 0", 4);  // 3FC0'0000: 1.5 counts of 0.5
@@ -226,6 +256,7 @@ TEST_F(ModbusIo, ThatIsSwitchedOffLosesItsInputsAndComesBackByItself) {
 TEST_F(ModbusIo, GivesSafeValuesWhileNobodySpeaksForItsOutputs) {
     CouplerPlant plant{server.address()};
     plant.start();
+    plant.startUp();
     plant.demand({true, false, true}, {10, 5});
     expectOutputs(plant, "101 20 7000");
 
@@ -238,6 +269,7 @@ TEST_F(ModbusIo, GivesSafeValuesWhileNobodySpeaksForItsOutputs) {
 TEST_F(ModbusIo, GivesTheNearestOfWhatARegisterCannotHoldAndSaysSoOnce) {
     CouplerPlant plant{server.address()};
     plant.start();
+    plant.startUp();
     plant.demand({}, {1e9, 0});
     expectOutputs(plant, "000 32767 2000");
     plant.step(5);
@@ -288,13 +320,16 @@ TEST(ModbusIoModel, ThatCannotStandIsRefusedInWords) {
         {{{"unit", "250"}}, "/coupler: unit 250 is none of Modbus"},
         {{{"responseTimeout", "2"}}, "responseTimeout is longer than 0.7 s"},
         {{{"coilsAt", "-1"}},
-         "/coupler: coilsAt is -1, but rule digitalOutputs relates a group; set the address at "
-         "which it begins in the device"},
+         "/coupler: coilsAt is -1, but something is related by digitalOutputs or outputSignals; "
+         "set the address at which it begins in the device"},
         {{{"coilsAt", "65534"}},
-         "/coupler: coilsAt is 65534, and the 3 addresses of rule digitalOutputs would end beyond "
-         "65535"},
+         "/coupler: coilsAt is 65534, and the 3 addresses of digitalOutputs or outputSignals would "
+         "end beyond 65535"},
         {{{"registerFormat", "Signed32"}, {"holdingRegistersAt", "65533"}},
-         "the 4 addresses of rule analogueOutputs would end beyond 65535"},
+         "the 4 addresses of analogueOutputs or outputNumbers would end beyond 65535"},
+        {{{"holdingInputsAt", "0"}}, "/coupler: inputRegistersAt and holdingInputsAt are both set"},
+        {{{"inputRegistersAt", "-1"}, {"holdingInputsAt", "65535"}},
+         "holdingInputsAt is 65535, and the 2 addresses of analogueInputs or inputNumbers"},
         {{{"registerFormat", "Unsigned16"}, {"inputRegistersAt", "65534"}}, ""},
     };
     for (const auto& [settings, words] : cases) {
@@ -304,7 +339,7 @@ TEST(ModbusIoModel, ThatCannotStandIsRefusedInWords) {
         else
             EXPECT_NE(text.find(words), std::string::npos) << text;
     }
-    EXPECT_NE(refusalOf({}, "HeldFans").find("/fans (HeldFans) has no safe values"),
+    EXPECT_NE(refusalOf({}, "HeldFans").find("/fans (HeldFans) has no safe value"),
               std::string::npos);
 }
 
@@ -338,8 +373,8 @@ TEST(ModbusIoModel, OfAGroupThatDoesNotFitIsRefusedInWords) {
                         "register cannot hold"),
               std::string::npos);
     EXPECT_NE(refusal({}, "", at)
-                  .find("holdingRegistersAt is 0, but nothing is related by rule "
-                        "analogueOutputs"),
+                  .find("holdingRegistersAt is 0, but nothing is related by analogueOutputs or "
+                        "outputNumbers"),
               std::string::npos);
     EXPECT_NE(refusal({}, "").find("has neither inputs nor outputs"), std::string::npos);
 }

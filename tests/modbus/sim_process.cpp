@@ -55,12 +55,15 @@ Words wordsIn(const Octets& answer) {
 
 }  // namespace
 
-SimProcess::SimProcess(std::vector<std::string> options) : options_{std::move(options)} {
+SimProcess::SimProcess(std::vector<std::string> options, std::string executable)
+    : options_{std::move(options)}, program_{std::move(executable)} {
     const auto given = [&](const char* option) {
         return std::ranges::find(options_, option) != options_.end();
     };
-    if (!given("--longest-pause")) options_.insert(options_.end(), {"--longest-pause", "0"});
-    if (!given("--self-test")) options_.insert(options_.end(), {"--self-test", "10"});
+    const bool isDrive = program_ == "cortex-ds402-sim";
+    if (isDrive && !given("--longest-pause"))
+        options_.insert(options_.end(), {"--longest-pause", "0"});
+    if (isDrive && !given("--self-test")) options_.insert(options_.end(), {"--self-test", "10"});
     start(0);
     // Bound, but not listening: nobody else gets the port between two lives.
     place_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -71,14 +74,14 @@ SimProcess::SimProcess(std::vector<std::string> options) : options_{std::move(op
 SimProcess::~SimProcess() {
     if (pid_ > 0) {
         signal(SIGCONT);
-        EXPECT_EQ(endInOrder(SIGTERM), 0) << "cortex-ds402-sim did not end in order";
+        EXPECT_EQ(endInOrder(SIGTERM), 0) << program_ << " did not end in order";
     }
     kill9();
     if (place_ >= 0) close(place_);
 }
 
 void SimProcess::start(std::uint16_t port) {
-    std::vector<std::string> command{CORTEX_BINARY_DIR "/bin/cortex-ds402-sim", "--port",
+    std::vector<std::string> command{CORTEX_BINARY_DIR "/bin/" + program_, "--port",
                                      std::to_string(port)};
     command.insert(command.end(), options_.begin(), options_.end());
     std::vector<char*> arguments;
@@ -98,7 +101,7 @@ void SimProcess::start(std::uint16_t port) {
     if (output_ >= 0) close(output_);
     output_ = both[0];
     const std::string line = readLine();
-    const std::string start = "cortex-ds402-sim: listening on 127.0.0.1:";
+    const std::string start = program_ + ": listening on 127.0.0.1:";
     if (!line.starts_with(start)) throw std::runtime_error("it prints: " + line);
     port_ = static_cast<std::uint16_t>(std::stoi(line.substr(start.size())));
 }

@@ -17,12 +17,13 @@ namespace cortex::modbus::test {
 using Words = std::vector<std::uint16_t>;
 using Octets = std::vector<std::uint8_t>;
 
-// The program cortex-ds402-sim. It ends in order with its object, and is killed with the test. Its
-// port is its own while it is dead, too. Unless told otherwise it takes no pause for a fault, and
-// its self test is short.
+// A program that simulates a device. It ends in order with its object, and is killed with the test.
+// Its port is its own while it is dead, too. Unless told otherwise cortex-ds402-sim takes no pause
+// for a fault, and its self test is short.
 class SimProcess {
 public:
-    explicit SimProcess(std::vector<std::string> options = {});
+    explicit SimProcess(std::vector<std::string> options = {},
+                        std::string executable = "cortex-ds402-sim");
     ~SimProcess();
     SimProcess(const SimProcess&) = delete;
     SimProcess& operator=(const SimProcess&) = delete;
@@ -41,6 +42,7 @@ private:
     std::string readLine();
 
     std::vector<std::string> options_;
+    std::string program_;
     pid_t pid_ = 0;
     int output_ = -1, place_ = -1;
     std::uint16_t port_ = 0;
