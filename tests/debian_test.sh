@@ -43,7 +43,7 @@ inside "$prepare"'
 
 echo 'each program and verb has its page'
 verbs=$(chroot "$root" cortex --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z-]*\) .*/cortex-\1/p')
-for page in cortex{,-agent,-ds402-sim,-explorer} $verbs; do
+for page in cortex{,-agent,-ds402-sim,-gripper-sim,-explorer} $verbs; do
     [[ -f $root/usr/share/man/man1/$page.1.gz ]] || { echo "error: no page $page.1"; exit 1; }
 done
 

@@ -4,8 +4,8 @@
 # `cortex top` to look at them; where there is a display, the window too. They use the loopback
 # interface and a domain of their own, so that they meet nothing else. Other ARGs go to all agents.
 # A plant is a folder with a file `agents`: a line for each agent's system file, perhaps one with
-# `simulator`, the item of an address and the options of cortex-ds402-sim, which listens there, then
-# one with `show`, the path that the window shows first. The programs are in build/release/bin.
+# `simulator`, a program, the item of the address at which it listens and its options, then one with
+# `show`, the path that the window shows first. The programs are in build/release/bin.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -41,13 +41,13 @@ readAgents() {
 # Starts the simulator of the plant, which ends after the agents; fills address for them.
 startSimulator() {
     local file=$folder/simulator.txt line
-    "$bin/cortex-ds402-sim" "${simulator[@]:1}" >"$file" 2>&1 &
+    "$bin/${simulator[0]}" "${simulator[@]:2}" >"$file" 2>&1 &
     simulatorPid=$!
     trap 'kill "$simulatorPid" 2>/dev/null || true' EXIT
     until [[ -s $file ]] || ! kill -0 "$simulatorPid" 2>/dev/null; do sleep 0.05; done
     read -r line <"$file" || true
     [[ $line == *" listening on "* ]] || die "no simulator: ${line:-it ended}"
-    address=(--set "${simulator[0]}=${line##* }")
+    address=(--set "${simulator[1]}=${line##* }")
 }
 
 runPlant() {

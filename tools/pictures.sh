@@ -24,6 +24,7 @@ jog=(
     "examples/jog_axis graph 1100x600 /jog --view system --theme light"
     "docs/pictures jog 1280x800 /jog --theme light"
 )
+drive=("docs/pictures drive 1280x800 /processor --theme light")
 gantry=("examples/gantry graph 1500x900 /control --view system --theme light")
 
 end() {
@@ -33,13 +34,30 @@ end() {
 }
 trap end EXIT
 
+# simulate PROGRAM ITEM OPTION…: starts a simulator; fills address for the agents.
+simulate() {
+    local file=build/pictures/simulator.txt line='' try
+    : >"$file"
+    "$bin/$1" "${@:3}" >"$file" 2>&1 &
+    pids+=($!)
+    for try in {1..200}; do
+        read -r line <"$file" || true
+        [[ $line == *" listening on "* ]] && break
+        ((try < 200)) || { cat "$file"; exit 1; }
+        sleep 0.05
+    done
+    address=(--set "$2=${line##* }")
+}
+
 # start PLANT ITEM…: its agents, until these items have come 15 times.
 start() {
-    local plant=$1 file rest try
+    local plant=$1 file simulator rest try address=()
     shift
+    read -ra simulator <<<"$(sed -n 's/^simulator //p' "examples/$plant/agents")"
+    ((${#simulator[@]} == 0)) || simulate "${simulator[@]}"
     while read -r file rest; do
-        [[ $file == show ]] && continue
-        "$bin/cortex-agent" "examples/$plant/$file" --startup --frequency 200 \
+        [[ $file == show || $file == simulator ]] && continue
+        "$bin/cortex-agent" "examples/$plant/$file" --startup --frequency 200 "${address[@]}" \
             >"build/pictures/${file%.xml}.txt" 2>&1 &
         pids+=($!)
     done <"examples/$plant/agents"
@@ -73,6 +91,9 @@ take "${teleop[@]}"
 end
 start jog_axis /jog.state /turntable/axis.position
 take "${jog[@]}"
+end
+start ds402_dual_axis /processor.state /drive/a.position
+take "${drive[@]}"
 end
 start gantry /control.state /hook.position
 take "${gantry[@]}"

@@ -115,7 +115,7 @@ measureCoverage() {
     requireCoverage 85 comms || status=$?
     requireCoverage 85 mechanics || status=$?
     requireCoverage 85 drives || status=$?
-    requireCoverage 85 modbus/src modbus/drive modbus/sim || status=$?
+    requireCoverage 85 modbus/src modbus/drive modbus/gripper modbus/gripper_sim modbus/sim || status=$?
     requireCoverage 85 toolkit/src toolkit/include || status=$?
     requireCoverage 80 toolkit/agent || status=$?
     requireCoverage 80 explorer/cli || status=$?

@@ -13,6 +13,16 @@ namespace cortex::common {
 // where the type of the simplex states the item anew.
 bool isOfFramework(const Structure& structure, std::uint32_t simplex, std::string_view item);
 
+// Whether its agent itself tells this item, whatever becomes of what the simplex measures: what the
+// framework writes, and what a FieldbusDevice knows of its link.
+bool isOfAgent(const Structure& structure, std::uint32_t simplex, std::string_view item);
+
+// Whether this item stands for nothing yet: a FieldbusDevice that has never answered cannot say how
+// old its answer is, and nothing of its observations was ever measured.
+bool neverCame(const Image& image, std::uint32_t simplex, const DataItem& item);
+// The same of all that an observation says.
+bool neverMeasured(const Image& image, std::uint32_t simplex);
+
 // Its loop runs, as far as was heard of late.
 bool runs(const comms::AgentStatus& agent);
 

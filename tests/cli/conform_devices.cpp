@@ -76,7 +76,8 @@ private:
         FreshStamp,
         FutureStamp,
         MissesUncounted,
-        CountsTwice
+        CountsTwice,
+        NeverAnswers
     };
 
     void populate() override {
@@ -85,6 +86,7 @@ private:
         on<&ScriptedBus::reconnect>("reconnect");
     }
     void loopEnd(const Tick& tick) override {
+        if (mistake_ == NeverAnswers) closedFor_ = 2;
         const bool closed = closedFor_ > 0;
         report_.link = closed ? Link::Closed : Link::Open;
         if (closed && --closedFor_ == 0) report_.reconnects += mistake_ == CountsTwice ? 2 : 1;

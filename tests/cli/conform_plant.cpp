@@ -61,6 +61,22 @@ void ConformPlant::addDrive(const std::string& path, const std::string& type, bo
     add(path + "/move", "AxisPoseController", {{"axes", is}, {"demands", wish}});
 }
 
+void ConformPlant::addGripper(const std::string& path) {
+    const std::string is = path + "/is", set = path + "/set", wish = path + "/wish";
+    add(is, "Ds402LinearObservation", {}, {{"homingNeeded", "false"}, {"ratedEffort", "200"}});
+    add(set, "Ds402LinearModification");
+    add(wish, "SlideGripperAxis");
+    add(path, "Ds402SimulatedDrive", {{"demands", set}, {"observations", is}},
+        {{"startPosition", "0.05 0"}});
+    add(path + "/lead", "Ds402AxisProcessor",
+        {{"drives", is}, {"demands", wish}, {"setpoints", set}});
+    add(path + "/move", "GripperController", {{"axes", is}, {"demands", wish}});
+}
+
+void ConformPlant::setStops(const std::string& path, double least, double most) {
+    live({"set", path, "stops=" + std::to_string(least) + " " + std::to_string(most) + " 0 0"});
+}
+
 void ConformPlant::start() {
     plant_.start();
     steps_ = std::thread{[this] {

@@ -30,7 +30,12 @@ public:
     void addBus(const std::string& path, const std::string& mistake);
     // PATH is a drive of one axis, with PATH/is, PATH/set, PATH/wish and the processor PATH/lead.
     void addDrive(const std::string& path, const std::string& type, bool needsHoming = false);
+    // PATH is a drive of two jaws, half open, with PATH/is, PATH/set, PATH/wish, the processor
+    // PATH/lead and the controller PATH/move.
+    void addGripper(const std::string& path);
     void start();
+    // What the mechanics of a simulated drive allow.
+    void setStops(const std::string& path, double least, double most);
 
     State state(const std::string& path) { return static_cast<State>(integer(path, "state")); }
     std::int64_t integer(const std::string& path, const std::string& item) {

@@ -213,10 +213,10 @@ TEST(CortexConform, SaysWhyAnAxisCannotBeMoved) {
     const json all = conform({"/alone", "/held", "/near", "--move", "0.6"}, 0);
 
     const std::string test = "it moves on command";
-    EXPECT_TRUE(
-        contains(saidOf(all, "/alone", test),
-                 "skipped: no AxisPoseController and no JogController of agent bench writes "
-                 "/alone/wish"));
+    EXPECT_TRUE(contains(
+        saidOf(all, "/alone", test),
+        "skipped: no AxisPoseController, JogController or GripperController of agent bench writes "
+        "/alone/wish"));
     EXPECT_TRUE(
         contains(saidOf(all, "/held", test), "/held/move writes /held/wish and is in Active"));
     EXPECT_TRUE(contains(saidOf(all, "/near", test), "0.6 is outside of the range -0.5 to 0.5"));
@@ -272,6 +272,35 @@ TEST(CortexConform, FindsADriveThatDoesNotHear) {
                   {"Shutdown in SwitchOnDisabled led to SwitchOnDisabled",
                    "ReadyToSwitchOn was expected"}}});
     EXPECT_TRUE(saidOf(all, "/mute", "words refused: Switch on disabled").starts_with("passed"));
+}
+
+// A gripper of a bare axis: nothing between its jaws, and then a work piece of 30 mm.
+TEST(CortexConform, OpensClosesAndGripsWhatIsBetweenTheJaws) {
+    ConformPlant plant;
+    plant.addGripper("/jaws");
+    plant.start();
+
+    const json still = conform({"/jaws", "--seconds", "0.2"}, 0);
+    const json nothing = conform({"/jaws", "--move", "0.01", "--grip", "0", "--seconds", "0.2"}, 0);
+    const json missing = conform({"/jaws", "--grip", "0.03", "--seconds", "0.2"}, 1);
+    plant.setStops("/jaws", 0.03, 0.1);
+    const json piece = conform({"/jaws", "--grip", "0.03", "--seconds", "0.2"}, 0);
+    const json unsaid = conform({"/jaws", "--grip", "0", "--seconds", "0.2"}, 1);
+
+    EXPECT_TRUE(contains(saidOf(still, "/jaws", "grips"), "--grip WIDTH allows that"));
+    EXPECT_EQ(saidOf(nothing, "/jaws", "it moves on command"), "passed: by /jaws/move");
+    EXPECT_EQ(saidOf(nothing, "/jaws", "opens and closes"), "passed: 0 mm to 100 mm");
+    EXPECT_EQ(saidOf(nothing, "/jaws", "grips"), "passed: nothing is there, and it says so");
+    expectFound(missing, {{"/jaws", "opens and closes", {"30 mm was expected"}},
+                          {"/jaws", "grips", {"grip ended with"}}});
+    EXPECT_TRUE(saidOf(piece, "/jaws", "opens and closes").starts_with("passed: 30 mm to 100"));
+    EXPECT_TRUE(saidOf(piece, "/jaws", "grips").starts_with("passed: holds 30"))
+        << saidOf(piece, "/jaws", "grips");
+    expectFound(unsaid, {{"/jaws", "opens and closes", {"is something between the jaws?"}},
+                         {"/jaws", "grips", {"--grip WIDTH says what is"}}});
+    for (const char* each : {"/jaws", "/jaws/lead", "/jaws/move"}) {
+        EXPECT_EQ(plant.state(each), State::Standby) << each;
+    }
 }
 
 // An interrupt on the way of a slow motion.

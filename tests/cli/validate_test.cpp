@@ -140,6 +140,75 @@ TEST(CortexValidate, LooksForThePathsOfAnotherAgentInTheOtherSystem) {
     EXPECT_TRUE(contains(other.output, "[arm.xml:69]")) << other.output;
 }
 
+// The plant examples/ds402_dual_axis with two lines exchanged: each axis would run to the place of
+// the other one.
+TEST(CortexValidate, RefusesADriveThatIsToldWhatItsOtherAxisIsToDo) {
+    const std::filesystem::path files = CORTEX_SOURCE_DIR "/examples/ds402_dual_axis";
+    const ModelFolder folder;
+    folder.write("table-types.xml", textOf(files / "table-types.xml"));
+    std::string text = textOf(files / "ds402_dual_axis.xml");
+    const std::size_t a = text.find("rule=\"setpoints\" to=\"/set/a\""), b = text.find("/set/b", a);
+    text.replace(b, 6, "/set/a");
+    text.replace(text.find("/set/a", a), 6, "/set/b");
+    folder.write("crossed.xml", text);
+
+    const Outcome outcome = cortex({"validate", "crossed.xml", "--json"}, {}, folder.path());
+
+    EXPECT_EQ(outcome.exit, 1) << outcome.output;
+    ASSERT_EQ(findingsOf(outcome).size(), 1U) << outcome.output;
+    EXPECT_EQ(findingsOf(outcome).at(0)["rule"], "pair-crossed");
+    EXPECT_EQ(findingsOf(outcome).at(0)["path"], "/processor");
+}
+
+// A drive of one agent, and what leads it in another one; the remote axes are known by their type.
+Outcome validateDriveElsewhere(const std::string& first, const std::string& second) {
+    const auto simplexes = [](const std::string& path, const std::string& type) {
+        return "<simplex path=\"" + path + "/a\" type=\"" + type + "\"/>\n<simplex path=\"" + path +
+               "/b\" type=\"" + type + "\"/>\n";
+    };
+    const auto both = [](const std::string& rule, const std::string& path,
+                         const std::string& more = "") {
+        return "<relate rule=\"" + rule + "\" to=\"" + path + "/a\"" + more +
+               "/>\n<relate rule=\"" + rule + "\" to=\"" + path + "/b\"" + more + "/>\n";
+    };
+    const auto remote = [](const std::string& type) {
+        return " remote=\"true\" type=\"Ds402Rotary" + type + "\"";
+    };
+    const auto system = [](const std::string& name, const std::string& text) {
+        return "<system name=\"" + name + "\">\n<morphology file=\"cortex-morphology.xml\"/>\n" +
+               text + "<cluster name=\"" + name + "\"/>\n</system>\n";
+    };
+    const ModelFolder folder;
+    folder.write("drive.xml",
+                 system("far", "<simplex path=\"/drive\" type=\"Ds402SimulatedDrive\">\n" +
+                                   both("demands", "/set", remote("Modification")) +
+                                   both("observations", "/axis") + "</simplex>\n" +
+                                   simplexes("/axis", "Ds402RotaryObservation")));
+    folder.write(
+        "lead.xml",
+        system("lead", "<simplex path=\"/processor\" type=\"Ds402AxisProcessor\">\n" +
+                           both("drives", "/axis", remote("Observation")) +
+                           both("demands", "/demand") + "<relate rule=\"setpoints\" to=\"" + first +
+                           "\"/>\n<relate rule=\"setpoints\" to=\"" + second +
+                           "\"/>\n</simplex>\n" + simplexes("/set", "Ds402RotaryModification") +
+                           simplexes("/demand", "RotaryAxisConcept")));
+    return cortex({"validate", "drive.xml", "lead.xml"}, {}, folder.path());
+}
+
+TEST(CortexValidate, RefusesADriveOfAnotherAgentThatIsToldWhatItsOtherAxisIsToDo) {
+    const Outcome straight = validateDriveElsewhere("/set/a", "/set/b");
+    EXPECT_EQ(straight.exit, 0) << straight.output;
+
+    const Outcome crossed = validateDriveElsewhere("/set/b", "/set/a");
+    EXPECT_EQ(crossed.exit, 1) << crossed.output;
+    EXPECT_TRUE(contains(crossed.output,
+                         "error: /processor: /set/b (rule 'setpoints') stands in "
+                         "the place of /axis/a (rule 'drives', lead.xml:4)"))
+        << crossed.output;
+    EXPECT_TRUE(contains(crossed.output, "in /drive /set/b (rule 'demands', drive.xml:5)"))
+        << crossed.output;
+}
+
 TEST(CortexValidate, NotesWhatItCannotCheckOfASystemAlone) {
     const Outcome alone =
         cortex({"validate", (std::filesystem::path{example}.parent_path() / "robot.xml").string()});

@@ -208,6 +208,20 @@ TEST_F(EventFoldTest, TellsASingleRepeatAsItWas) {
     EXPECT_EQ(told, (std::vector<std::string>{"missed 1 tick", "missed 2 tick"}));
 }
 
+TEST_F(EventFoldTest, TellsTheOldestFirst) {
+    for (const std::int64_t time : {1, 2}) {
+        for (const char* text : {"c", "b", "a"}) {
+            Event each = event(text);
+            each.wallClock = 10 * time + (text[0] == 'b' ? 1 : text[0] == 'c' ? 0 : 2);
+            fold.take(each, 0);
+        }
+    }
+    told.clear();
+    fold.pass(second);
+
+    EXPECT_EQ(told, (std::vector<std::string>{"c", "b", "a"}));
+}
+
 TEST_F(EventFoldTest, NeverFoldsFaultsErrorsStatesAndCommands) {
     for (int i = 0; i < 2; ++i) {
         fold.take(event("a", EventKind::Fault), i);
@@ -282,6 +296,23 @@ TEST_F(EventLogTest, NumbersEventsFromOutsideTheCyclesToo) {
 
     EXPECT_EQ(texts, "1.0.0 0.9.9");
     EXPECT_EQ(numbers, (std::vector<std::uint64_t>{1, 2}));
+}
+
+TEST_F(EventLogTest, PutsEventsFromOutsideTheCyclesWhereTheirTimeIs) {
+    const auto at = [](std::int64_t cycle, std::uint32_t order, std::int64_t clock) {
+        Event event = eventAt(cycle, order, 0);
+        event.clock = clock;
+        return event;
+    };
+    log.ring(0).post(at(1, 0, 200));
+    log.ring(0).post(at(2, 0, 400));
+    log.ring(1).post(at(2, 1, 390));  // its thread began a little earlier
+    for (const std::int64_t clock : {100, 300, 500}) log.postOutside(at(0, 9, clock));
+    log.complete(2);
+    log.flush();
+
+    EXPECT_EQ(texts, "0.9.0 1.0.0 0.9.0 2.0.0 2.1.0 0.9.0");
+    EXPECT_EQ(numbers, (std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6}));
 }
 
 TEST_F(EventLogTest, NumbersApartWhatTheSameInputDoesNotCauseAgain) {

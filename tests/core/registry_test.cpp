@@ -138,6 +138,14 @@ TEST(ClassRegistry, RefusesAPluginThatWasBuiltAgainstOtherHeaders) {
     EXPECT_TRUE(contains(why, "build it anew against the installed headers")) << why;
 }
 
+TEST(ClassRegistry, TakesAPluginThatGivesNoHashOfATypeAndRefusesOtherNullPointers) {
+    ClassRegistry registry;
+    registry.loadPlugin(plugin("null-hash"), pumps());
+    EXPECT_NE(registry.find("Pump"), nullptr);
+    EXPECT_TRUE(contains(refusal("null-text"),
+                         "describes itself with null pointers; let CORTEX_PLUGIN(…) make"));
+}
+
 TEST(ClassRegistry, RefusesAPluginThatStatesATypeAndRegistersNoClassForIt) {
     EXPECT_TRUE(contains(refusal("unregistered"),
                          "states type Turbine in CORTEX_PLUGIN, but registers no class for it"));

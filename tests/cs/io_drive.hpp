@@ -32,6 +32,7 @@ public:
     using IoSimplex::IoSimplex;
     std::function<void(Line&)> talk;
     std::atomic<int> talks{0};
+    std::chrono::nanoseconds lose = std::chrono::milliseconds{5};
     std::chrono::nanoseconds stale{};  // 0: never
     std::function<void()> work;        // that its next hook asks the thread for
     bool asks = false, wasBegun = false;
@@ -45,7 +46,7 @@ private:
     void populate() override {
         demand_ = input("demand").data<double>("position");
         position_ = output("observation").data<double>("position");
-        loseAfter(std::chrono::milliseconds{5});
+        loseAfter(lose);
         if (stale.count() > 0) staleAfter(stale);
         asked = atDevice([this] { work(); });
     }

@@ -98,6 +98,43 @@ TEST_F(LiveRule, CallsWhatTheFrameworkWritesAsGoodAsTheLastCycleThatWasHeard) {
     EXPECT_FALSE(isLive(lost, "/probe", "state"));
 }
 
+// Its thread knows its link, also while nothing answers; what never came is shown by nobody.
+TEST(LiveRuleOfDevices, CallsTheLinkOfALostDeviceLiveAndShowsNothingThatNeverCame) {
+    MadeAgent robot{"robot",
+                    [](SimplexTree& tree) {
+                        Simplex& boiler = tree.add("/boiler", "Boiler");
+                        tree.relate(boiler, "heater", tree.add("/power", "BoilerPower"));
+                        tree.relate(boiler, "water", tree.add("/water", "BoilerTemperature"));
+                    },
+                    "fieldbus-rules.xml"};
+    const auto isShown = [&](const char* path, const char* item) {
+        const std::uint32_t simplex = robot.at(path);
+        return robot.now()
+            .value(simplex, *robot.structure->simplexes[simplex].layout->find(item))
+            .has_value();
+    };
+    const auto isLive = [&](const char* path, const char* item) {
+        const std::uint32_t simplex = robot.at(path);
+        const ItemLayout& layout = *robot.structure->simplexes[simplex].layout->find(item);
+        return robot.now().live(simplex, *layout.item);
+    };
+    for (const char* path : {"/boiler", "/water"}) robot.degrade(path, Quality::Lost);
+    EXPECT_FALSE(isShown("/boiler", "age"));
+    EXPECT_FALSE(isShown("/boiler", "exchangeTimeMax"));
+    EXPECT_FALSE(isShown("/water", "temperature"));
+    EXPECT_FALSE(robot.now().age(robot.at("/water")));
+    EXPECT_TRUE(isShown("/boiler", "exchangeCount"));
+    EXPECT_TRUE(isShown("/power", "power"));
+    EXPECT_TRUE(isLive("/boiler", "link"));
+
+    robot.put("/boiler", "exchangeCount", std::int64_t{1});
+    EXPECT_TRUE(isShown("/boiler", "age"));
+    EXPECT_TRUE(isShown("/water", "temperature"));
+    EXPECT_TRUE(robot.now().age(robot.at("/water")));
+    EXPECT_TRUE(isLive("/boiler", "age"));
+    EXPECT_FALSE(isLive("/water", "temperature")) << "the last one that came";
+}
+
 TEST_F(LiveRule, IsThatOfRecordsToo) {
     const auto recorded = [&](const RecordedItem& item) {
         Pending pending;

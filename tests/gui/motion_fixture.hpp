@@ -180,14 +180,19 @@ protected:
     }
     std::int64_t cycle() { return session.frame()->agents.front().status.cycle; }
     bool jogs() { return number(jogger, "jogging") == 1; }
-    // It is pressed again where the machine held window or agent up, which ends it by itself.
+    // It is pressed again where the machine held window or agent up, which ends it by itself; that
+    // the controller ends it counts only with ticks that were missed.
     bool moves(const std::function<void()>& release, const std::function<void()>& press,
                const std::function<bool()>& hasMoved) {
+        double missed = number("/robot", "overflowCount");
         return comes([&] {
             const QString seen = said();
             const int at = seen.indexOf("Ended: ");
             if (at >= 0) endings.insert(seen.mid(at, 120).toStdString());
-            if (seen.contains("Ended: the window hung") || seen.contains("did not answer")) {
+            const double missedNow = number("/robot", "overflowCount");
+            if (seen.contains("Ended: the window hung") || seen.contains("did not answer") ||
+                (seen.contains("Ended: the controller") && missedNow > missed)) {
+                missed = missedNow;
                 release();
                 press();
             }

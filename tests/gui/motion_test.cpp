@@ -21,13 +21,15 @@ protected:
     void holdsButton() {
         ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
         QTest::mousePress(&button(0, 1), Qt::LeftButton);
-        ASSERT_TRUE(moves([this] { QTest::mouseRelease(&button(0, 1), Qt::LeftButton); },
-                          [this] { QTest::mousePress(&button(0, 1), Qt::LeftButton); },
-                          [this] { return number("/arm/axes/1", "position") > 0.01; }))
+        ASSERT_TRUE(movesByButton([this] { return number("/arm/axes/1", "position") > 0.01; }))
             << said().toStdString() << testing::PrintToString(endings);
         ASSERT_TRUE(said().contains(
             "Jogging A1 at +0.100 rad/s. It brakes when you let go, after 0.25 s at the latest."))
             << said().toStdString();
+    }
+    bool movesByButton(const std::function<bool()>& hasMoved) {
+        return moves([this] { QTest::mouseRelease(&button(0, 1), Qt::LeftButton); },
+                     [this] { QTest::mousePress(&button(0, 1), Qt::LeftButton); }, hasMoved);
     }
     void holdsKey() {
         ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
@@ -179,9 +181,12 @@ TEST_F(Jogging, AButtonOfTheMouseEndsWhatAKeyHolds) {
 TEST_F(Jogging, WhatTheControllerEndsStaysEnded) {
     ASSERT_NO_FATAL_FAILURE(holdsButton());
     const std::int64_t then = cycle();
-    EXPECT_TRUE(comes([&] { return cycle() > then + 200 && jogs(); }));
+    EXPECT_TRUE(movesByButton([&] { return cycle() > then + 200; }))
+        << testing::PrintToString(endings);
     session.send("/jog", "shutdown");
     EXPECT_TRUE(says("Ended: ")) << said().toStdString();
+    // The answer to a repeated order may come before the image that shows what it says.
+    EXPECT_TRUE(comes([this] { return number("/jog", "state") != 2; }));
     session.send("/jog", "startup");
     EXPECT_TRUE(comes([this] { return number("/jog", "state") == 2; }));
     const std::int64_t since = cycle();

@@ -7,6 +7,8 @@
 #include <map>
 #include <string>
 
+#include <sys/stat.h>
+
 #include <gtest/gtest.h>
 
 namespace cortex::test {
@@ -174,6 +176,9 @@ TEST_F(PluginFolders, ThatAreWrongAreToldAndHinderNobody) {
     folder.write("first/b.types", "# nothing yet\n");
     folder.write("first/c.types", "Hall\npackage\n\x1b[2J\n");
     fs::create_directory(folder.path() / "first/d.types");
+    ASSERT_EQ(mkfifo(at("first/f.types").c_str(), 0600), 0);
+    ASSERT_EQ(mkfifo(at("first/g.so").c_str(), 0600), 0);
+    folder.write("first/h.types", "hall\n");
     putLibrary("first/e.so", "counter");
     variable += ":nowhere";
 
@@ -184,10 +189,29 @@ TEST_F(PluginFolders, ThatAreWrongAreToldAndHinderNobody) {
          {at("first/a.types") + ":1: 'Counter Hall' is no name of a type; write one in each line",
           at("first/b.types") + ": no type could be read from it",
           at("first/c.types") + ":3: '\\x1b[2J' is no name of a type",
+          at("first/d.types") + " is no file; put one there, or take it away",
+          at("first/f.types") + " is no file", at("first/g.so") + " is no file",
+          at("first/h.types") + ":1: type hall is written Hall in the ontology; write it so",
           at("first/e.so") + " is never loaded: e.types is not beside it",
           std::string{"CORTEX_AGENT_PLUGINS names nowhere, which is no folder"}}) {
         EXPECT_TRUE(contains(agent.errors, text)) << text << "\n" << agent.errors;
     }
+}
+
+TEST_F(PluginFolders, MayHaveAByteOrderMarkInTheirLists) {
+    putLibrary("first/counter.so", "counter");
+    folder.write("first/counter.types",
+                 "\xef\xbb\xbf"
+                 "Counter\r\n");
+    expectLoaded(agentOf("Counter"), "plug-in " + at("first/counter.so") + ": loaded for Counter");
+}
+
+TEST_F(PluginFolders, NeverWaitForAPluginThatIsAPipe) {
+    ASSERT_EQ(mkfifo(at("first/counter.so").c_str(), 0600), 0);
+    folder.write("first/counter.types", "Counter\n");
+    expectRefused(agentOf("Counter"), "plug-in " + at("first/counter.so") +
+                                          " cannot be loaded: it is no file; name the shared "
+                                          "object itself");
 }
 
 TEST_F(PluginFolders, HaveNothingForATypeThatNoneLists) {

@@ -45,6 +45,11 @@ std::int64_t Station::cycleOf(const std::string& agent) const {
     return image ? image->cycle() : -1;
 }
 
+std::int64_t Station::stampOf(const std::string& path) const {
+    const comms::AgentImage image = imageOf(path);
+    return image ? image->state(image->structure().find(path)).cycle : -1;
+}
+
 comms::AgentImage Station::imageOf(const std::string& path) const {
     const auto owner = mirror_.ownerOf(path);
     if (!owner) return {};

@@ -30,6 +30,8 @@ public:
     std::string stateOf(const std::string& agent) const;  // "": never heard
     std::int64_t epochOf(const std::string& agent) const;
     std::int64_t cycleOf(const std::string& agent) const;  // of what is seen of it
+    // The cycle of the oldest measurement in what is seen there; -1: it has not come.
+    std::int64_t stampOf(const std::string& path) const;
 
     // Items as they came last.
     std::optional<std::int64_t> number(const std::string& path, const std::string& item) const;

@@ -43,6 +43,7 @@ void TaskRunner::beginCycle(const Tick& tick, std::int64_t next) {
     for (TaskThread& thread : set_.threads) {
         thread.longest = {};
         thread.nextDeadline = next;
+        thread.stoodUntil = set_.standstill.end;
     }
     if (tick.cycle == 1 || (slow && timedAll_)) return;  // a slow one is timed again
     firstTimed_ += timed_;
@@ -60,7 +61,7 @@ void TaskRunner::noteStandstill(const Tick& tick) {
         realTime ? set_.agent.thread(0).clock.nanoseconds : tick.nominalTime + set_.period;
     const std::int64_t length = now - std::exchange(lastBegin_, now);
     if (length > usualPeriods * set_.period && length != now) {
-        set_.standstill = {tick.nominalTime, length};
+        set_.standstill = {tick.nominalTime, length, realTime ? now : 0};
     }
 }
 

@@ -114,6 +114,7 @@ struct TaskDetails {
 struct Standstill {
     std::int64_t nominalTime = -1;  // of the cycle after it
     std::int64_t length = 0;        // ns
+    std::int64_t end = 0;           // ns of the monotonic clock; 0: none, or the loop is stepped
 };
 
 // The tasks of a cluster, and what they read and write. Built once by start().

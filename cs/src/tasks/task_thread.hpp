@@ -20,9 +20,10 @@ struct alignas(64) TaskThread {
     std::int64_t measuredAt = 0;                            // setQuality()
     std::int64_t faultCode = 0;                             // fault()
     std::int64_t nextDeadline = 0;                          // of the loop, 0: not known
-    LongestTask longest;                                    // of this cycle
-    EventText text;   // of the fault, or why a command was refused
-    EventText brief;  // of the fault, for the item faultText
+    std::int64_t stoodUntil = 0;  // end of the last standstill, ns of the monotonic clock; 0: none
+    LongestTask longest;          // of this cycle
+    EventText text;               // of the fault, or why a command was refused
+    EventText brief;              // of the fault, for the item faultText
 };
 
 }  // namespace cortex::cs

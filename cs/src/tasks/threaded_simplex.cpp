@@ -7,7 +7,9 @@
 #include "tasks/task_set.hpp"
 #include "threads/realtime_thread.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -144,10 +146,13 @@ bool ThreadedSimplex::waitFor(std::chrono::nanoseconds time) const {
 }
 
 void ThreadedSimplex::loopStart(const Tick& tick) {
-    if (since_ < 0) since_ = tick.nominalTime;
+    if (since_ < 0) {
+        since_ = tick.nominalTime;
+        putAt_ = thread_->loop->clock.nanoseconds;
+    }
     lookAtThread();
-    const bool isNew = !deathTold_ && takeTold(tick);
-    age_ = tick.nominalTime - since_;
+    const bool isNew = !deathTold_ && takeTold();
+    setAge(tick, isNew);
     isThere_ = told_.isThere && age_ <= lostAfter_;
     if (isThere_ && lossTold_) event(Severity::Info, "the device is back");
     const bool isAwaited = isFirstAwaited_ && age_ <= lostAfter_;
@@ -177,7 +182,7 @@ void ThreadedSimplex::lookAtThread() {
     if (!deathTold_) {
         deathTold_ = true;
         isFirstAwaited_ = false;
-        told_ = {false, *death};
+        told_ = {false, *death, {}};
         lossTold_ = state() != State::Fault;  // the event of the fault tells it
         enterFault(ThreadEnded, death->view());
     } else if (state() != State::Fault) {
@@ -188,21 +193,40 @@ void ThreadedSimplex::lookAtThread() {
 }
 
 // Whether there is a new value.
-bool ThreadedSimplex::takeTold(const Tick& tick) {
+bool ThreadedSimplex::takeTold() {
     const Told* told = takeNewest();
     if (told == nullptr) return false;
     // Another reason is told, too; the same one is told once.
     if (!told->isThere && told->why.view() != told_.why.view()) lossTold_ = false;
     told_ = *told;
     isFirstAwaited_ = false;
-    if (told_.isThere) since_ = tick.nominalTime;
+    if (told_.isThere) putAt_ = std::chrono::nanoseconds{told_.since.time_since_epoch()}.count();
     return told_.isThere;
+}
+
+// Nominal time does not run while the process stands still, and what was put before that may be
+// seen first after it. So from then on the clock alone says how old such a value is, as it does for
+// one that was too old when it came. Its stamp goes on with nominal time, and never back.
+void ThreadedSimplex::setAge(const Tick& tick, bool isNew) {
+    const std::int64_t real = isRealTime() ? thread_->loop->clock.nanoseconds - putAt_ : 0;
+    const bool isOld = isNew ? real > lostAfter_ : isByClock_;
+    isByClock_ = isOld || putAt_ < thread_->stoodUntil;
+    if (isByClock_) {
+        age_ = std::max<std::int64_t>(real, 0);
+        since_ = std::max(since_, tick.nominalTime - age_);
+        return;
+    }
+    if (isNew) since_ = tick.nominalTime;
+    age_ = tick.nominalTime - since_;
 }
 
 void ThreadedSimplex::tellLoss() {
     EventText text{"the device is lost: "};
     if (!told_.isThere && !isFirstAwaited_) {
         text << told_.why.view();
+    } else if (isByClock_) {
+        text << "its newest value is " << std::round(static_cast<double>(age_) * 1e-6) * 1e-3
+             << " s old, as the loop or thread " << beside_->name() << " stood still";
     } else {
         text << "thread " << beside_->name() << " has given no value for "
              << static_cast<double>(age_) * 1e-9 << " s";

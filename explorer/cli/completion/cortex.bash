@@ -17,7 +17,7 @@ _cortex() {
         shell) options="--keep-going ${network/--json /}" ;;
         top) options="--rate --seconds --once --until-gone $network" ;;
         save) options="--force $network" ;;
-        conform) options="--move --speed --home --seconds --junit --force --take $network" ;;
+        conform) options="--move --speed --home --grip --seconds --junit --force --take $network" ;;
         restore) options="--dry-run --take $network" ;;
         watch) options="--rate --count --csv $network" ;;
         events) options="--follow --severity --csv $network" ;;

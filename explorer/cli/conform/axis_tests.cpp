@@ -214,7 +214,7 @@ Tests axisTests() {
                                               {"it stops without a demand", stopsWithoutDemand},
                                               {"it is braked in Standby", isBraked}}}) {
         tests.push_back({row.name,
-                         {"AxisDevice", "Ds402Device"},
+                         {"Device"},
                          Needs::Motion,
                          Per::Axis,
                          [judge = row.judge](Bench& bench, std::size_t place) {

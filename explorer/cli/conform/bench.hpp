@@ -22,6 +22,7 @@ namespace cortex::cli::conform {
 // What the tests may do.
 struct Wishes {
     std::optional<double> move;  // amplitude, in the unit of the axis; none: nothing moves
+    std::optional<double> grip;  // m, between the jaws of a gripper, 0: nothing; none: no gripping
     double speed = 0.25;         // greatest share of an axis' greatest speed
     bool home = false, take = false;
     double seconds = 60;  // how long exchanges are counted

@@ -13,8 +13,8 @@ namespace {
 const Tests& allTests() {
     static const Tests all = [] {
         Tests tests;
-        for (Tests each :
-             {deviceTests(), fieldbusTests(), ds402Tests(), axisTests(), honestyTests()}) {
+        for (Tests each : {deviceTests(), fieldbusTests(), ds402Tests(), axisTests(),
+                           gripperTests(), honestyTests()}) {
             std::ranges::move(each, std::back_inserter(tests));
         }
         return tests;
@@ -23,6 +23,8 @@ const Tests& allTests() {
 }
 
 bool isFor(const Test& test, const Plant& plant) {
+    if (test.per == Per::Axis && !plant.hasAxes()) return false;
+    if (test.needs == Needs::Grip && !plant.isGripper()) return false;
     return std::ranges::any_of(test.types,
                                [&](const std::string& type) { return plant.deviceIs(type); });
 }
@@ -30,6 +32,11 @@ bool isFor(const Test& test, const Plant& plant) {
 // Why it is not to run; "": nothing speaks against it.
 std::string notWished(const Test& test, const Plant& plant, const Wishes& wishes) {
     if (test.needs == Needs::Nothing) return {};
+    if (test.needs == Needs::Grip) {
+        return wishes.grip ? ""
+                           : "it opens and closes the jaws wholly; --grip WIDTH allows that, with "
+                             "the width in m of what is between them, or 0";
+    }
     if (!wishes.move) {
         const DataItem* position = plant.axes.empty()
                                        ? nullptr

@@ -73,8 +73,8 @@ Judgement controllerLoss(Bench& bench, std::size_t) {
     const std::string& type = bench.plant().deviceType().name;
     return failed(
         "onControllerLoss is 0 (Unknown); try what it does when nobody controls it any "
-        "more, and write that into its type: <type name=\"" +
-        type +
+        "more, and write that into its type, or into one of your own that extends it where " +
+        type + " is a shipped one: <type name=\"My" + type + "\" extends=\"" + type +
         "\" …><data name=\"onControllerLoss\" default=\"2\"/> (2 StopsOnRamp; 'cortex "
         "types " +
         type + "' lists all)");

@@ -90,8 +90,9 @@ Mover Motion::mover() const {
                             stateText(bench_.now(), writer) + "; shut it down first")};
     }
     if (movers.empty()) {
-        throw Ended{skipped("no AxisPoseController and no JogController of agent " + plant_.agent +
-                            " writes " + demand + "; relate one to it under its rule demands")};
+        throw Ended{skipped("no AxisPoseController, JogController or GripperController of agent " +
+                            plant_.agent + " writes " + demand +
+                            "; relate one to it under its rule demands")};
     }
     return movers.front();
 }
@@ -160,7 +161,13 @@ void Motion::begin() {
 // Of a controller of several axes the others stay where they are wished to be.
 comms::CommandAnswer Motion::send(double target, const std::function<bool()>& goesOn) {
     const std::uint32_t controller = mover_.controller;
-    const char* item = mover_.jogs ? "demandPosition" : "pose";
+    if (mover_.kind == Mover::Grips) {
+        return bench_.call(controller, "moveTo",
+                           {{"width", target}, {"speed", share_ * bounds_.speed}}, patience_,
+                           goesOn);
+    }
+    const bool jogs = mover_.kind == Mover::Jogs;
+    const char* item = jogs ? "demandPosition" : "pose";
     auto places = std::get<std::vector<double>>(bench_.value(controller, item).value());
     const auto demands = plant_.related(controller, "demands");
     for (std::size_t i = 0; i < std::min(places.size(), demands.size()); ++i) {
@@ -168,7 +175,7 @@ comms::CommandAnswer Motion::send(double target, const std::function<bool()>& go
     }
     places.at(mover_.place) = target;
     bench_.set(controller, item, places);
-    if (!mover_.jogs)
+    if (!jogs)
         return bench_.call(controller, "moveTo", {{"speedShare", share_}}, patience_, goesOn);
     bench_.set(controller, "speedShare", std::vector<double>{share_});
     const std::int64_t mode = bench_.now().count(controller, "mode");

@@ -51,7 +51,38 @@ void findProcessor(Plant& plant) {
     }
 }
 
+// The n-th axis that is demanded is the n-th that is observed, among what else the device has.
+void findAxes(Plant& plant) {
+    const auto axesOf = [&](std::vector<std::uint32_t> all) {
+        std::erase_if(all,
+                      [&](std::uint32_t each) { return !plant.type(each).isA("AxisConcept"); });
+        return all;
+    };
+    const auto demands = axesOf(plant.demands), observations = axesOf(plant.observations);
+    for (std::size_t i = 0; i < std::min(demands.size(), observations.size()); ++i) {
+        plant.axes.push_back({demands[i], observations[i], i});
+    }
+}
+
+std::optional<Mover::Kind> kindOf(const Type& controller) {
+    if (controller.isA("AxisPoseController")) return Mover::Poses;
+    if (controller.isA("JogController")) return Mover::Jogs;
+    if (controller.isA("GripperController")) return Mover::Grips;
+    return std::nullopt;
+}
+
 }  // namespace
+
+bool Plant::hasAxes() const {
+    return !axes.empty() || deviceIs("AxisDevice") || deviceIs("Ds402Device");
+}
+
+bool Plant::isGripper() const {
+    return std::ranges::any_of(axes, [&](const AxisPair& axis) {
+        return std::ranges::any_of(movers(axis),
+                                   [](const Mover& each) { return each.kind == Mover::Grips; });
+    });
+}
 
 std::vector<std::uint32_t> Plant::all() const {
     std::vector<std::uint32_t> all{device};
@@ -73,12 +104,11 @@ std::vector<std::uint32_t> Plant::related(std::uint32_t owner, std::string_view 
 std::vector<Mover> Plant::movers(const AxisPair& axis) const {
     std::vector<Mover> movers;
     for (const std::uint32_t writer : info(axis.demand).writers) {
-        const bool jogs = type(writer).isA("JogController");
-        if (!jogs && !type(writer).isA("AxisPoseController")) continue;
+        const auto kind = kindOf(type(writer));
         const auto its = related(writer, "demands");
         const auto found = std::ranges::find(its, axis.demand);
-        if (found == its.end()) continue;
-        movers.push_back({writer, static_cast<std::size_t>(found - its.begin()), jogs});
+        if (!kind || found == its.end()) continue;
+        movers.push_back({writer, static_cast<std::size_t>(found - its.begin()), *kind});
     }
     return movers;
 }
@@ -112,11 +142,10 @@ Plant findPlant(Live& live, const std::string& path) {
     plant.cluster = agentsOwn(*plant.structure);
     plant.demands = plant.related(found.index, "demands");
     plant.observations = plant.related(found.index, "observations");
-    if (plant.deviceIs("Ds402Device")) findProcessor(plant);
-    const std::size_t pairs = std::min(plant.demands.size(), plant.observations.size());
-    for (std::size_t i = 0; plant.deviceIs("AxisDevice") && i < pairs; ++i) {
-        plant.axes.push_back({plant.demands[i], plant.observations[i], i});
-    }
+    if (plant.deviceIs("Ds402Device"))
+        findProcessor(plant);
+    else
+        findAxes(plant);
     return plant;
 }
 

@@ -21,9 +21,11 @@ struct AxisPair {
 
 // A controller that can bring an axis to a position on command.
 struct Mover {
+    enum Kind : std::uint8_t { Poses, Jogs, Grips };
+
     std::uint32_t controller = noSimplex;
     std::size_t place = 0;  // of the axis among those of the controller, from 0
-    bool jogs = false;      // a JogController; otherwise an AxisPoseController
+    Kind kind = Poses;
 };
 
 // A device and what it is joined to in its agent. Simplexes are numbers in its structure.
@@ -40,6 +42,8 @@ struct Plant {
     const Type& type(std::uint32_t simplex) const { return *info(simplex).layout->type; }
     const Type& deviceType() const { return type(device); }
     bool deviceIs(std::string_view type) const { return deviceType().isA(type); }
+    bool hasAxes() const;                    // or should have some
+    bool isGripper() const;                  // a GripperController moves it
     std::vector<std::uint32_t> all() const;  // the device, its demands and observations
     // What is related by the rule, or by one that refines it, in order.
     std::vector<std::uint32_t> related(std::uint32_t owner, std::string_view rule) const;

@@ -10,7 +10,7 @@
 
 namespace cortex::cli::conform {
 
-enum class Needs : std::uint8_t { Nothing, Motion, Homing };
+enum class Needs : std::uint8_t { Nothing, Motion, Homing, Grip };
 enum class Per : std::uint8_t { Device, Axis };
 
 // One row of the table of tests. `run` gets the place of the axis in Plant::axes, or 0.
@@ -27,6 +27,7 @@ Tests deviceTests();
 Tests fieldbusTests();
 Tests axisTests();
 Tests ds402Tests();
+Tests gripperTests();
 // What was seen meanwhile, so they come last.
 Tests honestyTests();
 

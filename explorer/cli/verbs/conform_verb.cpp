@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <map>
+#include <string>
 
 namespace cortex::cli {
 namespace {
@@ -27,17 +29,34 @@ std::string padded(std::string text, std::size_t width) {
     return text;
 }
 
-// As it comes: some tests take a minute.
-void printResult(const conform::Result& result, bool colours) {
-    constexpr std::size_t verdictWidth = 9, testWidth = 36;
-    const Verdict verdict = result.judgement.verdict;
-    const TextLine line{{padded(name(verdict), verdictWidth), lookOf(verdict)},
-                        {padded(result.test, testWidth)},
-                        {result.judgement.text}};
-    std::string text = rendered(line, anyWidth, colours);
-    text.erase(text.find_last_not_of(' ') + 1);
-    std::cout << text << std::endl;
-}
+// The results of one device, each as it comes: some tests take a minute.
+class ResultPrinter {
+public:
+    explicit ResultPrinter(bool colours) : colours_{colours} {}
+
+    void print(const conform::Result& result) {
+        constexpr std::size_t verdictWidth = 9, testWidth = 36;
+        const Verdict verdict = result.judgement.verdict;
+        const TextLine line{{padded(name(verdict), verdictWidth), lookOf(verdict)},
+                            {padded(result.test + ' ', testWidth)},
+                            {shortened(result)}};
+        std::string text = rendered(line, anyWidth, colours_);
+        text.erase(text.find_last_not_of(' ') + 1);
+        std::cout << text << std::endl;
+    }
+
+private:
+    // Why tests are skipped is said once.
+    std::string shortened(const conform::Result& result) {
+        const std::string& text = result.judgement.text;
+        if (result.judgement.verdict != Verdict::Skipped) return text;
+        const auto [said, isNew] = said_.emplace(text, result.test);
+        return isNew ? text : "as for '" + said->second + "'";
+    }
+
+    bool colours_;
+    std::map<std::string, std::string> said_;  // the first test that was skipped for it
+};
 
 std::size_t total(const std::vector<DeviceResults>& devices, Verdict verdict) {
     std::size_t all = 0;
@@ -86,8 +105,12 @@ Exit testConformance(const ConformOptions& options) {
     for (const std::string& each : options.paths) plants.push_back(conform::findPlant(live, each));
     const std::int64_t began = utcNow();
     const bool colours = coloured(Stream::Output);
-    const conform::Wishes wishes{options.move, options.speed, options.home, options.take,
-                                 options.seconds};
+    const conform::Wishes wishes{.move = options.move,
+                                 .grip = options.grip,
+                                 .speed = options.speed,
+                                 .home = options.home,
+                                 .take = options.take,
+                                 .seconds = options.seconds};
     std::vector<DeviceResults> devices;
     for (const conform::Plant& each : plants) {
         if (!options.json) {
@@ -95,9 +118,10 @@ Exit testConformance(const ConformOptions& options) {
                       << each.deviceType().name << " of " << printable(each.agent) << ")"
                       << std::endl;
         }
+        ResultPrinter printer{colours};
         devices.push_back(
             conform::testDevice(live, each, wishes, [&](const conform::Result& result) {
-                if (!options.json) printResult(result, colours);
+                if (!options.json) printer.print(result);
             }));
     }
     if (!options.junit.empty()) writeSaved(options.junit, conform::junitText(devices, began));

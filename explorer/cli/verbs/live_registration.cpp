@@ -237,6 +237,7 @@ does. In the end everything is as it was found, also after Ctrl-C. Exit code 1: 
 Examples:
   cortex conform /drive
   cortex conform /drive --move 0.1 --take      by 0.1 rad or m, to and fro
+  cortex conform /gripper/device --move 0.01 --grip 0.03
   cortex conform /a /b --seconds 10 --junit results.xml)",
         conform, testConformance);
     verb->add_option("PATH", conform->paths, "Paths of devices")->required()->type_name("");
@@ -251,6 +252,12 @@ Examples:
         ->check(aNumber)
         ->check(CLI::Range(0.01, 1.0));
     verb->add_flag("--home", conform->home, "With --move: let drives look for their zero position");
+    verb->add_option("--grip", conform->grip,
+                     "Open and close a gripper wholly, and grip what is between its jaws: so many "
+                     "metres, 0 for nothing")
+        ->type_name("WIDTH")
+        ->check(aNumber)
+        ->check(CLI::Range(0.0, 10.0));
     verb->add_option("--seconds", conform->seconds, "How long to count exchanges, 60 if not given")
         ->type_name("S")
         ->check(ofSeconds)

@@ -79,6 +79,7 @@ struct ConformOptions : LiveOptions {
     std::string junit;               // file; empty: none
     bool force = false, home = false, take = false;
     std::optional<double> move;  // amplitude in the unit of the axis; none: nothing moves
+    std::optional<double> grip;  // m, between the jaws, 0: nothing; none: it does not grip
     double speed = 0.25;         // share of the axis' greatest speed
     double seconds = 60;         // in which exchanges are counted
 };

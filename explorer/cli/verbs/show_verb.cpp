@@ -21,13 +21,19 @@ namespace {
 struct Shown {
     FoundSimplex simplex;
     comms::AgentImage image;
-    std::optional<double> age;  // s; none: no values ever came
+    std::optional<double> age;  // s; none: no values ever came, or none was measured
     comms::AgentStatus owner{};
     std::vector<Cause> causes{};
     StaleDemand demand{};
 
     Value value(const ItemLayout& item) const { return image->value(simplex.index, item); }
-    bool knows(const DataItem& item) const { return item.constant || image.came(simplex.index); }
+    bool knows(const DataItem& item) const {
+        return item.constant ||
+               (image.came(simplex.index) && !common::neverCame(*image, simplex.index, item));
+    }
+    bool neverMeasured() const {
+        return image.came(simplex.index) && common::neverMeasured(*image, simplex.index);
+    }
     // None also of a lost agent: its last state may be over.
     std::optional<State> state() const {
         return image.lost() ? std::nullopt : stateOf(image, simplex.index);
@@ -139,7 +145,7 @@ Json shownJson(const Shown& shown) {
             {"quality", name(shown.quality())},
             {"safe", safeJson(shown.demand)},
             {"causes", causesJson(shown.causes)},
-            {"age_ms", shown.age.value_or(0) * 1000},
+            {"age_ms", shown.age ? Json(*shown.age * 1000) : Json()},
             {"overloaded", shown.owner.overloaded},
             {"standstill", shown.owner.standstill},
             {"state", state ? Json(name(*state)) : Json()},
@@ -168,10 +174,10 @@ void printHead(const Shown& shown) {
     const auto last = stateOf(shown.image, simplex.index);
     if (last) columns.add({"state", state ? name(*state) : bracketed(name(*last))});
     const std::string& why = shown.demand.why;
-    columns.add({"quality", std::string{name(shown.quality())} + (shown.demand.safe
-                                                                      ? ", its safe value: " + why
-                                                                  : why.empty() ? ""
-                                                                                : ", " + why)});
+    std::string quality = name(shown.quality());
+    if (shown.neverMeasured()) quality += ", never measured";
+    if (!why.empty()) quality += (shown.demand.safe ? ", its safe value: " : ", ") + why;
+    columns.add({"quality", quality});
     if (!shown.causes.empty()) columns.add({"because of", causesText(shown.causes)});
     if (shown.age) columns.add({"age", toText(std::round(*shown.age * 1e4) / 10) + " ms"});
     std::cout << simplex.info().path << '\n';
@@ -241,6 +247,7 @@ Exit showSimplex(const ShowOptions& options) {
     shown.image = live.values(shown.simplex);
     shown.owner = live.statusOf(shown.simplex.agent);
     shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index);
+    if (shown.neverMeasured()) shown.age.reset();
     if (shown.age) shown.age = common::shownAge(*shown.age, shown.owner);
     shown.demand = demandOf(live, shown);
     shown.causes = causesOf(live, shown.simplex, shown.image);

@@ -47,7 +47,7 @@ Pending::Source Pending::sourceOf(const RecordedItem& item, const Structure& str
     result.kind = layout->item->kind;
     result.offset = layout->offset + static_cast<std::uint32_t>(item.element);
     result.constant = layout->constant;
-    result.always = layout->constant || common::isOfFramework(structure, simplex, item.item);
+    result.always = layout->constant || common::isOfAgent(structure, simplex, item.item);
     return result;
 }
 

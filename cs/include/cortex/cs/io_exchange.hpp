@@ -43,6 +43,7 @@ protected:
     struct Told {
         bool isThere = false;
         EventText why{};
+        Pace::Clock::time_point since{};  // of the value
     };
 
     // In populate(): without a newer value for so long (nominal time) the device is lost.
@@ -58,7 +59,8 @@ protected:
     // In loopStart(): received(), age() and isLost() are those of this cycle; `isNew`: there is a
     // value that no cycle has seen before.
     virtual void valuesTaken(const Tick&, bool /*isNew*/) CORTEX_REALTIME {}
-    // In hooks: nominal time, ns, since the run of this task that first saw the newest value.
+    // In hooks: nominal time, ns, since the run of this task that first saw the newest value. By
+    // the clock, since it was put, if the loop stood still after that or the thread was held up.
     std::int64_t age() const CORTEX_REALTIME { return age_; }
     // In hooks: there is no value yet, or it is too old, or the thread says so or has ended.
     bool isLost() const CORTEX_REALTIME { return !isThere_; }
@@ -81,7 +83,8 @@ private:
     virtual void runThread() = 0;
 
     void lookAtThread() CORTEX_REALTIME;
-    bool takeTold(const Tick& tick) CORTEX_REALTIME;
+    bool takeTold() CORTEX_REALTIME;
+    void setAge(const Tick& tick, bool isNew) CORTEX_REALTIME;
     void setPace(const Tick& tick) CORTEX_REALTIME;
     void tellLoss() CORTEX_REALTIME;
 
@@ -90,8 +93,10 @@ private:
     Told told_;  // last
     Pace pace_;
     std::int64_t lostAfter_ = 1'000'000'000, since_ = -1, age_ = 0;
+    std::int64_t putAt_ = 0;  // the newest value, ns of the monotonic clock
     std::int64_t staleAfter_ = std::numeric_limits<std::int64_t>::max();
     bool isThere_ = false, isFirstAwaited_ = true, lossTold_ = false, deathTold_ = false;
+    bool isByClock_ = false;  // the age of the newest value
 };
 
 // An active simplex whose device blocks. A thread of its own hands values to the hooks and takes
@@ -116,9 +121,12 @@ public:
     public:
         explicit Line(IoSimplex& simplex) : simplex_{simplex} {}
 
-        void put(const In& value) { say({value, {true, {}}}); }
+        // `since`: it is at least as young; for what may have waited before the thread had it.
+        void put(const In& value, Pace::Clock::time_point since = Pace::Clock::now()) {
+            say({value, {true, {}, since}});
+        }
         // The device is away: quality `lost` at once, with the reason as an event.
-        void lose(std::string_view why) { say({last_.value, {false, EventText{why}}}); }
+        void lose(std::string_view why) { say({last_.value, {false, EventText{why}, {}}}); }
         // The newest demand; null before the first.
         const Out* demand() {
             if (simplex_.out_.take()) {
@@ -154,7 +162,7 @@ public:
             simplex_.in_.put(message);
         }
         IoSimplex& simplex_;
-        Message last_{{}, {false, "it has not answered yet"}};  // its value stays received()
+        Message last_{{}, {false, "it has not answered yet", {}}};  // its value stays received()
         bool hasDemand_ = false;
         Pace::Clock::time_point demandSince_{};
     };
@@ -173,7 +181,7 @@ private:
         return in_.take() ? &in_.value().told : nullptr;
     }
     void runThread() final {
-        line_.last_.told = {false, "it has not answered yet"};
+        line_.last_.told = {false, "it has not answered yet", {}};
         communicate(line_);
     }
 
