@@ -272,6 +272,7 @@ TEST_F(DriveRig, WithoutControlOrInAnotherStateOfTheProcessorAllIsOffAndSaysWhy)
 
 TEST_F(DriveRig, ADriveThatIsLostIsShownAsItWasAndOnlyAQuickStopIsLeft) {
     robot.degrade(drive(1), Quality::Lost);
+    put("/table/drive", "exchangeCount", 1);  // it has answered once
     put("/table/drive", "link", 1);
     show();
     const QString said = saidIn(band(1));
