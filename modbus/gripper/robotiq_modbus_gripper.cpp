@@ -6,6 +6,7 @@
 #include "gripper/robotiq_faults.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>

@@ -4,6 +4,7 @@
 #include "sim/program.hpp"
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <CLI/CLI.hpp>

@@ -4,8 +4,11 @@
 
 #include "gripper/robotiq_registers.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -78,7 +81,9 @@ TEST_F(Gripper, OpensAndClosesOnceWhenItIsActivated) {
     for (; model.status().activation != RobotiqActivation::Activated && steps < 5000; ++steps) {
         model.step(1e-3);
         narrowest = std::min(narrowest, model.width());
-        if (steps == 500) EXPECT_EQ(model.status().activation, RobotiqActivation::Activating);
+        if (steps == 500) {
+            EXPECT_EQ(model.status().activation, RobotiqActivation::Activating);
+        }
     }
     EXPECT_NEAR(steps, 1000, 2);
     EXPECT_NEAR(narrowest, 0, 1e-3);
