@@ -24,9 +24,9 @@ Look lookOf(Verdict verdict) {
     return verdict == Verdict::Failed ? Look::Error : Look::Faint;
 }
 
-std::string padded(std::string text, std::size_t width) {
-    text.resize(std::max(width, text.size()), ' ');
-    return text;
+// With a blank at least behind it.
+std::string padded(const std::string& text, std::size_t width) {
+    return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
 }
 
 // The results of one device, each as it comes: some tests take a minute.
@@ -38,7 +38,7 @@ public:
         constexpr std::size_t verdictWidth = 9, testWidth = 36;
         const Verdict verdict = result.judgement.verdict;
         const TextLine line{{padded(name(verdict), verdictWidth), lookOf(verdict)},
-                            {padded(result.test + ' ', testWidth)},
+                            {padded(result.test, testWidth)},
                             {shortened(result)}};
         std::string text = rendered(line, anyWidth, colours_);
         text.erase(text.find_last_not_of(' ') + 1);
