@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -21,6 +22,8 @@ constexpr std::chrono::milliseconds timeToAsk{400};  // for what is no exchange
 constexpr int mostLooks = 20;                        // at a reset that was asked for
 constexpr double slowestMotion = 1e-4;               // m/s, of a demand that moves
 constexpr int nearness = 1;                          // octets of POSITION
+constexpr double near = 0.001;                       // m, between a demand and the fingers
+constexpr double patience = 1;                       // s, until it tells that it waits
 constexpr double fasterThanDemand = 1.25;            // so that it keeps up with one that moves
 constexpr double ampere = 0.01;                      // of CURRENT
 constexpr std::int64_t notActivated = 16;            // fault code; those below are gFLT
@@ -110,8 +113,8 @@ void RobotiqModbusGripper::activate() {
 
 // --- in the tick ------------------------------------------------------------------------------
 
-bool RobotiqModbusGripper::stateStartingUp(const Tick&) {
-    isLed_ = false;
+bool RobotiqModbusGripper::stateStartingUp(const Tick& tick) {
+    hasJoined_ = false;
     if (isLost() || activating_.isRunning()) return false;
     if (!isAsked_ || !activating_.failure().empty()) {
         activationsSeen_ = received().activations;
@@ -121,7 +124,27 @@ bool RobotiqModbusGripper::stateStartingUp(const Tick&) {
     const RobotiqStatus& status = received().status;
     if (received().activations == activationsSeen_) return false;  // an answer of before
     if (failsBy(status)) return false;
-    return isActivated(status);
+    return isActivated(status) && !waitsForDemand(tick.elapsedSeconds());
+}
+
+double RobotiqModbusGripper::demandAway() const {
+    if (std::abs(wishedSpeed_) > slowestMotion) return std::numeric_limits<double>::infinity();
+    return std::abs(wishedWidth_ - position_);
+}
+
+// As drives do: it does not begin while the demand is elsewhere.
+bool RobotiqModbusGripper::waitsForDemand(double seconds) {
+    const double away = demandAway();
+    const bool waits = away > near, tells = waits && waited_ < patience;
+    waited_ = waits ? waited_ + seconds : 0;
+    if (!tells || waited_ < patience) return waits;
+    EventText text{"it waits for its demand, which "};
+    if (std::isfinite(away))
+        text << "is " << away << " m away";
+    else
+        text << "moves";
+    event(Severity::Warning, text << "; start the controller that leads it to the fingers");
+    return waits;
 }
 
 void RobotiqModbusGripper::stateActive(const Tick&) {
@@ -141,13 +164,14 @@ bool RobotiqModbusGripper::failsBy(const RobotiqStatus& status) {
 
 void RobotiqModbusGripper::pack(RobotiqDemand& demand) {
     isWished_ = false;
+    hasJoined_ = hasJoined_ && !isLost();
     if (state() != State::Active) return;
     const double speed = std::abs(wishedSpeed_);
     const bool wasMoving = std::exchange(isMoving_, speed > slowestMotion);
     const std::uint8_t position = scale_.position(wishedWidth_);
     const bool isGood = demandSlot_->quality == Quality::Good;
-    isLed_ = isLed_ || isGood;
-    if (!isLed_ || letsStand(position)) return;
+    hasJoined_ = hasJoined_ || (isGood && !isLost() && demandAway() <= near);
+    if (!hasJoined_ || letsStand(position)) return;
     last_.activate = last_.goTo = true;
     last_.position = position;
     // As fast as this motion has been, so that its end is not the slowest part of the way.
@@ -199,7 +223,7 @@ double RobotiqModbusGripper::speedTo(const Place& place) {
 // Controllers lead their demands to an axis that obeys nobody.
 std::int64_t RobotiqModbusGripper::axisStatus(const RobotiqStatus& status) const {
     if (status.fault != 0 && robotiqFault(status.fault).stops) return faulty;
-    if (state() != State::Active || !isActivated(status)) return disabled;
+    if (state() != State::Active || !hasJoined_ || !isActivated(status)) return disabled;
     return status.object == RobotiqObject::Moving && status.goesTo ? moving : ready;
 }
 
@@ -215,10 +239,11 @@ std::int64_t RobotiqModbusGripper::objectOf(const RobotiqStatus& status) const {
 }
 
 void RobotiqModbusGripper::keep(Archive& archive) {
-    archive.version("RobotiqModbusGripper", 1);
+    archive.version("RobotiqModbusGripper", 2);
     for (Place& place : places_) archive & place;
     archive & last_.activate & last_.goTo & last_.position & last_.speed & last_.force;
-    archive & activationsSeen_ & toldFault_ & isAsked_ & isLed_ & isMoving_ & isWished_;
+    archive & activationsSeen_ & toldFault_ & isAsked_ & hasJoined_ & waited_ & isMoving_ &
+        isWished_;
 }
 
 }  // namespace cortex::modbus

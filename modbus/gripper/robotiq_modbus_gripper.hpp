@@ -49,6 +49,8 @@ private:
     void unpack(const RobotiqAnswer& answer) CORTEX_REALTIME override;
     void keep(Archive& archive) CORTEX_REALTIME override;
 
+    double demandAway() const CORTEX_REALTIME;  // m, from the fingers; infinite while it moves
+    bool waitsForDemand(double seconds) CORTEX_REALTIME;
     bool letsStand(std::uint8_t position) const CORTEX_REALTIME;
     std::int64_t axisStatus(const RobotiqStatus& status) const CORTEX_REALTIME;
     std::int64_t objectOf(const RobotiqStatus& status) const CORTEX_REALTIME;
@@ -68,10 +70,11 @@ private:
     std::array<Place, 4> places_{};  // the oldest first
     std::uint32_t activationsSeen_ = 0;
     std::uint8_t toldFault_ = 0;
-    bool isAsked_ = false;   // for the activation of this startup
-    bool isLed_ = false;     // a controller has been Active since the startup
-    bool isMoving_ = false;  // the demand
-    bool isWished_ = false;  // last_ is on its way, or has come
+    bool isAsked_ = false;    // for the activation of this startup
+    bool hasJoined_ = false;  // a demand that stood at the fingers, of an Active controller
+    double waited_ = 0;       // s, in the startup, for such a demand
+    bool isMoving_ = false;   // the demand
+    bool isWished_ = false;   // last_ is on its way, or has come
 };
 
 }  // namespace cortex::modbus

@@ -47,14 +47,22 @@ public:
         demand.data<double>("effort") = force;
         demand.data<double>("velocity") = speed;
     }
+    // With a demand that is led to the fingers, as a controller does it.
+    void begin() {
+        makeActive();
+        settle();
+    }
     void begin(double width) {
         open();
+        begin();
         wish(width);
-        makeActive();
     }
     void makeActive() {
         send("startup");
-        stepUntil("Active", [&] { return state("/gripper") == State::Active; });
+        stepUntil("Active", [&] {
+            wish(this->width(), 0, 0);
+            return state("/gripper") == State::Active;
+        });
     }
     void stop(const char* command = "shutdown") {
         send(command);
@@ -115,6 +123,7 @@ TEST_F(RobotiqGripper, IsActivatedByAStartupButOnlyOnce) {
     EXPECT_EQ(plant->axisStatus(), disabled) << "it follows nobody";
     plant->send("startup");
     plant->stepUntil("Active", [&] {
+        plant->wish(plant->width(), 0, 0);
         EXPECT_EQ(plant->count("activation"), activated);
         EXPECT_NEAR(plant->width(), 0.06, 1e-3) << "an activation would open it";
         return plant->state("/gripper") == State::Active;
@@ -139,9 +148,9 @@ TEST_F(RobotiqGripper, FollowsADemandThatMovesAndTellsItsSpeed) {
     plant->wish(0.08, 0, 0);
     plant->stepUntilObject(atDemand);
     double fastest = 0;
-    for (double width = 0.08; width > 0.05; width -= 0.0002) {
+    for (double width = 0.08; width > 0.05; width -= 0.001) {
         plant->wish(width, 0, -0.1);
-        plant->step();
+        plant->stepWithExchanges(1);
         fastest = std::min(fastest, plant->get<double>("/opening", "velocity"));
     }
     plant->wish(0.05, 0, -0.01);
@@ -235,7 +244,8 @@ TEST_F(RobotiqGripper, IsInFaultByNameWhenItLosesItsPowerAndIsNotActivatedByItse
     plant->clearFaults();
     plant->settle();
     EXPECT_EQ(asked(), (Words{0, 0, 0}));
-    plant->makeActive();
+    plant->begin();
+    plant->wish(0.07);
     plant->stepUntilObject(atDemand);
     EXPECT_NEAR(plant->width(), 0.07, 5e-4);
 }
@@ -256,21 +266,27 @@ TEST_F(RobotiqGripper, IsLostWhenItIsKilledAndWaitsForAPersonWhenItIsBack) {
     EXPECT_NEAR(plant->width(), 0.085, 1e-3) << "another life of the gripper";
 
     plant->clearFaults();
-    plant->makeActive();
+    plant->begin();
+    plant->wish(0.07);
     plant->stepUntilObject(atDemand);
     EXPECT_NEAR(plant->width(), 0.07, 5e-4);
 }
 
-TEST_F(RobotiqGripper, BeginsNothingBeforeAControllerIsActive) {
+TEST_F(RobotiqGripper, BeginsNothingBeforeAControllerHasLedItsDemandToTheFingers) {
+    plant.emplace(sim.address(), GripperPlant::Pairs{{"stroke", "0.005"}});
     plant->add("/hold", "HoldAxisController", {{"axes", "/opening"}, {"demands", "/wish"}});
     plant->open();
-    plant->makeActive();
+    plant->send("startup");
+    plant->stepUntil("an activation", [&] { return plant->count("activation") == activated; });
     plant->settle();
+    EXPECT_EQ(plant->state("/gripper"), State::StartingUp) << "its demand is closed, 5 mm away";
+    EXPECT_EQ(plant->axisStatus(), disabled);
     EXPECT_EQ(asked(), (Words{0x0100, 0, 0})) << "activated, and told nothing else";
 
     plant->cluster().send("/hold", "startup");
     plant->stepUntil("a demand", [&] { return asked()[0] == 0x0900; });
-    EXPECT_NEAR(plant->width(), 0.085, 1e-3) << "where it stood";
+    EXPECT_EQ(plant->state("/gripper"), State::Active);
+    EXPECT_NEAR(plant->width(), 0.005, 1e-4) << "where it stood";
 }
 
 TEST_F(RobotiqGripper, TellsWhatItComplainsOfInWords) {
@@ -310,6 +326,15 @@ TEST_F(RobotiqGripper, IsClosedAndOpenedAgainAfterAnExceptionAndWhenItIsLate) {
     plant->stepUntil("a present answer", [&] { return plant->quality() == Quality::Good; });
     plant->settle();
     EXPECT_EQ(plant->state("/gripper"), State::Active) << "it is still activated";
+    const Words before = asked();
+    plant->wish(0.07, 0, 0);
+    plant->settle();
+    EXPECT_EQ(asked(), before) << "a demand that went on meanwhile is not caught up with";
+    EXPECT_EQ(plant->axisStatus(), disabled) << "so that its controller leads the demand back";
+
+    plant->wish(plant->width(), 0, 0);
+    plant->settle();
+    EXPECT_EQ(plant->axisStatus(), ready);
     plant->wish(0.07);
     plant->stepUntilObject(atDemand);
     EXPECT_NEAR(plant->width(), 0.07, 5e-4);
