@@ -114,7 +114,6 @@ void RobotiqModbusGripper::activate() {
 // --- in the tick ------------------------------------------------------------------------------
 
 bool RobotiqModbusGripper::stateStartingUp(const Tick& tick) {
-    hasJoined_ = false;
     if (isLost() || activating_.isRunning()) return false;
     if (!isAsked_ || !activating_.failure().empty()) {
         activationsSeen_ = received().activations;
@@ -124,7 +123,8 @@ bool RobotiqModbusGripper::stateStartingUp(const Tick& tick) {
     const RobotiqStatus& status = received().status;
     if (received().activations == activationsSeen_) return false;  // an answer of before
     if (failsBy(status)) return false;
-    return isActivated(status) && !waitsForDemand(tick.elapsedSeconds());
+    if (!isActivated(status) || waitsForDemand(tick.elapsedSeconds())) return false;
+    return status_ != disabled;  // that it follows has been told
 }
 
 double RobotiqModbusGripper::demandAway() const {
@@ -164,14 +164,17 @@ bool RobotiqModbusGripper::failsBy(const RobotiqStatus& status) {
 
 void RobotiqModbusGripper::pack(RobotiqDemand& demand) {
     isWished_ = false;
-    hasJoined_ = hasJoined_ && !isLost();
-    if (state() != State::Active) return;
+    const bool isActive = state() == State::Active;
+    hasJoined_ = !isLost() && isActivated(received().status) &&
+                 (demandAway() <= near || (hasJoined_ && isActive));
+    isLed_ = isLed_ && isActive;
+    if (!isActive) return;
     const double speed = std::abs(wishedSpeed_);
     const bool wasMoving = std::exchange(isMoving_, speed > slowestMotion);
     const std::uint8_t position = scale_.position(wishedWidth_);
     const bool isGood = demandSlot_->quality == Quality::Good;
-    hasJoined_ = hasJoined_ || (isGood && !isLost() && demandAway() <= near);
-    if (!hasJoined_ || letsStand(position)) return;
+    isLed_ = isLed_ || isGood;
+    if (!hasJoined_ || !isLed_ || letsStand(position)) return;
     last_.activate = last_.goTo = true;
     last_.position = position;
     // As fast as this motion has been, so that its end is not the slowest part of the way.
@@ -223,7 +226,8 @@ double RobotiqModbusGripper::speedTo(const Place& place) {
 // Controllers lead their demands to an axis that obeys nobody.
 std::int64_t RobotiqModbusGripper::axisStatus(const RobotiqStatus& status) const {
     if (status.fault != 0 && robotiqFault(status.fault).stops) return faulty;
-    if (state() != State::Active || !hasJoined_ || !isActivated(status)) return disabled;
+    const bool isOn = state() == State::Active || state() == State::StartingUp;
+    if (!isOn || !hasJoined_ || !isActivated(status)) return disabled;
     return status.object == RobotiqObject::Moving && status.goesTo ? moving : ready;
 }
 
@@ -242,7 +246,7 @@ void RobotiqModbusGripper::keep(Archive& archive) {
     archive.version("RobotiqModbusGripper", 2);
     for (Place& place : places_) archive & place;
     archive & last_.activate & last_.goTo & last_.position & last_.speed & last_.force;
-    archive & activationsSeen_ & toldFault_ & isAsked_ & hasJoined_ & waited_ & isMoving_ &
+    archive & activationsSeen_ & toldFault_ & isAsked_ & hasJoined_ & isLed_ & waited_ & isMoving_ &
         isWished_;
 }
 

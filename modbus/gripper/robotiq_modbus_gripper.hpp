@@ -71,7 +71,8 @@ private:
     std::uint32_t activationsSeen_ = 0;
     std::uint8_t toldFault_ = 0;
     bool isAsked_ = false;    // for the activation of this startup
-    bool hasJoined_ = false;  // a demand that stood at the fingers, of an Active controller
+    bool hasJoined_ = false;  // its demand has stood at the fingers
+    bool isLed_ = false;      // a controller has been Active since it is
     double waited_ = 0;       // s, in the startup, for such a demand
     bool isMoving_ = false;   // the demand
     bool isWished_ = false;   // last_ is on its way, or has come

@@ -57,17 +57,31 @@ struct GripperOf {
 void PrintTo(const GripperOf& gripper, std::ostream* stream) { *stream << gripper.file; }
 
 struct SwapGripper : testing::TestWithParam<GripperOf> {
-    SwapGripper() {
+    SwapGripper() { start(); }
+
+    void start() {
         Words command = agentCommand(folder + GetParam().file) +
                         Words{"--startup", "--priority", "0", "--frequency", "200"} +
                         GetParam().settings;
         if (GetParam().file == "two_finger.xml") {
-            sim = std::make_unique<modbus::test::SimProcess>(
-                Words{"--object", "0.03", "--activation-time", "0.03"}, "cortex-gripper-sim");
+            if (!sim) {
+                sim = std::make_unique<modbus::test::SimProcess>(
+                    Words{"--object", "0.03", "--activation-time", "0.03"}, "cortex-gripper-sim");
+            }
             command = command + Words{"--set", "/gripper/device.address=" + sim->address()};
         }
         agent = std::make_unique<Background>(command);
         EXPECT_TRUE(becomesTrue([] { return valueOf("/gripper/device", "state") == 2; }));
+    }
+
+    // Its demand begins at 0 with each start, and is led to the jaws before they obey.
+    void staysWhereItIsWhenItsAgentStartsAnew() {
+        EXPECT_TRUE(comesTo(0.06, {"moveTo", "width=0.06"}));
+        agent.reset();
+        start();
+        EXPECT_TRUE(becomesTrue([] { return valueOf("/gripper/opening", "status") == 1; }));
+        EXPECT_TRUE(isAt(0.06)) << valueOf("/gripper/opening", "position");
+        EXPECT_TRUE(comesTo(0.05, {"moveTo", "width=0.05"}));
     }
 
     static json valueOf(const std::string& path, const std::string& item) {
@@ -100,6 +114,7 @@ TEST_P(SwapGripper, ObeysTheSameCommandsAsTheOthers) {
         EXPECT_TRUE(becomesTrue([] { return !call({"grip"}) && isAt(0); }));
     }
     EXPECT_TRUE(comesTo(GetParam().open, {"open"}));
+    if (sim) staysWhereItIsWhenItsAgentStartsAnew();
 }
 
 INSTANTIATE_TEST_SUITE_P(
