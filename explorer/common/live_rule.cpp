@@ -20,9 +20,12 @@ bool isOf(const char* of, const Structure& structure, std::uint32_t simplex,
     return type != nullptr && type->findData(item) != nullptr;
 }
 
-bool neverAnswered(const Image& image, std::uint32_t simplex) {
-    return image.structure().simplexes[simplex].layout->type->isA(fieldbus) &&
-           itemOf<std::int64_t>(image, simplex, "exchangeCount") == 0;
+// Only where its values came says a count of zero anything, and of a lost agent only where nothing
+// else is newer: it may have answered since.
+bool neverAnswered(const comms::AgentImage& image, std::uint32_t simplex) {
+    if (!image.came(simplex) || (image.lost() && image.isBehind(simplex))) return false;
+    return image->structure().simplexes[simplex].layout->type->isA(fieldbus) &&
+           itemOf<std::int64_t>(*image, simplex, "exchangeCount") == 0;
 }
 
 }  // namespace
@@ -37,18 +40,19 @@ bool isOfAgent(const Structure& structure, std::uint32_t simplex, std::string_vi
     return isOfFramework(structure, simplex, item) || isOf(fieldbus, structure, simplex, item);
 }
 
-bool neverCame(const Image& image, std::uint32_t simplex, const DataItem& item) {
+bool neverCame(const comms::AgentImage& image, std::uint32_t simplex, const DataItem& item) {
     static constexpr std::array ofAnswers{"age", "exchangeTimeLast", "exchangeTimeP99",
                                           "exchangeTimeMax"};
-    if (item.constant) return false;
+    if (item.constant || !image) return false;
     if (neverAnswered(image, simplex))
         return std::ranges::find(ofAnswers, item.name) != ofAnswers.end();
     return neverMeasured(image, simplex);
 }
 
-bool neverMeasured(const Image& image, std::uint32_t simplex) {
-    const SimplexInfo& info = image.structure().simplexes[simplex];
-    return info.role == Role::Observation && image.state(simplex).quality == Quality::Lost &&
+bool neverMeasured(const comms::AgentImage& image, std::uint32_t simplex) {
+    if (!image || !image.came(simplex)) return false;
+    const SimplexInfo& info = image->structure().simplexes[simplex];
+    return info.role == Role::Observation && image->state(simplex).quality == Quality::Lost &&
            std::ranges::any_of(info.writers,
                                [&](std::uint32_t writer) { return neverAnswered(image, writer); });
 }

@@ -18,10 +18,11 @@ bool isOfFramework(const Structure& structure, std::uint32_t simplex, std::strin
 bool isOfAgent(const Structure& structure, std::uint32_t simplex, std::string_view item);
 
 // Whether this item stands for nothing yet: a FieldbusDevice that has never answered cannot say how
-// old its answer is, and nothing of its observations was ever measured.
-bool neverCame(const Image& image, std::uint32_t simplex, const DataItem& item);
+// old its answer is, and nothing of its observations was ever measured. False where the values of
+// the device are not in the image, as nobody asked for them.
+bool neverCame(const comms::AgentImage& image, std::uint32_t simplex, const DataItem& item);
 // The same of all that an observation says.
-bool neverMeasured(const Image& image, std::uint32_t simplex);
+bool neverMeasured(const comms::AgentImage& image, std::uint32_t simplex);
 
 // Its loop runs, as far as was heard of late.
 bool runs(const comms::AgentStatus& agent);

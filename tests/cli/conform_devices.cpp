@@ -77,7 +77,9 @@ private:
         FutureStamp,
         MissesUncounted,
         CountsTwice,
-        NeverAnswers
+        NeverAnswers,
+        SaysClosed,
+        IsCut
     };
 
     void populate() override {
@@ -86,13 +88,15 @@ private:
         on<&ScriptedBus::reconnect>("reconnect");
     }
     void loopEnd(const Tick& tick) override {
-        if (mistake_ == NeverAnswers) closedFor_ = 2;
+        if (mistake_ == NeverAnswers || (mistake_ == IsCut && report_.exchanges > 0))
+            closedFor_ = 2;
         const bool closed = closedFor_ > 0;
         report_.link = closed ? Link::Closed : Link::Open;
         if (closed && --closedFor_ == 0) report_.reconnects += mistake_ == CountsTwice ? 2 : 1;
         if (!closed) exchange(tick);
         std::int64_t age = tick.nominalTime - answered_;
         if (mistake_ == AgeFalls && closed) age = closedFor_ * 5'000'000;
+        if (mistake_ == SaysClosed && isShut(tick)) report_.link = Link::Closed;
         items_.write(report_, age);
         std::int64_t stamp = answered_;
         if (mistake_ == FreshStamp) stamp = tick.nominalTime;
@@ -107,6 +111,7 @@ private:
         if (mistake_ == CounterJumps) report_.exchanges += 1000;
         if (mistake_ == CounterFalls) report_.exchanges -= 5;
     }
+    static bool isShut(const Tick& tick) { return tick.cycle % cyclesPerSecond >= 50; }
     cortex::Outcome reconnect(Call&) {
         closedFor_ = 20;
         return cortex::Outcome::Done;

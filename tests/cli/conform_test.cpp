@@ -145,6 +145,7 @@ TEST(CortexConform, FindsWhatADeviceBehindABusBreaks) {
     for (std::size_t i = 0; i < mistakes.size(); ++i) {
         plant.addBus(mistakes[i], std::to_string(i + 1));
     }
+    plant.addBus("/shut", "9");
     plant.add("/unstated", "UnstatedDevice", {{"observations", "/seen"}});
     plant.add("/seen", "DigitalIoConcept");
     plant.start();
@@ -152,7 +153,7 @@ TEST(CortexConform, FindsWhatADeviceBehindABusBreaks) {
     EXPECT_EQ(live({"call", "/unstated", "startup"}).exit, 1) << "it faults";
     ASSERT_TRUE(becomesTrue([&] { return plant.state("/unstated") == State::Fault; }));
 
-    const json all = conform(mistakes + Words{"/unstated", "--seconds", "1.2"}, 1);
+    const json all = conform(mistakes + Words{"/shut", "/unstated", "--seconds", "1.2"}, 1);
 
     expectFound(
         all,
@@ -160,6 +161,7 @@ TEST(CortexConform, FindsWhatADeviceBehindABusBreaks) {
          {"/jump", "exchanges are counted", {"exchangeCount grew by", "were due", "twice?"}},
          {"/fall", "counters never fall", {"exchangeCount fell from"}},
          {"/fresh", "stamps are honest", {"/fresh/is got a newer stamp", "an old value"}},
+         {"/shut", "stamps are honest", {"while exchangeCount grew to", "where link is written"}},
          {"/future", "stamps are honest", {"younger than the cycle", "setQuality()"}},
          {"/misses", "exchanges are counted", {"neither as late nor as errors"}},
          {"/twice", "reconnect() opens it again", {"reconnectCount grew by 2", "Open and 1"}},

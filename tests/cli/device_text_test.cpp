@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `cortex` prints of devices: nothing that never came, nothing twice.
 #include "cli/conform_plant.hpp"
+#include "cli/controlled_agent.hpp"
 #include "cli/live_agent.hpp"
 
 #include <algorithm>
@@ -50,6 +51,33 @@ TEST(CortexShow, MarksNothingAsLostThatTheAgentKnowsOfALinkAndShowsNoAgeOfWhatNe
     const auto json = liveJson({"show", "/bus/is"}, "show");
     EXPECT_TRUE(json["age_ms"].is_null()) << json;
     EXPECT_TRUE(json["data"]["value"]["value"].is_null()) << json;
+}
+
+// The device of what is shown tells whether anything was measured; its link it tells itself.
+TEST(CortexShow, TellsTheLastValueOfADeviceThatHadAnsweredAndWatchItsLinkAsGood) {
+    ConformPlant plant;
+    plant.addBus("/bus", "10");
+    plant.start();
+    ASSERT_TRUE(becomesTrue([&] { return plant.number("/bus", "age") > 0; }));
+
+    const std::string observed = live({"show", "/bus/is"}).output;
+    const auto shown = liveJson({"show", "/bus/is"}, "show");
+    const Outcome watched =
+        live({"watch", "/bus.link", "/bus.age", "/bus/is.value", "--json", "--count", "1"});
+    const std::string text =
+        live({"watch", "/bus.link", "/bus.exchangeCount", "--count", "1"}).output;
+
+    EXPECT_TRUE(contains(observed, "lost")) << observed;
+    EXPECT_FALSE(contains(observed, "never measured")) << observed;
+    EXPECT_TRUE(lineOf(observed, "value").starts_with(" value [")) << observed;
+    EXPECT_FALSE(shown["age_ms"].is_null()) << shown;
+    EXPECT_FALSE(shown["data"]["value"]["value"].is_null()) << shown;
+    const auto values = nlohmann::json::parse(watched.output)["values"];
+    EXPECT_EQ(values["/bus.link"]["quality"], "good") << values;
+    EXPECT_EQ(values["/bus.age"]["quality"], "good") << values;
+    EXPECT_EQ(values["/bus/is.value"]["quality"], "lost") << values;
+    EXPECT_TRUE(contains(text, "/bus.link  Closed\n")) << text;
+    EXPECT_TRUE(contains(text, "/bus.exchangeCount  1\n")) << text;
 }
 
 TEST(CortexConform, SaysEachReasonToSkipOnceAndPartsItFromTheNameOfTheTest) {

@@ -126,6 +126,10 @@ TEST(LiveRuleOfDevices, CallsTheLinkOfALostDeviceLiveAndShowsNothingThatNeverCam
     EXPECT_TRUE(isShown("/boiler", "exchangeCount"));
     EXPECT_TRUE(isShown("/power", "power"));
     EXPECT_TRUE(isLive("/boiler", "link"));
+    robot.unasked = "/boiler";
+    EXPECT_TRUE(isShown("/water", "temperature")) << "nobody knows that it never came";
+    EXPECT_TRUE(robot.now().age(robot.at("/water")));
+    robot.unasked.clear();
 
     robot.put("/boiler", "exchangeCount", std::int64_t{1});
     EXPECT_TRUE(isShown("/boiler", "age"));

@@ -68,7 +68,8 @@ public:
             std::make_shared<std::pair<std::shared_ptr<Tables>, std::shared_ptr<ImagePool>>>(
                 tables, images_);
         std::vector<bool> came;  // what other agents have does not
-        for (const SimplexInfo& each : structure->simplexes) came.push_back(!each.remote);
+        for (const SimplexInfo& each : structure->simplexes)
+            came.push_back(!each.remote && each.path != unasked);
         frame.image = std::make_shared<comms::AgentImage>(kept, images_->newest(), std::move(came),
                                                           state == "lost", behind);
         frame.ages.assign(structure->simplexes.size(), 0.1F);
@@ -88,6 +89,7 @@ public:
     std::shared_ptr<const Structure> structure;
     std::shared_ptr<Tables> tables;
     std::vector<bool> behind;  // the cycle, by simplex
+    std::string unasked;       // path whose values do not come
 
 private:
     void* cell(std::string_view path, std::string_view item, Kind kind) {

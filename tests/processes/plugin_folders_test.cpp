@@ -174,7 +174,8 @@ TEST_F(PluginFolders, ThatAreWrongAreToldAndHinderNobody) {
     putCounter("second");
     folder.write("first/a.types", "Counter Hall\n");
     folder.write("first/b.types", "# nothing yet\n");
-    folder.write("first/c.types", "Hall\npackage\n\x1b[2J\n");
+    folder.write("first/c.types", "Hall\n\x1b[2J\n");
+    folder.write("first/i.types", "Hall\npackage\n");
     fs::create_directory(folder.path() / "first/d.types");
     ASSERT_EQ(mkfifo(at("first/f.types").c_str(), 0600), 0);
     ASSERT_EQ(mkfifo(at("first/g.so").c_str(), 0600), 0);
@@ -188,7 +189,8 @@ TEST_F(PluginFolders, ThatAreWrongAreToldAndHinderNobody) {
     for (const std::string& text :
          {at("first/a.types") + ":1: 'Counter Hall' is no name of a type; write one in each line",
           at("first/b.types") + ": no type could be read from it",
-          at("first/c.types") + ":3: '\\x1b[2J' is no name of a type",
+          at("first/c.types") + ":2: '\\x1b[2J' is no name of a type",
+          at("first/i.types") + ":2: 'package' has no name; write 'package NAME'",
           at("first/d.types") + " is no file; put one there, or take it away",
           at("first/f.types") + " is no file", at("first/g.so") + " is no file",
           at("first/h.types") + ":1: type hall is written Hall in the ontology; write it so",

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view packageWord = "package ";
+constexpr std::string_view packageWord = "package";
 constexpr std::string_view byteOrderMark = "\xef\xbb\xbf";
 
 std::string printed(const fs::path& path) { return printable(path.string()); }
@@ -85,6 +85,12 @@ bool isName(std::string_view text) {
     });
 }
 
+bool isOfPackage(std::string_view line) {
+    if (!line.starts_with(packageWord)) return false;
+    return line.size() == packageWord.size() ||
+           std::isspace(static_cast<unsigned char>(line[packageWord.size()])) != 0;
+}
+
 // As the ontology writes it; "": it has no such type, or just that.
 std::string writtenOtherwise(const std::string& name, const TypeModel& types) {
     const auto isSame = [](unsigned char one, unsigned char other) {
@@ -104,9 +110,13 @@ std::string readList(Offer& offer, const TypeModel& types) {
     for (int number = 1; std::getline(in, line); ++number) {
         if (number == 1 && line.starts_with(byteOrderMark)) line.erase(0, byteOrderMark.size());
         const std::string text = trimmed(line);
-        const bool isPackage = text.starts_with(packageWord);
+        const bool isPackage = isOfPackage(text);
         const std::string name = isPackage ? trimmed(text.substr(packageWord.size())) : text;
         if (text.empty()) continue;
+        if (isPackage && name.empty()) {
+            return printed(offer.list) + ":" + std::to_string(number) +
+                   ": 'package' has no name; write 'package NAME', or take the line out";
+        }
         if (!isName(name)) {
             return printed(offer.list) + ":" + std::to_string(number) + ": '" + printable(text) +
                    "' is no name of a type; write one in each line, or 'package NAME'";

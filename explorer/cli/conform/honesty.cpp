@@ -43,7 +43,9 @@ void Honesty::take(const Sample& sample) {
     checkStamps(last_[last_.size() - 2], last_.back());
     if (!isFieldbus_) return;
     checkCounters(last_[last_.size() - 2], last_.back());
-    if (last_.size() == needed) checkAnswers();
+    if (last_.size() < needed) return;
+    checkAge();
+    checkClosed();
 }
 
 void Honesty::checkStamps(const Look& before, const Look& now) {
@@ -72,25 +74,29 @@ void Honesty::checkCounters(const Look& before, const Look& now) {
     }
 }
 
-void Honesty::checkAnswers() {
+void Honesty::checkAge() {
     const Look &before = last_[1], &now = last_[2];
-    const double answered = last_[3].counters[0];
-    if (answered != last_[0].counters[0]) return;
-    const std::string nothing =
-        inCycle(now.cycle) + " while exchangeCount stayed at " + numberText(answered, 12) +
-        (before.isOpen || now.isOpen ? "" : " and the link was not Open") + ": ";
-    if (age_.empty() && now.age < before.age) {
-        age_ = "age fell from " + numberText(before.age, 4) + " to " + numberText(now.age, 4) +
-               " ms" + nothing +
-               "it falls only when another answer comes; look at where age is written";
-    }
+    if (last_[3].answered() != last_[0].answered() || now.age >= before.age || !age_.empty())
+        return;
+    age_ = "age fell from " + numberText(before.age, 4) + " to " + numberText(now.age, 4) + " ms" +
+           inCycle(now.cycle) + " while exchangeCount stayed at " + numberText(now.answered(), 12) +
+           (before.isOpen || now.isOpen ? "" : " and the link was not Open") +
+           ": it falls only when another answer comes; look at where age is written";
+}
+
+void Honesty::checkClosed() {
     if (std::ranges::any_of(last_, [](const Look& each) { return each.isOpen; })) return;
+    const Look &before = last_[1], &now = last_[2], &first = last_[0], &newest = last_[3];
+    const bool answered = newest.answered() != first.answered();
+    if (answered && newest.reconnected() != first.reconnected()) return;
     for (std::size_t i = 0; i < now.stamps.size() && stamps_.empty(); ++i) {
         if (now.stamps[i] == before.stamps[i]) continue;
-        stamps_ =
-            plant_.path(plant_.observations[i]) + " got a newer stamp" + nothing +
-            "an old value with a fresh stamp misleads whoever reads it; look at what is given "
-            "to setQuality()";
+        stamps_ = plant_.path(plant_.observations[i]) + " got a newer stamp" + inCycle(now.cycle) +
+                  " while " + (answered ? "exchangeCount grew to " : "exchangeCount stayed at ") +
+                  numberText(newest.answered(), 12) + " and the link was not Open: " +
+                  (answered ? "only an open link brings an answer; look at where link is written"
+                            : "an old value with a fresh stamp misleads whoever reads it; look at "
+                              "what is given to setQuality()");
     }
 }
 

@@ -39,6 +39,9 @@ private:
         bool isOpen = false;
         std::array<double, counterNames.size()> counters{};
         std::vector<std::int64_t> stamps;  // of the observations, ns
+
+        double answered() const { return counters[0]; }
+        double reconnected() const { return counters[3]; }
     };
 
     Look look(const Sample& sample) const;
@@ -46,7 +49,10 @@ private:
     void checkCounters(const Look& before, const Look& now);
     // What shows a new answer may come a cycle before or after its count: so of the last cycle but
     // one, between the one before it and the newest.
-    void checkAnswers();
+    void checkAge();
+    // Also an answer that was counted needs an open link. One that was opened and closed between
+    // two cycles shows in reconnectCount.
+    void checkClosed();
 
     const Plant& plant_;
     bool isFieldbus_;

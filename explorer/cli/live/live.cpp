@@ -310,17 +310,24 @@ std::vector<FoundSimplex> Live::below(const std::string& prefix) const {
     return found;
 }
 
-comms::AgentImage Live::values(const FoundSimplex& simplex) {
-    view({simplex.info().path}, 100);
+comms::AgentImage Live::values(const FoundSimplex& simplex,
+                               const std::vector<std::uint32_t>& others) {
+    std::vector<std::string> paths{simplex.info().path};
+    for (const std::uint32_t each : others)
+        paths.push_back(simplex.structure->simplexes[each].path);
+    view(std::move(paths), 100);
+    const auto came = [&](std::uint32_t each) {
+        return mirror().age(simplex.agent, each).has_value();
+    };
     // Of a lost agent nothing comes any more: what is known of it is all.
-    const auto there = [&] {
-        if (mirror().age(simplex.agent, simplex.index)) return true;
+    const auto isLost = [&] {
         const comms::AgentImage image = mirror().image(simplex.agent);
         return image && image.lost();
     };
+    const auto there = [&] { return came(simplex.index) || isLost(); };
     std::uint64_t images = 0;
     waitInSlices([&](Milliseconds limit) {
-        if (there()) return true;
+        if (there() && (std::ranges::all_of(others, came) || isLost())) return true;
         images = mirror().waitForImage(images, limit);
         return false;
     });

@@ -91,8 +91,10 @@ public:
     // Waits until its agent is heard, or nobody is left who may be it and nobody new comes.
     std::optional<std::string> waitForOwner(const std::string& path);
     std::vector<FoundSimplex> below(const std::string& prefix) const;  // by path
-    // Its newest values; waits for them. Throws Failure if they do not come.
-    comms::AgentImage values(const FoundSimplex& simplex);
+    // Its newest values, with those of others of its agent; waits for them. Throws Failure if its
+    // own do not come.
+    comms::AgentImage values(const FoundSimplex& simplex,
+                             const std::vector<std::uint32_t>& others = {});
 
     std::chrono::milliseconds left() const;  // of the time to wait; 1 ms when it is over
     bool over() const { return std::chrono::steady_clock::now() >= end_; }

@@ -29,11 +29,9 @@ struct Shown {
     Value value(const ItemLayout& item) const { return image->value(simplex.index, item); }
     bool knows(const DataItem& item) const {
         return item.constant ||
-               (image.came(simplex.index) && !common::neverCame(*image, simplex.index, item));
+               (image.came(simplex.index) && !common::neverCame(image, simplex.index, item));
     }
-    bool neverMeasured() const {
-        return image.came(simplex.index) && common::neverMeasured(*image, simplex.index);
-    }
+    bool neverMeasured() const { return common::neverMeasured(image, simplex.index); }
     // None also of a lost agent: its last state may be over.
     std::optional<State> state() const {
         return image.lost() ? std::nullopt : stateOf(image, simplex.index);
@@ -237,6 +235,17 @@ StaleDemand demandOf(Live& live, const Shown& shown) {
     return safeBecause(shown.simplex.index, state, image);
 }
 
+// The FieldbusDevices that write an observation: they tell whether it was ever measured.
+std::vector<std::uint32_t> devicesOf(const FoundSimplex& shown) {
+    std::vector<std::uint32_t> devices;
+    if (shown.info().role != Role::Observation) return devices;
+    for (const std::uint32_t writer : shown.info().writers) {
+        const SimplexInfo& info = shown.structure->simplexes[writer];
+        if (!info.remote && info.layout->type->isA("FieldbusDevice")) devices.push_back(writer);
+    }
+    return devices;
+}
+
 }  // namespace
 
 Exit showSimplex(const ShowOptions& options) {
@@ -244,7 +253,7 @@ Exit showSimplex(const ShowOptions& options) {
     Live live{options.network};
     live.view({options.path}, 100);
     Shown shown{live.find(options.path), {}, {}};
-    shown.image = live.values(shown.simplex);
+    shown.image = live.values(shown.simplex, devicesOf(shown.simplex));
     shown.owner = live.statusOf(shown.simplex.agent);
     shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index);
     if (shown.neverMeasured()) shown.age.reset();

@@ -3,6 +3,7 @@
 #include "cortex/core/labelled_value.hpp"
 #include "cortex/core/nearest_names.hpp"
 
+#include "common/live_rule.hpp"
 #include "live/live_values.hpp"
 #include "live/safe_demand.hpp"
 #include "text/interrupts.hpp"
@@ -106,13 +107,33 @@ bool follow(Live& live, Watched& watched) {
     return restarted;
 }
 
-Reading read(const Watched& watched, const comms::AgentImage& image) {
+// Of one agent at one moment.
+struct Pinned {
+    comms::AgentImage image{};
+    std::optional<comms::AgentStatus> status{};  // once somebody asks for it
+};
+
+// Whether it is the present value whatever becomes of what its simplex measures.
+bool isAlwaysGood(Live& live, const Watched& watched, Pinned& agent) {
+    const DataItem& item = *watched.item->item;
+    const std::uint32_t index = watched.simplex.index;
+    if (item.constant) return true;
+    if (!common::isOfAgent(*watched.simplex.structure, index, item.name)) return false;
+    if (!agent.status) agent.status = live.statusOf(watched.simplex.agent);
+    return common::isHeard(*agent.status, agent.image, index);
+}
+
+Reading read(Live& live, const Watched& watched, Pinned& agent) {
+    const comms::AgentImage& image = agent.image;
     Reading reading;
     const bool same = image && &image->structure() == watched.simplex.structure.get();
     if (!same || !isLive(image, watched.simplex.index)) return reading;
     reading.quality = image->state(watched.simplex.index).quality;
     const std::uint32_t index = watched.simplex.index;
-    reading.demand = safeBecause(index, image->state(index), image);
+    if (reading.quality != Quality::Good && isAlwaysGood(live, watched, agent))
+        reading.quality = Quality::Good;
+    if (reading.quality != Quality::Good)
+        reading.demand = safeBecause(index, image->state(index), image);
     const Value value = image->value(watched.simplex.index, *watched.item);
     reading.text = exactText(*watched.item->item, value);
     reading.value = valueJson(*watched.item->item, value);
@@ -205,12 +226,12 @@ std::int64_t now() {
 Sighting readAll(Live& live, std::vector<Watched>& watched, std::int64_t moment) {
     Sighting line;
     line.moment = moment;
-    std::map<std::string, comms::AgentImage> pinned;
+    std::map<std::string, Pinned> pinned;
     for (Watched& each : watched) {
         if (follow(live, each)) line.restarted.insert(each.simplex.agent);
         const auto [place, added] = pinned.try_emplace(each.simplex.agent);
-        if (added) place->second = live.mirror().image(each.simplex.agent);
-        line.readings.push_back(read(each, place->second));
+        if (added) place->second.image = live.mirror().image(each.simplex.agent);
+        line.readings.push_back(read(live, each, place->second));
     }
     return line;
 }

@@ -22,7 +22,7 @@ Quality AgentFrame::quality(std::uint32_t simplex) const {
 }
 
 std::optional<Value> AgentFrame::value(std::uint32_t simplex, const ItemLayout& item) const {
-    if (came(simplex) && common::neverCame(**image, simplex, *item.item)) return std::nullopt;
+    if (came(simplex) && common::neverCame(*image, simplex, *item.item)) return std::nullopt;
     if (came(simplex)) return (*image)->value(simplex, item);
     if (!item.item->constant || !structure) return std::nullopt;
     const auto set = std::ranges::find_if(structure->initial, [&](const InitialValue& each) {
@@ -87,7 +87,7 @@ bool AgentFrame::rests(std::uint32_t simplex) const {
 
 std::optional<float> AgentFrame::age(std::uint32_t simplex) const {
     if (simplex >= ages.size() || ages[simplex] < 0) return std::nullopt;
-    if (came(simplex) && common::neverMeasured(**image, simplex)) return std::nullopt;
+    if (came(simplex) && common::neverMeasured(*image, simplex)) return std::nullopt;
     return static_cast<float>(common::shownAge(ages[simplex], status));
 }
 
