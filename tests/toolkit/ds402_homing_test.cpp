@@ -235,6 +235,17 @@ TEST_F(Homing, IsRejectedByAMethodThatNoDriveHas) {
     }
 }
 
+TEST_F(Homing, IsRejectedAtSpeedsThatItsAxisMayNotHave) {
+    begin(17, false, 0);
+    EXPECT_EQ(home(1).why, "axis 1: homingSpeed is 0 and homingCreep 0.02; both must be above 0");
+    begin(17, false, 1000);
+    const std::string why = home(1).why;
+    EXPECT_TRUE(why.starts_with("axis 1: homingSpeed is 1000 and homingCreep 0.02, at most "))
+        << why;
+    begin(37, false, 1000);
+    EXPECT_TRUE(home(1).done()) << "it moves nothing";
+}
+
 TEST_F(Homing, IsRejectedForAnAxisThatIsNotEnabled) {
     begin(37);
     EXPECT_TRUE(plant().ask("disable", 1).done());

@@ -37,6 +37,7 @@ TEST_F(GripperWithStatus, KeepsItsDemandBeyondTheWorkPieceAndOpensFromThere) {
     EXPECT_EQ(rig.demand(), 0);
     EXPECT_EQ(rig.mayUse(), 60);
     ASSERT_TRUE(rig.ask("open").done());
+    EXPECT_EQ(rig.mayUse(), 60) << "what is held is never pressed harder by an opening";
     EXPECT_NEAR(rig.width(), 0.085, ofAnOpening);
     EXPECT_EQ(rig.object(), GripperRig::AtDemand);
     EXPECT_EQ(rig.limitCount(), 0);

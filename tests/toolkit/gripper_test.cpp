@@ -259,6 +259,19 @@ TEST(GripperController, DoesNotGoOnByItselfAfterItsAxisWasLost) {
     EXPECT_EQ(rig.get<double>("/demand", "position"), stands);
 }
 
+TEST(GripperController, DoesNothingForACommandThatCameWhileItsAxisWasLost) {
+    SoftSlide rig;
+    rig.go(100);
+    rig.tree().at("/axis").slot().quality = Quality::Lost;
+    rig.go(5);
+    const double stands = rig.get<double>("/demand", "position");
+    rig.cluster().send("/it", "close");
+    rig.go(5);
+    rig.tree().at("/axis").slot().quality = Quality::Good;
+    rig.go(300);
+    EXPECT_EQ(rig.get<double>("/demand", "position"), stands);
+}
+
 struct Drive {
     const char* ratedEffort;  // N; 100 of them have an inertia of 1 kg
     int period;               // ms

@@ -46,6 +46,10 @@ bool GripperController::accepts(Call& call, const Wish& wish) const {
 // The least force is that of the axis where the controller limits it, else that of the gripper.
 Outcome GripperController::run(Call& call, Wish wish) {
     if (call.first()) {
+        if (inputLost()) {
+            call.reject(Reason::State, "the gripper is lost: command it when it is back");
+            return Outcome::Rejected;
+        }
         if (!accepts(call, wish)) return Outcome::Rejected;
         if (!status_.bound()) wish.force = std::max(wish.force, leastForce_);
         if (!begin(wish)) return call.fail("no motion leads to this opening");
@@ -65,8 +69,10 @@ Outcome GripperController::proceed(Call& call) {
     return object_ == Moving ? Outcome::Running : Outcome::Done;
 }
 
+// What a gripper with a status holds is pressed no more than before while its demand comes back.
 Outcome GripperController::open(Call& call) {
-    return run(call, {opened_, call[openSpeed_], mostForce_});
+    const double force = status_.bound() ? force_.get() : mostForce_;
+    return run(call, {opened_, call[openSpeed_], force});
 }
 
 Outcome GripperController::close(Call& call) {

@@ -122,6 +122,11 @@ void GripperController::takeOver(const Tick&) {
 
 void GripperController::move(const Tick& tick) {
     const double seconds = tick.elapsedSeconds();
+    if (phase_ == Phase::Moves && wasLost_) {  // somebody has to command anew
+        stop();
+        direction_ = 0;
+    }
+    wasLost_ = false;
     if (phase_ == Phase::Moves) {
         if (!hasArrived()) time_ += seconds;
         demands()[0] = profile_.at(time_);
@@ -137,6 +142,7 @@ void GripperController::move(const Tick& tick) {
 // Also where it is not Active, or the axis is lost.
 void GripperController::loopEnd(const Tick&) {
     width_ = position_.get();
+    wasLost_ = wasLost_ || inputLost();
     if (inputLost() || !follows(0)) aims_ = false;
 }
 
@@ -220,7 +226,7 @@ void GripperController::watchPressing(double seconds) {
 void GripperController::keep(Archive& archive) {
     AxisController::keep(archive);
     archive.version("GripperController", 1);
-    archive & profile_ & wish_ & time_ & direction_ & phase_ & aims_ & rested_;
+    archive & profile_ & wish_ & time_ & direction_ & phase_ & aims_ & wasLost_ & rested_;
     archive & jaws_ & pressure_ & ahead_ & metAt_;
 }
 

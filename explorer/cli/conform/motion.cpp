@@ -18,7 +18,8 @@ constexpr double leastShare = 0.01;     // of the greatest speed, as moveTo take
 constexpr double lossShare = 0.3;       // of the amplitude, where its controller is shut down
 constexpr std::int64_t running = 2;     // label of `outcome`
 constexpr std::int64_t byPosition = 1;  // label of `mode` of a JogController
-constexpr std::int64_t disabled = 6, braked = 7;  // labels of `status`
+constexpr std::int64_t stoppedOpening = 1, stoppedClosing = 2;  // labels of `object`
+constexpr std::int64_t disabled = 6, braked = 7;                // labels of `status`
 
 double boundOf(const std::optional<Number>& bound, double otherwise) {
     if (!bound) return otherwise;
@@ -60,6 +61,10 @@ private:
     void bringDevice(State state);
     comms::CommandAnswer send(double target, const std::function<bool()>& goesOn);
     bool isSafe() const;
+    bool holdsSomething() const {
+        const std::int64_t object = bench_.now().count(mover_.controller, "object");
+        return object == stoppedOpening || object == stoppedClosing;
+    }
     void move(double target);
     void toAndFro();
     void loseDemand();
@@ -117,6 +122,10 @@ void Motion::prepare() {
     trial_.controller = plant_.path(mover_.controller);
     if (bench_.now().count(mover_.controller, "outcome") == running)
         throw Ended{skipped(trial_.controller + " runs a command of somebody else")};
+    if (mover_.kind == Mover::Grips && holdsSomething()) {
+        throw Ended{skipped(trial_.controller +
+                            " holds something, which would fall; take it out, and run this again")};
+    }
     if (!std::isfinite(bounds_.speed)) {
         throw Ended{skipped(demandType().name +
                             " states no greatest speed (max of velocity, or rate of position), so "

@@ -103,6 +103,7 @@ private:
     bool takesTargets() const CORTEX_REALTIME;
     bool awaitsHoming() const CORTEX_REALTIME;
     bool isOutOfReach(std::int64_t mode) const CORTEX_REALTIME;
+    bool mayHomeAtItsSpeeds(EventText& why) const CORTEX_REALTIME;
     EventText outOfReach() const CORTEX_REALTIME;  // in words, with the way out
     std::int64_t wishedMode() const CORTEX_REALTIME;
     AxisTarget demand() const CORTEX_REALTIME;

@@ -3,6 +3,7 @@
 #include "ds402/drive_words.hpp"
 #include "ds402/processor_axis.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cortex::toolkit {
@@ -69,12 +70,29 @@ bool Ds402ProcessorAxis::mayHome(EventText& why) const {
                    << " is none of CiA 402; the drives of CorteX have 1, 2, 17, 18, 33, 34, 35, 37";
         return false;
     }
+    if (!mayHomeAtItsSpeeds(why)) return false;
     if (!lead_.hasArrived() || state_ != State::OperationEnabled) {
         why = inState() << ": enable it first";
         return false;
     }
     if (stands()) return true;
     why = name() << " moves at " << velocity_.get() << ": homing begins at standstill only";
+    return false;
+}
+
+// Methods that only say where it stands need no speeds.
+bool Ds402ProcessorAxis::mayHomeAtItsSpeeds(EventText& why) const {
+    if (homingMethod() == 35 || homingMethod() == 37) return true;
+    const double speed = items_.homingSpeed[place()], creep = items_.homingCreep[place()];
+    const double most = limits_.motion().velocity;
+    if (!(speed > 0 && creep > 0)) {
+        why = name() << ": homingSpeed is " << speed << " and homingCreep " << creep
+                     << "; both must be above 0";
+        return false;
+    }
+    if (std::max(speed, creep) <= most) return true;
+    why = name() << ": homingSpeed is " << speed << " and homingCreep " << creep << ", at most "
+                 << most << ", the limit of its demand";
     return false;
 }
 

@@ -90,6 +90,7 @@ private:
     double direction_ = 0;  // of the motion: 1 opens, -1 closes; 0: none was commanded
     Phase phase_ = Phase::Moves;
     bool aims_ = false;
+    bool wasLost_ = false;        // an input, since move() was called last
     double rested_ = 0;           // s, for which the status says that the jaws stand
     Steadiness jaws_, pressure_;  // of the position, and of the effort
     double ahead_ = 0;            // m, of the demand while pressing
