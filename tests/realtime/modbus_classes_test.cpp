@@ -116,10 +116,15 @@ void buildGripper(TestPlant& plant, const TestPlant::Pairs& link) {
               {{"demands", "/wish"}, {"opening", "/opening"}, {"status", "/status"}}, link);
 }
 
+// Led to the fingers until they follow, as a controller does it.
 void tellGripper(TestPlant& plant, double turn) {
+    constexpr std::int64_t disabled = 6;
+    const bool follows = plant.state("/it") == State::Active &&
+                         plant.get<std::int64_t>("/opening", "status") != disabled;
+    const double opening = plant.get<double>("/opening", "position");
     Simplex& wish = plant.tree().at("/wish");
-    wish.data<double>("position") = 0.04 + 0.03 * std::sin(turn);
-    wish.data<double>("velocity") = 0.03 * std::cos(turn);
+    wish.data<double>("position") = follows ? 0.04 + 0.03 * std::sin(turn) : opening;
+    wish.data<double>("velocity") = follows ? 0.03 * std::cos(turn) : 0;
     wish.data<double>("effort") = 30;
 }
 
