@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/mechanics/serial_chain.hpp"
 
+#include "joint_geometry.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -34,36 +36,16 @@ bool isFinite(const Pose& pose) {
            pose.rotation.squaredNorm() > 0;
 }
 
-Eigen::Matrix3d fromRollPitchYaw(const Eigen::Vector3d& angles) {
-    using Eigen::AngleAxisd;
-    using Eigen::Vector3d;
-    return (AngleAxisd(angles.z(), Vector3d::UnitZ()) * AngleAxisd(angles.y(), Vector3d::UnitY()) *
-            AngleAxisd(angles.x(), Vector3d::UnitX()))
-        .toRotationMatrix();
-}
-
 std::string findings(const std::vector<ChainJoint>& joints, const Pose& tip) {
-    std::string text;
-    if (joints.empty() || joints.size() > SerialChain::maxJoints) {
-        text += "\n  has " + std::to_string(joints.size()) + " joints: give 1 to " +
-                std::to_string(SerialChain::maxJoints);
-    }
+    std::string text = countFinding(joints.size());
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const ChainJoint& joint = joints[i];
-        const auto refuse = [&text, i](const char* why) {
-            text += "\n  joint " + std::to_string(i + 1) + ": " + why;
-        };
-        if (!joint.origin.allFinite() || !joint.originRotation.allFinite()) {
-            refuse("origin is not finite: give numbers");
-        }
-        if (!(std::abs(joint.direction.norm() - 1) < 1e-3)) {
-            refuse("direction is no unit vector: give it the length 1");
-        }
+        text += geometryFindings(i, joint);
         if (!std::isfinite(joint.min) || !std::isfinite(joint.max) || !(joint.min < joint.max)) {
-            refuse("limits are not finite or not in order: give min < max");
+            text += jointFinding(i, "limits are not finite or not in order: give min < max");
         }
         if (!std::isfinite(joint.maxSpeed) || !(joint.maxSpeed > 0)) {
-            refuse("maxSpeed is not above 0: give the greatest speed");
+            text += jointFinding(i, "maxSpeed is not above 0: give the greatest speed");
         }
     }
     if (!isFinite(tip)) text += "\n  tip offset is not finite: give numbers and a unit quaternion";
