@@ -167,6 +167,19 @@ const std::vector<Recipe> allRecipes{
          feedAxis(rig, cycle, past);
          write(rig, "/target", "position", angleAt(cycle, past));
      }},
+    // Its target has jumped just now, by more in another past, and it is on its way there.
+    {"InverseDynamics", true,
+     [](Rig& rig) {
+         rig.add("/axis", "RotaryAxisObservation", {}, {{"linkMass", "2"}});
+         rig.add("/demand", "LimitedAxis");
+         rig.add("/target", "RotaryAxisConcept");
+         rig.add("/it", "InverseDynamics",
+                 {{"axes", "/axis"}, {"demands", "/demand"}, {"targets", "/target"}});
+     },
+     [](Rig& rig, std::int64_t cycle, double past) {
+         const double jump = cycle < runUp - 20 ? 0 : cycle < runUp ? 0.5 * past : 0.5;
+         write(rig, "/target", "position", jump);
+     }},
     {"AxisPoseController", true, [](Rig& rig) { buildAxes(rig, "AxisPoseController", "demands"); },
      [](Rig& rig, std::int64_t cycle, double past) {
          feedAxis(rig, cycle, past);

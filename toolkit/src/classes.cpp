@@ -15,6 +15,7 @@
 #include "ds402/simulated_drive.hpp"
 #include "fieldbus/fieldbus_monitor.hpp"
 #include "handset_playback.hpp"
+#include "inverse_dynamics.hpp"
 #include "kinematics.hpp"
 #include "process/filter.hpp"
 #include "process/ramp.hpp"
@@ -31,6 +32,7 @@ namespace cortex::toolkit {
 void addClasses(ClassRegistry& registry) {
     registry.add<ForwardKinematics>("ForwardKinematics");
     registry.add<InverseKinematics>("InverseKinematics");
+    registry.add<InverseDynamics>("InverseDynamics");
     registry.add<HoldAxisController>("HoldAxisController");
     registry.add<FollowAxisController>("FollowAxisController");
     registry.add<AxisPoseController>("AxisPoseController");

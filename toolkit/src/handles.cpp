@@ -115,8 +115,8 @@ void requireSameCount(const Simplex& owner, std::size_t axes, std::size_t others
                 ": relate one for each axis, in the same order");
 }
 
-SerialChain chainOf(const Simplex& owner, const std::vector<InputSimplex>& axes,
-                    std::span<const double> tipPosition, std::span<const double> tipRotation) {
+std::vector<mechanics::ChainJoint> chainJoints(const Simplex& owner,
+                                               const std::vector<InputSimplex>& axes) {
     std::vector<mechanics::ChainJoint> joints;
     for (const InputSimplex& axis : axes) {
         if (axis.isRemote()) {
@@ -132,6 +132,12 @@ SerialChain chainOf(const Simplex& owner, const std::vector<InputSimplex>& axes,
                                                                : mechanics::JointKind::Rotary,
                           finite(limits.min), finite(limits.max), finite(limits.speed)});
     }
+    return joints;
+}
+
+SerialChain chainOf(const Simplex& owner, const std::vector<InputSimplex>& axes,
+                    std::span<const double> tipPosition, std::span<const double> tipRotation) {
+    const std::vector<mechanics::ChainJoint> joints = chainJoints(owner, axes);
     const Eigen::Vector3d angles = vector(tipRotation);
     const Eigen::Quaterniond rotation = Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
                                         Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *

@@ -95,6 +95,8 @@ void requireSameCount(const Simplex& owner, std::size_t axes, std::size_t others
                       const char* otherRule);
 
 // Geometry and limits of a chain as its axes state them. Throws Error where another agent has one.
+std::vector<mechanics::ChainJoint> chainJoints(const Simplex& owner,
+                                               const std::vector<InputSimplex>& axes);
 SerialChain chainOf(const Simplex& owner, const std::vector<InputSimplex>& axes,
                     std::span<const double> tipPosition, std::span<const double> tipRotation);
 
