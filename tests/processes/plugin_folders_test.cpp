@@ -134,6 +134,20 @@ TEST_F(PluginFolders, ThatListATypeWithoutItsPluginNameThePackage) {
                   "list");
 }
 
+// As where cortex-tools is installed, and the packages that it suggests are not.
+TEST_F(PluginFolders, NameThePackagesOfWhatIsShipped) {
+    const std::map<std::string, std::string> packages{{"ModbusIoDevice", "modbus/cortex-modbus"},
+                                                      {"MujocoWorld", "physics/cortex-mujoco"}};
+    for (const auto& [type, list] : packages) {
+        const std::string package = list.substr(list.find('/') + 1);
+        fs::copy_file(CORTEX_SOURCE_DIR "/" + list + ".types", at("first/" + package + ".types"));
+        folder.write("rules.xml",
+                     "<morphology name='m' version='1.0'>"
+                     "<include file='cortex-morphology.xml'/></morphology>");
+        expectRefused(agentOf(type), "says that " + type + " is in it; install package " + package);
+    }
+}
+
 TEST_F(PluginFolders, TellWhyAPluginIsNotLoaded) {
     putLibrary("first/pump.so", "plugin-wrong-abi");
     folder.write("first/pump.types", "Pump\nTurbine\n");

@@ -9,6 +9,7 @@
 #include "cortex/toolkit/classes.hpp"
 
 #include "hook_check.hpp"
+#include "model_dump.hpp"
 #include "options.hpp"
 #include "patient_output.hpp"
 #include "plugin_folders.hpp"
@@ -39,11 +40,6 @@ enum ExitCode {
     NotFollowed = 4,
     Second = 5,
     HooksBroke = 6
-};
-
-class UsageError : public Error {
-public:
-    using Error::Error;
 };
 
 // As an ontology states it.
@@ -83,6 +79,7 @@ void applySetting(SimplexTree& tree, const std::string& text, std::set<std::stri
 // Start values from files: the later outranks the earlier one, and --set both.
 void applyFiles(const CommandLine& line, SimplexTree& tree, RetainedFile& retained) {
     if (!line.settingsFile.empty()) std::cout << applySettingsFile(line.settingsFile, tree);
+    if (line.dumpsModel) return;  // a broken file of retained values would be set aside
     if (RetainedFile::hasItems(tree)) {
         try {
             std::cout << retained.restore(tree);
@@ -268,10 +265,23 @@ void destroy(SimplexTree* tree) {
     delete tree;
 }
 
+using OwnedTree = std::unique_ptr<SimplexTree, decltype(&destroy)>;
+
+int dumpModel(const CommandLine& line) {
+    const int output = setStandardOutputAside();
+    ClassRegistry registry;
+    addClasses(registry);
+    RetainedFile unused{retainFile(line)};
+    const OwnedTree tree{new SimplexTree{readSystem(line, registry, unused)}, &destroy};
+    writeModel(output, modelText(line, registry, *tree));
+    return Ended;
+}
+
 int run(int argc, char** argv) {
     int exitCode = Ended;
     const auto line = parseCommandLine(argc, argv, exitCode);
     if (!line) return exitCode;
+    if (line->dumpsModel) return dumpModel(*line);
     std::optional<PatientOutput> out, errors;
     if (!line->checkHooks) {  // which tells what hooks print with the library's own streams
         out.emplace(std::cout, STDOUT_FILENO);
@@ -282,8 +292,7 @@ int run(int argc, char** argv) {
     ClassRegistry registry;
     addClasses(registry);
     RetainedFile retained{retainFile(*line)};
-    const std::unique_ptr<SimplexTree, decltype(&destroy)> tree{
-        new SimplexTree{readSystem(*line, registry, retained)}, &destroy};
+    const OwnedTree tree{new SimplexTree{readSystem(*line, registry, retained)}, &destroy};
     try {
         return runCluster(*line, registry, *tree, retained, hookCheck);
     } catch (const comms::SecondStart& error) {

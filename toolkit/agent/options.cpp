@@ -3,6 +3,7 @@
 
 #include "cortex/core/error.hpp"
 #include "cortex/core/nearest_names.hpp"
+#include "cortex/core/simplex_tree.hpp"
 #include "cortex/core/value.hpp"
 
 #include <algorithm>
@@ -87,6 +88,22 @@ std::string aNumber(const std::string& text) {
     const std::string digits = text.substr(0, text.find_first_not_of("0123456789.+-"));
     return "'" + text + "' is no number" +
            (toFloat(digits) ? "; write it without a unit (cortex-agent --help names it)" : "");
+}
+
+// Of --dump-mjcf, whose value may be left out.
+std::string aPath(const std::string& text) {
+    if (SimplexTree::pathError(text).empty()) return {};
+    return "'" + text + "' is no path of a simplex; write the system file before this option";
+}
+
+void addDump(CLI::App& app, CommandLine& line) {
+    app.add_option(
+           "--dump-mjcf", line.modelPath,
+           "prints the model of a MujocoWorld as MJCF, and ends: nothing runs; PATH chooses "
+           "one of several")
+        ->type_name("[PATH]")
+        ->expected(0, 1)
+        ->check(aPath);
 }
 
 void addLoop(CLI::App& app, CommandLine& line) {
@@ -203,6 +220,7 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
     app.add_flag(
         "--check-hooks", line.checkHooks,
         "names each allocation, lock, system call, page fault, throw and output of a hook");
+    addDump(app, line);
     app.add_option("--log", line.log, "writes events to a file instead of the standard error")
         ->type_name("FILE");
     addNetwork(app, line);
@@ -216,6 +234,7 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
         }
         return std::nullopt;
     }
+    line.dumpsModel = app.count("--dump-mjcf") > 0;
     return line;
 }
 

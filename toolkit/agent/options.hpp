@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/comms/network_options.hpp"
+#include "cortex/core/error.hpp"
 #include "cortex/core/model_files.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 
@@ -12,6 +13,12 @@
 #include <vector>
 
 namespace cortex::toolkit {
+
+// What the command line asks for cannot be: exit code 2.
+class UsageError : public Error {
+public:
+    using Error::Error;
+};
 
 // What was asked for on the command line.
 struct CommandLine {
@@ -26,7 +33,9 @@ struct CommandLine {
     double spin = 0;     // us
     double seconds = 0;  // 0: until SIGINT or SIGTERM
     bool startup = false, checkHooks = false;
-    bool wait = false;  // for another start of the name to end
+    bool wait = false;        // for another start of the name to end
+    bool dumpsModel = false;  // instead of running
+    std::string modelPath;    // of the simplex that has it; empty: the only one
     std::filesystem::path log;
     bool offline = false;
     std::optional<int> domain;
