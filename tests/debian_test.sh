@@ -26,11 +26,13 @@ mount -t proc proc "$1/proc"; mount --rbind /dev "$1/dev"
 run() { LC_ALL=C.UTF-8 HOME=/root DEBIAN_FRONTEND=noninteractive chroot "$1" "${@:2}"; }
 '
 
-echo 'only the package for Modbus needs libmodbus'
-for deb in "$debs"/*.deb; do
-    [[ $(dpkg-deb -f "$deb" Depends) != *libmodbus* ]] || dpkg-deb -f "$deb" Package
-done >"$work/needModbus"
-[[ $(<"$work/needModbus") == cortex-modbus ]] || { cat "$work/needModbus"; exit 1; }
+echo 'only the package for Modbus needs libmodbus, and only the one for physics MuJoCo'
+for library in modbus mujoco; do
+    for deb in "$debs"/*.deb; do
+        [[ $(dpkg-deb -f "$deb" Depends) != *lib$library* ]] || dpkg-deb -f "$deb" Package
+    done >"$work/need"
+    [[ $(<"$work/need") == "cortex-$library" ]] || { cat "$work/need"; exit 1; }
+done
 
 echo 'installed with what they depend on'
 mkdir "$root/debs"
@@ -57,6 +59,26 @@ inside "ip link set lo up; $prepare mount -t tmpfs run \"\$1/run\";"'
     --net
 head -c 8 "$root/tmp/picture.png" | grep -q PNG
 cp "$root/tmp/picture.png" "$work/picture.png"
+
+echo 'an agent names the package of a plug-in that is not there'
+# PACKAGE TYPE: removes the package and runs a system with the type.
+removed='removed() {
+    run "$1" apt-get remove -qqy "$2" >"$1/tmp/remove.log" 2>&1
+    cat >"$1/tmp/plant.xml" <<END
+<system name="plant">
+  <morphology file="cortex-morphology.xml"/>
+  <cluster name="plant" frequency="100"/>
+  <simplex path="/one" type="$3"/>
+</system>
+END
+    run "$1" cortex-agent /tmp/plant.xml --offline >"$1/tmp/plant.log" 2>&1 &&
+        { echo "error: $3 ran without $2"; exit 1; }
+    grep "says that $3 is in it; install package $2" "$1/tmp/plant.log"
+}
+'
+inside "$prepare$removed"'
+    removed "$1" cortex-modbus ModbusIoDevice
+    removed "$1" cortex-mujoco MujocoWorld'
 
 echo 'removed without a trace'
 inside "$prepare"'run "$1" apt-get purge -qqy "libcortex*" "cortex-*" >"$1/tmp/purge.log" 2>&1'

@@ -68,16 +68,18 @@ oven=$!
 kill "$oven"
 grep 'all active simplexes are started' "$outside/bakery"
 
-echo 'only the plug-in for Modbus needs libmodbus, and the agent finds it'
-needsModbus() { [[ $(readelf -d "$1") == *NEEDED*libmodbus* ]]; }
-for file in "$prefix"/lib/libcortex*.so "$prefix"/bin/cortex-agent "$prefix"/bin/cortex; do
-    if needsModbus "$file"; then echo "error: $file needs libmodbus" >&2; exit 1; fi
+echo 'only its plug-in needs libmodbus, or MuJoCo, and the agent finds both'
+needs() { [[ $(readelf -d "$1") == *NEEDED*lib"$2"* ]]; }
+for library in modbus mujoco; do
+    for file in "$prefix"/lib/libcortex*.so "$prefix"/bin/cortex-agent "$prefix"/bin/cortex; do
+        if needs "$file" "$library"; then echo "error: $file needs lib$library" >&2; exit 1; fi
+    done
+    needs "$prefix/lib/cortex/agent/cortex-$library.so" "$library"
 done
-needsModbus "$prefix/lib/cortex/agent/cortex-modbus.so"
 cat >"$outside/coupler.xml" <<'END'
 <system name="coupler">
   <morphology file="devices-morphology.xml"/>
-  <cluster name="coupler" frequency="100"/>
+  <cluster name="hall" frequency="100"/>
   <simplex path="/lamps" type="DigitalOutputGroup"/>
   <simplex path="/coupler" type="ModbusIoDevice">
     <relate rule="digitalOutputs" to="/lamps"/>
@@ -88,6 +90,37 @@ cat >"$outside/coupler.xml" <<'END'
 END
 "$prefix/bin/cortex-agent" "$outside/coupler.xml" --offline --seconds 0.1 --log /dev/null 2>&1 |
     grep "plug-in $prefix/lib/cortex/agent/cortex-modbus.so: loaded for ModbusIoDevice"
+cat >"$outside/world.xml" <<'END'
+<system name="cell">
+  <morphology file="physics-morphology.xml"/>
+  <cluster name="cell" frequency="1000"/>
+  <simplex path="/arm" type="SerialManipulator">
+    <relate rule="axes" to="/arm/axis"/>
+    <relate rule="demands" to="/arm/demand"/>
+  </simplex>
+  <simplex path="/arm/axis" type="KukaLbrAxis1"/>
+  <simplex path="/arm/demand" type="KukaLbrAxis1"/>
+  <simplex path="/hold" type="HoldAxisController">
+    <relate rule="axes" to="/arm/axis"/>
+    <relate rule="demands" to="/arm/demand"/>
+  </simplex>
+  <simplex path="/world" type="MujocoWorld">
+    <relate rule="manipulators" to="/arm"/>
+    <relate rule="observations" to="/arm/axis"/>
+    <relate rule="demands" to="/arm/demand"/>
+  </simplex>
+</system>
+END
+"$prefix/bin/cortex-agent" "$outside/world.xml" --offline --startup --seconds 1 --priority 0 \
+    --log /dev/null >"$outside/world.said" 2>&1
+grep "plug-in $prefix/lib/cortex/agent/cortex-mujoco.so: loaded for MujocoWorld" \
+    "$outside/world.said"
+grep 'all active simplexes are started' "$outside/world.said"
+
+echo 'its model is a file of its own'
+"$prefix/bin/cortex-agent" "$outside/world.xml" --dump-mjcf >"$outside/world.mjcf" 2>/dev/null
+[[ $(head -c 7 "$outside/world.mjcf") == '<mujoco' ]]
+tail -1 "$outside/world.mjcf" | grep '^</mujoco>$'
 
 echo 'the examples of XML alone run as they are installed'
 for plant in gantry jog_axis lbr_teleop; do

@@ -15,7 +15,7 @@ foldersOf() {
     sed -nE 's#^tests/(cli|docs|gui|data/schema)/.*#explorer#; s#^tests/determinism/.*#cs#
         s#^tests/(support|data|plugins)/.*#core\ncs\ncomms#; s#^tests/([a-z]+)/.*#\1#
         s#^ontology/.*#core#; s#^([a-z]+)/.*#\1#; p' | sort -u |
-        grep -xE 'core|cs|comms|mechanics|drives|toolkit|modbus|profiler|explorer' || true
+        grep -xE 'core|cs|comms|mechanics|drives|toolkit|modbus|physics|profiler|explorer' || true
 }
 
 # Rewrites those of the named files that are not formatted.

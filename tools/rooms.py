@@ -37,6 +37,7 @@ LAYERS = {
     "drives": [],
     "toolkit": ["core", "cs", "comms", "mechanics", "drives"],
     "modbus": ["core", "cs", "toolkit", "drives"],
+    "physics": ["core", "cs", "toolkit"],
     "explorer/common": ["core", "comms"],
     "explorer/cli": ["core", "comms", "explorer/common"],
     "explorer/gui": ["core", "comms", "drives", "explorer/common"],

@@ -107,8 +107,8 @@ measureCoverage() {
     local status=0
     say "counting covered lines of libraries and programs"
     gcovr --gcov-executable "llvm-cov-19 gcov" --filter core/ --filter cs/ --filter comms/ \
-        --filter mechanics/ --filter drives/ --filter modbus/ --filter toolkit/ \
-        --filter explorer/ --exclude ".*_autogen.*" \
+        --filter mechanics/ --filter drives/ --filter modbus/ --filter physics/ \
+        --filter toolkit/ --filter explorer/ --exclude ".*_autogen.*" \
         -j "$jobs" --json build/coverage/coverage.json build/coverage >"$logs/gcovr.log" 2>&1 ||
         { cat "$logs/gcovr.log"; return 1; }
     requireCoverage 90 core cs || status=$?
@@ -116,6 +116,7 @@ measureCoverage() {
     requireCoverage 85 mechanics || status=$?
     requireCoverage 85 drives || status=$?
     requireCoverage 85 modbus/src modbus/drive modbus/gripper modbus/gripper_sim modbus/sim || status=$?
+    requireCoverage 85 physics/src || status=$?
     requireCoverage 85 toolkit/src toolkit/include || status=$?
     requireCoverage 80 toolkit/agent || status=$?
     requireCoverage 80 explorer/cli || status=$?

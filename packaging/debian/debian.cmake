@@ -49,7 +49,7 @@ cortex-ds402-sim and cortex-gripper-sim simulate a CiA 402 drive and a Robotiq
 gripper behind Modbus/TCP. Examples are in /usr/share/cortex/examples.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libcortex0 ${same}")
-set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "cortex-modbus")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "cortex-modbus, cortex-mujoco")
 
 if(TARGET cortex-modbus)
     cortex_package(modbus cortex-modbus science
@@ -60,6 +60,16 @@ system has one of them.")
     set(CPACK_DEBIAN_MODBUS_PACKAGE_SHLIBDEPS ON)
     set(CPACK_DEBIAN_MODBUS_PACKAGE_DEPENDS "libcortex0 ${same}")
     set(CPACK_DEBIAN_MODBUS_PACKAGE_RECOMMENDS "cortex-tools")
+endif()
+if(TARGET cortex-mujoco)
+    cortex_package(mujoco cortex-mujoco science
+        "Self-describing, deterministic control systems: physics"
+"This package has the behaviour of worlds in which manipulators, grippers and
+bodies have masses and touch each other, computed by MuJoCo. The program
+cortex-agent loads it when a system has one of them.")
+    set(CPACK_DEBIAN_MUJOCO_PACKAGE_SHLIBDEPS ON)
+    set(CPACK_DEBIAN_MUJOCO_PACKAGE_DEPENDS "libcortex0 ${same}")
+    set(CPACK_DEBIAN_MUJOCO_PACKAGE_RECOMMENDS "cortex-tools")
 endif()
 if(TARGET cortex-explorer)
     cortex_package(explorer cortex-explorer science
