@@ -33,7 +33,7 @@ struct BodyState {
 };
 
 struct ServoOptions {
-    double bandwidth = 12;  // Hz
+    double bandwidth = 12;  // Hz; at most 0.08 / step, which is less from steps of 7 ms on
     double dampingRatio = 0.9;
     bool gravityCompensation = true;  // weight, Coriolis and damping come from the drive itself
 };

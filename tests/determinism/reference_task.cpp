@@ -115,7 +115,8 @@ bool Reference::lifeCycle(int simplex, LifeCycle command) {
     } else if (command == LifeCycle::ClearFaults && state != State::Fault) {
         task.text = std::string{"clearFaults needs Fault, is "} + name(state);
     } else if (command == LifeCycle::ClearFaults && !task.dead && !task.done) {
-        task.text = "the fault is not over: stateFault has not returned true";
+        task.text =
+            "the fault is not over; its text, or the description of its type, says what ends it";
     } else if (command == LifeCycle::ClearFaults) {
         enter(simplex, State::Standby);
         return true;

@@ -190,21 +190,27 @@ TEST(DynamicsOfTheLbr, FollowASineClosely) {
                 ++count;
             }
         }
-        EXPECT_LT(std::sqrt(squares / count), 1e-3) << steps;
+        EXPECT_LT(std::sqrt(squares / count), 4e-4) << steps;
         EXPECT_GT(std::sqrt(squares / count), 1e-5) << "a servo cannot be this good";
     }
 }
 
-// A braked axis is stiffer than the steps of 10 ms can follow: the loop is slower then.
-TEST(DynamicsOfTheLbr, StayCalmAtTheGreatestStep) {
-    Physics physics{lbrScene()};
-    std::vector<JointDemand> demands = staying(physics, true);
-    for (JointDemand& demand : demands) demand.position += 0.02;
-    for (int i = 0; i < 300; ++i)
-        ASSERT_EQ(physics.step(0.01, 1, demands, {.bandwidth = 15}), Trouble::None);
-    for (std::size_t i = 0; i < 7; ++i) {
-        EXPECT_NEAR(physics.joint(i).position, lbrPosture[i] + 0.02, 1e-6) << "axis " << i + 1;
-        EXPECT_NEAR(physics.joint(i).velocity, 0, 1e-6);
+// The axes of an arm are coupled: loops of each alone that are as fast as this shake it.
+TEST(DynamicsOfTheLbr, StayCalmInAnyPostureAtAnyStep) {
+    std::mt19937 random{3};
+    for (const double step : {0.001, 0.002, 0.01, 0.001, 0.002, 0.01}) {
+        std::array<double, 7> start{};
+        for (double& position : start) position = std::uniform_real_distribution(-1.5, 1.5)(random);
+        for (const bool braked : {true, false}) {
+            Physics physics{lbrScene(start)};
+            std::vector<JointDemand> demands = staying(physics, braked);
+            for (JointDemand& demand : demands) demand.position += 0.01;
+            for (double time = 0; time < 0.8; time += step)
+                ASSERT_EQ(physics.step(step, 1, demands, {.bandwidth = 15}), Trouble::None);
+            for (std::size_t i = 0; i < 7; ++i)
+                EXPECT_NEAR(physics.joint(i).position, start[i] + 0.01, 1e-6)
+                    << "axis " << i + 1 << " step " << step << " braked " << braked;
+        }
     }
 }
 
@@ -227,10 +233,23 @@ TEST(DynamicsOfTheLbr, GoWhereTheyAreToldWithoutOvershoot) {
     }
 }
 
+// Its torque is at its limit; what the others get for it is no more than that asks for.
+TEST(DynamicsOfTheLbr, AreHardlyShakenByAnAxisThatIsFarFromItsDemand) {
+    Physics physics{lbrScene()};
+    std::vector<JointDemand> demands = staying(physics, false);
+    demands[3].position += 1;
+    for (int i = 0; i < 1000; ++i) {
+        ASSERT_EQ(physics.step(0.001, 1, demands, {}), Trouble::None);
+        for (const std::size_t other : {1U, 2U, 4U, 5U, 6U})
+            ASSERT_NEAR(physics.joint(other).position, lbrPosture[other], 0.05) << other;
+    }
+    EXPECT_NEAR(physics.joint(3).position, demands[3].position, 1e-6);
+}
+
 TEST(DynamicsOfTheLbr, EffortIsNeverMoreThanTheAxisHas) {
     Physics physics{lbrScene()};
     std::vector<JointDemand> demands = staying(physics, false);
-    demands[5].position += 1;
+    demands[5].effort = 100;
     ASSERT_EQ(physics.step(0.001, 1, demands, {}), Trouble::None);
     EXPECT_EQ(physics.joint(5).effort, 40);
 }

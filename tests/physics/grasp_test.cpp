@@ -150,6 +150,20 @@ TEST(GripperWithoutAStatus, GoesWhereItIsToldAndPushesAsTold) {
     EXPECT_NEAR(physics.joint(openingPlace).position, 0.03 + 10 / stiffness, 1e-6);
 }
 
+TEST(GripperWithoutAStatus, FollowsWithoutLag) {
+    Gripper gripper = shippedGripper();
+    gripper.limitsForce = false;
+    Physics physics{liftWith(gripper)};
+    std::vector<JointDemand> demands = staying(physics, false);
+    demands[openingPlace].velocity = -0.1;
+    for (int i = 0; i < 500; ++i) {
+        ASSERT_EQ(physics.step(0.001, 1, demands, {}), Trouble::None);
+        demands[openingPlace].position -= 0.0001;
+    }
+    EXPECT_NEAR(physics.joint(openingPlace).position, demands[openingPlace].position, 2e-5);
+    EXPECT_NEAR(physics.joint(openingPlace).velocity, -0.1, 1e-4);
+}
+
 TEST(GripperOfItsOwn, StandsInTheWorldAtItsOrigin) {
     Gripper gripper = shippedGripper();
     gripper.opening.origin = {1, 0, 0.5};

@@ -147,6 +147,16 @@ TEST(SceneText, HoldsWhatTheSceneSays) {
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
+// Halfway to the next axis; where that is at the same place, or there is none, about the mass.
+TEST(SceneText, PutsABoxAroundEachLink) {
+    const std::string text = Physics{{.arms = {shippedLbr()}}}.mjcf();
+    for (const char* part : {R"(<geom type="box" pos="0 0 0.18" size="0.085 0.085 0.18")",
+                             R"(<geom type="box" pos="-3e-04 0.042 0.059" size="0.07 0.085 0.105")",
+                             R"(<geom type="box" pos="0 0 0.21" size="0.07 0.07 0.21")",
+                             R"(<geom type="box" pos="0 0 -0.025" size="0.03 0.03 0.015")"})
+        EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
 TEST(SceneText, EscapesWhatXmlCannotHave) {
     Scene scene = wholeScene();
     scene.bodies[1].path = "/a<b&\"c\"";

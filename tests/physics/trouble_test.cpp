@@ -72,7 +72,9 @@ TEST_F(PhysicsInTrouble, DivergesByADemandThatIsNoNumber) {
     Physics physics = falling(scene_);
     std::vector<JointDemand> demands = staying(physics, false);
     demands[3].effort = std::numeric_limits<double>::quiet_NaN();
+    testing::internal::CaptureStderr();
     expectTrouble(physics, demands, Trouble::Diverged, "demand of '/lbr/4'");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     expectGoesOn(physics);
 }
 
@@ -104,7 +106,7 @@ TEST_F(PhysicsInTrouble, LivesOnAfterAnErrorOfTheLibrary) {
     Physics physics = falling(scene_);
     const std::vector<JointDemand> demands = staying(physics, true);
     mjcb_control = [](const mjModel*, mjData* data) {
-        mj_stackAlloc(data, 100);  // it leaves this on the stack
+        mj_stackAlloc(data, data->nstack - data->pstack - 1);  // it leaves this on the stack
         mju_error("it cannot go on");
     };
     expectTrouble(physics, demands, Trouble::Error, "it cannot go on");
@@ -135,6 +137,8 @@ TEST_F(PhysicsInTrouble, ForgetsItsTroubleByReset) {
     demands[3].position = std::numeric_limits<double>::infinity();
     demands[3].velocity = -std::numeric_limits<double>::infinity();
     EXPECT_EQ(physics.step(0.001, 1, demands, {}), Trouble::Diverged);
+    EXPECT_NE(std::string{physics.why()}.find("demand of '/lbr/4'"), std::string::npos)
+        << physics.why();
     physics.reset();
     EXPECT_EQ(stateOf(physics), first);
     Physics other{scene_};

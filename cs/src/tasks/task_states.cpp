@@ -60,7 +60,8 @@ bool TaskStates::lifeCycle(Task& task, LifeCycle command, const Tick& tick) {
                                                                 : "clearFaults needs Fault, is ")
                               << name(simplex.state_);
     } else if (command == LifeCycle::ClearFaults && !simplex.dead_ && !simplex.pending_.done) {
-        simplex.thread_->text << "the fault is not over: stateFault has not returned true";
+        simplex.thread_->text
+            << "the fault is not over; its text, or the description of its type, says what ends it";
     } else if (command != LifeCycle::Startup || mayStart(task)) {  // or mayStart gives the reason
         enter(task, *to, tick);
         return true;
