@@ -177,7 +177,9 @@ std::string sceneBody(const Body& body) {
             geom += " type=\"sphere\"" + attribute("size", {edges[0]});
             break;
     }
-    geom += attribute("friction", {body.friction, 0.005, 0.0001}) + attributes(Touch{});
+    // Its friction counts against jaws and links, which have none of their own to state.
+    geom += attribute("friction", {body.friction, 0.005, 0.0001}) + attributes(Touch{}) +
+            attribute("condim", "4") + attribute("priority", "1");
     const std::string where = place(body.position, body.rotation);
     if (body.mass <= 0) return geom + where + "/>\n";
     return "<body" + attribute("name", body.path) + where + ">\n<freejoint" +
@@ -259,11 +261,12 @@ std::string mjcf(const Scene& scene) {
     return "<mujoco>\n<compiler angle=\"radian\"/>\n" + sizes(scene) + "<option" +
            attribute("gravity", scene.gravity) +
            " cone=\"elliptic\" impratio=\"100\" solver=\"Newton\" iterations=\"50\""
-           " tolerance=\"1e-10\">\n<flag energy=\"enable\"/>\n</option>\n" +
+           " tolerance=\"1e-10\">\n<flag energy=\"enable\" multiccd=\"enable\"/>\n</option>\n" +
            // Four times as hard as MuJoCo's own: a gripper would sink into what it holds by
-           // millimetres. Steps of more than half of this time take a softer one.
-           "<default><geom solref=\"0.005 1\"/></default>\n" + world(scene) + exclusions(scene) +
-           couplings(scene) + motors(scene) + "</mujoco>\n";
+           // millimetres. Steps of more than half of this time take a softer one. More than one
+           // point of contact of a pair of round bodies, so that a cylinder stands still.
+           "<default><geom solref=\"0.005 1\" solimp=\"0.95 0.99 0.001\"/></default>\n" +
+           world(scene) + exclusions(scene) + couplings(scene) + motors(scene) + "</mujoco>\n";
 }
 
 }  // namespace cortex::physics

@@ -33,6 +33,7 @@ void MujocoWorld::populate() {
     map.scene.contactLimit = static_cast<int>(data<const std::int64_t>("contactLimit").get());
     physics_.emplace(map.scene);
     bindAxes(map, relations);
+    noteLoose(map.scene);
     for (const OutputSimplex& pose : relations.bodyPoses)
         poses_.push_back({pose.array<double>("position"), pose.array<double>("rotation"),
                           pose.array<double>("linearVelocity"),
@@ -59,6 +60,16 @@ void MujocoWorld::bindAxes(const SceneMap& map, const WorldRelations& relations)
         grips_.emplace_back(relations.statuses[*map.statuses[i]], joints[ofArms + i]->start);
     }
     demands_.resize(axes_.size());
+}
+
+// It may be meant, but more likely an Arm was forgotten under `arms`.
+void MujocoWorld::noteLoose(const Scene& scene) {
+    for (const Gripper& gripper : scene.grippers) {
+        if (scene.arms.empty() || gripper.carrier || gripper.opening.origin != Triple{}) continue;
+        loose_ = EventText{gripper.path}
+                 << " stands at the origin of the world, as no Arm under "
+                    "arms carries it; relate one, or give an originPosition";
+    }
 }
 
 void MujocoWorld::bindItems() {
@@ -105,6 +116,7 @@ EventText MujocoWorld::whyAway(std::size_t axis) const {
 
 // As drives do: it does not switch on while a demand is elsewhere.
 bool MujocoWorld::stateStartingUp(const Tick& tick) {
+    if (waited_ == 0 && !loose_.view().empty()) event(Severity::Warning, loose_);
     if (isSafetyStop()) {
         faultBySafety();
         return false;
@@ -206,7 +218,7 @@ void MujocoWorld::fail(Trouble trouble) {
     if (state() != State::Fault) return fault(static_cast<std::int64_t>(trouble), text.view());
     stands_ = true;
     event(Severity::Error,
-          EventText{"it stands still until it is reset, as it fails again: "} << text.view());
+          EventText{"it fails again, so it stands still until reset: "} << text.view());
 }
 
 AxisStatus MujocoWorld::statusOf(std::size_t axis) const {

@@ -35,6 +35,7 @@ private:
 
     void populate() override;
     void bindAxes(const SceneMap& map, const WorldRelations& relations);
+    void noteLoose(const Scene& scene);
     void bindItems();
     bool stateStartingUp(const Tick& tick) CORTEX_REALTIME override;
     void stateActive(const Tick& tick) CORTEX_REALTIME override;
@@ -69,6 +70,8 @@ private:
     Data<std::int64_t> contacts_;
     Data<double> energy_;
     Data<bool> braked_;
+
+    EventText loose_;  // which gripper no arm carries; empty: none
 
     std::vector<double> held_;  // where each axis was when the brakes came on
     double waited_ = 0;         // s, in StartingUp

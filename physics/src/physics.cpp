@@ -19,20 +19,6 @@
 namespace cortex::physics {
 namespace {
 
-// What a gripper that is braked goes on with: its last demand before.
-struct Grip {
-    double position = 0, force = 0;
-
-    void keep(Archive& archive) { archive & position & force; }
-};
-
-// What the next step reads.
-struct State {
-    std::vector<double> positions{}, velocities{}, warmStart{};
-    std::vector<Grip> grips{};  // of all drives, as most scenes are small
-    double time = 0;
-};
-
 // A warning of MuJoCo, and what it means here: text before and after a path.
 struct Meaning {
     mjtWarning warning;
@@ -47,11 +33,9 @@ constexpr const char* gentler =
     "' left all measure; take a smaller timeStep, or gentler demands, or look at what pushes it";
 constexpr std::array meanings{
     Meaning{mjWARN_CONTACTFULL, Trouble::TooManyContacts,
-            "there are more points of contact than contactLimit; raise it, or look for bodies and "
-            "links that stand in each other"},
+            "more contacts than contactLimit; raise it, or look for what stands in each other"},
     Meaning{mjWARN_CNSTRFULL, Trouble::TooManyContacts,
-            "contacts and limits make more constraints than there is room for; look for bodies and "
-            "links that stand in each other"},
+            "more constraints than there is room for; look for what stands in each other"},
     Meaning{mjWARN_BADCTRL, Trouble::Diverged, "what the demand of '", &MujocoPlaces::ofMotor,
             "' asks for is no usable effort; correct what writes it"},
     Meaning{mjWARN_INERTIA, Trouble::Diverged, "the inertia that '", &MujocoPlaces::ofVelocity,
@@ -78,6 +62,20 @@ std::span<T> spanOf(T* first, int count) {
 }  // namespace
 
 struct Physics::Implementation {
+    // What a gripper that is braked goes on with: its last demand before.
+    struct Grip {
+        double position = 0, force = 0;
+
+        void keep(Archive& archive) { archive & position & force; }
+    };
+
+    // What the next step reads.
+    struct State {
+        std::vector<double> positions{}, velocities{}, warmStart{};
+        std::vector<Grip> grips{};  // of all drives, as most scenes are small
+        double time = 0;
+    };
+
     explicit Implementation(const Scene& scene);
 
     void save(State& state) const;

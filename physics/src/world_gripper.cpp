@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world_gripper.hpp"
 
+#include "servo.hpp"
+
 #include <cmath>
 
 namespace cortex::physics {
@@ -11,6 +13,7 @@ namespace {
 constexpr double jawWay = 5e-5;       // m
 constexpr double jawRestTime = 0.05;  // s
 constexpr double jawNearness = 1e-3;  // m, between jaws and demand
+constexpr double letGoWay = 2e-4;     // m, of a demand away from the jaws
 
 }  // namespace
 
@@ -22,6 +25,7 @@ WorldGripper::WorldGripper(const OutputSimplex& status, double opening)
 void WorldGripper::reset(double opening) {
     aim_ = place_ = opening;
     speed_ = force_ = 0;
+    isLed_ = false;
     rested_ = jawRestTime;
     object_ = AtDemand;
 }
@@ -31,10 +35,22 @@ bool WorldGripper::presses(const JointState& jaws) const {
            (object_ == StoppedOpening && aim_ > jaws.position + jawNearness);
 }
 
+// What is led comes nearer to the jaws; what is to let go moves away from there. A demand for a
+// firmer grip counts from where it means the whole force, so that the grip does not fade meanwhile.
+bool WorldGripper::isLedBack(double wish, const JointState& jaws) {
+    const double distance = std::abs(wish - jaws.position);
+    if (presses(jaws) && distance <= jawNearness) {
+        if (!isLed_ || distance < std::abs(ledTo_ - jaws.position)) ledTo_ = wish;
+        isLed_ = true;
+    }
+    const double away = aim_ < ledTo_ ? wish - ledTo_ : ledTo_ - wish;
+    isLed_ = isLed_ && away <= letGoWay && away >= -gripWay;
+    return isLed_;
+}
+
 void WorldGripper::follow(const JointDemand& wish, bool isGood, const JointState& jaws) {
     speed_ = 0;
-    if (!isGood) return;
-    if (presses(jaws) && std::abs(wish.position - jaws.position) <= jawNearness) return;
+    if (!isGood || isLedBack(wish.position, jaws)) return;
     aim_ = wish.position;
     speed_ = wish.velocity;
     force_ = wish.effort;

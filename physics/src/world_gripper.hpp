@@ -27,7 +27,7 @@ public:
     void show(const JointState& jaws, double seconds) CORTEX_REALTIME;
 
     void keep(Archive& archive) CORTEX_REALTIME {
-        archive & aim_ & speed_ & force_ & place_ & rested_;
+        archive & aim_ & speed_ & force_ & isLed_ & ledTo_ & place_ & rested_;
     }
 
 private:
@@ -35,9 +35,12 @@ private:
     enum Object : std::int64_t { Moving, StoppedOpening, StoppedClosing, AtDemand };
 
     bool presses(const JointState& jaws) const CORTEX_REALTIME;
+    bool isLedBack(double wish, const JointState& jaws) CORTEX_REALTIME;
 
     Data<std::int64_t> object_;
     double aim_ = 0, speed_ = 0, force_ = 0;
+    bool isLed_ = false;  // its demand was led to the jaws that press, to this opening
+    double ledTo_ = 0;
     double place_ = 0;   // from which the jaws have not moved away
     double rested_ = 0;  // s, since when
 };

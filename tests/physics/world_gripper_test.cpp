@@ -66,6 +66,24 @@ TEST_F(AGripper, GripsABoxWithItsForceLiftsItAndHoldsItWithTheWorldShutDown) {
     EXPECT_EQ(rig.told(), "");
 }
 
+TEST(AGripperWithAHeavyBox, LiftsItAsFirmlyAfterItWasBraked) {
+    Entries entries = liftPlant();
+    at(entries, "/box").settings[1].value = "6";
+    WorldRig rig{entries};
+    rig.startUp();
+    const auto effort = [&] { return std::abs(rig.get<double>("/gripper/opening", "effort")); };
+    ASSERT_TRUE(rig.call("/grip", "grip", {{"force", 200.0}}).done());
+    ASSERT_TRUE(rig.call("/world", "brake").done());
+    rig.step(2000);
+    ASSERT_TRUE(rig.call("/world", "release").done());
+    ASSERT_TRUE(rig.set("/lifter", "pose", Value{std::vector<double>(16, 0.1)}));
+    rig.cluster().send("/lifter", "moveTo", {{"speedShare", 1.0}});
+    for (int i = 0; i < 700; ++i) {
+        rig.step();
+        ASSERT_NEAR(effort(), 200, 1e-6) << "nobody has asked for less";
+    }
+}
+
 TEST_F(AGripper, HoldsOnWhileItsControllerIsAtRest) {
     ASSERT_TRUE(grip(40).done());
     rig.send("/grip", "shutdown");
@@ -77,6 +95,27 @@ TEST_F(AGripper, HoldsOnWhileItsControllerIsAtRest) {
     EXPECT_EQ(object(), stoppedClosing);
     EXPECT_TRUE(grip(60).done());
     EXPECT_NEAR(std::abs(effort()), 60, 1e-6);
+}
+
+TEST(AGripperAndABox, ThatIsSlipperyStaysOnTheTable) {
+    Entries entries = liftPlant();
+    at(entries, "/box").settings.push_back({"friction", "0.02", {}});
+    WorldRig rig{entries};
+    rig.startUp();
+    ASSERT_TRUE(rig.call("/grip", "grip", {{"force", 40.0}}).done());
+    ASSERT_TRUE(rig.moveTo("/lifter", {0.1}).done());
+    EXPECT_NEAR(rig.array("/boxPose", "position")[2], 0.43, 5e-3);
+}
+
+TEST(AGripperThatNoArmCarries, IsToldOfAtEachStartup) {
+    Entries entries = liftPlant();
+    std::erase_if(at(entries, "/world").relates,
+                  [](const auto& each) { return each.rule == "arms"; });
+    WorldRig rig{entries};
+    rig.startUp();
+    EXPECT_EQ(rig.told(),
+              "/gripper stands at the origin of the world, as no Arm under arms carries it; relate "
+              "one, or give an originPosition\n");
 }
 
 TEST_F(AGripper, UsesItsLeastForceWhereLessIsDemanded) {
