@@ -19,6 +19,9 @@
 namespace cortex::physics {
 namespace {
 
+// MuJoCo makes a text of the first warning alone, and allocates for it; so it begins behind that.
+constexpr int toldAlready = 1 << 20;
+
 // A warning of MuJoCo, and what it means here: text before and after a path.
 struct Meaning {
     mjtWarning warning;
@@ -237,11 +240,11 @@ void Physics::Implementation::actuate(double sinceBegin) {
         data->ctrl[places.drives[i].motor] = effort(places.drives[i], demands[i]);
 }
 
-// What MuJoCo counted since the begin of step().
+// What MuJoCo counted since the begin of step(). Where it begins anew, it counts from 0.
 Trouble Physics::Implementation::warned() {
     for (const Meaning& meaning : meanings) {
         const mjWarningStat& counted = data->warning[meaning.warning];
-        if (counted.number == 0) continue;
+        if (counted.number == 0 || counted.number == toldAlready) continue;
         const char* path = "";
         if (meaning.paths != nullptr)
             path = (places.*meaning.paths)[static_cast<std::size_t>(counted.lastinfo)].c_str();
@@ -252,7 +255,7 @@ Trouble Physics::Implementation::warned() {
 }
 
 Trouble Physics::Implementation::advance() {
-    std::ranges::fill(data->warning, mjWarningStat{});
+    std::ranges::fill(data->warning, mjWarningStat{0, toldAlready});
     for (int i = 0; i < asked.steps; ++i) {
         mj_step1(model.get(), data.get());
         actuate(i * model->opt.timestep);
