@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace cortex::physics {
+
 double within(double value, double limit) {
     if (value > limit) return limit;
     return value < -limit ? -limit : value;
