@@ -98,6 +98,24 @@ TEST(LbrTeleop, ReleasedWhileMovingItComesToRest) {
     EXPECT_LT(farthest(after, positionsOf(teleop.image(), "axes")), 1e-4);
 }
 
+TEST(LbrTeleop, DoesNotRushAfterTheHandWhenItsDrivesStartAgain) {
+    Teleop teleop;
+    teleop.startUp();
+    teleop.runUntil(4);
+    EXPECT_TRUE(teleop.call("/teleop", "shutdown", "/drives").done());
+    const Axes braked = positionsOf(teleop.image(), "axes");
+    teleop.runUntil(5);
+
+    EXPECT_TRUE(teleop.call("/teleop", "startup", "/drives").done());
+    teleop.runUntil(7);
+
+    EXPECT_TRUE(pressed(teleop.image()));
+    EXPECT_LT(farthest(braked, positionsOf(teleop.image(), "axes")), 0.05);
+    EXPECT_EQ(teleop.image().get<std::int64_t>("/control/clutch", "letGoCount"), 1);
+    teleop.runUntil(10.2);  // pressed anew
+    EXPECT_GT(farthest(braked, positionsOf(teleop.image(), "axes")), 0.05);
+}
+
 // --- The example's test has to fail when something is wrong ------------------------------------
 
 class FlippedJoint : public testing::TestWithParam<int> {};

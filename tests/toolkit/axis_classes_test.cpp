@@ -3,6 +3,7 @@
 #include "rig.hpp"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -38,6 +39,31 @@ TEST_F(SimulatedAxis, StandsAtItsStartFromTheFirstCycle) {
     begin("0.3");
 
     EXPECT_DOUBLE_EQ(position(), 0.3);
+}
+
+// As in a world with physics, so that one can take the place of the other.
+TEST(AnObservationThatIsGivenAPosition, IsWhereItsSimulatedAxisStands) {
+    const auto plant = [](const std::string& startPosition) {
+        auto rig = std::make_unique<Rig>();
+        rig->add("/demand", "KukaLbrAxis1");
+        rig->add("/axis", "KukaLbrAxis1", {}, {{"position", "0.3"}});
+        rig->add(
+            "/drive", "SimulatedAxis", {{"demand", "/demand"}, {"observation", "/axis"}},
+            startPosition.empty() ? Rig::Pairs{} : Rig::Pairs{{"startPosition", startPosition}});
+        rig->start();
+        return rig;
+    };
+    EXPECT_EQ(plant("")->get<double>("/axis", "position"), 0.3);
+    EXPECT_EQ(plant("0.3")->get<double>("/axis", "position"), 0.3);
+    try {
+        plant("0.5");
+        ADD_FAILURE() << "it has to choose one of two";
+    } catch (const Error& error) {
+        EXPECT_EQ(
+            std::string{error.what()},
+            "/drive: startPosition is 0.5, and position of /axis is given as 0.3: give one of "
+            "the two\n");
+    }
 }
 
 TEST_F(SimulatedAxis, DoesNotMoveUnlessActive) {

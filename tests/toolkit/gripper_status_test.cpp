@@ -60,12 +60,23 @@ TEST_F(GripperWithStatus, FailsToGripNothing) {
     EXPECT_EQ(result.why, "the jaws have closed, and nothing is between them");
 }
 
+TEST_F(GripperWithStatus, SaysNothingOfAWorkPieceThatGivesWayALittle) {
+    rig.put(workPiece);
+    ASSERT_TRUE(rig.ask("grip").done());
+    rig.put(workPiece - 0.001);
+    rig.go(20);
+    EXPECT_EQ(rig.object(), GripperRig::Moving);
+    rig.go(2000);
+    EXPECT_EQ(rig.object(), GripperRig::StoppedClosing);
+    EXPECT_EQ(rig.told(), "");
+}
+
 TEST_F(GripperWithStatus, TellsThatAWorkPieceIsLost) {
     rig.put(workPiece);
     ASSERT_TRUE(rig.ask("grip").done());
     rig.put(0);
     rig.go(2000);
-    EXPECT_EQ(rig.told(), "the work piece was lost at an opening of 0.0399 m\n");
+    EXPECT_EQ(rig.told(), "the work piece was lost at an opening of 0.038 m\n");
     EXPECT_EQ(rig.object(), GripperRig::AtDemand);
 }
 

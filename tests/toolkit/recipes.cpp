@@ -240,11 +240,13 @@ const std::vector<Recipe> allRecipes{
          rig.tree().at("/axis").slot().quality = cycle < runUp ? Quality::Bad : Quality::Good;
      }},
     {"SineController", true, [](Rig& rig) { buildSine(rig, "/it"); }, feedNothing},
+    // Its tip is slow, and it does not let go.
     {"CartesianFollowController", true,
      [](Rig& rig) {
          buildHand(rig);
          rig.add("/it", "CartesianFollowController",
-                 {{"hand", "/hand"}, {"tip", "/tip"}, {"enable", "/button"}});
+                 {{"hand", "/hand"}, {"tip", "/tip"}, {"enable", "/button"}},
+                 {{"greatestAngle", "1"}, {"greatestDistance", "1"}});
      },
      feedHand},
     {"ProcessorSelector", true,

@@ -21,22 +21,6 @@ bool differs(const MotionState& accepted, const MotionState& written) {
            differs(accepted.velocity, written.velocity);
 }
 
-// What an axis says of its drive where that does not go where it is told; nothing otherwise.
-std::string_view whyStanding(std::int64_t status) {
-    switch (status) {
-        case 4:
-            return "Fault";
-        case 5:
-            return "NotHomed";
-        case 6:
-            return "Disabled";
-        case 7:
-            return "Braked";
-        default:
-            return {};
-    }
-}
-
 }  // namespace
 
 MotionState AxisController::Axis::accepted() const {

@@ -99,6 +99,7 @@ bool GripperController::begin(const Wish& wish) {
     direction_ = wish.width > position_ ? 1 : -1;
     force_ = wish.force;
     object_ = Moving;
+    holds_ = false;
     aims_ = true;
     return plan();
 }
@@ -111,6 +112,7 @@ void GripperController::stop() {
     time_ = rested_ = 0;
     phase_ = Phase::Moves;
     object_ = Moving;
+    holds_ = false;
 }
 
 // What limits took away is made up for; after a loss somebody has to command anew.
@@ -148,12 +150,17 @@ void GripperController::loopEnd(const Tick&) {
 
 // --- what is between the jaws -----------------------------------------------------------------
 
+// A work piece that rocks between the jaws moves them a little, and is not lost.
 void GripperController::tell(std::int64_t object) {
-    const bool held = object_ == StoppedOpening || object_ == StoppedClosing;
-    if (held && object != object_)
-        event(Severity::Warning,
-              EventText{"the work piece was lost at an opening of "} << position_.get() << " m");
     object_ = object;
+    if (object == StoppedOpening || object == StoppedClosing) {
+        if (!holds_) metAt_ = position_;
+        holds_ = true;
+    }
+    if (!holds_ || (object != AtDemand && std::abs(position_ - metAt_) <= giveWay)) return;
+    holds_ = false;
+    event(Severity::Warning,
+          EventText{"the work piece was lost at an opening of "} << position_.get() << " m");
 }
 
 bool GripperController::isNear() const { return std::abs(wish_.width - position_) <= nearness; }
@@ -227,7 +234,7 @@ void GripperController::keep(Archive& archive) {
     AxisController::keep(archive);
     archive.version("GripperController", 1);
     archive & profile_ & wish_ & time_ & direction_ & phase_ & aims_ & wasLost_ & rested_;
-    archive & jaws_ & pressure_ & ahead_ & metAt_;
+    archive & jaws_ & pressure_ & ahead_ & metAt_ & holds_;
 }
 
 }  // namespace cortex::toolkit

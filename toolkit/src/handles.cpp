@@ -107,6 +107,21 @@ std::vector<AxisOutput> axisOutputs(const std::vector<OutputSimplex>& axes) {
     return {axes.begin(), axes.end()};
 }
 
+std::string_view whyStanding(std::int64_t status) {
+    switch (status) {
+        case 4:
+            return "Fault";
+        case 5:
+            return "NotHomed";
+        case 6:
+            return "Disabled";
+        case 7:
+            return "Braked";
+        default:
+            return {};
+    }
+}
+
 void requireSameCount(const Simplex& owner, std::size_t axes, std::size_t others,
                       const char* otherRule) {
     if (axes == others) return;

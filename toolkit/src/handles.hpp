@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace cortex::toolkit {
@@ -88,6 +89,10 @@ struct AxisOutput {
 
 std::vector<AxisInput> axisInputs(const std::vector<InputSimplex>& axes);
 std::vector<AxisOutput> axisOutputs(const std::vector<OutputSimplex>& axes);
+
+// What an axis says of its drive, by its item `status`, where that does not go where it is told;
+// "" otherwise.
+std::string_view whyStanding(std::int64_t status) CORTEX_REALTIME;
 
 // Throws Error unless there are as many of the one as of the other, where a morphology of the
 // user's own lacks the rule's sameCount="axes", by which files are checked.

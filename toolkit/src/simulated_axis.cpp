@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulated_axis.hpp"
 
+#include "cortex/core/error.hpp"
+#include "cortex/core/value.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,9 +28,19 @@ void SimulatedAxis::populate() {
     dampingRatio_ = data<const double>("dampingRatio");
     followingError_ = data<double>("followingError");
     limitCount_ = data<std::int64_t>("limitCount");
-    position_ = std::clamp(data<const double>("startPosition").get(), limits_->min, limits_->max);
+    position_ = std::clamp(startOf(observation), limits_->min, limits_->max);
     observation_->write(position_, 0);
     observedStatus_ = Braked;
+}
+
+// As a world with physics has it: a position that is given for the observation counts, too.
+double SimulatedAxis::startOf(const OutputSimplex& observation) {
+    const double stated = data<const double>("startPosition");
+    if (!observation.hasValue("position")) return stated;
+    const double given = observation.data<const double>("position");
+    if (!hasValue("startPosition") || stated == given) return given;
+    throw Error(path() + ": startPosition is " + toText(stated) + ", and position of " +
+                observation.path() + " is given as " + toText(given) + ": give one of the two");
 }
 
 // As drives do: it does not switch on while the demand is elsewhere.

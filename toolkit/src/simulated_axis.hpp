@@ -22,6 +22,7 @@ private:
     void loopEnd(const Tick& tick) override;
     void keep(Archive& archive) override;
 
+    double startOf(const OutputSimplex& observation);
     void servo(double seconds);
     void brake(double seconds);
     void limit(double before, double seconds);

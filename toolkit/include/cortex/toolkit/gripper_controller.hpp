@@ -95,6 +95,7 @@ private:
     Steadiness jaws_, pressure_;  // of the position, and of the effort
     double ahead_ = 0;            // m, of the demand while pressing
     double metAt_ = 0;            // opening at which the jaws met something, or hold it
+    bool holds_ = false;          // a work piece, until it is lost or somebody commands anew
 };
 
 }  // namespace cortex::toolkit
