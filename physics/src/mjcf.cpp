@@ -259,7 +259,7 @@ std::string jawName(const Gripper& gripper, int jaw) {
 
 std::string mjcf(const Scene& scene) {
     return "<mujoco>\n<compiler angle=\"radian\"/>\n" + sizes(scene) + "<option" +
-           attribute("gravity", scene.gravity) +
+           attribute("timestep", {scene.timeStep}) + attribute("gravity", scene.gravity) +
            " cone=\"elliptic\" impratio=\"100\" solver=\"Newton\" iterations=\"50\""
            " tolerance=\"1e-10\">\n<flag energy=\"enable\" multiccd=\"enable\"/>\n</option>\n" +
            // Four times as hard as MuJoCo's own: a gripper would sink into what it holds by

@@ -11,7 +11,12 @@ namespace {
 constexpr double nearDemand = 0.01;  // rad or m between demand and axis
 constexpr double startPatience = 1;  // s, until it tells that it waits
 constexpr double mostSteps = 20;     // in a cycle
+constexpr std::int64_t slowCycles =
+    10;                            // in a row with more of them: the process did not stand still
+constexpr double farBeyond = 0.1;  // rad or m, behind the end of a range: no end stop gives so far
 constexpr double roundingOfSteps = 1e-6;
+constexpr double leastWeight = 1;   // N or N.m, that is worth a word
+constexpr double sameWeight = 0.3;  // of it: so near is an effort that is to carry it
 
 }  // namespace
 
@@ -30,6 +35,7 @@ void MujocoWorld::populate() {
                                    outputs("statuses")};
     SceneMap map = readScene(relations);
     std::ranges::copy(array<const double>("gravity"), map.scene.gravity.begin());
+    map.scene.timeStep = data<const double>("timeStep");
     map.scene.contactLimit = static_cast<int>(data<const std::int64_t>("contactLimit").get());
     physics_.emplace(map.scene);
     bindAxes(map, relations);
@@ -117,6 +123,7 @@ EventText MujocoWorld::whyAway(std::size_t axis) const {
 // As drives do: it does not switch on while a demand is elsewhere.
 bool MujocoWorld::stateStartingUp(const Tick& tick) {
     if (waited_ == 0 && !loose_.view().empty()) event(Severity::Warning, loose_);
+    toldTwice_ = false;
     if (isSafetyStop()) {
         faultBySafety();
         return false;
@@ -137,6 +144,30 @@ bool MujocoWorld::stateStartingUp(const Tick& tick) {
 
 void MujocoWorld::stateActive(const Tick&) {
     if (isSafetyStop()) faultBySafety();
+    if (!toldTwice_ && !braked_ && gravityCompensation_) tellIfCarriedTwice();
+}
+
+void MujocoWorld::tellIfCarriedTwice() {
+    double weight = 0, difference = 0, most = 0;
+    std::size_t heaviest = 0;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        const double load = physics_->load(i), effort = demands_[i].effort;
+        if (gripOf_[i] != none || effort == 0) continue;
+        if (std::abs(load) > most) {
+            most = std::abs(load);
+            heaviest = i;
+        }
+        weight += load * load;
+        difference += (load - effort) * (load - effort);
+    }
+    toldTwice_ =
+        weight > leastWeight * leastWeight && difference < sameWeight * sameWeight * weight;
+    if (!toldTwice_) return;
+    event(Severity::Warning,
+          EventText{"the demand of "}
+              << axes_[heaviest].path()
+              << " carries its weight, and so does gravityCompensation: switch that off, or set "
+                 "part of InverseDynamics to Acceleration");
 }
 
 Outcome MujocoWorld::brake(Call&) {
@@ -204,17 +235,37 @@ void MujocoWorld::step(double seconds) {
     const double longest = timeStep_;
     const double needed = std::ceil(seconds / longest - roundingOfSteps);
     const double steps = std::clamp(needed, 1.0, mostSteps);
+    tellIfSlow(needed > steps, seconds);
     if (needed > steps) seconds = steps * longest;  // the rest of the time is lost
     if (seconds <= 0) return;
     const Trouble trouble = physics_->step(seconds, static_cast<int>(steps), demands_,
                                            {bandwidth_, dampingRatio_, gravityCompensation_});
-    if (trouble != Trouble::None) fail(trouble);
+    if (trouble != Trouble::None) return fail(trouble, textOf(trouble));
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        if (axes_[i].beyond(physics_->joint(i)) > farBeyond)
+            return fail(Trouble::Diverged,
+                        EventText{"'"} << axes_[i].path()
+                                       << "' was pushed through the end of its range; look at what "
+                                          "pushes it, or stands in something at the start");
+    }
 }
 
-void MujocoWorld::fail(Trouble trouble) {
+void MujocoWorld::tellIfSlow(bool isSlow, double seconds) {
+    slow_ = isSlow ? std::min(slow_ + 1, slowCycles + 1) : 0;
+    if (slow_ != slowCycles) return;
+    event(Severity::Warning, EventText{"time is slower here than outside: a cycle has "}
+                                 << seconds << " s, and " << mostSteps << " steps of timeStep are "
+                                 << mostSteps * timeStep_.get() << " s; make timeStep "
+                                 << seconds / mostSteps << " s");
+}
+
+EventText MujocoWorld::textOf(Trouble trouble) const {
     EventText text;
     if (trouble == Trouble::Error) text << "MuJoCo reports an error: ";
-    text << physics_->why();
+    return text << physics_->why();
+}
+
+void MujocoWorld::fail(Trouble trouble, const EventText& text) {
     if (state() != State::Fault) return fault(static_cast<std::int64_t>(trouble), text.view());
     stands_ = true;
     event(Severity::Error,
@@ -247,7 +298,7 @@ void MujocoWorld::show(double seconds) {
 void MujocoWorld::keep(Archive& archive) {
     archive.version("MujocoWorld", 1);
     physics_->keep(archive);
-    archive & held_ & waited_ & isCommanded_ & isLost_ & stands_ & grips_;
+    archive & held_ & waited_ & slow_ & toldTwice_ & isCommanded_ & isLost_ & stands_ & grips_;
 }
 
 }  // namespace cortex::physics

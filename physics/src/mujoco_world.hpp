@@ -55,7 +55,10 @@ private:
     void brakeWhereNeeded() CORTEX_REALTIME;
     void lead() CORTEX_REALTIME;
     void step(double seconds) CORTEX_REALTIME;
-    void fail(Trouble trouble) CORTEX_REALTIME;
+    void tellIfSlow(bool isSlow, double seconds) CORTEX_REALTIME;
+    void tellIfCarriedTwice() CORTEX_REALTIME;
+    EventText textOf(Trouble trouble) const CORTEX_REALTIME;
+    void fail(Trouble trouble, const EventText& text) CORTEX_REALTIME;
     AxisStatus statusOf(std::size_t axis) const CORTEX_REALTIME;
     void show(double seconds) CORTEX_REALTIME;
 
@@ -75,6 +78,8 @@ private:
 
     std::vector<double> held_;  // where each axis was when the brakes came on
     double waited_ = 0;         // s, in StartingUp
+    std::int64_t slow_ = 0;     // cycles in a row that had more time than their steps
+    bool toldTwice_ = false;    // that demands bring the weight, too
     bool isCommanded_ = false;  // the brakes are on by command
     bool isLost_ = false;       // they are on since an input was lost
     bool stands_ = false;       // in Fault: the physics failed again

@@ -21,6 +21,7 @@ namespace {
 
 // MuJoCo makes a text of the first warning alone, and allocates for it; so it begins behind that.
 constexpr int toldAlready = 1 << 20;
+constexpr double wholeStrain = 1 - 1e-9;  // of the greatest acceleration of a servo
 
 // A warning of MuJoCo, and what it means here: text before and after a path.
 struct Meaning {
@@ -106,6 +107,7 @@ struct Physics::Implementation {
     // Of the step that is done: of each drive, and of each of MuJoCo's freedoms.
     std::vector<JointDemand> demands{};
     std::vector<double> accelerations{}, torques{};
+    std::vector<double> strains{};  // of each drive: 1, or 0
 
     struct {  // what step() was asked for
         int steps = 0;
@@ -126,6 +128,7 @@ Physics::Implementation::Implementation(const Scene& scene)
         grips.push_back({drive.start, 0});
     }
     demands.resize(grips.size());
+    strains.resize(grips.size());
     accelerations.resize(static_cast<std::size_t>(model->nv));
     torques = accelerations;
     start.positions.resize(static_cast<std::size_t>(model->nq));
@@ -167,6 +170,7 @@ void Physics::Implementation::putBack(const State& state) {
     std::fill_n(data->qacc, model->nv, 0);
     std::fill_n(data->actuator_force, model->nu, 0);
     std::ranges::copy(state.grips, grips.begin());
+    std::ranges::fill(strains, 0);
     data->time = state.time;
 }
 
@@ -230,8 +234,10 @@ void Physics::Implementation::actuate(double sinceBegin) {
     for (std::size_t i = 0; i < places.drives.size(); ++i) {
         const DrivePlace& drive = places.drives[i];
         demands[i] = demand(i, sinceBegin);
-        if (drive.isGripper) continue;
+        const DriveInput in = input(drive);
         const double wanted = acceleration(drive, demands[i]);
+        strains[i] = std::abs(wanted) * in.inertia >= in.limit * wholeStrain ? 1 : 0;
+        if (drive.isGripper) continue;
         accelerations[static_cast<std::size_t>(drive.first.velocity)] =
             std::isfinite(wanted) ? wanted : 0;
     }
@@ -285,7 +291,11 @@ JointState Physics::joint(std::size_t place) const {
     constexpr auto velocity = &DrivePlace::Slide::velocity;
     return {in.value(in.data->qpos, &DrivePlace::Slide::position, drive),
             in.value(in.data->qvel, velocity, drive), in.value(in.data->qacc, velocity, drive),
-            in.data->actuator_force[drive.motor]};
+            in.data->actuator_force[drive.motor], in.strains[place] > 0};
+}
+
+double Physics::load(std::size_t place) const {
+    return implementation_->input(implementation_->places.drives[place]).load;
 }
 
 // MuJoCo has the angular velocity of a free body in the frame of that body.
@@ -333,7 +343,7 @@ void Physics::keep(Archive& archive) {
         spanOf(in.data->qacc_warmstart, model.nv) & in.data->time & in.grips;
     // What is shown of the last step.
     archive& spanOf(in.data->qacc, model.nv) & spanOf(in.data->actuator_force, model.nu) &
-        in.contacts & in.energy;
+        in.strains & in.contacts & in.energy;
 }
 
 }  // namespace cortex::physics

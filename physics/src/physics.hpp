@@ -25,6 +25,7 @@ struct JointDemand {
 
 struct JointState {
     double position = 0, velocity = 0, acceleration = 0, effort = 0;
+    bool strains = false;  // its drive wants more than its greatest effort could give
 };
 
 struct BodyState {
@@ -57,6 +58,8 @@ public:
     std::size_t joints() const;  // in the order of Scene
     std::size_t movingBodies() const;
     JointState joint(std::size_t place) const CORTEX_REALTIME;
+    // What weight, Coriolis forces and damping take of the drive of a joint.
+    double load(std::size_t place) const CORTEX_REALTIME;
     BodyState body(std::size_t place) const CORTEX_REALTIME;
     int contacts() const CORTEX_REALTIME;
     double energy() const CORTEX_REALTIME;  // J, kinetic and potential

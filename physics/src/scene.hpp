@@ -66,6 +66,7 @@ struct Scene {
     std::vector<Gripper> grippers{};
     std::vector<Body> bodies{};
     Triple gravity{0, 0, -9.80665};
+    double timeStep = 0.001;  // s, for other programs: Physics::step() says its own
     int contactLimit = 500;
 };
 

@@ -23,14 +23,25 @@ void add(Findings& all, const std::string& path, const std::string& what) {
     all.push_back("'" + path + "' " + what);
 }
 
-bool allFinite(std::span<const double> values) {
-    return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+// In SI units: beyond it the physics would fail in the first step, and name what is innocent.
+constexpr double greatest = 1e6;
+
+bool allUsable(std::span<const double> values) {
+    return std::ranges::all_of(values, [](double value) { return std::abs(value) <= greatest; });
 }
 
-void checkFinite(Findings& all, const std::string& path, std::string_view item,
-                 std::span<const double> values) {
-    if (allFinite(values)) return;
-    add(all, path, "has a number in its " + std::string{item} + " that is not finite; correct it");
+// What is wrong with numbers that are not usable.
+std::string whyNot(std::span<const double> values) {
+    return std::ranges::all_of(values, [](double value) { return std::isfinite(value); })
+               ? "is beyond a million"
+               : "is not finite";
+}
+
+void checkNumbers(Findings& all, const std::string& path, std::string_view item,
+                  std::span<const double> values) {
+    if (allUsable(values)) return;
+    add(all, path,
+        "has a number in its " + std::string{item} + " that " + whyNot(values) + "; correct it");
 }
 
 void checkNotNegative(Findings& all, const std::string& path, std::string_view item,
@@ -43,15 +54,16 @@ void checkMass(Findings& all, const std::string& path, std::string_view item, do
     const std::string name{item};
     if (mass == 0)
         add(all, path, "states no mass (" + name + "); give it");
-    else if (!(mass > 0 && std::isfinite(mass)))
-        add(all, path, "has a mass (" + name + ") that is not above 0; correct it");
+    else if (!(mass > 0 && mass <= greatest))
+        add(all, path,
+            "has a mass (" + name + ") that is not above 0, or beyond a million; correct it");
 }
 
 // A body's principal inertias are above 0, and none is greater than the sum of the two others.
 void checkInertia(Findings& all, const std::string& path, std::string_view item,
                   const std::array<double, 6>& inertia) {
     const std::string name{item};
-    if (!allFinite(inertia)) return checkFinite(all, path, item, inertia);
+    if (!allUsable(inertia)) return checkNumbers(all, path, item, inertia);
     const auto [xx, yy, zz, xy, xz, yz] = inertia;
     Eigen::Matrix3d tensor;
     tensor << xx, xy, xz, xy, yy, yz, xz, yz, zz;
@@ -73,8 +85,8 @@ void checkInertia(Findings& all, const std::string& path, std::string_view item,
 }
 
 void checkDirection(Findings& all, const Joint& joint) {
-    if (!allFinite(joint.direction))
-        return checkFinite(all, joint.path, "direction", joint.direction);
+    if (!allUsable(joint.direction))
+        return checkNumbers(all, joint.path, "direction", joint.direction);
     const double length = std::hypot(joint.direction[0], joint.direction[1], joint.direction[2]);
     if (std::abs(length - 1) < 1e-6) return;
     std::ostringstream text;
@@ -91,34 +103,34 @@ void checkRange(Findings& all, const Joint& joint) {
         text << "starts at " << joint.start << ", outside of its range " << joint.min << " to "
              << joint.max << "; start it within";
     } else {
-        return checkFinite(all, joint.path, "position at the start", {&joint.start, 1});
+        return checkNumbers(all, joint.path, "position at the start", {&joint.start, 1});
     }
     add(all, joint.path, text.str());
 }
 
 // What arms and openings have in common.
 void checkDrive(Findings& all, const Joint& joint) {
-    checkFinite(all, joint.path, "originPosition", joint.origin);
-    checkFinite(all, joint.path, "originRotation", joint.originRotation);
+    checkNumbers(all, joint.path, "originPosition", joint.origin);
+    checkNumbers(all, joint.path, "originRotation", joint.originRotation);
     checkDirection(all, joint);
     checkMass(all, joint.path, "linkMass", joint.mass);
     checkRange(all, joint);
     const std::array drive{joint.armature, joint.damping, joint.friction};
-    checkFinite(all, joint.path, "armature, damping or friction", drive);
-    if (allFinite(drive)) checkNotNegative(all, joint.path, "armature, damping or friction", drive);
+    checkNumbers(all, joint.path, "armature, damping or friction", drive);
+    if (allUsable(drive)) checkNotNegative(all, joint.path, "armature, damping or friction", drive);
     if (!(joint.effort >= 0)) add(all, joint.path, "has no effort of 0 or more; correct its limit");
 }
 
 void checkBox(Findings& all, const std::string& path, std::string_view item, const Triple& size) {
-    checkFinite(all, path, item, size);
-    if (allFinite(size)) checkNotNegative(all, path, item, size);
+    checkNumbers(all, path, item, size);
+    if (allUsable(size)) checkNotNegative(all, path, item, size);
 }
 
 void checkArm(Findings& all, const Arm& arm) {
     if (arm.joints.empty()) add(all, arm.path, "has no axes; give it one, or take it away");
     for (const Joint& joint : arm.joints) {
         checkDrive(all, joint);
-        checkFinite(all, joint.path, "linkCentre", joint.centre);
+        checkNumbers(all, joint.path, "linkCentre", joint.centre);
         checkInertia(all, joint.path, "linkInertia", joint.inertia);
         checkBox(all, joint.path, "linkSize", joint.size);
     }
@@ -127,11 +139,11 @@ void checkArm(Findings& all, const Arm& arm) {
 void checkGripper(Findings& all, const Scene& scene, const Gripper& gripper) {
     const std::string& path = gripper.path;
     checkMass(all, path, "bodyMass", gripper.mass);
-    checkFinite(all, path, "bodyCentre", gripper.centre);
+    checkNumbers(all, path, "bodyCentre", gripper.centre);
     checkInertia(all, path, "bodyInertia", gripper.inertia);
     checkBox(all, path, "bodySize", gripper.size);
-    checkFinite(all, path, "jawPosition", gripper.jawPosition);
-    checkFinite(all, path, "jawSize", gripper.jawSize);
+    checkNumbers(all, path, "jawPosition", gripper.jawPosition);
+    checkNumbers(all, path, "jawSize", gripper.jawSize);
     if (!std::ranges::all_of(gripper.jawSize, [](double side) { return side > 0; }))
         add(all, path, "has jaws without a size (jawSize); give thickness, width and length");
     if (!(gripper.leastForce >= 0 && gripper.leastForce <= gripper.opening.effort))
@@ -156,12 +168,12 @@ void checkShape(Findings& all, const Body& body) {
 }
 
 void checkBody(Findings& all, const Body& body) {
-    checkFinite(all, body.path, "size", body.size);
-    checkFinite(all, body.path, "position", body.position);
-    checkFinite(all, body.path, "rotation", body.rotation);
+    checkNumbers(all, body.path, "size", body.size);
+    checkNumbers(all, body.path, "position", body.position);
+    checkNumbers(all, body.path, "rotation", body.rotation);
     const std::array physical{body.mass, body.friction};
-    checkFinite(all, body.path, "mass or friction", physical);
-    if (allFinite(physical)) checkNotNegative(all, body.path, "mass or friction", physical);
+    checkNumbers(all, body.path, "mass or friction", physical);
+    if (allUsable(physical)) checkNotNegative(all, body.path, "mass or friction", physical);
     checkShape(all, body);
 }
 
@@ -174,8 +186,8 @@ std::vector<std::string> findings(const Scene& scene) {
     if (scene.arms.size() + scene.grippers.size() > manipulatorLimit)
         all.emplace_back("There are more than " + std::to_string(manipulatorLimit) +
                          " arms and grippers in the scene; take some away");
-    if (!allFinite(scene.gravity))
-        all.emplace_back("The gravity has a number that is not finite; correct it");
+    if (!allUsable(scene.gravity))
+        all.emplace_back("The gravity has a number that " + whyNot(scene.gravity) + "; correct it");
     if (scene.contactLimit < 1 || scene.contactLimit > greatestContactLimit)
         all.emplace_back("The contactLimit is not in 1 to " + std::to_string(greatestContactLimit) +
                          "; give how many points of contact there may be");

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double slow = 5e-3;        // rad/s or m/s: nearly at rest
 constexpr double standstill = 1e-4;  // rad/s or m/s
-constexpr double beyond = 1e-4;      // rad or m, of its range: it pushes against its end
+constexpr double pushedBy = 1e-4;    // rad or m, behind the end of its range
 constexpr double whole = 1 - 1e-9;   // of its greatest effort
 constexpr double overshoot = 0.05;   // of its greatest speed
 
@@ -57,6 +57,10 @@ double WorldAxis::away(const JointState& now) const {
     return std::abs(wishedPosition_ - now.position);
 }
 
+double WorldAxis::beyond(const JointState& now) const {
+    return std::max(min_ - now.position, now.position - max_);
+}
+
 void WorldAxis::show(const JointState& now, AxisStatus status) {
     position_ = std::clamp(now.position, min_, max_);
     const double speed = std::clamp(now.velocity, slowest_, fastest_);
@@ -68,9 +72,8 @@ void WorldAxis::show(const JointState& now, AxisStatus status) {
 }
 
 AxisStatus WorldAxis::statusOf(const JointState& now) const {
-    const bool pushes = std::abs(now.effort) >= mostEffort_ * whole;
-    if (pushes || now.position < min_ - beyond || now.position > max_ + beyond)
-        return AxisStatus::AtLimit;
+    const bool pushes = now.strains || std::abs(now.effort) >= mostEffort_ * whole;
+    if (pushes || beyond(now) > pushedBy) return AxisStatus::AtLimit;
     return std::abs(now.velocity) < standstill ? AxisStatus::Ready : AxisStatus::Moving;
 }
 

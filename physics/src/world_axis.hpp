@@ -31,6 +31,9 @@ public:
     // Between it and its demand; infinite while one of them moves.
     double away(const JointState& now) const CORTEX_REALTIME;
 
+    // How far behind the end of its range; below 0: within it.
+    double beyond(const JointState& now) const CORTEX_REALTIME;
+
     // Shows the state. An end stop gives way a little, as it is computed, so a position is shown
     // within its range. A drive at its greatest speed overshoots a little, which is not shown; more
     // than that is, as what is pushed or falls may be faster.

@@ -102,6 +102,11 @@ TEST(Scene, IsRefusedForEachValueThatNoThingHas) {
         {[](Scene& s) { s.bodies[1].position[0] = nan; }, "'/can' has a number in its position"},
         {[](Scene& s) { s.bodies[1].rotation[0] = nan; }, "'/can' has a number in its rotation"},
         {[](Scene& s) { s.gravity[2] = nan; }, "gravity has a number that is not finite"},
+        {[](Scene& s) { s.gravity[2] = 1e7; }, "gravity has a number that is beyond a million"},
+        {[&](Scene& s) { slide(s).mass = 1e308; }, "'/lift/slide' has a mass (linkMass) that is"},
+        {[&](Scene& s) { slide(s).origin[0] = -1e300; },
+         "'/lift/slide' has a number in its originPosition that is beyond a million; correct it"},
+        {[](Scene& s) { s.bodies[1].rotation[0] = 1e300; }, "'/can' has a number in its rotation"},
         {[](Scene& s) { s.contactLimit = 0; }, "contactLimit is not in 1 to 500"},
         {[](Scene& s) { s.contactLimit = 1 << 30; }, "contactLimit is not in 1 to 500"},
         {[](Scene& s) { s.arms[0].joints.clear(); }, "'/lift' has no axes; give it one"},
@@ -135,7 +140,8 @@ TEST(SceneText, HoldsWhatTheSceneSays) {
     const std::string text = Physics{scene}.mjcf();
     for (
         const char* part :
-        {R"(<compiler angle="radian"/>)", R"(nconmax="60")", R"(gravity="0 0 -9.80665")",
+        {R"(<compiler angle="radian"/>)", R"(nconmax="60")", R"(timestep="0.001")",
+         R"(gravity="0 0 -9.80665")",
          R"(cone="elliptic" impratio="100" solver="Newton" iterations="50" tolerance="1e-10")",
          R"(<joint name="/lift/slide" type="slide" axis="0 0 1" limited="true" range="-1e+06 0.5")",
          R"(<inertial mass="2" pos="0 0 0" fullinertia="0.01 0.01 0.01 0 0 0"/>)",

@@ -192,6 +192,18 @@ TEST_F(AWorld, SaysAtLimitWhereAnEffortIsAtItsGreatest) {
     EXPECT_EQ(status(), 3);
 }
 
+// Downwards it pushes with its greatest effort less the weight that it carries.
+TEST_F(AWorld, SaysAtLimitWhereSomethingIsInTheWay) {
+    begin();
+    rig->startUp();
+    lead(-0.1);
+    EXPECT_LT(rig->get<double>("/lift/axis", "effort"), -400);
+    EXPECT_GT(height(), -0.09) << "on the table";
+    EXPECT_EQ(status(), 3);
+    lead(0.1);
+    EXPECT_EQ(status(), 1);
+}
+
 TEST_F(AWorld, StopsWithTheSafetySystemAndComesBackWhenThatIsReset) {
     begin(withSafety(withoutControllers(liftPlant())));
     rig->startUp();
@@ -259,6 +271,20 @@ TEST_F(AWorld, FaultsOnTooManyContactsAndStandsStillWhereThatGoesOn) {
     EXPECT_EQ(rig->state("/world"), State::Standby);
 }
 
+TEST_F(AWorld, FaultsWhereAnAxisIsThrownThroughTheEndOfItsRange) {
+    Entries entries = withoutControllers(liftPlant());
+    at(entries, "/gripper").settings.push_back({"bodySize", "10 10 10", {}});
+    begin(entries);
+    EXPECT_TRUE(becomes(State::Fault));
+    EXPECT_EQ(faultCode(), 50);
+    rig->step(100);
+    EXPECT_NE(rig->told().find("'/lift/axis' was pushed through the end of its range; look at what "
+                               "pushes it, or stands in something at the start"),
+              std::string::npos)
+        << rig->told();
+    EXPECT_FALSE(rig->call("/world", "clearFaults").done()) << "it goes on until a reset";
+}
+
 TEST_F(AWorld, IsAsAtTheStartAfterAReset) {
     begin();
     rig->startUp();
@@ -282,7 +308,26 @@ TEST_F(AWorld, TakesAsManyEqualStepsAsACycleNeedsAndAtMostTwenty) {
         const double seconds = fallen * 1e-3;
         EXPECT_NEAR(slow.array("/boxPose", "linearVelocity")[2], -9.80665 * seconds, 1e-6)
             << cycle << " ms in a cycle, 1 ms in a step";
+        EXPECT_EQ(slow.told(), cycle == 4 ? ""
+                                          : "time is slower here than outside: a cycle has 0.04 s, "
+                                            "and 20 steps of timeStep are 0.02 s; make timeStep "
+                                            "0.002 s\n");
     }
+}
+
+TEST_F(AWorld, SaysOnceThatADemandBringsTheWeightThatItsDriveCarriesItself) {
+    begin();
+    rig->startUp();
+    auto effort = rig->tree().at("/lift/demand").data<double>("effort");
+    effort = 0.5 * rig->get<double>("/lift/axis", "effort");
+    rig->step(100);
+    EXPECT_EQ(rig->told(), "") << "some other force";
+    effort = 0.9 * rig->get<double>("/lift/axis", "effort");
+    rig->step(100);
+    EXPECT_EQ(
+        rig->told(),
+        "the demand of /lift/axis carries its weight, and so does gravityCompensation: switch "
+        "that off, or set part of InverseDynamics to Acceleration\n");
 }
 
 TEST_F(AWorld, TakesABandwidthInStandbyAlone) {
