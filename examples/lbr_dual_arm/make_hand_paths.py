@@ -53,7 +53,7 @@ def line(*target):
 
 def eight(u):
     a = 2 * math.pi * cruise(u)
-    return [0.08 * math.sin(2 * a), 0.14 * math.sin(a), 0, 0, 0, 12 * math.sin(a)]
+    return [0.06 * math.sin(2 * a), 0.14 * math.sin(a), 0, 0, 0, 12 * math.sin(a)]
 
 
 def up(way):
@@ -77,7 +77,7 @@ def moves(down, aside, *more):
 HANDS = {
     "left": ((0.35, 0.25, 1.05, 0, 0, 0), moves(0.144, (0.06, 0.08, -0.05, 0, 10, 15))),
     "right": ((0.35, -0.25, 1.05, 0, 0, 0),
-              moves(0.104, (0.06, -0.08, -0.05, 0, 10, -15), (9.2, 6.6, eight))),
+              moves(0.104, (0.06, -0.08, -0.05, 0, 10, -15), (9.8, 5.0, eight))),
 }
 
 
