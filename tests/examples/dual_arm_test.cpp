@@ -3,12 +3,14 @@
 #include "cortex/cs/testing.hpp"
 #include "cortex/toolkit/classes.hpp"
 
+#include "core/model_folder.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
+#include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -178,10 +180,53 @@ TEST_F(DualArm, AfterAnEmergencyStopNothingMovesUntilItIsResetAndTheTriggersAreP
     EXPECT_FALSE(get<bool>("/right/clutch", "engaged"));
 }
 
+// From rest to rest, between 0 and 1.
+double eased(double time) {
+    return (1 - std::cos(std::clamp(time, 0.0, 1.0) * std::numbers::pi)) / 2;
+}
+
+// The right hand goes down by 0.19 m, where the palm meets the cylinder after 0.114 m, and stays.
+std::string pathOntoTheCylinder() {
+    std::string text = "time,x,y,z,qx,qy,qz,qw,trigger\n";
+    for (int i = 0; i <= 900; ++i) {
+        const double time = i * 0.01, down = 0.19 * (eased(time - 1) - eased(time - 7));
+        text += std::to_string(time) + ",0.4,0," + std::to_string(1 - down) + ",0,0,0,1," +
+                (time >= 0.5 ? "1" : "0") + "\n";
+    }
+    return text;
+}
+
+TEST(DualArmWithSomethingInItsWay, LetsGoAndStaysWhereItIs) {
+    const ModelFolder folder;
+    for (const auto& file : std::filesystem::directory_iterator{dualArmFolder})
+        folder.write(file.path().filename(), textOf(file.path()));
+    folder.write("synthetic_right_hand_path.csv", pathOntoTheCylinder());
+    cs::TestPlant plant{{folder.path() / "lbr_dual_arm.xml"}, 2ms};
+    toolkit::addClasses(plant.classes());
+    plant.loadPlugin(CORTEX_MUJOCO_PLUGIN);
+    plant.start();
+    plant.startUp();
+    const auto tip = [&plant] {
+        const auto place = std::get<std::vector<double>>(
+            plant.cluster().image().value("/right/forward/tip", "position"));
+        return Eigen::Vector3d{place[0], place[1], place[2]};
+    };
+    while (plant.get<std::int64_t>("/right/clutch", "letGoCount") == 0) {
+        ASSERT_LT(plant.cycle(), 2500);
+        plant.step();
+    }
+    const Eigen::Vector3d where = tip();
+    double farthest = 0;
+    for (int i = 0; i < 500; ++i) {
+        plant.step();
+        farthest = std::max(farthest, (tip() - where).norm());
+    }
+    EXPECT_LT(farthest, 0.01);
+}
+
 // The files of the two sides state the same but for names and places.
 std::string sideAs(const std::string& file, const std::string& side) {
-    std::ifstream stream{dualArmFolder + side + file};
-    std::string text{std::istreambuf_iterator<char>{stream}, {}};
+    std::string text = textOf(dualArmFolder + side + file);
     for (std::size_t at = text.find(side); at != std::string::npos; at = text.find(side, at + 1))
         text.replace(at, side.size(), "SIDE");
     for (const std::string base : {"0 0.35 ", "0 -0.35 "}) {

@@ -82,7 +82,7 @@ void FollowAxisController::begin(std::size_t axis, double elapsed) {
     to.offset = Profile{};
     to.time = 0;
     to.brakes = false;
-    if (!std::isfinite(limits(axis).speed)) return;
+    if (!std::isfinite(limits(axis).acceleration)) return;
     const MotionState aim = aimOf(axis), now = demands()[axis];
     const MotionLimits half = limits(axis).motion();
     // Where the target was in the cycle before, which is when the demand was there.

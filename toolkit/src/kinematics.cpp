@@ -6,6 +6,9 @@
 namespace cortex::toolkit {
 namespace {
 
+constexpr double jumpDistance = 0.02;  // m
+constexpr double jumpAngle = 0.1;      // rad
+
 void resize(SerialChain::JointVector& joints, std::size_t size) {
     joints = SerialChain::JointVector::Zero(static_cast<Eigen::Index>(size));
 }
@@ -53,6 +56,12 @@ void InverseKinematics::readObserved() {
     }
 }
 
+// More than its velocity makes of it within the cycle, as that of a clutch which has let go.
+bool InverseKinematics::jumps(const Pose& aim, double seconds) const {
+    const Twist way = difference(aimed_, aim) - target_.velocity() * seconds;
+    return way.head<3>().norm() > jumpDistance || way.tail<3>().norm() > jumpAngle;
+}
+
 void InverseKinematics::seed() {
     solution_ = observed_;
     posture_ = observed_;
@@ -62,18 +71,23 @@ void InverseKinematics::seed() {
 bool InverseKinematics::stateStartingUp(const Tick&) {
     readObserved();
     seed();
+    aimed_ = target_.pose();
     return true;
 }
 
 void InverseKinematics::stateActive(const Tick& tick) {
     readObserved();
-    if ((observed_ - solution_).cwiseAbs().maxCoeff() > seedDistance_) seed();
+    const Pose aim = target_.pose();
+    if (jumps(aim, tick.elapsedSeconds()) ||
+        (observed_ - solution_).cwiseAbs().maxCoeff() > seedDistance_)
+        seed();
+    aimed_ = aim;
     const SerialChain::JointVector before = solution_;
     SerialChain::InverseOptions options;
     options.tolerance = 1e-8;
     options.period = tick.elapsedSeconds();
-    reached_ = chain_->inverse(target_.pose(), solution_, posture_, options).converged;
-    const Twist error = difference(chain_->forward(solution_), target_.pose());
+    reached_ = chain_->inverse(aim, solution_, posture_, options).converged;
+    const Twist error = difference(chain_->forward(solution_), aim);
     positionError_ = error.head<3>().norm();
     rotationError_ = error.tail<3>().norm();
     for (std::size_t i = 0; i < targets_.size(); ++i) {
@@ -86,7 +100,8 @@ void InverseKinematics::stateActive(const Tick& tick) {
 }
 
 void InverseKinematics::keep(Archive& archive) {
-    archive.version("InverseKinematics", 1);
+    archive.version("InverseKinematics", 2);
+    toolkit::keep(archive, aimed_);
     toolkit::keep(archive, solution_);
     toolkit::keep(archive, posture_);
 }

@@ -38,6 +38,7 @@ private:
     void stateActive(const Tick& tick) override;
     void keep(Archive& archive) override;
     void readObserved();
+    bool jumps(const Pose& aim, double seconds) const;
     void seed();
 
     std::optional<SerialChain> chain_;
@@ -49,6 +50,7 @@ private:
     Data<bool> reached_;
     Data<std::int64_t> seedCount_;
     SerialChain::JointVector observed_, solution_, posture_;
+    Pose aimed_;  // the target of the cycle before
 };
 
 }  // namespace cortex::toolkit
