@@ -178,6 +178,7 @@ TEST_F(DualArm, AfterAnEmergencyStopNothingMovesUntilItIsResetAndTheTriggersAreP
     EXPECT_LT((tip("left") - left).norm(), 0.001);
     EXPECT_LT((tip("right") - right).norm(), 0.001);
     EXPECT_FALSE(get<bool>("/right/clutch", "engaged"));
+    EXPECT_LT(get<double>("/right/tracking", "maxPosition"), 10) << "of the time before the stop";
 }
 
 // From rest to rest, between 0 and 1.

@@ -145,6 +145,29 @@ TEST_F(LbrInverse, BeginsAnewWhenTheArmIsElsewhere) {
     EXPECT_NEAR((solution() - elsewhere).norm(), 0, 1e-6);
 }
 
+// Of an arm whose elbow stands elsewhere than the last solution says.
+TEST_F(LbrInverse, BeginsAnewFromTheAxesWhereItsTargetJumps) {
+    Pose moved = chain_.forward(lbrPosture());
+    moved.position.z() += 0.015;
+    aim(moved);
+    rig_.step(100);
+    SerialChain::JointVector stands = solution();
+    stands[2] += 0.02;
+    place(rig_, stands);
+    Pose back = chain_.forward(stands);
+    aim(back);
+    const auto seeds = rig_.get<std::int64_t>("/inverse", "seedCount");
+    rig_.step(10);
+    ASSERT_EQ(rig_.get<std::int64_t>("/inverse", "seedCount"), seeds) << "a small step";
+    EXPECT_GT((solution() - stands).cwiseAbs().maxCoeff(), 0.004);
+
+    back.position.z() -= 0.03;
+    aim(back);
+    rig_.step();
+    EXPECT_EQ(rig_.get<std::int64_t>("/inverse", "seedCount"), seeds + 1);
+    EXPECT_LT((solution() - stands).cwiseAbs().maxCoeff(), 0.003) << "a cycle from the axes";
+}
+
 class Selector : public testing::Test {
 protected:
     void SetUp() override {

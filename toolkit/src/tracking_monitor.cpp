@@ -12,6 +12,7 @@ void TrackingMonitor::populate() {
     tip_ = PoseInput{input("tip")};
     enable_ = Enable{input("enable"), {hand_.state, tip_.state}};
     processorState_ = input("processor").data<std::int64_t>("state");
+    for (const InputSimplex& clutch : inputs("clutch")) engaged_ = clutch.data<bool>("engaged");
     rmsPosition_ = data<double>("rmsPosition");
     maxPosition_ = data<double>("maxPosition");
     rmsRotation_ = data<double>("rmsRotation");
@@ -23,7 +24,8 @@ void TrackingMonitor::populate() {
 }
 
 void TrackingMonitor::stateActive(const Tick& tick) {
-    const bool pressed = enable_.update(inputLost());
+    const bool isLed = !engaged_.bound() || engaged_;
+    const bool pressed = enable_.update(inputLost()) && isLed;
     if (pressed && !pressed_) {
         handThen_ = hand_.pose();
         tipThen_ = tip_.pose();

@@ -22,6 +22,7 @@ private:
     PoseInput hand_, tip_;
     Enable enable_;
     Data<const std::int64_t> processorState_;
+    Data<const bool> engaged_;  // of the clutch, where it knows one
     Data<double> rmsPosition_, maxPosition_, rmsRotation_, maxRotation_, lag_, rmsSpeed_, time_;
     Data<std::int64_t> pressCount_;
 
