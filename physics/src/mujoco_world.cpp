@@ -8,11 +8,10 @@
 namespace cortex::physics {
 namespace {
 
-constexpr double nearDemand = 0.01;  // rad or m between demand and axis
-constexpr double startPatience = 1;  // s, until it tells that it waits
-constexpr double mostSteps = 20;     // in a cycle
-constexpr std::int64_t slowCycles =
-    10;                            // in a row with more of them: the process did not stand still
+constexpr double nearDemand = 0.01;      // rad or m between demand and axis
+constexpr double startPatience = 1;      // s, until it tells that it waits
+constexpr double mostSteps = 20;         // in a cycle
+constexpr std::int64_t slowCycles = 10;  // in a row that need more: no standstill of the process
 constexpr double farBeyond = 0.1;  // rad or m, behind the end of a range: no end stop gives so far
 constexpr double roundingOfSteps = 1e-6;
 constexpr double leastWeight = 1;   // N or N.m, that is worth a word

@@ -142,13 +142,16 @@ struct CortexLoss : testing::Test {
         return jsonOf(lookUntil(look, isSo), "show");
     }
 
-    // Kills the device and waits until the controller has lost its input.
+    // Kills the device and waits until the controller has lost its input. Its agent may take the
+    // device's values as good a little later than this tool, and refuses a startup until then.
     void loseTheDevice() {
         const auto shown = [] { return live({"list", "/desk/controller", "--json"}); };
         lookUntil(shown, [](const Outcome& seen) {
             return seen.exit == 0 && !contains(seen.output, "\"lost\"");
         });
-        const Outcome started = found({"call", "/desk/controller", "startup"});
+        const Outcome started =
+            lookUntil([] { return live({"call", "/desk/controller", "startup"}); },
+                      [](const Outcome& seen) { return seen.exit == 0; });
         ASSERT_EQ(started.exit, 0) << started.output << started.errors;
         cell->end(SIGKILL);
         lookUntil(shown, [](const Outcome& seen) { return contains(seen.output, "\"lost\""); });
