@@ -193,8 +193,12 @@ protected:
                    pixels(image, lower, x, Look::colours().dataBg) >= lower.height() / 3;
         };
         int first = canvas.center().x(), last = first - 1, crossed = 0;
-        while (hatched(first - 1) || hatched(first - 3)) --first;  // over lines of the grid
-        while (hatched(last + 1) || hatched(last + 3)) ++last;
+        // Over lines of the grid, also over one that stands a pixel or two before the end.
+        const auto goesOn = [&](int x, int to) {
+            return hatched(x + to) || hatched(x + 2 * to) || hatched(x + 3 * to);
+        };
+        while (goesOn(first, -1)) --first;
+        while (goesOn(last, 1)) ++last;
         ASSERT_LT(first, last) << "a gap of " << length << " s is not hatched";
         for (int x = first + 2; x <= last - 2; ++x) crossed += pixels(image, canvas, x, line);
         EXPECT_EQ(crossed, 0) << "a line crosses the gap of " << length << " s";
