@@ -141,9 +141,13 @@ Datagram guidParameter(int id, std::uint8_t prefix, std::uint32_t entity) {
 }
 
 struct EndpointsTest : BoundsTest {
+    static Datagram endpoint(std::uint8_t participant, std::uint32_t entity,
+                             const std::string& topic = "cortex/1/event") {
+        return Datagram{0, 3, 0, 0} + guidParameter(0x5a, participant, entity) +
+               parameter(0x05, text(topic)) + endOfList;
+    }
     bool announce(std::uint8_t participant, std::uint32_t entity, std::uint32_t by = ofWriters) {
-        return passes(participant, by, 4,
-                      Datagram{0, 3, 0, 0} + guidParameter(0x5a, participant, entity) + endOfList);
+        return passes(participant, by, 4, endpoint(participant, entity));
     }
     bool dispose(std::uint8_t participant, std::uint32_t entity) {
         return passes(participant, ofWriters, 2,
@@ -178,6 +182,36 @@ TEST_F(EndpointsTest, AllAnnounceSoManyUntilTheSilentMakeRoom) {
     EXPECT_EQ(admitted, rtps::EndpointLimits::most);
     now += 16 * second;
     EXPECT_TRUE(announce(30, 1));
+}
+
+TEST_F(EndpointsTest, AnEndpointOfAForeignTopicIsAGapToFastDds) {
+    const auto left = [&](Datagram datagram) {
+        datagram.resize(filter.admit(datagram, address, now).left);
+        return datagram;
+    };
+    for (const char* topic : {"rt/chatter", "cortex", "cortexes/1", ""}) {
+        const Datagram foreign = data(++number, ofWriters, 4, endpoint(1, 7, topic));
+        const Datagram next = heartbeat(1, number, static_cast<std::uint32_t>(number), ofWriters);
+        EXPECT_EQ(left(header() + foreign + next),
+                  header() + gap(number, number + 1, 0, 0, ofWriters) + next)
+            << topic;
+    }
+    const Datagram last = data(++number, ofReaders, 4, endpoint(1, 7, "rt/chatter"));
+    EXPECT_EQ(left(header() + last), header() + gap(number, number + 1, 0, 0, ofReaders));
+    const Datagram ours = data(++number, ofWriters, 4, endpoint(1, 7, "cortex/presence"));
+    EXPECT_EQ(left(header() + ours), header() + ours);
+}
+
+TEST_F(EndpointsTest, EndpointsOfForeignTopicsTakeNoRoom) {
+    for (std::uint8_t participant = 1; participant <= 40; ++participant) {
+        for (std::uint32_t i = 0; i < 500; ++i) {
+            const Datagram foreign = endpoint(participant, i, "rt/" + std::to_string(i));
+            ASSERT_TRUE(passes(participant, i % 2 ? ofWriters : ofReaders, 4, foreign)) << i;
+        }
+    }
+    for (std::uint32_t i = 0; i < most; ++i) EXPECT_TRUE(announce(50, i)) << i;
+    EXPECT_TRUE(announce(51, 1));
+    EXPECT_EQ(filter.dropped(), 0U);
 }
 
 TEST_F(EndpointsTest, AnAnnouncementNamesOneEndpointOfAnother) {

@@ -5,6 +5,7 @@
 
 #include "comms/inbox.hpp"
 #include "comms/raw_dds.hpp"
+#include "comms/secured_plant.hpp"
 #include "dds/participant.hpp"
 
 #include <cstdio>
@@ -86,6 +87,18 @@ TEST(NetworkOptions, RefusesPeersAndServersThatAreNoAddress) {
     NetworkOptions options = loopback();
     options.discoveryServer = "127.0.0.1:11811;127.0.0.1:x";
     EXPECT_TRUE(contains(joinRefusal(options), "discovery server '127.0.0.1:x'"));
+}
+
+// The server has no certificate: it would be joined, and nobody found.
+TEST(NetworkOptions, RefusesADiscoveryServerWithSecurity) {
+    const SecuredPlant plant;
+    NetworkOptions options = loopback();
+    options.security = plant.make("arm");
+    EXPECT_EQ(joinRefusal(options), "not refused");
+    options.discoveryServer = "127.0.0.1:11811";
+    const std::string text = joinRefusal(options);
+    EXPECT_TRUE(contains(text, "'127.0.0.1:11811') and security exclude each other")) << text;
+    EXPECT_TRUE(contains(text, "--peer")) << text;
 }
 
 TEST(NetworkOptions, RefusesADomainThatDoesNotExist) {

@@ -162,7 +162,14 @@ TEST_F(Wire, WritesNothingOfAMessageWithATextThatIsTooLong) {
     Inbox<EventMessage> inbox;
     const auto reader = to.reader<EventMessage>(topics::event, inbox.push());
     const auto writer = from.writer<EventMessage>(topics::event);
-    EXPECT_FALSE(writer->write(event(std::string(maxTextLength + 1, 'x'))));
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_FALSE(writer->write(event(std::string(maxTextLength + 1, 'x'))));
+    }
+    EXPECT_EQ(from.takeRefusals(),
+              std::vector<std::string>{"a sample of cortex::EventMessage cannot be sent: one of "
+                                       "its texts has more than 65536 octets"});
+    EXPECT_EQ(from.takeRefusals(), std::vector<std::string>{});
+    EXPECT_EQ(from.refusals()["a sample could not be encoded"].count, 2U);
     const EventMessage longest = event(std::string(maxTextLength - 1'000, 'x'));
     EXPECT_TRUE(writer->write(longest));
     ASSERT_TRUE(inbox.waitFor(1));
@@ -199,7 +206,7 @@ TEST(WireOfAnyNames, FindsParticipantsAndEndpoints) {
         std::vector<std::unique_ptr<Writer<EventMessage>>> writers;
         std::vector<Inbox<EventMessage>> inboxes(12);
         for (Inbox<EventMessage>& each : inboxes) {
-            const Topic topic{name(251), Qos::Log};
+            const Topic topic{"cortex/" + name(244), Qos::Log};
             readers.push_back(to.reader<EventMessage>(topic, each.push()));
             writers.push_back(from.writer<EventMessage>(topic));
             EXPECT_TRUE(writers.back()->write(event(topic.name)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dds/unsent_samples.hpp"
 #include "rtps/datagram_filter.hpp"
 
 #include <atomic>
@@ -50,6 +51,7 @@ public:
     std::unique_lock<std::mutex> hold() { return std::unique_lock{passing_}; }
 
     rtps::DatagramFilter filter;  // every datagram passes it first
+    UnsentSamples unsent;         // of all writers
     // The id of the writer whose samples are sent in fragments of one packet; 0: none.
     std::atomic<std::uint32_t> cutWriter{0};
     // Whether what is said of endpoints is sent three times. Fast DDS repeats it once a second.

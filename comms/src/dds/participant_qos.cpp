@@ -159,6 +159,17 @@ void limitPackets(dds::DomainParticipantQos& qos) {
     qos.flow_controllers().push_back(std::move(limit));
 }
 
+// The server shows no certificate, so participants with security do not talk to it. Fast DDS 2.9
+// says nothing of it, and an assertion ends the process when such a participant leaves.
+void refuseServerWithSecurity(const NetworkOptions& options) {
+    if (options.security.empty() || options.discoveryServer.empty()) return;
+    throw Error{"a discovery server ('" + options.discoveryServer +
+                "') and security exclude each other, as the server has no certificate of the "
+                "security folder: nobody would be found; name the other hosts as peers (--peer) "
+                "and no server (--discovery-server, CORTEX_DISCOVERY_SERVER), or no security "
+                "folder (--security, CORTEX_SECURITY)"};
+}
+
 struct Profile {
     bool reliable, lateJoiners;
     std::int32_t depth;
@@ -194,6 +205,7 @@ dds::DomainParticipantQos participantQos(const NetworkOptions& options, const st
         throw Error{"domain " + std::to_string(options.domain) + " of '" + name +
                     "' does not exist; choose one from 0 to " + std::to_string(lastDomain)};
     }
+    refuseServerWithSecurity(options);
     requireFiles();
     const int number = freeParticipant(options.domain);
     const auto udp = udpTransport(options);

@@ -4,17 +4,25 @@
 #include "rtps/parameters.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 namespace cortex::comms::rtps {
 namespace {
 
-constexpr std::uint16_t domainId = 0x000f, endpointGuid = 0x005a, keyHash = 0x0070,
-                        statusInfo = 0x0071;
+constexpr std::uint16_t topicName = 0x0005, domainId = 0x000f, endpointGuid = 0x005a,
+                        keyHash = 0x0070, statusInfo = 0x0071;
 
 WriterGuid guidIn(Bytes bytes) {
     WriterGuid guid{};
     if (bytes.size() == guid.size()) std::ranges::copy(bytes, guid.begin());
     return guid;
+}
+
+// The size of a text and its end stand around it.
+bool isOfCortex(Bytes topic) {
+    constexpr std::string_view front = "cortex/";
+    return topic.size() > 4 + front.size() &&
+           std::ranges::equal(topic.subspan(4, front.size()), front);
 }
 
 // Fast DDS takes the hash of the key for the name of the endpoint if it stands behind it.
@@ -24,7 +32,8 @@ Announcement alive(Bytes payload) {
     const WriterGuid hash = guidIn(parameterOf(payload.subspan(4), little, keyHash));
     if (guid == WriterGuid{} || (hash != WriterGuid{} && hash != guid))
         return {Announcement::Unclear, {}};
-    return {Announcement::IsThere, guid};
+    const bool ours = isOfCortex(parameterOf(payload.subspan(4), little, topicName));
+    return {ours ? Announcement::IsThere : Announcement::IsForeign, guid};
 }
 
 }  // namespace

@@ -10,8 +10,9 @@ namespace cortex::comms::rtps {
 
 // What a DATA whose content was judged says of an endpoint.
 struct Announcement {
-    enum Says { Nothing, IsThere, IsGone, Unclear };
+    enum Says { Nothing, IsThere, IsForeign, IsGone, Unclear };
     Says says = Nothing;  // Nothing: it does not announce endpoints
+    // IsForeign: one of a topic that is none of CorteX.
     WriterGuid endpoint{};
 };
 

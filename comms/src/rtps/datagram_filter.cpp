@@ -123,8 +123,9 @@ Refusal DatagramFilter::judge(Bytes& datagram, std::uint32_t address, std::int64
 }
 
 // A gap that goes further than its writer did passes if the writer goes on behind it in the same
-// datagram: what Fast DDS sends to a new reader of a writer that took samples back.
-Refusal DatagramFilter::judgeNumbers(Bytes datagram, Prefix sender, std::int64_t now) {
+// datagram: what Fast DDS sends to a new reader of a writer that took samples back. What announces
+// an endpoint of a foreign topic becomes a gap.
+Refusal DatagramFilter::judgeNumbers(Bytes& datagram, Prefix sender, std::int64_t now) {
     bool isForUs = true;
     std::optional<WriterGuid> ofGap;
     for (std::size_t at = headerSize; at < datagram.size();) {
@@ -140,9 +141,12 @@ Refusal DatagramFilter::judgeNumbers(Bytes datagram, Prefix sender, std::int64_t
         if (found != Refusal::None) {
             if (submessage.kind != Kind::Gap || ofGap) return found;
             ofGap = guidOf(sender, submessage.body.subspan(4));
-        } else if (submessage.kind == Kind::Data &&
-                   ofGap == guidOf(sender, submessage.body.subspan(8))) {
-            ofGap.reset();
+        } else if (submessage.kind == Kind::Data) {
+            if (ofGap == guidOf(sender, submessage.body.subspan(8))) ofGap.reset();
+            if (announcementIn(submessage).says != Announcement::IsForeign) continue;
+            const Bytes rest = becomeGap(submessage);
+            at -= rest.size();
+            if (!rest.empty()) datagram = takenOut(datagram, rest);
         }
     }
     return ofGap ? Refusal::Number : Refusal::None;
@@ -205,6 +209,7 @@ Refusal DatagramFilter::judgeEndpoint(const Submessage& submessage, const Prefix
     if (says == Announcement::Unclear) return Refusal::Parameters;
     if (std::ranges::equal(us_, std::span{endpoint}.first<12>()))
         return isEcho(submessage, sender) ? Refusal::Echo : Refusal::Parameters;
+    if (says == Announcement::IsForeign) return Refusal::None;  // it goes no further
     return endpoints_.admits(endpoint, participants_, now) ? Refusal::None : Refusal::Endpoints;
 }
 

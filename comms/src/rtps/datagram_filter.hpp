@@ -31,7 +31,8 @@ public:
     };
     // What is left of a datagram from an IPv4 address. The bytes may be changed: statistics of
     // Fast DDS are taken out, and so are fragments, which wait until their sample has all of them;
-    // parameters that nobody needs become padding, and great steps of numbers become smaller.
+    // parameters that nobody needs become padding, endpoints of foreign topics become gaps, and
+    // great steps of numbers become smaller.
     Admitted admit(Bytes datagram, std::uint32_t address, std::int64_t now);
 
     // Whether the participant was heard, but not for a while.
@@ -52,7 +53,7 @@ public:
 
 private:
     Refusal judge(Bytes& datagram, std::uint32_t address, std::int64_t now);
-    Refusal judgeNumbers(Bytes datagram, Prefix sender, std::int64_t now);
+    Refusal judgeNumbers(Bytes& datagram, Prefix sender, std::int64_t now);
     Refusal judgeNumber(const Submessage& submessage, const Prefix& sender, std::int64_t now);
     Refusal judgeEndpoint(const Submessage& submessage, const Prefix& sender, std::int64_t now);
     bool isEcho(const Submessage& data, const Prefix& sender) const;

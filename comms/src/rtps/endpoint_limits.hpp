@@ -11,8 +11,8 @@
 
 namespace cortex::comms::rtps {
 
-// Bounds how many endpoints a participant, and all together, may announce: Fast DDS keeps what it
-// is told of each, 2 kB, also where nothing here would ever be connected with it. Those of
+// Bounds how many endpoints of topics of CorteX a participant, and all together, may announce: Fast
+// DDS keeps what it is told of each, 2 kB, also where nothing here is connected with it. Those of
 // participants that were silent for a while make room where it is needed. One thread at a time.
 class EndpointLimits {
 public:

@@ -170,6 +170,22 @@ DataParts partsOf(const Submessage& data) {
     return {rest.first(size), rest.subspan(size)};
 }
 
+Bytes becomeGap(const Submessage& data) {
+    constexpr std::size_t header = 4, size = 28;
+    const bool little = data.little();
+    const std::int64_t number = readNumber(data.body.subspan(12), little);
+    const Bytes body = data.whole.subspan(header, size);
+    std::ranges::copy(data.body.subspan(4, 8), body.begin());  // reader and writer
+    writeNumber(body.subspan(8), little, number);
+    writeNumber(body.subspan(16), little, number + 1);
+    writeU32(body.subspan(24), little, 0);
+    data.whole[0] = static_cast<std::uint8_t>(Kind::Gap);
+    data.whole[1] = little ? 1 : 0;
+    data.whole[2] = little ? size : 0;
+    data.whole[3] = little ? 0 : size;
+    return data.whole.subspan(header + size);
+}
+
 bool isLongEnough(const Submessage& submessage) {
     return submessage.body.size() >= minimumOf(submessage.kind);
 }

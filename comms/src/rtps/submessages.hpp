@@ -75,6 +75,10 @@ struct DataParts {
 };
 DataParts partsOf(const Submessage& data);
 
+// Makes a DATA that says something into a GAP of its number, so its reader has all of the writer
+// and knows nothing of this sample. Returns what stands behind it now.
+Bytes becomeGap(const Submessage& data);
+
 // The order of signed and encrypted parts: a signed message begins and ends with its prefix and
 // postfix; an encrypted submessage stands between its own. It is told each submessage in order.
 class SecureOrder {

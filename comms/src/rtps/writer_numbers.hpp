@@ -17,8 +17,11 @@ using WriterGuid = std::array<std::uint8_t, 16>;  // prefix of the participant, 
 // Where datagrams are lost or overtake each other, numbers come in such steps. A greater one waits:
 // it passes once another one comes near it, or the same is said again, and not where the writer
 // goes on from its newest. So a true writer of which much was lost loses one datagram more. A
-// single forged one has no effect, or one of 0.1 s. Numbers below pass, as the reader has them. One
-// thread at a time.
+// single forged one has no effect, or one of 0.1 s. Numbers below pass, as the reader has them.
+//
+// What is higher than 100 numbers in each ms since the newest begins a run. It passes once eight
+// numbers of the run came over 30 ms or more, so no true writer is dropped for ever. One thread
+// at a time.
 class WriterNumbers {
 public:
     // Whether a sample, or the end of a range that a writer states, may have this number. `saying`
@@ -32,10 +35,16 @@ public:
     std::int64_t stepTo(const WriterGuid& writer, std::int64_t first);
 
 private:
+    // Numbers above the newest that wait, each not far from the one before.
+    struct Run {
+        std::int64_t last = 0;  // that came
+        std::int64_t begun = 0, met = 0;
+        std::uint32_t saying = 0;  // of the last
+        int length = 0;            // 0: there is none
+    };
     struct Numbers {
         std::int64_t newest;         // that was admitted
-        std::int64_t candidate = 0;  // that waits for the next
-        std::uint32_t saying = 0;    // of the candidate
+        std::array<Run, 2> runs{};   // one of the writer, one for who forges
         std::int64_t first = 0;      // to which the reader was moved on
         int below = 0;               // numbers far below the newest, one after another
         int arrived = 0;             // numbers other than the newest that passed
@@ -43,6 +52,8 @@ private:
         std::int64_t perSecond = 0;  // of them, measured before that
     };
 
+    static bool goesOn(Numbers& numbers, Run next, std::int64_t pause);
+    static Run& runBefore(Numbers& numbers, const Run& next);
     static void count(Numbers& numbers, std::int64_t now);
     static std::int64_t window(const Numbers& numbers);
 
