@@ -49,6 +49,22 @@ TEST(Nobody, LeavesANamedInterfaceOut) {
     EXPECT_NE(said(plain).find("--peer HOST"), std::string::npos);
 }
 
+TEST(Nobody, NamesTheDiscoveryServerThatWasAsked) {
+    Nobody nobody = plain;
+    nobody.server = "10.0.0.2:11811";
+    nobody.otherDomains = {3};
+    nobody.interfaces = {"eth0"};
+    const std::string none =
+        "no agent on domain 7 by way of the Discovery Server 10.0.0.2:11811 is ";
+    EXPECT_EQ(said(nobody),
+              none +
+                  "heard; see that the server runs at 10.0.0.2:11811 (fast-discovery-server -i 0) "
+                  "and that the agents name it too, or leave --discovery-server "
+                  "(CORTEX_DISCOVERY_SERVER) out: the agents may be found without it");
+    nobody.nameless = 2;
+    EXPECT_TRUE(said(nobody).starts_with(none + "known yet: 2 participants")) << said(nobody);
+}
+
 TEST(Nobody, AShortWaitIsNoReasonToStartAnAgent) {
     Nobody nobody = plain;
     nobody.waited = 1ms;

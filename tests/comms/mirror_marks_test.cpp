@@ -89,6 +89,20 @@ TEST_F(MirrorMarks, AreStaleWhereNothingComesAndLostWithTheAgent) {
     EXPECT_EQ(mark(start + 3s).quality, Quality::Good);
 }
 
+TEST_F(MirrorMarks, OfASlowAgentAreStaleWhenItMissesThreeCycles) {
+    agent.presence.period = 1'000'000'000;
+    agents.take(agent.presence, start);
+    agents.take(agent.summary(), start);
+    const auto boss = [&](Moment now) {
+        return rig().marks(now)[agent.structure().find("/boss")].quality;
+    };
+    const Quality own = boss(start);
+
+    EXPECT_EQ(mark(start + 3s - 1ns).quality, Quality::Good);
+    EXPECT_EQ(mark(start + 3s).quality, Quality::Stale);
+    EXPECT_EQ(boss(start + 12s - 1ns), own) << "it is written every fourth cycle";
+}
+
 TEST_F(MirrorMarks, OfASummaryThatCannotBeAreRefusedWhole) {
     using Fault = std::function<void(Summary&)>;
     agents.take(agent.summary(), start);

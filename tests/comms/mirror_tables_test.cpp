@@ -141,7 +141,7 @@ TEST_F(MirrorTablesTest, CallsStaleWhatDoesNotComeInTime) {
     tables->apply(agent.block(1), at30, begin);
     constexpr std::int64_t period = 1'000'000;
     const auto patience = patienceOf(at30, period);
-    EXPECT_EQ(patience, 99999999ns);  // 3 periods of 30 Hz
+    EXPECT_EQ(patience, 100ms) << "three periods of 30 Hz";
 
     tables->markStale(begin + patience - 1ms, period);
     EXPECT_EQ(quality(worker), Quality::Good);

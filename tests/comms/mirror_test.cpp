@@ -7,10 +7,12 @@
 #include "wire/presence_interval.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -174,6 +176,27 @@ TEST(Mirror, ReportsEveryImageInOrderToWhoAskedForEveryCycle) {
     const auto meanwhile =
         std::ranges::count_if(all, [&](std::int64_t each) { return each > begin && each <= end; });
     EXPECT_GE(meanwhile, 10) << "of 100, some of which a busy agent may leave out";
+}
+
+TEST(Mirror, EndsAListeningWhenItIsToldToAndRefusesAnEmptyFunction) {
+    const auto agent = robot();
+    agent->run();
+    Mirror mirror{"test", loopback()};
+    std::atomic<int> images{0};
+    Listening listening;
+    {
+        auto told = std::make_unique<std::atomic<int>>(0);  // ends before the mirror
+        listening = mirror.onImage([&](const std::string&, const AgentImage&) { ++*told; });
+        mirror.onImage([&](const std::string&, const AgentImage&) { ++images; });
+        mirror.view({"/arm"}, 0);
+        ASSERT_TRUE(comesTrue([&] { return *told > 0; }));
+        listening.stop();
+    }
+    const int before = images;
+    EXPECT_TRUE(comesTrue([&] { return images > before + 3; })) << "the other one goes on";
+
+    EXPECT_THROW(mirror.onImage({}), std::invalid_argument);
+    EXPECT_THROW(mirror.onEvent(nullptr), std::invalid_argument);
 }
 
 // Many cycles pass before the communication thread can run.

@@ -16,6 +16,7 @@ namespace {
 constexpr std::int64_t longestTime = std::int64_t{1} << 60U;  // ns: sums do not overflow
 constexpr std::int64_t longestDetour = 100'000'000;           // ns that the network may add
 constexpr std::int64_t longestStarving = 2 * nsPerSecond;     // or two of its patiences
+constexpr std::int64_t betweenHints = 100'000'000;            // ns
 constexpr std::size_t mostDelays = 1'000;
 constexpr std::size_t mostTold = 8;  // reasons for which values of one link are refused
 
@@ -65,17 +66,22 @@ void AgentLinks::update(Peers& peers) {
         std::erase_if(link.claims, [&](const auto& each) { return !peers.contains(each.first); });
         for (auto& [name, peer] : peers) claim(link, peer);
     }
-    for (const Link& link : links_) {
-        if (!link.claims.empty()) continue;
-        const std::string& path = self_.structure().simplexes[link.simplex].path;
-        const std::string hint = misspelt_.hint(path, peers);
-        if (!hint.empty()) self_.event(Severity::Warning, link.simplex, "is not linked: " + hint);
-    }
     const std::lock_guard lock{mutex_};
     bool isOther = false;
     for (Link& link : links_) isOther = choose(link) || isOther;
     if (isOther) offer();
     findOwners();
+}
+
+void AgentLinks::tellMisspelt(const Peers& peers, bool nameless, std::int64_t now) {
+    if (now < misspeltDue_) return;
+    misspeltDue_ = now + betweenHints;
+    for (const Link& link : links_) {
+        if (!link.claims.empty()) continue;
+        const std::string& path = self_.structure().simplexes[link.simplex].path;
+        const std::string hint = misspelt_.hint(path, peers, nameless, now);
+        if (!hint.empty()) self_.event(Severity::Warning, link.simplex, "is not linked: " + hint);
+    }
 }
 
 // Whether the peer has any simplex to be linked. Only then its model is compared and laid out.

@@ -35,6 +35,9 @@ public:
     bool any() const { return !links_.empty(); }
     bool anyUnbound() const;
     void update(Peers& peers);  // after the peers have changed
+    // Tells of paths that nobody has and that are perhaps misspelt. In each step. `nameless`:
+    // participants were found that have not said who they are.
+    void tellMisspelt(const Peers& peers, bool nameless, std::int64_t now);
     void take(const Block& block, std::int64_t came);
     std::uint64_t lost() const { return lost_; }  // blocks that did not come; any thread
     std::set<std::string> owners() const;         // agents to which links exist
@@ -94,7 +97,7 @@ private:
     std::mutex mutex_;
     std::map<Id, Owner> owners_;
     std::map<Id, TransitDelay> delays_;  // of present and former owners
-    std::int64_t askDue_ = 0;
+    std::int64_t askDue_ = 0, misspeltDue_ = 0;
     std::uint64_t serial_ = 0;
     std::uint64_t newest_ = 0;  // number of the samples of a block
     std::atomic<std::uint64_t> lost_{0};

@@ -252,6 +252,10 @@ void AgentThread::step() {
     const bool hearsAny = peers_.heard() > 1;
     if (rejoin_.isDue(hearsAny, participant_.findsUnproven(), now) || moved) joinAnew();
     if (links_.askAgain(now)) feed(now);
+    if (links_.anyUnbound()) {
+        const std::uint32_t found = presenceIn_->writers() + participant_.pending();
+        links_.tellMisspelt(peers_.all(), peers_.heard() < found, now);
+    }
     commands_.step(now);
     calls_.step(peers_.all(), silent_);
     sendEvents();

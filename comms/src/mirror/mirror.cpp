@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdio>
 #include <random>
+#include <stdexcept>
 #include <utility>
 
 #include <unistd.h>
@@ -29,6 +30,12 @@ std::string ownName(const std::string& tool, const NetworkOptions& options) {
         options.security.empty() ? tool : checkSecurity(options.security).agent;
     const std::string start = owner + "@" + host.data();
     return start.substr(0, sizeof(Sender::name) - 1 - end.size()) + end;
+}
+
+[[noreturn]] void refuseEmpty(const std::string& call) {
+    throw std::invalid_argument{"Mirror::" + call +
+                                "() was given an empty function; give one that takes what comes, "
+                                "and end it with stop() of what is returned"};
 }
 
 }  // namespace
@@ -89,10 +96,10 @@ std::optional<std::string> Mirror::ownerOf(std::string_view path) const {
 }
 
 std::optional<std::string> Mirror::waitForOwner(std::string_view path, Milliseconds limit,
-                                                Milliseconds quiet) const {
+                                                Milliseconds quiet, Milliseconds others) const {
     bool owned = false;
     implementation_->thread.waitFor(limit, [&](MirrorState& state) {
-        owned = state.isOwned(path);
+        owned = state.isOwned(path, others);
         return owned || state.everybodyIsHere(quiet);
     });
     return owned ? ownerOf(path) : std::nullopt;
@@ -220,14 +227,24 @@ CommandAnswer Mirror::call(std::string_view path, std::string_view command,
     return answer;
 }
 
-void Mirror::onEvent(std::function<void(const AgentEvent&)> listener) {
+Listening Mirror::onEvent(std::function<void(const AgentEvent&)> listener) {
+    if (!listener) refuseEmpty("onEvent");
+    Listening listening;
     implementation_->thread.change(
-        [&](MirrorState& state) { state.listeners.push_back(std::move(listener)); });
+        [&](MirrorState& state) { listening = state.listeners.add(std::move(listener)); });
+    return listening;
 }
 
-void Mirror::onImage(std::function<void(const std::string&, const AgentImage&)> listener) {
+Listening Mirror::onImage(std::function<void(const std::string&, const AgentImage&)> listener) {
+    if (!listener) refuseEmpty("onImage");
+    Listening listening;
     implementation_->thread.change(
-        [&](MirrorState& state) { state.imageListeners.push_back(std::move(listener)); });
+        [&](MirrorState& state) { listening = state.imageListeners.add(std::move(listener)); });
+    return listening;
+}
+
+void Listening::stop() {
+    if (const auto listener = listener_.lock()) listener->stop();
 }
 
 bool Mirror::eventsComplete() const {

@@ -57,8 +57,7 @@ std::vector<SimplexMark> MirrorAgent::marks(Moment now) const {
     if (!structure) return {};
     const std::size_t count = structure->simplexes.size();
     if (summarises()) {
-        const Moment limit = now - patienceOf(viewRates.size() - 1, model.presence()->period);
-        return summary.marks(count, lost, limit);
+        return summary.marks(*structure, lost, model.presence()->period, now);
     }
     const AgentImage shown = image();
     std::vector<SimplexMark> marks;

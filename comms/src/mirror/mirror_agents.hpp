@@ -94,9 +94,11 @@ public:
     const Map& all() const { return agents_; }
     MirrorAgent* find(std::string_view name);
     MirrorAgent* ownerOf(std::string_view path);  // null: nobody owns it
-    // Whether its owner is there and nobody else who was found may be it. After 2 s others do not
-    // count. `allKnown`: whether all that were found have said who they are.
-    bool isOwned(std::string_view path, Moment now, bool allKnown);
+    // Whether its owner is there and nobody else who was found may be it. Others do not count when
+    // everything of it is there for that time. `allKnown`: whether all that were found have said
+    // who they are.
+    bool isOwned(std::string_view path, Moment now, bool allKnown,
+                 std::chrono::nanoseconds others = Mirror::timeToMeet);
     // Paths of several agents, or of one without a right to them.
     std::vector<Contested> contested();
     bool missesAny() const;  // lost without saying so

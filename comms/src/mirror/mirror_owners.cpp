@@ -42,10 +42,11 @@ MirrorAgent* MirrorAgents::ownerOf(std::string_view path) {
     return owner ? find(all[*owner].agent) : nullptr;
 }
 
-bool MirrorAgents::isOwned(std::string_view path, Moment now, bool allKnown) {
+bool MirrorAgents::isOwned(std::string_view path, Moment now, bool allKnown,
+                           std::chrono::nanoseconds others) {
     const MirrorAgent* owner = ownerOf(path);
     if (owner == nullptr || owner->lost) return false;
-    if (now - owner->known > std::chrono::nanoseconds{timeToMeet}) return true;
+    if (now - owner->known > others) return true;
     return allKnown && std::ranges::none_of(agents_, [&](const auto& each) {
                const MirrorAgent& agent = each.second;
                return !agent.settled() && agent.present() &&

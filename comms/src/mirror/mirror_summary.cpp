@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mirror/mirror_summary.hpp"
 
+#include "mirror/mirror_view.hpp"
 #include "wire/simplex_marks.hpp"
 
 #include <algorithm>
@@ -21,13 +22,16 @@ bool MirrorSummary::take(const Summary& summary, std::size_t own, Moment when) {
     return true;
 }
 
-std::vector<SimplexMark> MirrorSummary::marks(std::size_t simplexes, bool lost,
-                                              Moment limit) const {
+std::vector<SimplexMark> MirrorSummary::marks(const Structure& structure, bool lost,
+                                              std::int64_t period, Moment now) const {
     std::vector<SimplexMark> marks;
     if (!any()) return marks;
-    const Quality least = lost ? Quality::Lost : when_ <= limit ? Quality::Stale : Quality::Good;
-    marks.resize(simplexes);
-    for (std::size_t i = 0; i < std::min(octets_.size(), simplexes); ++i) {
+    const std::size_t count = structure.simplexes.size();
+    marks.resize(count);
+    for (std::uint32_t i = 0; i < std::min(octets_.size(), count); ++i) {
+        const auto patience = patienceOf(viewRates.size() - 1, period, structure.writtenEvery(i));
+        const bool stale = now - when_ >= patience;
+        const Quality least = lost ? Quality::Lost : stale ? Quality::Stale : Quality::Good;
         marks[i] = *markOf(octets_[i]);
         marks[i].quality = std::max(marks[i].quality, least);
         marks[i].outside = marks[i].outside && marks[i].quality == Quality::Good;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/comms/simplex_mark.hpp"
+#include "cortex/core/structure.hpp"
 
 #include "peers/moment.hpp"
 #include "wire/messages.hpp"
@@ -18,8 +19,10 @@ public:
     // Of an agent with so many simplexes of its own. False: it is refused, whole.
     bool take(const Summary& summary, std::size_t own, Moment when);
     bool any() const { return !octets_.empty(); }
-    // By index; those of other agents are lost. `limit`: what came before it is stale.
-    std::vector<SimplexMark> marks(std::size_t simplexes, bool lost, Moment limit) const;
+    // By index; those of other agents are lost. `period` is that of the agent in ns: what has not
+    // come again for too long is stale.
+    std::vector<SimplexMark> marks(const Structure& structure, bool lost, std::int64_t period,
+                                   Moment now) const;
 
 private:
     std::vector<std::uint8_t> octets_;

@@ -23,7 +23,10 @@ MirrorTables::MirrorTables(std::shared_ptr<const Structure> structure, const Id&
       tables_{structure_},
       images_{tables_, imageReaders},
       simplexes_(structure_->simplexes.size()) {
-    for (std::uint32_t i = 0; i < simplexes_.size(); ++i) degrade(i, Quality::Lost);
+    for (std::uint32_t i = 0; i < simplexes_.size(); ++i) {
+        simplexes_[i].every = structure_->writtenEvery(i);
+        degrade(i, Quality::Lost);
+    }
     restart(view);
     published_ = 0;  // nothing has come
 }
@@ -121,16 +124,16 @@ bool MirrorTables::degrade(std::uint32_t simplex, Quality quality) {
     return true;
 }
 
-// One that changes its stream has the time that the slowest one takes.
+// Each by itself: what is written seldom comes seldom. One that changes its stream has the time
+// that the slowest one takes.
 void MirrorTables::markStale(Moment now, std::int64_t period) {
-    std::array<Moment, viewRates.size()> oldest;
-    for (std::size_t i = 0; i < oldest.size(); ++i) oldest[i] = now - patienceOf(i, period);
     bool changed = false;
     for (std::uint32_t i = 0; i < simplexes_.size(); ++i) {
         const Arrival& each = simplexes_[i];
         if (!each.received) continue;
-        const Moment limit = each.settled ? oldest.at(each.stream) : std::ranges::min(oldest);
-        if (each.when <= limit) changed = degrade(i, Quality::Stale) || changed;
+        const std::size_t stream = each.settled ? each.stream : viewRates.size() - 1;
+        if (now - each.when >= patienceOf(stream, period, each.every))
+            changed = degrade(i, Quality::Stale) || changed;
     }
     if (changed) publish();
 }

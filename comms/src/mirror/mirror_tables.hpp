@@ -57,7 +57,8 @@ private:
         std::size_t stream = none;  // its own
         std::int64_t cycle = 0;
         Moment when;
-        double before = 0;  // s from the measurement to the block
+        double before = 0;        // s from the measurement to the block
+        std::uint32_t every = 1;  // cycles between two writings
     };
     struct Stream {
         std::uint64_t last = 0;  // sequence number; 0: none

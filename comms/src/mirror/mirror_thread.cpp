@@ -36,9 +36,9 @@ bool MirrorState::everybodyIsHere(Mirror::Milliseconds quiet) const {
     return now - news >= quiet && agents.complete() && everybodyIsKnown(now);
 }
 
-bool MirrorState::isOwned(std::string_view path) {
+bool MirrorState::isOwned(std::string_view path, Mirror::Milliseconds others) {
     const Moment now = std::chrono::steady_clock::now();
-    return agents.isOwned(path, now, everybodyIsKnown(now));
+    return agents.isOwned(path, now, everybodyIsKnown(now), others);
 }
 
 bool MirrorState::everybodyIsKnown(Moment now) const {
@@ -95,18 +95,19 @@ bool MirrorThread::turn() {
 
 // The mutex is not held while listeners run, because they may call the mirror.
 void MirrorThread::takeAndTell(const MirrorSample& sample) {
-    decltype(state_.imageListeners) listeners;
+    std::vector<std::shared_ptr<ListenerOf<const std::string&, const AgentImage&>>> listeners;
     std::string name;
     AgentImage image;
     {
         const std::lock_guard lock{mutex_};
         const MirrorAgent* agent = take(sample, std::chrono::steady_clock::now());
-        if (agent == nullptr || state_.imageListeners.empty()) return;
-        listeners = state_.imageListeners;
+        if (agent == nullptr) return;
+        listeners = state_.imageListeners.list();
+        if (listeners.empty()) return;
         name = agent->model.agent();
         image = agent->image();
     }
-    for (const auto& listener : listeners) listener(name, image);
+    for (const auto& listener : listeners) listener->tell(name, image);
 }
 
 const MirrorAgent* MirrorThread::take(const MirrorSample& sample, Moment now) {
@@ -152,7 +153,7 @@ void MirrorThread::serve(Moment now) {
     joinAnew(now);
     endpoints_->view(state_.view, state_.summarised);
     if (state_.commands.waiting() || state_.mayCommand) endpoints_->command();
-    if (!state_.listeners.empty()) endpoints_->listen();
+    if (!state_.listeners.list().empty()) endpoints_->listen();
     endpoints_->announce(state_.agents, now);
     state_.commands.tick(now, [&](const Command& command) { return endpoints_->write(command); });
     if (endpoints_->speakers() != state_.speakers) state_.news = now;
@@ -163,9 +164,9 @@ void MirrorThread::serve(Moment now) {
 // The mutex is not held here, because a listener may call the mirror.
 void MirrorThread::tellListeners() {
     if (events_.empty()) return;
-    const auto listeners = read([](MirrorState& state) { return state.listeners; });
+    const auto listeners = read([](MirrorState& state) { return state.listeners.list(); });
     for (const AgentEvent& event : std::exchange(events_, {})) {
-        for (const auto& listener : listeners) listener(event);
+        for (const auto& listener : listeners) listener->tell(event);
     }
 }
 

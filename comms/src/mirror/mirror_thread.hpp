@@ -7,12 +7,12 @@
 #include "mirror/mirror_agents.hpp"
 #include "mirror/mirror_endpoints.hpp"
 #include "mirror/mirror_inbox.hpp"
+#include "mirror/mirror_listeners.hpp"
 #include "peers/rejoin.hpp"
 #include "peers/sent_commands.hpp"
 
 #include <condition_variable>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -35,15 +35,16 @@ struct MirrorState {
     // and no new one was found for that time.
     bool everybodyIsHere(Mirror::Milliseconds quiet = Mirror::usualQuiet) const;
     bool everybodyIsKnown(Moment now) const;
-    // Whether the path has an owner, and nobody who was found may come before it.
-    bool isOwned(std::string_view path);
+    // Whether the path has an owner, and nobody who was found may come before it. Whoever has not
+    // said everything after that time does not count.
+    bool isOwned(std::string_view path, Mirror::Milliseconds others);
 
     MirrorAgents agents;
     SentCommands commands;
     MirrorView view;
     bool summarised = false;  // summaries are viewed
-    std::vector<std::function<void(const AgentEvent&)>> listeners;
-    std::vector<std::function<void(const std::string&, const AgentImage&)>> imageListeners;
+    Listeners<const AgentEvent&> listeners;
+    Listeners<const std::string&, const AgentImage&> imageListeners;
     // How many participants send presences, whether theirs has come already or not.
     std::uint32_t speakers = 0;
     std::uint32_t nameless = 0;  // of those: theirs has not come

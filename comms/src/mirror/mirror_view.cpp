@@ -10,8 +10,9 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::int64_t stalePeriods = 3;
+constexpr std::int64_t longestPeriod = std::int64_t{1} << 60U;  // ns: others say theirs
 // A shorter time would judge the scheduling of the mirror itself.
-constexpr std::chrono::milliseconds leastPatience{50};
+constexpr std::chrono::milliseconds leastPatience{100};
 
 bool isBelowAny(std::string_view path, const std::vector<std::string>& prefixes) {
     return std::ranges::any_of(prefixes,
@@ -47,9 +48,12 @@ MirrorView viewOf(const std::vector<Viewed>& views) {
     return view;
 }
 
-std::chrono::nanoseconds patienceOf(std::size_t stream, std::int64_t period) {
+std::chrono::nanoseconds patienceOf(std::size_t stream, std::int64_t period, std::uint32_t every) {
     const std::uint32_t rate = viewRates.at(stream);
-    const std::chrono::nanoseconds own{rate == 0 ? period : nsPerSecond / rate};
+    const std::int64_t cycles = std::max<std::int64_t>(every, 1);
+    const std::int64_t written =
+        std::clamp<std::int64_t>(period, 0, longestPeriod / cycles) * cycles;
+    const std::chrono::nanoseconds own{rate == 0 ? written : std::max(written, nsPerSecond / rate)};
     return std::max<std::chrono::nanoseconds>(stalePeriods * own, leastPatience);
 }
 

@@ -34,9 +34,10 @@ struct MirrorView {
 // A prefix that a faster one covers is left out.
 MirrorView viewOf(const std::vector<Viewed>& views);
 
-// How long a value of a stream may be missing before it is stale; `period` is that of the agent in
-// ns.
-std::chrono::nanoseconds patienceOf(std::size_t stream, std::int64_t period);
+// How long a value of a stream may be missing before it is stale: three times as long as it takes
+// to come again. `period` is that of the agent in ns, `every` the cycles between two writings.
+std::chrono::nanoseconds patienceOf(std::size_t stream, std::int64_t period,
+                                    std::uint32_t every = 1);
 
 // The slowest stream that is not below the rate. That of every cycle for 0 and above 100.
 std::size_t streamFor(std::uint32_t rate);

@@ -44,6 +44,11 @@ Milliseconds timeoutOf(const NetworkArguments& arguments) {
     return Milliseconds{std::llround(seconds * 1000)};
 }
 
+// Whether nobody has said how long to wait.
+bool isUsual(const NetworkArguments& arguments) {
+    return !arguments.timeout && !arguments.session && std::getenv("CORTEX_TIMEOUT") == nullptr;
+}
+
 }  // namespace
 
 comms::NetworkOptions optionsOf(const NetworkArguments& arguments) {
@@ -93,8 +98,7 @@ std::shared_ptr<Session> makeSession(const NetworkArguments& arguments) {
 }
 
 Live::Live(const NetworkArguments& arguments)
-    : timeout_{timeoutOf(arguments)},
-      end_{Clock::now() + timeout_},
+    : patience_{timeoutOf(arguments), isUsual(arguments), Clock::now()},
       session_{arguments.session ? arguments.session : makeSession(arguments)} {}
 
 // A shell goes on with the same session.
@@ -103,9 +107,12 @@ Live::~Live() {
     session_->view({}, Session::slowRate);
 }
 
-Milliseconds Live::left() const {
-    const auto left = std::chrono::duration_cast<Milliseconds>(end_ - Clock::now());
-    return std::max(left, Milliseconds{1});
+// Agents, and the parts of their models that have come.
+std::uint64_t Live::known() const {
+    std::uint64_t known = 0;
+    for (const comms::AgentStatus& each : mirror().agents())
+        known += 1 + each.types + each.simplexes - each.missing;
+    return known;
 }
 
 template <class Wait>
@@ -113,6 +120,7 @@ bool Live::waitInSlices(Wait wait) {
     do {
         throwIfInterrupted();
         if (wait(std::min(left(), interruptSlice))) return true;
+        patience_.know(known(), mirror().nameless(), Clock::now());
     } while (!over());
     return false;
 }
@@ -131,10 +139,10 @@ bool Live::waitForValues() {
     return waitInSlices([&](Milliseconds limit) { return mirror().waitForValues(limit); });
 }
 
-std::optional<std::string> Live::waitForOwner(const std::string& path) {
+std::optional<std::string> Live::waitForOwner(const std::string& path, Milliseconds others) {
     std::optional<std::string> owner;
     waitInSlices([&](Milliseconds limit) {
-        owner = mirror().waitForOwner(path, limit, nobodyNew);
+        owner = mirror().waitForOwner(path, limit, nobodyNew, others);
         return owner || mirror().waitUntilComplete(Milliseconds{0}, nobodyNew);
     });
     return owner ? owner : mirror().ownerOf(path);  // it may have come after it was asked for
@@ -142,8 +150,9 @@ std::optional<std::string> Live::waitForOwner(const std::string& path) {
 
 Trouble Live::nobody() const {
     Nobody found{.domain = session_->domain(),
-                 .waited = timeout_,
+                 .waited = patience_.whole(),
                  .interfaces = session_->named(),
+                 .server = session_->discoveryServer(),
                  .otherDomains = otherDomains(),
                  .closed = mirror().closed(),
                  .nameless = nameless(),
@@ -170,7 +179,7 @@ void Live::failWithNobody() const {
 }
 
 std::string Live::limitText() const {
-    return toText(static_cast<double>(timeout_.count()) / 1000) + " s";
+    return toText(static_cast<double>(patience_.whole().count()) / 1000) + " s";
 }
 
 comms::AgentStatus Live::statusOf(const std::string& agent) const {
@@ -218,9 +227,9 @@ std::vector<std::string> Live::paths() const {
     return paths;
 }
 
-FoundSimplex Live::find(const std::string& path) {
+FoundSimplex Live::find(const std::string& path, Milliseconds others) {
     checkPath(path);
-    if (const auto owner = waitForOwner(path)) {
+    if (const auto owner = waitForOwner(path, others)) {
         FoundSimplex found{*owner, mirror().structure(*owner), 0};
         if (found.structure) {
             found.index = found.structure->find(path);

@@ -4,6 +4,7 @@
 #include "cortex/comms/mirror.hpp"
 
 #include "live/nobody.hpp"
+#include "live/patience.hpp"
 #include "live/session.hpp"
 #include "text/output.hpp"
 
@@ -84,22 +85,29 @@ public:
     // "this tool itself refused messages: 12 (…, the last from 127.0.0.1), …", or "" where it let
     // everything in.
     std::string refusedHere() const;
-    FoundSimplex find(const std::string& path);  // throws Failure naming the nearest
+    // Throws Failure naming the nearest. `others`: how long after everything of its agent has come
+    // others are awaited that may own it, too.
+    FoundSimplex find(const std::string& path,
+                      std::chrono::milliseconds others = comms::Mirror::timeToMeet);
     std::optional<std::string> ownerOf(const std::string& path) const {
         return mirror().ownerOf(path);
     }
     // Waits until its agent is heard, or nobody is left who may be it and nobody new comes.
-    std::optional<std::string> waitForOwner(const std::string& path);
+    std::optional<std::string> waitForOwner(
+        const std::string& path, std::chrono::milliseconds others = comms::Mirror::timeToMeet);
     std::vector<FoundSimplex> below(const std::string& prefix) const;  // by path
     // Its newest values, with those of others of its agent; waits for them. Throws Failure if its
     // own do not come.
     comms::AgentImage values(const FoundSimplex& simplex,
                              const std::vector<std::uint32_t>& others = {});
 
-    std::chrono::milliseconds left() const;  // of the time to wait; 1 ms when it is over
-    bool over() const { return std::chrono::steady_clock::now() >= end_; }
-    std::chrono::milliseconds timeout() const { return timeout_; }
-    std::string limitText() const;  // "3 s"
+    // Of the time to wait; 1 ms when it is over.
+    std::chrono::milliseconds left() const {
+        return patience_.left(std::chrono::steady_clock::now());
+    }
+    bool over() const { return patience_.over(std::chrono::steady_clock::now()); }
+    std::chrono::milliseconds timeout() const { return patience_.time(); }
+    std::string limitText() const;  // "3 s": for how long it waits, as far as is known by now
     int domain() const { return session_->domain(); }
     Trouble nobody() const;                    // why no agent is heard, with what to try
     [[noreturn]] void failWithNobody() const;  // throws that as Failure
@@ -107,14 +115,14 @@ public:
 private:
     template <class Wait>
     bool waitInSlices(Wait wait);
+    std::uint64_t known() const;
     std::vector<std::string> paths() const;
     std::string heard() const;
     std::string elsewhere() const;
     std::vector<int> otherDomains() const;
     std::uint64_t strangers() const;
 
-    std::chrono::milliseconds timeout_;
-    std::chrono::steady_clock::time_point end_;
+    Patience patience_;
     std::shared_ptr<Session> session_;
     std::set<std::string> told_;  // paths of several agents
     bool everybodyCame_ = false;

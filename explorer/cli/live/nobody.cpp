@@ -17,6 +17,15 @@ std::string secondsText(std::chrono::milliseconds time) {
     return toText(static_cast<double>(time.count()) / 1000) + " s";
 }
 
+// Nothing was heard of the Discovery Server, or it knows nobody.
+Trouble silenceOfServer(const Nobody& nobody, const std::string& what) {
+    return {what + " is heard",
+            "see that the server runs at " + nobody.server +
+                " (fast-discovery-server -i 0) and that the agents name it too, or leave "
+                "--discovery-server (CORTEX_DISCOVERY_SERVER) out: the agents may be found without "
+                "it"};
+}
+
 // Nothing at all was heard.
 Trouble silenceOf(const Nobody& nobody, std::string what) {
     const std::string start =
@@ -61,7 +70,9 @@ std::string namelessText(std::uint32_t count) {
 
 Trouble troubleOf(const Nobody& nobody) {
     const std::string domain = std::to_string(nobody.domain);
-    const std::string none = "no agent on domain " + domain;
+    const std::string by =
+        nobody.server.empty() ? "" : " by way of the Discovery Server " + nobody.server;
+    const std::string none = "no agent on domain " + domain + by;
     if (nobody.closed > 0) {
         return {none + " can be seen without security: " + closedText(nobody.closed), nameAFolder,
                 true};
@@ -83,7 +94,7 @@ Trouble troubleOf(const Nobody& nobody) {
     if (nobody.waited < enough)
         return {none + " was heard within " + secondsText(nobody.waited),
                 "wait longer (--timeout)"};
-    return silenceOf(nobody, none);
+    return nobody.server.empty() ? silenceOf(nobody, none) : silenceOfServer(nobody, none);
 }
 
 }  // namespace cortex::cli

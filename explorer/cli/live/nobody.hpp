@@ -13,6 +13,7 @@ struct Nobody {
     int domain = 0;
     std::chrono::milliseconds waited{0};
     std::vector<std::string> interfaces;  // that were named; none: all
+    std::string server;                   // Discovery Server that was asked; "": none
     std::vector<int> otherDomains;        // of which this machine has participants
     std::uint32_t closed = 0;             // participants with security, while we have none
     std::uint32_t nameless = 0;           // participants that did not say who they are

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/comms/mirror_data.hpp"
+#include "cortex/comms/mirror_listening.hpp"
 #include "cortex/comms/network_options.hpp"
 #include "cortex/core/program_interface.hpp"
 #include "cortex/core/structure.hpp"
@@ -26,7 +27,8 @@ class Mirror {
 public:
     using Arguments = ProgramInterface::Arguments;
     using Milliseconds = std::chrono::milliseconds;
-    static constexpr Milliseconds usualQuiet{100};  // in which nobody new appears
+    static constexpr Milliseconds usualQuiet{100};   // in which nobody new appears
+    static constexpr Milliseconds timeToMeet{2000};  // in which who may own the same path is heard
 
     // Host and process are appended to the name, so that each instance has its own. Throws Error
     // with a remedy if the network cannot be used.
@@ -48,11 +50,12 @@ public:
     // The agent that owns this simplex: of several by signed right, otherwise the one that was
     // there first (docs/protocol.md). One that is heard comes before those that are lost.
     std::optional<std::string> ownerOf(std::string_view path) const;
-    // The same as soon as nobody else who is heard may own it, 2 s later at most. None: everything
-    // has come, nobody new has appeared for a while and nobody who is heard owns it, or `limit` is
-    // over.
+    // The same as soon as nobody else who is heard may own it; `others` after everything of it has
+    // come at the latest. None: everything has come, nobody new has appeared for a while and nobody
+    // who is heard owns it, or `limit` is over.
     std::optional<std::string> waitForOwner(std::string_view path, Milliseconds limit,
-                                            Milliseconds quiet = usualQuiet) const;
+                                            Milliseconds quiet = usualQuiet,
+                                            Milliseconds others = timeToMeet) const;
     std::vector<Contested> contested() const;  // sorted by path
 
     // Receives from now on the values of all simplexes at and below these paths, at this rate or
@@ -66,11 +69,14 @@ public:
     // have not come, have the quality `lost`. Those that should have come again have `stale`.
     AgentImage image(const std::string& agent) const;
     // Reports each image that an agent sends, in order and before the next is taken in. The
-    // listener runs on the mirror's thread: it copies what it needs, does not throw, and returns.
-    // Images that were lost on the way are counted in AgentStatus::loss; of a view of every cycle
-    // they show as a gap in the cycles. With several rates the cycle is that of the fastest one: an
-    // image that repeats it has new values of slower ones.
-    void onImage(std::function<void(const std::string& agent, const AgentImage&)> listener);
+    // listener runs on the mirror's thread, one call after the other and none under a mutex of the
+    // mirror: it copies what it needs, does not throw, and returns soon, as nothing is received
+    // meanwhile. What it captures must live until stop() of what is returned has returned, or until
+    // the mirror is destroyed. Throws std::invalid_argument for an empty function. Images that were
+    // lost on the way are counted in AgentStatus::loss; of a view of every cycle they show as a gap
+    // in the cycles. With several rates the cycle is that of the fastest one: an image that repeats
+    // it has new values of slower ones.
+    Listening onImage(std::function<void(const std::string& agent, const AgentImage&)> listener);
     // Asks all agents from now on how all their simplexes are, five times a second, in an octet of
     // each: much less than their values. False: no longer.
     void viewSummary(bool wanted = true);
@@ -107,9 +113,9 @@ public:
                        const Arguments& arguments = {},
                        Milliseconds timeout = std::chrono::seconds{5});
 
-    // Reports the events of all agents, the last 1,000 of each first. The listener runs on the
-    // mirror's thread.
-    void onEvent(std::function<void(const AgentEvent&)> listener);
+    // Reports the events of all agents, the last 1,000 of each first, unless another listener has
+    // them already: it gets those from now on. All else is as with onImage().
+    Listening onEvent(std::function<void(const AgentEvent&)> listener);
     // Whether all events have come that the present agents say they have written. They say so ten
     // times a second.
     bool eventsComplete() const;
