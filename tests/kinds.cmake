@@ -3,6 +3,7 @@
 # kind is added to their label. A name without a case is an error (gate/names_test.py).
 
 # `exact`: they compare, without clock or chance; what fails once is not run again.
+set(exact_comms-odd-tests *)
 set(exact_comms-tests Cdr/* FragmentsTest.* PiecesTest.*)
 set(exact_comms-order-tests *)
 set(exact_comms-network-tests Wire.* WireOf*)
@@ -25,6 +26,7 @@ set(whole_gui-tests EventRows.ARowOfMany* Events.FollowAgain* Events.SayHowMany*
 # `long`: the same each time, but dear. With a share of the work the gate has others like them.
 set(long-exact_determinism-tests Shards/*/2 Shards/*/3)
 set(long-exact_text-tests *TenThousand*)
+set(long_core-tests Sending.OfATypeWithMoreText*)
 set(long_integration-tests LbrTeleop/FlippedJoint.*/1 LbrTeleop/FlippedJoint.*/2
     LbrTeleop/FlippedJoint.*/3 LbrTeleop/FlippedJoint.*/4 LbrTeleop/FlippedJoint.*/5
     LbrTeleop/FlippedJoint.*/6 LbrTeleop.FollowReplacedByHold*)

@@ -47,19 +47,19 @@ PUBLIC = {
     "core": {
         "base": "cell clock control_commands data error event_count findings loop_pace machine nearest_names path plugin_places printable quality "
                 "realtime "
-                "report service_threads spsc_ring standstill state system_findings tick value xml_text",
+                "report service_threads spsc_ring standstill state system_findings text_faults tick value xml_text",
         "types": "agreement labelled_value type_model",
         "files": "model_files type_description",
         "tables": "archive command_sentence event event_fold event_sinks image image_pool structure tables",
         "commands": "argument_checks command loop_thread mailbox proposed_settings record",
-        "model": "crossed_pairs header_hash make_structure registry simplex simplex_tree validation",
+        "model": "crossed_pairs header_hash make_structure registry sending_checks simplex simplex_tree validation",
         "agent": "agent command_exchange framework_item loopback program_interface transport",
     },
     "comms": {
         "wire": "network_options simplex_mark",
         "security": "security",
         "agent": "dds_interface",
-        "mirror": "mirror mirror_data",
+        "mirror": "mirror mirror_data mirror_listening",
         "leases": "lease_client",
     },
     "explorer/gui": {"plugin": "now small_plot theme view"},

@@ -207,7 +207,7 @@ TEST_F(CortexLive, WatchesValues) {
         },
         [](const Outcome& seen) {  // what is late is stale
             const auto lines = linesOf(seen.output);
-            return lines.size() == 4 && contains(lines[3], ",Standby,good,good");
+            return lines.size() == 4 && contains(lines[3], ",0,good,good");
         });
     EXPECT_EQ(csv.exit, 0) << csv.errors;
     const auto lines = linesOf(csv.output);
@@ -215,7 +215,10 @@ TEST_F(CortexLive, WatchesValues) {
     EXPECT_EQ(lines[0],
               "time,/mixer.commandCount,/drive.state,/mixer.commandCount:quality,"
               "/drive.state:quality,restarted");
-    EXPECT_TRUE(contains(lines[3], ",Standby,good,good")) << lines[3];
+    EXPECT_TRUE(contains(lines[3], ",0,good,good")) << lines[3];
+
+    const Outcome labels = live({"watch", "/drive.state", "--csv", "--labels", "--count", "1"});
+    EXPECT_TRUE(contains(labels.output, "Z,Standby,")) << labels.output;
 
     const Outcome objects = live({"watch", "/drive", "--json", "--count", "2"});
     EXPECT_EQ(objects.exit, 0) << objects.errors;

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -199,25 +200,66 @@ TEST(CortexSave, BringsTextBackAsItWas) {
     EXPECT_EQ(data["words"]["value"], (json{"a b", "c"}));
 }
 
-// More than fits into one datagram.
-TEST(CortexSave, ASetThatIsTooLargeIsRefusedBeforeItIsSent) {
-    const ModelFolder folder;
-    const std::string system = folder.write("mixer.xml", mixerSystem()).string();
-    folder.copyOntology();
-    std::string ontology = folder.read("robotics.xml");
-    ontology.insert(ontology.find("<data name=\"naturalFrequency\""), R"(
-    <data name="table" kind="float" length="8200" settable="always" description="Large."/>
+// An agent whose drive has more than fits into one datagram, of which `a` does not fit alone.
+struct LargeDrive {
+    LargeDrive() {
+        folder.copyOntology();
+        std::string ontology = folder.read("robotics.xml");
+        ontology.insert(ontology.find("<data name=\"naturalFrequency\""), R"(
+    <data name="a" kind="float" length="8200" settable="always" description="Too large."/>
+    <data name="b" kind="int" length="5000" settable="always" description="Large."/>
+    <data name="c" kind="int" length="5000" settable="always" description="Large."/>
     )");
-    folder.write("robotics.xml", ontology);
-    const Background agent{agentCommand(system)};
-    std::string table = "table=";
-    for (int i = 0; i < 8200; ++i) table += "1 ";
+        folder.write("robotics.xml", ontology);
+        agent.emplace(agentCommand(folder.write("mixer.xml", mixerSystem()).string()));
+    }
+    static std::string ones(int count) {
+        std::string text;
+        for (int i = 0; i < count; ++i) text += "1 ";
+        return text;
+    }
+    static std::string setting(const std::string& item, const std::string& value) {
+        return "<set data=\"" + item + "\" value=\"" + value + "\"/>\n";
+    }
 
-    const Outcome outcome = live({"set", "/drive", table});
-    const std::string said = outcome.output + outcome.errors;
-    EXPECT_EQ(outcome.exit, 1) << said;
-    EXPECT_TRUE(contains(said, "at most 64000 can be sent at once; nothing was sent")) << said;
+    ModelFolder folder;
+    std::optional<Background> agent;
+};
+
+TEST(CortexSave, ASetThatIsTooLargeIsRefusedBeforeItIsSentAndRestoreDividesIt) {
+    LargeDrive drive;
+    const std::string many = LargeDrive::ones(5000), most = LargeDrive::ones(8200);
+
+    const Outcome alone = live({"set", "/drive", "a=" + most});
+    EXPECT_EQ(alone.exit, 1) << alone.errors;
+    EXPECT_TRUE(contains(alone.output,
+                         "at most 64000 can be sent at once; nothing was sent: give 'a' its value "
+                         "in the system file"))
+        << alone.output;
+    EXPECT_TRUE(contains(live({"set", "/drive", "b=" + many, "c=" + many}).output,
+                         "nothing was sent: set fewer items at a time"));
     EXPECT_EQ(live({"set", "/drive", "dampingRatio=0.8"}).exit, 0) << "its number was taken back";
+
+    const std::string settings = LargeDrive::setting("a", most) + LargeDrive::setting("b", many) +
+                                 LargeDrive::setting("c", many) +
+                                 LargeDrive::setting("dampingRatio", "0.9");
+    const std::string file =
+        drive.folder
+            .write("large.xml",
+                   "<system name=\"saved\"><simplex path=\"/drive\" type=\"SimulatedAxis\">" +
+                       settings + "</simplex></system>")
+            .string();
+    std::string done;
+    const json restored = liveJson({"restore", file}, "restore", 1);
+    for (const json& each : restored["results"])
+        done += each["items"].dump() + each["outcome"].dump();
+    EXPECT_EQ(done, R"(["a"]"Rejected"["b"]"Done"["c","dampingRatio"]"Done")");
+    EXPECT_TRUE(
+        contains(live({"restore", file}).errors, "cortex: /drive.a: Rejected: the command"));
+    const json data = liveJson({"show", "/drive"}, "show")["data"];
+    EXPECT_EQ(data["b"]["value"][4999], 1);
+    EXPECT_EQ(data["c"]["value"][4999], 1);
+    EXPECT_EQ(data["dampingRatio"]["value"], 0.9);
 }
 
 TEST_F(CortexLive, ShowsTypesAndGraphAsFilesDo) {

@@ -399,7 +399,12 @@ TEST_F(CortexLive, AnotherStartOfAnAgentIsShown) {
     const std::string words = "another start of mixer is heard, on host ";
     EXPECT_TRUE(contains(seen[0]["other_self"], words)) << seen;
     EXPECT_TRUE(contains(live({"agents"}).output, words));
-    EXPECT_TRUE(contains(live({"doctor"}).output, "is not alone with its name: " + words));
+    const std::string said = live({"doctor"}).output;
+    EXPECT_TRUE(contains(said, "is not alone with its name: " + words)) << said;
+    EXPECT_TRUE(contains(said, ": the same system, started at 20")) << said;
+    EXPECT_TRUE(contains(said, "the system runs twice: end the other start")) << said;
+    EXPECT_FALSE(contains(said, "several agents are called")) << said;
+    EXPECT_FALSE(contains(said, "<cluster name=")) << "another name would mend nothing: " << said;
 }
 
 }  // namespace

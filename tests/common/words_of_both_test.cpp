@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the command line and the window both say: numbers, times, rates, lines for a shell, and what
 // must be controlled for a command.
+#include "common/csv_cell.hpp"
 #include "common/loop_text.hpp"
 #include "common/needed_control.hpp"
 #include "common/number_text.hpp"
 #include "common/shell_line.hpp"
+#include "common/to_its_sender.hpp"
 #include "common/utc_text.hpp"
 
 #include <cmath>
@@ -141,6 +143,30 @@ TEST(ControlForACommand, IsOfTheSimplexOrOfWhatAnAgentIsToldToDo) {
                   each.needed)
             << each.path << ' ' << each.command;
     }
+}
+
+TEST(CsvCell, HasTheBytesOfItsTextInQuotesWhereTheyCouldEndIt) {
+    EXPECT_EQ(csvCell("/arm/1.x"), "/arm/1.x");
+    EXPECT_EQ(csvCell(""), "");
+    EXPECT_EQ(csvCell("1 2"), "\"1 2\"");
+    EXPECT_EQ(csvCell("a,b"), "\"a,b\"");
+    EXPECT_EQ(csvCell("he said \"no\""), "\"he said \"\"no\"\"\"");
+    EXPECT_EQ(csvCell("two\r\nlines"), "\"two\r\nlines\"");
+    EXPECT_EQ(csvCell("\x1b[31m\x7f"), "\"\x1b[31m\x7f\"");
+    EXPECT_EQ(csvCell("\xc3\xbc\xff"), "\xc3\xbc\xff");
+}
+
+TEST(CsvCell, OfFourCharactersIsNotThatOfAControlCharacter) {
+    EXPECT_EQ(csvCell("\\x0d"), "\\x0d");
+    EXPECT_EQ(csvCell("\r"), "\"\r\"");
+}
+
+TEST(WhyOfAnAgent, IsToldToItsSenderAsHisOwnDoing) {
+    EXPECT_EQ(toItsSender("withdrawn by a later shutdown of its sender"),
+              "withdrawn by your shutdown");
+    for (const char* other : {"", "its time was over before its turn", "withdrawn by a later ",
+                              "withdrawn by a later  of its sender"})
+        EXPECT_EQ(toItsSender(other), other);
 }
 
 }  // namespace

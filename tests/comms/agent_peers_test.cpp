@@ -286,6 +286,21 @@ TEST_F(FirstOfNameTest, ASilentStartIsToldAndEndsNobodysSilence) {
     EXPECT_TRUE(says(rival + "it is silent while this one runs"));
 }
 
+TEST_F(FirstOfNameTest, WhoElseSpeaksIsToldWithWhatItRunsAndSinceWhen) {
+    const std::int64_t start = 1'795'168'800'000'000;  // 2026-11-20T10:00:00Z
+    const std::string other = "another start of near is heard, on host elsewhere";
+    hearOurs(start, 0, second, "silent");
+    EXPECT_EQ(peers.otherSelf(second), other) << "it has not heard itself";
+    hearOurs(self.epoch, second, 2 * second);
+    hearOurs(start, 0, 3 * second, "silent");
+    EXPECT_EQ(peers.otherSelf(3 * second),
+              other + ": the same system, started at 2026-11-20T10:00:00Z");
+    told.presence.structureHash[0] ^= 1U;
+    hearOurs(start, 0, 4 * second, "silent");
+    EXPECT_EQ(peers.otherSelf(4 * second),
+              other + ": another system, started at 2026-11-20T10:00:00Z");
+}
+
 TEST_F(FirstOfNameTest, ASecondStartStaysSilentThoughAThirdSaysThatItIsSilent) {
     hearOurs(self.epoch - 1, 60 * second, second);
     hearOurs(self.epoch + 5, millisecond, second + millisecond, "silent");

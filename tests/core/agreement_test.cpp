@@ -97,6 +97,8 @@ TEST(Agreement, ContradictsInShape) {
               "Axis x: contradiction, ours has unit=m, theirs unit=mm\n");
     EXPECT_EQ(items("kind='float' unit='m'", "kind='float'"),
               "Axis x: contradiction, ours has unit=m, theirs nothing\n");
+    EXPECT_EQ(items("kind='int' constant='true'", "kind='int'"),
+              "Axis x: contradiction, ours has constant=true, theirs constant=false\n");
 }
 
 TEST(Agreement, ContradictsInRoleAndParents) {

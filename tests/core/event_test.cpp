@@ -454,13 +454,37 @@ TEST(EventText, HasNumbersOfSixDigitsOrWholeOrAsManyAsTellTwoApart) {
     EXPECT_EQ(text.view(), "0.3 0.333333 1234567 1.0000001 1");
 }
 
-TEST(EventText, IsCutAtACharacter) {
+// As many octets as a text has at most.
+constexpr std::size_t capacity = 150;
+
+TEST(EventText, HoldsAWholeTextThatJustFits) {
     EventText text;
-    for (int i = 0; i < 149; ++i) text << "a";
-    text << "\u00e9";
-    EXPECT_EQ(text.view(), std::string(149, 'a'));
-    text << "bc";
-    EXPECT_EQ(text.view(), std::string(149, 'a') + "b");
+    for (std::size_t i = 0; i < capacity; ++i) text << "a";
+    text << "";
+    EXPECT_EQ(text.view(), std::string(capacity, 'a'));
+}
+
+TEST(EventText, EndsAtAWordWhereItDoesNotFit) {
+    EventText text{"input observation from "};
+    text << "/" + std::string(100, 'p') << " was not followed for " << 12.5 << " ms, allowed";
+    EXPECT_EQ(text.view(),
+              "input observation from /" + std::string(100, 'p') + " was not followed for …");
+    text << "3";
+    EXPECT_TRUE(text.view().ends_with(" followed for …"))
+        << "nothing comes after what was left out";
+    EXPECT_EQ(EventText{std::string(capacity, 'a') + " b"}.view(),
+              std::string(capacity - 4, 'a') + "…")
+        << "a word that is too long";
+}
+
+TEST(EventText, IsCutAtACharacter) {
+    const auto accents = [](std::size_t count) {
+        std::string text;
+        for (std::size_t i = 0; i < count; ++i) text += "\u00e9";
+        return text;
+    };
+    EXPECT_EQ(EventText{accents(100)}.view(), accents(73) + "…");
+    EXPECT_EQ(EventText{"a" + accents(100)}.view(), "a" + accents(72) + "…");
 }
 
 TEST(EventKindName, IsInWords) {

@@ -80,6 +80,17 @@ TEST(CompileLink, RefusesAContradictionNamingTheItem) {
     EXPECT_NE(binding.findings.text().find("v"), std::string::npos);
 }
 
+TEST(CompileLink, RefusesAConstantThatIsNoneThereForThatReason) {
+    const LinkBinding binding = compiled(model("<data name='v' kind='float' constant='true'/>"),
+                                         "R", model("<data name='v' kind='float'/>"), "R");
+
+    EXPECT_FALSE(binding.usable);
+    ASSERT_EQ(binding.findings.findings.size(), 1U) << binding.findings.text();
+    EXPECT_EQ(binding.findings.findings[0].rule, "link-contradiction");
+    EXPECT_NE(binding.findings.text().find("ours has constant=true"), std::string::npos)
+        << binding.findings.text();
+}
+
 TEST(CompileLink, RefusesAMissingItem) {
     EXPECT_FALSE(compiled(model("<data name='v' kind='float'/><data name='w' kind='float'/>"), "R",
                           model("<data name='v' kind='float'/>"), "R")

@@ -150,6 +150,7 @@ const char* const smallModel = R"(<ontology name="small" version="1.0">
   </type>
   <type name="Mover" extends="Active"/>
   <type name="Guard" extends="Active"/>
+  <type name="Drive" extends="Device"/>
 </ontology>
 )";
 
@@ -207,6 +208,9 @@ const char* const smallRules = R"(<morphology name="small">
   <rules type="Guard">
     <relationship name="guarded" direction="input" target="Concept" onLoss="safe"/>
     <relationship name="made" direction="output" target="Concept"/>
+  </rules>
+  <rules type="Drive">
+    <relationship name="demands" direction="input" target="Axis"/>
   </rules>
 </morphology>
 )";

@@ -153,8 +153,8 @@ TEST_F(RouterOrder, ShutdownWaitsForNothingAndEarlierOnesToItsSimplexAreWithdraw
     EXPECT_EQ(begun, (Numbers{2, -2}));
     EXPECT_EQ(outcomeOf(4), Outcome::Expired);
     EXPECT_TRUE(
-        rig.hasEvent("tool: add(amount=3): Expired, a later command of its sender went "
-                     "first in 1 cycle"));
+        rig.hasEvent("tool: add(amount=3): Expired, withdrawn by a later shutdown of "
+                     "its sender in 1 cycle"));
 }
 
 TEST_F(RouterOrder, ShutdownOfAnotherSimplexLetsThemRun) {

@@ -359,5 +359,29 @@ TEST(Intersection, LeavesDefaultsAndSafeValuesThatDifferToTheChild) {
     EXPECT_EQ(settled.data("A", "x").safe.kind, Safe::Kind::Observed);
 }
 
+std::string ofLength(std::size_t length, const std::string& element) {
+    std::string text;
+    for (std::size_t i = 0; i < length; ++i) text += (i > 0 ? " " : "") + element;
+    return "length='" + std::to_string(length) + "' default='" + text + "'";
+}
+
+TEST(DataItem, HasNoTextThatOtherAgentsDoNotGet) {
+    const std::string labels(65'534, 'x');
+    EXPECT_TRUE(isValid(item("kind='int' " + ofLength(32'768, "1"))));
+    EXPECT_TRUE(finds(item("kind='int' " + ofLength(32'769, "1")), "text-length", "A", 2, "65537"));
+    EXPECT_TRUE(isValid(item("kind='int' labels='0:" + labels + "'")));
+    EXPECT_TRUE(finds(item("kind='int' labels='0:x" + labels + "'"), "text-length", "A", 2));
+    EXPECT_TRUE(
+        finds(readTypes("<type name='A'\nversion='" + labels + "xxx'/>"), "text-length", "A", 1));
+}
+
+TEST(DataItem, HasNoNegativeZeroAsABound) {
+    for (const char* zero : {"-0.0", "-0", "-0e3"}) {
+        const XmlModel model = item("kind='float' min='" + std::string{zero} + "'");
+        ASSERT_TRUE(isValid(model));
+        EXPECT_EQ(toText(*model.data("A", "x").min), "0") << zero;
+    }
+}
+
 }  // namespace
 }  // namespace cortex

@@ -123,6 +123,46 @@ TEST(Validation, FindsWritersOfWhomSomeAreDelayed) {
               "write <relate rule=\"demands\" to=\"/d\" delayed=\"true\"/>");
 }
 
+TEST(Validation, FindsSafeValuesThatADelayedOutputOfAControllerWouldIgnore) {
+    const auto finding = only(
+        checkSmall(simplex("/c", "Controller",
+                           relate("axes", "/o") + relate("demands", "/d", "delayed=\"true\"")) +
+                   simplex("/o", "Axis") + simplex("/d", "Axis")));
+
+    EXPECT_EQ(finding.severity, Severity::Error);
+    EXPECT_EQ(finding.rule, "delayed-safe");
+    EXPECT_EQ(finding.path, "/c");
+    EXPECT_EQ(finding.place.line, 5);
+    EXPECT_TRUE(contains(finding.message,
+                         "is delayed, so /d is an observation, and safe of 'mode' (small.xml:15), "
+                         "'note' (small.xml:16), 'position' (small.xml:13), 'velocity' "
+                         "(small.xml:14) is ignored: in Standby and Fault"))
+        << finding.message;
+    EXPECT_TRUE(finding.remedy.starts_with("write <relate rule=\"demands\" to=\"/d\"/>; "))
+        << finding.remedy;
+}
+
+TEST(Validation, FindsThemWhereADeviceFollowsWhatIsDelayed) {
+    const std::string follows =
+        simplex("/drive", "Drive", relate("demands", "/a")) + simplex("/a", "Axis");
+    const auto delayed = only(checkSmall(simplex("/p", "Pair", relate("left", "/a")) + follows));
+    const auto nobody =
+        checkSmall(simplex("/p", "Pair", relate("left", "/a")) +
+                   simplex("/w", "Watcher", relate("seen", "/a")) + simplex("/a", "Axis"));
+    const auto measured =
+        checkSmall(simplex("/s", "Device", relate("observation", "/a")) + follows);
+    const auto without =
+        checkSmall(simplex("/p", "Painter", relate("lights", "/l")) + simplex("/l", "Lamp"));
+
+    EXPECT_EQ(delayed.rule, "delayed-safe");
+    EXPECT_TRUE(delayed.remedy.starts_with(
+        "remove delayed=\"true\" from rule 'left' (small-morphology.xml:"))
+        << delayed.remedy;
+    for (const CheckedModel* model : {&nobody, &measured, &without}) {
+        EXPECT_EQ(model->count("delayed-safe"), 0U) << model->report.text();
+    }
+}
+
 TEST(Validation, FindsASimplexThatOneOwnerWritesByTwoRules) {
     const auto finding =
         only(checkSmall(simplex("/p", "Pair", relate("right", "/a") + relate("left", "/a")) +

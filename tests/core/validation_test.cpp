@@ -234,6 +234,22 @@ TEST(Validation, RefusesToSetWhatTheFrameworkWrites) {
     EXPECT_EQ(checked.find("setting-framework")->remedy, "remove this <set>");
 }
 
+TEST(Validation, SaysThatAMeasuredItemIsWrittenByItsSimplex) {
+    SimplexTree tree{
+        test::readTypes(
+            "<type name='Pump'><data name='spent' kind='float' measured='true'/></type>")
+            .files.types};
+    tree.add("/a", "Pump").set("spent", 1.0);
+
+    const Report report = validate(tree);
+
+    ASSERT_FALSE(report.ok());
+    EXPECT_EQ(report.findings.back().rule, "setting-framework");
+    EXPECT_TRUE(contains(report.findings.back().message,
+                         ") is measured: its simplex writes it, so no file gives it a value"))
+        << report.text();
+}
+
 TEST(Validation, ChecksSettingsMadeInCode) {
     SimplexTree tree{smallTypes()};
     tree.add("/a", "Axis").set("position", true);
@@ -277,8 +293,12 @@ TEST(Validation, TakesRemoteSimplexesAsInputsOnly) {
 
 TEST(Validation, ChecksTheRatesOfASystemMadeInCode) {
     SystemDescription system;
-    for (const auto& [path, every, phase] :
-         {std::tuple{"/a", 0, -1}, {"/b", 2, 2}, {"/c", 2, -2}, {"/d", 2, 1}}) {
+    for (const auto& [path, every, phase] : {std::tuple{"/a", 0, -1},
+                                             {"/b", 2, 2},
+                                             {"/c", 2, -2},
+                                             {"/d", 2, 1},
+                                             {"/e", 1'000'000, 0},
+                                             {"/f", 1'000'001, 0}}) {
         system.simplexes.push_back({path, "Switch", every, phase, {}, {}, {}});
     }
     system.simplexes.push_back({"/lamp", "Lamp", 2, 0, {}, {}, {}});
@@ -288,12 +308,14 @@ TEST(Validation, ChecksTheRatesOfASystemMadeInCode) {
 
     report.append(validate(tree));
 
-    ASSERT_EQ(report.findings.size(), 4U) << report.text();
+    ASSERT_EQ(report.findings.size(), 5U) << report.text();
     EXPECT_EQ(report.findings[0].rule, "every-range");
     EXPECT_EQ(report.findings[1].rule, "phase-range");
     EXPECT_EQ(report.findings[2].rule, "phase-range");
-    EXPECT_EQ(report.findings[3].rule, "every-without-task");
-    EXPECT_EQ(report.findings[3].path, "/lamp");
+    EXPECT_EQ(report.findings[3].rule, "every-range");
+    EXPECT_EQ(report.findings[3].path, "/f");
+    EXPECT_EQ(report.findings[4].rule, "every-without-task");
+    EXPECT_EQ(report.findings[4].path, "/lamp");
 }
 
 TEST(Validation, WantsTheTypeOfTheAgentItself) {

@@ -160,6 +160,23 @@ TEST(DemandQualityOfALoss, NeverLosesTheDemandHoweverLongASensorIsGone) {
     EXPECT_EQ(plant.seen.back().state.quality, Quality::Stale);
 }
 
+TEST(DemandQualityOfASlowWriter, IsStaleBeforeItsFirstRunToo) {
+    for (const bool shared : {false, true}) {
+        SafePlant plant{shared};
+        plant.controller.runEvery(500, 499);
+        if (shared) plant.cluster.tree.at("/other").runEvery(500, 499);
+        plant.start();
+
+        for (const Seen& seen : plant.seen) {
+            EXPECT_EQ(seen.velocity, 0);
+            EXPECT_EQ(seen.state.quality, Quality::Stale) << shared;
+            EXPECT_NE(plant.pathOf(seen.state.cause), "none") << "a writer of it";
+        }
+        EXPECT_EQ(plant.seen.size(), 5U);
+        EXPECT_EQ(plant.cluster.quality("/d"), Quality::Stale);
+    }
+}
+
 // Of a shared demand: the safe value goes out in the cycle of the refusal, and says so.
 TEST(DemandQualityOfARefusal, IsStaleAtOnce) {
     SafePlant plant{true};

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/error.hpp"
 
-#include "support/probe.hpp"
+#include "support/safe_plant.hpp"
 
 #include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -143,6 +144,95 @@ TEST_F(Settings, ThatNobodyJudgesAreAppliedAsTheyCome) {
     EXPECT_EQ(cluster.call("/plain", "set", {{"gain", 7.0}}).outcome, Outcome::Done);
 
     EXPECT_EQ(cluster.number(plain.path(), "gain"), 7);
+}
+
+// A sensor, and a controller that needs it and writes /d, of which both items are settable.
+class SettingsOfADemand : public testing::Test {
+protected:
+    void start() {
+        Simplex& signal = cluster.tree.add("/s", "Signal");
+        Simplex& demand = cluster.tree.add("/d", "DriveWord");
+        cluster.tree.relate(sensor, "out", signal);
+        cluster.tree.relate(writer, "guarded", signal);
+        cluster.tree.relate(writer, "out", demand);
+        sensor.onLoopEnd = [this](Probe& self, const Tick&) {
+            if (lost) self.setQuality(Quality::Lost);
+        };
+        writer.onActive = [this](Probe& self, const Tick&) {
+            if (faults) self.fault(3, "asked for");
+        };
+        cluster.start();
+        cluster.step(5);
+    }
+    void startUp() {
+        cluster.startup(sensor);
+        cluster.startup(writer);
+        cluster.step(5);
+    }
+    std::string setSpeed(double speed) {
+        return cluster.call("/d", "set", {{"speed", speed}}).text();
+    }
+
+    ProbeCluster cluster;
+    Probe& sensor = cluster.probe("/sensor");
+    Probe& writer = cluster.probe("/a");
+    bool lost = false, faults = false;
+};
+
+TEST_F(SettingsOfADemand, AreRefusedWhileItsWriterRestsAndItsSafeValueStands) {
+    start();
+
+    EXPECT_EQ(setSpeed(5),
+              "Rejected (state): /d is a demand that is safe: its writer /a is in Standby; a set "
+              "would not act");
+    EXPECT_EQ(cluster.number("/d", "speed"), 0);
+    startUp();
+    faults = true;
+    cluster.step(5);
+
+    EXPECT_EQ(setSpeed(5),
+              "Rejected (state): /d is a demand that is safe: its writer /a is in Fault; a set "
+              "would not act");
+}
+
+TEST_F(SettingsOfADemand, AreRefusedWhileItsWriterLacksAnInput) {
+    start();
+    startUp();
+    lost = true;
+    cluster.step(5);
+    ASSERT_EQ(cluster.state("/a"), State::Active);
+
+    EXPECT_EQ(setSpeed(5),
+              "Rejected (state): /d is a demand that is safe: its writer /a has lost an input; a "
+              "set would not act");
+    EXPECT_EQ(cluster.number("/d", "speed"), 0);
+}
+
+TEST_F(SettingsOfADemand, GoOutWhileItsWriterIsActive) {
+    start();
+    startUp();
+
+    EXPECT_EQ(setSpeed(5), "Done");
+    cluster.step(5);
+    EXPECT_EQ(cluster.number("/d", "speed"), 5);
+}
+
+TEST_F(SettingsOfADemand, GoOutAtRestWhereTheItemIsItsWritersThen) {
+    start();
+
+    EXPECT_EQ(cluster.call("/d", "set", {{"word", std::int64_t{3}}}).text(), "Done");
+    cluster.step(5);
+    EXPECT_EQ(cluster.integer("/d", "word"), 3);
+}
+
+TEST(SettingsOfASharedDemand, AreRefusedAsThatOfOneWriterIsTakenInEachCycle) {
+    SafePlant plant{true};
+    plant.start();
+    plant.startUp();
+
+    EXPECT_EQ(plant.cluster.call("/d", "set", {{"velocity", 1.5}}).text(),
+              "Rejected (state): /d has several writers, and what one of them writes goes out; a "
+              "set would not act");
 }
 
 }  // namespace

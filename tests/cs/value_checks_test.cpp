@@ -150,6 +150,55 @@ TEST_F(WrittenValues, AreLookedAtInEveryState) {
     EXPECT_EQ(cluster.quality("/seen"), Quality::Bad);
 }
 
+// /a shows two names of its own.
+struct WrittenTexts : testing::Test {
+    WrittenTexts() {
+        probe.onPopulate = [this](Probe& self) { names = self.array<std::string_view>("names"); };
+        cluster.start();
+        cluster.startup(probe);
+    }
+    void write(std::string_view text) {
+        probe.onActive = [this, text](Probe&, const Tick&) { names[1] = text; };
+        cluster.step();
+    }
+    std::int64_t told(const std::string& part) {
+        const std::vector<std::string> events = cluster.events();
+        return std::ranges::count_if(
+            events, [&](const std::string& each) { return each.find(part) != std::string::npos; });
+    }
+
+    ProbeCluster cluster;
+    Probe& probe = cluster.probe("/a", "SettledProbe");
+    TextArray<std::string_view> names;
+};
+
+TEST_F(WrittenTexts, ThatOthersCanReadAreNotTold) {
+    for (const char* each : {"", "\x01\x7f", "\u00e9\U0001F600"}) write(each);
+
+    EXPECT_EQ(told("names of /a"), 0);
+}
+
+TEST_F(WrittenTexts, WithTheOctet0AreToldOnceAndStand) {
+    const std::string_view text{"a\0b", 3};
+    write(text);
+    write("good");
+    write(text);
+
+    EXPECT_EQ(told("/a: names of /a has the octet 0: other agents and tools get what is in front "
+                   "of it"),
+              1);
+    EXPECT_EQ(names[1].get(), text);
+    EXPECT_EQ(cluster.quality("/a"), Quality::Good);
+    EXPECT_EQ(cluster.integer("/test", "limitCount"), 0);
+}
+
+TEST_F(WrittenTexts, ThatAreNoUtf8AreToldOnce) {
+    write("\xff");
+    write("\xfe");
+
+    EXPECT_EQ(told("names of /a is not UTF-8"), 1);
+}
+
 // /a observes /switches, whose labels are its range but for `open`.
 struct WrittenLabels : testing::Test {
     WrittenLabels() {

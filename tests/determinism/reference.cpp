@@ -29,6 +29,16 @@ std::string cut(std::string_view text, std::size_t capacity) {
     return std::string{text.substr(0, capacity)};
 }
 
+std::string inEvent(std::string_view text) {
+    constexpr std::size_t capacity = 150, longWord = 40;
+    if (text.size() <= capacity) return std::string{text};
+    std::size_t end = capacity - 4;
+    while ((static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
+    const std::size_t blank = text.rfind(' ', end - 1);
+    if (blank != std::string_view::npos && end - blank <= longWord) end = blank + 1;
+    return cut(text, end) + "…";
+}
+
 Shape::Shape(const Type& type) {
     for (const DataItem& item : type.data) {
         if (item.constant) continue;
@@ -305,11 +315,10 @@ void Reference::cycle() {
 }
 
 void Reference::post(int simplex, Severity severity, EventKind kind, std::string text) {
-    posted_.push_back(
-        {at(simplex).rank,
-         phase_,
-         posted_.size(),
-         {cycle_, now_, 0, at(simplex).path, severity, kind, cut(text, eventCapacity)}});
+    posted_.push_back({at(simplex).rank,
+                       phase_,
+                       posted_.size(),
+                       {cycle_, now_, 0, at(simplex).path, severity, kind, inEvent(text)}});
 }
 
 // Canonical order, then as posted.

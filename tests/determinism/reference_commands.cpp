@@ -189,8 +189,8 @@ void Reference::drainVisitors(int simplex, State state) {
         visitors.erase(visitors.begin());
         visitor.queued = false;
         Ending ending{Outcome::Expired, Reason::None, "its time was over before its turn"};
-        if (visitor.withdrawn) {
-            ending.why = "a later command of its sender went first";
+        if (!visitor.withdrawnBy.empty()) {
+            ending.why = "withdrawn by a later " + visitor.withdrawnBy + " of its sender";
         } else if (cycle_ <= visitor.cycle + visitor.plan->budget) {
             const Caller caller{nullptr, &visitor, 0, visitor.cycle};
             double sum = 0;

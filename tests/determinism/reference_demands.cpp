@@ -104,6 +104,7 @@ void Reference::initialiseDemands() {
                 }
             }
             writeSafe(*output);
+            output->seen->state = {0, 0, static_cast<std::uint32_t>(simplex), Quality::Stale};
         }
     }
     for (RefSimplex& simplex : all_) {

@@ -92,7 +92,8 @@ struct Visitor {
     std::int64_t cycle = 0;  // in which it came
     int simplex = 0;
     std::int64_t waitUntil = 0;  // for earlier ones in queues
-    bool queued = false, withdrawn = false;
+    bool queued = false;
+    std::string withdrawnBy{};     // the command that went first
     std::optional<Ending> ending;  // or Running, not yet told
     std::int64_t latency = 0;
     bool over = false;
@@ -208,7 +209,7 @@ std::string inText(double number);
 std::string inText(double number, double other);  // so that they look different
 // As much of a text as fits; all texts here are ASCII.
 std::string cut(std::string_view text, std::size_t capacity);
-inline constexpr std::size_t eventCapacity = 150;
+std::string inEvent(std::string_view text);  // what does not fit ends at a word, with "…"
 // "add needs Active, is Standby"
 std::string needs(const std::string& what, const StateSet& states, State state);
 

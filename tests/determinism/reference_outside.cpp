@@ -85,8 +85,10 @@ void Reference::release(std::vector<Visitor*>& waiting, std::vector<Visitor*>& a
         bool holdsUp = false;
         allOf([&](Visitor& each) { holdsUp = holdsUp || wouldOvertake(first, each); });
         if (holdsUp && first.sequence > due) break;
-        allOf(
-            [&](Visitor& each) { each.withdrawn = each.withdrawn || wouldOvertake(first, each); });
+        allOf([&](Visitor& each) {
+            if (each.withdrawnBy.empty() && wouldOvertake(first, each))
+                each.withdrawnBy = first.plan->command;
+        });
         first.queued = !isLifeCycle(first);
         arrivals.push_back(&first);
         waiting.erase(waiting.begin());
@@ -260,7 +262,7 @@ int Reference::groupBlocker(int simplex) {
 
 void Reference::groupFails(int simplex, const std::string& text) {
     group_.failures[{startLevels_[index(simplex)], at(simplex).rank}] =
-        at(simplex).path + " " + cut(text, eventCapacity);
+        at(simplex).path + " " + inEvent(text);
 }
 
 void Reference::groupAsk(int simplex) {
@@ -327,14 +329,14 @@ std::string Reference::groupAnswer() {
     std::string text;
     std::size_t more = 0;
     for (const auto& [place, failure] : group_.failures) {
-        const std::string one = cut((text.empty() ? "" : "; ") + failure, eventCapacity);
+        const std::string one = inEvent((text.empty() ? "" : "; ") + failure);
         if (text.empty() || (more == 0 && text.size() + one.size() <= most))
             text += one.substr(0, most);
         else
             ++more;
     }
     if (more > 0) text += "; and " + std::to_string(more) + " more, as events say";
-    return cut(text, eventCapacity);
+    return inEvent(text);
 }
 
 }  // namespace cortex::determinism

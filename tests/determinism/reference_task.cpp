@@ -14,7 +14,7 @@ void Reference::fault(int simplex, std::int64_t code, std::string_view text) {
     if (task.faultPending) return;
     task.faultPending = true;
     task.faultCode = code;
-    task.text = cut(text, eventCapacity);
+    task.text = inEvent(text);
 }
 
 void Reference::runTask(int simplex) {

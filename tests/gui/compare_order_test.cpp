@@ -85,7 +85,7 @@ TEST_F(ComparedOrder, WhatIsNoNumberStandsAtTheEndAndInfinitiesBeyondEveryLimit)
     EXPECT_EQ(rowOf("/w/3").distance, "−∞ lower");
     EXPECT_EQ(rowOf("/w/8").distance, "−∞ upper");
     EXPECT_EQ(rowOf("/w/4").distance, "−50.0 %  −0.5 upper");
-    const QStringList lines = rows.csv().trimmed().split('\n');
+    const QStringList lines = QString::fromStdString(rows.csv()).trimmed().split('\n');
     EXPECT_TRUE(lines[1].startsWith("/w/8,inf,m,0,1,-inf,-inf,good,")) << lines[1].toStdString();
     EXPECT_TRUE(lines[7].startsWith("/w/2,nan,m,0,1,,,good,")) << lines[7].toStdString();
 }
@@ -129,7 +129,7 @@ TEST_F(ComparedOrder, WholeNumbersKeepTheirLastDigit) {
     EXPECT_EQ(limitText(rowOf("/p/3")),
               "Limits: −9223372036854775808 to 9223372036854775807. "
               "1 below the upper one.");
-    const QString csv = rows.csv();
+    const QString csv = QString::fromStdString(rows.csv());
     const QString limits = ",,-9223372036854775808,9223372036854775807,";
     EXPECT_TRUE(csv.contains("/p/1,9007199254740993" + limits + "9214364837600034814,"))
         << csv.toStdString();
@@ -171,7 +171,7 @@ TEST_F(ComparedOrder, OneDimensionIsComparedInOneUnitAndAnotherStandsBehind) {
 TEST_F(ComparedOrder, ATextKeepsItsLineBreakInTheFile) {
     agent.put("/n", "text", std::string{"two\nlines"});
     (void)sorted("text", CompareModel::Path);
-    EXPECT_TRUE(rows.csv().contains("\n/n,\"two\nlines\",")) << rows.csv().toStdString();
+    EXPECT_NE(rows.csv().find("\n/n,\"two\nlines\","), std::string::npos) << rows.csv();
 }
 
 TEST_F(ComparedOrder, ANumberIsNeverCutByItsColumn) {

@@ -301,6 +301,16 @@ TEST_F(EventTab, OpensARowOfManyByTheRightArrowAndClosesItByTheLeftOne) {
     EXPECT_EQ(table().currentIndex().row(), 0) << "of the row that was open";
 }
 
+TEST_F(EventTab, WritesControlCharactersAsTheyAre) {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("events.csv");
+    events.add({eventOf(1, "message", "/a", "two\r\nlines \x1b[31m")});
+    view.exportTo(path);
+    QFile file{path};
+    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+    EXPECT_TRUE(file.readAll().endsWith(",message,/a,\"two\r\nlines \x1b[31m\"\n"));
+}
+
 TEST_F(EventTab, WritesWhatIsShownToAFileOrSaysWhyNot) {
     const QTemporaryDir folder;
     const QString path = folder.filePath("events.csv");

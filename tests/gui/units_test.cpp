@@ -203,7 +203,7 @@ TEST_F(Units, AComparisonIsShownInThemAndItsFileIsInThoseOfTheModel) {
     EXPECT_EQ(rows.index(0, CompareModel::Value).data(), "30.000");
     EXPECT_EQ(rows.index(0, CompareModel::Unit).data(), "°");
     EXPECT_TRUE(rows.index(0, CompareModel::Distance).data().toString().endsWith("15.000 upper"));
-    const QStringList line = rows.csv().split('\n')[1].split(',');
+    const QStringList line = QString::fromStdString(rows.csv()).split('\n')[1].split(',');
     EXPECT_EQ(line[1].left(16), "0.52359877559829");
     EXPECT_EQ(line[2], "rad");
 }

@@ -8,6 +8,7 @@
 #include "cortex/cs/cluster_cs.hpp"
 #include "cortex/toolkit/classes.hpp"
 
+#include "give_way.hpp"
 #include "hook_check.hpp"
 #include "model_dump.hpp"
 #include "options.hpp"
@@ -231,15 +232,18 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     cluster.start();
     if (retains) retained.keep(cluster);
     printStart(line, cluster, settings, tree.simplexes().size());
-    const auto isSecond = [&] { return !line.wait && network != nullptr && network->isSecond(); };
+    const auto isSecond = [&] { return network != nullptr && network->isSecond(); };
     const auto isOver = countdown(line.seconds, startUp);
+    GiveWay giveWay{cluster, settings.name, line.startup};
     watch(cluster, settings.name, [&] {
         hookCheck.look();
-        if (isSecond()) return true;
-        startUp ? startUp->look() : notStarted->look();
+        if (!line.wait && isSecond()) return true;
+        const auto turn = giveWay.look(isSecond());
+        if (turn == GiveWay::Turn::OursAgain && startUp) startUp->again();
+        if (turn != GiveWay::Turn::Theirs) startUp ? startUp->look() : notStarted->look();
         return isOver();
     });
-    if (isSecond()) {
+    if (giveWay.isAway() || isSecond()) {
         std::cerr << "another start of " << settings.name << " is there; this one ends"
                   << std::endl;
         cluster.stop();

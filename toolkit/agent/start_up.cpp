@@ -69,6 +69,15 @@ void StartUp::look() {
     complete_ = missing.empty();
 }
 
+void StartUp::again() {
+    began_.reset();
+    sent_ = 0;
+    answerIsDue_ = told_ = complete_ = false;
+    missing_.clear();
+    started_.clear();
+    notFollowed_.clear();
+}
+
 std::string StartUp::missingText(const MissingLinks& missing) const {
     std::string text;
     for (const auto& [path, neededBy] : missing) {

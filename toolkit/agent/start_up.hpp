@@ -24,7 +24,8 @@ public:
     StartUp(const StartUp&) = delete;
     StartUp& operator=(const StartUp&) = delete;
 
-    void look();  // again and again, while the loop runs
+    void look();   // again and again, while the loop runs
+    void again();  // from the beginning: everything was shut down in between
     // Who is there has followed or not, or it takes longer than anyone waits for.
     bool isOver() const { return over_; }
     // At the end: who was not started, and what is not there; "" if all were started.

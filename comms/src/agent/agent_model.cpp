@@ -2,6 +2,7 @@
 #include "agent/agent_model.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/sending_checks.hpp"
 #include "cortex/core/type_description.hpp"
 
 #include "wire/cdr.hpp"
@@ -88,10 +89,14 @@ void AgentModel::addTypes() {
     const std::vector<std::string> names{used.begin(), used.end()};
     std::map<std::string, TypeHash> hashes;
     std::vector<TypeMessage> all;
+    std::vector<TypeDescription> described;
     for (const Type* type : closureOf(*self_.structure().types, names)) {
-        all.push_back(typeMessage(describe(*type)));
+        described.push_back(describe(*type));
+        all.push_back(typeMessage(described.back()));
         hashes[type->name] = all.back().hash;
     }
+    Report report = checkDescribed(*self_.structure().types, described);
+    if (!report.ok()) throw ModelError{std::move(report)};
     pack(std::move(all), &Model::types);
     presence_.types = static_cast<std::uint32_t>(hashes.size());
     presence_.typesHash = typesHash(hashes);

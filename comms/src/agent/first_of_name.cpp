@@ -2,6 +2,7 @@
 #include "agent/first_of_name.hpp"
 
 #include "peers/owners.hpp"
+#include "security/security_documents.hpp"
 #include "wire/presence_extras.hpp"
 #include "wire/presence_interval.hpp"
 
@@ -29,6 +30,14 @@ void FirstOfName::note(const std::string& text, std::int64_t now) {
     other_ = text;
 }
 
+// Empty: it is not known yet what this start has itself.
+std::string FirstOfName::systemOf(const Presence& rival) const {
+    if (!ownHeard_) return "";
+    const bool isSame = rival.typesHash == ownTypes_ && rival.structureHash == ownStructure_;
+    return (isSame ? ": the same system, started at " : ": another system, started at ") +
+           utcText(rival.epoch / 1'000'000);
+}
+
 std::string FirstOfName::otherSelf(std::int64_t now) const {
     return other_.empty() || now - noted_ > tellAgain ? "" : other_;
 }
@@ -50,6 +59,8 @@ void FirstOfName::hear(const Presence& ours, std::int64_t now) {
     const bool runs = ours.state == "running";
     if (ours.epoch == self_.epoch) {
         ownHeard_ = true;
+        ownTypes_ = ours.typesHash;
+        ownStructure_ = ours.structureHash;
         ownPatience_ = patienceWith(ours);
         if (runs || isSecond_) return;
         const std::string forged = "somebody else says that " + self_.name + " is " + ours.state;
@@ -57,7 +68,7 @@ void FirstOfName::hear(const Presence& ours, std::int64_t now) {
         return tell(Severity::Warning, forged, now);
     }
     const std::string rival = "another start of " + self_.name + " is heard, on host " + ours.host;
-    note(rival, now);
+    note(rival + systemOf(ours), now);
     if (ours.state == "silent") {  // it says so again and again, and ends nobody's silence
         if (!isSecond_) tell(Severity::Warning, rival + "; it is silent while this one runs", now);
         return;

@@ -34,6 +34,7 @@ private:
     void yield(const std::string& why, std::int64_t now);
     bool comesBefore(const Presence& rival, std::int64_t now) const;
     void note(const std::string& text, std::int64_t now);
+    std::string systemOf(const Presence& rival) const;
     void tell(Severity severity, const std::string& text, std::int64_t now);
 
     AgentSelf& self_;
@@ -41,6 +42,7 @@ private:
     std::int64_t noted_ = 0;
     std::int64_t stoodFrom_ = 0, wentOn_ = 0;  // 0: it did not stand still
     std::int64_t ownPatience_ = 0;             // of others with this start
+    Id ownTypes_{}, ownStructure_{};           // once this start has heard itself
     std::string other_;                        // who speaks in this name
     bool isSecond_ = false, ownHeard_ = false;
 };

@@ -142,7 +142,9 @@ Writer<M>::~Writer() {
 template <class M>
 bool Writer<M>::write(const M& message) {
     Envelope<M> envelope{&message, {}, false};
-    return impl_->writer->write(&envelope);
+    if (impl_->writer->write(&envelope)) return true;
+    if (!canEncode(message)) impl_->gate->unsent.add(M::typeName);
+    return false;
 }
 
 template <class M>
@@ -327,6 +329,7 @@ std::vector<std::string> Participant::takeRefusals() {
     auto refusals = impl_->guard ? impl_->guard->takeRefusals() : std::vector<std::string>{};
     std::ranges::move(impl_->gate->filter.takeReports(monotonicNow()),
                       std::back_inserter(refusals));
+    std::ranges::move(impl_->gate->unsent.takeReports(), std::back_inserter(refusals));
     return refusals;
 }
 
@@ -337,6 +340,7 @@ std::uint64_t Participant::refused() const {
 std::map<std::string, Participant::Refused> Participant::refusals() const {
     std::map<std::string, Refused> all{
         {"a sample could not be decoded", {malformed(), ""}},
+        {"a sample could not be encoded", {impl_->gate->unsent.count(), ""}},
         {"security refused their sender", {impl_->guard ? impl_->guard->refused() : 0, ""}}};
     const rtps::DatagramFilter& filter = impl_->gate->filter;
     for (std::size_t i = 0; i < rtps::refusals; ++i) {

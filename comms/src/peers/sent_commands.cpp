@@ -44,10 +44,12 @@ std::int64_t untilOf(const CommandTarget& agent, std::chrono::nanoseconds budget
     return agent.clock + (now - agent.clockHeard).count() + budget.count() + period;
 }
 
-std::string tooLarge(std::size_t size) {
+std::string tooLarge(std::size_t size, const Command& command) {
+    const bool one = command.arguments.size() == 1;
     return "the command takes " + std::to_string(size) + " octets, and at most " +
-           std::to_string(maxInOneDatagram) +
-           " can be sent at once; nothing was sent: set fewer items at a time";
+           std::to_string(maxInOneDatagram) + " can be sent at once; nothing was sent: " +
+           (one ? "give '" + command.arguments.front().name + "' its value in the system file"
+                : "set fewer items at a time");
 }
 
 // What the agent says of a command that it does not execute.
@@ -100,7 +102,7 @@ std::uint64_t SentCommands::send(const CommandTarget& agent, std::string_view pa
         namedValues(argumentsOf(tables.of(head.simplex), head.command, prepared.request()));
     if (const std::size_t size = encodedSize(message); size > maxInOneDatagram) {
         numbers_.at(next_).sequence =
-            target.client.takeBack(prepared, Outcome::Rejected, tooLarge(size));
+            target.client.takeBack(prepared, Outcome::Rejected, tooLarge(size, message));
         return next_++;
     }
     pending.next = now;

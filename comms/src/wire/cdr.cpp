@@ -223,6 +223,13 @@ std::size_t encode(const Message& message, std::span<std::uint8_t> payload) {
 }
 
 template <class Message>
+bool canEncode(const Message& message) {
+    Encoder<false> counter;
+    counter(message);
+    return counter.ok();
+}
+
+template <class Message>
 bool decode(std::span<const std::uint8_t> payload, Message& message) {
     if (payload.size() < headerSize || payload[0] != 0 || payload[1] > 1) return false;
     const bool little = payload[1] == 1;
@@ -249,6 +256,15 @@ template std::size_t encode(const Summary&, std::span<std::uint8_t>);
 template std::size_t encode(const Command&, std::span<std::uint8_t>);
 template std::size_t encode(const Answer&, std::span<std::uint8_t>);
 template std::size_t encode(const EventMessage&, std::span<std::uint8_t>);
+
+template bool canEncode(const Presence&);
+template bool canEncode(const Model&);
+template bool canEncode(const Interest&);
+template bool canEncode(const Block&);
+template bool canEncode(const Summary&);
+template bool canEncode(const Command&);
+template bool canEncode(const Answer&);
+template bool canEncode(const EventMessage&);
 
 template bool decode(std::span<const std::uint8_t>, Presence&);
 template bool decode(std::span<const std::uint8_t>, Model&);

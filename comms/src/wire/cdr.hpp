@@ -26,6 +26,8 @@ std::size_t encodedSize(const Message& message);  // with the 4 octets of encaps
 // ends a string.
 template <class Message>
 std::size_t encode(const Message& message, std::span<std::uint8_t> payload);
+template <class Message>
+bool canEncode(const Message& message);  // false: a string is too long
 
 // False: the payload is malformed; `message` then has some valid value. True: every field was read,
 // and at most 3 octets of padding follow. The memory that it reserves is in proportion to the

@@ -223,7 +223,7 @@ OutsideEntry& Router::admit(const OutsideCommand& command, std::uint32_t record)
     entry.fresh = false;
     entry.ran = false;
     entry.queued = false;
-    entry.withdrawn = false;
+    entry.withdrawnBy = {};
     entry.watched = LifeCycle::None;
     entry.moved = false;
     std::copy_n(command.request, command.size, entry.request);

@@ -170,8 +170,9 @@ bool Router::mustLetGo(const OutsideEntry& entry) const {
 
 void Router::withdrawEarlier(const OutsideEntry& entry) {
     if (!actsFirst(entry)) return;
+    const std::string_view by = runtime_.commands(entry.simplex).entries[entry.command].name;
     const auto withdraw = [&](OutsideEntry* each) {
-        each->withdrawn = each->withdrawn || wouldOvertake(entry, *each);
+        if (each->withdrawnBy.empty() && wouldOvertake(entry, *each)) each->withdrawnBy = by;
     };
     std::ranges::for_each(arrivals_, withdraw);
     std::ranges::for_each(active_, withdraw);

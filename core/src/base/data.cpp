@@ -2,7 +2,11 @@
 #include "cortex/core/data.hpp"
 
 #include "cortex/core/error.hpp"
+#include "cortex/core/text_faults.hpp"
 
+#include "base/text.hpp"
+
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstring>
@@ -14,7 +18,7 @@ namespace cortex {
 
 namespace {
 
-std::atomic<std::uint64_t> changes{0};
+std::atomic<std::uint64_t> changes{0}, faults{0};
 
 constexpr std::array cellTypes{"std::int64_t", "double", "bool", "std::string_view"};
 
@@ -35,6 +39,15 @@ std::uint64_t textChanges() { return changes.load(std::memory_order_relaxed); }
 
 void countTextChange() { changes.fetch_add(1, std::memory_order_relaxed); }
 
+std::uint64_t textFaults() { return faults.load(std::memory_order_relaxed); }
+
+const char* textFault(std::string_view text) {
+    const auto isPlain = [](char c) { return static_cast<signed char>(c) > 0; };
+    if (std::ranges::all_of(text, isPlain)) return nullptr;
+    if (text.find('\0') != std::string_view::npos) return "has the octet 0";
+    return isUtf8(text) ? nullptr : "is not UTF-8";
+}
+
 std::size_t fittingLength(std::string_view text, std::size_t capacity) {
     if (text.size() <= capacity) return text.size();
     constexpr unsigned continuationMask = 0xc0U, continuation = 0x80U;
@@ -52,6 +65,7 @@ void StringCell::assign(std::string_view value) {
     if (fitting < value.size() && cuts < std::numeric_limits<std::uint32_t>::max()) ++cuts;
     if (fitting > 0) std::memmove(text(), value.data(), fitting);
     length = static_cast<std::uint16_t>(fitting);
+    if (textFault(view()) != nullptr) faults.fetch_add(1, std::memory_order_relaxed);
     countTextChange();
 }
 

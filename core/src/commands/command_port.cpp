@@ -3,6 +3,8 @@
 
 #include "cortex/core/argument_checks.hpp"
 
+#include "commands/safe_refusal.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -197,8 +199,10 @@ void CommandPort::drainOutside() {
         outside_ = entry.next;
         entry.queued = false;
         Verdict verdict;
-        if (entry.withdrawn) {
-            verdict = {Outcome::Expired, Reason::None, "a later command of its sender went first"};
+        if (!entry.withdrawnBy.empty()) {
+            EventText why{"withdrawn by a later "};
+            verdict = {Outcome::Expired, Reason::None,
+                       why << entry.withdrawnBy << " of its sender"};
         } else if (isOver(entry.notAfter, entry.until, thread_->clock)) {
             verdict = {Outcome::Expired, Reason::None, "its time was over before its turn"};
         } else {
@@ -324,6 +328,10 @@ bool CommandPort::settable(const SettableItem& target, const std::byte* request,
     const DataItem& item = *target.check->item;
     if (!stateless_ && !item.settable.has(state_)) {
         refuse(verdict, Reason::State, stateRefusal(item.name, item.settable, state_));
+        return false;
+    }
+    if (const auto safe = safeRefusal(agent_.structure, agent_.tables, simplex_, item)) {
+        refuse(verdict, Reason::State, *safe);
         return false;
     }
     if (checkArgument(*target.check, request, verdict.why)) return true;

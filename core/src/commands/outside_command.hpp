@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace cortex {
 
@@ -34,7 +35,8 @@ struct OutsideEntry {
     OutsideEntry* next = nullptr;
     std::int64_t waitUntil = 0;  // cycle; then it goes on without what is missing below it
     bool queued = false;         // on its way to a queue or in one, not begun
-    bool withdrawn = false;      // a later command of its sender went first: it does not run
+    // The later command of its sender that went first; with a name it does not run.
+    std::string_view withdrawnBy{};
 
     AnswerHead answer;
     bool fresh = false;  // the router has not seen this answer

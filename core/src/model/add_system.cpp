@@ -91,10 +91,11 @@ void addSetting(const TypeModel& types, Simplex& simplex, const SystemDescriptio
     }
     const std::string mended =
         item->labels.empty() ? valueText(item->initial) : withNearestLabels(*item, setting.value);
-    report.error(
-        simplex.path(), ruleOf(*item, setting.value), setting.place,
-        "item '" + setting.data + "' is " + shapeOf(*item) + ": " + why,
-        mended.empty() ? "write one of the labels" : "write " + setText(setting.data, mended));
+    report.error(simplex.path(), ruleOf(*item, setting.value), setting.place,
+                 "item '" + setting.data + "' is " + shapeOf(*item) + ": " + why,
+                 mended.empty() && !item->labels.empty()
+                     ? "write one of the labels"
+                     : "write " + setText(setting.data, mended));
 }
 
 }  // namespace

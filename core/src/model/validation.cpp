@@ -14,6 +14,8 @@
 namespace cortex {
 namespace {
 
+constexpr int mostEvery = 1'000'000;  // cycles: others read no more (peer_structure.cpp)
+
 void checkAgentType(const Checked& checked) {
     if (checked.tree.types().find("Agent") != nullptr) return;
     const auto& description = checked.tree.description();
@@ -53,6 +55,10 @@ void checkRate(const Checked& checked, const Simplex& simplex) {
         checked.report.error(simplex.path(), finding::everyRange, simplex.place(),
                              "every=\"" + every + "\": a simplex runs every 1st, 2nd, … cycle",
                              "write every=\"1\"");
+    } else if (simplex.every() > mostEvery) {
+        checked.report.error(simplex.path(), finding::everyRange, simplex.place(),
+                             "every=\"" + every + "\": other agents read at most 1000000",
+                             "write every=\"1000000\" or less");
     } else if (simplex.phase() < -1 || simplex.phase() >= simplex.every()) {
         checked.report.error(simplex.path(), finding::phaseRange, simplex.place(),
                              "phase=\"" + std::to_string(simplex.phase()) +
@@ -99,6 +105,7 @@ Report validate(const SimplexTree& tree) {
     }
     checkCrossedPairs(tree, std::array{&tree}, report);
     checkFlow(checked);
+    checkDelayedDemands(checked);
     return report;
 }
 

@@ -41,6 +41,8 @@ void reportUnknownItem(const TypeModel& types, const Simplex& simplex,
                        const Simplex::Setting& setting, Report& report);
 // Over all relationships: writers, demands without a safe value, loops.
 void checkFlow(const Checked& checked);
+// Demands that a delayed output makes observations, so that no safe value stands.
+void checkDelayedDemands(const Checked& checked);
 
 // "rule 'axes' (robotics-morphology.xml:14)"; without the place where the finding itself has it.
 std::string ruleText(const Simplex& owner, const Rule& rule);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/system_findings.hpp"
+#include "cortex/core/text_faults.hpp"
 
 #include "base/text.hpp"
 #include "model/remedies.hpp"
@@ -19,10 +20,16 @@ using Setting = Simplex::Setting;
 constexpr std::array frameworkTypes{"Active", "Activity", "Agent", "Cluster"};
 
 bool isFramework(const TypeModel& types, const Type& type, const DataItem& item) {
-    return item.measured || std::ranges::any_of(frameworkTypes, [&](const char* name) {
-               const Type* base = types.find(name);
-               return base != nullptr && type.isA(name) && base->findData(item.name) != nullptr;
-           });
+    return std::ranges::any_of(frameworkTypes, [&](const char* name) {
+        const Type* base = types.find(name);
+        return base != nullptr && type.isA(name) && base->findData(item.name) != nullptr;
+    });
+}
+
+// Why a system file gives it no value; "" if it may.
+std::string notGiven(const TypeModel& types, const Type& type, const DataItem& item) {
+    if (isFramework(types, type, item)) return "is written by the framework";
+    return item.measured ? "is measured: its simplex writes it, so no file gives it a value" : "";
 }
 
 long double exact(const Number& number) {
@@ -119,6 +126,13 @@ void checkInts(const Case& each, std::vector<std::int64_t> values) {
 }
 
 void checkStrings(const Case& each, std::vector<std::string> values) {
+    for (const std::string& value : values) {
+        const char* fault = textFault(value);
+        if (fault == nullptr) continue;
+        each.error(finding::settingKind, std::string{"is set to a text that "} + fault,
+                   each.item.initial);
+        return;
+    }
     const auto longest = std::ranges::max_element(values, {}, &std::string::size);
     if (longest == values.end() || longest->size() <= each.item.capacity) return;
     const std::size_t size = longest->size();
@@ -160,7 +174,7 @@ void reportUnknownItem(const TypeModel& types, const Simplex& simplex, const Set
                        Report& report) {
     std::vector<std::string> names;
     for (const DataItem& item : simplex.type().data) {
-        if (!isFramework(types, simplex.type(), item)) names.push_back(item.name);
+        if (notGiven(types, simplex.type(), item).empty()) names.push_back(item.name);
     }
     std::string nearest;
     if (looksForNearest(report)) nearest = nearestName(setting.item, names);
@@ -178,13 +192,15 @@ void checkSettings(const Checked& checked, const Simplex& simplex) {
         const DataItem* item = simplex.type().findData(setting.item);
         if (item == nullptr) {
             reportUnknownItem(checked.tree.types(), simplex, setting, checked.report);
-        } else if (isFramework(checked.tree.types(), simplex.type(), *item)) {
-            checked.report.error(simplex.path(), finding::settingFramework, setting.place,
-                                 "item '" + item->name + "' (" + item->place.text() +
-                                     ") is written by the framework",
-                                 "remove this <set>");
-        } else {
+            continue;
+        }
+        const std::string why = notGiven(checked.tree.types(), simplex.type(), *item);
+        if (why.empty()) {
             checkValue({checked, simplex, setting, *item});
+        } else {
+            checked.report.error(simplex.path(), finding::settingFramework, setting.place,
+                                 "item '" + item->name + "' (" + item->place.text() + ") " + why,
+                                 "remove this <set>");
         }
     }
 }

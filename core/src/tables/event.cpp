@@ -66,6 +66,17 @@ auto mergeKey(const Event& event) {
     return std::tie(event.cycle, event.order, event.sequence, event.number);
 }
 
+constexpr std::string_view ellipsis = "…";
+
+// Behind the last whole word that fits, or in the middle of a long one.
+std::size_t endOfCut(std::string_view text, std::size_t capacity) {
+    constexpr std::size_t longWord = 40;
+    const std::size_t fitting = fittingLength(text, capacity);
+    const std::size_t blank = text.substr(0, fitting).rfind(' ');
+    const bool isNear = blank != std::string_view::npos && fitting - blank <= longWord;
+    return isNear ? blank + 1 : fitting;
+}
+
 using NumberBuffer = std::array<char, 32>;
 
 template <class... Form>
@@ -88,10 +99,18 @@ std::optional<EventKind> eventKindFromName(std::string_view text) {
     return fromSpelling<EventKind>(text);
 }
 
+// Of a text that was cut the last octet is set, which is behind its end. Nothing comes after that.
 EventText& EventText::operator<<(std::string_view text) {
+    const bool isCut = length_ < text_.size() && text_.back() != 0;
+    if (isCut) return *this;
     const std::size_t fitting = fittingLength(text, text_.size() - length_);
     if (fitting > 0) std::memcpy(text_.data() + length_, text.data(), fitting);
     length_ = static_cast<std::uint16_t>(length_ + fitting);
+    if (fitting == text.size()) return *this;
+    const std::size_t end = endOfCut(view(), text_.size() - 1 - ellipsis.size());
+    std::memcpy(text_.data() + end, ellipsis.data(), ellipsis.size());
+    length_ = static_cast<std::uint16_t>(end + ellipsis.size());
+    text_.back() = '\1';
     return *this;
 }
 

@@ -42,7 +42,8 @@ bool ofType(const TypeAttribute& ours, const TypeAttribute&) {
 }
 
 bool ofData(const TypeAttribute& ours, const TypeAttribute& theirs) {
-    constexpr std::array<std::string_view, 4> shape{"kind", "length", "capacity", "unit"};
+    constexpr std::array<std::string_view, 5> shape{"kind", "length", "capacity", "unit",
+                                                    "constant"};
     if (std::ranges::find(shape, ours.name) != shape.end()) return true;
     return ours.name.starts_with("label ") && !ours.value.empty() && !theirs.value.empty();
 }

@@ -2,6 +2,7 @@
 #include "cortex/core/data.hpp"
 #include "cortex/core/findings.hpp"
 #include "cortex/core/labelled_value.hpp"
+#include "cortex/core/text_faults.hpp"
 
 #include "base/bounds.hpp"
 #include "base/text.hpp"
@@ -74,8 +75,8 @@ std::string elementError(const DataItem& item, const T& element) {
         if (element.size() > item.capacity) {
             return "is longer than the capacity of " + std::to_string(item.capacity) + " octets";
         }
-        if (element.find('\0') != std::string::npos) return "has the octet 0";
-        return isUtf8(element) ? "" : "is not UTF-8";
+        const char* fault = textFault(element);
+        return fault == nullptr ? "" : fault;
     } else if constexpr (std::is_same_v<T, std::int64_t> || std::is_same_v<T, double>) {
         const Number number{element};
         if constexpr (std::is_same_v<T, double>) {
@@ -199,6 +200,31 @@ void checkTexts(const DataItem& item, const ItemContext& context) {
     }
 }
 
+// Another agent gets each attribute as one text.
+void checkSent(const DataItem& item, const ItemContext& context) {
+    const auto judge = [&](const char* what, std::size_t octets, const char* remedy) {
+        if (octets <= bounds::sentText) return;
+        context.error(finding::textLength,
+                      std::string{"has "} + what + " of " + std::to_string(octets) +
+                          " octets as text: other agents get at most 65536",
+                      remedy);
+    };
+    constexpr std::uint32_t fewest = 8;  // elements: less are never as long
+    constexpr const char* shorter =
+        "leave out what is zero anyway, or write a shorter array, shorter texts or fewer digits";
+    const bool isLong = item.length >= fewest;
+    if (isLong && item.hasDefault) judge("a default", toText(item.initial).size(), shorter);
+    if (isLong && item.safe.kind == Safe::Kind::Given) {
+        judge("a safe value", toText(item.safe.value).size(), shorter);
+    }
+    std::size_t labels = 0;
+    for (const auto& [number, label] : item.labels) {
+        labels += (labels > 0 ? 1 : 0) + toText(number).size() + 1 + label.size();
+    }
+    judge("labels", labels, "shorten them");
+    judge("a unit", item.unit.size(), "shorten it");
+}
+
 // A text whose blanks divide elements would come back as other elements.
 void checkRetained(DataItem& item, const ItemContext& context) {
     if (!item.retain) return;
@@ -305,6 +331,7 @@ void checkData(DataItem& item, const DataItem* own, const ItemContext& context) 
     checkLabels(item, own, context);
     checkValues(item, own, context);
     checkTexts(item, context);
+    checkSent(item, context);
 }
 
 std::size_t recordSize(const std::vector<DataItem>& parameters) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/findings.hpp"
 
+#include "base/bounds.hpp"
 #include "base/text.hpp"
 #include "types/type_attributes.hpp"
 #include "types/type_merge.hpp"
@@ -157,6 +158,12 @@ void check(Rule& rule, const Rule* own, const Stated& stated, const ItemContext&
         rule.max = std::max(rule.min, 1U);
     }
     if (!own) return;
+    if (joined(own->create).size() > bounds::sentText) {
+        context.error(finding::textLength,
+                      "creates so many that their types take more than 65536 octets as text: other "
+                      "agents do not get it",
+                      "create fewer, and write the others as simplexes of the system");
+    }
     const bool lossWritten = stated.isWritten("onLoss", own->onLoss != OnLoss::Propagate) ||
                              stated.isWritten("maxAge", false);
     if (rule.direction == Direction::Output && lossWritten) {

@@ -257,6 +257,13 @@ void TypeResolver::resolveFlags(Type& type, const TypeDeclaration& declaration) 
         report_.error(type.name, finding::textLength, declaration.place,
                       "has a description of more than 4096 octets", "shorten it");
     }
+    for (const std::string Type::* text :
+         {&Type::version, &Type::since, &Type::replaces, &Type::icon}) {
+        if ((type.*text).size() <= bounds::sentText) continue;
+        report_.error(type.name, finding::textLength, declaration.place,
+                      "has an attribute of more than 65536 octets: other agents do not get it",
+                      "shorten it");
+    }
 }
 
 }  // namespace cortex

@@ -4,6 +4,8 @@
 #include "cortex/core/error.hpp"
 #include "cortex/core/framework_item.hpp"
 
+#include "tasks/task_demands.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <ranges>
@@ -24,7 +26,7 @@ struct TaskBuilder {
     std::vector<DemandLimits*> limitsOf;  // per simplex
     std::vector<std::vector<Arbiter::Candidate>> candidates;
     struct RunEnds {
-        std::size_t floats = 0, ints = 0, labels = 0;
+        std::size_t floats = 0, ints = 0, labels = 0, texts = 0;
     };
     std::vector<RunEnds> runEnds;  // per task
 
@@ -90,11 +92,12 @@ struct TaskBuilder {
         RunEnds before;
         for (std::size_t t = 0; t < set.tasks.size(); ++t) {
             if (set.tasks[t].simplex == nullptr) continue;
-            const auto [floats, ints, labels] = runEnds[t];
+            const auto [floats, ints, labels, texts] = runEnds[t];
             set.runsOf[t] = {
                 std::span{set.runs.floats}.subspan(before.floats, floats - before.floats),
                 std::span{set.runs.ints}.subspan(before.ints, ints - before.ints),
-                std::span{set.runs.labels}.subspan(before.labels, labels - before.labels)};
+                std::span{set.runs.labels}.subspan(before.labels, labels - before.labels),
+                std::span{set.runs.texts}.subspan(before.texts, texts - before.texts)};
             before = runEnds[t];
         }
     }
@@ -128,7 +131,8 @@ struct TaskBuilder {
         details.checks = checksOf(agent.tables().live(index), index);
         if (details.checks != nullptr) task.values = Task::Values::ToPass;
         runEnds[static_cast<std::size_t>(&task - set.tasks.data())] = {
-            set.runs.floats.size(), set.runs.ints.size(), set.runs.labels.size()};
+            set.runs.floats.size(), set.runs.ints.size(), set.runs.labels.size(),
+            set.runs.texts.size()};
         task.inputCount = static_cast<std::uint32_t>(set.inputs.size()) - task.firstInput;
         task.outputCount = static_cast<std::uint32_t>(set.outputs.size()) - task.firstOutput;
     }
@@ -178,6 +182,7 @@ struct TaskBuilder {
                 layout(edge.target), out, *limitsOf[edge.target], observedLayout, observed));
             output.safe = set.safe.back().get();
             output.standsSafe = true;
+            *out.state = ofSafeDemand(task.index, {});  // its writer may run much later
             task.demands = Task::Demands::Bound;
             if (!shared) output.limits = limitsOf[edge.target];
         } else {

@@ -95,6 +95,7 @@ struct TaskRuns {
     std::span<const ValueRun<double>> floats;
     std::span<const ValueRun<std::int64_t>> ints;
     std::span<const LabelRun> labels;
+    std::span<const TextRun> texts;
 };
 
 // What it looks at when something happens, or where a task does not run in every cycle.

@@ -67,7 +67,12 @@ void TaskValues::report(const ValueChecks& checks, const ValueChecks::Beginning&
     const DataItem& item = *each.item;
     EventText text{item.name};
     text << " of " << set_.structure.simplexes[checks.simplex()].path;
-    if (each.notFinite) {
+    if (each.text != nullptr) {
+        text << " " << each.text << ": other agents and tools "
+             << (each.text == std::string_view{"is not UTF-8"} ? "may not show it"
+                                                               : "get what is in front of it")
+             << (item.retain ? ", and its last good value is retained" : "");
+    } else if (each.notFinite) {
         text << " is not a number: its quality is bad";
     } else {
         text << " is ";

@@ -31,6 +31,9 @@ private:
         for (const auto& run : runs.labels) {
             if (!run.passes()) return false;
         }
+        for (const auto& run : runs.texts) {
+            if (!run.passes()) return false;
+        }
         return true;
     }
     // True: a value is wrong.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tasks/value_checks.hpp"
 
+#include "cortex/core/cell.hpp"
 #include "cortex/core/labelled_value.hpp"
 
 #include <algorithm>
@@ -60,10 +61,15 @@ ValueChecks::ValueChecks(const TypeModel& types, const TypeLayout& layout, const
     join(std::move(found.floats), runs.floats);
     join(std::move(found.ints), runs.ints);
     runs.labels.insert(runs.labels.end(), found.labels.begin(), found.labels.end());
-    beginnings_.reserve(items_.size());
+    if (!texts_.empty()) runs.texts.push_back({&faultsSeen_});
+    beginnings_.reserve(items_.size() + texts_.size());
 }
 
 void ValueChecks::add(const DataItem& item, const void* cells, ValueRuns& runs) {
+    if (item.kind == Kind::String) {
+        texts_.push_back({&item, static_cast<const std::byte*>(cells)});
+        return;
+    }
     constexpr double greatest = std::numeric_limits<double>::max();
     const bool ranged = item.min || item.max || isClosed(item);
     if (item.kind != Kind::Float && !(item.kind == Kind::Int && ranged)) return;
@@ -105,13 +111,13 @@ bool ValueChecks::judge(const Item& item, Beginning& found) {
             const std::int64_t value = static_cast<const std::int64_t*>(item.cells)[i];
             const bool inRange = value >= item.minInt && value <= item.maxInt;
             if (inRange && (!item.gaps || item.item->labels.contains(value))) continue;
-            found = {item.item, static_cast<double>(value), false};
+            found = {item.item, static_cast<double>(value), false, nullptr};
             return true;
         }
         const double value = static_cast<const double*>(item.cells)[i];
         if (value >= item.min && value <= item.max) continue;
         const bool notFinite = !std::isfinite(value);
-        if (!wrong || notFinite) found = {item.item, value, notFinite};
+        if (!wrong || notFinite) found = {item.item, value, notFinite, nullptr};
         wrong = true;
         if (notFinite) return true;
     }
@@ -130,7 +136,25 @@ ValueChecks::Result ValueChecks::examine() {
         result.notFinite = result.notFinite || (wrong && found.notFinite);
         result.outOfRange = result.outOfRange || (wrong && !found.notFinite);
     }
+    examineTexts();
     return result;
+}
+
+// A text stays as it is: a hook may want it so, and only others cannot read it.
+void ValueChecks::examineTexts() {
+    const std::uint64_t faults = textFaults();
+    if (texts_.empty() || faultsSeen_ == faults) return;
+    faultsSeen_ = faults;
+    for (Text& text : texts_) {
+        for (std::uint32_t i = 0; i < text.item->length && !text.told; ++i) {
+            const auto* cell = reinterpret_cast<const StringCell*>(
+                text.cells + i * StringCell::size(text.item->capacity));
+            const char* fault = textFault(cell->view());
+            if (fault == nullptr) continue;
+            text.told = true;
+            beginnings_.push_back({text.item, 0, false, fault});
+        }
+    }
 }
 
 }  // namespace cortex::cs

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "cortex/core/structure.hpp"
+#include "cortex/core/text_faults.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -36,15 +38,23 @@ struct LabelRun {
                            [this](std::int64_t each) { return labels->contains(each); });
     }
 };
+// The texts of one simplex, which are looked at again after any text has got a fault.
+struct TextRun {
+    const std::uint64_t* seen;
+
+    bool passes() const CORTEX_REALTIME { return *seen == textFaults(); }
+};
 struct ValueRuns {
     std::vector<ValueRun<double>> floats;
     std::vector<ValueRun<std::int64_t>> ints;
     std::vector<LabelRun> labels;
+    std::vector<TextRun> texts;
 };
 
 // Looks at what a task has written where nothing limits it: an observation, or its own items. Not
-// finite, or out of the range of the type, which labels are where there is no other. Built by
-// start(); used by the task that writes, where the runs that it gave the task do not pass.
+// finite, or out of the range of the type, which labels are where there is no other; of a text,
+// whether others can read it. Built by start(); used by the task that writes, where the runs that
+// it gave the task do not pass.
 class ValueChecks {
 public:
     // The first cycle of an episode of one item.
@@ -52,6 +62,7 @@ public:
         const DataItem* item;
         double value;
         bool notFinite;
+        const char* text = nullptr;  // the fault of a text, which is told once
     };
     struct Result {
         bool any = false;
@@ -64,7 +75,10 @@ public:
     ValueChecks(const TypeModel& types, const TypeLayout& layout, const Slice& values,
                 std::uint32_t simplex, ValueRuns& runs);
 
-    bool empty() const { return items_.empty(); }
+    ValueChecks(const ValueChecks&) = delete;
+    ValueChecks& operator=(const ValueChecks&) = delete;
+
+    bool empty() const { return items_.empty() && texts_.empty(); }
     std::uint32_t simplex() const { return simplex_; }
     // What is wrong, item by item.
     Result examine() CORTEX_REALTIME;
@@ -79,12 +93,20 @@ private:
         bool inEpisode = false;
         bool gaps = false;  // only labelled numbers are right, and some between them have none
     };
+    struct Text {
+        const DataItem* item;
+        const std::byte* cells;
+        bool told = false;
+    };
     void add(const DataItem& item, const void* cells, ValueRuns& runs);
+    void examineTexts() CORTEX_REALTIME;
     void addInts(Item& item, ValueRuns& runs);
     static bool judge(const Item& item, Beginning& found) CORTEX_REALTIME;
 
     std::uint32_t simplex_;
     std::vector<Item> items_;
+    std::vector<Text> texts_;
+    std::uint64_t faultsSeen_ = 0;
     std::vector<Beginning> beginnings_;
 };
 

@@ -19,7 +19,7 @@ _cortex() {
         save) options="--force $network" ;;
         conform) options="--move --speed --home --grip --seconds --junit --force --take $network" ;;
         restore) options="--dry-run --take $network" ;;
-        watch) options="--rate --count --csv $network" ;;
+        watch) options="--rate --count --csv --labels $network" ;;
         events) options="--follow --severity --csv $network" ;;
         validate | diff) options="--json --help" ;;
         types) options="--file $network" ;;

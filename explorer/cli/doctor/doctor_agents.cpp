@@ -34,6 +34,16 @@ const char* remedyFor(const std::string& refused) {
                : "look for programs of another version, and for strangers on the network";
 }
 
+// As the agent says of who else speaks in its name, if it knows what that one runs.
+const char* remedyForName(const std::string& otherSelf) {
+    if (otherSelf.find(": the same system") != std::string::npos)
+        return "the system runs twice: end the other start, unless it is wanted as a spare "
+               "(--wait), which leaves the devices to this one";
+    if (otherSelf.find(": another system") != std::string::npos)
+        return "give one of the two systems another name: <cluster name=…>";
+    return "end the other one; if nobody started it, somebody forges messages: turn security on";
+}
+
 void examineState(const comms::AgentStatus& agent, Diagnoses& found) {
     const std::string who = agent.name + " on " + agent.host;
     const auto add = [&](Level level, const std::string& message, const std::string& remedy) {
@@ -62,7 +72,7 @@ void examineState(const comms::AgentStatus& agent, Diagnoses& found) {
     }
     if (!agent.otherSelf.empty()) {
         add(Level::Error, who + " is not alone with its name: " + agent.otherSelf,
-            "end the other one; if nobody started it, somebody forges messages: turn security on");
+            remedyForName(agent.otherSelf));
     }
     if (!agent.dropped.empty()) {
         add(Level::Warning, who + " dropped datagrams: " + printable(agent.dropped),
@@ -93,15 +103,20 @@ void examineSecurity(const std::vector<comms::AgentStatus>& agents, Diagnoses& f
                      "give each of them a folder of the same authority"});
 }
 
-// The agent that was there first says that it hears another start of its name.
+// The agent that was there first says that it hears another start of its name. Nothing more is said
+// of those whose state tells it already.
 void examineNames(const std::map<std::string, std::set<std::int64_t>>& starts,
-                  const std::vector<comms::AgentEvent>& events, Diagnoses& found) {
+                  const std::vector<comms::AgentEvent>& events,
+                  const std::vector<comms::AgentStatus>& agents, Diagnoses& found) {
     std::set<std::string> doubled;
     for (const auto& [agent, epochs] : starts) {
         if (epochs.size() > 1) doubled.insert(agent);
     }
     for (const comms::AgentEvent& each : events) {
         if (each.text.starts_with("another start of ")) doubled.insert(each.agent);
+    }
+    for (const auto& each : agents) {
+        if (!each.otherSelf.empty()) doubled.erase(each.name);
     }
     for (const std::string& each : doubled) {
         found.push_back({Level::Error, "name", "several agents are called " + each,
@@ -174,7 +189,7 @@ void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
                          "look for programs of another version, and for strangers on the network"});
     }
     examineSecurity(agents, found);
-    examineNames(starts, arrivals.take(std::chrono::milliseconds{0}), found);
+    examineNames(starts, arrivals.take(std::chrono::milliseconds{0}), agents, found);
 }
 
 }  // namespace cortex::cli

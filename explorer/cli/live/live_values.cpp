@@ -4,9 +4,12 @@
 #include "cortex/core/labelled_value.hpp"
 #include "cortex/core/nearest_names.hpp"
 
+#include "common/csv_cell.hpp"
 #include "common/number_text.hpp"
 
 #include <algorithm>
+
+#include <unistd.h>
 
 namespace cortex::cli {
 namespace {
@@ -80,6 +83,10 @@ std::string exactText(const DataItem& item, const Value& value) {
     return textOf(item, value, exactNumber);
 }
 
+std::string plainText(const DataItem& item, const Value& value) {
+    return item.labels.empty() ? exactText(item, value) : toText(value);
+}
+
 std::string wrongText(const DataItem& item, const Value& value) {
     const std::string wrong = outsideText(item, value);
     return wrong.empty() ? "" : "  <- " + wrong;
@@ -119,11 +126,8 @@ ProgramInterface::Arguments parseArguments(const std::string& what, const Record
 }
 
 std::string csvText(const std::string& text) {
-    std::string visible = printable(text);
-    if (visible.find_first_of(",\" ") == std::string::npos) return visible;
-    std::string result = "\"";
-    for (const char c : visible) result += c == '"' ? "\"\"" : std::string{c};
-    return result + "\"";
+    static const bool terminal = isatty(STDOUT_FILENO) == 1;
+    return common::csvCell(terminal ? printable(text) : text);
 }
 
 }  // namespace cortex::cli

@@ -23,6 +23,7 @@ Json numberJson(const std::optional<Number>& number);      // null without one
 std::string valueText(const DataItem& item, const Value& value);
 // For files: labels, and numbers whole unless the item has a format.
 std::string exactText(const DataItem& item, const Value& value);
+std::string plainText(const DataItem& item, const Value& value);  // the same without labels
 // What is behind a value that is out of its range: "  <- above 2", "  <- none of its labels".
 std::string wrongText(const DataItem& item, const Value& value);
 
@@ -34,6 +35,7 @@ using common::stateOf;
 ProgramInterface::Arguments parseArguments(const std::string& what, const RecordLayout& request,
                                            const std::vector<std::string>& texts);
 
-std::string csvText(const std::string& text);  // quoted where it must be
+// A cell of CSV. Only to a terminal are its control characters escaped: there they would act.
+std::string csvText(const std::string& text);
 
 }  // namespace cortex::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/session.hpp"
 
+#include "common/to_its_sender.hpp"
 #include "text/interrupts.hpp"
 
 #include <algorithm>
@@ -17,6 +18,7 @@ Session::Session(const comms::NetworkOptions& options, std::vector<std::string> 
                  Milliseconds timeout)
     : domain_{options.domain},
       named_{std::move(named)},
+      server_{options.discoveryServer},
       timeout_{timeout},
       mirror_{"cortex", options},
       leases_{mirror_} {}
@@ -30,7 +32,10 @@ comms::CommandAnswer Session::call(const std::string& path, const std::string& c
     for (;;) {
         const auto left = std::chrono::ceil<Milliseconds>(end - std::chrono::steady_clock::now());
         const Milliseconds wait = std::clamp(left, Milliseconds{0}, interruptSlice);
-        if (mirror_.waitForAnswer(number, answer, wait)) return answer;
+        if (mirror_.waitForAnswer(number, answer, wait)) {
+            answer.why = common::toItsSender(answer.why);
+            return answer;
+        }
         if (meanwhile) meanwhile();
         if (left > interruptSlice && Interrupts::signal() == 0) continue;
         mirror_.abandon(number);

@@ -29,6 +29,7 @@ public:
     comms::LeaseClient& leases() { return leases_; }
     int domain() const { return domain_; }
     const std::vector<std::string>& named() const { return named_; }
+    const std::string& discoveryServer() const { return server_; }  // empty: none
     Milliseconds timeout() const { return timeout_; }
     // As the mirror does, but an interrupt ends it; `meanwhile` is called ten times a second.
     comms::CommandAnswer call(const std::string& path, const std::string& command,
@@ -48,6 +49,7 @@ private:
 
     int domain_;
     std::vector<std::string> named_;
+    std::string server_;
     Milliseconds timeout_;
     std::mutex viewMutex_;
     std::vector<std::string> wanted_, viewed_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/model.hpp"
 
+#include "cortex/core/make_structure.hpp"
+#include "cortex/core/sending_checks.hpp"
 #include "cortex/core/validation.hpp"
 
 #include <algorithm>
@@ -101,6 +103,9 @@ Model readSystem(std::span<const fs::path> files) {
     const bool whole =
         model.types().find("Agent") != nullptr || (model.hasSystem && !lacksPart(model.report));
     if (whole) model.report.append(validate(*model.tree));
+    if (whole && model.report.ok()) {
+        model.report.append(checkSending(*model.tree, *makeStructure("", *model.tree)));
+    }
     return model;
 }
 

@@ -94,8 +94,11 @@ Examples:
     verb->add_option("--count", watch->count, "End after so many moments")
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000'000));
-    verb->add_flag("--csv", watch->csv, "Print comma-separated values")
-        ->excludes(verb->get_option("--json"));
+    CLI::Option* csv = verb->add_flag("--csv", watch->csv, "Print comma-separated values")
+                           ->excludes(verb->get_option("--json"));
+    verb->add_flag("--labels", watch->labels,
+                   "With --csv: the labels of numbers that have some, instead of the numbers")
+        ->needs(csv);
 }
 
 CLI::Option* addTake(CLI::App& verb, bool& take) {

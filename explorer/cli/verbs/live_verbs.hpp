@@ -38,6 +38,7 @@ struct WatchOptions : LiveOptions {
     std::uint32_t rate = 5;         // images per second; 0: every cycle
     std::uint64_t count = 0;        // images; 0: for ever
     bool csv = false;
+    bool labels = false;  // in CSV, in place of their numbers
 };
 Exit watchValues(const WatchOptions& options);
 

@@ -10,6 +10,7 @@
 #include "live/control.hpp"
 #include "live/live_values.hpp"
 #include "live/saved_file.hpp"
+#include "live/set_parts.hpp"
 #include "text/interrupts.hpp"
 #include "verbs/live_verbs.hpp"
 
@@ -17,6 +18,7 @@
 #include <iostream>
 #include <list>
 #include <map>
+#include <set>
 
 namespace cortex::cli {
 namespace {
@@ -30,11 +32,13 @@ struct Difference {
     Value now, wanted;
 };
 
-// All items of one simplex that are to be set, and what came of it.
+// Items of one simplex that are set together, and what came of it. All that are to be set, unless
+// they are too large for one command.
 struct Change {
     std::string path;
     Arguments arguments;
     comms::CommandAnswer answer;
+    bool part = false;
 };
 
 struct Plan {
@@ -90,9 +94,11 @@ public:
         }
         plan_.keeps.push_back(found->structure);
         const CommandTable table = commandTable(found->type());
-        Change change{saved.path, {}, {}};
+        Change change{saved.path, {}, {}, false};
         for (const SavedItem& item : saved.items) add(*found, *image, table, item, change);
-        if (!change.arguments.empty()) plan_.changes.push_back(std::move(change));
+        const std::vector<Arguments> parts = setParts(change.arguments);
+        for (const Arguments& each : parts)
+            plan_.changes.push_back({saved.path, each, {}, parts.size() > 1});
     }
 
 private:
@@ -173,7 +179,10 @@ Json planJson(const Plan& plan, bool applied) {
     }
     for (const Change& each : plan.changes) {
         if (!applied) break;
+        Json items = Json::array();
+        for (const auto& [item, value] : each.arguments) items.push_back(item);
         results.push_back({{"path", each.path},
+                           {"items", items},
                            {"outcome", name(each.answer.outcome)},
                            {"reason", each.answer.why}});
     }
@@ -224,17 +233,28 @@ Exit apply(Live& live, Plan& plan) {
     return exit;
 }
 
+// "/c"; of a part, or of one item, "/c.gain".
+std::string whatChanges(const Change& change) {
+    if (!change.part && change.arguments.size() > 1) return change.path;
+    std::vector<std::string> items;
+    for (const auto& [name, value] : change.arguments) items.push_back(change.path + "." + name);
+    return joined(items);
+}
+
 void printResults(const Plan& plan) {
-    std::size_t done = 0, items = 0;
+    std::set<std::string> done;
+    std::size_t items = 0;
     for (const Change& each : plan.changes) {
         if (each.answer.done()) {
-            ++done;
+            done.insert(each.path);
             items += each.arguments.size();
         } else {
-            std::cerr << "cortex: " << each.path << ": " << printable(each.answer.text()) << '\n';
+            std::cerr << "cortex: " << whatChanges(each) << ": " << printable(each.answer.text())
+                      << '\n';
         }
     }
-    std::cout << "set " << plural(items, "item") << " of " << plural(done, "simplex") << '\n';
+    std::cout << "set " << plural(items, "item") << " of " << plural(done.size(), "simplex")
+              << '\n';
 }
 
 }  // namespace

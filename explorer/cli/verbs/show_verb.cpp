@@ -157,6 +157,9 @@ std::string rangeText(const DataItem& item) {
     return (item.min ? toText(*item.min) : "") + " .. " + (item.max ? toText(*item.max) : "");
 }
 
+// For a look it is enough if nobody else is about to say that the path is his, too.
+constexpr std::chrono::milliseconds othersAwaited{300};
+
 std::string bracketed(const std::string& text) { return '[' + text + ']'; }
 
 void printHead(const Shown& shown) {
@@ -252,7 +255,7 @@ Exit showSimplex(const ShowOptions& options) {
     checkPath(options.path);
     Live live{options.network};
     live.view({options.path}, 100);
-    Shown shown{live.find(options.path), {}, {}};
+    Shown shown{live.find(options.path, othersAwaited), {}, {}};
     shown.image = live.values(shown.simplex, devicesOf(shown.simplex));
     shown.owner = live.statusOf(shown.simplex.agent);
     shown.age = live.mirror().age(shown.simplex.agent, shown.simplex.index);

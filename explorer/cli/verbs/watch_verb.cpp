@@ -36,6 +36,7 @@ struct Watched {
 // What is known of a value in one image of its agent.
 struct Reading {
     std::string text;
+    std::string plain;  // without labels
     Json value, label;  // null: it has none
     std::string wrong;  // how it is out of its range
     Quality quality = Quality::Lost;
@@ -136,6 +137,7 @@ Reading read(Live& live, const Watched& watched, Pinned& agent) {
         reading.demand = safeBecause(index, image->state(index), image);
     const Value value = image->value(watched.simplex.index, *watched.item);
     reading.text = exactText(*watched.item->item, value);
+    reading.plain = plainText(*watched.item->item, value);
     reading.value = valueJson(*watched.item->item, value);
     reading.label = labelJson(*watched.item->item, value);
     reading.wrong = outsideText(*watched.item->item, value);
@@ -181,10 +183,11 @@ public:
     }
 
 private:
-    static void csv(const std::string& time, const std::vector<Reading>& readings,
-                    const std::set<std::string>& restarted) {
+    void csv(const std::string& time, const std::vector<Reading>& readings,
+             const std::set<std::string>& restarted) const {
         std::cout << time;
-        for (const Reading& each : readings) std::cout << ',' << csvText(each.text);
+        for (const Reading& each : readings)
+            std::cout << ',' << csvText(options_.labels ? each.text : each.plain);
         for (const Reading& each : readings) std::cout << ',' << name(each.quality);
         std::cout << ',' << csvText(joined({restarted.begin(), restarted.end()}, " ")) << std::endl;
     }
@@ -249,16 +252,16 @@ std::int64_t nextMoment(std::int64_t rate) {
 }
 
 // The lines of every cycle, from the mirror's thread, which has each image for a moment only, to
-// the one that prints. It lives for as long as the mirror does, and does nothing once it is closed.
+// the one that prints.
 class EveryCycle {
 public:
     EveryCycle(Live& live, std::vector<Watched> watched)
-        : live_{&live}, watched_{std::move(watched)} {}
+        : live_{live}, watched_{std::move(watched)} {}
 
     void add(const std::string& agent, std::int64_t cycle) {
         const std::lock_guard lock{mutex_};
-        if (live_ == nullptr || lines_.size() >= most) return;
-        lines_.push_back(readAll(*live_, watched_, now()));
+        if (lines_.size() >= most) return;
+        lines_.push_back(readAll(live_, watched_, now()));
         lines_.back().agent = agent;
         lines_.back().cycle = cycle;
         images_ = images();
@@ -269,28 +272,23 @@ public:
         std::unique_lock lock{mutex_};
         while (!changed_.wait_for(lock, interruptSlice, [&] { return !lines_.empty(); })) {
             throwIfInterrupted();
-            if (std::exchange(images_, images()) != images_)
-                return readAll(*live_, watched_, now());
+            if (std::exchange(images_, images()) != images_) return readAll(live_, watched_, now());
         }
         throwIfInterrupted();
         Sighting line = std::move(lines_.front());
         lines_.pop_front();
         return line;
     }
-    void close() {
-        const std::lock_guard lock{mutex_};
-        live_ = nullptr;
-    }
 
 private:
     static constexpr std::size_t most = 10'000;
 
     // So many were published; one that comes from no block says that values are stale or lost.
-    std::uint64_t images() { return live_->mirror().waitForImage(0, std::chrono::milliseconds{}); }
+    std::uint64_t images() { return live_.mirror().waitForImage(0, std::chrono::milliseconds{}); }
 
     std::mutex mutex_;
     std::condition_variable changed_;
-    Live* live_;
+    Live& live_;
     std::vector<Watched> watched_;
     std::deque<Sighting> lines_;
     std::uint64_t images_ = 0;
@@ -335,18 +333,18 @@ void runAtRate(const WatchOptions& options, Live& live, std::vector<Watched>& wa
 
 void runAtEveryCycle(const WatchOptions& options, Live& live, const std::vector<Watched>& watched,
                      ImagePrinter& printer) {
-    struct Closing {
-        ~Closing() { every->close(); }
-        std::shared_ptr<EveryCycle> every;
+    struct Ending {
+        ~Ending() { listening.stop(); }
+        comms::Listening listening;
     };
-    const auto every = std::make_shared<EveryCycle>(live, watched);
-    const Closing closing{every};
-    live.mirror().onImage([every](const std::string& agent, const comms::AgentImage& image) {
-        every->add(agent, image->cycle());
-    });
+    EveryCycle every{live, watched};
+    const Ending ending{
+        live.mirror().onImage([&every](const std::string& agent, const comms::AgentImage& image) {
+            every.add(agent, image->cycle());
+        })};
     Gaps gaps;
     for (std::uint64_t lines = 0; options.count == 0 || lines < options.count; ++lines) {
-        const Sighting line = every->next();
+        const Sighting line = every.next();
         if (!std::cout) return;
         gaps.add(line);
         printer.line(line);

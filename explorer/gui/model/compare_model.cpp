@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/compare_model.hpp"
 
+#include "common/csv_cell.hpp"
 #include "model/natural_order.hpp"
 
 #include <algorithm>
@@ -16,22 +17,14 @@ namespace {
 
 constexpr std::size_t mostElements = 64;
 
-QString csvField(QString text) {
-    const bool plain = std::ranges::none_of(
-        text, [](QChar c) { return c == ',' || c == '"' || c == '\n' || c == '\r'; });
-    if (plain) return text;
-    return '"' + text.replace('"', QLatin1String{"\"\""}) + '"';
-}
-
 // As the model has it: without a unit and brackets, to the last digit.
-QString exactText(const Value& value, std::size_t element) {
+std::string exactText(const Value& value, std::size_t element) {
     if (element >= lengthOf(value)) return {};
-    if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
-        return QString::fromStdString((*texts)[element]);
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return (*texts)[element];
     if (const auto* bools = std::get_if<std::vector<bool>>(&value))
-        return (*bools)[element] ? QStringLiteral("true") : QStringLiteral("false");
+        return (*bools)[element] ? "true" : "false";
     const auto number = exactOf(value, element);
-    return number ? QString::fromStdString(number->text()) : QStringLiteral("nan");
+    return number ? number->text() : "nan";
 }
 
 // Rows of one dimension are a group; the first has most rows. Numbers are compared in the unit of
@@ -208,28 +201,25 @@ std::vector<std::string> CompareModel::paths() const {
     return paths;
 }
 
-QString CompareModel::csv() const {
-    QString text = QStringLiteral("path,%1,unit,min,max,distance,share,quality,age_s\n")
-                       .arg(QString::fromStdString(item_));
+std::string CompareModel::csv() const {
+    using common::csvCell;
+    std::string text = "path," + item_ + ",unit,min,max,distance,share,quality,age_s\n";
     const auto number = [](const auto& value) {
-        return value ? QString::fromStdString(ExactNumber{*value}.text()) : QString{};
+        return value ? ExactNumber{*value}.text() : std::string{};
     };
     for (const Row& each : rows_) {
         const AgentFrame& agent = frame_->agents[each.place.agent];
         const DataItem& item = *each.item->item;
         const auto value = agent.value(each.place.simplex, *each.item);
-        const QStringList fields{csvField(each.path),
-                                 value ? csvField(exactText(*value, each.element)) : QString{},
-                                 csvField(QString::fromStdString(item.unit)),
-                                 number(item.min),
-                                 number(item.max),
-                                 number(each.left),
-                                 number(each.share),
-                                 QLatin1String{name(agent.quality(each.place.simplex))},
-                                 each.seconds
-                                     ? QString::number(static_cast<double>(*each.seconds), 'g', 17)
-                                     : QString{}};
-        text += fields.join(',') + '\n';
+        text += csvCell(each.path.toStdString()) + ',';
+        if (value) text += csvCell(exactText(*value, each.element));
+        text += ',' + csvCell(item.unit) + ',' + number(item.min) + ',' + number(item.max) + ',' +
+                number(each.left) + ',' + number(each.share) + ',' +
+                name(agent.quality(each.place.simplex)) + ',';
+        if (each.seconds) {
+            text += QString::number(static_cast<double>(*each.seconds), 'g', 17).toStdString();
+        }
+        text += '\n';
     }
     return text;
 }

@@ -38,7 +38,8 @@ public:
     // What a plot shows of a row. None: it is no number.
     RecordedItem recorded(int index) const;
     std::vector<std::string> paths() const;
-    QString csv() const;  // what is seen, a line a row, at full precision in the units of the model
+    std::string csv()
+        const;  // what is seen, a line a row, at full precision in the units of the model
 
     int rowCount(const QModelIndex& parent = {}) const override;
     int columnCount(const QModelIndex& parent = {}) const override;

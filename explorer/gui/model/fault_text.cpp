@@ -19,12 +19,6 @@ QString inOneLine(const std::string& text) {
     return result;
 }
 
-// What an event holds at most.
-std::size_t eventCapacity() {
-    static const std::size_t capacity = EventText{std::string(1'000, 'x')}.view().size();
-    return capacity;
-}
-
 FaultText shown(const std::string& text, bool cut) {
     const QString line = inOneLine(text);
     return {cut ? line + QStringLiteral("…") : line, cut};
@@ -47,7 +41,7 @@ FaultText faultText(const Frame& frame, Place place, const StateTimes& times) {
     const std::string event = times.fault(frame, place);
     const std::string head = "fault " + std::to_string(code.value_or(0)) + ": ";
     if (event.starts_with(head + *brief)) {
-        return shown(event.substr(head.size()), common::fills(event, eventCapacity()));
+        return shown(event.substr(head.size()), false);  // one that was cut says so itself
     }
     const ItemLayout* item = frame.info(place).layout->find("faultText");
     return shown(*brief, common::mayBeCut(*item->item, Value{std::vector{*brief}}));

@@ -4,6 +4,7 @@
 #include "cortex/core/quality.hpp"
 #include "cortex/core/value.hpp"
 
+#include "common/csv_cell.hpp"
 #include "common/utc_text.hpp"
 #include "plots/lanes.hpp"
 
@@ -19,22 +20,11 @@ namespace cortex::gui {
 
 namespace {
 
-// As one field: in quotes where it has a comma, a quote or a line break.
-std::string field(const std::string& text) {
-    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-    std::string result = "\"";
-    for (const char each : text) {
-        if (each == '"') result += '"';
-        result += each;
-    }
-    return result + '"';
-}
-
 std::string columnName(const PlotLine& line) {
     std::string name = line.item.path + '.' + line.item.item;
     if (line.data.length > 1) name += '[' + std::to_string(line.item.element) + ']';
     if (!line.model.unit.empty()) name += '[' + line.model.unit + ']';
-    return field(name);
+    return common::csvCell(name);
 }
 
 constexpr double exactWhole = 9'007'199'254'740'992;  // 2^53
@@ -52,7 +42,7 @@ std::string valueOf(const DrawnLine& line, const Recorder& recorder, double valu
     if (std::isnan(value)) return {};
     switch (line.line.data.kind) {
         case Kind::String:
-            return field(recorder.text(value));
+            return common::csvCell(recorder.text(value));
         case Kind::Bool:
             return value != 0 ? "true" : "false";
         case Kind::Int:

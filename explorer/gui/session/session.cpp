@@ -4,6 +4,7 @@
 #include "cortex/core/error.hpp"
 #include "cortex/core/realtime.hpp"
 
+#include "common/to_its_sender.hpp"
 #include "session/utc_now.hpp"
 
 #include <algorithm>
@@ -300,6 +301,7 @@ void Session::takeAnswers() {
             mirror_->abandon(each.sent);
             outcome.answer.outcome = Outcome::Unknown;
         }
+        outcome.answer.why = common::toItsSender(outcome.answer.why);
         const std::lock_guard lock{mutex_};
         outcomes_.push_back(std::move(outcome));
         return true;

@@ -248,7 +248,7 @@ std::vector<RecordedItem> CompareView::chosenItems() const {
 }
 
 QString CompareView::exportTo(const QString& name) const {
-    return writeWholeFile(name, rows_->csv().toUtf8());
+    return writeWholeFile(name, QByteArray::fromStdString(rows_->csv()));
 }
 
 void CompareView::askForFile() {

@@ -51,6 +51,7 @@ inline constexpr char severalWriters[] = "several-writers";
 inline constexpr char outputTwice[] = "output-twice";
 inline constexpr char delayedMixed[] = "delayed-mixed";
 inline constexpr char delayedDemand[] = "delayed-demand";
+inline constexpr char delayedSafe[] = "delayed-safe";
 inline constexpr char safeNeeded[] = "safe-needed";
 inline constexpr char safeNothing[] = "safe-nothing";
 inline constexpr char observedCounterpart[] = "observed-counterpart";
