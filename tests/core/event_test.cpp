@@ -455,13 +455,13 @@ TEST(EventText, HasNumbersOfSixDigitsOrWholeOrAsManyAsTellTwoApart) {
 }
 
 // As many octets as a text has at most.
-constexpr std::size_t capacity = 150;
+constexpr std::size_t eventCapacity = 150;
 
 TEST(EventText, HoldsAWholeTextThatJustFits) {
     EventText text;
-    for (std::size_t i = 0; i < capacity; ++i) text << "a";
+    for (std::size_t i = 0; i < eventCapacity; ++i) text << "a";
     text << "";
-    EXPECT_EQ(text.view(), std::string(capacity, 'a'));
+    EXPECT_EQ(text.view(), std::string(eventCapacity, 'a'));
 }
 
 TEST(EventText, EndsAtAWordWhereItDoesNotFit) {
@@ -472,8 +472,8 @@ TEST(EventText, EndsAtAWordWhereItDoesNotFit) {
     text << "3";
     EXPECT_TRUE(text.view().ends_with(" followed for …"))
         << "nothing comes after what was left out";
-    EXPECT_EQ(EventText{std::string(capacity, 'a') + " b"}.view(),
-              std::string(capacity - 4, 'a') + "…")
+    EXPECT_EQ(EventText{std::string(eventCapacity, 'a') + " b"}.view(),
+              std::string(eventCapacity - 4, 'a') + "…")
         << "a word that is too long";
 }
 
