@@ -33,6 +33,8 @@ TEST(Patience, GrowsWithThoseWhoWereFoundAndHaveNotSaidWhoTheyAre) {
     EXPECT_EQ(patience.whole(), 13s);
     patience.know(0, 2, begin + 2s);
     EXPECT_EQ(patience.whole(), 13s) << "it does not shrink";
+    patience.know(0, 600, begin + 3s);
+    EXPECT_EQ(patience.whole(), 13s) << "a crowd of strangers is not waited for";
     patience.know(5, 1, begin + 12s);
     EXPECT_EQ(patience.whole(), 15s);
 }

@@ -56,6 +56,7 @@ TEST_F(MirrorAgentsTest, KnowFromEachAgentHowManyThereAre) {
     agent.presence.extras = {{"other", "9"}, {agentsHeard, "2"}};
     tellAll();
     EXPECT_EQ(agents.unheard(), 1U) << "rig hears one that is not here";
+    EXPECT_EQ(status().hears, 2U);
     agent.presence.extras = {{agentsHeard, "1"}};
     tellAll();
     EXPECT_EQ(agents.unheard(), 0U);

@@ -224,6 +224,22 @@ TEST(Participant, CountsMalformedSamplesAndReadsOn) {
     EXPECT_EQ(inbox.elements().back(), presence(3));
 }
 
+TEST(Participant, IsCountedOnceHoweverManyWritersItHas) {
+    Participant agent{loopback(), "agent"}, tool{loopback(), "tool"};
+    Inbox<Presence> inbox;
+    const auto reader = tool.reader<Presence>(topics::presence, inbox.push());
+    std::vector<std::unique_ptr<Writer<Presence>>> writers;
+    for (std::size_t i = 1; i <= 3; ++i) {
+        writers.push_back(agent.writer<Presence>(topics::presence));
+        ASSERT_TRUE(comesTrue([&] { return writers.back()->readers() == 1; }));
+        ASSERT_TRUE(writers.back()->write(presence(i)));
+    }
+    ASSERT_TRUE(inbox.waitFor(3)) << "all of them are met";
+
+    EXPECT_EQ(reader->writers(), 1U);
+    EXPECT_EQ(reader->unheard(), 0U);
+}
+
 TEST(Participant, DoesNotWriteWhatCannotBeEncoded) {
     Participant agent{loopback(), "agent"}, tool{loopback(), "tool"};
     Inbox<Presence> inbox;

@@ -22,6 +22,7 @@ struct Activity : testing::Test {
     std::string calls;  // one letter a call: f first, again, c cancelling
     Outcome next = Outcome::Running;
     Result<std::int64_t> result;
+    Data<double> progress;
 
     void SetUp() override {
         rig.tree.relate(boss, "workers", worker);
@@ -32,6 +33,7 @@ struct Activity : testing::Test {
         watch = output.command("watch");
         cancel = output.command("cancel");
         result = worker.result<std::int64_t>("work", "result");
+        progress = worker.data<double>("progress");
         for (const char* name : {"work", "rework", "watch"}) {
             worker.on(name, [this](Call& call) {
                 calls += call.cancelling() ? 'c' : call.first() ? 'f' : 'a';
@@ -88,6 +90,21 @@ TEST_F(Activity, MayBeDoneAtItsFirstCall) {
     EXPECT_EQ(work.answer().outcome, Outcome::Done);
     EXPECT_EQ(calls, "f");
     EXPECT_EQ(shownOutcome(), Outcome::Done);
+}
+
+TEST_F(Activity, BeginsWithoutTheProgressOfTheOneBefore) {
+    worker.on("work", [this](Call&) {
+        progress = 0.88;
+        return Outcome::Done;
+    });
+    sendInNextCycle(work);
+    rig.step();
+    ASSERT_EQ(rig.get<double>("/worker", "progress"), 0.88);
+
+    sendInNextCycle(watch);
+
+    EXPECT_EQ(shownOutcome(), Outcome::Running);
+    EXPECT_EQ(rig.get<double>("/worker", "progress"), 0);
 }
 
 TEST_F(Activity, IsShownByTheItemsOfItsSimplex) {

@@ -44,7 +44,8 @@ class Reader {
 public:
     ~Reader();
 
-    std::uint32_t writers() const;  // without those that are silent
+    // Participants that write it, without those that are silent.
+    std::uint32_t writers() const;
     std::uint32_t unheard() const;  // of those: nothing of them was passed on
 
 private:

@@ -59,17 +59,24 @@ public:
     std::uint32_t writers(const rtps::DatagramFilter& filter) const {
         const std::lock_guard lock{matched_};
         const std::int64_t now = monotonicNow();
-        return static_cast<std::uint32_t>(std::ranges::count_if(
-            writers_, [&](const auto& each) { return !filter.isSilent(each, now); }));
+        std::uint32_t count = 0;
+        for (auto each = writers_.begin(); each != writers_.end();
+             each = writers_.upper_bound(*each)) {
+            if (!filter.isSilent(*each, now)) ++count;
+        }
+        return count;
     }
 
     // Of those, participants of which nothing was taken.
     std::uint32_t unheard(const rtps::DatagramFilter& filter) const {
         const std::lock_guard lock{matched_};
         const std::int64_t now = monotonicNow();
-        return static_cast<std::uint32_t>(std::ranges::count_if(writers_, [&](const auto& each) {
-            return !heard_.contains(each) && !filter.isSilent(each, now);
-        }));
+        std::uint32_t count = 0;
+        for (auto each = writers_.begin(); each != writers_.end();
+             each = writers_.upper_bound(*each)) {
+            if (!heard_.contains(*each) && !filter.isSilent(*each, now)) ++count;
+        }
+        return count;
     }
 
     void close() {

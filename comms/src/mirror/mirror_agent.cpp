@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::uint16_t major = 1;
 constexpr std::size_t longestReason = 200;
+constexpr std::uint64_t mostHeard = 1'000'000;
 
 }  // namespace
 
@@ -108,6 +109,8 @@ AgentStatus MirrorAgent::status(Moment now) const {
         status.rate = static_cast<double>(numberIn(presence, rateOfLoop)) * 1e-3;
         status.overloaded = !lost && numberIn(presence, overloaded) != 0;
         status.dropped = textIn(presence, droppedDatagrams);
+        status.hears = static_cast<std::uint32_t>(
+            std::min<std::uint64_t>(numberIn(presence, agentsHeard), mostHeard));
         status.summarises = summarises();
         status.refused = textIn(presence, refusedMessages);
         status.otherSelf = textIn(presence, otherSelf).substr(0, longestReason);

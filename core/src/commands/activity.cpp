@@ -25,7 +25,8 @@ Activity::Activity(const PortAccess& agent, std::uint32_t simplex, const Command
       response_{std::make_unique<std::uint64_t[]>(table.maxResponse / 8U + 1U)},
       outcome_{itemOf<std::int64_t>(agent, simplex, "outcome")},
       name_{itemOf<std::string_view>(agent, simplex, "activity")},
-      requester_{itemOf<std::string_view>(agent, simplex, "requester")} {}
+      requester_{itemOf<std::string_view>(agent, simplex, "requester")},
+      progress_{itemOf<double>(agent, simplex, "progress")} {}
 
 void Activity::start(const CommandTable::Entry& entry, const Handler& handler,
                      const std::byte* request, const Origin& origin, Verdict& verdict) {
@@ -37,6 +38,7 @@ void Activity::start(const CommandTable::Entry& entry, const Handler& handler,
                entry.response.size);
     if (name_.bound()) name_ = entry.name;
     if (requester_.bound()) requester_ = requesterName();
+    if (progress_.bound()) progress_ = 0.0;  // of the command before
     if (outcome_.bound()) outcome_ = static_cast<std::int64_t>(Outcome::Failed);
     verdict = call(entry, true, false);  // if it throws: Failed, and not running
     if (verdict.outcome == Outcome::Running) entry_ = &entry;

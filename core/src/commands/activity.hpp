@@ -57,6 +57,7 @@ private:
     std::unique_ptr<std::uint64_t[]> request_, response_;
     Data<std::int64_t> outcome_;  // items of the type Activity, where the simplex has them
     Data<std::string_view> name_, requester_;
+    Data<double> progress_;
 };
 
 }  // namespace cortex

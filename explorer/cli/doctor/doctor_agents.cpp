@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doctor/doctor.hpp"
+#include "doctor/hearing.hpp"
 #include "live/loop_text.hpp"
 #include "live/pinned_cpus.hpp"
 #include "live/top_data.hpp"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <set>
@@ -189,6 +191,9 @@ void examineAgents(Live& live, Arrivals& arrivals, Diagnoses& found) {
                          "look for programs of another version, and for strangers on the network"});
     }
     examineSecurity(agents, found);
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    examineHearing(agents, std::chrono::duration_cast<std::chrono::microseconds>(now).count(),
+                   found);
     examineNames(starts, arrivals.take(std::chrono::milliseconds{0}), agents, found);
 }
 

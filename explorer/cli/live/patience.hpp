@@ -14,8 +14,9 @@ class Patience {
 public:
     using Milliseconds = std::chrono::milliseconds;
     using Moment = std::chrono::steady_clock::time_point;
-    static constexpr Milliseconds longest{30'000};   // that nobody asked for
-    static constexpr Milliseconds forNameless{500};  // each
+    static constexpr Milliseconds longest{30'000};     // that nobody asked for
+    static constexpr Milliseconds forNameless{500};    // each
+    static constexpr std::uint32_t mostNameless = 20;  // strangers may be many
 
     Patience(Milliseconds time, bool grows, Moment now)
         : time_{time}, grows_{grows}, begin_{now}, end_{now + time} {}
@@ -23,7 +24,7 @@ public:
     // So much is known now, of which only what is new counts, and of so many nothing.
     void know(std::uint64_t known, std::uint32_t nameless, Moment now) {
         if (!grows_) return;
-        Moment end = begin_ + time_ + nameless * forNameless;
+        Moment end = begin_ + time_ + std::min(nameless, mostNameless) * forNameless;
         if (known > known_) end = std::max(end, now + time_);
         known_ = std::max(known_, known);
         end_ = std::max(end_, std::min(end, begin_ + longest));

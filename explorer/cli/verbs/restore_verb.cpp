@@ -11,6 +11,7 @@
 #include "live/live_values.hpp"
 #include "live/saved_file.hpp"
 #include "live/set_parts.hpp"
+#include "live/started_anew.hpp"
 #include "text/interrupts.hpp"
 #include "verbs/live_verbs.hpp"
 
@@ -45,6 +46,7 @@ struct Plan {
     std::vector<std::shared_ptr<const Structure>> keeps;  // what the items belong to
     std::vector<Difference> differences;
     std::vector<Change> changes;
+    Starts starts;         // of the agents that were compared
     std::size_t same = 0;  // items
     Report report;
 };
@@ -84,6 +86,7 @@ public:
                                    "\" if they still hold");
             return;
         }
+        plan_.starts.try_emplace(found->agent, live_.statusOf(found->agent).epoch);
         const comms::AgentImage image = live_.mirror().image(found->agent);
         const bool same = image && &image->structure() == found->structure.get();
         if (!same || !isLive(image, found->index)) {
@@ -257,6 +260,17 @@ void printResults(const Plan& plan) {
               << '\n';
 }
 
+// What was compared with another start of an agent may differ by now.
+Exit tellWhoStartedAnew(const Live& live, const Plan& plan) {
+    const auto anew = startedAnew(plan.starts, live.mirror().agents());
+    for (const std::string& each : anew) {
+        std::cerr << "cortex: " << each
+                  << " ended or was started anew meanwhile, so not all may be as in the file: "
+                     "restore it again\n";
+    }
+    return anew.empty() ? Yes : No;
+}
+
 }  // namespace
 
 Exit restoreItems(const RestoreOptions& options) {
@@ -280,7 +294,8 @@ Exit restoreItems(const RestoreOptions& options) {
     if (!options.json && (good || options.dryRun)) printDifferences(plan);
     std::list<BriefControl> control;
     if (applies && options.take) control = controlOf(live, plan);
-    const Exit exit = applies ? apply(live, plan) : good ? Yes : No;
+    Exit exit = applies ? apply(live, plan) : good ? Yes : No;
+    if (applies && tellWhoStartedAnew(live, plan) != Yes) exit = No;
     if (options.json) {
         print(planJson(plan, applies));
         return exit;

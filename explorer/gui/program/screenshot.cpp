@@ -33,8 +33,13 @@ bool haveAll(const Frame& frame, const std::vector<std::string>& paths) {
                                [&](const auto& each) { return frame.find(each).has_value(); });
 }
 
-std::string nobodyOn(int number) {
+std::string nobodyOn(int number, const std::string& server) {
     const std::string domain = std::to_string(number);
+    if (!server.empty()) {
+        return "no agent on domain " + domain + " by way of the Discovery Server " + server +
+               " is heard; see that the server runs there and that the agents name it too, or "
+               "leave --discovery-server (CORTEX_DISCOVERY_SERVER) out";
+    }
     return "no agent on domain " + domain + "; start one (cortex-agent FILE --domain " + domain +
            "), look at another domain (--domain N or CORTEX_DOMAIN), or name the interface that "
            "the agents are kept to (--interface lo or CORTEX_INTERFACE)";
@@ -78,7 +83,8 @@ int writeScreenshot(MainWindow& window, const Session& session, const Options& o
     }
     const auto frame = session.frame();
     if (!frame->problem.empty()) return fail(frame->problem);
-    if (frame->agents.empty()) return fail(nobodyOn(frame->domain));
+    if (frame->agents.empty())
+        return return fail(nobodyOn(frame->domain, options.network.discoveryServer));
     for (const std::string& path : options.paths) {
         if (!frame->find(path)) return fail(unknown(*frame, path, limit));
     }

@@ -113,8 +113,8 @@ public:
                        const Arguments& arguments = {},
                        Milliseconds timeout = std::chrono::seconds{5});
 
-    // Reports the events of all agents, the last 1,000 of each first, unless another listener has
-    // them already: it gets those from now on. All else is as with onImage().
+    // Reports the events of all agents, the last 1,000 of each first, unless a listener was there
+    // before: it gets those from now on. All else is as with onImage().
     Listening onEvent(std::function<void(const AgentEvent&)> listener);
     // Whether all events have come that the present agents say they have written. They say so ten
     // times a second.

@@ -41,6 +41,7 @@ struct AgentStatus {
     bool overloaded = false;  // its loop misses more than a tenth of its ticks
     std::string dropped;      // datagrams, by reason: "12 as a submessage is out of bounds; 3 as …"
     std::string otherSelf;    // who else speaks in its name, in words; empty: nobody
+    std::uint32_t hears = 0;  // agents, itself included, as it says; 0: not said
     bool summarises = false;  // it can say how all its simplexes are (Mirror::viewSummary)
     std::string refused;      // messages: "4: a command with a wrong id", the reason of the last
 };
