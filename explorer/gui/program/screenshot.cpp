@@ -84,7 +84,7 @@ int writeScreenshot(MainWindow& window, const Session& session, const Options& o
     const auto frame = session.frame();
     if (!frame->problem.empty()) return fail(frame->problem);
     if (frame->agents.empty())
-        return return fail(nobodyOn(frame->domain, options.network.discoveryServer));
+        return fail(nobodyOn(frame->domain, options.network.discoveryServer));
     for (const std::string& path : options.paths) {
         if (!frame->find(path)) return fail(unknown(*frame, path, limit));
     }
