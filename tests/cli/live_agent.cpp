@@ -151,9 +151,9 @@ std::string mixerSystem(int hertz) {
     return system;
 }
 
-CortexLive::CortexLive(const std::string& controller) {
+CortexLive::CortexLive(const std::string& controller, const std::string& items) {
     std::string system = mixerSystem();
-    replace(system, "HoldAxisController", controller);
+    replace(system, "HoldAxisController\">", controller + "\">" + items);
     folder.write("mixer.xml", system);
     start();
 }

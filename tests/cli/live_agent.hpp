@@ -77,10 +77,14 @@ void replace(std::string& text, const std::string& old, const std::string& with)
 // it, too.
 std::string mixerSystem(int hertz = 100);
 
-// That system: one simulated axis that a controller of this type moves or holds.
+// How long a jog lasts without another command: the longest there is, as a busy machine sends late.
+inline const char* const longHold = R"(<set data="holdTime" value="1"/>)";
+
+// That system: one simulated axis that a controller of this type, with these items, moves or holds.
 class CortexLive : public testing::Test {
 protected:
-    explicit CortexLive(const std::string& controller = "HoldAxisController");
+    explicit CortexLive(const std::string& controller = "HoldAxisController",
+                        const std::string& items = "");
     void start();
 
     const ModelFolder folder;

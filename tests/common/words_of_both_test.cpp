@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the command line and the window both say: numbers, times, rates, lines for a shell, and what
-// must be controlled for a command.
+// What the command line and the window both say: numbers, times, rates, lines for a shell, what
+// must be controlled for a command, and where no agent is heard.
 #include "common/csv_cell.hpp"
 #include "common/loop_text.hpp"
 #include "common/needed_control.hpp"
+#include "common/no_agent.hpp"
 #include "common/number_text.hpp"
 #include "common/shell_line.hpp"
 #include "common/to_its_sender.hpp"
@@ -167,6 +168,17 @@ TEST(WhyOfAnAgent, IsToldToItsSenderAsHisOwnDoing) {
     for (const char* other : {"", "its time was over before its turn", "withdrawn by a later ",
                               "withdrawn by a later  of its sender"})
         EXPECT_EQ(toItsSender(other), other);
+}
+
+TEST(NoAgent, IsSaidWithItsDomainAndTheServerThatWasAskedAndWhatToTryThen) {
+    EXPECT_EQ(noAgent(7, ""), "no agent on domain 7");
+    const std::string server = "10.0.0.2:11811";
+    EXPECT_EQ(noAgent(0, server),
+              "no agent on domain 0 by way of the Discovery Server 10.0.0.2:11811");
+    EXPECT_EQ(serverRemedy(server),
+              "see that the server runs at 10.0.0.2:11811 (fast-discovery-server -i 0) and that "
+              "the agents name it too, or leave --discovery-server (CORTEX_DISCOVERY_SERVER) out: "
+              "the agents may be found without it");
 }
 
 }  // namespace

@@ -44,9 +44,10 @@ TypeModel limitedJoints() {
 struct GoodWindow : QWidget {
     explicit GoodWindow(Session& session) : commands{session}, stop{new StopButton{session}} {
         auto* rows = new QVBoxLayout{this};
-        for (QWidget* each :
-             std::initializer_list<QWidget*>{stop, notice, header, tabs, items, events, leases})
+        for (QWidget* each : std::initializer_list<QWidget*>{stop, &notice->place(), header, tabs,
+                                                             items, events, leases})
             rows->addWidget(each);
+        notice->setParent(this);
         notice->tell("2 of 5 in Standby, 11.0 s; Not reached: robot; 1 did not follow: /probe");
         header->show(*probes, *probes->find("/probe"));
         lifeCycle->show("/probe");

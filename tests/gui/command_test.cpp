@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // What became of a command stays with its simplex, with a real agent over DDS.
+#include "gui/places.hpp"
 #include "gui/window_fixture.hpp"
+#include "style/look.hpp"
 #include "views/command_card.hpp"
+#include "views/command_list.hpp"
 #include "views/edit_bar.hpp"
 #include "views/life_cycle_bar.hpp"
+#include "widgets/popover.hpp"
 #include "widgets/text_label.hpp"
+#include "widgets/value_field.hpp"
 #include "window/control_bar.hpp"
 
 #include <QLabel>
+#include <QPlainTextEdit>
 #include <QPushButton>
 
 namespace cortex::test {
@@ -125,6 +131,81 @@ TEST_F(Commanding, CancelSaysWhyItIsOff) {
     EXPECT_FALSE(button(card("moveTo"), "Cancel").isEnabled());
     agent->send(SIGCONT);
     EXPECT_TRUE(comes([this] { return button(card("moveTo"), "Cancel").isEnabled(); }));
+}
+
+class SteadyCards : public Commanding {
+protected:
+    ~SteadyCards() override { Look::apply(Theme::Light, 1, QStringLiteral("Open Sans")); }
+    void showSmall() {
+        Look::apply(Theme::Light, 1.5, QStringLiteral("DejaVu Sans"));
+        window.resize(800, 600);
+    }
+    QWidget& page() {
+        window.refresh();
+        return *window.current()->findChild<CommandList*>();
+    }
+};
+
+TEST_F(SteadyCards, NothingMovesWhenACommandIsAnswered) {
+    window.resize(1280, 800);
+    ASSERT_TRUE(everythingComes());
+    for (const char* command : {"startup", "shutdown"}) {
+        shows("/drive", "commands");
+        ASSERT_TRUE(takes("/drive"));
+        const Places before = placesIn(page());
+        ASSERT_GE(before.size(), 5U);
+        card(command).run();
+        EXPECT_EQ(movedSince(before, page()), "") << command << " is under way";
+        ASSERT_TRUE(comes([&] { return says(card(command), "Done  "); }));
+        EXPECT_EQ(movedSince(before, page()), "") << command;
+        session.releaseControl();
+        ASSERT_TRUE(comes([this] { return says(page(), "read-only"); }));
+        EXPECT_EQ(movedSince(before, page()), "") << "why none can be run";
+        showSmall();
+    }
+}
+
+TEST_F(SteadyCards, NothingMovesWhileALongCommandRunsAndWhenItIsCancelledOrAFieldIsWrong) {
+    showSmall();
+    ASSERT_TRUE(everythingComes());
+    shows("/controller", "commands");
+    const Places before = placesIn(page());
+    card("moveTo").findChild<ValueField*>()->setText("too fast");
+    EXPECT_TRUE(says(card("moveTo"), "speedShare expected")) << shownTexts();
+    EXPECT_EQ(movedSince(before, page()), "") << "what is wrong with a field";
+    ASSERT_TRUE(movesForLong());
+    EXPECT_EQ(movedSince(before, page()), "");
+    const Places running = placesIn(page());
+    button(card("moveTo"), "Cancel").click();
+    EXPECT_EQ(movedSince(running, page()), "") << "cancel is under way";
+    ASSERT_TRUE(comes([this] { return says(card("moveTo"), "Cancel: Done  "); }));
+    ASSERT_TRUE(comes([this] { return !button(card("moveTo"), "Cancel").isVisible(); }));
+    EXPECT_EQ(movedSince(running, page()), "");
+}
+
+TEST_F(SteadyCards, AnAnswerThatHasNoRoomIsWholeInItsTooltipAndWhereItIsOpened) {
+    showSmall();
+    ASSERT_TRUE(everythingComes());
+    shows("/drive", "commands");
+    ASSERT_TRUE(takes("/drive"));
+    const Places before = placesIn(page());
+    agent->send(SIGSTOP);
+    card("startup").run();
+    const QString whole = "Look at the state before you send it again.";
+    ASSERT_TRUE(comes([&] { return says(card("startup"), whole); }));
+    EXPECT_EQ(movedSince(before, page()), "");
+    const auto labels = card("startup").findChildren<TextLabel*>();
+    EXPECT_TRUE(std::ranges::any_of(labels, [&](const auto* each) {
+        return each->toolTip().replace('\n', ' ').contains(whole);
+    }));
+    button(card("startup"), "Whole answer…").click();
+    auto* popover = card("startup").findChild<Popover*>();
+    ASSERT_NE(popover, nullptr);
+    const auto* text = popover->findChild<QPlainTextEdit*>();
+    EXPECT_TRUE(text->toPlainText().contains(whole));
+    EXPECT_TRUE(text->textInteractionFlags().testFlag(Qt::TextSelectableByMouse));
+    EXPECT_EQ(movedSince(before, page()), "");
+    popover->close();
 }
 
 class Undoing : public Commanding {

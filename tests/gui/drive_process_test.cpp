@@ -129,7 +129,7 @@ protected:
                         << axis << ": " << each->text().toStdString();
             }
         }
-        window.arrangement().toggleEvents();
+        window.arrangement().toggleEvents(window.workspace());
         EXPECT_TRUE(strip());
         window.open("/jog");
         settles();

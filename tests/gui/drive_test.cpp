@@ -4,11 +4,14 @@
 #include "drive/drive_views.hpp"
 #include "drive/transitions.hpp"
 #include "gui/drive_fixture.hpp"
+#include "gui/places.hpp"
 #include "plugin/plugins.hpp"
+#include "style/look.hpp"
 #include "views/manual_view.hpp"
 
 #include <QApplication>
 #include <QProgressBar>
+#include <functional>
 #include <memory>
 #include <set>
 #include <span>
@@ -347,6 +350,63 @@ TEST_F(DriveRig, AllIsDoneByKeysAndWhatHasThemIsScrolledTo) {
     for (auto* each : view.findChildren<QAbstractButton*>())
         EXPECT_TRUE((each->focusPolicy() & Qt::TabFocus) != 0 &&
                     !(each->accessibleName() + each->text()).isEmpty());
+}
+
+// All that can be said of an axis and its link, each after the other.
+class SteadyDrives : public DriveRig {
+protected:
+    ~SteadyDrives() override {
+        gui::Look::apply(gui::Theme::Light, 1, QStringLiteral("Open Sans"));
+    }
+    std::vector<std::function<void()>> whatComes() {
+        const std::string processor = "/table/processor";
+        std::vector<std::function<void()>> all;
+        for (const Ds402State state : allStates) all.push_back([=, this] { put(1, state); });
+        all.push_back([=, this] {
+            put(processor, "errorCode", 0x8611);
+            putTexts(processor, "errorText", {"following error of 0.052 rad, allowed 0.050", ""});
+        });
+        all.push_back([=, this] { put(processor, "transitionCount", 123456); });
+        all.push_back([=, this] { put(target(1), "mode", 9); });
+        all.push_back([=, this] {
+            put(1, Ds402State::OperationEnabled);
+            putTexts(processor, "activity", {"home"});
+            putTexts(processor, "requester", {"cortex-explorer@desk.4711"});
+            put(processor, "outcome", 2);
+            put(drive(1), "modeDisplay", 6);
+        });
+        all.push_back([=, this] { put(processor, "outcome", 5); });
+        all.push_back([this] { put("/table/drive", "exchangeTimeP99", 1234567); });
+        all.push_back([this] { put("/table/drive", "link", 1); });
+        all.push_back([this] { robot.degrade(drive(1), Quality::Lost); });
+        all.push_back([this] { controls = false; });
+        all.push_back([this] { view.band(0).say(QString{"Rejected "}.repeated(30)); });
+        return all;
+    }
+};
+
+TEST_F(SteadyDrives, NothingMovesWhateverComes) {
+    struct Size {
+        int width, height;
+        double scale;
+        const char* family;
+    };
+    for (const Size& at : {Size{975, 570, 1, "Open Sans"}, Size{975, 570, 1, "DejaVu Sans"},
+                           Size{800, 350, 1, "Open Sans"}, Size{800, 250, 1.5, "DejaVu Sans"}}) {
+        gui::Look::apply(gui::Theme::Light, at.scale, QLatin1String{at.family});
+        view.resize(at.width, at.height);
+        robot.degrade(drive(1), Quality::Good);
+        controls = true;
+        show();
+        const Places before = placesIn(view);
+        ASSERT_GE(before.size(), 15U);
+        const auto all = whatComes();
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            all[i]();
+            show();
+            EXPECT_EQ(movedSince(before, view), "") << at.width << ", " << at.family << ", " << i;
+        }
+    }
 }
 
 class OneDrive : public testing::Test {

@@ -95,7 +95,7 @@ std::string arm() {
     return text + "<simplex path=\"/frame\" type=\"CartesianObservation\"/>" +
            "<simplex path=\"/kinematics\" type=\"ForwardKinematics\">" + axes +
            "<relate rule=\"tip\" to=\"/frame\"/></simplex>" +
-           "<simplex path=\"/tip\" type=\"CartesianJogController\">" + axes + demands +
+           "<simplex path=\"/tip\" type=\"CartesianJogController\">" + axes + demands + longHold +
            R"(</simplex><cluster name="robot" frequency="500" overflow="skip" control="open"/></system>)";
 }
 

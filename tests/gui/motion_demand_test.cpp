@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Demands that are entered for axes, in the window, with a real agent over DDS.
 #include "gui/motion_fixture.hpp"
+#include "gui/places.hpp"
 #include "model/shown_units.hpp"
+#include "style/look.hpp"
 #include "window/workspace.hpp"
 
 #include <QLineEdit>
 #include <cmath>
+#include <tuple>
 
 namespace cortex::test {
 namespace {
@@ -192,6 +195,61 @@ TEST_F(Demands, AMotionIsEndedByHalt) {
     named("Halt").click();
     EXPECT_TRUE(says("ancelled")) << said().toStdString();
     EXPECT_LT(number("/arm/axes/1", "position"), 1.5);
+}
+
+class SteadyMotion : public Demands {
+protected:
+    ~SteadyMotion() override {
+        gui::Look::apply(gui::Theme::Light, 1, QStringLiteral("Open Sans"));
+    }
+    void showAt(QSize size, double scale, const char* family) {
+        gui::Look::apply(gui::Theme::Light, scale, QLatin1String{family});
+        window.resize(size);
+        for (int i = 0; i < 3; ++i) {
+            window.refresh();
+            QApplication::processEvents();  // what is laid out lays out more
+        }
+    }
+};
+
+TEST_F(SteadyMotion, NothingMovesWhenAJogBeginsAndEndsAndControlIsLost) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
+    for (const auto& [size, scale, family] :
+         {std::tuple{QSize{1280, 800}, 1.0, "Open Sans"}, {QSize{800, 600}, 1.5, "DejaVu Sans"}}) {
+        showAt(size, scale, family);
+        const Places before = placesIn(view());
+        ASSERT_GE(before.size(), 10U);
+        rows().setFocus();
+        QTest::keyPress(&rows(), Qt::Key_Right);
+        EXPECT_TRUE(says("Jogging A1 at ")) << said().toStdString();
+        EXPECT_EQ(movedSince(before, view()), "") << "jogs, " << size.width();
+        QTest::keyRelease(&rows(), Qt::Key_Right);
+        EXPECT_TRUE(says("Ended: "));
+        EXPECT_EQ(movedSince(before, view()), "") << "has ended, " << size.width();
+    }
+    const Places before = placesIn(view());
+    window.control().release();
+    EXPECT_TRUE(says("read-only: take control of /jog")) << said().toStdString();
+    EXPECT_EQ(movedSince(before, view()), "");
+}
+
+TEST_F(SteadyMotion, NothingMovesWhenAMoveIsRefused) {
+    ASSERT_NO_FATAL_FAILURE(opensInControl("/pose"));
+    for (const auto& [size, scale, family] :
+         {std::tuple{QSize{1280, 800}, 1.0, "DejaVu Sans"}, {QSize{800, 600}, 1.0, "Open Sans"}}) {
+        showAt(size, scale, family);
+        const Places before = placesIn(view());
+        enter(0, "9");
+        enter(1, "-9");
+        enter(2, "9");
+        EXPECT_EQ(movedSince(before, view()), "") << "what is wrong, " << size.width();
+        ASSERT_TRUE(canMove("Move"));
+        named("Move").click();
+        EXPECT_TRUE(says("Rejected")) << said().toStdString();
+        EXPECT_EQ(movedSince(before, view()), "") << "what came of it, " << size.width();
+        named("Discard").click();
+        window.refresh();
+    }
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSlider>
+#include <array>
 #include <set>
 #include <string>
 #include <utility>
@@ -45,7 +46,8 @@ inline const char* const motionTypes = R"(<ontology name="plant" version="1.0">
   </type>
 </ontology>)";
 
-inline std::string motionSystem() {
+// `hold`: that of the controller that jogs; "": as its type has it.
+inline std::string motionSystem(const std::string& hold = longHold) {
     std::string text =
         "<system name=\"robot\"><ontology file=\"plant.xml\"/>"
         "<morphology file=\"cortex-morphology.xml\"/>";
@@ -63,9 +65,10 @@ inline std::string motionSystem() {
                 "to=\"/arm/axes/" +
                 name + "\"/></simplex>";
     }
-    for (const auto& [path, type] :
-         {std::pair{"/jog", "JogController"}, std::pair{"/pose", "AxisPoseController"}}) {
-        text += "<simplex path=\"" + std::string{path} + "\" type=\"" + type + "\">";
+    const std::vector<std::array<std::string, 3>> controllers{{"/jog", "JogController", hold},
+                                                              {"/pose", "AxisPoseController", ""}};
+    for (const auto& [path, type, items] : controllers) {
+        text += "<simplex path=\"" + path + "\" type=\"" + type + "\">" + items;
         for (const auto& axis : axes) {
             text += "<relate rule=\"axes\" to=\"/arm/axes/" + axis.first + "\"/>" +
                     "<relate rule=\"demands\" to=\"/arm/demands/" + axis.first + "\"/>";

@@ -8,7 +8,8 @@
 namespace cortex::test {
 namespace {
 
-constexpr double holdTime = 0.25, frequency = 500;
+constexpr double holdTime = 0.25;  // s, of JogController
+constexpr double frequency = 500;  // Hz
 
 // The last cycle that jogged, and the cycle of the last jog that was executed, as far as it had
 // another velocity than the one before.
@@ -48,6 +49,8 @@ private:
 
 class JoggingProcess : public MotionAgent {
 protected:
+    JoggingProcess() : MotionAgent{motionTypes, motionSystem("")} {}
+
     // A window that jogs gets this signal. A jog that is under way then is executed within its
     // budget, which is holdTime, and lasts for holdTime; nothing comes after it.
     void endsAfter(int signal) {

@@ -3,13 +3,21 @@
 #include "gui/window_fixture.hpp"
 #include "style/look.hpp"
 #include "views/event_list.hpp"
+#include "views/event_table.hpp"
+#include "views/event_view.hpp"
 #include "views/system_tree.hpp"
 #include "widgets/text_label.hpp"
 #include "window/control_bar.hpp"
 #include "window/status_bar.hpp"
 #include "window/stop_button.hpp"
+#include "window/workspace.hpp"
 
+#include <QLineEdit>
 #include <QPushButton>
+#include <QScrollBar>
+#include <QTreeView>
+#include <map>
+#include <tuple>
 
 #include <QtTest/QTest>
 #include <gtest/gtest.h>
@@ -19,14 +27,35 @@ namespace {
 
 using namespace cortex::gui;
 
-class SmallWindow : public Window {
+struct LargeTexts {
+    LargeTexts() { Look::apply(Theme::Light, 1.5, QStringLiteral("Open Sans")); }
+    ~LargeTexts() { Look::apply(Theme::Light, 1, QStringLiteral("Open Sans")); }
+};
+
+// With large texts from the start.
+class SmallWindow : LargeTexts, public Window {
 protected:
     SmallWindow() {
-        Look::apply(Theme::Light, 1.5, QStringLiteral("Open Sans"));
         window.resize(800, 600);
         QApplication::processEvents();
     }
-    ~SmallWindow() override { Look::apply(Theme::Light, 1, QStringLiteral("Open Sans")); }
+    // Where each table and tree of the views stands, and what of it is in sight.
+    std::map<QWidget*, std::tuple<QRect, int, int>> viewsAsTheyAre() {
+        for (int i = 0; i < 3; ++i) QApplication::processEvents();
+        std::map<QWidget*, std::tuple<QRect, int, int>> all;
+        for (auto* each : window.workspace().findChildren<QAbstractScrollArea*>()) {
+            if (!each->isVisible()) continue;
+            all[each] = {{each->mapTo(&window, QPoint{}), each->size()},
+                         each->verticalScrollBar()->value(),
+                         each->horizontalScrollBar()->value()};
+        }
+        return all;
+    }
+    void press(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+        QApplication::setActiveWindow(&window);
+        QWidget* focused = QApplication::focusWidget();
+        QTest::keyClick(focused != nullptr ? focused : &window, key, modifiers);
+    }
     bool hasWhole(const QString& text) {
         for (const auto* label : window.findChildren<TextLabel*>()) {
             if (label->isVisible() && label->text() == text)
@@ -75,6 +104,94 @@ TEST_F(SmallWindow, HasItsTreeBehindAButtonUntilSomethingIsChosen) {
     QApplication::setActiveWindow(&window);
     QTest::keyClick(&window, Qt::Key_F, Qt::ControlModifier);
     EXPECT_TRUE(window.tree().isVisible()) << "its filter is in it";
+}
+
+TEST_F(SmallWindow, LeadsBackFromItsTreeByAButtonAndByEscToViewsThatAreAsTheyWere) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    window.openPart("data");
+    QApplication::setActiveWindow(&window);
+    window.refresh();
+    auto* table = window.current()->findChild<ItemTable*>();
+    table->verticalScrollBar()->setValue(table->verticalScrollBar()->maximum());
+    table->setFocus();
+    const auto before = viewsAsTheyAre();
+    ASSERT_FALSE(before.empty());
+    auto& back = window.arrangement().backButton();
+    EXPECT_FALSE(back.isVisible());
+
+    window.arrangement().treeButton().click();
+    ASSERT_TRUE(back.isVisible());
+    back.click();
+    EXPECT_FALSE(window.tree().isVisible());
+    EXPECT_EQ(viewsAsTheyAre(), before);
+
+    press(Qt::Key_F, Qt::ControlModifier);
+    window.tree().filter("drive");
+    ASSERT_TRUE(window.tree().isAncestorOf(QApplication::focusWidget()));
+    press(Qt::Key_Escape);
+    EXPECT_TRUE(window.tree().isVisible()) << "the filter is cleared first";
+    EXPECT_EQ(window.tree().findChild<QLineEdit*>()->text(), "");
+    press(Qt::Key_Escape);
+    EXPECT_FALSE(window.tree().isVisible());
+
+    table->setFocus();
+    press(Qt::Key_B, Qt::ControlModifier);
+    EXPECT_EQ(QApplication::focusWidget(), window.tree().findChild<QTreeView*>());
+    press(Qt::Key_Escape);
+    EXPECT_FALSE(window.tree().isVisible());
+    EXPECT_EQ(QApplication::focusWidget(), table);
+    EXPECT_EQ(viewsAsTheyAre(), before);
+}
+
+TEST_F(SmallWindow, ShowsWhatIsOpenedWhileItsTreeIsInFront) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    for (const bool sameTab : {true, false}) {
+        window.arrangement().showTree();
+        ASSERT_TRUE(window.tree().isVisible());
+        sameTab ? window.open("/controller") : window.openKind("events");
+        EXPECT_FALSE(window.tree().isVisible());
+        EXPECT_TRUE(window.current()->isVisible());
+    }
+}
+
+TEST_F(SmallWindow, HasItsEventsInATabToWhichCtrlEAndFromWhichCtrlELeads) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/drive");
+    window.openTab("/controller");
+    const auto before = viewsAsTheyAre();
+    const auto* strip = window.findChild<EventList*>();
+    press(Qt::Key_E, Qt::ControlModifier);
+    EXPECT_TRUE(window.workspace().shows("events"));
+    EXPECT_FALSE(strip->isVisible());
+    press(Qt::Key_E, Qt::ControlModifier);
+    EXPECT_EQ(window.workspace().path(), "/controller") << "it was in front";
+    EXPECT_FALSE(strip->isVisible());
+    EXPECT_EQ(viewsAsTheyAre(), before);
+    window.arrangement().showTree();
+    press(Qt::Key_E, Qt::ControlModifier);
+    EXPECT_TRUE(window.workspace().shows("events"));
+    EXPECT_TRUE(window.current()->isVisible());
+}
+
+TEST_F(SmallWindow, HasSixRowsOfEventsAlsoWithDetails) {
+    ASSERT_TRUE(everythingComes());
+    window.openKind("events");
+    for (int i = 0; i < 9; ++i) window.plotChosen();  // it says that nothing is chosen
+    auto& rows = *window.current()->findChild<EventTable*>();
+    for (const char* family : {"DejaVu Sans", "Open Sans"}) {
+        Look::apply(Theme::Light, 1.5, QLatin1String{family});
+        window.refresh();
+        QApplication::processEvents();
+        const QRect place = rows.geometry();
+        ASSERT_GT(rows.model()->rowCount(), 0);
+        EXPECT_GE(rows.viewport()->height() / rows.rowHeight(0), 6) << family;
+        rows.setCurrentIndex(rows.model()->index(0, 0));
+        window.refresh();
+        QApplication::processEvents();
+        EXPECT_EQ(rows.geometry(), place) << "the row is still under the pointer";
+    }
 }
 
 TEST_F(SmallWindow, HasAllRegionsAgainWhenItIsLarge) {

@@ -58,7 +58,7 @@ TEST_F(OwnViews, OneThatThrowsIsClosedWithWhatItThrew) {
 // A view of a controller that jogs, in a window that may hold control.
 class OwnOrders : public Controlling {
 protected:
-    OwnOrders() : Controlling{"JogController"} {}
+    OwnOrders() : Controlling{"JogController", longHold} {}
     void begin() {
         ASSERT_TRUE(everythingComes());
         ASSERT_EQ(live({"call", "/mixer", "startup", "prefix=/"}).exit, 0);

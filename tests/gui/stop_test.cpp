@@ -2,8 +2,10 @@
 // The Stop button of the window, with a real agent over DDS.
 #include "comms/secured_plant.hpp"
 #include "gui/audit.hpp"
+#include "gui/audit_texts.hpp"
 #include "gui/rival.hpp"
 #include "gui/window_fixture.hpp"
+#include "style/look.hpp"
 #include "widgets/text_label.hpp"
 #include "window/stop_button.hpp"
 
@@ -12,6 +14,7 @@
 #include <QMenu>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <functional>
 
 #include <QtTest/QTest>
 
@@ -216,6 +219,59 @@ TEST(StoppingAlone, SaysThatNobodyIsHeard) {
     window.stopButton().click();
     window.stopButton().click();
     EXPECT_EQ(window.stopButton().progress(), "Nobody is heard: nothing was stopped.");
+}
+
+// What is painted of the button, at the smallest window's text and at the usual one.
+class StopInLongWords : public testing::Test {
+protected:
+    ~StopInLongWords() override { Look::apply(Theme::Light, 1, QStringLiteral("Open Sans")); }
+    void inEverySize(const std::function<void(const std::string& where)>& look) {
+        for (const char* family : {"DejaVu Sans", "Open Sans"}) {
+            for (const double scale : {1.0, 1.5}) {
+                Look::apply(Theme::Light, scale, QLatin1String{family});
+                stop.resize(stop.sizeHint());
+                look(family + std::to_string(scale));
+            }
+        }
+    }
+    // All lines, of which none is outside.
+    QString painted() {
+        QString seen;
+        for (const PaintedText& each : paintedTexts(stop)) {
+            const int spare = each.box.height() / 4;  // above and below letters
+            EXPECT_TRUE(stop.rect().adjusted(0, -spare, 0, spare).contains(each.box));
+            seen += each.text;
+        }
+        return seen.remove(' ');
+    }
+
+    Session session{ownNetwork()};
+    StopButton stop{session};
+};
+
+TEST_F(StopInLongWords, AScopeOfFortyLettersIsWholeAlsoAtItsSecondPress) {
+    for (const std::string scope :
+         {"/levelling/platform/hydraulics/left_cell", "/very/long/prefix/of/some/cell/of/plants",
+          "/manipulator/left_arm/gripper/controller"}) {
+        ASSERT_EQ(scope.size(), 40U);
+        inEverySize([&](const std::string& where) {
+            stop.setScope(scope);
+            EXPECT_EQ(painted().toStdString(), "Stopalways" + scope) << where;
+            stop.click();
+            EXPECT_EQ(painted().toStdString(), "Again:stop" + scope) << where;
+            EXPECT_EQ(stop.size(), stop.sizeHint()) << where;
+        });
+    }
+}
+
+TEST_F(StopInLongWords, OfALongerScopeItSaysTheEndWherePathsDiffer) {
+    const std::string scope = "/levelling/platform/hydraulics/left_cell/valves/proportional/second";
+    inEverySize([&](const std::string& where) {
+        stop.setScope(scope);
+        const QString seen = painted();
+        EXPECT_TRUE(seen.startsWith("Stopalways…")) << where << seen.toStdString();
+        EXPECT_TRUE(seen.endsWith("/valves/proportional/second")) << where << seen.toStdString();
+    });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // The tree of simplexes: what is shown changes only by an act of a person.
 #include "gui/made_agent.hpp"
 #include "views/system_tree.hpp"
+#include "widgets/row_note.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QAbstractItemModelTester>
@@ -137,6 +138,37 @@ TEST_F(Tree, SaysHowManyTheFilterShowsAlsoWhenOnlyTheirValuesChange) {
     robot.put("/control/hold", "state", std::int64_t{2});
     show(31);
     EXPECT_TRUE(counts("2 of 3 shown"));
+}
+
+TEST_F(Tree, NothingMovesWhenItHasSomethingToSay) {
+    tree.refresh(frameOf({robot.now()}));
+    QApplication::processEvents();
+    const QRect place = rows().geometry(), first = rows().visualRect(rows().indexAt({5, 5}));
+    for (const char* typed : {"in:", "nonsense:1", "playback"}) {
+        tree.filter(typed);
+        QApplication::processEvents();
+        EXPECT_EQ(rows().geometry(), place) << typed;
+    }
+    const auto* note = rows().findChild<RowNote*>();
+    ASSERT_TRUE(note->isVisible());
+    EXPECT_TRUE(rows().rect().contains(note->geometry()));
+    EXPECT_EQ(rows().viewport()->geometry().bottom(), note->geometry().bottom());
+    tree.filter("");
+    EXPECT_FALSE(note->isVisible());
+    EXPECT_EQ(rows().visualRect(rows().indexAt({5, 5})), first);
+}
+
+TEST_F(Tree, ACountThatHasNoRoomPushesNothing) {
+    std::vector<std::string> paths;
+    for (int i = 0; i < 1'000; ++i) paths.push_back("/part/" + std::to_string(i));
+    MadeAgent plant = agentWith("plant", paths);
+    tree.resize(150, 400);
+    tree.refresh(frameOf({plant.now(), robot.now(), operators.now()}));
+    QApplication::processEvents();
+    for (const auto* each : tree.findChildren<TextLabel*>()) {
+        if (each->text() == "Simplexes") EXPECT_GE(each->width(), each->sizeHint().width());
+    }
+    EXPECT_EQ(tree.width(), 150);
 }
 
 TEST_F(Tree, SaysNothingOfAFilterWhileNobodyIsHeard) {

@@ -97,7 +97,7 @@ public:
         connect(jog, &QPushButton::pressed, this, [this, jog] {
             const Arguments still{{"axis", std::int64_t{1}}, {"velocity", 0.0}};
             const Arguments moving{{"axis", std::int64_t{1}}, {"velocity", 0.1}};
-            hold_ = hold(*jog, {{path_, "jog", moving, std::chrono::milliseconds{250}},
+            hold_ = hold(*jog, {{path_, "jog", moving, std::chrono::seconds{1}},
                                 std::chrono::milliseconds{50},
                                 still});
         });

@@ -29,8 +29,9 @@ inline comms::NetworkOptions ownNetwork() {
 // The system of `cortex new-system` in a window.
 class Window : public CortexLive {
 protected:
-    explicit Window(const std::string& controller = "HoldAxisController")
-        : CortexLive{controller},
+    explicit Window(const std::string& controller = "HoldAxisController",
+                    const std::string& items = "")
+        : CortexLive{controller, items},
           session{ownNetwork()},
           window{session},
           tester{const_cast<SystemModel*>(&window.tree().model()),

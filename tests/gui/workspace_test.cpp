@@ -7,6 +7,7 @@
 #include "plots/plot_view.hpp"
 #include "views/base_view.hpp"
 #include "views/event_list.hpp"
+#include "widgets/tab_row.hpp"
 #include "widgets/text_label.hpp"
 #include "window/find_panel.hpp"
 #include "window/layout_keeper.hpp"
@@ -16,8 +17,10 @@
 #include <QJsonDocument>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMenu>
 #include <QTabBar>
 #include <QTemporaryDir>
+#include <QToolButton>
 #include <QTreeView>
 #include <QTreeWidget>
 #include <algorithm>
@@ -44,6 +47,96 @@ TEST_F(Workspaces, TabsAreSeenAlsoWhereAViewIsOpenedBeforeTheWindow) {
     another.show();
     QApplication::processEvents();
     EXPECT_GE(another.workspace().panes()[0]->tabs().height(), Look::units(7));
+}
+
+class ManyTabs : public Workspaces {
+protected:
+    ManyTabs() {
+        window.resize(800, 600);
+        for (const char* each : {"/drive", "/controller", "/axis/observed", "/axis/demanded",
+                                 "/drive", "/controller", "/axis/observed"})
+            window.openTab(each);
+        QApplication::processEvents();
+    }
+    QStringList seen() {
+        QStringList all;
+        for (int tab = 0; tab < tabs.count(); ++tab) {
+            if (!tabs.isTabVisible(tab)) continue;
+            all << tabs.tabText(tab);
+            EXPECT_TRUE(tabs.rect().contains(tabs.tabRect(tab))) << all.back().toStdString();
+            const QRect& button = tabs.moreButton().geometry();
+            EXPECT_FALSE(tabs.moreButton().isVisible() && button.intersects(tabs.tabRect(tab)));
+        }
+        return all;
+    }
+    bool seesTheOneInFront() { return tabs.isTabVisible(tabs.currentIndex()); }
+    TabRow& tabs = *qobject_cast<TabRow*>(&window.workspace().panes()[0]->tabs());
+};
+
+TEST_F(ManyTabs, ThatHaveNoRoomAreBehindAButtonThatSaysHowMany) {
+    const auto hidden = tabs.count() - seen().size();
+    ASSERT_GT(hidden, 0);
+    EXPECT_TRUE(seesTheOneInFront());
+    ASSERT_TRUE(tabs.moreButton().isVisible());
+    EXPECT_TRUE(tabs.moreButton().text().startsWith(QString::number(hidden) + " more"));
+    for (const auto* each : tabs.findChildren<QToolButton*>())
+        EXPECT_TRUE(!each->isVisible() || each->arrowType() == Qt::NoArrow);
+    tabs.moreButton().click();
+    const auto* menu = tabs.findChild<QMenu*>();
+    ASSERT_NE(menu, nullptr);
+    EXPECT_EQ(menu->actions().size(), hidden);
+    menu->actions().back()->trigger();
+    EXPECT_TRUE(window.workspace().shows("events"));
+    EXPECT_TRUE(seen().contains("Events"));
+    window.resize(2400, 800);
+    QApplication::processEvents();
+    EXPECT_EQ(seen().size(), tabs.count());
+    EXPECT_FALSE(tabs.moreButton().isVisible());
+}
+
+TEST_F(ManyTabs, AreReachedByKeysWhetherTheyHaveRoomOrNot) {
+    tabs.setCurrentIndex(0);
+    for (int tab = 1; tab < tabs.count(); ++tab) {
+        QTest::keyClick(&tabs, Qt::Key_Right);
+        EXPECT_EQ(tabs.currentIndex(), tab);
+        EXPECT_TRUE(seesTheOneInFront());
+    }
+    for (int number = 1; number <= 9; ++number) {
+        press(("Ctrl+" + std::to_string(number)).c_str());
+        EXPECT_EQ(tabs.currentIndex(), number - 1);
+        EXPECT_TRUE(seesTheOneInFront());
+    }
+}
+
+TEST_F(ManyTabs, KeepTheirPlacesWhenOneThatIsSeenIsChosen) {
+    window.openKind("events");
+    QApplication::processEvents();
+    const QStringList before = seen();
+    for (int tab = 0; tab < tabs.count(); ++tab) {
+        if (!tabs.isTabVisible(tab)) continue;
+        const QRect place = tabs.tabRect(tab);
+        tabs.setCurrentIndex(tab);
+        EXPECT_EQ(tabs.tabRect(tab), place);
+        EXPECT_EQ(seen(), before);
+    }
+}
+
+TEST_F(Workspaces, ATabThatIsNotOfferedIsNeitherSeenNorBehindTheButton) {
+    TabRow row;
+    for (const char* each : {"Own", "Data", "Type"}) row.addTab(each);
+    row.offer(0, false);
+    row.resize(row.sizeHint());
+    row.show();
+    QApplication::processEvents();
+    EXPECT_FALSE(row.isTabVisible(0));
+    EXPECT_EQ(row.currentIndex(), 1);
+    EXPECT_FALSE(row.moreButton().isVisible());
+    row.setCurrentIndex(2);
+    QTest::keyClick(&row, Qt::Key_Left);
+    QTest::keyClick(&row, Qt::Key_Left);
+    EXPECT_EQ(row.currentIndex(), 1);
+    row.offer(0, true);
+    EXPECT_TRUE(row.moreButton().isVisible() || row.isTabVisible(0));
 }
 
 TEST_F(Workspaces, AClosedTabComesBackWithWhatItShowed) {

@@ -3,6 +3,7 @@
 
 #include "cortex/core/value.hpp"
 
+#include "common/no_agent.hpp"
 #include "text/plain_text.hpp"
 
 #include <cstddef>
@@ -15,15 +16,6 @@ constexpr std::size_t mostDomains = 8;             // that are named
 
 std::string secondsText(std::chrono::milliseconds time) {
     return toText(static_cast<double>(time.count()) / 1000) + " s";
-}
-
-// Nothing was heard of the Discovery Server, or it knows nobody.
-Trouble silenceOfServer(const Nobody& nobody, const std::string& what) {
-    return {what + " is heard",
-            "see that the server runs at " + nobody.server +
-                " (fast-discovery-server -i 0) and that the agents name it too, or leave "
-                "--discovery-server (CORTEX_DISCOVERY_SERVER) out: the agents may be found without "
-                "it"};
 }
 
 // Nothing at all was heard.
@@ -69,10 +61,7 @@ std::string namelessText(std::uint32_t count) {
 }
 
 Trouble troubleOf(const Nobody& nobody) {
-    const std::string domain = std::to_string(nobody.domain);
-    const std::string by =
-        nobody.server.empty() ? "" : " by way of the Discovery Server " + nobody.server;
-    const std::string none = "no agent on domain " + domain + by;
+    const std::string none = common::noAgent(nobody.domain, nobody.server);
     if (nobody.closed > 0) {
         return {none + " can be seen without security: " + closedText(nobody.closed), nameAFolder,
                 true};
@@ -94,7 +83,8 @@ Trouble troubleOf(const Nobody& nobody) {
     if (nobody.waited < enough)
         return {none + " was heard within " + secondsText(nobody.waited),
                 "wait longer (--timeout)"};
-    return nobody.server.empty() ? silenceOf(nobody, none) : silenceOfServer(nobody, none);
+    if (nobody.server.empty()) return silenceOf(nobody, none);
+    return {none + " is heard", common::serverRemedy(nobody.server)};
 }
 
 }  // namespace cortex::cli

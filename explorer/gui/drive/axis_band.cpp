@@ -55,7 +55,6 @@ AxisBand::AxisBand(const DriveAxis& axis, std::string processor, const std::vect
     middle_ = makeControls(modes);
     layOut();
     diagram_->setAccessibleName(tr("States of axis %1").arg(axis.number));
-    told_->hide();
     connectParts();
     arrange(widthOfAll());
     dress();
@@ -67,8 +66,14 @@ void AxisBand::layOut() {
         each->setContentsMargins(0, 0, 0, 0);
         each->setSpacing(units(1));
     }
+    // Each has two lines, whatever it says: no button moves when something comes.
+    for (Sentence* each : {next_, counts_, state_, mode_, why_, told_}) {
+        each->keepLines(2);
+        each->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    }
     leftRows->addWidget(diagram_);
     leftRows->addWidget(next_);
+    leftRows->addWidget(counts_);
     leftRows->addStretch(1);
     rightRows_->addWidget(words_);
     rightRows_->addWidget(numbers_);
@@ -122,7 +127,6 @@ QWidget* AxisBand::makeControls(const std::vector<int>& modes) {
     modeRow->addWidget(modes_);
     modeRow->addStretch(1);
     rows->addWidget(state_);
-    rows->addWidget(counts_);
     rows->addWidget(actions_);
     rows->addLayout(modeRow);
     rows->addWidget(mode_);
@@ -155,10 +159,7 @@ void AxisBand::order(const char* command, Arguments arguments, const QString& ti
     Q_EMIT ordered({processor_, command, std::move(arguments)}, title);
 }
 
-void AxisBand::say(const QString& outcome) {
-    told_->say(outcome);
-    told_->setVisible(!outcome.isEmpty());
-}
+void AxisBand::say(const QString& outcome) { told_->say(outcome); }
 
 // --- layout -----------------------------------------------------------------------------------
 
@@ -210,10 +211,6 @@ void AxisBand::dress() {
         if (each->font() != small) each->setFont(small);
     for (auto* each : modes_->findChildren<QPushButton*>()) each->setFixedHeight(units(7.5));
     middle_->setMaximumWidth(units(122));  // wide buttons are no better; numbers get bars instead
-    // Two lines are kept free, so that nothing moves with another state.
-    const int line = QFontMetrics{small}.height();
-    next_->setMinimumHeight(2 * line);
-    next_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
 }
 
 void AxisBand::paintEvent(QPaintEvent* /*event*/) {

@@ -71,7 +71,6 @@ void AxisBand::show(const DriveAxis& axis, const BandLook& look) {
     why << actions_->longReasons();
     why.removeAll({});
     why_->say(why.join(' '), axis.live() ? Tone::Quiet : Tone::NotLive);
-    why_->setVisible(!why.isEmpty());
 }
 
 void AxisBand::showState(const DriveAxis& axis, const BandLook& look) {

@@ -188,9 +188,20 @@ void DriveView::arrange() {
     for (AxisBand* each : bands_) each->arrange(room);
     if (choice_ != nullptr) {
         choice_->setVisible(narrow);
+        keepChoice(room);
         choice_->show(QString::number(chosen_ + 1));
     }
     for (int i = 0; i < count(); ++i) band(i).setVisible(!narrow || i == chosen_);
+}
+
+// As wide as with the longest state, where there is room for that.
+void DriveView::keepChoice(int room) {
+    int width = 0;
+    for (const auto& row : drives::ds402States) {
+        const QString text = tr("Axis %1: %2").arg(count()).arg('[' + nameOfState(row.state) + ']');
+        width = std::max(width, choice_->fontMetrics().horizontalAdvance(text) + units(5));
+    }
+    choice_->keepWidth(std::min(width, (room - units(4)) / std::max(count(), 1) - units(0.5)));
 }
 
 void DriveView::resizeEvent(QResizeEvent* /*event*/) { arrange(); }

@@ -39,6 +39,7 @@ private:
     void makeBands(const SystemNow& now);
     void makeLinks();
     void arrange();
+    void keepChoice(int room);
     void showAxis(int axis);
     void reveal(QWidget* now);
     void order(const Order& order, const QString& title, AxisBand* band);

@@ -41,6 +41,7 @@ FieldbusView::FieldbusView(std::string path)
     rows->setSpacing(units(2));
     auto* below = new QVBoxLayout;
     below->setContentsMargins(units(3), 0, units(3), 0);
+    times_->keepLines(2);
     below->addWidget(times_);
     below->addWidget(age_, 1);
     rows->addWidget(link_);

@@ -10,11 +10,14 @@
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
+#include <algorithm>
 #include <array>
 
 namespace cortex::explorer {
 
 namespace {
+
+constexpr double narrowRow = 170;  // units; below it the facts take three lines
 
 // By the labels of the item `link`.
 struct LinkState {
@@ -107,8 +110,8 @@ LinkRow::LinkRow(std::string device, bool names, QWidget* parent)
     rows->setContentsMargins(units(2), units(0.25), units(2), units(0.5));
     rows->setSpacing(0);
     rows->addLayout(row);
+    told_->keepLines(1);
     rows->addWidget(told_);
-    told_->hide();
     dress();
 }
 
@@ -137,20 +140,27 @@ void LinkRow::refresh(const SystemNow& now, const QString& whyNoReconnect) {
     reconnect_->setAccessibleDescription(whyNoReconnect);
 }
 
-void LinkRow::say(const QString& outcome) {
-    told_->say(outcome);
-    told_->setVisible(!outcome.isEmpty());
-}
+void LinkRow::say(const QString& outcome) { told_->say(outcome); }
 
 void LinkRow::dress() {
     QFont strong = font();
     strong.setWeight(QFont::DemiBold);
     if (word_->font() != strong) word_->setFont(strong);
+    int width = 0;  // of any word, so that none moves the path
+    for (const LinkState& each : linkStates) {
+        const QString word = '[' + tr(each.word) + ']';
+        width = std::max(width, word_->fontMetrics().horizontalAdvance(word));
+    }
+    word_->setMinimumWidth(width);
     QFont small = font();
     small.setPointSizeF(font().pointSizeF() * 0.9);
     reconnect_->setFixedHeight(units(6.5));
     for (Sentence* each : {facts_, told_})
         if (each->font() != small) each->setFont(small);
+}
+
+void LinkRow::resizeEvent(QResizeEvent* /*event*/) {
+    facts_->keepLines(width() < units(narrowRow) ? 3 : 2);
 }
 
 void LinkRow::changeEvent(QEvent* event) {

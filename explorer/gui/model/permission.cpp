@@ -37,6 +37,10 @@ std::string offered(const Frame& frame, Place place, const std::string& needed) 
     return isOfAgent(frame, place) ? needed : scopeOf(frame, place);
 }
 
+QString readOnlyText(const std::string& prefix) {
+    return say("read-only: take control of %1").arg(scopeText(prefix));
+}
+
 QString whyNotControlled(const Frame& frame, Place place, std::string_view command,
                          const comms::Mirror::Arguments& arguments) {
     const AgentFrame& agent = frame.agents[place.agent];
@@ -51,7 +55,7 @@ QString whyNotControlled(const Frame& frame, Place place, std::string_view comma
             .arg(QString::fromStdString(lease.holder), clockText(lease.since),
                  ageText(lease.seconds));
     }
-    return say("read-only: take control of %1").arg(scopeText(offered(frame, place, *needed)));
+    return readOnlyText(offered(frame, place, *needed));
 }
 
 }  // namespace
@@ -66,6 +70,10 @@ std::string scopeOf(const Frame& frame, Place place) {
     if (isOfAgent(frame, place)) return "/";
     const std::string& path = frame.info(place).path;
     return path.substr(0, path.find('/', 1));
+}
+
+QString whyWithoutControl(const Frame& frame, Place place) {
+    return readOnlyText(scopeOf(frame, place));
 }
 
 std::vector<std::string> scopesOf(const Frame& frame) {

@@ -18,6 +18,9 @@ namespace cortex::gui {
 QString whyNotNow(const Frame& frame, Place place, StateSet available,
                   std::string_view command = {}, const comms::Mirror::Arguments& arguments = {});
 
+// What it says to somebody who controls nothing.
+QString whyWithoutControl(const Frame& frame, Place place);
+
 // What to take control of for this path: its first part, or "/" for all of an agent.
 std::string scopeOf(const Frame& frame, Place place);
 

@@ -19,6 +19,11 @@ bool isStateChange(const comms::AgentEvent& event) {
     return event.kind == name(EventKind::StateChange) || event.kind == name(EventKind::Fault);
 }
 
+QString sinceText(std::int64_t when, double seconds) {
+    return QCoreApplication::translate("StateTimes", "since %1, %2")
+        .arg(shownTimeText(when, "HH:mm:ss") + ' ' + zoneName(when), wholeAgeText(seconds));
+}
+
 }  // namespace
 
 StateTimes::StateTimes() : begin_{QDateTime::currentMSecsSinceEpoch() * 1'000'000} {}
@@ -59,8 +64,12 @@ QString StateTimes::text(const Frame& frame, Place place) const {
     // By the clock of the agent, which also stamped the event.
     const std::int64_t now = agent.image && *agent.image ? (*agent.image)->wallClock() : when;
     const double seconds = static_cast<double>(std::max<std::int64_t>(now - when, 0)) * 1e-9;
-    return QCoreApplication::translate("StateTimes", "since %1, %2")
-        .arg(shownTimeText(when, "HH:mm:ss") + ' ' + zoneName(when), wholeAgeText(seconds));
+    return sinceText(when, seconds);
+}
+
+QString StateTimes::longest() const {
+    constexpr double minutes = 99 * 60;
+    return sinceText(begin_, minutes);
 }
 
 }  // namespace cortex::gui

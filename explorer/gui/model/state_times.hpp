@@ -21,6 +21,7 @@ public:
     // "since 12:03:22 UTC, 12 min", in the zone that is shown; "since before 12:03 UTC" where no
     // event told.
     QString text(const Frame& frame, Place place) const;
+    QString longest() const;  // no text is wider, of a state that began within the last 99 minutes
     // What the event said of the fault in which it is; empty: none is known.
     std::string fault(const Frame& frame, Place place) const;
 

@@ -34,7 +34,7 @@ Choices::Choices(const std::vector<std::pair<QString, QString>>& choices, QWidge
 void Choices::fit() {
     for (const auto& [name, button] : buttons_) {
         const int text = button->fontMetrics().horizontalAdvance(button->text());
-        button->setFixedWidth(std::max(text + units(5), units(10)));
+        button->setFixedWidth(std::max({text + units(5), units(10), leastWidth_}));
     }
 }
 
@@ -58,6 +58,12 @@ void Choices::rename(const QString& name, const QString& text) {
     QPushButton* each = button(name);
     if (each == nullptr || each->text() == text) return;
     each->setText(text);
+    fit();
+}
+
+void Choices::keepWidth(int pixels) {
+    if (pixels == leastWidth_) return;
+    leastWidth_ = pixels;
     fit();
 }
 

@@ -21,6 +21,7 @@ public:
     void show(const QString& chosen);    // its name; another one: none is on
     void setWhyNot(const QString& why);  // they cannot be pressed; empty: they can
     void rename(const QString& name, const QString& text);
+    void keepWidth(int pixels);  // of each at least, so that a name that changes moves none
     QPushButton* button(const QString& name) const;
 
 Q_SIGNALS:
@@ -33,6 +34,7 @@ private:
     void fit();
 
     std::vector<std::pair<QString, QPushButton*>> buttons_;
+    int leastWidth_ = 0;
 };
 
 }  // namespace cortex::explorer

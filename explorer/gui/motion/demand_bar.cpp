@@ -37,8 +37,11 @@ DemandBar::DemandBar(QWidget* parent)
     auto* texts = new QVBoxLayout{texts_};
     texts->setContentsMargins(0, 0, 0, 0);
     texts->setSpacing(0);
-    texts->addWidget(note_);
-    texts->addWidget(answer_);
+    for (Sentence* each : {note_, answer_}) {
+        each->keepLines(2);
+        each->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+        texts->addWidget(each);
+    }
     texts->addStretch(1);
     grid_->setContentsMargins(units(4), units(1), units(4), units(1));
     grid_->setHorizontalSpacing(units(4));
@@ -50,7 +53,7 @@ DemandBar::DemandBar(QWidget* parent)
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
 }
 
-// Beside the buttons, where what is said moves nothing; below them where there is no room.
+// Beside the buttons; below them where there is no room.
 void DemandBar::arrange() {
     const bool wide = width() >= units(wideBar);
     if (wide == wide_) return;

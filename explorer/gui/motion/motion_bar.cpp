@@ -13,6 +13,7 @@ namespace cortex::explorer {
 namespace {
 
 constexpr int firstPercent = 10;
+constexpr double narrowBar = 125;  // units; below it a sentence about the speed takes two lines
 
 std::vector<std::pair<QString, QString>> unitsOf(const QString& one, const QString& other) {
     return {{one, one}, {other, other}};
@@ -54,16 +55,23 @@ void MotionBar::layOut(bool hasModes) {
     for (QWidget* each :
          std::initializer_list<QWidget*>{new QLabel{tr("Speed")}, slider_, percent_})
         first->addWidget(each);
+    percent_->setMinimumWidth(percent_->fontMetrics().horizontalAdvance(tr("%1 %").arg(100)));
     first->addWidget(speed_, 1);
     second->addWidget(modeName_);
     second->addWidget(modes_);
-    second->addWidget(mode_, 1);  // below, it would move the axes when it comes and goes
+    second->addWidget(mode_, 1);
+    mode_->keepLines(2);
+    mode_->setMinimumWidth(units(15));
     for (Choices* each : {angles_, lengths_}) (hasModes ? second : first)->addWidget(each);
     auto* rows = new QVBoxLayout{this};
     rows->setContentsMargins(units(4), 0, units(2), 0);
     rows->setSpacing(units(1));
     rows->addLayout(first);
     rows->addLayout(second);
+}
+
+void MotionBar::resizeEvent(QResizeEvent* /*event*/) {
+    speed_->keepLines(width() < units(narrowBar) ? 2 : 1);
 }
 
 double MotionBar::share() const { return slider_->value() / 100.0; }

@@ -35,6 +35,9 @@ public:
 Q_SIGNALS:
     void shareChanged();
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
     void layOut(bool hasModes);
 

@@ -15,6 +15,7 @@ namespace {
 constexpr double wideUnits = 195;   // from here on the plot stands beside the axes
 constexpr double lowUnits = 80;     // below it there is room for one line only
 constexpr double settledAfter = 5;  // s, of the plots
+constexpr int lineCount = 2;        // of each sentence
 
 QScrollArea* scrolled(const QString& name) {
     auto* area = new QScrollArea;
@@ -36,7 +37,8 @@ MotionPage::MotionPage(const std::vector<QWidget*>& column, QWidget* parent)
       plots_{new AxisPlots},
       jogging_{new Plate},
       ended_{new Sentence{Tone::Quiet}},
-      hint_{new Sentence{Tone::Quiet}} {
+      hint_{new Sentence{Tone::Quiet}},
+      lines_{new QGridLayout} {
     auto* table = new QWidget;
     auto* rows = new QVBoxLayout{table};
     rows->setContentsMargins(0, 0, 0, 0);
@@ -54,19 +56,25 @@ MotionPage::MotionPage(const std::vector<QWidget*>& column, QWidget* parent)
     top->setContentsMargins(0, units(2), 0, units(2));
     top->setSpacing(units(1));
     top->addLayout(body, 1);
-    top->addWidget(lines());
+    top->addLayout(lines_);
+    addLines();
     arrange();
 }
 
-QWidget* MotionPage::lines() {
-    auto* box = new QWidget;
-    auto* column = new QVBoxLayout{box};
-    column->setContentsMargins(units(4), 0, units(4), 0);
-    column->setSpacing(units(0.5));
-    for (QWidget* each : std::initializer_list<QWidget*>{jogging_, ended_, hint_})
-        column->addWidget(each);
-    return box;
+// A jog, or why it ended, in one place; what else is to be known below it.
+void MotionPage::addLines() {
+    lines_->setContentsMargins(units(4), 0, units(4), 0);
+    lines_->setVerticalSpacing(units(0.5));
+    for (Sentence* each : {ended_, hint_}) {
+        each->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+        each->keepLines(lineCount);
+    }
+    jogging_->keepLines(lineCount);
+    lines_->addWidget(jogging_, 0, 0);
+    lines_->addWidget(ended_, 0, 0);
 }
+
+bool MotionPage::isLow() const { return height() < units(lowUnits); }
 
 bool MotionPage::settled() const { return plots_->length() >= settledAfter; }
 
@@ -74,22 +82,22 @@ void MotionPage::reveal(QWidget& part) { left_->ensureWidgetVisible(&part, 0, un
 
 void MotionPage::say(const QString& jogging, const QString& ended, const QString& hint,
                      std::optional<Tone> tone) {
-    // Where there is room, a line for it stays free: no button moves when a jog begins.
-    jogging_->keepPlace(height() >= units(lowUnits));
     jogging_->say(jogging);
     ended_->say(ended);
-    ended_->setVisible(!ended.isEmpty());
+    ended_->setVisible(jogging.isEmpty() && !ended.isEmpty());
     hint_->say(hint, tone);
-    // Where there is little room, one of them at a time.
-    const bool crowded = height() < units(lowUnits) && (!jogging.isEmpty() || !ended.isEmpty());
+    const bool crowded = isLow() && (!jogging.isEmpty() || !ended.isEmpty());
     hint_->setVisible(!crowded && !hint.isEmpty());
 }
 
-// Beside the axes where there is room, otherwise below them.
+// The plots beside the axes where there is room, otherwise below them. Where there is little, all
+// lines share one place.
 void MotionPage::arrange() {
+    lines_->addWidget(hint_, isLow() ? 0 : 1, 0);
     left_->setMinimumWidth(units(leastRowUnits + 4));  // with its scroll bar
     const bool wide = width() >= units(wideUnits);
-    if (wide == (right_->widget() == side_)) return;
+    const bool placed = side_->parentWidget() != nullptr;
+    if (placed && wide == (right_->widget() == side_)) return;
     if (wide) {
         right_->setWidget(side_);
     } else {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+class QGridLayout;
 class QScrollArea;
 
 namespace cortex::explorer {
@@ -17,7 +18,7 @@ class Plate;
 class Sentence;
 
 // How a view of motion is laid out: what moves the axes in a column, the last seconds of one axis
-// beside it where there is room, and lines about a jog below.
+// beside it where there is room, and lines about a jog below, in places that are kept.
 class MotionPage : public QWidget {
     Q_OBJECT
 public:
@@ -35,7 +36,8 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
-    QWidget* lines();
+    void addLines();
+    bool isLow() const;  // there is room for one of the lines only
     void arrange();
 
     QScrollArea *left_, *right_;
@@ -43,6 +45,7 @@ private:
     AxisPlots* plots_;
     Plate* jogging_;
     Sentence *ended_, *hint_;
+    QGridLayout* lines_;
 };
 
 }  // namespace cortex::explorer

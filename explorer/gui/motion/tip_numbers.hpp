@@ -27,9 +27,9 @@ private:
     static QString noteOf(const Tip& tip, const std::string& controller);
 
     QLabel* title_;
-    Sentence* note_;  // why these are not the numbers of this tip, or of now
     std::array<QLabel*, 6> numbers_{};
-    Sentence *heldBack_, *distance_;
+    Sentence* distance_;
+    Sentence* note_;  // why these are not the numbers of this tip, or of now; what holds it back
 };
 
 }  // namespace cortex::explorer

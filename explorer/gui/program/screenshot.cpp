@@ -3,6 +3,7 @@
 
 #include "cortex/core/nearest_names.hpp"
 
+#include "common/no_agent.hpp"
 #include "plots/plot_view.hpp"
 #include "session/session.hpp"
 #include "window/main_window.hpp"
@@ -33,14 +34,10 @@ bool haveAll(const Frame& frame, const std::vector<std::string>& paths) {
                                [&](const auto& each) { return frame.find(each).has_value(); });
 }
 
-std::string nobodyOn(int number, const std::string& server) {
-    const std::string domain = std::to_string(number);
-    if (!server.empty()) {
-        return "no agent on domain " + domain + " by way of the Discovery Server " + server +
-               " is heard; see that the server runs there and that the agents name it too, or "
-               "leave --discovery-server (CORTEX_DISCOVERY_SERVER) out";
-    }
-    return "no agent on domain " + domain + "; start one (cortex-agent FILE --domain " + domain +
+std::string nobodyOn(int domain, const std::string& server) {
+    const std::string none = common::noAgent(domain, server);
+    if (!server.empty()) return none + " is heard; " + common::serverRemedy(server);
+    return none + "; start one (cortex-agent FILE --domain " + std::to_string(domain) +
            "), look at another domain (--domain N or CORTEX_DOMAIN), or name the interface that "
            "the agents are kept to (--interface lo or CORTEX_INTERFACE)";
 }

@@ -6,6 +6,7 @@
 #include <QApplication>
 #include <QFontDatabase>
 #include <QFontMetricsF>
+#include <QWidget>
 #include <array>
 #include <cmath>
 
@@ -102,6 +103,12 @@ QFont Look::font(TextSize size, bool strong) {
 double Look::length(double units) { return 4 * units * scale(); }
 
 int Look::units(double count) { return static_cast<int>(std::lround(length(count))); }
+
+bool Look::isLow(const QWidget& widget) {
+    const QWidget* window = widget.window();
+    while (window->parentWidget() != nullptr) window = window->parentWidget()->window();
+    return window->height() < units(175);
+}
 
 int Look::lineWidth() { return theme() == Theme::HighContrast ? 2 : 1; }
 

@@ -6,6 +6,8 @@
 #include <QFont>
 #include <QPalette>
 
+class QWidget;
+
 // How everything looks at present: theme, size, fonts. One for the program; GUI thread.
 namespace cortex::gui {
 
@@ -26,6 +28,9 @@ public:
     static int units(double count);
     static double length(double units);  // the same, not rounded; for drawings
     static int lineWidth();              // 1 px; 2 in high contrast
+    // The window of the widget, or that behind its popover, is lower than 700 px at 100 %: rows of
+    // data come before words.
+    static bool isLow(const QWidget& widget);
 };
 
 // Digits of equal width and letters that cannot be taken for digits; otherwise Open Sans, or what

@@ -11,13 +11,13 @@
 #include "views/loop_table.hpp"
 #include "views/loop_trend.hpp"
 #include "widgets/link.hpp"
+#include "widgets/tab_row.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QHBoxLayout>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QStackedWidget>
-#include <QTabBar>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <array>
@@ -83,7 +83,7 @@ AgentDetails::AgentDetails(QWidget* parent)
       troubles_{new TextLabel{TextSize::Text, true, &Tokens::warnText}},
       open_{new Link{tr("Open its simplex")}},
       plot_{new QPushButton{tr("Plot duty and jitter")}},
-      tabs_{new QTabBar},
+      tabs_{new TabRow},
       pages_{new QStackedWidget},
       loop_{new LoopTable},
       counters_{new CounterTable},
@@ -99,9 +99,6 @@ AgentDetails::AgentDetails(QWidget* parent)
     rows->addWidget(tabs_);
     rows->addWidget(pages_, 1);
     for (int i = 0; i <= AgreementTab; ++i) tabs_->addTab({});
-    tabs_->setExpanding(false);
-    tabs_->setElideMode(Qt::ElideNone);  // what has no room is scrolled to
-    tabs_->setDrawBase(false);
     tabs_->setAccessibleName(tr("What to show of the agent"));
     pages_->addWidget(makeLoopPage());
     pages_->addWidget(trend_);
@@ -126,10 +123,8 @@ QWidget* AgentDetails::makeHeader() {
     row->addWidget(open_);
     row->addWidget(plot_);
     rows->addLayout(row);
-    rows->addWidget(troubles_);
-    troubles_->setWordWrap(true);
-    troubles_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Minimum);
-    troubles_->hide();
+    troubles_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    rows->addWidget(troubles_);  // a line that is kept for them
     return header;
 }
 
@@ -209,7 +204,7 @@ void AgentDetails::refresh(const Frame& frame, const LoopHistory& history) {
 // It is forgotten: another one is chosen in the table.
 void AgentDetails::showNothing() {
     facts_->show(tr("It is not heard."), &Tokens::ink2);
-    troubles_->hide();
+    troubles_->show({});
     open_->setEnabled(false);
     plot_->setEnabled(false);
     tabs_->hide();
@@ -220,8 +215,7 @@ void AgentDetails::tell(const AgentFrame& agent) {
     facts_->show(factsOf(agent), agent.status.overloaded ? &Tokens::warnText : &Tokens::ink2);
     QStringList lines = troublesOf(agent.status);
     if (agent.lost()) lines.prepend(lostText(agent));
-    troubles_->show(lines.join('\n'), agent.lost() ? &Tokens::dataText : &Tokens::warnText);
-    troubles_->setVisible(!lines.isEmpty());
+    troubles_->show(separated(lines), agent.lost() ? &Tokens::dataText : &Tokens::warnText);
     open_->setEnabled(agent.own() != noSimplex);
     plot_->setEnabled(agent.own() != noSimplex);
     tabs_->show();
@@ -245,7 +239,6 @@ void AgentDetails::refreshPages(const Frame& frame, const AgentFrame& agent) {
     leaseNote_->show(leases_->count() > 0 ? QString{}
                      : known              ? tr("Nobody holds a part of it.")
                                           : tr("Not known who holds a part of it."));
-    leaseNote_->setVisible(!leaseNote_->text().isEmpty());
     agreementNote_->show(agreementText(agent, *agreement_));
 }
 

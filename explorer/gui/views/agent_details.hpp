@@ -12,7 +12,6 @@
 
 class QPushButton;
 class QStackedWidget;
-class QTabBar;
 class QVBoxLayout;
 
 namespace cortex::gui {
@@ -23,6 +22,7 @@ class LeaseTable;
 class Link;
 class LoopTable;
 class LoopTrend;
+class TabRow;
 class TextLabel;
 
 // All that is known of one agent: what is wrong with it, its loop, who holds control of it, and how
@@ -58,7 +58,7 @@ private:
     TextLabel *name_, *facts_, *troubles_;
     Link* open_;
     QPushButton* plot_;
-    QTabBar* tabs_;
+    TabRow* tabs_;
     QStackedWidget* pages_;
     LoopTable* loop_;
     CounterTable* counters_;

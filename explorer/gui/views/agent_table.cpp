@@ -33,6 +33,12 @@ QStringList textsOf(const AgentFrame& agent) {
             troubles.isEmpty() ? missedText(agent) : troubles.front()};
 }
 
+QStringList goneAgentTexts(const std::string& name) {
+    QStringList texts{QString::fromStdString(name)};
+    while (texts.size() < troubleColumn) texts << QStringLiteral("—");
+    return texts << AgentTable::tr("It is not heard.");
+}
+
 }  // namespace
 
 AgentTable::AgentTable(QWidget* parent) : QTreeWidget{parent} {
@@ -71,17 +77,21 @@ void AgentTable::refresh(const Frame& frame) {
     const QString started = tr("Started (%1)").arg(zoneName(frame.utc));
     if (headerItem()->text(startedColumn) != started) headerItem()->setText(startedColumn, started);
     filling_ = true;
-    const int count = static_cast<int>(frame.agents.size());
+    std::vector<std::string> names;
+    for (const AgentFrame& each : frame.agents) names.push_back(each.status.name);
+    const std::vector<int> places = order_.update(names, isUsed(*this));
+    const int count = static_cast<int>(places.size());
     const bool other = topLevelItemCount() != count;
     while (topLevelItemCount() > count) delete takeTopLevelItem(topLevelItemCount() - 1);
     while (topLevelItemCount() < count) new QTreeWidgetItem{this};
-    for (int i = 0; i < topLevelItemCount(); ++i) {
-        const AgentFrame& agent = frame.agents[static_cast<std::size_t>(i)];
-        const QStringList texts = textsOf(agent);
-        topLevelItem(i)->setData(0, nameRole, QString::fromStdString(agent.status.name));
-        for (int column = 0; column < texts.size(); ++column) {
-            setCell(*topLevelItem(i), column, texts[column]);
-        }
+    for (int row = 0; row < count; ++row) {
+        const int place = places[static_cast<std::size_t>(row)];
+        const QStringList texts = place == HeldOrder::gone
+                                      ? goneAgentTexts(order_.key(row))
+                                      : textsOf(frame.agents[static_cast<std::size_t>(place)]);
+        topLevelItem(row)->setData(0, nameRole, QString::fromStdString(order_.key(row)));
+        for (int column = 0; column < texts.size(); ++column)
+            setCell(*topLevelItem(row), column, texts[column]);
     }
     filling_ = false;
     for (int column = 0; column < troubleColumn; ++column) growToFit(*this, column);
@@ -89,9 +99,8 @@ void AgentTable::refresh(const Frame& frame) {
     if (other) updateGeometry();
 }
 
-int AgentTable::wholeHeight() const {
-    const int rows = std::max(topLevelItemCount(), 1);
-    return header()->sizeHint().height() + rows * gui::rowHeight() +
+int AgentTable::heightOf(int rows) const {
+    return header()->sizeHint().height() + std::max(rows, 1) * gui::rowHeight() +
            horizontalScrollBar()->sizeHint().height();
 }
 

@@ -48,10 +48,11 @@ void AgentView::refresh(const Frame& frame) {
     fitTable();
 }
 
-// As high as its rows, so that most is left for what is chosen.
+// As high as its rows, so that most is left for what is chosen; not while the pointer is in it.
 void AgentView::fitTable() {
+    if (!underMouse() || rows_ == 0) rows_ = table_->topLevelItemCount();
     const int most = static_cast<int>(height() * shareOfTable);
-    table_->setFixedHeight(details_->isVisible() ? std::min(table_->wholeHeight(), most)
+    table_->setFixedHeight(details_->isVisible() ? std::min(table_->heightOf(rows_), most)
                                                  : height());
 }
 

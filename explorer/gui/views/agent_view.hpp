@@ -35,6 +35,7 @@ private:
     LoopHistory history_;
     AgentTable* table_;
     AgentDetails* details_;
+    int rows_ = 0;  // of the table, for which there is room
 };
 
 }  // namespace cortex::gui

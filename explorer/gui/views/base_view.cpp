@@ -15,6 +15,7 @@
 #include "views/type_page.hpp"
 #include "views/view_host.hpp"
 #include "widgets/item_table.hpp"
+#include "widgets/tab_row.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QShortcut>
@@ -43,7 +44,7 @@ BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, 
       emptyText_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
       lifeCycle_{new LifeCycleBar{commands}},
       header_{new SimplexHeader{lifeCycle_, times}},
-      tabs_{new QTabBar},
+      tabs_{new TabRow},
       pages_{new QStackedWidget},
       own_{new OwnView{host}},
       table_{new ItemTable{items_}},
@@ -58,9 +59,6 @@ BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, 
 
     pages_->setMinimumHeight(1);  // what is above them is never cut
     for (int i = 0; i < TabCount; ++i) tabs_->addTab({});
-    tabs_->setExpanding(false);
-    tabs_->setElideMode(Qt::ElideNone);  // what has no room is scrolled to
-    tabs_->setDrawBase(false);
     tabs_->setAccessibleName(tr("What to show"));
     auto* dataPage = new QWidget;
     auto* dataRows = new QVBoxLayout{dataPage};
@@ -152,8 +150,9 @@ void BaseView::refresh(const std::shared_ptr<const Frame>& frame) {
     types_ = frame->agents[place->agent].structure;
     if (fresh_ || structures_ != frame->structures) refreshTabs(*frame, place);
     makeRoom();
-    header_->refresh(*frame, *place);
     lifeCycle_->refresh(*frame, *place);
+    header_->explain(lifeCycle_->reasons());
+    header_->refresh(*frame, *place);
     edits_->refresh(frame, *place);
     commands_->refresh(*frame, *place);
     relations_->refresh(*frame);
@@ -169,11 +168,13 @@ bool BaseView::wantsRoom() const {
 
 // In a low window the header leaves a view the height that it needs.
 void BaseView::makeRoom() {
-    const bool brief = wantsRoom();
+    const bool brief = wantsRoom(), low = Look::isLow(*this);
     header_->setBrief(brief);
-    lifeCycle_->setBrief(brief);
-    const int side = Look::units(4);
-    const QMargins margins{side, Look::units(brief ? 1.5 : 3), side, Look::units(brief ? 1 : 2)};
+    lifeCycle_->setLines(low ? 0 : brief ? 1 : 2);
+    table_->setLow(low);
+    edits_->setLow(low);
+    const int side = Look::units(4), above = Look::units(low ? 0.5 : brief ? 1.5 : 3);
+    const QMargins margins{side, above, side, Look::units(low ? 0.5 : brief ? 1 : 2)};
     if (headerRow_->contentsMargins() != margins) headerRow_->setContentsMargins(margins);
 }
 
@@ -243,7 +244,7 @@ void BaseView::showOwnView(const Type& type, const TypeModel& types) {
         own_->show(*own, path_);
         tabs_->setTabText(OwnTab, QString::fromUtf8(own->title));
     }
-    tabs_->setTabVisible(OwnTab, own != nullptr);
+    tabs_->offer(OwnTab, own != nullptr);
     tabs_->setCurrentIndex(wanted_ == OwnTab && own == nullptr ? DataTab : wanted_);
 }
 

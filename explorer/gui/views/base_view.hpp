@@ -25,6 +25,7 @@ class LifeCycleBar;
 class TypePage;
 class SimplexHeader;
 class StateTimes;
+class TabRow;
 class TextLabel;
 class ViewHost;
 
@@ -73,7 +74,7 @@ private:
     SimplexHeader* header_;
     QLayout* headerRow_;
     std::shared_ptr<const Structure> types_;  // of what is shown
-    QTabBar* tabs_;
+    TabRow* tabs_;
     int wanted_ = 0;  // tab that the user chose
     QStackedWidget* pages_;
     OwnView* own_;

@@ -3,9 +3,11 @@
 
 #include "model/outcome_text.hpp"
 #include "model/permission.hpp"
+#include "model/plain_text.hpp"
 #include "model/shell_text.hpp"
 #include "model/value_text.hpp"
 #include "views/run_question.hpp"
+#include "widgets/popover.hpp"
 #include "widgets/text_label.hpp"
 #include "widgets/value_field.hpp"
 
@@ -14,10 +16,10 @@
 #include <QClipboard>
 #include <QGridLayout>
 #include <QKeyEvent>
+#include <QPlainTextEdit>
 #include <QProgressBar>
 #include <QPushButton>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace cortex::gui {
@@ -46,12 +48,10 @@ QString rangeAndUnit(const DataItem& item) {
     return parts.join(' ');
 }
 
-QLabel* wrapped() {
-    auto* label = new QLabel;
-    label->setTextFormat(Qt::PlainText);
-    label->setWordWrap(true);
-    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    return label;
+void keepPlace(QWidget& widget) {
+    QSizePolicy policy = widget.sizePolicy();
+    policy.setRetainSizeWhenHidden(true);
+    widget.setSizePolicy(policy);
 }
 
 }  // namespace
@@ -63,19 +63,22 @@ CommandCard::CommandCard(Commands& commands, std::string path, const Command& co
       path_{std::move(path)},
       command_{command},
       run_{new QPushButton{tr("Run")}},
+      whole_{new QPushButton{tr("Whole answer…")}},
       cancel_{new QPushButton{tr("Cancel")}},
-      reason_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
+      told_{new TextLabel{TextSize::Note}},
+      reason_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
       progressText_{new TextLabel{TextSize::Text}},
-      whyNotCancel_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
-      progress_{new QProgressBar},
-      outcome_{wrapped()},
-      cancelled_{wrapped()} {
+      progress_{new QProgressBar} {
     const QString name = QString::fromStdString(command_.name);
+    setAccessibleName(name);
     auto* rows = new QVBoxLayout{this};
     rows->setContentsMargins(Look::units(4), Look::units(2), Look::units(4), Look::units(3));
     auto* title = new TextLabel{TextSize::Text, true};
     title->show(name);
-    auto* about = wrapped();
+    auto* about = new QLabel;
+    about->setTextFormat(Qt::PlainText);
+    about->setWordWrap(true);
+    about->setTextInteractionFlags(Qt::TextSelectableByMouse);
     about->setText(QString::fromStdString(command_.description));
     rows->addWidget(title);
     rows->addWidget(about);
@@ -85,29 +88,54 @@ CommandCard::CommandCard(Commands& commands, std::string path, const Command& co
     grid->setColumnStretch(3, 1);
     for (const DataItem& each : command_.request) addParameter(*grid, each);
     rows->addLayout(grid);
+    addRun(*rows);
+    addCancel(*rows);
+    addCopy();
+    fit();
+    showOutcomes();
+    decide();
+}
 
-    auto* last = new QHBoxLayout;
-    run_->setAccessibleName(tr("Run %1").arg(name));
+// Beside Run what became of the last one, below it why it is off.
+void CommandCard::addRun(QVBoxLayout& rows) {
+    run_->setAccessibleName(tr("Run %1").arg(accessibleName()));
     run_->setToolTip(tr("Ctrl+Enter in this form"));
-    cancel_->setAccessibleName(tr("Cancel %1").arg(name));
+    told_->setWordWrap(true);
+    told_->setAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    told_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    whole_->setAccessibleName(tr("Whole answer to %1").arg(accessibleName()));
+    keepPlace(*whole_);
+    whole_->hide();
+    auto* row = new QHBoxLayout;
+    row->addWidget(run_);
+    row->addWidget(told_, 1);
+    row->addWidget(whole_);
+    auto* both = new QVBoxLayout;
+    both->setSpacing(Look::units(0.5));
+    both->addLayout(row);
+    both->addWidget(reason_);
+    rows.addLayout(both);
+    connect(run_, &QPushButton::clicked, this, &CommandCard::run);
+    connect(whole_, &QPushButton::clicked, this, &CommandCard::openAnswer);
+}
+
+void CommandCard::addCancel(QVBoxLayout& rows) {
+    cancel_->setAccessibleName(tr("Cancel %1").arg(accessibleName()));
     progress_->setTextVisible(false);
     progress_->setFixedSize(Look::units(40), Look::units(3));
-    last->addWidget(run_);
-    last->addWidget(reason_);
-    last->addWidget(progress_);
-    last->addWidget(progressText_);
-    last->addWidget(cancel_);
-    last->addWidget(whyNotCancel_);
-    last->addStretch(1);
-    rows->addLayout(last);
-    rows->addWidget(outcome_);
-    rows->addWidget(cancelled_);
-    for (QWidget* each : std::initializer_list<QWidget*>{outcome_, cancelled_, progress_,
-                                                         progressText_, cancel_, whyNotCancel_}) {
+    if (command_.isLong) keepPlace(*cancel_);
+    auto* row = new QHBoxLayout;
+    row->addWidget(cancel_);
+    row->addWidget(progress_);
+    row->addWidget(progressText_);
+    row->addStretch(1);
+    rows.addLayout(row);
+    for (QWidget* each : std::initializer_list<QWidget*>{cancel_, progress_, progressText_})
         each->hide();
-    }
-    connect(run_, &QPushButton::clicked, this, &CommandCard::run);
     connect(cancel_, &QPushButton::clicked, this, &CommandCard::cancel);
+}
+
+void CommandCard::addCopy() {
     auto* copy = new QAction{tr("Copy as cortex command"), this};
     connect(copy, &QAction::triggered, this, [this] {
         QApplication::clipboard()->setText(
@@ -115,9 +143,12 @@ CommandCard::CommandCard(Commands& commands, std::string path, const Command& co
     });
     addAction(copy);
     setContextMenuPolicy(Qt::ActionsContextMenu);
-    setAccessibleName(name);
-    showOutcomes();
-    decide();
+}
+
+// Room for two lines of an answer, whether there is one or not.
+void CommandCard::fit() {
+    const int height = told_->heightOfLines(2);
+    if (height != told_->minimumHeight()) told_->setFixedHeight(height);
 }
 
 void CommandCard::addParameter(QGridLayout& grid, const DataItem& item) {
@@ -143,6 +174,7 @@ void CommandCard::refresh(const Frame& frame, Place place) {
     whyNot_ = comms::isControlCommand(command_.name)
                   ? tr("the window does this itself: Ctrl+T")
                   : whyNotNow(frame, place, command_.available, command_.name, arguments());
+    fit();
     showOutcomes();
     decide();
     if (command_.isLong) refreshProgress(frame.agents[place.agent], place.simplex);
@@ -160,16 +192,18 @@ void CommandCard::refreshProgress(const AgentFrame& agent, std::uint32_t simplex
     }
     const Commands::Last* sent = commands_.last(path_, cancelName());
     const bool waits = sent != nullptr && !sent->outcome;
-    whyNotCancel_->show(agent.lost()
+    const QString why = agent.lost()
                             ? tr("%1 is not heard").arg(QString::fromStdString(agent.status.name))
                         : waits ? tr("sending")
-                                : QString{});
-    whyNotCancel_->setVisible(runs_ && !whyNotCancel_->text().isEmpty());
-    cancel_->setEnabled(whyNotCancel_->text().isEmpty());
-    if (!runs_ || !known) return;
-    const int percent = static_cast<int>(std::lround(activity->progress * 100));
-    progress_->setValue(percent);
-    progressText_->show(tr("%1 %, asked for by %2").arg(percent).arg(activity->requester));
+                                : QString{};
+    cancel_->setEnabled(why.isEmpty());
+    if (!runs_) return;
+    if (known) {
+        const int percent = static_cast<int>(std::lround(activity->progress * 100));
+        progress_->setValue(percent);
+        requested_ = tr("%1 %, asked for by %2").arg(percent).arg(activity->requester);
+    }
+    progressText_->show(why.isEmpty() ? requested_ : tr("%1; %2").arg(why, requested_));
 }
 
 QString CommandCard::whyNotRun() const {
@@ -229,7 +263,7 @@ void CommandCard::cancel() {
     showOutcomes();
 }
 
-// What became of the last command, and of the last that cancelled it.
+// What became of the last command, and of the last that cancelled it; the newer one first.
 void CommandCard::showOutcomes() {
     const Commands::Last* last = commands_.last(path_, command_.name);
     const Commands::Last* cancelled = commands_.last(path_, cancelName());
@@ -241,13 +275,33 @@ void CommandCard::showOutcomes() {
     if (all == shown_) return;
     shown_ = std::move(all);
     isSending_ = last != nullptr && !last->outcome && !command_.isLong;
-    outcome_->setVisible(last != nullptr && last->outcome);
-    if (last != nullptr && last->outcome) outcome_->setText(outcomeText(*last->outcome, &command_));
-    cancelled_->setVisible(cancelled != nullptr && cancelled->outcome);
+    QStringList answers;
+    if (last != nullptr && last->outcome) answers << outcomeText(*last->outcome, &command_);
     if (cancelled != nullptr && cancelled->outcome) {
-        cancelled_->setText(tr("Cancel: %1").arg(outcomeText(*cancelled->outcome)));
+        const bool newer = last == nullptr || cancelled->number > last->number;
+        answers.insert(newer ? 0 : answers.size(),
+                       tr("Cancel: %1").arg(outcomeText(*cancelled->outcome)));
     }
+    answer_ = answers.join('\n');
+    told_->show(QString{answer_}.replace('\n', QStringLiteral("; ")));
+    told_->setToolTip(tipText(answer_));
+    whole_->setVisible(!answer_.isEmpty());
     decide();
+}
+
+// It can be selected, and scrolled where it is longer.
+void CommandCard::openAnswer() {
+    auto* popover = new Popover{whole_->accessibleName(), this};
+    auto* text = new QPlainTextEdit{answer_};
+    text->setReadOnly(true);
+    text->setTabChangesFocus(true);
+    text->setAccessibleName(whole_->accessibleName());
+    text->setFixedSize(Look::units(110), Look::units(30));
+    popover->rows().addWidget(text);
+    popover->adjustSize();
+    popover->move(whole_->mapToGlobal(whole_->rect().bottomRight()) - QPoint{popover->width(), 0});
+    popover->show();
+    text->setFocus();
 }
 
 void CommandCard::keyPressEvent(QKeyEvent* event) {

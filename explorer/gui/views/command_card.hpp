@@ -7,9 +7,9 @@
 #include <vector>
 
 class QGridLayout;
-class QLabel;
 class QProgressBar;
 class QPushButton;
+class QVBoxLayout;
 
 namespace cortex::gui {
 
@@ -18,7 +18,8 @@ class ValueField;
 
 // One command of a simplex as a form: what it does, a field for each parameter, Run with the reason
 // why not, progress and Cancel of a long one, what became of the last: also of one that was sent
-// before this form was made.
+// before this form was made. All of it has its place from the beginning: nothing that comes moves
+// anything.
 class CommandCard : public QWidget {
     Q_OBJECT
 public:
@@ -34,6 +35,10 @@ protected:
 
 private:
     void addParameter(QGridLayout& grid, const DataItem& item);
+    void addRun(QVBoxLayout& rows);
+    void addCancel(QVBoxLayout& rows);
+    void addCopy();
+    void fit();
     comms::Mirror::Arguments arguments() const;
     QString whyNotRun() const;  // empty: it can be sent
     void decide();
@@ -42,6 +47,7 @@ private:
     void cancel();
     void refreshProgress(const AgentFrame& agent, std::uint32_t simplex);
     void showOutcomes();
+    void openAnswer();
     std::string cancelName() const { return "cancel " + command_.name; }
 
     Commands& commands_;
@@ -50,11 +56,12 @@ private:
     QString whyNot_;   // from outside of the form
     bool isSending_ = false, runs_ = false;
     std::string shown_;  // which outcomes are shown
+    QString answer_;     // all of them
+    QString requested_;  // how far a long one is, and who asked for it
     std::vector<ValueField*> fields_;
-    QPushButton *run_, *cancel_;
-    TextLabel *reason_, *progressText_, *whyNotCancel_;
+    QPushButton *run_, *whole_, *cancel_;
+    TextLabel *told_, *reason_, *progressText_;
     QProgressBar* progress_;
-    QLabel *outcome_, *cancelled_;
 };
 
 }  // namespace cortex::gui

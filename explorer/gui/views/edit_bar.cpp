@@ -53,10 +53,16 @@ EditBar::EditBar(Commands& commands, ItemModel& items, QWidget* parent)
       discard_{new QPushButton{tr("Discard")}},
       undo_{new QPushButton{tr("Undo")}} {
     auto* row = new QHBoxLayout{this};
-    row->setContentsMargins(Look::units(4), Look::units(1), Look::units(4), Look::units(1));
     row->addWidget(told_, 1);
     told_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     for (QPushButton* each : {undo_, discard_, set_}) row->addWidget(each);
+    // Undo never stands where Set was just pressed.
+    for (QPushButton* each : {discard_, set_}) {
+        QSizePolicy policy = each->sizePolicy();
+        policy.setRetainSizeWhenHidden(true);
+        each->setSizePolicy(policy);
+    }
+    set_->setText(tr("Set %n items", nullptr, 2));
     connect(set_, &QPushButton::clicked, this, &EditBar::submit);
     connect(discard_, &QPushButton::clicked, this, &EditBar::discard);
     connect(undo_, &QPushButton::clicked, this, &EditBar::undo);
@@ -68,7 +74,13 @@ EditBar::EditBar(Commands& commands, ItemModel& items, QWidget* parent)
         refused_ = true;
     });
     connect(&items_, &ItemModel::accepted, this, &EditBar::forgetRefusal);
+    setLow(false);
     hide();
+}
+
+void EditBar::setLow(bool low) {
+    const int side = Look::units(4), above = low ? 0 : Look::units(1);
+    layout()->setContentsMargins(side, above, side, above);
 }
 
 void EditBar::show(const std::string& path) {
@@ -108,7 +120,7 @@ void EditBar::refresh(const std::shared_ptr<const Frame>& frame, Place place) {
     forgetWhatChanged();
     const int count = static_cast<int>(items_.edits().size());
     if (count > 0) sayPending();
-    set_->setText(tr("Set %n items", nullptr, count));
+    if (count > 0) set_->setText(tr("Set %n items", nullptr, count));
     set_->setVisible(count > 0);
     discard_->setVisible(count > 0);
     discard_->setEnabled(!sending_.contains(path_));

@@ -24,6 +24,7 @@ class EditBar : public QWidget {
 public:
     EditBar(Commands& commands, ItemModel& items, QWidget* parent = nullptr);
 
+    void setLow(bool low);               // there is little height
     void show(const std::string& path);  // what was entered for another one is discarded
     void refresh(const std::shared_ptr<const Frame>& frame, Place place);
     void submit();

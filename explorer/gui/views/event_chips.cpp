@@ -2,9 +2,11 @@
 #include "views/event_chips.hpp"
 
 #include "model/plain_text.hpp"
+#include "style/look.hpp"
 #include "widgets/chip.hpp"
-#include "widgets/flow_layout.hpp"
 
+#include <QMenu>
+#include <QToolButton>
 #include <array>
 
 namespace cortex::gui {
@@ -12,38 +14,44 @@ namespace cortex::gui {
 namespace {
 
 constexpr std::array bySeverity{Severity::Error, Severity::Warning, Severity::Info};
+constexpr double chipHeight = 7, chipGap = 1.5;  // units
 
 }  // namespace
 
-EventChips::EventChips(EventFilter& events, QWidget* parent) : QWidget{parent}, events_{events} {
-    setLayout(new FlowLayout{1.5});
-    QSizePolicy policy{QSizePolicy::Preferred, QSizePolicy::Fixed};
-    policy.setHeightForWidth(true);
-    setSizePolicy(policy);
+EventChips::EventChips(EventFilter& events, QWidget* parent)
+    : QWidget{parent}, events_{events}, more_{new QToolButton{this}} {
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+    more_->setAutoRaise(true);
+    more_->setToolTip(tr("The kinds that have no room here"));
+    more_->hide();
+    connect(more_, &QToolButton::clicked, this, &EventChips::openMenu);
     for (const Severity each : bySeverity) {
         severities_[each] =
             add(new Chip{QString::fromLatin1(name(each)), shapeOf(each)}, events.shows(each),
                 [this, each](bool shown) { events_.showSeverity(each, shown); });
     }
-    routine_ = add(new Chip{tr("jog")}, events.showsRoutine(),
-                   [this](bool shown) { events_.showRoutine(shown); });
     refresh();
 }
 
 Chip* EventChips::add(Chip* chip, bool shown, const std::function<void(bool)>& show) {
+    chip->setParent(this);
     chip->setChecked(shown);
-    layout()->addWidget(chip);
     connect(chip, &QAbstractButton::toggled, this, show);
+    chips_.push_back(chip);
     return chip;
+}
+
+// No chip becomes wider while the pointer is among them.
+void EventChips::show(Chip& chip, bool shown, std::uint64_t count) {
+    chip.setChecked(shown);
+    chip.show(count, !underMouse() || chip.isHidden());
 }
 
 // What is shown may have been changed elsewhere, too.
 void EventChips::refresh() {
     const EventFilter::Counts& counts = events_.counts();
-    for (const auto& [severity, chip] : severities_) {
-        chip->setChecked(events_.shows(severity));
-        chip->show(counts.severities[static_cast<std::size_t>(severity)]);
-    }
+    for (const auto& [severity, chip] : severities_)
+        show(*chip, events_.shows(severity), counts.severities[static_cast<std::size_t>(severity)]);
     const auto& kinds = events_.events().kinds();
     for (std::size_t i = 0; i < kinds.size() && i < counts.kinds.size(); ++i) {
         const std::string& kind = kinds[i];
@@ -53,13 +61,77 @@ void EventChips::refresh() {
             chip = add(new Chip{plainText(kind)}, events_.shows(kind),
                        [this, kind](bool shown) { events_.showKind(kind, shown); });
         }
-        chip->setChecked(events_.shows(kind));
-        chip->show(counts.kinds[i]);
-        chip->setVisible(counts.kinds[i] > 0 || !events_.shows(kind));
+        show(*chip, events_.shows(kind), counts.kinds[i]);
     }
-    routine_->setChecked(events_.showsRoutine());
-    routine_->show(counts.routine);
-    routine_->setVisible(counts.routine > 0 || events_.showsRoutine());
+    if (routine_ == nullptr && (counts.routine > 0 || events_.showsRoutine())) {
+        routine_ = add(new Chip{tr("jog")}, events_.showsRoutine(),
+                       [this](bool shown) { events_.showRoutine(shown); });
+    }
+    if (routine_ != nullptr) show(*routine_, events_.showsRoutine(), counts.routine);
+    place();
+}
+
+void EventChips::setRows(int rows) {
+    if (rows == rows_) return;
+    rows_ = rows;
+    updateGeometry();
+    place();
+}
+
+int EventChips::moreWidth() const {
+    return more_->fontMetrics().horizontalAdvance(tr("%1 more ▾").arg(99)) + Look::units(4);
+}
+
+// As many rows as there are, whatever is in them.
+QSize EventChips::sizeHint() const {
+    return {Look::units(100), rows_ * Look::units(chipHeight) + (rows_ - 1) * Look::units(chipGap)};
+}
+
+QSize EventChips::minimumSizeHint() const { return {moreWidth(), sizeHint().height()}; }
+
+// Row by row. Where they end early, the end of the last row is the button's.
+void EventChips::place() {
+    const int gap = Look::units(chipGap), step = Look::units(chipHeight) + gap;
+    int rest = 0, x = 0, row = 0, hidden = 0;
+    for (const Chip* each : chips_) rest += each->sizeHint().width() + gap;
+    for (Chip* each : chips_) {
+        const QSize size = each->sizeHint();
+        const bool all = x + rest - gap <= width();
+        if (!all && row + 1 < rows_ && x + size.width() > width()) {
+            x = 0;
+            ++row;
+        }
+        const int room = all || row + 1 < rows_ || x + rest - gap <= width()
+                             ? width()
+                             : width() - moreWidth() - gap;
+        const bool fits = hidden == 0 && x + size.width() <= room;
+        each->setVisible(fits);
+        if (fits) each->setGeometry(QRect{QPoint{x, row * step}, size});
+        if (!fits) ++hidden;
+        x += size.width() + gap;
+        rest -= size.width() + gap;
+    }
+    more_->setText(tr("%1 more ▾").arg(hidden));
+    more_->setVisible(hidden > 0);
+    more_->setGeometry(width() - moreWidth(), (rows_ - 1) * step, moreWidth(),
+                       Look::units(chipHeight));
+}
+
+void EventChips::openMenu() {
+    auto* menu = new QMenu{this};
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    for (Chip* each : chips_) {
+        if (!each->isHidden()) continue;
+        QAction* shows = menu->addAction(each->accessibleName(), each, &Chip::toggle);
+        shows->setCheckable(true);
+        shows->setChecked(each->isChecked());
+    }
+    menu->popup(more_->mapToGlobal({0, more_->height()}));
+}
+
+void EventChips::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    place();
 }
 
 }  // namespace cortex::gui

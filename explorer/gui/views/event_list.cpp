@@ -59,7 +59,7 @@ EventList::EventList(EventFilter& events, QWidget* parent)
     connect(&left_, &QTimer::timeout, this, &EventList::lookWhetherLeft);
 }
 
-// The buttons have no others beside them that come and go.
+// The buttons stand at the end, and one that is not needed leaves its place free.
 QWidget* EventList::makeHead() {
     auto* title = new TextLabel{TextSize::Text, true};
     title->show(tr("Events"));
@@ -74,12 +74,15 @@ QWidget* EventList::makeHead() {
     auto* row = new QHBoxLayout{head};
     row->setContentsMargins(Look::units(3), 0, Look::units(3), 0);
     row->setSpacing(Look::units(4));
-    for (QWidget* each :
-         std::initializer_list<QWidget*>{title, filter_, showAll_, hidden_, count_}) {
+    for (QWidget* each : std::initializer_list<QWidget*>{title, filter_, hidden_, count_}) {
         row->addWidget(each);
     }
     row->addStretch(1);
     row->addWidget(new_);
+    row->addWidget(showAll_);
+    QSizePolicy kept = showAll_->sizePolicy();
+    kept.setRetainSizeWhenHidden(true);
+    showAll_->setSizePolicy(kept);
     return head;
 }
 

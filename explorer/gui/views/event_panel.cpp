@@ -9,6 +9,7 @@
 #include <QGridLayout>
 #include <QPainter>
 #include <QPushButton>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,13 +52,19 @@ EventPanel::EventPanel(comms::NetworkOptions network, QWidget* parent)
     head->addWidget(dropped_);
     head->addWidget(open_);
     auto* rows = new QVBoxLayout{this};
-    rows->setContentsMargins(Look::units(4), Look::units(2), Look::units(4), Look::units(2));
     rows->setSpacing(Look::units(1));
     rows->addLayout(head);
     rows->addWidget(more_);
     addPairs();
     connect(open_, &QPushButton::clicked, this, [this] { Q_EMIT opened(path_); });
-    hide();  // until there is a row
+    for (QWidget* each : std::initializer_list<QWidget*>{mark_, open_}) {  // their places are kept
+        QSizePolicy policy = each->sizePolicy();
+        policy.setRetainSizeWhenHidden(true);
+        each->setSizePolicy(policy);
+        each->hide();
+    }
+    title_->show(tr("Choose an event: its details stand here."), &Tokens::ink2);
+    setCompact(false);
 }
 
 void EventPanel::addPairs() {
@@ -79,18 +86,22 @@ void EventPanel::addPairs() {
     grid->addWidget(command_, pairsInColumn, 0, 1, 4);
 }
 
-void EventPanel::setCompact(bool compact) { more_->setVisible(!compact); }
+void EventPanel::setCompact(bool compact) {
+    const int side = Look::units(4), above = Look::units(compact ? 0.5 : 2);
+    layout()->setContentsMargins(side, above, side, above);
+    more_->setVisible(!compact);
+}
 
 void EventPanel::show(const EventRow& row, std::uint64_t serial) {
     const comms::AgentEvent& event = row.event;
     dropped_->show({});
-    setVisible(true);
     if (serial_ == serial && times_ == row.times) return;
     serial_ = serial;
     times_ = row.times;
     path_ = event.path;
     mark_->show(row.isGap() ? Shape::Bad : shapeOf(event.severity));
     title_->show(row.text(), row.isGap() ? &Tokens::dataText : &Tokens::ink);
+    mark_->setVisible(true);
     open_->setVisible(!path_.empty());
     command_->show(tr("As a command: %1").arg(shellCommand(row, network_)));
     fill(row);

@@ -18,7 +18,7 @@ class StateMark;
 class TextLabel;
 
 // The details of the row that is selected. A row that drops out leaves them, with the words `no
-// longer kept`.
+// longer kept`. Its height is the same for every event, and before there is one.
 class EventPanel : public QWidget {
     Q_OBJECT
 public:

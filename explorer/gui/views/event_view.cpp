@@ -8,6 +8,7 @@
 #include "views/event_list.hpp"
 #include "views/event_panel.hpp"
 #include "views/event_table.hpp"
+#include "widgets/row_note.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QFileDialog>
@@ -29,12 +30,12 @@ EventView::EventView(EventFilter& events, const comms::NetworkOptions& network, 
       events_{events},
       field_{new QLineEdit},
       count_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
-      trouble_{new TextLabel{TextSize::Text, false, &Tokens::warnText}},
       exported_{new TextLabel{TextSize::Text}},
       follow_{new QPushButton{tr("Follow")}},
       below_{new QPushButton{this}},
       chips_{new EventChips{events}},
       rows_{new EventTable{events}},
+      trouble_{new RowNote{*rows_}},
       panel_{new EventPanel{network}} {
     setAutoFillBackground(true);
     auto* all = new QVBoxLayout{this};
@@ -78,18 +79,18 @@ QWidget* EventView::makeBar() {
     auto* first = new QHBoxLayout;
     first->setSpacing(Look::units(3));
     first->addWidget(field_, 3);
-    first->addWidget(count_);
-    first->addWidget(exported_);
-    first->addStretch(1);
+    for (TextLabel* each : {count_, exported_}) {  // what they say moves nothing
+        each->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+        first->addWidget(each, 4);
+    }
+    exported_->hide();
     first->addWidget(follow_);
     first->addWidget(save);
     auto* bar = new QWidget;
     auto* rows = new QVBoxLayout{bar};
-    rows->setContentsMargins(Look::units(4), Look::units(2), Look::units(4), Look::units(2));
     rows->addLayout(first);
-    rows->addWidget(trouble_);
     rows->addWidget(chips_);
-    trouble_->hide();
+    bar_ = rows;
     return bar;
 }
 
@@ -100,7 +101,6 @@ void EventView::search() {
     field_->setProperty(wrongInput, !trouble.isEmpty());
     field_->update();
     trouble_->show(trouble);
-    trouble_->setVisible(!trouble.isEmpty());
     refresh();
 }
 
@@ -136,8 +136,18 @@ void EventView::placeButton() {
 
 void EventView::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
-    panel_->setCompact(height() < Look::units(leastHeight));
+    makeRoom();
     placeButton();
+}
+
+// In a low view rows come before details and chips.
+void EventView::makeRoom() {
+    const bool compact = height() < Look::units(leastHeight);
+    const int side = Look::units(4), above = Look::units(compact ? 1 : 2);
+    bar_->setContentsMargins(side, above, side, above);
+    bar_->setSpacing(above);
+    panel_->setCompact(compact);
+    chips_->setRows(compact ? 1 : 2);
 }
 
 void EventView::focusFilter() {
@@ -160,6 +170,7 @@ void EventView::exportTo(const QString& file) {
     const QString why = writeEvents(events_, file);
     exported_->show(why.isEmpty() ? tr("Written: %1").arg(file) : tr("Not written: %1").arg(why),
                     why.isEmpty() ? &Tokens::ink2 : &Tokens::warnText);
+    exported_->setVisible(true);
 }
 
 }  // namespace cortex::gui

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+class QLayout;
 class QLineEdit;
 class QPushButton;
 
@@ -15,6 +16,7 @@ namespace cortex::gui {
 class EventChips;
 class EventPanel;
 class EventTable;
+class RowNote;
 class TextLabel;
 
 // The events of all agents as a view of their own: a filter, chips, all columns, details.
@@ -38,15 +40,18 @@ private:
     void askForFile();
     void search();
     void placeButton();
+    void makeRoom();
     void showDetails();
 
     EventFilter& events_;
     QLineEdit* field_;
-    TextLabel *count_, *trouble_, *exported_;
+    TextLabel *count_, *exported_;
     QPushButton *follow_, *below_;
     EventChips* chips_;
     EventTable* rows_;
+    RowNote* trouble_;  // over the last rows
     EventPanel* panel_;
+    QLayout* bar_ = nullptr;
     std::optional<std::uint64_t> shown_;  // row of the details, by its serial number
 };
 

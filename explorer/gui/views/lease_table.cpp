@@ -5,7 +5,23 @@
 #include "model/value_text.hpp"
 #include "widgets/rows.hpp"
 
+#include <utility>
+
 namespace cortex::gui {
+
+namespace {
+
+QStringList leaseTexts(const Frame& frame, const comms::ShownLease& lease) {
+    return {plainText(lease.prefix), plainText(lease.holder),
+            utcText(lease.since, "yyyy-MM-dd HH:mm:ss"), wholeAgeText(lease.seconds),
+            lease.holder == frame.control.self ? LeaseTable::tr("you") : QString{}};
+}
+
+QStringList noLeaseTexts(const std::string& prefix) {
+    return {plainText(prefix), LeaseTable::tr("nobody"), {}, {}, {}};
+}
+
+}  // namespace
 
 LeaseTable::LeaseTable(QWidget* parent) : QTreeWidget{parent} {
     setUpRows(*this);
@@ -18,17 +34,21 @@ LeaseTable::LeaseTable(QWidget* parent) : QTreeWidget{parent} {
 void LeaseTable::show(const Frame& frame, const AgentFrame& agent) {
     std::vector<comms::ShownLease> leases;
     if (agent.image) leases = comms::leasesOf(agent.status, *agent.image);
-    const int count = static_cast<int>(leases.size());
-    while (topLevelItemCount() > count) delete takeTopLevelItem(topLevelItemCount() - 1);
-    while (topLevelItemCount() < count) new QTreeWidgetItem{this};
-    for (int i = 0; i < count; ++i) {
-        const comms::ShownLease& lease = leases[static_cast<std::size_t>(i)];
-        const QStringList texts{plainText(lease.prefix), plainText(lease.holder),
-                                utcText(lease.since, "yyyy-MM-dd HH:mm:ss"),
-                                wholeAgeText(lease.seconds),
-                                lease.holder == frame.control.self ? tr("you") : QString{}};
+    std::vector<std::string> prefixes;
+    for (const comms::ShownLease& each : leases) prefixes.push_back(each.prefix);
+    const bool same = std::exchange(agent_, agent.status.name) == agent.status.name;
+    const std::vector<int> places = order_.update(prefixes, same && isUsed(*this));
+    count_ = static_cast<int>(leases.size());
+    const int rows = static_cast<int>(places.size());
+    while (topLevelItemCount() > rows) delete takeTopLevelItem(topLevelItemCount() - 1);
+    while (topLevelItemCount() < rows) new QTreeWidgetItem{this};
+    for (int row = 0; row < rows; ++row) {
+        const int place = places[static_cast<std::size_t>(row)];
+        const QStringList texts = place == HeldOrder::gone
+                                      ? noLeaseTexts(order_.key(row))
+                                      : leaseTexts(frame, leases[static_cast<std::size_t>(place)]);
         for (int column = 0; column < texts.size(); ++column)
-            setCell(*topLevelItem(i), column, texts[column]);
+            setCell(*topLevelItem(row), column, texts[column]);
     }
     for (int column = 0; column < columnCount(); ++column) growToFit(*this, column);
 }

@@ -9,6 +9,8 @@
 #include <QGridLayout>
 #include <QPushButton>
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace cortex::gui {
 
@@ -49,21 +51,33 @@ LifeCycleBar::LifeCycleBar(Commands& commands, QWidget* parent)
 
 void LifeCycleBar::show(const std::string& path) {
     path_ = path;
+    kept_ = 0;
     tell();
 }
 
+void LifeCycleBar::setLines(int lines) {
+    if (lines == lines_) return;
+    lines_ = lines;
+    kept_ = 0;
+    for (Button& each : buttons_) each.reason->setVisible(lines_ > 0);
+    updateGeometry();
+}
+
 int LifeCycleBar::leastWidth() const {
-    int width = Look::units(32);
+    int width = lines_ > 0 ? Look::units(32) : 0;
     for (const Button& each : buttons_) width = std::max(width, each.button->sizeHint().width());
     return width;
 }
 
 QSize LifeCycleBar::sizeWith(int width) const {
     const auto* grid = static_cast<const QGridLayout*>(layout());
-    return {3 * width + 2 * grid->horizontalSpacing(), grid->sizeHint().height()};
+    const int height =
+        lines_ > 0 ? grid->sizeHint().height() : buttons_.front().button->sizeHint().height();
+    return {3 * width + 2 * grid->horizontalSpacing(), height};
 }
 
 QSize LifeCycleBar::sizeHint() const {
+    if (lines_ == 0) return minimumSizeHint();
     const QString usual = tr("read-only: take control of /");
     const QFontMetrics metrics{buttons_.front().reason->font()};
     return sizeWith(std::max(leastWidth(), metrics.horizontalAdvance(usual) + 2));
@@ -71,22 +85,26 @@ QSize LifeCycleBar::sizeHint() const {
 
 QSize LifeCycleBar::minimumSizeHint() const { return sizeWith(leastWidth()); }
 
-// Room for the reasons, whether it is needed or not, and more where one is longer.
+// Room for the reasons, whether it is needed or not, also for that of a window without control.
+// What was longer once keeps its room: nothing moves when it goes.
 void LifeCycleBar::fit() {
     const auto* grid = static_cast<const QGridLayout*>(layout());
     const int width = std::max((this->width() - 2 * grid->horizontalSpacing()) / 3, leastWidth());
-    int height = buttons_.front().reason->heightOfLines(lines_);
-    for (const Button& each : buttons_)
-        height = std::max(height, each.reason->heightForWidth(width));
+    if (std::exchange(wide_, width) != width) kept_ = 0;
+    TextLabel readOnly{TextSize::Note};
+    readOnly.setWordWrap(true);
+    readOnly.show(readOnly_);
+    kept_ = std::max({kept_, readOnly.heightOfLines(lines_), readOnly.heightForWidth(width)});
+    for (const Button& each : buttons_) kept_ = std::max(kept_, each.reason->heightForWidth(width));
     for (Button& each : buttons_) {
         each.button->setMinimumWidth(each.button->sizeHint().width());
-        if (height != each.reason->minimumHeight()) each.reason->setFixedHeight(height);
+        if (kept_ != each.reason->minimumHeight()) each.reason->setFixedHeight(kept_);
     }
 }
 
 void LifeCycleBar::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
-    fit();
+    if (lines_ > 0) fit();
 }
 
 void LifeCycleBar::refresh(const Frame& frame, Place place) {
@@ -95,6 +113,7 @@ void LifeCycleBar::refresh(const Frame& frame, Place place) {
     setVisible(shown);
     if (!shown) return;
     tell();
+    readOnly_ = whyWithoutControl(frame, place);
     for (Button& each : buttons_) {
         const auto command = std::ranges::find(type.commands, each.command, &Command::name);
         const QString why = command == type.commands.end()
@@ -103,8 +122,26 @@ void LifeCycleBar::refresh(const Frame& frame, Place place) {
         each.button->setEnabled(why.isEmpty());
         each.reason->show(why);
         each.reason->setToolTip(tipText(why));
+        each.button->setToolTip(lines_ == 0 ? tipText(why) : QString{});
     }
-    fit();
+    if (lines_ > 0) fit();
+}
+
+QString LifeCycleBar::reasons() const {
+    std::vector<std::pair<QString, QStringList>> all;  // each with its buttons
+    for (const Button& each : buttons_) {
+        const QString& why = each.reason->text();
+        const auto found = std::ranges::find(all, why, &std::pair<QString, QStringList>::first);
+        if (why.isEmpty()) continue;
+        if (found == all.end())
+            all.emplace_back(why, QStringList{each.button->text()});
+        else
+            found->second << each.button->text();
+    }
+    QStringList texts;
+    for (const auto& [why, buttons] : all)
+        texts << tr("%1: %2").arg(buttons.join(QStringLiteral(", ")), why);
+    return texts.join(QStringLiteral("; "));
 }
 
 // What became of the last one stays with its simplex, whoever sent it from this window.

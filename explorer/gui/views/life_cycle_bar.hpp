@@ -19,8 +19,10 @@ public:
     explicit LifeCycleBar(Commands& commands, QWidget* parent = nullptr);
 
     void show(const std::string& path);
-    void setBrief(bool brief) { lines_ = brief ? 1 : 2; }  // from the next refresh on
+    // For the reasons below the buttons, from the next refresh on; 0: they stand elsewhere.
+    void setLines(int lines);
     void refresh(const Frame& frame, Place place);
+    QString reasons() const;  // of all buttons, equal ones once
 
     QSize sizeHint() const override;         // with room for most reasons
     QSize minimumSizeHint() const override;  // with room for the buttons
@@ -45,7 +47,9 @@ private:
     Commands& commands_;
     std::string path_;
     QString told_;
-    int lines_ = 2;  // of each reason
+    int lines_ = 2;            // of each reason
+    int kept_ = 0, wide_ = 0;  // the most that they needed so far, at this width; px
+    QString readOnly_;         // why not without control
     std::array<Button, 3> buttons_;
 };
 

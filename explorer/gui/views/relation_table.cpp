@@ -6,6 +6,10 @@
 #include "style/shapes.hpp"
 #include "widgets/rows.hpp"
 
+#include <QScrollBar>
+#include <algorithm>
+#include <utility>
+
 namespace cortex::gui {
 
 namespace {
@@ -62,58 +66,82 @@ RelationTable::RelationTable(QWidget* parent) : QTreeWidget{parent} {
 }
 
 // `other` is the simplex at the other end.
-void RelationTable::add(QTreeWidgetItem* group, const Frame& frame, const Edge& edge, Place other) {
+RelationTable::Row RelationTable::rowOf(const Frame& frame, const Edge& edge, Place other,
+                                        bool outgoing) {
     const SimplexInfo& info = frame.info(other);
     const Structure& structure = *frame.agents[other.agent].structure;
-    auto* item = new QTreeWidgetItem{group,
-                                     {QString::fromStdString(edge.rule->name),
-                                      QLatin1String{name(edge.rule->direction)},
-                                      QString::fromStdString(info.path),
-                                      QString::fromStdString(info.layout->type->name),
-                                      {},
-                                      details(edge, structure.simplexes[edge.target])}};
-    item->setData(StateColumn, simplexRole, other.simplex);
-    item->setData(StateColumn, agentRole, other.agent);
-    item->setToolTip(RuleColumn, tipText(QString::fromStdString(edge.rule->description)));
-    ++count_;
+    return {outgoing,
+            {QString::fromStdString(edge.rule->name),
+             QLatin1String{name(edge.rule->direction)},
+             QString::fromStdString(info.path),
+             QString::fromStdString(info.layout->type->name),
+             {},
+             details(edge, structure.simplexes[edge.target])},
+            tipText(QString::fromStdString(edge.rule->description)),
+            other};
 }
 
-void RelationTable::show(const Frame& frame, Place place) {
-    clear();
-    const Structure& structure = *frame.agents[place.agent].structure;
-    const SimplexInfo& info = structure.simplexes[place.simplex];
-    count_ = 0;
-    if (info.edgeCount > 0) {
-        auto* own = addGroup(*this, tr("To others"));
-        for (std::uint32_t i = info.firstEdge; i < info.firstEdge + info.edgeCount; ++i) {
-            if (structure.edges[i].target == noSimplex) continue;
-            add(own, frame, structure.edges[i], {place.agent, structure.edges[i].target});
-        }
+// Those to others; then those of its own agent to it, and of other agents that read it.
+std::vector<RelationTable::Row> RelationTable::rowsOf(const Frame& frame, Place place) {
+    std::vector<Row> rows;
+    const Structure& own = *frame.agents[place.agent].structure;
+    const SimplexInfo& info = own.simplexes[place.simplex];
+    for (std::uint32_t i = info.firstEdge; i < info.firstEdge + info.edgeCount; ++i) {
+        if (own.edges[i].target == noSimplex) continue;
+        rows.push_back(rowOf(frame, own.edges[i], {place.agent, own.edges[i].target}, true));
     }
-    showOthers(frame, place);
-    tellWhole(*this);
-    expandAll();
-    setWidths(*this, {36.0, 20.0, 56.0, 44.0, 28.0});
-    for (const int column : {RuleColumn, DirectionColumn, TargetColumn}) growToFit(*this, column);
-}
-
-// Those of its own agent, and those of other agents that read it.
-void RelationTable::showOthers(const Frame& frame, Place place) {
-    const std::string& path = frame.info(place).path;
-    QTreeWidgetItem* others = nullptr;
     for (std::uint32_t a = 0; a < frame.agents.size(); ++a) {
         const auto& structure = frame.agents[a].structure;
         if (!structure) continue;
         for (const Edge& edge : structure->edges) {
             if (edge.target == noSimplex) continue;
             const SimplexInfo& target = structure->simplexes[edge.target];
-            const bool own = a == place.agent && edge.target == place.simplex;
-            const bool remote = a != place.agent && target.remote && target.path == path;
-            if (!own && !remote) continue;
-            if (others == nullptr) others = addGroup(*this, tr("From others"));
-            add(others, frame, edge, {a, edge.owner});
+            const bool inside = a == place.agent && edge.target == place.simplex;
+            const bool remote = a != place.agent && target.remote && target.path == info.path;
+            if (inside || remote) rows.push_back(rowOf(frame, edge, {a, edge.owner}, false));
         }
     }
+    return rows;
+}
+
+// The same rows stay as they are: it is shown anew also when another agent comes or goes.
+void RelationTable::show(const Frame& frame, Place place) {
+    const std::vector<Row> rows = rowsOf(frame, place);
+    const std::string& path = frame.info(place).path;
+    const bool same =
+        std::exchange(path_, path) == path &&
+        std::ranges::equal(rows, items_, [](const Row& row, const QTreeWidgetItem* item) {
+            const auto isAt = [&](int column) { return item->text(column) == row.texts[column]; };
+            const bool outgoing = item->parent()->data(RuleColumn, simplexRole).toBool();
+            return outgoing == row.outgoing && isAt(RuleColumn) && isAt(DirectionColumn) &&
+                   isAt(TargetColumn) && isAt(TypeColumn) && isAt(DetailsColumn);
+        });
+    if (!same) fill(rows);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        items_[i]->setData(StateColumn, simplexRole, rows[i].other.simplex);
+        items_[i]->setData(StateColumn, agentRole, rows[i].other.agent);
+    }
+}
+
+void RelationTable::fill(const std::vector<Row>& rows) {
+    const int scrolled = verticalScrollBar()->value();
+    clear();
+    items_.clear();
+    QTreeWidgetItem* group = nullptr;
+    for (const Row& each : rows) {
+        if (group == nullptr || group->data(RuleColumn, simplexRole).toBool() != each.outgoing) {
+            group = addGroup(*this, each.outgoing ? tr("To others") : tr("From others"));
+            group->setData(RuleColumn, simplexRole, each.outgoing);
+        }
+        items_.push_back(new QTreeWidgetItem{group, each.texts});
+        items_.back()->setToolTip(RuleColumn, each.tip);
+    }
+    count_ = static_cast<int>(rows.size());
+    tellWhole(*this);
+    expandAll();
+    setWidths(*this, {36.0, 20.0, 56.0, 44.0, 28.0});
+    for (const int column : {RuleColumn, DirectionColumn, TargetColumn}) growToFit(*this, column);
+    verticalScrollBar()->setValue(scrolled);
 }
 
 void RelationTable::refresh(const Frame& frame) {

@@ -3,8 +3,10 @@
 
 #include "session/frame.hpp"
 
+#include <QStringList>
 #include <QTreeWidget>
 #include <string>
+#include <vector>
 
 namespace cortex::gui {
 
@@ -22,9 +24,18 @@ Q_SIGNALS:
     void opened(const std::string& path);
 
 private:
-    void add(QTreeWidgetItem* group, const Frame& frame, const Edge& edge, Place other);
-    void showOthers(const Frame& frame, Place place);
+    struct Row {
+        bool outgoing;
+        QStringList texts;  // without the state
+        QString tip;
+        Place other;
+    };
+    static Row rowOf(const Frame& frame, const Edge& edge, Place other, bool outgoing);
+    static std::vector<Row> rowsOf(const Frame& frame, Place place);
+    void fill(const std::vector<Row>& rows);
 
+    std::string path_;
+    std::vector<QTreeWidgetItem*> items_;  // of the rows, in their order
     int count_ = 0;
 };
 

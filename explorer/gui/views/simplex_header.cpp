@@ -30,6 +30,8 @@ std::vector<std::string> chainOf(const Type& type, const TypeModel& types) {
     return names;
 }
 
+constexpr double longestAge = 99 * 60;  // s, of the widest text in use
+
 // Nothing of it changes by itself, so that its age says nothing.
 bool neverChanges(const SimplexInfo& info) {
     return info.role != Role::Active && info.writers.empty();
@@ -46,17 +48,8 @@ QString taskText(const AgentFrame& agent, std::uint32_t simplex) {
         .arg(period * 1e-6, 0, 'g', 4);
 }
 
-TextLabel* wrapped(TextSize size, bool strong, QColor Tokens::* colour) {
-    auto* label = new TextLabel{size, strong, colour};
-    label->setWordWrap(true);
-    label->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Minimum);
-    label->hide();
-    return label;
-}
-
-void showOrHide(TextLabel& label, const QString& text) {
-    label.show(text);
-    label.setVisible(!text.isEmpty());
+int widthOf(const QString& text, const QFont& font) {
+    return QFontMetrics{font}.horizontalAdvance(text) + 2;
 }
 
 }  // namespace
@@ -69,25 +62,24 @@ SimplexHeader::SimplexHeader(QWidget* lifeCycle, const StateTimes& times, QWidge
       state_{new TextLabel{TextSize::Title, true}},
       since_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
       outcome_{new TextLabel{TextSize::Text}},
-      fault_{wrapped(TextSize::Text, true, &Tokens::ink)},
       path_{new TextLabel{TextSize::Title, true}},
       type_{new TextLabel{TextSize::Text}},
       ancestors_{new QWidget},
       agent_{new TextLabel{TextSize::Text}},
       quality_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
       task_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
-      description_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
-      why_{wrapped(TextSize::Text, false, &Tokens::ink2)},
-      notice_{wrapped(TextSize::Text, true, &Tokens::dataText)},
+      messages_{new MessageArea},
       dismiss_{new QPushButton{tr("Dismiss")}} {
     state_->keepWhole();
     quality_->keepWhole();
+    path_->keepEnd();
     new QHBoxLayout{ancestors_};
     ancestors_->layout()->setContentsMargins(0, 0, 0, 0);
     ancestors_->layout()->setSpacing(Look::units(1));
     dismiss_->setToolTip(tr("Takes the agent out of tree, counters and status line."));
     dismiss_->hide();
-    connect(dismiss_, &QPushButton::clicked, this, [this] { Q_EMIT dismissed(agentName_); });
+    connect(dismiss_, &QPushButton::clicked, this,
+            [this] { Q_EMIT dismissed(agentName_.toStdString()); });
     layOut();
 }
 
@@ -101,7 +93,6 @@ void SimplexHeader::layOut() {
     title_->setSpacing(0);
     for (QWidget* each : {state_, since_, outcome_}) title_->addWidget(each, 0, Qt::AlignLeft);
     states_->addLayout(title_);
-    states_->addWidget(fault_);
     states_->addStretch(1);
     auto* state = new QHBoxLayout;
     state->setSpacing(Look::units(3));
@@ -126,14 +117,12 @@ void SimplexHeader::layOut() {
     second_->addLayout(names, 1);
     second_->addLayout(facts);
 
-    auto* notices = new QHBoxLayout;
-    notices->addWidget(notice_, 1);
-    notices->addWidget(dismiss_, 0, Qt::AlignTop);
+    auto* last = new QHBoxLayout;
+    last->addWidget(messages_, 1);
+    last->addWidget(dismiss_, 0, Qt::AlignTop);
     rows_->addLayout(first_);
     rows_->addLayout(second_);
-    rows_->addWidget(description_);
-    rows_->addWidget(why_);
-    rows_->addLayout(notices);
+    rows_->addLayout(last);
 }
 
 // Below the state, beside the buttons of the life cycle; or in a row of their own.
@@ -146,43 +135,90 @@ void SimplexHeader::placeNames(bool beside) {
     place->insertLayout(1, second_);
 }
 
-// What gives way in a small window: ancestors and description, then the agent and the buttons take
-// lines of their own. State, quality and buttons are never cut.
-void SimplexHeader::fit() {
+// The room of a text is that of the longest one that may stand there, so that what comes with time
+// changes no row.
+SimplexHeader::Room SimplexHeader::room() const {
     const auto wide = [](const QWidget& each) {
         return each.isHidden() ? 0 : each.sizeHint().width() + Look::units(3);
     };
-    const int state = wide(*mark_) + std::max(wide(*state_), wide(*since_));
-    const bool one = state + wide(*lifeCycle_) <= width();
-    first_->setDirection(one ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
-    const int names = wide(*path_) + wide(*type_);
-    if (brief_) task_->hide();  // it stands among the data
-    const int facts = wide(*agent_) + wide(*quality_) + wide(*task_);
-    const int room = width() - wide(*lifeCycle_) - wide(*mark_);  // beside the buttons
-    const int line = wide(*state_) + wide(*since_);
-    const bool brief = brief_ && one && std::max({names, facts, line}) <= room;
+    const auto longest = [&](const TextLabel& label, const QStringList& texts) {
+        int width = wide(label);
+        for (const QString& each : texts) {
+            const int needed = widthOf(each, label.font()) + Look::units(3);
+            if (!label.isHidden()) width = std::max(width, needed);
+        }
+        return width;
+    };
+    Room room;
+    QStringList states;
+    if (hasStates_) {
+        for (const Shape each : {Shape::Standby, Shape::StartingUp, Shape::Active,
+                                 Shape::ShuttingDown, Shape::Fault, Shape::Unknown})
+            states << bracketed(word(each));
+    }
+    room.mark = wide(*mark_);
+    room.state = longest(*state_, states);
+    const int since = widthOf(times_.longest(), since_->font()) + Look::units(3);
+    room.since = hasStates_ ? std::max(since, since_->sizeHint().width()) : 0;
+    room.buttons = wide(*lifeCycle_);
+    room.names = wide(*path_) + wide(*type_);
+    const QString age = ageText(longestAge);
+    room.facts = longest(*agent_, {factsOf(agentName_, age)}) +
+                 longest(*quality_, {qualityText(Quality::Stale, true), waitingText()}) +
+                 longest(*task_, {});
+    return room;
+}
+
+// What gives way in a small window: ancestors, then the agent and the buttons take lines of their
+// own; in a low one the name of the type goes. State, quality and buttons are never cut.
+void SimplexHeader::fit() {
+    const bool low = Look::isLow(*this);
+    for (TextLabel* each : {state_, path_})
+        each->setTextSize(low ? TextSize::Value : TextSize::Title, true);
+    mark_->setUnits(low ? 6 : 8);
+    task_->setVisible(!brief_ && !low && !task_->text().isEmpty());  // it stands among the data
+    type_->setVisible(true);
+    const Room room = this->room();
+    const bool flat = brief_ || low;
+    const int state = room.mark + (flat ? room.state : std::max(room.state, room.since));
+    const bool one = state + room.buttons <= width();
+    const int beside = width() - room.mark - (one ? room.buttons : 0);  // for state and outcome
+    const int line = room.state + room.since;
+    const bool brief = brief_ && one && std::max({room.names, room.facts, line}) <= beside;
     placeNames(brief);
-    // What became of a command has no line of its own then: it takes the place of the time.
-    if (brief && !outcome_->text().isEmpty() && line + wide(*outcome_) > room) since_->hide();
-    const bool below = one && !brief;
-    title_->setDirection(below ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
-    title_->setSpacing(below ? 0 : Look::units(3));
-    title_->setStretchFactor(outcome_, brief ? 1 : 0);
-    title_->setAlignment(since_, below ? Qt::AlignLeft : Qt::AlignLeft | Qt::AlignVCenter);
-    title_->setAlignment(outcome_, below ? Qt::AlignLeft : Qt::AlignRight | Qt::AlignVCenter);
-    first_->setAlignment(lifeCycle_, one ? Qt::AlignTop : Qt::AlignTop | Qt::AlignLeft);
+    placeState(one, flat, beside - line);
+    const int whole = brief ? beside : width();
+    const bool fits = room.names + room.facts <= whole;
+    second_->setDirection(fits || low ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+    type_->setVisible(fits || !low);
     const int chain = ancestors_->sizeHint().width() + Look::units(3);
-    const bool beside = names + facts <= (brief ? room : width());
-    second_->setDirection(beside ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
-    const bool low = brief_ || window()->height() < Look::units(175);
-    ancestors_->setVisible(!low && names + chain + (beside ? facts : 0) <= width());
-    description_->setVisible(!low && !description_->text().isEmpty());
-    const int gap = Look::units(low ? 0.5 : 2);
+    const int others = room.names + (fits ? room.facts : 0);
+    ancestors_->setVisible(!flat && others + chain <= width());
+    const int gap = Look::units(flat ? 0.5 : 2);
     if (rows_->spacing() != gap) rows_->setSpacing(gap);
     const int between = brief ? Look::units(4) : gap;
     if (first_->spacing() != between) first_->setSpacing(between);
+    messages_->setRoom(brief_ && !low ? 1 : 2, low ? TextSize::Note : TextSize::Text);
+    dismiss_->setFixedHeight(std::min(Look::units(7), messages_->sizeHint().height()));
     // A request to lay it out is lost while it is hidden, and then none is made any more.
     layout()->activate();
+}
+
+// State, since when and outcome: below one another, or in one line where they stand beside nothing
+// or there is little height. There the time gives way.
+void SimplexHeader::placeState(bool one, bool flat, int left) {
+    const bool below = one && !flat;
+    title_->setDirection(below ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+    title_->setSpacing(below ? 0 : Look::units(3));
+    title_->setStretchFactor(outcome_, flat ? 1 : 0);
+    title_->setAlignment(since_, below ? Qt::AlignLeft : Qt::AlignLeft | Qt::AlignVCenter);
+    title_->setAlignment(outcome_, below ? Qt::AlignLeft : Qt::AlignRight | Qt::AlignVCenter);
+    first_->setDirection(one ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+    first_->setAlignment(lifeCycle_, one ? Qt::AlignTop : Qt::AlignTop | Qt::AlignLeft);
+    const QString& outcome = outcome_->text();
+    const int needed = outcome.isEmpty() ? 0 : widthOf(outcome, outcome_->font());
+    since_->setVisible(hasStates_ && (!flat || needed <= left));
+    state_->setToolTip(since_->isHidden() ? since_->text() : QString{});
 }
 
 void SimplexHeader::resizeEvent(QResizeEvent* event) {
@@ -194,7 +230,8 @@ void SimplexHeader::show(const Frame& frame, Place place) {
     const Type& type = frame.type(place);
     path_->show(QString::fromStdString(frame.info(place).path));
     type_->show(QString::fromStdString(type.name));
-    description_->show(QString::fromStdString(type.description));
+    path_->setToolTip(tipText(type_->text()));
+    description_ = QString::fromStdString(type.description);
     qDeleteAll(ancestors_->findChildren<QWidget*>(QString{}, Qt::FindDirectChildrenOnly));
     QStringList names;
     for (const std::string& each : chainOf(type, *frame.agents[place.agent].structure->types)) {
@@ -215,12 +252,14 @@ void SimplexHeader::tell(const QString& outcome) { outcome_->show(outcome); }
 
 void SimplexHeader::refresh(const Frame& frame, Place place) {
     refreshState(frame, place);
-    refreshFault(frame, place);
     refreshAgent(frame, place);
-    refreshNotice(frame, place);
     QStringList why{whyText(frame, place), goneInputText(frame, place)};
     why.removeAll({});
-    showOrHide(*why_, why.join(' '));
+    const bool low = Look::isLow(*this);
+    messages_->show({fault(frame, place),
+                     notice(frame, place),
+                     {why.join(' ')},
+                     {low ? reasons_ : description_}});
     fit();
     // It may need another height now; what is around it is not laid out just now.
     if (parentWidget() != nullptr && parentWidget()->layout() != nullptr) {
@@ -231,84 +270,87 @@ void SimplexHeader::refresh(const Frame& frame, Place place) {
 void SimplexHeader::refreshState(const Frame& frame, Place place) {
     const AgentFrame& agent = frame.agents[place.agent];
     const Type& type = frame.type(place);
-    const bool states = type.active() && !type.isA("Agent");
-    since_->setVisible(states && !agent.lost());
-    outcome_->setVisible(states);
-    if (since_->isVisibleTo(this)) since_->show(times_.text(frame, place));
+    hasStates_ = type.active() && !type.isA("Agent");
+    outcome_->setVisible(hasStates_);
+    since_->show(hasStates_ && !agent.lost() ? times_.text(frame, place) : QString{});
     if (type.isA("Agent")) {  // it has commands, but no state of its own
         mark_->show(agent.status.ended ? Shape::Ended : agent.lost() ? Shape::Lost : Shape::Agent);
         state_->show(agent.status.ended ? tr("ended") : QString::fromStdString(agent.status.state),
                      &Tokens::ink);
         return;
     }
-    if (!states) {
+    if (!hasStates_) {
         mark_->show(Shape::Data);
         state_->show(QLatin1String{name(frame.info(place).role)}, &Tokens::ink);
         return;
     }
     const auto state = agent.state(place.simplex), last = agent.lastState(place.simplex);
     const Shape shape = state ? shapeOf(*state) : Shape::Unknown;
+    const bool faulted = shape == Shape::Fault;
     mark_->show(shape);
-    state_->show(!state && last ? bracketed(word(shapeOf(*last))) : word(shape),
-                 shape == Shape::Fault ? &Tokens::faultText : &Tokens::ink);
+    const QString now = faulted ? word(shape) + faultCode(agent, place.simplex) : word(shape);
+    state_->show(!state && last ? bracketed(word(shapeOf(*last))) : now,
+                 faulted ? &Tokens::faultText : &Tokens::ink);
 }
 
-// "Fault 7" and below it the text, whole where it is known.
-void SimplexHeader::refreshFault(const Frame& frame, Place place) {
-    const AgentFrame& agent = frame.agents[place.agent];
-    const bool faulted = agent.state(place.simplex) == State::Fault;
-    const QString code = faultCode(agent, place.simplex);
-    if (faulted && !code.isEmpty()) state_->show(word(Shape::Fault) + code, &Tokens::faultText);
-    const FaultText fault = faulted ? faultText(frame, place, times_) : FaultText{};
-    showOrHide(*fault_, fault.text);
-    fault_->setToolTip(fault.cut ? tr("The rest stands in the events.") : QString{});
+MessageArea::Message SimplexHeader::fault(const Frame& frame, Place place) const {
+    if (frame.agents[place.agent].state(place.simplex) != State::Fault) return {};
+    const FaultText fault = faultText(frame, place, times_);
+    return {fault.text, &Tokens::ink, true,
+            fault.cut ? tr("The rest stands in the events.") : QString{}};
+}
+
+// In fewer words where there is little room.
+QString SimplexHeader::factsOf(const QString& agent, const QString& age) const {
+    const QString name = Look::isLow(*this) ? agent : tr("agent %1").arg(agent);
+    return age.isEmpty() ? name : tr("%1, %2 old").arg(name, age);
+}
+
+QString SimplexHeader::qualityText(Quality quality, bool rests) const {
+    const QString word{QLatin1String{name(quality)}};
+    const QString said = Look::isLow(*this) ? word : tr("quality %1").arg(word);
+    return rests ? tr("%1, at rest").arg(said) : said;
+}
+
+QString SimplexHeader::waitingText() const {
+    return Look::isLow(*this) ? tr("no values yet") : tr("waiting for the first values");
 }
 
 void SimplexHeader::refreshAgent(const Frame& frame, Place place) {
     const AgentFrame& agent = frame.agents[place.agent];
     const auto age = agent.age(place.simplex);
-    const bool came = agent.came(place.simplex);
     const Excuse excuse = frame.excuse(place);
-    QString text = tr("agent %1").arg(QString::fromStdString(agent.status.name));
-    if (!age) {
-        text = tr("%1, no values yet").arg(text);
-    } else if (agent.lost() || (excuse != Excuse::Rests && !neverChanges(frame.info(place)))) {
-        text = tr("%1, %2 old").arg(text, ageText(*age));
-    }
-    agent_->show(text);
+    agentName_ = QString::fromStdString(agent.status.name);
+    const bool ages = agent.lost() || (excuse != Excuse::Rests && !neverChanges(frame.info(place)));
+    agent_->show(factsOf(agentName_, age && ages ? ageText(*age) : QString{}));
+    const bool came = agent.came(place.simplex);
     const Quality quality = agent.lost() ? Quality::Lost : agent.quality(place.simplex);
-    const QString word = tr("quality %1").arg(QLatin1String{name(quality)});
     const bool amiss = came && quality != Quality::Good && excuse == Excuse::None;
-    quality_->show(!came                     ? tr("waiting for the first values")
-                   : excuse == Excuse::Rests ? tr("%1, at rest").arg(word)
-                                             : word,
+    quality_->show(came ? qualityText(quality, excuse == Excuse::Rests) : waitingText(),
                    amiss ? &Tokens::dataText : &Tokens::ink2);
-    showOrHide(*task_, taskText(agent, place.simplex));
+    task_->show(taskText(agent, place.simplex));
+    dismiss_->setVisible(agent.lost());
 }
 
-void SimplexHeader::refreshNotice(const Frame& frame, Place place) {
+MessageArea::Message SimplexHeader::notice(const Frame& frame, Place place) const {
     const AgentFrame& agent = frame.agents[place.agent];
-    const QString agentName = QString::fromStdString(agent.status.name);
-    agentName_ = agent.status.name;
     QString notice = claimsText(frame, place, times_);
     QColor Tokens::* colour = &Tokens::warnText;
     if (agent.lost()) {
         const GoneAgent* gone = frame.goneFrom(frame.info(place).path);
         const QString ended =
-            gone != nullptr ? goneText(*gone) : tr("%1 has ended.").arg(agentName);
+            gone != nullptr ? goneText(*gone) : tr("%1 has ended.").arg(agentName_);
         notice = agent.status.ended
                      ? tr("%1 Values are the last ones, in brackets.").arg(ended)
                      : tr("%1 is not heard for %2. Values are the last ones, in brackets.")
-                           .arg(agentName, ageText(agent.status.age));
+                           .arg(agentName_, ageText(agent.status.age));
         colour = agent.status.ended ? &Tokens::ink : &Tokens::dataText;
     } else if (!agent.status.standstill.empty()) {
         notice = tr("%1 %2. Values are the last ones, in brackets.")
-                     .arg(agentName, QString::fromStdString(agent.status.standstill));
+                     .arg(agentName_, QString::fromStdString(agent.status.standstill));
         colour = &Tokens::dataText;
     }
-    notice_->show(notice, colour);
-    notice_->setVisible(!notice.isEmpty());
-    dismiss_->setVisible(agent.lost());
+    return {notice, colour, true};
 }
 
 }  // namespace cortex::gui

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cortex/core/quality.hpp"
+
 #include "model/state_times.hpp"
+#include "views/message_area.hpp"
 
 #include <QWidget>
 
@@ -13,8 +16,9 @@ namespace cortex::gui {
 class StateMark;
 class TextLabel;
 
-// What is said of a simplex above its tabs: state, since when, fault; path, type and its ancestors;
-// agent, age, quality, task time; who writes it; what is amiss with its agent.
+// What is said of a simplex above its tabs: state, since when; path, type and its ancestors; agent,
+// age, quality, task time; then fault, what is amiss with its agent, who writes it. Its height
+// follows from the window and from what is shown, never from what comes with time.
 class SimplexHeader : public QWidget {
     Q_OBJECT
 public:
@@ -25,6 +29,7 @@ public:
     void refresh(const Frame& frame, Place place);
     void setBrief(bool brief) { brief_ = brief; }  // from the next refresh on
     void tell(const QString& outcome);             // what became of a command of the life cycle
+    void explain(const QString& reasons) { reasons_ = reasons; }  // why its buttons cannot be used
 
 Q_SIGNALS:
     void dismissed(const std::string& agent);  // a lost agent may go
@@ -34,27 +39,36 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
+    struct Room {
+        int mark, state, since, buttons, names, facts;  // px, with the gap behind each
+    };
+
     void layOut();
     void fit();
     void placeNames(bool beside);
+    void placeState(bool one, bool flat, int left);
+    Room room() const;
     void refreshState(const Frame& frame, Place place);
-    void refreshFault(const Frame& frame, Place place);
     void refreshAgent(const Frame& frame, Place place);
-    void refreshNotice(const Frame& frame, Place place);
+    MessageArea::Message fault(const Frame& frame, Place place) const;
+    MessageArea::Message notice(const Frame& frame, Place place) const;
+    QString factsOf(const QString& agent, const QString& age) const;
+    QString qualityText(Quality quality, bool rests) const;
+    QString waitingText() const;
 
     const StateTimes& times_;
     QWidget* lifeCycle_;
     StateMark* mark_;
-    TextLabel *state_, *since_, *outcome_, *fault_;
+    TextLabel *state_, *since_, *outcome_;
     TextLabel *path_, *type_;
     QWidget* ancestors_;
     TextLabel *agent_, *quality_, *task_;
-    TextLabel *description_, *why_, *notice_;
+    MessageArea* messages_;
     QPushButton* dismiss_;
     QBoxLayout *title_ = nullptr, *first_ = nullptr, *second_ = nullptr, *rows_ = nullptr,
                *states_ = nullptr;
-    std::string agentName_;
-    bool brief_ = false;
+    QString agentName_, description_, reasons_;
+    bool brief_ = false, hasStates_ = false;
 };
 
 }  // namespace cortex::gui

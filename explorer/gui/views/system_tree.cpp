@@ -4,6 +4,7 @@
 #include "model/plotted_items.hpp"
 #include "style/glyphs.hpp"
 #include "widgets/item_drag.hpp"
+#include "widgets/row_note.hpp"
 #include "widgets/rows.hpp"
 #include "widgets/text_label.hpp"
 
@@ -139,15 +140,16 @@ SystemTree::SystemTree(QWidget* parent)
     : QWidget{parent},
       tree_{makeRows()},
       filter_{new QLineEdit},
+      head_{new QHBoxLayout},
       count_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
-      trouble_{new TextLabel{TextSize::Note, false, &Tokens::warnText}} {
+      trouble_{new RowNote{*tree_}} {
     auto* title = new TextLabel{TextSize::Text, true};
     title->show(tr("Simplexes"));
-    auto* head = new QHBoxLayout;
-    head->setContentsMargins(Look::units(3), Look::units(2), Look::units(3), 0);
-    head->addWidget(title);
-    head->addStretch(1);
-    head->addWidget(count_);
+    title->keepWhole();  // the count gives way
+    head_->setContentsMargins(Look::units(3), Look::units(2), Look::units(3), 0);
+    head_->addWidget(title);
+    head_->addStretch(1);
+    head_->addWidget(count_);
 
     filter_->setPlaceholderText(tr("Filter: name, is:AxisConcept, fault"));
     filter_->setAccessibleName(tr("Filter"));
@@ -156,12 +158,8 @@ SystemTree::SystemTree(QWidget* parent)
     setAutoFillBackground(true);
     auto* box = new QVBoxLayout;
     box->setContentsMargins(Look::units(3), Look::units(2), Look::units(3), Look::units(2));
-    box->setSpacing(Look::units(1));
     box->addWidget(filter_);
-    box->addWidget(trouble_);
-    trouble_->setWordWrap(true);
-    trouble_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Minimum);
-    trouble_->hide();
+    setFocusProxy(tree_);
 
     tree_->setItemDelegate(new TreeDelegate{model_, tree_});
     setUpRows(*tree_);
@@ -174,10 +172,12 @@ SystemTree::SystemTree(QWidget* parent)
     auto* rows = new QVBoxLayout{this};
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(0);
-    rows->addLayout(head);
+    rows->addLayout(head_);
     rows->addLayout(box);
     rows->addWidget(tree_, 1);
 
+    connect(this, &SystemTree::chosen, this, &SystemTree::left);
+    connect(this, &SystemTree::pinned, this, &SystemTree::left);
     connect(filter_, &QLineEdit::textChanged, this, &SystemTree::useFilter);
     // Also the row that is chosen already, which may be behind another tab.
     connect(tree_, &QTreeView::clicked, this, [this](const QModelIndex& index) {
@@ -186,6 +186,14 @@ SystemTree::SystemTree(QWidget* parent)
     connect(tree_, &QTreeView::activated, this, [this](const QModelIndex& index) {
         if (model_.place(index)) Q_EMIT pinned(model_.path(index));
     });
+}
+
+void SystemTree::addLeft(QWidget& widget) { head_->insertWidget(0, &widget); }
+
+void SystemTree::keyPressEvent(QKeyEvent* event) {
+    if (event->key() != Qt::Key_Escape) return QWidget::keyPressEvent(event);
+    if (filter_->hasFocus() && !filter_->text().isEmpty()) return filter_->clear();
+    Q_EMIT left();
 }
 
 QTreeView* SystemTree::makeRows() {
@@ -288,7 +296,6 @@ void SystemTree::tellTrouble() {
         trouble = tr("Nothing matches \"%1\".").arg(filter_->text());
     }
     trouble_->show(trouble);
-    trouble_->setVisible(!trouble.isEmpty());
 }
 
 }  // namespace cortex::gui

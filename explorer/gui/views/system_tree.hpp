@@ -7,11 +7,13 @@
 #include <memory>
 #include <string>
 
+class QBoxLayout;
 class QLineEdit;
 class QTreeView;
 
 namespace cortex::gui {
 
+class RowNote;
 class TextLabel;
 
 // All simplexes of all agents as one tree, with a filter above it.
@@ -20,6 +22,7 @@ class SystemTree : public QWidget {
 public:
     explicit SystemTree(QWidget* parent = nullptr);
 
+    void addLeft(QWidget& widget);  // in its head
     void refresh(std::shared_ptr<const Frame> frame);
     void choose(const std::string& path);  // opens what is above it, as soon as it is there
     const SystemModel& model() const { return model_; }
@@ -33,6 +36,10 @@ Q_SIGNALS:
     void chosen(const std::string& path);                        // shown in the current tab
     void pinned(const std::string& path);                        // in a tab of its own
     void menuWanted(const std::string& path, const QPoint& at);  // on the screen
+    void left();  // something was chosen, or Esc with nothing to clear
+
+protected:
+    void keyPressEvent(QKeyEvent* event) override;  // that neither rows nor filter want
 
 private:
     QTreeView* makeRows();
@@ -46,7 +53,9 @@ private:
     SystemModel model_;
     QTreeView* tree_;
     QLineEdit* filter_;
-    TextLabel *count_, *trouble_;
+    QBoxLayout* head_;
+    TextLabel* count_;
+    RowNote* trouble_;  // over the last rows
     bool opened_ = false;
     std::string wanted_;   // to be chosen as soon as it is there
     std::string current_;  // row that a person went to, or that was chosen, also while it is gone

@@ -19,6 +19,14 @@ QFont fontOf(bool struck) {
 
 int markWidth() { return Look::units(5); }
 
+// Three digits, then five, then nine: it seldom changes.
+QString roomFor(const QString& count) {
+    constexpr int few = 3, many = 6;  // characters
+    return count.size() <= few    ? QStringLiteral("000")
+           : count.size() <= many ? QStringLiteral("00,000")
+                                  : QStringLiteral("000,000,000");
+}
+
 }  // namespace
 
 Chip::Chip(const QString& word, std::optional<Shape> mark, QWidget* parent)
@@ -31,17 +39,20 @@ Chip::Chip(const QString& word, std::optional<Shape> mark, QWidget* parent)
     tell();
 }
 
-void Chip::show(std::uint64_t count) {
-    const QString text = countText(count);
-    if (text == count_) return;
+void Chip::show(std::uint64_t count, bool grows) {
+    const QString text = countText(count), room = grows ? roomFor(text) : room_;
+    if (text == count_ && room == room_) return;
     count_ = text;
+    room_ = room;
     tell();
 }
 
-QString Chip::rest() const { return isChecked() ? ' ' + count_ : tr(" %1 hidden").arg(count_); }
+QString Chip::rest(const QString& count) const {
+    return isChecked() ? ' ' + count : tr(" %1 hidden").arg(count);
+}
 
 void Chip::tell() {
-    setAccessibleName(word_ + rest());
+    setAccessibleName(word_ + rest(count_));
     setToolTip(isChecked() ? tr("Hides these") : tr("Shows these"));
     updateGeometry();
     update();
@@ -49,8 +60,9 @@ void Chip::tell() {
 
 QSize Chip::sizeHint() const {
     const QFontMetrics metrics{fontOf(false)};
-    return {metrics.horizontalAdvance(word_ + rest()) + (mark_ ? markWidth() : 0) + Look::units(4),
-            Look::units(7)};
+    return {
+        metrics.horizontalAdvance(word_ + rest(room_)) + (mark_ ? markWidth() : 0) + Look::units(4),
+        Look::units(7)};
 }
 
 void Chip::paintEvent(QPaintEvent* /*event*/) {
@@ -74,7 +86,7 @@ void Chip::paintEvent(QPaintEvent* /*event*/) {
     painter.drawText(box, Qt::AlignVCenter, word_);
     box.setLeft(box.left() + painter.fontMetrics().horizontalAdvance(word_));
     painter.setFont(fontOf(false));
-    painter.drawText(box, Qt::AlignVCenter, rest());
+    painter.drawText(box, Qt::AlignVCenter, rest(count_));
 }
 
 }  // namespace cortex::gui

@@ -16,7 +16,9 @@ public:
     explicit Chip(const QString& word, std::optional<Shape> mark = std::nullopt,
                   QWidget* parent = nullptr);
 
-    void show(std::uint64_t count);  // of rows of its kind, shown or not
+    // Of rows of its kind, shown or not. It has room for more digits than it shows; `grows`: it may
+    // have more of it now.
+    void show(std::uint64_t count, bool grows = true);
     QSize sizeHint() const override;
 
 protected:
@@ -24,9 +26,9 @@ protected:
 
 private:
     void tell();
-    QString rest() const;  // after the word
+    QString rest(const QString& count) const;  // after the word
 
-    QString word_, count_;
+    QString word_, count_, room_;  // room_: as wide as a count may be
     std::optional<Shape> mark_;
 };
 

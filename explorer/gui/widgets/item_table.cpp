@@ -32,12 +32,12 @@ constexpr int mostOpenRows = 20;  // of a related simplex; one with more is clos
 
 class ItemDelegate : public QStyledItemDelegate {
 public:
-    ItemDelegate(const ItemModel& items, QObject* parent)
+    ItemDelegate(const ItemModel& items, ItemTable* parent)
         : QStyledItemDelegate{parent}, items_{items} {}
 
     QSize sizeHint(const QStyleOptionViewItem& /*option*/,
                    const QModelIndex& /*index*/) const override {
-        return {Look::units(10), rowHeight()};
+        return {Look::units(10), static_cast<const ItemTable*>(parent())->rowHeight()};
     }
 
     void paint(QPainter* painter, const QStyleOptionViewItem& option,
@@ -225,6 +225,17 @@ ItemTable::ItemTable(ItemModel& model, QWidget* parent) : QTreeView{parent}, ite
         if (items_.units() != units_ || longestValue(items_) > longest_) fitColumns();
     });
     openGroups();
+}
+
+void ItemTable::setLow(bool low) {
+    if (low == low_) return;
+    low_ = low;
+    header()->setVisible(!low);
+    scheduleDelayedItemsLayout();
+}
+
+int ItemTable::rowHeight() const {
+    return low_ ? fontMetrics().height() : gui::rowHeight();
 }
 
 // To a plot, or as text to another program.

@@ -23,6 +23,9 @@ class ItemTable : public QTreeView {
 public:
     explicit ItemTable(ItemModel& model, QWidget* parent = nullptr);
 
+    void setLow(bool low);  // there is little height: rows are lower, columns have no titles
+    int rowHeight() const;
+
 Q_SIGNALS:
     void submitted();  // Enter in a field
     void plotWanted(const std::vector<RecordedItem>& items);
@@ -50,6 +53,7 @@ private:
     ItemModel& items_;
     ShownUnits units_;  // for which the columns are fitted
     int longest_ = 0;   // value at that time
+    bool low_ = false;
     std::optional<ItemField::Kept> kept_;
 };
 

@@ -5,19 +5,105 @@
 #include "widgets/text_label.hpp"
 
 #include <QCloseEvent>
+#include <QGuiApplication>
 #include <QPainter>
+#include <QScreen>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QVBoxLayout>
+#include <algorithm>
 
 namespace cortex::gui {
 
+namespace {
+
+// As large as its content, as far as it may be.
+class ScrolledRows : public QScrollArea {
+public:
+    explicit ScrolledRows(QWidget* content) {
+        setFrameShape(QFrame::NoFrame);
+        setFocusPolicy(Qt::NoFocus);
+        setWidgetResizable(true);
+        setWidget(content);
+        content->setAutoFillBackground(false);
+        viewport()->setAutoFillBackground(false);
+        QSizePolicy policy{QSizePolicy::Preferred, QSizePolicy::Preferred};
+        policy.setHeightForWidth(true);
+        setSizePolicy(policy);
+    }
+    QSize sizeHint() const override { return widget()->sizeHint(); }
+    int heightForWidth(int width) const override {
+        const QLayout& rows = *widget()->layout();
+        return rows.hasHeightForWidth() ? rows.totalHeightForWidth(width) : sizeHint().height();
+    }
+
+protected:
+    // What is around it hears that the content has another size.
+    bool viewportEvent(QEvent* event) override {
+        if (event->type() == QEvent::LayoutRequest) updateGeometry();
+        return QScrollArea::viewportEvent(event);
+    }
+};
+
+}  // namespace
+
 Popover::Popover(const QString& title, QWidget* parent)
-    : QFrame{parent, Qt::Popup}, rows_{new QVBoxLayout{this}} {
+    : QFrame{parent, Qt::Popup}, rows_{new QVBoxLayout}, buttons_{new QHBoxLayout} {
     setAttribute(Qt::WA_DeleteOnClose);
-    rows_->setContentsMargins(Look::units(5), Look::units(4), Look::units(5), Look::units(4));
+    auto* all = new QVBoxLayout{this};
+    all->setContentsMargins(Look::units(5), Look::units(4), Look::units(5), Look::units(4));
+    all->setSizeConstraint(QLayout::SetNoConstraint);
     auto* label = new TextLabel{TextSize::Value, true};
     label->show(title);
-    rows_->addWidget(label);
+    all->addWidget(label);
+    auto* content = new QWidget;
+    content->setLayout(rows_);
+    rows_->setContentsMargins(0, 0, 0, 0);
+    all->addWidget(new ScrolledRows{content}, 1);
+    all->addLayout(buttons_);
+    buttons_->addStretch(1);
     setAccessibleName(title);
+}
+
+void Popover::openBelow(const QWidget& anchor) {
+    const QWidget& window = *anchor.window();
+    const QScreen* screen = anchor.screen();
+    if (screen == nullptr) screen = QGuiApplication::primaryScreen();
+    screen_ = screen->availableGeometry();
+    fit();
+    const QPoint at = anchor.mapToGlobal({}), edge = window.mapToGlobal({});
+    const int right = std::max(edge.x() + window.width() - width(), edge.x());
+    const int below = at.y() + anchor.height(), above = at.y() - height();
+    const bool up = below + height() > screen_.bottom() + 1 && above >= screen_.top();
+    moveInside({std::clamp(at.x(), edge.x(), right), up ? above : below});
+    show();
+}
+
+// No larger than the screen.
+void Popover::fit() {
+    const QLayout& all = *layout();
+    int width = std::min(all.totalSizeHint().width(), screen_.width());
+    int height = all.totalHeightForWidth(width);
+    if (height > screen_.height()) {
+        const auto* area = findChild<QScrollArea*>();
+        width = std::min(width + area->verticalScrollBar()->sizeHint().width(), screen_.width());
+        height = screen_.height();
+    }
+    resize(width, height);
+}
+
+void Popover::moveInside(QPoint corner) {
+    move(std::clamp(corner.x(), screen_.left(), screen_.right() + 1 - width()),
+         std::clamp(corner.y(), screen_.top(), screen_.bottom() + 1 - height()));
+}
+
+bool Popover::event(QEvent* event) {
+    const bool done = QFrame::event(event);
+    if (event->type() == QEvent::LayoutRequest && !screen_.isEmpty()) {
+        fit();
+        moveInside(pos());
+    }
+    return done;
 }
 
 void Popover::closeEvent(QCloseEvent* event) {

@@ -45,6 +45,9 @@ void setCell(QTreeWidgetItem& row, int column, const QString& text);
 // Gives each cell that has no tooltip the whole of its text.
 void tellWhole(QTreeWidget& tree);
 
+// Pointer or keyboard is in it: its rows keep their places.
+inline bool isUsed(const QAbstractItemView& view) { return view.underMouse() || view.hasFocus(); }
+
 inline int rowHeight() { return Look::units(6); }
 // Where a mark stands in a row.
 inline QRectF markBox(int left, const QRect& row, int size) {

@@ -19,6 +19,12 @@ void StateMark::show(Shape shape) {
     update();
 }
 
+void StateMark::setUnits(double units) {
+    if (units == units_) return;
+    units_ = units;
+    updateGeometry();
+}
+
 QSize StateMark::sizeHint() const { return {Look::units(units_), Look::units(units_)}; }
 
 void StateMark::paintEvent(QPaintEvent* /*event*/) {

@@ -13,6 +13,7 @@ class StateMark : public QWidget {
 public:
     explicit StateMark(double units, QWidget* parent = nullptr);
     void show(Shape shape);
+    void setUnits(double units);
     QSize sizeHint() const override;
 
 protected:

@@ -59,6 +59,13 @@ void TextLabel::show(const QString& text, QColor Tokens::* colour) {
     show(text);
 }
 
+void TextLabel::setTextSize(TextSize size, bool strong) {
+    if (size == size_ && strong == strong_) return;
+    size_ = size;
+    strong_ = strong;
+    dress();
+}
+
 QSize TextLabel::sizeHint() const {
     if (wordWrap()) return QLabel::sizeHint();
     const QFontMetrics metrics{font()};
@@ -88,7 +95,7 @@ void TextLabel::paintEvent(QPaintEvent* /*event*/) {
         paintLines(painter);
         return;
     }
-    const QString shown = fontMetrics().elidedText(text(), Qt::ElideRight, width());
+    const QString shown = fontMetrics().elidedText(text(), elide_, width());
     setToolTip(shown == text() ? QString{} : tipText(text()));
     painter.drawText(rect(), static_cast<int>(alignment()) | Qt::TextSingleLine, shown);
 }

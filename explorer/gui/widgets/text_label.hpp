@@ -18,7 +18,9 @@ public:
     void show(const QString& text);
     void show(const QString& text, QColor Tokens::* colour);
 
-    void keepWhole() { whole_ = true; }  // never cut: what is beside it gives way
+    void keepWhole() { whole_ = true; }         // never cut: what is beside it gives way
+    void keepEnd() { elide_ = Qt::ElideLeft; }  // paths differ at their ends
+    void setTextSize(TextSize size, bool strong);
     bool keepsWhole() const { return whole_ || wordWrap(); }
 
     QSize sizeHint() const override;
@@ -37,6 +39,7 @@ private:
     TextSize size_;
     bool strong_;
     QColor Tokens::* colour_;
+    Qt::TextElideMode elide_ = Qt::ElideRight;
     bool dressing_ = false, whole_ = false;
 };
 

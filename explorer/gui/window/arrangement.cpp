@@ -2,9 +2,11 @@
 #include "window/arrangement.hpp"
 
 #include "style/look.hpp"
+#include "views/system_tree.hpp"
+#include "window/pane.hpp"
 #include "window/workspace.hpp"
 
-#include <QCoreApplication>
+#include <QApplication>
 #include <QJsonArray>
 #include <QPushButton>
 #include <QSplitter>
@@ -22,6 +24,10 @@ bool isTooSmall(QSize window) {
 
 QString arranged(const char* name) { return QLatin1String{name}; }
 
+QString eventsKind() { return QStringLiteral("events"); }
+
+QString buttonWords(const char* text) { return QCoreApplication::translate("Arrangement", text); }
+
 }  // namespace
 
 Arrangement::Arrangement(QSplitter& across, QSplitter& down, std::function<void()> changed)
@@ -30,16 +36,30 @@ Arrangement::Arrangement(QSplitter& across, QSplitter& down, std::function<void(
       tree_{across, 0, 76},
       events_{down, 1, 25},
       changed_{std::move(changed)},
-      treeButton_{new QPushButton{QCoreApplication::translate("Arrangement", "Tree ▸")}} {
-    treeButton_->setToolTip(QCoreApplication::translate("Arrangement", "All simplexes (Ctrl+B)"));
-    treeButton_->hide();
-    QObject::connect(treeButton_, &QPushButton::clicked, treeButton_, [this] { toggleTree(); });
+      treeButton_{new QPushButton{buttonWords("Tree ▸")}},
+      backButton_{new QPushButton{buttonWords("◂ Back")}} {
+    treeButton_->setToolTip(buttonWords("All simplexes (Ctrl+B)"));
+    backButton_->setToolTip(buttonWords("Back to the views (Ctrl+B, Esc)"));
+    for (QPushButton* each : {treeButton_, backButton_}) {
+        each->hide();
+        QObject::connect(each, &QPushButton::clicked, each, [this] { toggleTree(); });
+    }
     for (const QSplitter* each : {&across_, &down_}) {
         QObject::connect(each, &QSplitter::splitterMoved, treeButton_, [this] {
             noteSizes();
             changed_();
         });
     }
+}
+
+void Arrangement::join(SystemTree& tree, Workspace& views) {
+    const auto leave = [this] { leaveTree(); };
+    views.panes()[0]->addLeft(*treeButton_);
+    tree.addLeft(*backButton_);
+    QObject::connect(&tree, &SystemTree::left, backButton_, leave);
+    QObject::connect(&views, &Workspace::chosen, backButton_, leave);
+    for (Pane* each : views.panes())
+        QObject::connect(each, &Pane::currentChanged, backButton_, leave);
 }
 
 QWidget& Arrangement::Part::widget() const { return *splitter.widget(index); }
@@ -53,8 +73,8 @@ bool Arrangement::fit(QSize window) {
     if (fitted_) noteSizes();
     narrow_ = narrow;
     fitted_ = true;
-    eventsWhileNarrow_ = false;
     treeButton_->setVisible(narrow);
+    backButton_->hide();
     down_.show();
     tree_.widget().setVisible(!narrow && tree_.shown);
     events_.widget().setVisible(seesEvents());
@@ -115,11 +135,26 @@ void Arrangement::restore(const QJsonObject& saved, bool wantsEvents) {
 
 void Arrangement::toggleTree() {
     const bool shows = tree_.widget().isHidden();
+    if (narrow_) return cover(shows);
     show(tree_, shows);
-    down_.setVisible(!narrow_ || !shows);
-    if (narrow_) return;
     tree_.shown = shows;
     changed_();
+}
+
+// The keyboard goes with it, and comes back to where it was.
+void Arrangement::cover(bool covers) {
+    const QWidget* now = QApplication::focusWidget();
+    const bool inTree = now != nullptr && tree_.widget().isAncestorOf(now);
+    if (covers) focused_ = down_.isAncestorOf(now) ? QApplication::focusWidget() : nullptr;
+    tree_.widget().setVisible(covers);
+    down_.setVisible(!covers);
+    backButton_->setVisible(covers);
+    if (covers) {
+        tree_.widget().setFocus();
+    } else if (inTree) {
+        QWidget* back = focused_ && focused_->isVisible() ? focused_.data() : treeButton_;
+        back->setFocus();
+    }
 }
 
 void Arrangement::showTree() {
@@ -127,19 +162,31 @@ void Arrangement::showTree() {
 }
 
 void Arrangement::leaveTree() {
-    if (narrow_ && !tree_.widget().isHidden()) toggleTree();
+    if (narrow_ && !tree_.widget().isHidden()) cover(false);
 }
 
-void Arrangement::toggleEvents() {
-    bool& shown = narrow_ ? eventsWhileNarrow_ : events_.shown;
-    shown = roomMade_ || !shown;
+// In a narrow window they have a tab, and the same key leads back to what was in front of it.
+void Arrangement::toggleEvents(Workspace& views) {
+    if (narrow_) {
+        const bool covered = !tree_.widget().isHidden();
+        leaveTree();
+        for (Pane* each : views.panes()) {
+            const Page* page = each->current();
+            if (page == nullptr || page->kind != eventsKind()) continue;
+            if (!covered) each->goBack();
+            return;
+        }
+        views.openKind(eventsKind());
+        return;
+    }
+    events_.shown = roomMade_ || !events_.shown;
     roomMade_ = false;
     showEvents();
-    if (!narrow_) changed_();
+    changed_();
 }
 
 void Arrangement::giveWay(const Workspace& views) {
-    eventsElsewhere_ = views.shows(QStringLiteral("events"));
+    eventsElsewhere_ = views.shows(eventsKind());
     const bool room = views.wantsRoom();
     if (room != roomWanted_) roomMade_ = room;
     roomWanted_ = room;
@@ -147,7 +194,7 @@ void Arrangement::giveWay(const Workspace& views) {
 }
 
 bool Arrangement::seesEvents() const {
-    return (narrow_ ? eventsWhileNarrow_ : events_.shown) && !eventsElsewhere_ && !roomMade_;
+    return !narrow_ && events_.shown && !eventsElsewhere_ && !roomMade_;
 }
 
 void Arrangement::showEvents() { show(events_, seesEvents()); }

@@ -273,15 +273,8 @@ void ControlBar::choose() {
     connect(panel_, &Popover::closed, this, [this] {
         if (!took_) Q_EMIT declined();
     });
-    showBelow(*panel_);
+    panel_->openBelow(*button_);
     panel_->focusChosen();
-}
-
-void ControlBar::showBelow(QWidget& popover) {
-    popover.adjustSize();
-    const QPoint corner = mapToGlobal(rect().bottomRight());
-    popover.move(corner - QPoint{popover.width(), -Look::units(1)});
-    popover.show();
 }
 
 void ControlBar::chooseHandOver() {
@@ -292,7 +285,7 @@ void ControlBar::chooseHandOver() {
         asked_.clear();
         session_.handOver(name);
     });
-    showBelow(*handOverPanel_);
+    handOverPanel_->openBelow(*button_);
     handOverPanel_->nameField().setFocus();
 }
 

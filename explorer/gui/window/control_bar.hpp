@@ -58,7 +58,6 @@ private:
     void refreshNotice();
     void closeNotice();
     void take(const std::string& prefix);
-    void showBelow(QWidget& popover);
 
     Session& session_;
     std::shared_ptr<const Frame> frame_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QTimer>
 #include <QWidget>
 
 class QHBoxLayout;
@@ -10,13 +11,20 @@ namespace cortex::gui {
 
 class TextLabel;
 
-// What became of a stop or start, and what was refused or lost, in amber, with a remedy. Its height
-// is the same without words as with two lines, so that nothing moves under the mouse; what is
-// longer takes more lines.
+// What became of a stop or start, and what was refused or lost, in amber, with a remedy. It lies
+// over the window, below the bar along the top. There a place of two lines is kept free for it;
+// what is longer, and all of it in a low window, lies over what is below. So nothing ever moves
+// under the mouse. For a moment after it has come, the mouse still reaches what it lies over.
 class ControlNotice : public QWidget {
     Q_OBJECT
 public:
     explicit ControlNotice(QWidget* parent = nullptr);
+
+    // The place that is kept free; belongs to a layout of the window that the notice lies in.
+    QWidget& place() { return *place_; }
+    void keepFree(QWidget& left) {
+        left_ = &left;
+    }  // a button below the place, which is never covered
 
     void tell(const QString& outcome);                      // of a stop or start
     void show(const QString& text, const QString& remedy);  // empty: nothing, and no button
@@ -28,14 +36,22 @@ Q_SIGNALS:
 
 protected:
     void paintEvent(QPaintEvent* event) override;
-    void resizeEvent(QResizeEvent* event) override;
+    bool eventFilter(QObject* object, QEvent* event) override;
 
 private:
+    bool isEmpty() const;
+    void close();
+    void appear();
     void fit();
+    int placeTexts(int width);
 
+    QWidget* place_;
+    QWidget* left_ = nullptr;
     QHBoxLayout* row_;
     TextLabel *told_, *text_;
     QPushButton *remedy_, *close_;
+    QString read_;  // outcome that the user has closed
+    QTimer fresh_;
 };
 
 }  // namespace cortex::gui

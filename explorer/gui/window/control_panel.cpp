@@ -9,8 +9,8 @@
 #include "style/look.hpp"
 
 #include <QButtonGroup>
-#include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QRadioButton>
@@ -46,6 +46,12 @@ QString onLossText(const AgentFrame& agent, const std::string& prefix) {
     return faults == 0 ? running : running + ControlPanel::tr("; %1 in Fault").arg(faults);
 }
 
+// As wide as its longest line; only what is wider than the screen is broken.
+class HolderLines : public QLabel {
+public:
+    QSize sizeHint() const override { return fontMetrics().size(0, text()) + QSize{2, 0}; }
+};
+
 }  // namespace
 
 ControlPanel::ControlPanel(std::shared_ptr<const Frame> frame, const std::string& path,
@@ -53,7 +59,7 @@ ControlPanel::ControlPanel(std::shared_ptr<const Frame> frame, const std::string
     : Popover{tr("Take control of"), parent},
       frame_{std::move(frame)},
       buttons_{new QButtonGroup{this}},
-      holders_{new QLabel},
+      holders_{new HolderLines},
       cancel_{new QPushButton{tr("Cancel")}},
       take_{new QPushButton} {
     for (std::string each = path; each.size() > 1; each.resize(each.rfind('/'))) {
@@ -67,12 +73,10 @@ ControlPanel::ControlPanel(std::shared_ptr<const Frame> frame, const std::string
         rows().addWidget(button);
     }
     holders_->setTextFormat(Qt::PlainText);
+    holders_->setWordWrap(true);
     rows().addWidget(holders_);
-    auto* last = new QHBoxLayout;
-    last->addStretch(1);
-    last->addWidget(cancel_);
-    last->addWidget(take_);
-    rows().addLayout(last);
+    buttons().addWidget(cancel_);
+    buttons().addWidget(take_);
     connect(cancel_, &QPushButton::clicked, this, &QWidget::close);
     connect(take_, &QPushButton::clicked, this, [this] {
         Q_EMIT taken(chosen());
@@ -117,11 +121,7 @@ void ControlPanel::keyPressEvent(QKeyEvent* event) {
 
 void ControlPanel::refresh(std::shared_ptr<const Frame> frame) {
     frame_ = std::move(frame);
-    const QString text = describe();
-    if (text != holders_->text()) {
-        holders_->setText(text);
-        adjustSize();
-    }
+    holders_->setText(describe());
     take_->setText(tr("Take %1").arg(scopeText(chosen())));
 }
 

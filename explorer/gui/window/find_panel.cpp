@@ -33,13 +33,19 @@ QString kindText(FoundKind kind) {
     return {};
 }
 
+// Smaller only where the screen is.
+class FoundList : public QTreeWidget {
+public:
+    QSize sizeHint() const override { return {Look::units(150), Look::units(72)}; }
+};
+
 }  // namespace
 
 FindPanel::FindPanel(FindIndex index, QWidget* parent)
     : Popover{tr("Find"), parent},
       index_{std::move(index)},
       field_{new QLineEdit},
-      list_{new QTreeWidget},
+      list_{new FoundList},
       note_{new TextLabel{TextSize::Note, false, &Tokens::ink2}} {
     field_->setPlaceholderText(tr("Simplex, item, command or view"));
     field_->setAccessibleName(tr("Find a simplex, item, command or view"));
@@ -51,7 +57,6 @@ FindPanel::FindPanel(FindIndex index, QWidget* parent)
     list_->setAccessibleName(tr("What was found"));
     setUpRows(*list_);
     setWidths(*list_, {90, 22});
-    list_->setMinimumSize(Look::units(150), Look::units(72));
     rows().addWidget(field_);
     rows().addWidget(list_);
     rows().addWidget(note_);
@@ -115,11 +120,7 @@ FindPanel* openFindPanel(const Frame& frame, const std::vector<PageKind>& kinds,
         index.add({FoundKind::View, each.kind.toStdString(), each.title.toStdString()});
     }
     auto* panel = new FindPanel{std::move(index), button.window()};
-    panel->adjustSize();
-    const QPoint below = button.mapTo(button.window(), QPoint{0, button.height()});
-    const int last = std::max(button.window()->width() - panel->width(), 0);
-    panel->move(button.window()->mapToGlobal({std::clamp(below.x(), 0, last), below.y()}));
-    panel->show();
+    panel->openBelow(button.isVisible() ? button : *button.parentWidget());
     return panel;
 }
 

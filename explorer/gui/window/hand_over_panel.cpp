@@ -55,12 +55,9 @@ HandOverPanel::HandOverPanel(std::shared_ptr<const Frame> frame, QWidget* parent
     rows().addWidget(name_);
     rows().addWidget(
         line(tr("They must renew it within 2 s; another window and a shell do so by themselves.")));
-    auto* last = new QHBoxLayout;
-    last->addStretch(1);
     auto* cancel = new QPushButton{tr("Cancel")};
-    last->addWidget(cancel);
-    last->addWidget(handOver_);
-    rows().addLayout(last);
+    buttons().addWidget(cancel);
+    buttons().addWidget(handOver_);
     others_->setAccessibleName(tr("Who holds control of something"));
     name_->setAccessibleName(tr("Name of an agent or tool"));
     name_->setPlaceholderText(tr("cortex@host.1234-5e1f0a"));
@@ -103,7 +100,6 @@ void HandOverPanel::refresh(std::shared_ptr<const Frame> frame) {
     nobody_->setVisible(names.isEmpty());
     others_->setMaximumHeight(Look::units(6) * std::min<int>(others_->count(), 6) + Look::units(2));
     name_->setText(typed);
-    adjustSize();
 }
 
 }  // namespace cortex::gui

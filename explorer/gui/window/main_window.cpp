@@ -68,7 +68,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       bar_{new TopBar{*control_, *stop_}},
       arrangement_{*across_, *down_, [this] { layout_->noteChange(); }} {
     setWindowTitle(tr("CorteX Explorer"));
-    workspace_->panes()[0]->addLeft(arrangement_.treeButton());
+    arrangement_.join(*tree_, *workspace_);
     down_->addWidget(workspace_);
     down_->addWidget(eventList_);
     down_->setStretchFactor(0, 1);
@@ -83,9 +83,11 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     rows->setSpacing(0);
     bar_->setMenu(*makeMenu());
     rows->addWidget(bar_);
-    rows->addWidget(&control_->notice());
+    rows->addWidget(&control_->notice().place());
     rows->addWidget(across_, 1);
     rows->addWidget(status_);
+    control_->notice().setParent(this);
+    control_->notice().keepFree(arrangement_.treeButton());
 
     connect(workspace_, &Workspace::changed, layout_, &LayoutKeeper::noteChange);
     connect(layout_, &LayoutKeeper::told, this, &MainWindow::tell);
@@ -94,8 +96,6 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     connect(tree_, &SystemTree::chosen, this, &MainWindow::choose);
     connect(tree_, &SystemTree::pinned, this, &MainWindow::openTab);
     connect(tree_, &SystemTree::menuWanted, this, &MainWindow::openTreeMenu);
-    connect(tree_, &SystemTree::chosen, this, [this] { arrangement_.leaveTree(); });
-    connect(tree_, &SystemTree::pinned, this, [this] { arrangement_.leaveTree(); });
     connect(eventList_, &EventList::opened, this, &MainWindow::open);
     connect(status_, &StatusBar::nextWanted, this,
             [this](Abnormal::Kind kind) { openAbnormal(false, kind); });
@@ -157,7 +157,7 @@ void MainWindow::addKeys() {
     key("Ctrl+G", [this] { plotChosen(); });
     key("Ctrl+K", [this] { find(); });
     key("Ctrl+B", [this] { arrangement_.toggleTree(); });
-    key("Ctrl+E", [this] { arrangement_.toggleEvents(); });
+    key("Ctrl+E", [this] { arrangement_.toggleEvents(*workspace_); });
     key("Ctrl+W", [this] { workspace_->closeTab(); });
     key("Ctrl+Shift+W", [this] { workspace_->reopenTab(); });
     key("Ctrl+\\", [this] { workspace_->split(); });
@@ -395,6 +395,9 @@ void MainWindow::arrange() {
     arrangement_.fit(size());
     showStrip();
     bar_->setNarrow(arrangement_.isNarrow());
+    const bool low = Look::isLow(*this);
+    if (std::exchange(low_, low) == low) return;
+    for (QWidget* each : findChildren<QWidget*>()) each->updateGeometry();  // buttons are lower
 }
 
 }  // namespace cortex::gui

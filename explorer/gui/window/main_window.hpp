@@ -108,6 +108,7 @@ private:
     FocusEdge* edge_;
     bool leaves_ = false;      // the user said so
     bool refreshing_ = false;  // just now
+    bool low_ = false;
     ControlBar* control_;
     TopBar* bar_ = nullptr;
     Arrangement arrangement_;

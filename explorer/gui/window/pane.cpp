@@ -5,6 +5,7 @@
 #include "style/look.hpp"
 #include "widgets/drop_zone.hpp"
 #include "widgets/item_drag.hpp"
+#include "widgets/tab_row.hpp"
 
 #include <QDragMoveEvent>
 #include <QDropEvent>
@@ -12,7 +13,6 @@
 #include <QMenu>
 #include <QMouseEvent>
 #include <QStackedWidget>
-#include <QTabBar>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -23,14 +23,10 @@ namespace cortex::gui {
 Pane::Pane(const QString& name, QWidget* parent)
     : QWidget{parent},
       top_{new QHBoxLayout},
-      tabs_{new QTabBar},
+      tabs_{new TabRow},
       content_{new QStackedWidget},
       zone_{new DropZone{tabs_}} {
-    tabs_->setExpanding(false);
-    tabs_->setDrawBase(false);
     tabs_->setMovable(true);
-    tabs_->setElideMode(Qt::ElideNone);
-    tabs_->setUsesScrollButtons(true);
     tabs_->setAccessibleName(name);
     tabs_->setContextMenuPolicy(Qt::CustomContextMenu);
     tabs_->setSelectionBehaviorOnRemove(QTabBar::SelectPreviousTab);
@@ -92,6 +88,12 @@ void Pane::discard(int tab) {
 
 void Pane::choose(int tab) { tabs_->setCurrentIndex(tab); }
 
+void Pane::goBack() {
+    const auto found = std::ranges::find(pages_, before_.data(), &Page::widget);
+    const auto tab = static_cast<int>(found - pages_.begin());
+    choose(tab < count() && tab != chosen() ? tab : 0);
+}
+
 void Pane::setTitle(int tab, const QString& title) {
     if (tabs_->tabText(tab) == title) return;
     tabs_->setTabText(tab, title);
@@ -108,6 +110,8 @@ void Pane::setPinned(int tab, bool pinned) {
 void Pane::restyle() {
     for (int tab = 0; tab < count(); ++tab) decorate(tab);
 }
+
+QTabBar& Pane::tabs() { return *tabs_; }
 
 QWidget& Pane::content() { return *content_; }
 
@@ -128,6 +132,7 @@ QString Pane::title(int tab) const { return tabs_->tabText(tab); }
 void Pane::showCurrent() {
     const Page* page = tabs_->count() == count() ? current() : nullptr;
     if (page == nullptr || content_->currentWidget() == page->widget) return;
+    before_ = content_->currentWidget();
     content_->setCurrentWidget(page->widget);
     Q_EMIT currentChanged();
     Q_EMIT changed();
@@ -205,8 +210,7 @@ bool Pane::dragOver(QEvent& event) {
             if (tab >= 0) {
                 zone_->show(tabs_->tabRect(tab), tr("add to %1").arg(title(tab)));
             } else {
-                const QRect last = tabs_->tabRect(count() - 1);
-                const int left = std::min(last.right(), tabs_->width() - Look::units(30));
+                const int left = std::min(tabs_->end(), tabs_->width() - Look::units(30));
                 zone_->show({left, 0, Look::units(30), tabs_->height()}, tr("new plot"));
             }
             dragged.acceptProposedAction();

@@ -8,6 +8,7 @@
 #include "widgets/unit_menu.hpp"
 
 #include <QJsonObject>
+#include <QPointer>
 #include <QString>
 #include <QWidget>
 #include <functional>
@@ -22,6 +23,7 @@ class QTabBar;
 namespace cortex::gui {
 
 class DropZone;
+class TabRow;
 
 // Whose values a page needs: at the rate that the user has set, and at rates of its own.
 struct Wanted {
@@ -57,6 +59,7 @@ public:
     void close(int tab);
     void discard(int tab);  // without being asked, and for good
     void choose(int tab);
+    void goBack();  // to the tab that was in front before
     void setTitle(int tab, const QString& title);
     void setPinned(int tab, bool pinned);
     void restyle();  // after another theme
@@ -67,7 +70,7 @@ public:
     const Page& page(int tab) const { return pages_[static_cast<std::size_t>(tab)]; }
     const Page* current() const;  // null: it is empty
     QString title(int tab) const;
-    QTabBar& tabs() { return *tabs_; }
+    QTabBar& tabs();
     const DropZone& zone() const { return *zone_; }
     QWidget& content();
 
@@ -93,9 +96,10 @@ private:
 
     std::vector<Page> pages_;  // in the order of the tabs
     QBoxLayout* top_;
-    QTabBar* tabs_;
+    TabRow* tabs_;
     QStackedWidget* content_;
-    DropZone* zone_;  // on the tabs, while values are dragged over them
+    QPointer<QWidget> before_;  // that was in front
+    DropZone* zone_;            // on the tabs, while values are dragged over them
 };
 
 }  // namespace cortex::gui

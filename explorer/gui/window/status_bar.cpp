@@ -16,6 +16,7 @@ namespace cortex::gui {
 namespace {
 
 constexpr int agentsShown = 3;
+constexpr int threeDigits = 888;  // what room is kept for
 
 // One agent in few words: the worst that can be said of it.
 QString shortText(const AgentFrame& agent) {
@@ -55,9 +56,11 @@ public:
         setFocusPolicy(Qt::TabFocus);
     }
 
-    void show(int count, const QString& text) {
+    // `widest`: whose room it keeps, so that it moves nothing when its count grows.
+    void show(int count, const QString& text, const QString& widest) {
         if (text == this->text()) return;
         count_ = count;
+        widest_ = widest;
         setText(text);
         setAccessibleName(text);
         updateGeometry();
@@ -65,8 +68,9 @@ public:
 
     QSize sizeHint() const override {
         const QFontMetrics metrics{Look::font(TextSize::Note, true)};
-        return {metrics.horizontalAdvance(text()) + Look::units(8),
-                std::max(Look::units(5), metrics.height())};
+        const int wide =
+            std::max(metrics.horizontalAdvance(text()), metrics.horizontalAdvance(widest_));
+        return {wide + Look::units(8), std::max(Look::units(5), metrics.height())};
     }
 
 protected:
@@ -96,6 +100,7 @@ protected:
 private:
     Dress dress_;
     int count_ = 0;
+    QString widest_;
 };
 
 StatusBar::StatusBar(QWidget* parent)
@@ -125,9 +130,11 @@ StatusBar::StatusBar(QWidget* parent)
 void StatusBar::refresh(const Frame& frame, const Abnormal& abnormal) {
     const int faults = abnormal.count(Abnormal::Fault), outside = abnormal.count(Abnormal::Outside),
               lost = abnormal.count(Abnormal::Lost);
-    counters_[Abnormal::Fault]->show(faults, tr("%n faults", nullptr, faults));
-    counters_[Abnormal::Outside]->show(outside, tr("%1 outside").arg(outside));
-    counters_[Abnormal::Lost]->show(lost, tr("%1 lost").arg(lost));
+    counters_[Abnormal::Fault]->show(faults, tr("%n faults", nullptr, faults),
+                                     tr("%n faults", nullptr, threeDigits));
+    counters_[Abnormal::Outside]->show(outside, tr("%1 outside").arg(outside),
+                                       tr("%1 outside").arg(threeDigits));
+    counters_[Abnormal::Lost]->show(lost, tr("%1 lost").arg(lost), tr("%1 lost").arg(threeDigits));
     domain_->show(tr("Domain %1").arg(frame.domain));
     security_->show(frame.security.empty() ? tr("Security: none") : tr("Security: on"));
     std::vector<const AgentFrame*> agents;
@@ -140,13 +147,16 @@ void StatusBar::refresh(const Frame& frame, const Abnormal& abnormal) {
     fit(texts);
 }
 
-// What has no room is left out, not cut: security first, then the agents that are well.
+// What has no room is left out, not cut: security first, then the agents that are well, then how
+// many there are, then the domain.
 void StatusBar::fit(const QStringList& agents) {
     const int gap = layout()->spacing();
     const QMargins margins = layout()->contentsMargins();
     int room = width() - margins.left() - margins.right();
     for (const Counter* each : counters_) room -= each->sizeHint().width() + gap;
-    room -= domain_->sizeHint().width() + gap;
+    const int domain = domain_->sizeHint().width(), security = security_->sizeHint().width() + gap;
+    domain_->setVisible(domain <= room);
+    room -= domain + gap;
     const auto all = static_cast<int>(agents.size());
     const auto textOf = [&](int count) {
         QStringList shown = agents.mid(0, count);
@@ -154,17 +164,15 @@ void StatusBar::fit(const QStringList& agents) {
         return shown.join(QStringLiteral("   "));
     };
     const QFontMetrics metrics{agents_->font()};
-    const int security = security_->sizeHint().width() + gap;
-    for (const bool withSecurity : {true, false}) {
-        const int left = room - (withSecurity ? security : 0);
-        int count = std::min(all, agentsShown);
-        const int least = withSecurity ? count : 0;
-        while (count > least && metrics.horizontalAdvance(textOf(count)) + gap > left) --count;
-        if (withSecurity && metrics.horizontalAdvance(textOf(count)) + gap > left) continue;
-        agents_->show(textOf(count));
-        security_->setVisible(withSecurity);
-        return;
-    }
+    const auto fits = [&](int count, int left) {
+        return metrics.horizontalAdvance(textOf(count)) + 2 <= left;
+    };
+    int count = std::min(all, agentsShown);
+    const bool withSecurity = fits(count, room - security);
+    while (!withSecurity && count > 0 && !fits(count, room)) --count;
+    agents_->show(textOf(count));
+    agents_->setVisible(fits(count, room));
+    security_->setVisible(withSecurity);
 }
 
 void StatusBar::paintEvent(QPaintEvent* /*event*/) {

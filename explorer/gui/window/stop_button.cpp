@@ -11,6 +11,7 @@
 #include <QKeyEvent>
 #include <QPainter>
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace cortex::gui {
@@ -31,6 +32,18 @@ std::vector<std::string> heldByOthers(const Frame& frame, const std::vector<std:
         if (theirs) names.push_back(agent.status.name);
     }
     return names;
+}
+
+// In two lines, broken at a blank or before a "/", or anywhere; none: they have no room.
+QStringList broken(const QString& text, bool anywhere, const QFontMetrics& metrics, int room) {
+    if (metrics.horizontalAdvance(text) > 2 * room) return {};
+    for (int at = 1; at < text.size(); ++at) {
+        if (!anywhere && text[at] != ' ' && text[at] != '/') continue;
+        const QString first = text.left(at), last = text.mid(at).trimmed();
+        if (metrics.horizontalAdvance(first) > room) break;
+        if (metrics.horizontalAdvance(last) <= room) return {first, last};
+    }
+    return {};
 }
 
 }  // namespace
@@ -75,9 +88,8 @@ void StopButton::disarm() {
 }
 
 void StopButton::showScope() {
-    const QString scope = scopeWord(scope_) + but(), whole = this->whole();
-    setText(isArmed() ? tr("Again: stop %1").arg(scope)
-                      : (chosen_ ? tr("Stop always %1") : tr("Stop %1")).arg(scope));
+    const QString whole = this->whole();
+    setText(saying(scopeWord(scope_) + but()));
     setAccessibleName((isArmed() ? tr("Again: stop %1, F12") : tr("Stop %1, F12")).arg(whole));
     const QString presses = isHeld_ ? tr("One press does it, as all of it is controlled here.")
                                     : tr("It takes a second press, as it is more than is "
@@ -87,6 +99,11 @@ void StopButton::showScope() {
                           "work.")
                            .arg(whole, presses)));
     update();
+}
+
+QString StopButton::saying(const QString& scope) const {
+    if (isArmed()) return tr("Again: stop %1").arg(scope);
+    return (chosen_ ? tr("Stop always %1") : tr("Stop %1")).arg(scope);
 }
 
 // " but robot": who is not told.
@@ -139,12 +156,58 @@ void StopButton::refresh(const Frame& frame, const std::vector<CommandOutcome>& 
     order_.refresh(frame, outcomes);
 }
 
-// With as many words as there is room for: F12 gives way first, then all paths but one.
-QString StopButton::shortest() const {
-    if (scope_.size() < 2) return text();
-    const QString one =
-        tr("%1 and %2 more").arg(QString::fromStdString(scope_.front())).arg(scope_.size() - 1);
-    return (isArmed() ? tr("Again: stop %1") : tr("Stop %1")).arg(one + but());
+// All words, or one path for all of them. What has no room even so is cut at its left, as paths
+// differ at their ends.
+QStringList StopButton::twoLines(QFont& font, int room) const {
+    constexpr std::array ways{std::pair{true, false}, std::pair{false, false},
+                              std::pair{false, true}};  // strong, broken anywhere
+    QString scope = scopeWord(scope_) + but();
+    QStringList sayings{saying(scope)};
+    if (scope_.size() > 1) {
+        scope = tr("%1 and %2 more")
+                    .arg(QString::fromStdString(scope_.front()))
+                    .arg(scope_.size() - 1) +
+                but();
+        sayings << saying(scope);
+    }
+    for (int rest = scope.size() - 1; rest > 0; --rest)
+        sayings << saying(QStringLiteral("…") + scope.right(rest));
+    for (const QString& each : qAsConst(sayings)) {
+        for (const auto& [strong, anywhere] : ways) {
+            font = Look::font(TextSize::Note, strong);
+            const QStringList lines = broken(each, anywhere, QFontMetrics{font}, room);
+            if (!lines.isEmpty()) return lines;
+        }
+    }
+    return {};
+}
+
+// In one line, where F12 gives way first, otherwise in two small ones.
+void StopButton::paintWords(QPainter& painter) const {
+    const int side = isArmed() ? int{Qt::AlignHCenter} : int{Qt::AlignLeft};
+    QFont font = Look::font(TextSize::Text, true);
+    const QRect inner = rect().adjusted(Look::units(3), 0, -Look::units(3), 0);
+    const int width = QFontMetrics{font}.horizontalAdvance(text());
+    if (width <= inner.width()) {
+        painter.setFont(font);
+        painter.drawText(inner, int{Qt::AlignVCenter} | side, text());
+        if (width <= inner.width() - Look::units(10) && !isArmed())
+            painter.drawText(inner, int{Qt::AlignVCenter} | int{Qt::AlignRight},
+                             QStringLiteral("F12"));
+        return;
+    }
+    const QRect room = rect().adjusted(Look::units(1), 0, -Look::units(1), 0);
+    const QStringList lines = twoLines(font, room.width());
+    painter.setFont(font);
+    const QFontMetrics metrics{font};
+    const int pitch = std::min(metrics.height(), Look::units(3.5));
+    int top = (height() - metrics.capHeight() - pitch - metrics.descent()) / 2 +
+              metrics.capHeight() - metrics.ascent();
+    for (const QString& each : lines) {
+        painter.drawText(QRect{room.left(), top, room.width(), metrics.height()},
+                         side | int{Qt::TextDontClip}, each);
+        top += pitch;
+    }
 }
 
 void StopButton::paintEvent(QPaintEvent* /*event*/) {
@@ -153,7 +216,7 @@ void StopButton::paintEvent(QPaintEvent* /*event*/) {
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setPen(Qt::NoPen);
     painter.setBrush(colours.stop);
-    const double inset = hasFocus() ? Look::length(1) : 0;
+    const double inset = hasFocus() ? Look::length(0.75) : 0;
     const QRectF box = QRectF{rect()}.adjusted(inset, inset, -inset, -inset);
     painter.drawRoundedRect(box, Look::length(1), Look::length(1));
     if (hasFocus()) {
@@ -163,19 +226,7 @@ void StopButton::paintEvent(QPaintEvent* /*event*/) {
                                 Look::length(1));
     }
     painter.setPen(colours.onStop);
-    painter.setFont(Look::font(TextSize::Text, true));
-    const QRect inner = rect().adjusted(Look::units(3), 0, -Look::units(3), 0);
-    const auto widthOf = [&](const QString& words) {
-        return painter.fontMetrics().horizontalAdvance(words);
-    };
-    const int room = inner.width() - Look::units(10);
-    const bool hasKey = widthOf(text()) <= room && !isArmed();
-    const QString words = widthOf(text()) <= inner.width() ? text() : shortest();
-    const int side = isArmed() ? int{Qt::AlignHCenter} : int{Qt::AlignLeft};
-    painter.drawText(inner, int{Qt::AlignVCenter} | side,
-                     painter.fontMetrics().elidedText(words, Qt::ElideMiddle, inner.width()));
-    if (hasKey)
-        painter.drawText(inner, int{Qt::AlignVCenter} | int{Qt::AlignRight}, QStringLiteral("F12"));
+    paintWords(painter);
 }
 
 }  // namespace cortex::gui

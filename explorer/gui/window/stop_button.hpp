@@ -5,6 +5,7 @@
 #include "window/order.hpp"
 
 #include <QAbstractButton>
+#include <QStringList>
 #include <QTimer>
 #include <optional>
 #include <string>
@@ -46,7 +47,9 @@ private:
     bool isArmed() const { return armed_.remainingTime() > 0; }
     QString but() const;
     QString whole() const;
-    QString shortest() const;
+    QString saying(const QString& scope) const;
+    void paintWords(QPainter& painter) const;
+    QStringList twoLines(QFont& font, int room) const;
 
     Order order_;
     QTimer armed_;                          // after a first press

@@ -12,12 +12,22 @@
 #include <QHBoxLayout>
 #include <QMenu>
 #include <QPushButton>
+#include <algorithm>
 
 namespace cortex::gui {
+
+namespace {
+
+// Units that are kept for control: "You control everything since 12:05 UTC", two buttons; where it
+// is narrow "You control all but robotics", one button.
+constexpr double controlUsual = 138, controlNarrow = 84;
+
+}  // namespace
 
 TopBar::TopBar(ControlBar& control, StopButton& stop, QWidget* parent)
     : QWidget{parent},
       control_{control},
+      stop_{stop},
       row_{new QHBoxLayout{this}},
       menu_{new QPushButton{tr("Menu")}},
       find_{new QPushButton{tr("Find…  Ctrl+K")}},
@@ -25,12 +35,12 @@ TopBar::TopBar(ControlBar& control, StopButton& stop, QWidget* parent)
     menu_->setAccessibleName(tr("Menu"));
     menu_->setFocusPolicy(Qt::TabFocus);  // the mouse leaves the keyboard where it was
     row_->addWidget(menu_);
-    title_->show(tr("CorteX Explorer"));
-    row_->addWidget(title_);
     find_->setAccessibleName(tr("Find a simplex, item, command or view"));
     find_->setFocusPolicy(Qt::TabFocus);
     connect(find_, &QPushButton::clicked, this, &TopBar::findWanted);
     row_->addWidget(find_);
+    title_->show(tr("CorteX Explorer"));
+    row_->addWidget(title_);
     row_->addStretch(1);
     row_->addWidget(&control_);
     row_->addWidget(&stop);
@@ -55,17 +65,18 @@ void TopBar::setNarrow(bool narrow) {
     fit();
 }
 
-// The title gives way first, then the field for finding, which stands in the menu, too.
 void TopBar::fit() {
     const auto wide = [this](const QWidget& each) {
-        return each.isHidden() ? 0 : each.sizeHint().width() + row_->spacing();
-    };
-    const auto wanted = [this](const QWidget& each) {
         return each.sizeHint().width() + row_->spacing();
     };
-    const int rest = row_->sizeHint().width() - wide(*title_) - wide(*find_);
-    find_->setVisible(rest + wanted(*find_) <= width());
-    title_->setVisible(!narrow_ && rest + wanted(*find_) + wanted(*title_) <= width());
+    const QMargins margins = row_->contentsMargins();
+    const int room = width() - margins.left() - margins.right() - wide(*menu_) - wide(stop_);
+    const int control = control_.sizeHint().width();
+    const int kept = std::max(control, Look::units(narrow_ ? controlNarrow : controlUsual));
+    const bool finds = kept + wide(*find_) <= room;
+    find_->setVisible(finds);
+    title_->setVisible(finds && !narrow_ && control + wide(*find_) + wide(*title_) <= room);
+    control_.setMaximumWidth(std::max(room, 0));  // Stop stays where it is
 }
 
 bool TopBar::event(QEvent* event) {

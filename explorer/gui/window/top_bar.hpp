@@ -14,8 +14,9 @@ class ControlBar;
 class StopButton;
 class TextLabel;
 
-// The bar along the top: menu, title, find, control, Stop. Where it is narrow, it gives way before
-// the lease or Stop would be cut.
+// The bar along the top: menu, find, title, control, Stop. Whatever is said of control, none of its
+// buttons moves. What there is room for follows from its width; only words that are longer than
+// usual take the place of Find, which stands in the menu, too.
 class TopBar : public QWidget {
     Q_OBJECT
 public:
@@ -37,6 +38,7 @@ private:
     void fit();
 
     ControlBar& control_;
+    StopButton& stop_;
     QBoxLayout* row_;
     QPushButton *menu_, *find_;
     TextLabel* title_;

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whatever state a simplex, its agent and control are in: nothing moves, and six rows of data are
+// seen, also in the smallest window with the largest text.
+#include "gui/made_agent.hpp"
+#include "gui/window_fixture.hpp"
+#include "model/item_model.hpp"
+#include "style/look.hpp"
+#include "views/base_view.hpp"
+#include "views/edit_bar.hpp"
+#include "views/message_area.hpp"
+#include "widgets/item_table.hpp"
+#include "widgets/link.hpp"
+#include "widgets/popover.hpp"
+#include "widgets/text_label.hpp"
+#include "window/control_bar.hpp"
+#include "window/control_notice.hpp"
+#include "window/main_window.hpp"
+
+#include <QAbstractButton>
+#include <QPushButton>
+#include <QTabBar>
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using namespace cortex::gui;
+
+const std::string wordyFault =
+    "axis 4 does not follow its demand: it is 0.0524 rad behind, and at most 0.0500 rad are "
+    "allowed; its brake is closed";
+
+class EveryState : public testing::Test {
+protected:
+    EveryState() {
+        Look::apply(Theme::Light, 1.5, QStringLiteral("Open Sans"));
+        window.resize(800, 600);
+        window.show();
+        window.open("/drive");
+        window.openPart("data");
+    }
+    ~EveryState() override { Look::apply(Theme::Light, 1, QStringLiteral("Open Sans")); }
+
+    BaseView& page() { return *qobject_cast<BaseView*>(window.current()); }
+    ItemTable& table() { return *page().findChild<ItemTable*>(); }
+    // No event of a timer is taken, so the window does not look for agents of its own.
+    void show(const std::shared_ptr<Frame>& frame) {
+        for (int i = 0; i < 3; ++i) {
+            page().refresh(frame);
+            QCoreApplication::sendPostedEvents();
+        }
+    }
+    std::shared_ptr<Frame> now(const std::string& state = "running") {
+        return frameOf({robot.now(state)});
+    }
+    // Each change is on top of those before it; so all of it is there at the end.
+    struct State {
+        std::string name;
+        std::function<std::shared_ptr<Frame>()> make;
+    };
+    std::vector<State> states() {
+        return {
+            {"Standby", [this] { return now(); }},
+            {"an entry", [this] { return enters("dampingRatio", "0.75"), now(); }},
+            {"Active", [this] { return robot.put("/drive", "state", std::int64_t{2}), now(); }},
+            {"a refusal", [this] { return refuse(), now(); }},
+            {"what became of a stop", [this] { return stop(), now(); }},
+            {"stale", [this] { return robot.degrade("/drive", Quality::Stale, "/hold"), now(); }},
+            {"Fault", [this] { return fault(), now(); }},
+            {"a standstill", [this] { return standstill(now()); }},
+            {"two owners", [this] { return contest(now()); }},
+            {"lost", [this] { return contest(now("lost")); }},
+        };
+    }
+    void enters(const QString& item, const QString& text) {
+        auto& rows = *table().model();
+        for (int row = 0; row < rows.rowCount(rows.index(0, 0)); ++row) {
+            const QModelIndex name = rows.index(row, ItemModel::Name, rows.index(0, 0));
+            if (name.data() == item) rows.setData(name.siblingAtColumn(ItemModel::Value), text);
+        }
+    }
+    void refuse() {
+        window.control().notice().show(
+            "Control of / was not taken. robot: colleague@desk.14105-2501a1 holds /drive, and must "
+            "release it or hand it over.",
+            "Take /drive again");
+    }
+    void stop() {
+        window.control().notice().tell(
+            "Stopped: 3 of 4 of /drive in 0.4 s; Not reached: station, 12:00:01 UTC");
+    }
+    void fault() {
+        robot.put("/drive", "state", std::int64_t{4});
+        robot.put("/drive", "faultCode", std::int64_t{-7});
+        robot.put("/drive", "faultText", wordyFault);
+    }
+    static std::shared_ptr<Frame> standstill(std::shared_ptr<Frame> frame) {
+        frame->agents[0].status.standstill = "has stood still for 12 s in stateActive of /drive";
+        return frame;
+    }
+    static std::shared_ptr<Frame> contest(std::shared_ptr<Frame> frame) {
+        frame->contested = {{"/drive",
+                             {"robot", "station"},
+                             "robot",
+                             "which was there first",
+                             "/drive is claimed by robot and station; robot has it, which was "
+                             "there first"}};
+        return frame;
+    }
+    // Those that are whole, with the titles of groups, and not below what lies over them.
+    int rowsSeen() {
+        const QRect over =
+            window.control().notice().isVisible() ? window.control().notice().geometry() : QRect{};
+        int count = 0;
+        for (QModelIndex row = table().model()->index(0, 0); row.isValid();
+             row = table().indexBelow(row)) {
+            const QRect box = table().visualRect(row);
+            const QRect at{table().viewport()->mapTo(&window, box.topLeft()), box.size()};
+            const bool whole = box.height() > 0 && box.bottom() < table().viewport()->height();
+            count += whole && !over.intersects(at) ? 1 : 0;
+        }
+        return count;
+    }
+    // Of what the mouse can press: buttons, tabs and rows.
+    std::map<QString, QRect> places() {
+        std::map<QString, QRect> all;
+        const auto note = [&](const QString& name, const QWidget& each, const QRect& box) {
+            all[name] = {each.mapTo(&window, box.topLeft()), box.size()};
+        };
+        for (auto* each : window.findChildren<QTabBar*>())
+            for (int tab = 0; tab < each->count(); ++tab)
+                if (each->isVisible())
+                    note(each->accessibleName() + each->tabText(tab), *each, each->tabRect(tab));
+        for (auto* each : page().findChildren<QPushButton*>())
+            if (each->isVisible() && !page().findChild<EditBar*>()->isAncestorOf(each) &&
+                each->text() != "Dismiss")
+                note(each->text(), *each, each->rect());
+        QModelIndex row = table().model()->index(0, 0);
+        for (int i = 0; i < 6; ++i, row = table().indexBelow(row))
+            note(QString::number(i), *table().viewport(), table().visualRect(row));
+        return all;
+    }
+
+    MadeAgent robot{"robot",
+                    [](SimplexTree& tree) {
+                        Simplex& drive = tree.add("/drive", "SimulatedAxis");
+                        Simplex& hold = tree.add("/hold", "HoldAxisController");
+                        Simplex& demand = tree.add("/demand", "RotaryAxisConcept");
+                        Simplex& seen = tree.add("/seen", "RotaryAxisConcept");
+                        tree.relate(drive, "demand", demand);
+                        tree.relate(drive, "observation", seen);
+                        tree.relate(hold, "axes", seen);
+                        tree.relate(hold, "demands", demand);
+                    },
+                    TypeModel::load(CORTEX_SOURCE_DIR "/ontology/robotics-morphology.xml")};
+    Session session{ownNetwork()};
+    MainWindow window{session};
+};
+
+TEST_F(EveryState, SixRowsAreSeenAndNothingMoves) {
+    for (const char* family : {"Open Sans", "DejaVu Sans"}) {
+        Look::apply(Theme::Light, 1.5, QLatin1String{family});
+        robot.put("/drive", "state", std::int64_t{0});
+        window.control().notice().show({}, {});
+        window.control().notice().tell({});
+        show(now());
+        const auto before = places();
+        for (const State& each : states()) {
+            show(each.make());
+            EXPECT_GE(rowsSeen(), 7)
+                << family << ": " << each.name << ", with the title of a group";
+            EXPECT_EQ(places(), before) << family << ": " << each.name;
+        }
+    }
+}
+
+TEST_F(EveryState, NothingMovesInALargeWindow) {
+    for (const QSize size : {QSize{1280, 800}, QSize{1024, 768}, QSize{1920, 1080}}) {
+        Look::apply(Theme::Light, 1, QStringLiteral("DejaVu Sans"));
+        window.resize(size);
+        robot.put("/drive", "state", std::int64_t{0});
+        show(now());
+        const auto before = places();
+        for (const State& each : states()) {
+            show(each.make());
+            EXPECT_EQ(places(), before) << size.width() << ": " << each.name;
+        }
+    }
+}
+
+// All texts of labels that are seen and have them whole.
+QStringList wholeTexts(const QWidget& parent) {
+    QStringList all;
+    for (const auto* each : parent.findChildren<TextLabel*>())
+        if (each->isVisible() && each->height() >= each->heightForWidth(each->width()))
+            all << each->text();
+    return all;
+}
+
+TEST_F(EveryState, WhatHasNoRoomIsCountedAndOpensWhole) {
+    for (const State& each : states()) show(each.make());
+    fault();
+    show(standstill(now()));
+    auto& area = *page().findChild<MessageArea*>();
+    const auto links = area.findChildren<Link*>();
+    ASSERT_EQ(links.size(), 1);
+    ASSERT_TRUE(links[0]->isVisible());
+    EXPECT_EQ(links[0]->text(), "3 more");
+    links[0]->click();
+    const auto* popover = area.findChild<Popover*>();
+    ASSERT_NE(popover, nullptr);
+    const QString all = wholeTexts(*popover).join('\n');
+    EXPECT_TRUE(all.contains("does not follow its demand")) << all.toStdString();
+    EXPECT_TRUE(all.contains("has stood still for 12 s")) << all.toStdString();
+    EXPECT_TRUE(all.contains("Startup: needs Standby")) << all.toStdString();
+}
+
+TEST_F(EveryState, TheMouseReachesWhatANoticeLiesOverUntilItWasSeen) {
+    refuse();
+    QCoreApplication::sendPostedEvents();
+    ControlNotice& notice = window.control().notice();
+    const QPoint middle = notice.geometry().center();
+    EXPECT_TRUE(notice.isVisible());
+    const auto isHit = [&] {
+        QWidget* hit = window.childAt(middle);
+        return hit == &notice || notice.isAncestorOf(hit);
+    };
+    EXPECT_FALSE(isHit());
+    EXPECT_TRUE(comes(isHit));
+}
+
+}  // namespace
+}  // namespace cortex::test
