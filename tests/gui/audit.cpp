@@ -46,6 +46,17 @@ bool isScrolled(const QWidget& widget) {
 
 QString plain(QString text) { return text.remove('&'); }
 
+// A notice may lie over what is below it, until it is closed.
+bool isBelowANotice(const QWidget& widget, const QWidget& window) {
+    const QRect box{widget.mapTo(&window, QPoint{}), widget.size()};
+    for (const QWidget* each : window.findChildren<QWidget*>()) {
+        if (!each->inherits("cortex::gui::ControlNotice") || !each->isVisible()) continue;
+        const QRect notice{each->mapTo(&window, QPoint{}), each->size()};
+        if (!each->isAncestorOf(&widget) && notice.intersects(box)) return true;
+    }
+    return false;
+}
+
 // Of buttons and labels; of a label in several lines, its height counts.
 std::vector<Text> textsIn(QWidget& window) {
     std::vector<Text> texts;
@@ -56,6 +67,7 @@ std::vector<Text> textsIn(QWidget& window) {
         if (label != nullptr) text = label->text();
         if (button != nullptr) text = plain(button->text());
         if (text.isEmpty() || !each->isVisible() || each->visibleRegion().isEmpty()) continue;
+        if (isBelowANotice(*each, window)) continue;
         const bool lines = label != nullptr && label->wordWrap();
         const bool cut = lines ? each->height() < label->heightForWidth(each->width())
                                : each->width() + 1 < each->fontMetrics().horizontalAdvance(text);

@@ -175,7 +175,7 @@ const std::array mutations{
                  label.setFixedHeight(label.heightForWidth(label.width()) - 1);
              },
              "1 did not follow: /probe\" is never to be cut"},
-    Mutation{"ScopeOfStopCut", [](GoodWindow& window) { window.stop->setFixedWidth(60); },
+    Mutation{"ScopeOfStopCut", [](GoodWindow& window) { window.stop->setFixedWidth(24); },
              "\"Stop all\" is never to be cut"},
     Mutation{"ButtonCut",
              [](GoodWindow& window) {

@@ -41,6 +41,12 @@ protected:
         stop->refresh(*frame, {});
         for (int i = 0; i < 3; ++i) QApplication::processEvents();
     }
+    void showBar(int width, bool narrow) {
+        bar.resize(width, Look::units(11));
+        bar.setNarrow(narrow);
+        host.resize(bar.size());
+        host.show();
+    }
     QRect placeOf(const QWidget& widget) {
         return widget.isVisible() ? QRect{widget.mapTo(&bar, QPoint{}), widget.size()} : QRect{};
     }
@@ -56,7 +62,8 @@ protected:
     Session session{ownNetwork()};
     ControlBar* control = new ControlBar{session};
     StopButton* stop = new StopButton{session};
-    TopBar bar{*control, *stop};
+    QWidget host;
+    TopBar bar{*control, *stop, &host};
 };
 
 TEST_F(Bars, KeepTheirButtonsInPlaceWhateverIsSaidOfControl) {
@@ -69,10 +76,10 @@ TEST_F(Bars, KeepTheirButtonsInPlaceWhateverIsSaidOfControl) {
         {"lost", {}, {"/"}, {}, "Control of / was lost."},
         {"refused", {}, {}, {}, "Control of /a was not taken."},
     };
-    bar.show();
+    const Said longer{
+        "long", {{"left", "/levelling/platform/hydraulics/left_cell/valves", 1}}, {}, {}, {}};
     for (const int width : {800, 1024, 1280, 1920}) {
-        bar.resize(width, 50);
-        bar.setNarrow(width < 1024);
+        showBar(width, width < 1024);
         show(all.front());
         const QRect menu = placeOf(bar.menuButton()), find = placeOf(bar.findButton()),
                     stopAt = placeOf(*stop), button = controlButton();
@@ -88,21 +95,10 @@ TEST_F(Bars, KeepTheirButtonsInPlaceWhateverIsSaidOfControl) {
                 EXPECT_EQ(controlButton(), button) << width << each.what;
             }
         }
+        show(longer);
+        EXPECT_EQ(placeOf(*stop), stopAt) << width;
+        EXPECT_EQ(controlButton().right(), button.right()) << width;
     }
-}
-
-TEST_F(Bars, KeepStopWhereItIsAlsoWhenTheLeaseHasNoRoom) {
-    Look::apply(Theme::Light, 1.5, QStringLiteral("DejaVu Sans"));
-    bar.resize(800, 60);
-    bar.setNarrow(true);
-    bar.show();
-    show({"nothing", {}, {}, {}, {}});
-    const QRect stopAt = placeOf(*stop), menu = placeOf(bar.menuButton());
-    EXPECT_EQ(stopAt.width(), stop->sizeHint().width());
-    show({"long", {{"left", "/levelling/platform/hydraulics/left_cell", 1}}, {}, {}, {}});
-    EXPECT_EQ(placeOf(*stop), stopAt);
-    EXPECT_EQ(placeOf(bar.menuButton()), menu);
-    Look::apply(Theme::Light, 1, QStringLiteral("Open Sans"));
 }
 
 class Counted : public testing::Test {
@@ -163,6 +159,7 @@ TEST_F(Counted, WhatHasNoRoomBesideThemIsLeftOutAndNotCut) {
         bar.resize(800, 40);
         bar.show();
         for (const int count : {0, 100, 1000}) {
+            if (count == 1000) bar.resize(720, 40);
             show(count, count);
             for (const auto* each : bar.findChildren<QWidget*>()) {
                 if (!each->isVisible()) continue;

@@ -13,7 +13,6 @@
 #include "window/control_bar.hpp"
 
 #include <QLabel>
-#include <QPlainTextEdit>
 #include <QPushButton>
 
 namespace cortex::test {
@@ -153,14 +152,14 @@ TEST_F(SteadyCards, NothingMovesWhenACommandIsAnswered) {
         shows("/drive", "commands");
         ASSERT_TRUE(takes("/drive"));
         const Places before = placesIn(page());
-        ASSERT_GE(before.size(), 5U);
+        ASSERT_GE(before.size(), 4U);
         card(command).run();
         EXPECT_EQ(movedSince(before, page()), "") << command << " is under way";
         ASSERT_TRUE(comes([&] { return says(card(command), "Done  "); }));
         EXPECT_EQ(movedSince(before, page()), "") << command;
         session.releaseControl();
-        ASSERT_TRUE(comes([this] { return says(page(), "read-only"); }));
-        EXPECT_EQ(movedSince(before, page()), "") << "why none can be run";
+        ASSERT_TRUE(comes([this] { return !window.control().holds(); }));
+        EXPECT_EQ(movedSince(before, page()), "") << "control is lost";
         showSmall();
     }
 }
@@ -201,9 +200,11 @@ TEST_F(SteadyCards, AnAnswerThatHasNoRoomIsWholeInItsTooltipAndWhereItIsOpened) 
     button(card("startup"), "Whole answer…").click();
     auto* popover = card("startup").findChild<Popover*>();
     ASSERT_NE(popover, nullptr);
-    const auto* text = popover->findChild<QPlainTextEdit*>();
-    EXPECT_TRUE(text->toPlainText().contains(whole));
-    EXPECT_TRUE(text->textInteractionFlags().testFlag(Qt::TextSelectableByMouse));
+    const auto texts = popover->findChildren<QLabel*>();
+    EXPECT_TRUE(std::ranges::any_of(texts, [&](const auto* each) {
+        return each->text().contains(whole) &&
+               each->textInteractionFlags().testFlag(Qt::TextSelectableByMouse);
+    }));
     EXPECT_EQ(movedSince(before, page()), "");
     popover->close();
 }

@@ -186,8 +186,7 @@ TEST_F(DriveRig, TheModeOfTheDriveIsOnAndOneThatIsAskedForIsSaid) {
     show();
     EXPECT_TRUE(mode(1, 8).isChecked());
     EXPECT_FALSE(mode(1, 9).isChecked());
-    EXPECT_TRUE(
-        saidIn(band(1)).contains("The drive shows cyclic synchronous position (8); asked for CSV."))
+    EXPECT_TRUE(saidIn(band(1)).contains("The drive shows CSP; asked for CSV."))
         << saidIn(band(1)).toStdString();
 }
 

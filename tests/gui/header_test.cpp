@@ -17,6 +17,7 @@ namespace {
 class Header : public testing::Test {
 protected:
     Header() {
+        window.resize(1280, 800);
         header.resize(1000, 200);
         QObject::connect(&header, &SimplexHeader::typeWanted,
                          [this](const std::string& type) { wanted = type; });
@@ -52,7 +53,8 @@ protected:
                         tree.add("/signal", "Signal");
                     }};
     StateTimes times;
-    SimplexHeader header{new QWidget, times};
+    QWidget window;
+    SimplexHeader& header = *new SimplexHeader{new QWidget, times, &window};
     std::string wanted;
 };
 
@@ -192,11 +194,16 @@ TEST_F(Header, SaysTheFaultOfAnAgentWhoseValuesAreNotShown) {
 TEST_F(Header, HasLinksToTheAncestorsOfTheType) {
     show("/order", {robot.now()});
     std::vector<QString> texts;
-    for (auto* each : header.findChildren<Link*>()) texts.push_back(each->text());
+    std::vector<Link*> links;
+    for (auto* each : header.findChildren<Link*>()) {
+        if (each->text().isEmpty()) continue;  // of messages that have no room: none
+        links.push_back(each);
+        texts.push_back(each->text());
+    }
     EXPECT_EQ(texts, (std::vector<QString>{"Signal", "Concept", "Simplex"}));
-    QTest::mouseClick(header.findChildren<Link*>().front(), Qt::LeftButton);
+    QTest::mouseClick(links.at(0), Qt::LeftButton);
     EXPECT_EQ(wanted, "Signal");
-    QTest::keyClick(header.findChildren<Link*>()[1], Qt::Key_Return);
+    QTest::keyClick(links.at(1), Qt::Key_Return);
     EXPECT_EQ(wanted, "Concept");
 }
 

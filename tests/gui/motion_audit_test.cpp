@@ -123,17 +123,21 @@ TEST_F(AuditedTip, JoggingOfATipCanBeReadInEveryThemeAndSize) {
     named("mm").click();
     speed().setValue(40);
     pad.setFocus();
+    const auto holds = [&](Qt::Key key, Qt::KeyboardModifier with, const char* words) {
+        QTest::keyPress(&pad, key, with);
+        EXPECT_TRUE(moves([&] { QTest::keyRelease(&pad, key, with); },
+                          [&] { QTest::keyPress(&pad, key, with); },
+                          [&] { return said().contains(words); }))
+            << said().toStdString() << testing::PrintToString(endings);
+    };
     for (const Qt::Key key : {Qt::Key_Right, Qt::Key_PageUp}) {
         for (const Qt::KeyboardModifier with : {Qt::NoModifier, Qt::ShiftModifier}) {
-            QTest::keyPress(&pad, key, with);
-            EXPECT_TRUE(comes([this] { return jogs(); })) << said().toStdString();
+            holds(key, with, "");
             QTest::keyRelease(&pad, key, with);
             EXPECT_TRUE(comes([this] { return !jogs(); }));
         }
     }
-    QTest::keyPress(&pad, Qt::Key_Plus);
-    EXPECT_TRUE(says("Jogging elbow at ")) << said().toStdString();
-    EXPECT_TRUE(comes([this] { return jogs(); }));
+    holds(Qt::Key_Plus, Qt::NoModifier, "Jogging elbow at ");
     audit("tip", "Open Sans");
     QTest::keyRelease(&pad, Qt::Key_Plus);
     audit("tip-ended", "DejaVu Sans");

@@ -215,11 +215,13 @@ protected:
 TEST_F(SteadyMotion, NothingMovesWhenAJogBeginsAndEndsAndControlIsLost) {
     ASSERT_NO_FATAL_FAILURE(opensInControl("/jog"));
     for (const auto& [size, scale, family] :
-         {std::tuple{QSize{1280, 800}, 1.0, "Open Sans"}, {QSize{800, 600}, 1.5, "DejaVu Sans"}}) {
+         {std::tuple{QSize{800, 600}, 1.5, "DejaVu Sans"}, {QSize{1280, 800}, 1.0, "Open Sans"}}) {
         showAt(size, scale, family);
+        rows().setFocus();
+        for (const Qt::Key key : {Qt::Key_Down, Qt::Key_Up})  // the first row is scrolled to
+            QTest::keyClick(&rows(), key);
         const Places before = placesIn(view());
         ASSERT_GE(before.size(), 10U);
-        rows().setFocus();
         QTest::keyPress(&rows(), Qt::Key_Right);
         EXPECT_TRUE(says("Jogging A1 at ")) << said().toStdString();
         EXPECT_EQ(movedSince(before, view()), "") << "jogs, " << size.width();

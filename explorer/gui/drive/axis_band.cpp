@@ -36,7 +36,10 @@ AxisBand::AxisBand(const DriveAxis& axis, std::string processor, const std::vect
       axis_{axis},
       left_{new QWidget},
       right_{new QWidget},
+      stateBox_{new QWidget},
       grid_{new QGridLayout},
+      headRow_{new QHBoxLayout},
+      middleRows_{new QVBoxLayout},
       rightRows_{new QVBoxLayout{right_}},
       title_{new QLabel{tr("Axis %1").arg(axis.number)}},
       diagram_{new StateDiagram},
@@ -66,19 +69,27 @@ void AxisBand::layOut() {
         each->setContentsMargins(0, 0, 0, 0);
         each->setSpacing(units(1));
     }
-    // Each has two lines, whatever it says: no button moves when something comes.
-    for (Sentence* each : {next_, counts_, state_, mode_, why_, told_}) {
+    // Each has its lines, whatever it says: no button moves when something comes.
+    for (Sentence* each : {next_, why_}) {
         each->keepLines(2);
         each->setAlignment(Qt::AlignTop | Qt::AlignLeft);
     }
+    mode_->keepLines(1);
+    counts_->keepLines(1);
+    counts_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    auto* stateRows = new QVBoxLayout{stateBox_};
+    stateRows->setContentsMargins(0, 0, 0, 0);
+    stateRows->setSpacing(0);
+    stateRows->addWidget(state_);
+    stateRows->addWidget(counts_);
+    stateRows->addStretch(1);
     leftRows->addWidget(diagram_);
     leftRows->addWidget(next_);
-    leftRows->addWidget(counts_);
     leftRows->addStretch(1);
     rightRows_->addWidget(words_);
     rightRows_->addWidget(numbers_);
     rightRows_->addStretch(1);
-    grid_->setContentsMargins(units(2), units(1), units(2), units(1));
+    grid_->setContentsMargins(units(2), units(0.5), units(2), 0);
     grid_->setHorizontalSpacing(units(3));
     grid_->setVerticalSpacing(units(3));
     auto* rows = new QVBoxLayout{this};
@@ -88,36 +99,37 @@ void AxisBand::layOut() {
     rows->addLayout(grid_);
 }
 
-// Where the values come from and go to; what is not related is said.
+// Where the values come from and go to; what is not related is said. At its end is room for what
+// came of an order.
 QWidget* AxisBand::makeHead(const DriveAxis& axis) {
     auto* head = new QWidget;
-    auto* row = new QHBoxLayout{head};
-    row->setContentsMargins(units(2), 0, units(2), 0);
-    row->setSpacing(units(1.5));
-    row->addWidget(title_);
-    row->addSpacing(units(4));
+    head->setLayout(headRow_);
+    headRow_->setContentsMargins(units(2), 0, units(2), 0);
+    headRow_->setSpacing(units(1.5));
+    headRow_->addWidget(title_);
+    headRow_->addSpacing(units(4));
     const std::array<std::pair<QString, const std::string*>, 3> all{
         {{tr("drive"), &axis.observation},
          {tr("set-point"), &axis.setpoint},
          {tr("demand"), &axis.demand}}};
     for (const auto& [name, path] : all) {
         auto* label = new QLabel{path->empty() ? tr("no %1 is related").arg(name) : name};
-        row->addWidget(label);
+        headRow_->addWidget(label);
         auto* link = new PathButton;
         link->show(QString::fromStdString(*path));
         connect(link, &PathButton::opened, this, &AxisBand::opened);
-        row->addWidget(link);
-        row->addSpacing(units(3));
+        headRow_->addWidget(link);
+        headRow_->addSpacing(units(3));
     }
-    row->addStretch(1);
+    headRow_->addStretch();
     return head;
 }
 
 QWidget* AxisBand::makeControls(const std::vector<int>& modes) {
     auto* box = new QWidget;
-    auto* rows = new QVBoxLayout{box};
-    rows->setContentsMargins(0, 0, 0, 0);
-    rows->setSpacing(units(0.5));
+    box->setLayout(middleRows_);
+    middleRows_->setContentsMargins(0, 0, 0, 0);
+    middleRows_->setSpacing(units(0.25));
     for (const int each : modes) {
         modes_->button(QString::number(each))->setAccessibleName(tr("Mode %1").arg(modeText(each)));
     }
@@ -126,14 +138,13 @@ QWidget* AxisBand::makeControls(const std::vector<int>& modes) {
     modeRow->addWidget(new QLabel{tr("Mode")});
     modeRow->addWidget(modes_);
     modeRow->addStretch(1);
-    rows->addWidget(state_);
-    rows->addWidget(actions_);
-    rows->addLayout(modeRow);
-    rows->addWidget(mode_);
-    rows->addWidget(homing_);
-    rows->addWidget(why_);
-    rows->addWidget(told_);
-    rows->addStretch(1);
+    middleRows_->addWidget(stateBox_);
+    middleRows_->addWidget(actions_);
+    middleRows_->addLayout(modeRow);
+    middleRows_->addWidget(mode_);
+    middleRows_->addWidget(homing_);
+    middleRows_->addWidget(why_);
+    middleRows_->addStretch(1);
     return box;
 }
 
@@ -178,6 +189,7 @@ void AxisBand::arrange(int width) {
     const int columns = width >= all ? 3 : width >= all - beside ? 2 : 1;
     if (columns == columns_) return;
     columns_ = columns;
+    placeAnswer();
     for (QWidget* each : {left_, middle_, right_}) grid_->removeWidget(each);
     grid_->addWidget(left_, 0, 0);
     grid_->addWidget(middle_, columns > 1 ? 0 : 1, columns > 1 ? 1 : 0);
@@ -189,7 +201,17 @@ void AxisBand::arrange(int width) {
     grid_->setColumnStretch(1, columns > 1 ? 4 : 0);
     grid_->setColumnStretch(2, columns > 2 ? 1 : 0);
     rightRows_->setDirection(columns == 2 ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
-    rightRows_->setSpacing(units(columns == 2 ? 6 : 1));
+    rightRows_->setSpacing(columns == 2 ? units(6) : 0);
+}
+
+// What came of an order: in the head where that has room, otherwise below the buttons.
+void AxisBand::placeAnswer() {
+    const bool inHead = columns_ == 3;
+    QBoxLayout* place = inHead ? headRow_ : middleRows_;
+    if (place->indexOf(told_) < 0) place->insertWidget(place->count() - 1, told_, inHead ? 1 : 0);
+    told_->keepLines(inHead ? 1 : 2);
+    told_->setMinimumWidth(inHead ? units(60) : 0);
+    told_->setAlignment(Qt::AlignLeft | (inHead ? Qt::AlignVCenter : Qt::AlignTop));
 }
 
 void AxisBand::changeEvent(QEvent* event) {
@@ -209,6 +231,7 @@ void AxisBand::dress() {
     small.setPointSizeF(font().pointSizeF() * 0.9);
     for (Sentence* each : {next_, counts_, mode_, why_, told_})
         if (each->font() != small) each->setFont(small);
+    stateBox_->setFixedHeight(2 * QFontMetrics{large}.lineSpacing());
     for (auto* each : modes_->findChildren<QPushButton*>()) each->setFixedHeight(units(7.5));
     middle_->setMaximumWidth(units(122));  // wide buttons are no better; numbers get bars instead
 }

@@ -62,6 +62,7 @@ private:
     QWidget* makeControls(const std::vector<int>& modes);
     void layOut();
     void connectParts();
+    void placeAnswer();
     void dress();
     void showState(const DriveAxis& axis, const BandLook& look);
     void showModes(const DriveAxis& axis, const BandLook& look);
@@ -72,8 +73,9 @@ private:
     DriveAxis axis_;
     QWidget* head_;
     QWidget *left_, *middle_, *right_;
+    QWidget* stateBox_;  // with the counts, which give way to a long state
     QGridLayout* grid_;
-    QBoxLayout* rightRows_;
+    QBoxLayout *headRow_, *middleRows_, *rightRows_;
     int columns_ = 0;
 
     QLabel* title_;

@@ -83,7 +83,11 @@ void AxisBand::showState(const DriveAxis& axis, const BandLook& look) {
     state_->say(stateText(axis), !axis.live()           ? std::optional{Tone::NotLive}
                                  : isAFault(axis.state) ? std::optional{Tone::Fault}
                                                         : std::nullopt);
+    const int wide = state_->fontMetrics().horizontalAdvance(state_->text());
+    const bool isLong = wide > middle_->width();
+    state_->keepLines(isLong ? 2 : 1);
     counts_->say(countsText(axis));
+    counts_->setVisible(!isLong);
 }
 
 void AxisBand::showModes(const DriveAxis& axis, const BandLook& look) {
@@ -93,12 +97,15 @@ void AxisBand::showModes(const DriveAxis& axis, const BandLook& look) {
         mode_->say(tr("The mode of its drive is not known."));
         return;
     }
-    const QString mode = axis.live() ? modeText(*axis.mode) : '[' + modeText(*axis.mode) + ']';
     const bool asked =
         axis.live() && axis.told && axis.wishedMode && *axis.wishedMode != *axis.mode;
-    mode_->say(
-        asked ? tr("The drive shows %1; asked for %2.").arg(mode, modeLetters(*axis.wishedMode))
-              : tr("The drive shows %1.").arg(mode));
+    if (asked) {
+        mode_->say(tr("The drive shows %1; asked for %2.")
+                       .arg(modeLetters(*axis.mode), modeLetters(*axis.wishedMode)));
+        return;
+    }
+    const QString mode = axis.live() ? modeText(*axis.mode) : '[' + modeText(*axis.mode) + ']';
+    mode_->say(tr("The drive shows %1.").arg(mode));
 }
 
 void AxisBand::showWords(const DriveAxis& axis, const BandLook& look) {

@@ -44,8 +44,7 @@ HomingRow::HomingRow(QWidget* parent)
     bar_->setRange(0, 1000);
     bar_->setTextVisible(false);
     bar_->setAccessibleName(tr("Progress of the homing"));
-    note_->keepLines(2);
-    note_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    note_->keepLines(1);
     auto* row = new QHBoxLayout;
     row->setSpacing(units(2));
     row->addWidget(new QLabel{tr("Homing")});

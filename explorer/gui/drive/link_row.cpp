@@ -17,7 +17,7 @@ namespace cortex::explorer {
 
 namespace {
 
-constexpr double narrowRow = 170;  // units; below it the facts take three lines
+constexpr double wideRow = 235, narrowRow = 170;  // units; what is said takes more lines below them
 
 // By the labels of the item `link`.
 struct LinkState {
@@ -96,7 +96,6 @@ LinkRow::LinkRow(std::string device, bool names, QWidget* parent)
       word_{new QLabel},
       path_{new PathButton},
       facts_{new Sentence},
-      told_{new Sentence{Tone::Quiet}},
       reconnect_{new QPushButton{tr("Reconnect")}} {
     auto* row = new QHBoxLayout;
     row->setSpacing(units(2));
@@ -107,11 +106,9 @@ LinkRow::LinkRow(std::string device, bool names, QWidget* parent)
     connect(path_, &PathButton::opened, this, &LinkRow::opened);
     connect(reconnect_, &QPushButton::clicked, this, &LinkRow::reconnectWanted);
     auto* rows = new QVBoxLayout{this};
-    rows->setContentsMargins(units(2), units(0.25), units(2), units(0.5));
+    rows->setContentsMargins(units(2), 0, units(2), units(0.25));
     rows->setSpacing(0);
     rows->addLayout(row);
-    told_->keepLines(1);
-    rows->addWidget(told_);
     dress();
 }
 
@@ -132,15 +129,21 @@ void LinkRow::refresh(const SystemNow& now, const QString& whyNoReconnect) {
                               : std::nullopt;
     if (tone) colours.setColor(QPalette::WindowText, textColour(*tone));
     if (colours != word_->palette()) word_->setPalette(colours);
-    facts_->say(factsOf(device), !live              ? std::optional{Tone::NotLive}
-                                 : isTooOld(device) ? std::optional{Tone::Limit}
-                                                    : std::nullopt);
+    known_ = factsOf(device);
+    facts_->say(facts(), !live              ? std::optional{Tone::NotLive}
+                         : isTooOld(device) ? std::optional{Tone::Limit}
+                                            : std::nullopt);
     reconnect_->setEnabled(whyNoReconnect.isEmpty());
     reconnect_->setToolTip(whyNoReconnect);
     reconnect_->setAccessibleDescription(whyNoReconnect);
 }
 
-void LinkRow::say(const QString& outcome) { told_->say(outcome); }
+QString LinkRow::facts() const { return told_.isEmpty() ? known_ : told_ + '\n' + known_; }
+
+void LinkRow::say(const QString& outcome) {
+    told_ = outcome;
+    facts_->say(facts());
+}
 
 void LinkRow::dress() {
     QFont strong = font();
@@ -155,12 +158,11 @@ void LinkRow::dress() {
     QFont small = font();
     small.setPointSizeF(font().pointSizeF() * 0.9);
     reconnect_->setFixedHeight(units(6.5));
-    for (Sentence* each : {facts_, told_})
-        if (each->font() != small) each->setFont(small);
+    if (facts_->font() != small) facts_->setFont(small);
 }
 
 void LinkRow::resizeEvent(QResizeEvent* /*event*/) {
-    facts_->keepLines(width() < units(narrowRow) ? 3 : 2);
+    facts_->keepLines(width() >= units(wideRow) ? 2 : width() >= units(narrowRow) ? 3 : 4);
 }
 
 void LinkRow::changeEvent(QEvent* event) {

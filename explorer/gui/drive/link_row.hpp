@@ -37,12 +37,14 @@ protected:
 
 private:
     void dress();
+    QString facts() const;  // below what came of Reconnect
 
     std::string device_;
     QWidget* mark_;
     QLabel* word_;
     PathButton* path_;
-    Sentence *facts_, *told_;
+    Sentence* facts_;
+    QString told_, known_;
     QPushButton* reconnect_;
 };
 

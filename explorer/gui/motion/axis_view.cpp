@@ -46,7 +46,7 @@ void AxisView::build() {
     auto* low = new QWidget;
     low_ = new QVBoxLayout{low};
     low_->setContentsMargins(0, 0, 0, 0);
-    page_ = new MotionPage{{bar_, rows_, low}};
+    page_ = new MotionPage{{bar_, rows_, low}, jogs_};
     whole_ = new QVBoxLayout{this};
     whole_->setContentsMargins(0, 0, 0, 0);
     whole_->setSpacing(0);

@@ -60,8 +60,10 @@ void MotionBar::layOut(bool hasModes) {
     second->addWidget(modeName_);
     second->addWidget(modes_);
     second->addWidget(mode_, 1);
-    mode_->keepLines(2);
-    mode_->setMinimumWidth(units(15));
+    if (hasModes) {
+        mode_->keepLines(2);
+        mode_->setMinimumWidth(units(15));
+    }
     for (Choices* each : {angles_, lengths_}) (hasModes ? second : first)->addWidget(each);
     auto* rows = new QVBoxLayout{this};
     rows->setContentsMargins(units(4), 0, units(2), 0);

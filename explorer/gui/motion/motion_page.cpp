@@ -29,8 +29,9 @@ QScrollArea* scrolled(const QString& name) {
 
 }  // namespace
 
-MotionPage::MotionPage(const std::vector<QWidget*>& column, QWidget* parent)
+MotionPage::MotionPage(const std::vector<QWidget*>& column, bool jogs, QWidget* parent)
     : QWidget{parent},
+      jogs_{jogs},
       left_{scrolled(tr("Axes"))},
       right_{scrolled(tr("The last seconds"))},
       side_{new QWidget},
@@ -93,7 +94,7 @@ void MotionPage::say(const QString& jogging, const QString& ended, const QString
 // The plots beside the axes where there is room, otherwise below them. Where there is little, all
 // lines share one place.
 void MotionPage::arrange() {
-    lines_->addWidget(hint_, isLow() ? 0 : 1, 0);
+    lines_->addWidget(hint_, isLow() || !jogs_ ? 0 : 1, 0);
     left_->setMinimumWidth(units(leastRowUnits + 4));  // with its scroll bar
     const bool wide = width() >= units(wideUnits);
     const bool placed = side_->parentWidget() != nullptr;

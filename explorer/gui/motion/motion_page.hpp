@@ -22,8 +22,8 @@ class Sentence;
 class MotionPage : public QWidget {
     Q_OBJECT
 public:
-    // `column`: from above to below.
-    MotionPage(const std::vector<QWidget*>& column, QWidget* parent = nullptr);
+    // `column`: from above to below. `jogs`: there is something to be said of a jog.
+    MotionPage(const std::vector<QWidget*>& column, bool jogs, QWidget* parent = nullptr);
 
     AxisPlots& plots() const { return *plots_; }
     bool settled() const;        // there is something of the past to see
@@ -40,6 +40,7 @@ private:
     bool isLow() const;  // there is room for one of the lines only
     void arrange();
 
+    bool jogs_;
     QScrollArea *left_, *right_;
     QWidget* side_;
     AxisPlots* plots_;

@@ -28,7 +28,7 @@ TipView::TipView(std::string path)
       pad_{new TipPad},
       numbers_{new TipNumbers},
       rows_{new AxisRows},
-      page_{new MotionPage{{bar_, pad_, numbers_, rows_}}},
+      page_{new MotionPage{{bar_, pad_, numbers_, rows_}, true}},
       jog_{new Jog{
           [this](int motion, double velocity) { return tipOrder(path_, motion, velocity); },
           [this](QWidget& held, const HeldOrder& order) { return hold(held, order); }, this}} {

@@ -16,7 +16,7 @@
 #include <QClipboard>
 #include <QGridLayout>
 #include <QKeyEvent>
-#include <QPlainTextEdit>
+#include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
 #include <algorithm>
@@ -48,6 +48,15 @@ QString rangeAndUnit(const DataItem& item) {
     return parts.join(' ');
 }
 
+QLabel* selectable(const QString& text) {
+    auto* label = new QLabel;
+    label->setTextFormat(Qt::PlainText);
+    label->setWordWrap(true);
+    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    label->setText(text);
+    return label;
+}
+
 void keepPlace(QWidget& widget) {
     QSizePolicy policy = widget.sizePolicy();
     policy.setRetainSizeWhenHidden(true);
@@ -75,13 +84,8 @@ CommandCard::CommandCard(Commands& commands, std::string path, const Command& co
     rows->setContentsMargins(Look::units(4), Look::units(2), Look::units(4), Look::units(3));
     auto* title = new TextLabel{TextSize::Text, true};
     title->show(name);
-    auto* about = new QLabel;
-    about->setTextFormat(Qt::PlainText);
-    about->setWordWrap(true);
-    about->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    about->setText(QString::fromStdString(command_.description));
     rows->addWidget(title);
-    rows->addWidget(about);
+    rows->addWidget(selectable(QString::fromStdString(command_.description)));
 
     auto* grid = new QGridLayout;
     grid->setHorizontalSpacing(Look::units(3));
@@ -289,19 +293,13 @@ void CommandCard::showOutcomes() {
     decide();
 }
 
-// It can be selected, and scrolled where it is longer.
+// It can be selected, and is scrolled where it is long.
 void CommandCard::openAnswer() {
     auto* popover = new Popover{whole_->accessibleName(), this};
-    auto* text = new QPlainTextEdit{answer_};
-    text->setReadOnly(true);
-    text->setTabChangesFocus(true);
-    text->setAccessibleName(whole_->accessibleName());
-    text->setFixedSize(Look::units(110), Look::units(30));
+    QLabel* text = selectable(answer_);
+    text->setMinimumWidth(Look::units(90));
     popover->rows().addWidget(text);
-    popover->adjustSize();
-    popover->move(whole_->mapToGlobal(whole_->rect().bottomRight()) - QPoint{popover->width(), 0});
-    popover->show();
-    text->setFocus();
+    popover->openBelow(*whole_);
 }
 
 void CommandCard::keyPressEvent(QKeyEvent* event) {

@@ -89,27 +89,22 @@ QSize EventChips::sizeHint() const {
 
 QSize EventChips::minimumSizeHint() const { return {moreWidth(), sizeHint().height()}; }
 
-// Row by row. Where they end early, the end of the last row is the button's.
+// Row by row. The end of the last row is the button's, so that no chip goes when another comes.
 void EventChips::place() {
     const int gap = Look::units(chipGap), step = Look::units(chipHeight) + gap;
-    int rest = 0, x = 0, row = 0, hidden = 0;
-    for (const Chip* each : chips_) rest += each->sizeHint().width() + gap;
+    int x = 0, row = 0, hidden = 0;
     for (Chip* each : chips_) {
         const QSize size = each->sizeHint();
-        const bool all = x + rest - gap <= width();
-        if (!all && row + 1 < rows_ && x + size.width() > width()) {
+        if (x > 0 && x + size.width() > width() && row + 1 < rows_) {
             x = 0;
             ++row;
         }
-        const int room = all || row + 1 < rows_ || x + rest - gap <= width()
-                             ? width()
-                             : width() - moreWidth() - gap;
+        const int room = row + 1 < rows_ ? width() : width() - moreWidth() - gap;
         const bool fits = hidden == 0 && x + size.width() <= room;
         each->setVisible(fits);
         if (fits) each->setGeometry(QRect{QPoint{x, row * step}, size});
         if (!fits) ++hidden;
         x += size.width() + gap;
-        rest -= size.width() + gap;
     }
     more_->setText(tr("%1 more ▾").arg(hidden));
     more_->setVisible(hidden > 0);

@@ -15,6 +15,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 
 namespace cortex::gui {
 
@@ -30,7 +31,7 @@ std::vector<std::string> chainOf(const Type& type, const TypeModel& types) {
     return names;
 }
 
-constexpr double longestAge = 99 * 60;  // s, of the widest text in use
+constexpr std::array widestAges{0.999, 99.9, 99.0 * 60};  // s, of ms, seconds, minutes
 
 // Nothing of it changes by itself, so that its age says nothing.
 bool neverChanges(const SimplexInfo& info) {
@@ -152,9 +153,9 @@ SimplexHeader::Room SimplexHeader::room() const {
     Room room;
     QStringList states;
     if (hasStates_) {
-        for (const Shape each : {Shape::Standby, Shape::StartingUp, Shape::Active,
-                                 Shape::ShuttingDown, Shape::Fault, Shape::Unknown})
+        for (const Shape each : {Shape::Standby, Shape::Active, Shape::Fault, Shape::Unknown})
             states << bracketed(word(each));
+        for (const Shape each : {Shape::StartingUp, Shape::ShuttingDown}) states << word(each);
     }
     room.mark = wide(*mark_);
     room.state = longest(*state_, states);
@@ -162,10 +163,10 @@ SimplexHeader::Room SimplexHeader::room() const {
     room.since = hasStates_ ? std::max(since, since_->sizeHint().width()) : 0;
     room.buttons = wide(*lifeCycle_);
     room.names = wide(*path_) + wide(*type_);
-    const QString age = ageText(longestAge);
-    room.facts = longest(*agent_, {factsOf(agentName_, age)}) +
-                 longest(*quality_, {qualityText(Quality::Stale, true), waitingText()}) +
-                 longest(*task_, {});
+    QStringList ages;
+    for (const double seconds : widestAges) ages << factsOf(agentName_, ageText(seconds));
+    room.facts = longest(*agent_, ages) +
+                 longest(*quality_, {qualityText(Quality::Stale, true), waitingText()}) + taskWide_;
     return room;
 }
 
@@ -176,7 +177,9 @@ void SimplexHeader::fit() {
     for (TextLabel* each : {state_, path_})
         each->setTextSize(low ? TextSize::Value : TextSize::Title, true);
     mark_->setUnits(low ? 6 : 8);
-    task_->setVisible(!brief_ && !low && !task_->text().isEmpty());  // it stands among the data
+    const bool hasTask = !brief_ && !low;  // it stands among the data, too
+    taskWide_ = hasTask ? std::max(taskWide_, task_->sizeHint().width() + Look::units(3)) : 0;
+    task_->setVisible(hasTask);
     type_->setVisible(true);
     const Room room = this->room();
     const bool flat = brief_ || low;
@@ -228,7 +231,9 @@ void SimplexHeader::resizeEvent(QResizeEvent* event) {
 
 void SimplexHeader::show(const Frame& frame, Place place) {
     const Type& type = frame.type(place);
-    path_->show(QString::fromStdString(frame.info(place).path));
+    const QString path = QString::fromStdString(frame.info(place).path);
+    if (path != path_->text()) taskWide_ = 0;
+    path_->show(path);
     type_->show(QString::fromStdString(type.name));
     path_->setToolTip(tipText(type_->text()));
     description_ = QString::fromStdString(type.description);

@@ -69,6 +69,7 @@ private:
                *states_ = nullptr;
     QString agentName_, description_, reasons_;
     bool brief_ = false, hasStates_ = false;
+    int taskWide_ = 0;  // px, the most that its task needed so far
 };
 
 }  // namespace cortex::gui

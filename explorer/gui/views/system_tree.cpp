@@ -147,6 +147,7 @@ SystemTree::SystemTree(QWidget* parent)
     title->show(tr("Simplexes"));
     title->keepWhole();  // the count gives way
     head_->setContentsMargins(Look::units(3), Look::units(2), Look::units(3), 0);
+    head_->setSpacing(Look::units(3));
     head_->addWidget(title);
     head_->addStretch(1);
     head_->addWidget(count_);

@@ -28,7 +28,8 @@ namespace cortex::gui {
 
 namespace {
 
-constexpr int mostOpenRows = 20;  // of a related simplex; one with more is closed at first
+constexpr double rounding = 0.01;  // units
+constexpr int mostOpenRows = 20;   // of a related simplex; one with more is closed at first
 
 class ItemDelegate : public QStyledItemDelegate {
 public:
@@ -231,12 +232,11 @@ void ItemTable::setLow(bool low) {
     if (low == low_) return;
     low_ = low;
     header()->setVisible(!low);
+    fitColumns();
     scheduleDelayedItemsLayout();
 }
 
-int ItemTable::rowHeight() const {
-    return low_ ? fontMetrics().height() : gui::rowHeight();
-}
+int ItemTable::rowHeight() const { return low_ ? fontMetrics().height() : gui::rowHeight(); }
 
 // To a plot, or as text to another program.
 void ItemTable::startDrag(Qt::DropActions /*actions*/) {
@@ -332,18 +332,25 @@ void ItemTable::resizeEvent(QResizeEvent* event) {
     fitColumns();
 }
 
+void ItemTable::changeEvent(QEvent* event) {
+    QTreeView::changeEvent(event);
+    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) fitColumns();
+}
+
 // The description gives way first, then the range, which becomes a line under the value. A mark
 // keeps its word.
 void ItemTable::fitColumns() {
     units_ = items_.units();
     longest_ = longestValue(items_);
+    const double indent = low_ ? 2 : 4;
+    setIndentation(Look::units(indent));
     double left = viewport()->width() / Look::length(1);
-    const ItemWidths widths = itemWidths(widestTexts(items_), left);
+    const ItemWidths widths = itemWidths(widestTexts(items_), left, 2 * indent);
     bool all = true;
     for (const int column : {ItemModel::Name, ItemModel::Value, ItemModel::Unit, ItemModel::Remark,
                              ItemModel::Range, ItemModel::Description}) {
         const double width = widths[static_cast<std::size_t>(column)];
-        const bool fits = column <= ItemModel::Unit || (all && left >= width);
+        const bool fits = column <= ItemModel::Unit || (all && left >= width - rounding);
         all = all && fits;
         setColumnHidden(column, !fits);
         if (fits) {

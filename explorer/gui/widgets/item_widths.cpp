@@ -11,7 +11,7 @@ namespace cortex::gui {
 
 namespace {
 
-constexpr double mostLimit = 36, mostValue = 56, mostRemark = 56;  // units
+constexpr double mostLimit = 36, mostValue = 56, mostRemark = 56, leastName = 28;  // units
 
 double usual(int column) { return usualItemWidths[static_cast<std::size_t>(column)]; }
 
@@ -85,8 +85,8 @@ ItemTexts widestTexts(const ItemModel& items) {
 }
 
 // Where there is little room, names, units, remarks and then values have no more than they need. A
-// mark keeps its word, and a range is whole or not shown.
-ItemWidths itemWidths(const ItemTexts& widest, double room) {
+// mark keeps its word, and a range is whole or not shown. A name is cut before a value is.
+ItemWidths itemWidths(const ItemTexts& widest, double room, double indent) {
     const double unit = Look::length(1);
     const auto wider = [&](int column, int pixels, double margins, double most) {
         return std::clamp(pixels / unit + margins, usual(column), std::max(most, usual(column)));
@@ -101,8 +101,10 @@ ItemWidths itemWidths(const ItemTexts& widest, double room) {
     const double leastRemark = std::min(widest.mark / unit + 4.5, remark);
     const double wanted = wider(ItemModel::Value, widest.value, 2.5, mostValue);
     const double others = wanted + range + remark + usual(ItemModel::Description);
-    const double name = shrunk(ItemModel::Name, widest.name, 12.5, others + usual(ItemModel::Unit));
-    const double units = shrunk(ItemModel::Unit, widest.unit, 4.5, others + name);
+    const double whole =
+        shrunk(ItemModel::Name, widest.name, indent + 4.5, others + usual(ItemModel::Unit));
+    const double units = shrunk(ItemModel::Unit, widest.unit, 4.5, others + whole);
+    const double name = std::min(whole, std::max(room - wanted - units - leastRemark, leastName));
     const double value =
         std::clamp(room - name - units - leastRemark, usual(ItemModel::Value), wanted);
     const double left = room - name - units - value;

@@ -23,8 +23,9 @@ struct ItemTexts {
 ItemTexts widestTexts(const ItemModel& items);
 int longestValue(const ItemModel& items);  // in letters, where its length is limited
 
-// With this room. What does not fit has its width all the same: it is not shown.
-ItemWidths itemWidths(const ItemTexts& widest, double room);
+// With this room, and rows that are indented so far; units. What does not fit has its width all
+// the same: it is not shown.
+ItemWidths itemWidths(const ItemTexts& widest, double room, double indent);
 
 // As the column of ranges shows them.
 std::pair<QString, QString> limitsOf(const ItemModel::Row& row);

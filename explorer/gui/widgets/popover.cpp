@@ -48,7 +48,9 @@ protected:
 }  // namespace
 
 Popover::Popover(const QString& title, QWidget* parent)
-    : QFrame{parent, Qt::Popup}, rows_{new QVBoxLayout}, buttons_{new QHBoxLayout} {
+    : QFrame{parent, Qt::Popup | Qt::FramelessWindowHint},
+      rows_{new QVBoxLayout},
+      buttons_{new QHBoxLayout} {
     setAttribute(Qt::WA_DeleteOnClose);
     auto* all = new QVBoxLayout{this};
     all->setContentsMargins(Look::units(5), Look::units(4), Look::units(5), Look::units(4));

@@ -99,7 +99,7 @@ void TabRow::fit() {
     }
     (void)tabRect(0);  // lays them out now
     more_->setText(tr("%1 more ▾").arg(hidden));
-    more_->setAccessibleName(tr("%1 more tabs").arg(hidden));
+    more_->setAccessibleName(tr("%1 more").arg(hidden));
     more_->setGeometry(width() - moreWidth(), 0, moreWidth(), height());
     more_->setVisible(hidden > 0);
     more_->raise();

@@ -5,11 +5,11 @@
 #include "widgets/text_label.hpp"
 
 #include <QEvent>
-#include <QHBoxLayout>
 #include <QPainter>
 #include <QPushButton>
 #include <algorithm>
 #include <initializer_list>
+#include <utility>
 
 namespace cortex::gui {
 
@@ -22,24 +22,20 @@ constexpr int momentOfMouse = 500;  // ms, in which nobody has seen it yet
 ControlNotice::ControlNotice(QWidget* parent)
     : QWidget{parent},
       place_{new QWidget},
-      row_{new QHBoxLayout{this}},
       told_{new TextLabel{TextSize::Note, true}},
       text_{new TextLabel{TextSize::Note, true, &Tokens::warnText}},
       remedy_{new QPushButton},
       close_{new QPushButton{tr("Close")}} {
-    row_->setContentsMargins(Look::units(4), 0, Look::units(2), 0);
     for (QWidget* each : std::initializer_list<QWidget*>{told_, text_, remedy_, close_}) {
-        row_->addWidget(each);
+        each->setParent(this);
         each->hide();
     }
     for (TextLabel* each : {told_, text_}) {
         each->setWordWrap(true);
-        const auto across = each == told_ ? QSizePolicy::Fixed : QSizePolicy::Ignored;
-        each->setSizePolicy(across, QSizePolicy::Ignored);
+        each->setAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     }
-    row_->setStretchFactor(text_, 1);
     for (QPushButton* each : {remedy_, close_}) each->setFocusPolicy(Qt::TabFocus);
-    connect(close_, &QPushButton::clicked, this, &ControlNotice::close);
+    connect(close_, &QPushButton::clicked, this, &ControlNotice::dismiss);
     fresh_.setSingleShot(true);
     fresh_.setInterval(momentOfMouse);
     connect(&fresh_, &QTimer::timeout, this,
@@ -49,9 +45,14 @@ ControlNotice::ControlNotice(QWidget* parent)
     fit();
 }
 
+void ControlNotice::lieIn(QWidget& window, std::vector<QWidget*> left) {
+    setParent(&window);
+    left_ = std::move(left);
+}
+
 bool ControlNotice::isEmpty() const { return told_->text().isEmpty() && text_->text().isEmpty(); }
 
-void ControlNotice::close() {
+void ControlNotice::dismiss() {
     read_ = told_->text();
     tell(read_);
     Q_EMIT closed();
@@ -77,6 +78,8 @@ void ControlNotice::show(const QString& text, const QString& remedy) {
 
 QString ControlNotice::text() const { return text_->text(); }
 
+int ControlNotice::keptHeight() const { return std::max(Look::units(7), text_->heightOfLines(2)); }
+
 void ControlNotice::appear() {
     close_->setVisible(!isEmpty());
     if (isHidden() && !isEmpty()) {
@@ -90,38 +93,60 @@ void ControlNotice::appear() {
 
 // Over the place that is kept free; in a low window none is.
 void ControlNotice::fit() {
-    const int kept = std::max(Look::units(7), text_->heightOfLines(2));
+    const int kept = keptHeight();
     const bool low = Look::isLow(*place_);
     place_->setFixedHeight(low ? 0 : kept);
     if (isEmpty() || parentWidget() == nullptr) return;
     const QPoint top = place_->mapTo(place_->window(), QPoint{});
-    const bool beside = low && left_ != nullptr && left_->isVisible();
-    const int left = beside ? left_->mapTo(left_->window(), QPoint{left_->width(), 0}).x() : 0;
+    int left = 0;
+    for (const QWidget* each : left_)
+        if (low && each->isVisible())
+            left = std::max(left, each->mapTo(each->window(), QPoint{each->width(), 0}).x());
     const int width = place_->width() - left;
-    setGeometry(left, top.y(), width, std::max(kept, placeTexts(width)));
+    setGeometry(left, top.y(), width, placeTexts(width, low));
     raise();
-    row_->activate();  // a request to lay it out is lost while it is laid out
 }
 
 // The buttons are low, so that the room that is kept is small. Where there are both texts, what
-// became of the order has what it needs, at most half. Returns the height of the texts.
-int ControlNotice::placeTexts(int width) {
-    const QMargins margins = row_->contentsMargins();
-    int room = width - margins.left() - margins.right();
-    for (QPushButton* each : {remedy_, close_}) {
-        each->setFixedHeight(Look::units(6));
-        if (!each->isHidden()) room -= each->sizeHint().width() + row_->spacing();
+// became of the order has what it needs, at most half; in a low window a line of its own. Returns
+// the height of all.
+int ControlNotice::placeTexts(int width, bool low) {
+    const int gap = Look::units(2), left = Look::units(4), high = Look::units(6);
+    const bool both = !told_->isHidden() && !text_->isHidden();
+    int right = width - gap;
+    for (QPushButton* each : {close_, remedy_}) {
+        if (each->isHidden()) continue;
+        each->resize(each->sizeHint().width(), high);
+        each->move(right -= each->width(), 0);
+        right -= gap;
     }
-    int height = 0;
-    if (!told_->isHidden()) {
+    const auto put = [](TextLabel& label, int from, int to, int top) {
+        const int room = std::max(to - from, 1);
+        label.setGeometry(from, top, room, label.heightForWidth(room));
+        return label.height();
+    };
+    const int above = both && low ? put(*told_, left, width - gap, 0) : 0;
+    int begin = left, below = high;
+    if (!told_->isHidden() && !(both && low)) {
         const int needed = QFontMetrics{told_->font()}.horizontalAdvance(told_->text()) + 2;
-        const int told = std::max(text_->isHidden() ? room : std::min(needed, room / 2), 1);
-        told_->setFixedWidth(told);
-        room -= told + row_->spacing();
-        height = told_->heightForWidth(told);
+        const int end = both ? left + std::min(needed, (right - left) / 2) : right;
+        below = std::max(below, put(*told_, left, end, above));
+        begin = end + gap;
     }
-    if (!text_->isHidden()) height = std::max(height, text_->heightForWidth(std::max(room, 1)));
-    return height;
+    if (!text_->isHidden()) below = std::max(below, put(*text_, begin, right, above));
+    below = std::max(below, keptHeight() - above);
+    for (QWidget* each : std::initializer_list<QWidget*>{told_, text_, remedy_, close_}) {
+        if (each == told_ && above > 0) continue;
+        each->move(each->x(), above + (below - each->height()) / 2);
+    }
+    return above + below;
+}
+
+// Also when its texts get another font.
+bool ControlNotice::event(QEvent* event) {
+    const bool done = QWidget::event(event);
+    if (event->type() == QEvent::LayoutRequest) fit();
+    return done;
 }
 
 bool ControlNotice::eventFilter(QObject* object, QEvent* event) {

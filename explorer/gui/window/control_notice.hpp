@@ -3,8 +3,8 @@
 
 #include <QTimer>
 #include <QWidget>
+#include <vector>
 
-class QHBoxLayout;
 class QPushButton;
 
 namespace cortex::gui {
@@ -20,11 +20,9 @@ class ControlNotice : public QWidget {
 public:
     explicit ControlNotice(QWidget* parent = nullptr);
 
-    // The place that is kept free; belongs to a layout of the window that the notice lies in.
-    QWidget& place() { return *place_; }
-    void keepFree(QWidget& left) {
-        left_ = &left;
-    }  // a button below the place, which is never covered
+    QWidget& place() { return *place_; }  // that is kept free, in a layout of the window
+    // In this window, but not over these buttons at its left edge.
+    void lieIn(QWidget& window, std::vector<QWidget*> left);
 
     void tell(const QString& outcome);                      // of a stop or start
     void show(const QString& text, const QString& remedy);  // empty: nothing, and no button
@@ -35,19 +33,20 @@ Q_SIGNALS:
     void closed();  // the user has read it
 
 protected:
+    bool event(QEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
     bool eventFilter(QObject* object, QEvent* event) override;
 
 private:
     bool isEmpty() const;
-    void close();
+    void dismiss();
     void appear();
+    int keptHeight() const;
     void fit();
-    int placeTexts(int width);
+    int placeTexts(int width, bool low);
 
     QWidget* place_;
-    QWidget* left_ = nullptr;
-    QHBoxLayout* row_;
+    std::vector<QWidget*> left_;
     TextLabel *told_, *text_;
     QPushButton *remedy_, *close_;
     QString read_;  // outcome that the user has closed

@@ -9,8 +9,8 @@
 #include "style/look.hpp"
 
 #include <QButtonGroup>
-#include <QKeyEvent>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
 #include <QRadioButton>

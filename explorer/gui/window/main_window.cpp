@@ -86,8 +86,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     rows->addWidget(&control_->notice().place());
     rows->addWidget(across_, 1);
     rows->addWidget(status_);
-    control_->notice().setParent(this);
-    control_->notice().keepFree(arrangement_.treeButton());
+    control_->notice().lieIn(*this, {&arrangement_.treeButton(), &arrangement_.backButton()});
 
     connect(workspace_, &Workspace::changed, layout_, &LayoutKeeper::noteChange);
     connect(layout_, &LayoutKeeper::told, this, &MainWindow::tell);
@@ -99,13 +98,12 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     connect(eventList_, &EventList::opened, this, &MainWindow::open);
     connect(status_, &StatusBar::nextWanted, this,
             [this](Abnormal::Kind kind) { openAbnormal(false, kind); });
-    connect(&host_, &ViewHost::controlWanted, this,
-            [this](const std::string& prefix) { control_->choose(prefix); });
+    const auto take = [this](const std::string& prefix) { control_->choose(prefix); };
+    connect(&host_, &ViewHost::controlWanted, this, take);
     connect(control_, &ControlBar::changed, this, qOverload<>(&QWidget::update));
     connect(bar_, &TopBar::findWanted, this, &MainWindow::find);
     connect(stop_, &StopButton::begun, start_, &StartAll::forget);
-    connect(start_, &StartAll::controlWanted, this,
-            [this](const std::string& prefix) { control_->choose(prefix); });
+    connect(start_, &StartAll::controlWanted, this, take);
     connect(control_, &ControlBar::declined, start_, &StartAll::forget);
     addKeys();
     const auto& [left, right] = workspace_->panes();
@@ -114,7 +112,6 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     ManualView::helpOf(*tree_, tr("Finding something"));
     ManualView::helpOf(*control_, tr("Control and commands"));
     ManualView::helpOf(*stop_, tr("Stop"));
-
     setMinimumSize(800, 600);
     resize(1280, 800);
     connect(&timer_, &QTimer::timeout, this, &MainWindow::refresh);
@@ -397,7 +394,7 @@ void MainWindow::arrange() {
     bar_->setNarrow(arrangement_.isNarrow());
     const bool low = Look::isLow(*this);
     if (std::exchange(low_, low) == low) return;
-    for (QWidget* each : findChildren<QWidget*>()) each->updateGeometry();  // buttons are lower
+    for (QWidget* each : findChildren<QWidget*>()) each->updateGeometry();  // of other heights
 }
 
 }  // namespace cortex::gui

@@ -201,7 +201,7 @@ void StopButton::paintWords(QPainter& painter) const {
     painter.setFont(font);
     const QFontMetrics metrics{font};
     const int pitch = std::min(metrics.height(), Look::units(3.5));
-    int top = (height() - metrics.capHeight() - pitch - metrics.descent()) / 2 +
+    int top = (height() - metrics.capHeight() - pitch - metrics.descent() / 2) / 2 +
               metrics.capHeight() - metrics.ascent();
     for (const QString& each : lines) {
         painter.drawText(QRect{room.left(), top, room.width(), metrics.height()},

@@ -76,7 +76,6 @@ void TopBar::fit() {
     const bool finds = kept + wide(*find_) <= room;
     find_->setVisible(finds);
     title_->setVisible(finds && !narrow_ && control + wide(*find_) + wide(*title_) <= room);
-    control_.setMaximumWidth(std::max(room, 0));  // Stop stays where it is
 }
 
 bool TopBar::event(QEvent* event) {

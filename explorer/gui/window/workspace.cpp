@@ -365,7 +365,10 @@ void Workspace::addPages(Pane& pane, const QJsonArray& pages) {
     }
 }
 
-Workspace::~Workspace() { parts_.session.recorder().record(this, {}); }
+Workspace::~Workspace() {
+    qApp->disconnect(this);  // a menu that is open goes with it, and gives the keyboard back
+    parts_.session.recorder().record(this, {});
+}
 
 // What was recorded goes on for a while: the next layout may have it as well, or this one may come
 // back.
