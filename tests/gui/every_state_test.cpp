@@ -198,6 +198,18 @@ TEST_F(EveryState, NothingMovesInALargeWindow) {
     }
 }
 
+TEST_F(EveryState, AWindowThatWasSmallHasItsPlacesAgain) {
+    const auto is = [this](QSize size, double scale) {
+        Look::apply(Theme::Light, scale, QStringLiteral("Open Sans"));
+        window.resize(size);
+        show(now());
+        return places();
+    };
+    const std::string large = is({1280, 800}, 1), small = is({800, 600}, 1.5);
+    EXPECT_EQ(is({1280, 800}, 1), large);
+    EXPECT_EQ(is({800, 600}, 1.5), small);
+}
+
 // All texts of labels that are seen and have them whole.
 QStringList wholeTexts(const QWidget& parent) {
     QStringList all;

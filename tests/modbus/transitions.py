@@ -1,5 +1,5 @@
-#!/ usr / bin / env python3
-#SPDX - License - Identifier : Apache - 2.0
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """All 17 transitions of CiA 402, by their numbers, seen from outside of cortex-ds402-sim.
 
 transitions.py PORT: a Modbus client of another maker leads axis 1 of a drive through its states. It

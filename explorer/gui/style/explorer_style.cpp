@@ -177,13 +177,6 @@ const std::map<QStyle::ContentsType, double>& leastHeights() {
     return all;
 }
 
-// In units, where there is little height.
-const std::map<QStyle::ContentsType, double>& mostHeights() {
-    static const std::map<QStyle::ContentsType, double> all{{QStyle::CT_PushButton, 7},
-                                                            {QStyle::CT_TabBarTab, 6.5}};
-    return all;
-}
-
 }  // namespace
 
 ExplorerStyle::ExplorerStyle() : QProxyStyle{QStringLiteral("Fusion")} {}
@@ -318,10 +311,6 @@ QSize ExplorerStyle::sizeFromContents(ContentsType type, const QStyleOption* opt
     const auto least = leastHeights().find(type);
     if (least != leastHeights().end()) {
         result.setHeight(std::max(result.height(), Look::units(least->second)));
-    }
-    const auto most = mostHeights().find(type);
-    if (most != mostHeights().end() && widget != nullptr && Look::isLow(*widget)) {
-        result.setHeight(std::min(result.height(), Look::units(most->second)));
     }
     return result;
 }

@@ -5,6 +5,7 @@
 #include "model/permission.hpp"
 #include "model/plain_text.hpp"
 #include "model/value_text.hpp"
+#include "widgets/low_buttons.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QHBoxLayout>
@@ -81,6 +82,7 @@ EditBar::EditBar(Commands& commands, ItemModel& items, QWidget* parent)
 void EditBar::setLow(bool low) {
     const int side = Look::units(4), above = low ? 0 : Look::units(1);
     layout()->setContentsMargins(side, above, side, above);
+    lowerWhereLow({undo_, discard_, set_});
 }
 
 void EditBar::show(const std::string& path) {

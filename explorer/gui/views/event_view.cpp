@@ -8,6 +8,7 @@
 #include "views/event_list.hpp"
 #include "views/event_panel.hpp"
 #include "views/event_table.hpp"
+#include "widgets/low_buttons.hpp"
 #include "widgets/row_note.hpp"
 #include "widgets/text_label.hpp"
 
@@ -148,6 +149,7 @@ void EventView::makeRoom() {
     bar_->setSpacing(above);
     panel_->setCompact(compact);
     chips_->setRows(compact ? 1 : 2);
+    for (QPushButton* each : findChildren<QPushButton*>()) lowerWhereLow({each});
 }
 
 void EventView::focusFilter() {

@@ -4,6 +4,7 @@
 #include "model/outcome_text.hpp"
 #include "model/permission.hpp"
 #include "model/plain_text.hpp"
+#include "widgets/low_buttons.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QGridLayout>
@@ -59,7 +60,10 @@ void LifeCycleBar::setLines(int lines) {
     if (lines == lines_) return;
     lines_ = lines;
     kept_ = 0;
-    for (Button& each : buttons_) each.reason->setVisible(lines_ > 0);
+    for (Button& each : buttons_) {
+        each.reason->setVisible(lines_ > 0);
+        lowerWhereLow({each.button});
+    }
     updateGeometry();
 }
 
@@ -71,8 +75,9 @@ int LifeCycleBar::leastWidth() const {
 
 QSize LifeCycleBar::sizeWith(int width) const {
     const auto* grid = static_cast<const QGridLayout*>(layout());
-    const int height =
-        lines_ > 0 ? grid->sizeHint().height() : buttons_.front().button->sizeHint().height();
+    const QPushButton& any = *buttons_.front().button;
+    const int low = std::min(any.sizeHint().height(), any.maximumHeight());
+    const int height = lines_ > 0 ? grid->sizeHint().height() : low;
     return {3 * width + 2 * grid->horizontalSpacing(), height};
 }
 

@@ -103,9 +103,7 @@ void MessageArea::openAll() {
         label->setTextInteractionFlags(Qt::TextSelectableByMouse);
         all_->rows().addWidget(label);
     }
-    all_->adjustSize();
-    all_->move(mapToGlobal({width() - all_->width(), height()}));
-    all_->QWidget::show();
+    all_->openBelow(*more_);
 }
 
 void MessageArea::resizeEvent(QResizeEvent* event) {

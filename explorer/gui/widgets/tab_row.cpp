@@ -11,6 +11,12 @@
 
 namespace cortex::gui {
 
+namespace {
+
+constexpr double lowTab = 6.5;  // units
+
+}  // namespace
+
 TabRow::TabRow(QWidget* parent) : QTabBar{parent}, more_{new QToolButton{this}} {
     setExpanding(false);
     setDrawBase(false);
@@ -44,22 +50,30 @@ int TabRow::moreWidth() const {
     return more_->fontMetrics().horizontalAdvance(tr("%1 more ▾").arg(count())) + Look::units(6);
 }
 
+// Those with a button are higher than others.
+int TabRow::high() const {
+    int high = 0;
+    for (int tab = 0; tab < count(); ++tab) high = std::max(high, tabSizeHint(tab).height());
+    return high;
+}
+
 QSize TabRow::sizeHint() const {
     int all = 0;
     for (int tab = 0; tab < count(); ++tab) {
         if (isOffered(tab)) all += QTabBar::tabSizeHint(tab).width();
     }
-    return {all, QTabBar::sizeHint().height()};
+    return {all, high()};
 }
 
 QSize TabRow::minimumSizeHint() const {
-    return {moreWidth() + Look::units(20), QTabBar::sizeHint().height()};
+    return {moreWidth() + Look::units(20), high()};
 }
 
 QSize TabRow::tabSizeHint(int tab) const {
     const int most = std::max(width() - (count() > 1 ? moreWidth() : 0), Look::units(20));
     const QSize size = QTabBar::tabSizeHint(tab);
-    return {std::min(size.width(), most), size.height()};
+    const int high = Look::isLow(*this) ? Look::units(lowTab) : size.height();
+    return {std::min(size.width(), most), std::min(size.height(), high)};
 }
 
 QSize TabRow::minimumTabSizeHint(int tab) const { return tabSizeHint(tab); }

@@ -34,6 +34,7 @@ protected:
 
 private:
     int moreWidth() const;
+    int high() const;
     std::vector<bool> withRoom() const;
     void fit();
     void openMenu();

@@ -3,6 +3,7 @@
 
 #include "style/look.hpp"
 #include "views/system_tree.hpp"
+#include "widgets/low_buttons.hpp"
 #include "window/pane.hpp"
 #include "window/workspace.hpp"
 
@@ -68,6 +69,7 @@ QWidget& Arrangement::Part::widget() const { return *splitter.widget(index); }
 int Arrangement::Part::sizeOr(int pixels) const { return size < pixels * 2 / 5 ? pixels : size; }
 
 bool Arrangement::fit(QSize window) {
+    lowerWhereLow({treeButton_, backButton_});
     const bool narrow = isTooSmall(window);
     if (fitted_ && narrow == narrow_) return false;
     if (fitted_) noteSizes();

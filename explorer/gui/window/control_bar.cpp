@@ -4,6 +4,7 @@
 #include "model/permission.hpp"
 #include "model/plain_text.hpp"
 #include "session/lease.hpp"
+#include "widgets/low_buttons.hpp"
 #include "widgets/text_label.hpp"
 #include "window/control_notice.hpp"
 
@@ -199,6 +200,7 @@ void ControlBar::takeAgain() {
 // None of them ever stands where another one stood that was just lost: "Take again" is to the left
 // of the others, whose room is kept.
 void ControlBar::showButtons() {
+    lowerWhereLow({again_, handOver_, button_});
     const std::string prefix = missing();
     const bool again =
         !prefix.empty() && !narrow_ && window()->width() >= Look::units(leastForAgain);

@@ -3,6 +3,7 @@
 
 #include "style/glyphs.hpp"
 #include "style/look.hpp"
+#include "widgets/low_buttons.hpp"
 #include "widgets/text_label.hpp"
 #include "window/control_bar.hpp"
 #include "window/control_notice.hpp"
@@ -66,6 +67,7 @@ void TopBar::setNarrow(bool narrow) {
 }
 
 void TopBar::fit() {
+    lowerWhereLow({menu_, find_});
     const auto wide = [this](const QWidget& each) {
         return each.sizeHint().width() + row_->spacing();
     };
