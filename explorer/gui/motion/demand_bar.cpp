@@ -13,7 +13,8 @@ namespace cortex::explorer {
 
 namespace {
 
-constexpr double wideBar = 180;  // units; from here on the texts stand beside the buttons
+constexpr double wideBar = 180;    // units; from here on the texts stand beside the buttons
+constexpr double lowWindow = 175;  // units; below it each text has one line
 
 }  // namespace
 
@@ -38,7 +39,6 @@ DemandBar::DemandBar(QWidget* parent)
     texts->setContentsMargins(0, 0, 0, 0);
     texts->setSpacing(0);
     for (Sentence* each : {note_, answer_}) {
-        each->keepLines(2);
         each->setAlignment(Qt::AlignTop | Qt::AlignLeft);
         texts->addWidget(each);
     }
@@ -55,6 +55,8 @@ DemandBar::DemandBar(QWidget* parent)
 
 // Beside the buttons; below them where there is no room.
 void DemandBar::arrange() {
+    for (Sentence* each : {note_, answer_})
+        each->keepLines(window()->height() < units(lowWindow) ? 1 : 2);
     const bool wide = width() >= units(wideBar);
     if (wide == wide_) return;
     wide_ = wide;

@@ -62,12 +62,12 @@ void MessageArea::show(std::vector<Message> messages) {
 void MessageArea::place() {
     int left = placeIn(width());
     if (left > 0) {
-        more_->setText(tr("%n more", nullptr, left));
-        more_->setAccessibleName(tr("%n more messages", nullptr, left));
+        more_->setText(tr("%1 more").arg(left));
+        more_->setAccessibleName(tr("%1 more messages").arg(left));
         more_->setFixedSize(more_->sizeHint().width(),
                             std::min(more_->sizeHint().height(), height()));
         left = placeIn(width() - more_->width() - Look::units(2));
-        more_->setText(tr("%n more", nullptr, left));
+        more_->setText(tr("%1 more").arg(left));
         more_->move(width() - more_->width(), height() - more_->height());
     }
     more_->setVisible(left > 0);

@@ -65,9 +65,7 @@ QSize TabRow::sizeHint() const {
     return {all, high()};
 }
 
-QSize TabRow::minimumSizeHint() const {
-    return {moreWidth() + Look::units(20), high()};
-}
+QSize TabRow::minimumSizeHint() const { return {moreWidth() + Look::units(20), high()}; }
 
 QSize TabRow::tabSizeHint(int tab) const {
     const int most = std::max(width() - (count() > 1 ? moreWidth() : 0), Look::units(20));
