@@ -196,6 +196,14 @@ TEST_F(Editing, WhatWasRefusedIsForgottenWithTheValueThatIsPutRight) {
     EXPECT_EQ(button("Set").text(), "Set 2 items");
 }
 
+TEST_F(Editing, WhatWasRefusedIsForgottenWhenItIsGivenUp) {
+    ASSERT_TRUE(isReady());
+    enters("naturalFrequency", "1e6", Qt::Key_Return);
+    ASSERT_TRUE(says("naturalFrequency is out of the range"));
+    QTest::keyClick(field(), Qt::Key_Escape);
+    EXPECT_TRUE(comes([this] { return bar().findChild<TextLabel*>()->text().isEmpty(); }));
+}
+
 class EditingArrays : public Editing {
 protected:
     EditingArrays() : Editing{"AxisPoseController"} {}

@@ -9,8 +9,16 @@
 #include <QTemporaryDir>
 #include <QTimer>
 
+#include <QtTest/QTest>
+
 namespace cortex::test {
 namespace {
+
+// The row under the pointer, by its serial number.
+std::uint64_t underPointer(const EventTable& rows, const EventFilter& events) {
+    QApplication::processEvents();
+    return events.serial(rows.indexAt(rows.viewport()->mapFromGlobal(QCursor::pos())).row());
+}
 
 TEST_F(Events, FollowAgainAfterTheSelectedRowDroppedOut) {
     events.add(changes(1, events.kept()));
@@ -62,6 +70,31 @@ TEST_F(Events, TheStripFollowsAgainOnceItIsLeft) {
     EXPECT_TRUE(isAtTheEnd(rows()));
 }
 
+TEST_F(Events, StandStillUnderThePointerAndFollowAgainWhenItLeaves) {
+    events.add(changes(1, 200));
+    QTest::mouseMove(rows().viewport(), {50, 40});
+    const auto row = underPointer(rows(), shown);
+    events.add(changes(201, 3));
+    EXPECT_EQ(underPointer(rows(), shown), row);
+    EXPECT_NE(buttonIn(list, "3 new"), nullptr);
+    QTest::mouseMove(&list, {50, 5});
+    EXPECT_TRUE(isAtTheEnd(rows()));
+    EXPECT_EQ(buttonIn(list, "3 new"), nullptr);
+    events.add(changes(204, 3));
+    EXPECT_TRUE(isAtTheEnd(rows()));
+}
+
+TEST_F(Events, StandStillUnderThePointerAlsoWhileTheOldestGo) {
+    events.add(changes(1, events.kept()));
+    ASSERT_TRUE(isAtTheEnd(rows()));
+    QTest::mouseMove(rows().viewport(), {50, 40});
+    const auto row = underPointer(rows(), shown);
+    events.add(changes(events.kept() + 1, 10));
+    EXPECT_EQ(underPointer(rows(), shown), row);
+    events.add(changes(events.kept() + 11, 10));
+    EXPECT_EQ(underPointer(rows(), shown), row);
+}
+
 TEST_F(Events, TheFirstStepOfAKeyIsFromWhatIsInSight) {
     events.add(changes(1, 200));
     QKeyEvent down{QEvent::KeyPress, Qt::Key_Down, Qt::NoModifier};
@@ -89,6 +122,27 @@ TEST_F(EventTab, SaysHowManyAreNewBelowWhileSomebodyLooksFurtherUp) {
     EXPECT_EQ(button("new below"), nullptr);
     events.add(changes(213, 5));
     EXPECT_TRUE(isAtTheEnd(table())) << "it follows again";
+}
+
+TEST_F(EventTab, StandsStillUnderThePointerAndFollowsAgainWhenItLeaves) {
+    list.hide();
+    events.add(changes(1, 200));
+    ASSERT_TRUE(isAtTheEnd(table()));
+    QTest::mouseMove(table().viewport(), {50, 40});
+    const auto row = underPointer(table(), shown);
+    events.add(changes(201, 12));
+    EXPECT_EQ(underPointer(table(), shown), row);
+    QPushButton* below = button("12 new below");
+    ASSERT_NE(below, nullptr);
+    QTest::mouseMove(below, below->rect().center());
+    events.add(changes(213, 1));
+    EXPECT_EQ(button("new below"), below) << "it does not go where it is about to be pressed";
+    EXPECT_EQ(below->text(), "13 new below");
+    QTest::mouseMove(table().viewport(), {50, 40});
+    EXPECT_EQ(underPointer(table(), shown), row);
+    QTest::mouseMove(&view, {5, 5});
+    EXPECT_TRUE(isAtTheEnd(table()));
+    EXPECT_EQ(button("new below"), nullptr);
 }
 
 // All rows of the window's own have number 0.

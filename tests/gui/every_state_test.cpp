@@ -210,6 +210,19 @@ TEST_F(EveryState, AWindowThatWasSmallHasItsPlacesAgain) {
     EXPECT_EQ(is({800, 600}, 1.5), small);
 }
 
+TEST_F(EveryState, TheReasonsOfOneAreNotSaidOfAnother) {
+    show(now());
+    const auto says = [this](const char* text) {
+        for (const auto* each : page().findChildren<TextLabel*>())
+            if (each->isVisible() && each->text().contains(text)) return true;
+        return false;
+    };
+    ASSERT_TRUE(says("Startup: "));
+    window.open("/demand");
+    show(now());
+    EXPECT_FALSE(says("Startup: "));
+}
+
 // All texts of labels that are seen and have them whole.
 QStringList wholeTexts(const QWidget& parent) {
     QStringList all;
@@ -235,6 +248,40 @@ TEST_F(EveryState, WhatHasNoRoomIsCountedAndOpensWhole) {
     EXPECT_TRUE(all.contains("does not follow its demand")) << all.toStdString();
     EXPECT_TRUE(all.contains("has stood still for 12 s")) << all.toStdString();
     EXPECT_TRUE(all.contains("Startup: needs Standby")) << all.toStdString();
+}
+
+TEST(Notice, ItsButtonsStayWhateverIsSaidAndWhatWasClosedStaysClosed) {
+    QWidget window;
+    auto* rows = new QVBoxLayout{&window};
+    auto* notice = new ControlNotice;
+    rows->addWidget(&notice->place());
+    rows->addStretch(1);
+    notice->setParent(&window);
+    window.resize(800, 900);
+    window.show();
+    const auto button = [&](const char* text) {
+        for (auto* each : notice->findChildren<QPushButton*>())
+            if (each->text() == text) return each;
+        return static_cast<QPushButton*>(nullptr);
+    };
+    const auto place = [&] {
+        QCoreApplication::sendPostedEvents();
+        return button("Close")->mapTo(&window, QPoint{});
+    };
+    notice->show("Control was lost.", {});
+    const QPoint close = place();
+    notice->show(QString{40, 'x'} + QString{" and much more"}.repeated(20), "Take /drive again");
+    EXPECT_EQ(place(), close);
+    notice->tell("Stopped: 3 of 4; Not reached: station");
+    EXPECT_EQ(place(), close);
+    button("Close")->click();
+    notice->show({}, {});
+    EXPECT_TRUE(notice->isHidden());
+    notice->show("Control was lost.", {});
+    button("Close")->click();
+    notice->tell("Stopped: 3 of 4; Not reached: station");  // as in each frame
+    notice->show({}, {});
+    EXPECT_TRUE(notice->isHidden()) << "it was closed before";
 }
 
 TEST(Notice, LetsTheMouseThroughToWhatItLiesOverUntilItWasSeen) {

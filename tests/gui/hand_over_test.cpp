@@ -2,12 +2,14 @@
 // Control that somebody else has, gives or gets, with a real agent over DDS.
 #include "gui/controlling.hpp"
 #include "gui/made_agent.hpp"
+#include "gui/places.hpp"
 #include "window/stop_button.hpp"
 
 #include <QApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QMenu>
 #include <QPushButton>
 
@@ -51,6 +53,10 @@ TEST_F(Controlling, ARefusalFollowsTheLeasesOfOthers) {
     ASSERT_TRUE(everythingComes());
     Colleague first, second;
     ASSERT_TRUE(comes([&] { return first.sees("/drive") && second.sees("/drive"); }));
+    window.open("/controller");
+    ASSERT_TRUE(takes("/controller"));
+    session.releaseControl();  // what was held before is not what is refused
+    ASSERT_TRUE(comes([this] { return !window.control().holds(); }));
     first.control();
     first.session.takeControl("/drive");
     ASSERT_TRUE(comes([&] { return !first.control().prefix.empty(); }));
@@ -66,6 +72,7 @@ TEST_F(Controlling, ARefusalFollowsTheLeasesOfOthers) {
         });
     };
     EXPECT_TRUE(isSaid(first.control().self + " holds /drive"));
+    EXPECT_TRUE(window.control().notice().remedy().isHidden());
     first.session.handOver(second.control().self);
     EXPECT_TRUE(isSaid(second.control().self + " holds /drive")) << notice.text().toStdString();
     ASSERT_TRUE(comes([&] { return !second.control().prefix.empty(); }));
@@ -313,6 +320,85 @@ TEST(TakingControl, SaysHowManyRunAndHowManyAreInFault) {
             "1 active; when control is lost 1 go on, 0 hold, 0 shut down; "
             "1 in Fault");
     }));
+}
+
+// What others take and release while a dialog is open.
+class WhileADialogIsOpen : public testing::Test {
+protected:
+    using Rects = std::map<std::string, QRect>;
+
+    std::shared_ptr<Frame> now() {
+        const auto frame = frameOf({left.now(), right.now()});
+        frame->control.self = "own@desk.100-5e1f0a";
+        return frame;
+    }
+    // On the screen: of all that can be pressed or typed into, and of each row by its name.
+    static Rects places(Popover& panel) {
+        Rects all;
+        for (const auto& [widget, place] : placesIn(panel)) {
+            if (qobject_cast<QAbstractSlider*>(widget) == nullptr)
+                all[nameOf(*widget)] = place.translated(panel.pos());
+        }
+        for (auto* list : panel.findChildren<QListWidget*>()) {
+            for (int i = 0; i < list->count(); ++i) {
+                const QRect row = list->visualItemRect(list->item(i));
+                const QString name = list->item(i)->text().section(' ', 0, 0);
+                all[name.toStdString()] = row.translated(list->viewport()->mapToGlobal({}));
+            }
+        }
+        return all;
+    }
+    static std::string movedSince(const Rects& before, Popover& panel) {
+        std::string moved;
+        const Rects after = places(panel);
+        for (const auto& [name, place] : before) {
+            const auto found = after.find(name);
+            if (found == after.end() || found->second != place) moved += name + '\n';
+        }
+        return moved;
+    }
+
+    MadeAgent left{"left", [](SimplexTree& tree) { tree.add("/left", "Cluster"); }};
+    MadeAgent right{"right", [](SimplexTree& tree) { tree.add("/right", "Cluster"); }};
+    QPushButton anchor;
+};
+
+TEST_F(WhileADialogIsOpen, NamesKeepTheirRowsAndNoButtonMovesAsNamesComeAndGo) {
+    HandOverPanel panel{now()};
+    panel.openBelow(anchor);
+    auto* list = panel.findChild<QListWidget*>();
+    const Rects withNobody = places(panel);
+    EXPECT_EQ(withNobody.size(), 3U);
+    giveLease(left, "/left", "/left", "maria@desk.2-2");
+    panel.refresh(now());
+    EXPECT_EQ(movedSince(withNobody, panel), "");
+    const Rects withOne = places(panel);
+    giveLease(right, "/right", "/right", "anna@desk.1-1");
+    panel.refresh(now());
+    EXPECT_EQ(movedSince(withOne, panel), "") << "anna is added below";
+    const Rects withTwo = places(panel);
+    giveLease(left, "/left", "", "");
+    panel.refresh(now());
+    EXPECT_EQ(movedSince(withTwo, panel), "") << "maria keeps her row";
+    EXPECT_EQ(list->item(0)->text(), "maria@desk.2-2 (holds nothing now)");
+    list->setCurrentRow(0);
+    EXPECT_EQ(panel.nameField().text(), "maria@desk.2-2");
+}
+
+TEST_F(WhileADialogIsOpen, NoPartAndNoButtonMovesAsAPartIsTakenAndReleased) {
+    ControlPanel panel{now(), "/left"};
+    panel.openBelow(anchor);
+    const Rects atFirst = places(panel);
+    EXPECT_EQ(atFirst.size(), 4U);
+    giveLease(left, "/left", "/left", "colleague@desk.200-5e1f0b");
+    panel.refresh(now());
+    QString said;
+    for (const auto* each : panel.findChildren<QLabel*>()) said += each->text();
+    EXPECT_TRUE(said.contains("colleague@desk.200-5e1f0b holds /left since "));
+    EXPECT_EQ(movedSince(atFirst, panel), "");
+    giveLease(left, "/left", "", "");
+    panel.refresh(now());
+    EXPECT_EQ(movedSince(atFirst, panel), "");
 }
 
 }  // namespace

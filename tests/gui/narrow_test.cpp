@@ -144,6 +144,24 @@ TEST_F(SmallWindow, LeadsBackFromItsTreeByAButtonAndByEscToViewsThatAreAsTheyWer
     EXPECT_EQ(viewsAsTheyAre(), before);
 }
 
+TEST_F(SmallWindow, IsNotLeftForTheViewsByArrowsInItsTreeButByEnter) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/controller");
+    press(Qt::Key_B, Qt::ControlModifier);
+    const auto row = [this] {
+        return tree().path(window.tree().findChild<QTreeView*>()->currentIndex());
+    };
+    for (int i = 0; i < 9 && row() != "/drive"; ++i) {
+        press(Qt::Key_Down);
+        ASSERT_TRUE(window.tree().isVisible());
+        EXPECT_EQ(window.workspace().path(), "/controller");
+    }
+    ASSERT_EQ(row(), "/drive");
+    press(Qt::Key_Return);
+    EXPECT_FALSE(window.tree().isVisible());
+    EXPECT_EQ(window.workspace().path(), "/drive");
+}
+
 TEST_F(SmallWindow, ShowsWhatIsOpenedWhileItsTreeIsInFront) {
     ASSERT_TRUE(everythingComes());
     window.open("/drive");

@@ -7,6 +7,7 @@
 #include "window/find_panel.hpp"
 #include "window/stop_button.hpp"
 
+#include <QLabel>
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollBar>
@@ -55,6 +56,12 @@ protected:
         said << at.left() << ", " << at.top() << " to " << at.right() << ", " << at.bottom();
         return said.str();
     }
+    static bool scrolls(const Popover& popover) {
+        const auto bars = popover.findChildren<QScrollBar*>();
+        return std::ranges::any_of(bars, [](const QScrollBar* each) {
+            return each->orientation() == Qt::Vertical && each->maximum() > 0;
+        });
+    }
 
     static inline std::unique_ptr<Session> session;
     MainWindow window;
@@ -80,23 +87,37 @@ TEST_F(PopoverOnASmallScreen, LiesInsideOfItWhereverTheWindowIs) {
 
 TEST_F(PopoverOnASmallScreen, StaysInsideAndKeepsItsButtonsInSightWhenItsContentGrows) {
     window.move(screen.topLeft());
-    auto* panel = new ControlPanel{frameOfMany(1), "/probe", &window};
+    auto* panel = new Popover{"Growing", &window};
+    auto* content = new QLabel{"one line"};
+    auto* button = new QPushButton{"Close"};
+    panel->rows().addWidget(content);
+    panel->buttons().addWidget(button);
     panel->openBelow(window.control());
     const int before = panel->height();
+    for (const int lines : {3, 100}) {
+        content->setText(QString{"line\n"}.repeated(lines));
+        for (int i = 0; i < 3; ++i) QCoreApplication::sendPostedEvents();
+        EXPECT_EQ(outside(panel), "") << lines;
+        EXPECT_GT(panel->height(), before) << lines;
+        EXPECT_TRUE(panel->rect().contains({button->mapTo(panel, QPoint{}), button->size()}));
+    }
+    EXPECT_EQ(panel->height(), screen.height());
+    EXPECT_TRUE(scrolls(*panel));
+    delete panel;
+}
+
+TEST_F(PopoverOnASmallScreen, HasASizeOfItsOwnForTakingControlHoweverManyAgentsCome) {
+    window.move(screen.topLeft());
+    auto* panel = new ControlPanel{frameOfMany(1), "/probe", &window};
+    panel->openBelow(window.control());
+    const QRect before = panel->geometry();
+    EXPECT_EQ(outside(panel), "");
     for (const int agents : {2, 40}) {
         panel->refresh(frameOfMany(agents));
         for (int i = 0; i < 3; ++i) QCoreApplication::sendPostedEvents();
-        EXPECT_EQ(outside(panel), "") << agents;
-        EXPECT_GT(panel->height(), before) << agents;
-        const QPushButton& take = panel->takeButton();
-        const QRect at{take.mapTo(panel, QPoint{}), take.size()};
-        EXPECT_TRUE(panel->rect().contains(at)) << agents;
+        EXPECT_EQ(panel->geometry(), before) << agents;
     }
-    EXPECT_EQ(panel->height(), screen.height());
-    const auto bars = panel->findChildren<QScrollBar*>();
-    EXPECT_TRUE(std::ranges::any_of(bars, [](const QScrollBar* each) {
-        return each->orientation() == Qt::Vertical && each->maximum() > 0;
-    }));
+    EXPECT_TRUE(scrolls(*panel));
     delete panel;
 }
 

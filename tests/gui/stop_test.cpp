@@ -174,6 +174,9 @@ TEST_F(Stopping, WhatDidNotFollowIsNamedWithItsAgentWhereSeveralHaveThePath) {
     EXPECT_TRUE(says("2 of 3 in Standby, ")) << window.stopButton().progress().toStdString();
     EXPECT_TRUE(says("; 1 did not follow: /drive of rival (Fault)"))
         << window.stopButton().progress().toStdString();
+    ASSERT_EQ(live({"call", "/mixer", "startup"}).exit, 0);
+    ASSERT_TRUE(comes([this] { return isIn("/controller", State::Active); }));
+    EXPECT_TRUE(says("; 1 did not follow: /drive of rival (Fault)")) << "until it is closed";
 }
 
 TEST(StoppingWithRights, StopsAllThatItMayStopAndSaysSo) {

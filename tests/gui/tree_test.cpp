@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tree of simplexes: what is shown changes only by an act of a person.
 #include "gui/made_agent.hpp"
+#include "gui/waiting.hpp"
 #include "views/system_tree.hpp"
 #include "widgets/row_note.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QAbstractItemModelTester>
 #include <QApplication>
+#include <QContextMenuEvent>
 #include <QKeyEvent>
+#include <QScrollBar>
+#include <QTimer>
 #include <QTreeView>
 #include <vector>
 
+#include <QtTest/QTest>
 #include <gtest/gtest.h>
 
 namespace cortex::test {
@@ -47,12 +52,35 @@ protected:
         return {};
     }
 
+    // Of its upper edge, in the tree: what is above the rows does not move.
+    int heightOf(const std::string& path) {
+        const QRect row = rows().visualRect(tree.model().indexOf(path));
+        return rows().viewport()->mapTo(&tree, row.topLeft()).y();
+    }
+    void pointAt(const std::string& path) {
+        QApplication::processEvents();
+        const QRect row = rows().visualRect(tree.model().indexOf(path));
+        QTest::mouseMove(rows().viewport(), row.center());
+        ASSERT_EQ(underPointer(), path);
+    }
+    std::string underPointer() {
+        QApplication::processEvents();
+        const QPoint at = rows().viewport()->mapFromGlobal(QCursor::pos());
+        const QModelIndex index = rows().indexAt(at);
+        return index.isValid() ? tree.model().path(index) : "";
+    }
+    void leaveRows() {
+        QTest::mouseMove(&tree, {5, 5});
+        QApplication::processEvents();
+    }
+
     SystemTree tree;
     QAbstractItemModelTester tester{const_cast<SystemModel*>(&tree.model()),
                                     QAbstractItemModelTester::FailureReportingMode::Fatal};
     std::vector<std::string> chosen;
     MadeAgent robot = agentWith("robot", {"/control/clutch", "/control/hold", "/drive"});
     MadeAgent operators = agentWith("operator", {"/hand", "/playback"});
+    MadeAgent arms = agentWith("arms", {"/a1", "/a2", "/a3", "/a4", "/a5", "/a6", "/a7", "/a8"});
 };
 
 TEST_F(Tree, APartOfThePlantIsChosenWithoutOpeningAnything) {
@@ -106,6 +134,76 @@ TEST_F(Tree, AKeyOpensWhatItGoesTo) {
     tree.refresh(frameOf({robot.now()}));
     EXPECT_EQ(current(), "/control");
     EXPECT_EQ(chosen.back(), "/control/clutch");
+}
+
+TEST_F(Tree, TheRowUnderThePointerStaysThereWhileOthersComeAndGo) {
+    tree.refresh(frameOf({robot.now()}));
+    QApplication::processEvents();
+    const int top = heightOf("/control");
+    pointAt("/drive");
+    const int place = heightOf("/drive");
+    for (int i = 0; i < 3; ++i) {  // above it, beyond what there is to scroll
+        tree.refresh(frameOf({robot.now(), arms.now(), operators.now()}));
+        EXPECT_EQ(underPointer(), "/drive");
+        EXPECT_EQ(heightOf("/drive"), place);
+        tree.refresh(frameOf({robot.now(), operators.now()}));
+        EXPECT_EQ(underPointer(), "/drive");
+        EXPECT_EQ(heightOf("/drive"), place);
+    }
+    tree.refresh(frameOf({robot.now(), arms.now()}));
+    leaveRows();
+    EXPECT_EQ(heightOf("/a1"), top) << "all rows have room";
+    EXPECT_EQ(rows().verticalScrollBar()->maximum(), 0);
+}
+
+TEST_F(Tree, TheRowUnderThePointerStaysThereAlsoWhereTooLittleIsLeftToScroll) {
+    tree.refresh(frameOf({robot.now(), arms.now()}));
+    QApplication::processEvents();
+    const int top = heightOf("/a1");
+    pointAt("/drive");
+    const int place = heightOf("/drive");
+    for (int i = 0; i < 3; ++i) {
+        tree.refresh(frameOf({robot.now()}));
+        EXPECT_EQ(underPointer(), "/drive");
+        EXPECT_EQ(heightOf("/drive"), place);
+    }
+    tree.resize(400, 420);
+    EXPECT_EQ(underPointer(), "/drive");
+    tree.filter("drive");
+    EXPECT_EQ(heightOf("/drive"), top) << "who types looks for what is found";
+    tree.filter("");
+    tree.refresh(frameOf({robot.now(), arms.now()}));
+    pointAt("/drive");
+    tree.refresh(frameOf({robot.now()}));
+    leaveRows();
+    EXPECT_EQ(heightOf("/control"), top) << "nothing is above the rows";
+}
+
+TEST_F(Tree, APressWhereARowHasJustGoneIsNotOneOnTheNext) {
+    std::vector<std::string> menus;
+    QObject::connect(&tree, &SystemTree::menuWanted,
+                     [&](const std::string& path) { menus.push_back(path); });
+    tree.refresh(frameOf({robot.now(), operators.now()}));
+    pointAt("/control/clutch");
+    auto* gone = rows().findChild<QTimer*>({}, Qt::FindDirectChildrenOnly);
+    if (gone != nullptr) gone->setInterval(1'000'000);
+    tree.refresh(frameOf({operators.now()}));
+    ASSERT_EQ(underPointer(), "/playback");
+    const auto press = [&] {
+        const QPoint at = rows().viewport()->mapFromGlobal(QCursor::pos());
+        QTest::mouseClick(rows().viewport(), Qt::LeftButton, Qt::NoModifier, at);
+        QContextMenuEvent menu{QContextMenuEvent::Mouse, at, QCursor::pos()};
+        QApplication::sendEvent(rows().viewport(), &menu);
+    };
+    press();
+    EXPECT_TRUE(chosen.empty()) << chosen.front();
+    EXPECT_TRUE(menus.empty()) << menus.front();
+    ASSERT_NE(gone, nullptr);
+    gone->setInterval(0);
+    ASSERT_TRUE(comes([&] { return !gone->isActive(); }));
+    press();
+    EXPECT_EQ(chosen, std::vector<std::string>{"/playback"});
+    EXPECT_EQ(menus, std::vector<std::string>{"/playback"});
 }
 
 TEST_F(Tree, SaysThatNothingMatchesOnlyWhileItIsTrue) {

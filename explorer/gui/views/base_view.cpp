@@ -72,6 +72,7 @@ BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, 
     connect(table_, &ItemTable::compareWanted, this, &BaseView::compareWanted);
     connect(table_, &ItemTable::unitsChanged, this, &BaseView::unitsChanged);
     connect(table_, &ItemTable::submitted, edits_, &EditBar::submit);
+    connect(table_, &ItemTable::givenUp, edits_, &EditBar::forgetRefusal);
     connect(edits_, &EditBar::pressed, table_, qOverload<>(&QWidget::setFocus));
     auto* undo = new QShortcut{QKeySequence::Undo, this};
     connect(undo, &QShortcut::activated, edits_, &EditBar::undo);

@@ -108,7 +108,6 @@ void EditBar::sayLast() {
     if (failed) say(failureText(*last->outcome), &Tokens::warnText);
 }
 
-// Of a value that is put right by now.
 void EditBar::forgetRefusal() {
     if (!std::exchange(refused_, false) || sending_.contains(path_)) return;
     outcomes_.erase(path_);

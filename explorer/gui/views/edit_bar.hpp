@@ -28,6 +28,7 @@ public:
     void show(const std::string& path);  // what was entered for another one is discarded
     void refresh(const std::shared_ptr<const Frame>& frame, Place place);
     void submit();
+    void forgetRefusal();  // of a value that is put right or given up
     void discard();
     // Sets what was set last here as it was before, unless somebody else has set it since. It needs
     // what setting needs; without it, it can be undone later.
@@ -69,7 +70,6 @@ private:
     void say(const QString& text, QColor Tokens::* colour);
     void sayLast();
     void forgetWhatChanged();
-    void forgetRefusal();
     QString textOf(const Done& change) const;
     QString textOf(const std::string& path, const std::string& item, const Value& value) const;
 

@@ -116,7 +116,10 @@ void LifeCycleBar::refresh(const Frame& frame, Place place) {
     const Type& type = frame.type(place);
     const bool shown = type.active() && !type.isA("Agent");  // an agent's own have a prefix: forms
     setVisible(shown);
-    if (!shown) return;
+    if (!shown) {
+        for (Button& each : buttons_) each.reason->show({});
+        return;
+    }
     tell();
     readOnly_ = whyWithoutControl(frame, place);
     for (Button& each : buttons_) {

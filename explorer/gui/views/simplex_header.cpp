@@ -218,7 +218,7 @@ void SimplexHeader::placeState(bool one, bool flat, int left) {
     title_->setAlignment(outcome_, below ? Qt::AlignLeft : Qt::AlignRight | Qt::AlignVCenter);
     first_->setDirection(one ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
     first_->setAlignment(lifeCycle_, one ? Qt::AlignTop : Qt::AlignTop | Qt::AlignLeft);
-    const QString& outcome = outcome_->text();
+    const QString outcome = outcome_->isHidden() ? QString{} : outcome_->text();
     const int needed = outcome.isEmpty() ? 0 : widthOf(outcome, outcome_->font());
     since_->setVisible(hasStates_ && (!flat || needed <= left));
     state_->setToolTip(since_->isHidden() ? since_->text() : QString{});
@@ -263,6 +263,7 @@ void SimplexHeader::refresh(const Frame& frame, Place place) {
     const bool low = Look::isLow(*this);
     messages_->show({fault(frame, place),
                      notice(frame, place),
+                     {low ? outcome_->text() : QString{}, &Tokens::ink},
                      {why.join(' ')},
                      {low ? reasons_ : description_}});
     fit();
@@ -276,7 +277,7 @@ void SimplexHeader::refreshState(const Frame& frame, Place place) {
     const AgentFrame& agent = frame.agents[place.agent];
     const Type& type = frame.type(place);
     hasStates_ = type.active() && !type.isA("Agent");
-    outcome_->setVisible(hasStates_);
+    outcome_->setVisible(hasStates_ && !Look::isLow(*this));  // it stands among the messages there
     since_->show(hasStates_ && !agent.lost() ? times_.text(frame, place) : QString{});
     if (type.isA("Agent")) {  // it has commands, but no state of its own
         mark_->show(agent.status.ended ? Shape::Ended : agent.lost() ? Shape::Lost : Shape::Agent);

@@ -262,6 +262,7 @@ void ItemTable::closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint 
     using Delegate = QAbstractItemDelegate;
     QTreeView::closeEditor(editor, Delegate::NoHint);
     if (hint == Delegate::SubmitModelCache) Q_EMIT submitted();
+    if (hint == Delegate::RevertModelCache) Q_EMIT givenUp();
     if (hint != Delegate::EditNextItem && hint != Delegate::EditPreviousItem) return;
     QModelIndex next = currentIndex();
     do {

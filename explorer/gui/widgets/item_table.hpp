@@ -28,6 +28,7 @@ public:
 
 Q_SIGNALS:
     void submitted();  // Enter in a field
+    void givenUp();    // Esc in a field
     void plotWanted(const std::vector<RecordedItem>& items);
     // A menu of places for these is about to open.
     void placesWanted(QMenu* menu, const std::vector<RecordedItem>& items);

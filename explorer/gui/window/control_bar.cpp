@@ -235,7 +235,8 @@ void ControlBar::refreshNotice() {
         others_.clear();
         closed_.clear();
     }
-    remedy_ = canBeTaken(*frame_, control.last) ? control.last : std::string{};
+    const bool offersLast = refused_.empty() && canBeTaken(*frame_, control.last);
+    remedy_ = offersLast ? control.last : std::string{};
     QString text = refused_.empty() ? QString::fromStdString(said_) : refusal();
     if (!control.handed.empty() && isFree(*frame_, control.handed)) {
         text = tr("%1 Nobody holds it now: %2 is free.").arg(text, scopeText(control.handed));

@@ -53,7 +53,7 @@ void ControlNotice::lieIn(QWidget& window, std::vector<QWidget*> left) {
 bool ControlNotice::isEmpty() const { return told_->text().isEmpty() && text_->text().isEmpty(); }
 
 void ControlNotice::dismiss() {
-    read_ = told_->text();
+    if (!told_->text().isEmpty()) read_ = told_->text();
     tell(read_);
     Q_EMIT closed();
 }
@@ -107,39 +107,33 @@ void ControlNotice::fit() {
     raise();
 }
 
-// The buttons are low, so that the room that is kept is small. Where there are both texts, what
-// became of the order has what it needs, at most half; in a low window a line of its own. Returns
-// the height of all.
+// The buttons are low, so that the room that is kept is small, and stay where they are whatever is
+// said. Where there are both texts, what became of the order has what it needs, at most half; in a
+// low window it stands above. Returns the height of all.
 int ControlNotice::placeTexts(int width, bool low) {
     const int gap = Look::units(2), left = Look::units(4), high = Look::units(6);
-    const bool both = !told_->isHidden() && !text_->isHidden();
+    const int kept = keptHeight();
     int right = width - gap;
     for (QPushButton* each : {close_, remedy_}) {
         if (each->isHidden()) continue;
-        each->resize(each->sizeHint().width(), high);
-        each->move(right -= each->width(), 0);
+        const int wide = each->sizeHint().width();
+        each->setGeometry(right -= wide, (kept - high) / 2, wide, high);
         right -= gap;
     }
-    const auto put = [](TextLabel& label, int from, int to, int top) {
+    const bool both = !told_->isHidden() && !text_->isHidden(), stacked = both && low;
+    const int needed = QFontMetrics{told_->font()}.horizontalAdvance(told_->text()) + 2;
+    const int half = both && !low ? left + std::min(needed, (right - left) / 2) : right;
+    const auto put = [](TextLabel& label, int from, int to) {
         const int room = std::max(to - from, 1);
-        label.setGeometry(from, top, room, label.heightForWidth(room));
-        return label.height();
+        label.setGeometry(from, 0, room, label.heightForWidth(room));
+        return label.isHidden() ? 0 : label.height();
     };
-    const int above = both && low ? put(*told_, left, width - gap, 0) : 0;
-    int begin = left, below = high;
-    if (!told_->isHidden() && !(both && low)) {
-        const int needed = QFontMetrics{told_->font()}.horizontalAdvance(told_->text()) + 2;
-        const int end = both ? left + std::min(needed, (right - left) / 2) : right;
-        below = std::max(below, put(*told_, left, end, above));
-        begin = end + gap;
-    }
-    if (!text_->isHidden()) below = std::max(below, put(*text_, begin, right, above));
-    below = std::max(below, keptHeight() - above);
-    for (QWidget* each : std::initializer_list<QWidget*>{told_, text_, remedy_, close_}) {
-        if (each == told_ && above > 0) continue;
-        each->move(each->x(), above + (below - each->height()) / 2);
-    }
-    return above + below;
+    const int told = put(*told_, left, half);
+    const int text = put(*text_, both && !low ? half + gap : left, right);
+    const int all = std::max(kept, stacked ? told + text : std::max(told, text));
+    told_->move(told_->x(), (all - told - (stacked ? text : 0)) / 2);
+    text_->move(text_->x(), (all - text + (stacked ? told : 0)) / 2);
+    return all;
 }
 
 // Also when its texts get another font.

@@ -4,16 +4,20 @@
 #include "cortex/core/path.hpp"
 
 #include "model/permission.hpp"
+#include "model/plain_text.hpp"
 #include "model/value_text.hpp"
 #include "session/lease.hpp"
 #include "style/look.hpp"
 
 #include <QButtonGroup>
+#include <QCoreApplication>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
 #include <QRadioButton>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <map>
@@ -46,13 +50,53 @@ QString onLossText(const AgentFrame& agent, const std::string& prefix) {
     return faults == 0 ? running : running + ControlPanel::tr("; %1 in Fault").arg(faults);
 }
 
-// As wide as its longest line; only what is wider than the screen is broken.
-class HolderLines : public QLabel {
-public:
-    QSize sizeHint() const override { return fontMetrics().size(0, text()) + QSize{2, 0}; }
-};
-
 }  // namespace
+
+// Who holds what, in a place that never changes: as large as the longest text, up to some lines.
+// What needs more scrolls, and is whole in the tip.
+class HolderLines : public QScrollArea {
+public:
+    HolderLines() : label_{new QLabel} {
+        label_->setTextFormat(Qt::PlainText);
+        label_->setWordWrap(true);
+        label_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+        setFrameShape(QFrame::NoFrame);
+        setFocusPolicy(Qt::NoFocus);
+        setWidgetResizable(true);
+        setWidget(label_);
+        label_->setAutoFillBackground(false);
+        viewport()->setAutoFillBackground(false);
+        QSizePolicy policy{QSizePolicy::Preferred, QSizePolicy::Fixed};
+        policy.setHeightForWidth(true);
+        setSizePolicy(policy);
+    }
+    void keepRoomFor(const QString& longest) {
+        longest_ = longest;
+        updateGeometry();
+    }
+    void show(const QString& text) {
+        label_->setText(text);
+        setToolTip(verticalScrollBar()->maximum() > 0 ? tipText(text) : QString{});
+    }
+    QSize sizeHint() const override {
+        const int width = fontMetrics().size(0, longest_).width() + besideText();
+        return {width, heightForWidth(width)};
+    }
+    QSize minimumSizeHint() const override { return {0, leastLines * fontMetrics().height()}; }
+    int heightForWidth(int width) const override {
+        const QRect room{0, 0, width - besideText(), QWIDGETSIZE_MAX};
+        const int height = fontMetrics().boundingRect(room, Qt::TextWordWrap, longest_).height();
+        const int line = fontMetrics().lineSpacing();
+        return std::clamp(height, leastLines * line, mostLines * line);
+    }
+
+private:
+    int besideText() const { return verticalScrollBar()->sizeHint().width() + 2; }
+
+    static constexpr int leastLines = 5, mostLines = 8;
+    QLabel* label_;
+    QString longest_;
+};
 
 ControlPanel::ControlPanel(std::shared_ptr<const Frame> frame, const std::string& path,
                            QWidget* parent)
@@ -72,8 +116,7 @@ ControlPanel::ControlPanel(std::shared_ptr<const Frame> frame, const std::string
         buttons_->addButton(button, static_cast<int>(i));
         rows().addWidget(button);
     }
-    holders_->setTextFormat(Qt::PlainText);
-    holders_->setWordWrap(true);
+    holders_->keepRoomFor(longest());
     rows().addWidget(holders_);
     buttons().addWidget(cancel_);
     buttons().addWidget(take_);
@@ -114,6 +157,10 @@ void ControlPanel::keyPressEvent(QKeyEvent* event) {
         case Qt::Key_Escape:
             close();
             break;
+        case Qt::Key_PageUp:
+        case Qt::Key_PageDown:
+            QCoreApplication::sendEvent(holders_->verticalScrollBar(), event);
+            break;
         default:
             Popover::keyPressEvent(event);
     }
@@ -121,7 +168,7 @@ void ControlPanel::keyPressEvent(QKeyEvent* event) {
 
 void ControlPanel::refresh(std::shared_ptr<const Frame> frame) {
     frame_ = std::move(frame);
-    holders_->setText(describe());
+    holders_->show(describe(chosen()));
     take_->setText(tr("Take %1").arg(scopeText(chosen())));
 }
 
@@ -134,25 +181,41 @@ QString ControlPanel::leaseText(const QString& agent, const comms::ShownLease& l
         .arg(agent, QString::fromStdString(lease.holder), prefix, since, age);
 }
 
-QString ControlPanel::describe() const {
+// What it may have to say once others have taken something.
+QString ControlPanel::longest() const {
+    comms::ShownLease held;
+    const std::string& self = frame_->control.self;
+    held.holder = self.empty() ? "cortex@host.123456-5e1f0a" : self + "00";
+    held.prefix = scopes_.front();
+    held.seconds = 6000;
+    for (const std::string& each : frame_->control.prefixes()) {
+        if (each.size() > held.prefix.size()) held.prefix = each;
+    }
+    return describe("/", &held);
+}
+
+QString ControlPanel::describe(const std::string& prefix, const comms::ShownLease* held) const {
     QStringList lines;
     for (const AgentFrame& agent : frame_->agents) {
-        if (agent.lost() || !hasBelow(agent, chosen())) continue;
+        if (agent.lost() || !hasBelow(agent, prefix)) continue;
         const QString name = QString::fromStdString(agent.status.name);
-        const auto others = leaseOfOthers(agent, chosen(), frame_->control.self);
-        for (const comms::ShownLease& each : leasesOf(agent)) lines << leaseText(name, each);
+        const bool others =
+            held != nullptr || leaseOfOthers(agent, prefix, frame_->control.self).has_value();
+        const auto leases = held != nullptr ? std::vector{*held} : leasesOf(agent);
+        for (const comms::ShownLease& each : leases) lines << leaseText(name, each);
         if (!others) lines << tr("%1: nobody else holds a part of it").arg(name);
         if (others) lines << tr("    They must release it or hand it over; nobody can take it.");
-        lines << QStringLiteral("    ") + onLossText(agent, chosen());
+        lines << QStringLiteral("    ") + onLossText(agent, prefix);
     }
     if (lines.isEmpty()) lines << tr("Nobody who is heard has anything there.");
     QStringList released;
     for (const std::string& each : frame_->control.prefixes()) {
-        if (each != chosen()) released << scopeText(each);
+        if (each != prefix) released << scopeText(each);
     }
+    if (held != nullptr && released.isEmpty()) released << scopeText(held->prefix);
     if (!released.isEmpty()) {
         lines << tr("To take %1 releases %2, which you control now.")
-                     .arg(scopeText(chosen()), released.join(tr(", ")));
+                     .arg(scopeText(prefix), released.join(tr(", ")));
     }
     if (!frame_->control.self.empty())
         lines

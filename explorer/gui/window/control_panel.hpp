@@ -7,13 +7,14 @@
 #include <string>
 
 class QButtonGroup;
-class QLabel;
 class QPushButton;
 
 namespace cortex::gui {
 
+class HolderLines;
+
 // Which part to take control of, and who holds what of it now. Arrows choose the part, Enter takes
-// it.
+// it. Nothing moves while it is open: what is said scrolls in a place of its own.
 class ControlPanel : public Popover {
     Q_OBJECT
 public:
@@ -34,13 +35,15 @@ protected:
 
 private:
     const std::string& chosen() const;
-    QString describe() const;
+    // As it is, or as if somebody held this of every agent.
+    QString describe(const std::string& prefix, const comms::ShownLease* held = nullptr) const;
+    QString longest() const;
     QString leaseText(const QString& agent, const comms::ShownLease& lease) const;
 
     std::shared_ptr<const Frame> frame_;
     std::vector<std::string> scopes_;  // as the buttons
     QButtonGroup* buttons_;
-    QLabel* holders_;
+    HolderLines* holders_;
     QPushButton *cancel_, *take_;
 };
 

@@ -224,6 +224,7 @@ void Order::finish(const Frame& frame) {
     const double seconds = static_cast<double>(since_.elapsed()) / 1000;
     const auto followed = followers(frame);
     const bool all = parts.isEmpty() && followed == std::ssize(meant_);
+    incomplete_ = kind_ == Stop && !all;
     const bool ofAll = prefixes_.front() == "/";
     const QString of = ofAll ? QString{} : say(" of %1").arg(scopeWord(prefixes_));
     const QString count = all ? say("All %1").arg(followed) + of
@@ -279,7 +280,9 @@ bool Order::wasReached(const Meant& meant) const {
     });
 }
 
+// What was not done stays said until it is, whatever else happens: a person closes it.
 bool Order::agrees(const Frame& frame) const {
+    if (incomplete_) return followers(frame) < std::ssize(meant_);
     return std::ranges::all_of(ended_, [&](const auto& each) {
         const State now = stateOf(frame, each.first);
         return each.second ? !now || now == each.second : now != words[kind_].goal;

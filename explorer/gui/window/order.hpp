@@ -85,6 +85,7 @@ private:
     std::vector<Meant> meant_;      // that are to reach Standby, or Active
     QStringList refusals_;          // "robot: …"
     std::map<Meant, State> ended_;  // the states that its result is about
+    bool incomplete_ = false;       // its result says so
 };
 
 }  // namespace cortex::gui
