@@ -38,6 +38,9 @@ QLabel* line(const QString& text) {
     auto* label = new QLabel{text};
     label->setTextFormat(Qt::PlainText);
     label->setWordWrap(true);
+    QSizePolicy kept = label->sizePolicy();
+    kept.setRetainSizeWhenHidden(true);  // the place is as high with names instead
+    label->setSizePolicy(kept);
     return label;
 }
 
