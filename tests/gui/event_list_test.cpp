@@ -20,6 +20,18 @@ std::uint64_t underPointer(const EventTable& rows, const EventFilter& events) {
     return events.serial(rows.indexAt(rows.viewport()->mapFromGlobal(QCursor::pos())).row());
 }
 
+void enter(EventTable& rows) {
+    QTest::mouseMove(rows.viewport(), {50, 40});
+    QEvent enter{QEvent::Enter};
+    QApplication::sendEvent(rows.window(), &enter);
+}
+
+void leave(EventTable& rows, QWidget& forWhat) {
+    QTest::mouseMove(&forWhat, {50, 5});
+    QEvent leave{QEvent::Leave};
+    QApplication::sendEvent(&rows, &leave);
+}
+
 TEST_F(Events, FollowAgainAfterTheSelectedRowDroppedOut) {
     events.add(changes(1, events.kept()));
     rows().setCurrentIndex(rows().model()->index(0, 0));
@@ -72,12 +84,13 @@ TEST_F(Events, TheStripFollowsAgainOnceItIsLeft) {
 
 TEST_F(Events, StandStillUnderThePointerAndFollowAgainWhenItLeaves) {
     events.add(changes(1, 200));
-    QTest::mouseMove(rows().viewport(), {50, 40});
+    ASSERT_TRUE(isAtTheEnd(rows()));
+    enter(rows());
     const auto row = underPointer(rows(), shown);
     events.add(changes(201, 3));
     EXPECT_EQ(underPointer(rows(), shown), row);
     EXPECT_NE(buttonIn(list, "3 new"), nullptr);
-    QTest::mouseMove(&list, {50, 5});
+    leave(rows(), list);
     EXPECT_TRUE(isAtTheEnd(rows()));
     EXPECT_EQ(buttonIn(list, "3 new"), nullptr);
     events.add(changes(204, 3));
@@ -87,7 +100,7 @@ TEST_F(Events, StandStillUnderThePointerAndFollowAgainWhenItLeaves) {
 TEST_F(Events, StandStillUnderThePointerAlsoWhileTheOldestGo) {
     events.add(changes(1, events.kept()));
     ASSERT_TRUE(isAtTheEnd(rows()));
-    QTest::mouseMove(rows().viewport(), {50, 40});
+    enter(rows());
     const auto row = underPointer(rows(), shown);
     events.add(changes(events.kept() + 1, 10));
     EXPECT_EQ(underPointer(rows(), shown), row);
@@ -128,7 +141,7 @@ TEST_F(EventTab, StandsStillUnderThePointerAndFollowsAgainWhenItLeaves) {
     list.hide();
     events.add(changes(1, 200));
     ASSERT_TRUE(isAtTheEnd(table()));
-    QTest::mouseMove(table().viewport(), {50, 40});
+    enter(table());
     const auto row = underPointer(table(), shown);
     events.add(changes(201, 12));
     EXPECT_EQ(underPointer(table(), shown), row);
@@ -138,9 +151,9 @@ TEST_F(EventTab, StandsStillUnderThePointerAndFollowsAgainWhenItLeaves) {
     events.add(changes(213, 1));
     EXPECT_EQ(button("new below"), below) << "it does not go where it is about to be pressed";
     EXPECT_EQ(below->text(), "13 new below");
-    QTest::mouseMove(table().viewport(), {50, 40});
+    enter(table());
     EXPECT_EQ(underPointer(table(), shown), row);
-    QTest::mouseMove(&view, {5, 5});
+    leave(table(), view);
     EXPECT_TRUE(isAtTheEnd(table()));
     EXPECT_EQ(button("new below"), nullptr);
 }

@@ -61,6 +61,8 @@ protected:
         QApplication::processEvents();
         const QRect row = rows().visualRect(tree.model().indexOf(path));
         QTest::mouseMove(rows().viewport(), row.center());
+        QEvent enter{QEvent::Enter};
+        QApplication::sendEvent(rows().viewport(), &enter);
         ASSERT_EQ(underPointer(), path);
     }
     std::string underPointer() {
@@ -71,6 +73,8 @@ protected:
     }
     void leaveRows() {
         QTest::mouseMove(&tree, {5, 5});
+        QEvent leave{QEvent::Leave};
+        QApplication::sendEvent(rows().viewport(), &leave);
         QApplication::processEvents();
     }
 

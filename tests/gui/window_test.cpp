@@ -229,6 +229,8 @@ TEST_F(Window, ShowsTheTreeInPlaceOfTheViewsWhereItIsNarrow) {
     EXPECT_TRUE(window.tree().isVisible());
     EXPECT_FALSE(window.current()->isVisible());
     QTest::keyClick(window.tree().findChild<QTreeView*>(), Qt::Key_Down);
+    EXPECT_TRUE(window.tree().isVisible()) << "arrows only go through it";
+    QTest::keyClick(window.tree().findChild<QTreeView*>(), Qt::Key_Return);
     EXPECT_FALSE(window.tree().isVisible()) << "something was chosen";
     EXPECT_TRUE(window.current()->isVisible());
     window.resize(1280, 800);

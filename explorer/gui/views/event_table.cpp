@@ -142,6 +142,16 @@ bool EventTable::isAtEnd() const {
     return verticalScrollBar()->value() == verticalScrollBar()->maximum();
 }
 
+// Also where a button lies over it.
+bool EventTable::isUnderPointer() const {
+    return isVisible() && window()->underMouse() && rect().contains(mapFromGlobal(QCursor::pos()));
+}
+
+void EventTable::leaveEvent(QEvent* event) {
+    QTableView::leaveEvent(event);
+    if (follows_ && !isUnderPointer()) follow();
+}
+
 void EventTable::follow() {
     follows_ = true;
     newBelow_ = 0;
@@ -157,8 +167,8 @@ void EventTable::look() {
 
 void EventTable::inserted(int first, int last) {
     if (events_.isMember(first)) return;
-    if (follows_) {
-        scrollToBottom();
+    if (follows_ && !isUnderPointer()) {
+        newBelow_ == 0 ? scrollToBottom() : follow();
         return;
     }
     for (int row = first; row <= last; ++row) newBelow_ += events_.at(row).times;
@@ -167,7 +177,7 @@ void EventTable::inserted(int first, int last) {
 
 // What is looked at stays where it is.
 void EventTable::removed(int count) {
-    if (follows_)
+    if (follows_ && !isUnderPointer())
         scrollToBottom();
     else
         verticalScrollBar()->setValue(verticalScrollBar()->value() - count);
@@ -191,7 +201,7 @@ void EventTable::keepSelection() {
     keeps_ = false;
     if (before_ && !row) Q_EMIT selectionDropped();
     before_.reset();
-    if (follows_) scrollToBottom();
+    if (follows_) return follow();
     Q_EMIT moved();
 }
 
@@ -239,7 +249,7 @@ void EventTable::changeEvent(QEvent* event) {
 void EventTable::resizeEvent(QResizeEvent* event) {
     QTableView::resizeEvent(event);
     fitColumns();
-    if (follows_) scrollToBottom();
+    if (follows()) scrollToBottom();
 }
 
 // When it is narrow the agent goes first, then the kind, then the path is cut.

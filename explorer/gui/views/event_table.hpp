@@ -10,16 +10,17 @@
 namespace cortex::gui {
 
 // The events that are shown, as rows: a table, as a tree lays all rows out for each new one. It
-// follows the newest unless somebody has scrolled up; F and End follow again. Right opens a row of
-// many events, Left closes it. Which row is selected changes only by an act of the person.
+// follows the newest unless somebody has scrolled up; F and End follow again. Under the pointer it
+// stands still. Right opens a row of many events, Left closes it. Which row is selected changes
+// only by an act of the person.
 class EventTable : public QTableView {
     Q_OBJECT
 public:
     explicit EventTable(EventFilter& events, QWidget* parent = nullptr);
 
-    bool follows() const { return follows_; }
+    bool follows() const { return follows_ && newBelow_ == 0; }
     void follow();
-    std::uint64_t newBelow() const { return newBelow_; }  // events since it does not follow
+    std::uint64_t newBelow() const { return newBelow_; }  // events since it stands still
     // The row that is selected, by its serial number.
     std::optional<std::uint64_t> selected() const;
 
@@ -33,11 +34,13 @@ protected:
     void keyPressEvent(QKeyEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void changeEvent(QEvent* event) override;
+    void leaveEvent(QEvent* event) override;
     void rowsAboutToBeRemoved(const QModelIndex& parent, int first, int last) override;
     void currentChanged(const QModelIndex& current, const QModelIndex& previous) override;
 
 private:
     bool isAtEnd() const;
+    bool isUnderPointer() const;
     void look();  // whether it is at its end after it was scrolled
     void inserted(int first, int last);
     void removed(int count);

@@ -16,8 +16,12 @@
 #include <QLineEdit>
 #include <QMouseEvent>
 #include <QScopedValueRollback>
+#include <QScrollBar>
 #include <QStyledItemDelegate>
+#include <QTimer>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace cortex::gui {
@@ -87,18 +91,53 @@ private:
     const SystemModel& model_;
 };
 
+}  // namespace
+
 // Knows whether a person is acting just now: rows that come and go move the current row, too.
 // A press may begin a drag: what is chosen by the mouse is told when the button is up again.
+// While the pointer is over it, it scrolls further than its rows reach, to keep one in its place.
 class TreeRows : public QTreeView {
 public:
     explicit TreeRows(const SystemModel& model) : items_{model} {
         setDragEnabled(true);
         setDragDropMode(DragOnly);
+        other_.setSingleShot(true);
+        other_.setInterval(1000);
     }
     bool acts() const { return acts_; }
     bool presses() const { return presses_; }
 
+    // The row under the pointer stays there. Where it goes, presses are not meant for the next one.
+    void keepPlace(const std::function<void()>& change) {
+        const QPersistentModelIndex row = underPointer();
+        const int place = viewport()->y() + visualRect(row).top();
+        change();
+        if (row.isValid() && viewport()->y() + visualRect(row).top() != place) {
+            const int beyond = verticalScrollBar()->value() + visualRect(row).top() - place;
+            scrollBeyond(beyond, std::max(beyond, 0));
+        }
+        if (underPointer() != row) other_.start();
+    }
+    void forgetPlace() {
+        if (beyond_ != 0) scrollBeyond(0, verticalScrollBar()->value());
+    }
+
 protected:
+    bool viewportEvent(QEvent* event) override {
+        if (event->type() == QEvent::Leave) forgetPlace();
+        return isOfOther(*event) || QTreeView::viewportEvent(event);
+    }
+    void updateGeometries() override {
+        if (fits_) return;  // the margin resizes the viewport
+        const QScopedValueRollback fit{fits_, true};
+        QScrollBar& bar = *verticalScrollBar();
+        const int value = bar.value(), margin = std::max(-beyond_, 0);
+        QTreeView::updateGeometries();
+        if (beyond_ == 0) return;
+        setViewportMargins(0, margin, 0, 0);
+        bar.setMaximum(std::max(bar.maximum() + margin, beyond_));
+        bar.setValue(value);
+    }
     void keyPressEvent(QKeyEvent* event) override {
         const QScopedValueRollback act{acts_, true};
         QTreeView::keyPressEvent(event);
@@ -130,11 +169,38 @@ protected:
     }
 
 private:
-    const SystemModel& items_;
-    bool acts_ = false, presses_ = false;
-};
+    QModelIndex underPointer() const {
+        if (!viewport()->underMouse()) return {};
+        return indexAt(viewport()->mapFromGlobal(QCursor::pos()));
+    }
+    void scrollBeyond(int beyond, int value) {
+        beyond_ = beyond;
+        setVerticalScrollBarPolicy(beyond == 0 ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOn);
+        updateGeometries();
+        verticalScrollBar()->setValue(value);
+    }
+    // Of a press where another row has just been, until its button is up.
+    bool isOfOther(const QEvent& event) {
+        switch (event.type()) {
+            case QEvent::MouseButtonPress:
+            case QEvent::MouseButtonDblClick:
+                return ignores_ = other_.isActive();
+            case QEvent::MouseMove:
+                return ignores_ && static_cast<const QMouseEvent&>(event).buttons() != Qt::NoButton;
+            case QEvent::MouseButtonRelease:
+                return std::exchange(ignores_, false);
+            case QEvent::ContextMenu:
+                return other_.isActive();
+            default:
+                return false;
+        }
+    }
 
-}  // namespace
+    const SystemModel& items_;
+    bool acts_ = false, presses_ = false, ignores_ = false, fits_ = false;
+    int beyond_ = 0;  // value of the scroll bar, with a margin above the rows where it is below 0
+    QTimer other_{this};  // since another row is under the pointer
+};
 
 SystemTree::SystemTree(QWidget* parent)
     : QWidget{parent},
@@ -185,11 +251,18 @@ SystemTree::SystemTree(QWidget* parent)
         if (model_.place(index) && model_.path(index) == current_) Q_EMIT chosen(current_);
     });
     connect(tree_, &QTreeView::activated, this, [this](const QModelIndex& index) {
-        if (model_.place(index)) Q_EMIT pinned(model_.path(index));
+        if (!model_.place(index)) return;
+        coversViews() ? Q_EMIT chosen(model_.path(index)) : Q_EMIT pinned(model_.path(index));
     });
 }
 
-void SystemTree::addLeft(QWidget& widget) { head_->insertWidget(0, &widget); }
+void SystemTree::addLeft(QWidget& back) {
+    head_->insertWidget(0, &back);
+    back_ = &back;
+}
+
+// Then a step of a key opens nothing, as what is opened takes the place of the tree.
+bool SystemTree::coversViews() const { return back_ != nullptr && back_->isVisible(); }
 
 void SystemTree::keyPressEvent(QKeyEvent* event) {
     if (event->key() != Qt::Key_Escape) return QWidget::keyPressEvent(event);
@@ -197,14 +270,15 @@ void SystemTree::keyPressEvent(QKeyEvent* event) {
     Q_EMIT left();
 }
 
-QTreeView* SystemTree::makeRows() {
+TreeRows* SystemTree::makeRows() {
     auto* rows = new TreeRows{model_};
     rows->setModel(&model_);
     connect(rows->selectionModel(), &QItemSelectionModel::currentChanged, this,
             [this, rows](const QModelIndex& now) {
                 if (!rows->acts() || !now.isValid()) return;
                 current_ = model_.path(now);
-                if (model_.place(now) && !rows->presses()) Q_EMIT chosen(std::string{current_});
+                if (!model_.place(now) || rows->presses() || coversViews()) return;
+                Q_EMIT chosen(std::string{current_});
             });
     return rows;
 }
@@ -218,12 +292,14 @@ void SystemTree::askMenu(const QPoint& at) {
 }
 
 void SystemTree::refresh(std::shared_ptr<const Frame> frame) {
-    model_.update(std::move(frame));
-    if (!current_.empty()) keepCurrent();
+    tree_->keepPlace([&] {
+        model_.update(std::move(frame));
+        if (!current_.empty()) keepCurrent();
+        if (!opened_ && model_.rowCount() > 0) openFirstLevels();
+        if (!wanted_.empty()) choose(std::exchange(wanted_, {}));
+    });
     tellTrouble();
     tellCount();
-    if (!opened_ && model_.rowCount() > 0) openFirstLevels();
-    if (!wanted_.empty()) choose(std::exchange(wanted_, {}));
 }
 
 // What a person made the current row stays it, and no other becomes it, while rows come and go.
@@ -274,6 +350,7 @@ void SystemTree::focusFilter() {
 }
 
 void SystemTree::useFilter() {
+    tree_->forgetPlace();
     Query query{filter_->text()};
     filtered_ = !query.empty();
     model_.setFilter(std::move(query));

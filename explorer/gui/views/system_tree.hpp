@@ -9,20 +9,21 @@
 
 class QBoxLayout;
 class QLineEdit;
-class QTreeView;
 
 namespace cortex::gui {
 
 class RowNote;
 class TextLabel;
+class TreeRows;
 
-// All simplexes of all agents as one tree, with a filter above it.
+// All simplexes of all agents as one tree, with a filter above it. The row under the pointer stays
+// where it is while others come and go.
 class SystemTree : public QWidget {
     Q_OBJECT
 public:
     explicit SystemTree(QWidget* parent = nullptr);
 
-    void addLeft(QWidget& widget);  // in its head
+    void addLeft(QWidget& back);  // in its head, shown while the tree covers the views
     void refresh(std::shared_ptr<const Frame> frame);
     void choose(const std::string& path);  // opens what is above it, as soon as it is there
     const SystemModel& model() const { return model_; }
@@ -42,7 +43,8 @@ protected:
     void keyPressEvent(QKeyEvent* event) override;  // that neither rows nor filter want
 
 private:
-    QTreeView* makeRows();
+    TreeRows* makeRows();
+    bool coversViews() const;
     void openFirstLevels();
     void useFilter();
     void keepCurrent();
@@ -51,9 +53,10 @@ private:
     void tellCount();
 
     SystemModel model_;
-    QTreeView* tree_;
+    TreeRows* tree_;
     QLineEdit* filter_;
     QBoxLayout* head_;
+    const QWidget* back_ = nullptr;
     TextLabel* count_;
     RowNote* trouble_;  // over the last rows
     bool opened_ = false;
