@@ -307,19 +307,21 @@ MessageArea::Message SimplexHeader::fault(const Frame& frame, Place place) const
 }
 
 // In fewer words where there is little room.
+bool SimplexHeader::isTerse() const { return brief_ || Look::isLow(*this); }
+
 QString SimplexHeader::factsOf(const QString& agent, const QString& age) const {
-    const QString name = Look::isLow(*this) ? agent : tr("agent %1").arg(agent);
+    const QString name = isTerse() ? agent : tr("agent %1").arg(agent);
     return age.isEmpty() ? name : tr("%1, %2 old").arg(name, age);
 }
 
 QString SimplexHeader::qualityText(Quality quality, bool rests) const {
     const QString word{QLatin1String{name(quality)}};
-    const QString said = Look::isLow(*this) ? word : tr("quality %1").arg(word);
+    const QString said = isTerse() ? word : tr("quality %1").arg(word);
     return rests ? tr("%1, at rest").arg(said) : said;
 }
 
 QString SimplexHeader::waitingText() const {
-    return Look::isLow(*this) ? tr("no values yet") : tr("waiting for the first values");
+    return isTerse() ? tr("no values yet") : tr("waiting for the first values");
 }
 
 void SimplexHeader::refreshAgent(const Frame& frame, Place place) {

@@ -52,6 +52,7 @@ private:
     void refreshAgent(const Frame& frame, Place place);
     MessageArea::Message fault(const Frame& frame, Place place) const;
     MessageArea::Message notice(const Frame& frame, Place place) const;
+    bool isTerse() const;
     QString factsOf(const QString& agent, const QString& age) const;
     QString qualityText(Quality quality, bool rests) const;
     QString waitingText() const;
