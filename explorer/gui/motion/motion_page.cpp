@@ -21,6 +21,8 @@ QScrollArea* scrolled(const QString& name) {
     auto* area = new QScrollArea;
     area->setWidgetResizable(true);
     area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    // What is in it may be lower where it is narrower: a bar that comes and goes would never rest.
+    area->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);
     area->setFocusPolicy(Qt::NoFocus);
     area->setMinimumHeight(1);  // the lines below are never cut
     area->setAccessibleName(name);

@@ -282,6 +282,8 @@ void ExplorerStyle::drawComplexControl(ComplexControl control, const QStyleOptio
     }
     const Tokens& c = Look::colours();
     painter->fillRect(option->rect, c.surface);
+    const auto& bar = *qstyleoption_cast<const QStyleOptionSlider*>(option);
+    if (bar.minimum == bar.maximum) return;  // there is nothing to scroll to
     const int gap = Look::units(0.75);
     const QRect slider = subControlRect(control, option, SC_ScrollBarSlider, widget);
     const bool held = option->activeSubControls.testFlag(SC_ScrollBarSlider);
