@@ -185,6 +185,27 @@ class CycloneClient(unittest.TestCase):
             for _ in pool.map(self.checkModel, range(1, int(os.environ.get("MODELS", "12")) + 1)):
                 pass
 
+    def test_asks_a_person_for_control(self):
+        network = ["--domain", str(domain(0)), "--interface", "127.0.0.1"]
+        with self.demo(), subprocess.Popen(
+                [BINARY / "bin/cortex", "shell", "--name", "alice", "--keep-going", *network],
+                text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as shell:
+            shell.stdin.write("take /drives\n")
+            shell.stdin.flush()
+            self.assertIn("you control /drives", shell.stdout.readline())
+            with concurrent.futures.ThreadPoolExecutor(1) as pool:
+                asking = pool.submit(Client(0).run, "ask", "bob", "/drives/1", exits=1)
+                people = [BINARY / "bin/cortex", "people", "--json", *network]
+                seen = until(lambda: json.loads(subprocess.run(people, capture_output=True).stdout),
+                             lambda all: [each for each in all if each.get("asks")])
+                self.assertEqual({each["person"]: each.get("asks") for each in seen},
+                                 {"alice": None, "bob": "/drives/1"})
+                shell.stdin.write("refuse bob\n")
+                shell.stdin.flush()
+                said = asking.result()
+            tool = next(each["tool"] for each in seen if each["person"] == "alice")
+            self.assertEqual(said, [f"{tool} is used by alice", f"{tool} refuses"])
+
     def listed(self):
         """What the command line lists."""
         listed = subprocess.run(

@@ -13,7 +13,7 @@ struct Errand {
     using Moment = std::chrono::steady_clock::time_point;
     using Milliseconds = std::chrono::milliseconds;
 
-    std::string agent;
+    std::string agent, prefix{};
     std::uint64_t number = 0;  // the mirror's; 0: it is over
     Moment sent{};
     CommandAnswer answer{};

@@ -20,6 +20,13 @@ std::int64_t wallClock() {
         .count();
 }
 
+// Whether it says who holds what of it.
+bool showsLeases(const AgentStatus& agent, const AgentImage& image) {
+    if (!image || agent.state == "lost") return false;
+    const std::uint32_t own = image->structure().find("/" + agent.name);
+    return own != noSimplex && image.came(own);
+}
+
 std::string controlOf(const LeaseClient::Lease& lease) {
     return "control of " + lease.prefix + " of agent " + lease.agent;
 }
@@ -38,6 +45,8 @@ void KeptLeases::grant(const std::string& agent, const std::string& prefix, Mome
         known->renewed = sent;
         return;
     }
+    std::erase_if(lost_,
+                  [&](const Lost& each) { return each.agent == agent && each.prefix == prefix; });
     leases_.push_back({{agent, prefix, wallClock()}, State::Granted, {agent}, sent});
 }
 
@@ -59,14 +68,35 @@ void KeptLeases::dropBelow(const std::string& agent, const std::string& prefix) 
 
 void KeptLeases::findOffers() {
     for (const AgentStatus& agent : mirror_.agents()) {
-        for (const ShownLease& each : leasesOf(agent, mirror_.image(agent.name))) {
-            if (each.holder != mirror_.name() || find(agent.name, each.prefix) != nullptr) continue;
-            leases_.push_back({{agent.name, each.prefix, wallClock()},
-                               State::Offered,
-                               {agent.name},
-                               std::chrono::steady_clock::now()});
-        }
+        const AgentImage image = mirror_.image(agent.name);
+        if (!showsLeases(agent, image)) continue;
+        auto shown = leasesOf(agent, image);
+        std::erase_if(shown, [&](const auto& each) { return each.holder != mirror_.name(); });
+        std::erase_if(lost_, [&](const Lost& lost) {
+            return lost.agent == agent.name &&
+                   std::ranges::find(shown, lost.prefix, &ShownLease::prefix) == shown.end();
+        });
+        for (const ShownLease& each : shown) take(each);
     }
+}
+
+void KeptLeases::take(const ShownLease& shown) {
+    if (Kept* const known = find(shown.agent, shown.prefix)) {
+        known->cycle = shown.cycle;
+    } else if (!wasLost(shown)) {
+        leases_.push_back({{shown.agent, shown.prefix, wallClock()},
+                           State::Offered,
+                           {shown.agent},
+                           std::chrono::steady_clock::now(),
+                           shown.cycle});
+    }
+}
+
+bool KeptLeases::wasLost(const ShownLease& shown) const {
+    return std::ranges::any_of(lost_, [&](const Lost& each) {
+        const bool same = each.cycle == 0 || each.cycle == shown.cycle;
+        return each.agent == shown.agent && each.prefix == shown.prefix && same;
+    });
 }
 
 void KeptLeases::renew(Moment now, bool renews) {
@@ -76,6 +106,7 @@ void KeptLeases::renew(Moment now, bool renews) {
 // An offer that is none was ours before, and the image that shows it is old.
 bool KeptLeases::lose(const Kept& kept, const std::string& why) {
     if (kept.state != State::Offered) {
+        lost_.push_back({kept.lease.agent, kept.lease.prefix, kept.cycle});
         news_.push_back(controlOf(kept.lease) + " was lost: " + why);
     }
     return false;

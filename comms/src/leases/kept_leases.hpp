@@ -25,7 +25,8 @@ public:
     void settle(const std::string& agent, const std::string& prefix);
     void drop(const std::string& agent, const std::string& prefix);
     void dropBelow(const std::string& agent, const std::string& prefix);
-    // Others may hand a lease over to us: it is ours once it is renewed.
+    // Others may hand a lease over to us: it is ours once it is renewed. One that we lost is no
+    // such lease, as long as its agent, which stood still meanwhile, takes it for ours.
     void findOffers();
     void renew(Moment now, bool renews);
     bool waits() const;  // for an answer
@@ -41,14 +42,22 @@ private:
         State state = State::Granted;
         Errand renewal{};
         Moment renewed{};
+        std::int64_t cycle = 0;  // in which its agent gave it; 0: it was not seen yet
+    };
+    struct Lost {
+        std::string agent, prefix;
+        std::int64_t cycle = 0;
     };
 
     Kept* find(std::string_view agent, std::string_view prefix);
     bool renewOne(Kept& kept, Moment now, bool renews);  // false: it is over
     bool lose(const Kept& kept, const std::string& why);
+    void take(const ShownLease& shown);
+    bool wasLost(const ShownLease& shown) const;
 
     Mirror& mirror_;
     std::vector<Kept> leases_;
+    std::vector<Lost> lost_;  // that their agents may still take for ours
     std::vector<std::string> news_;
 };
 

@@ -4,6 +4,7 @@
 #include "cortex/core/path.hpp"
 #include "cortex/core/service_threads.hpp"
 
+#include "leases/control_asks.hpp"
 #include "leases/errand.hpp"
 #include "leases/kept_leases.hpp"
 
@@ -23,7 +24,7 @@ using Moment = Errand::Moment;
 using Names = std::vector<std::string>;
 
 constexpr Milliseconds whileWaiting{5}, atRest{100};  // between two looks at answers
-constexpr Milliseconds betweenOffers{500};
+constexpr Milliseconds betweenOffers{500}, betweenAsks{100};
 constexpr Milliseconds patience{3000};  // with an agent that does not answer
 constexpr Milliseconds releaseLimit{1000};
 
@@ -36,19 +37,19 @@ struct LeaseClient::Implementation {
     // What was asked for with one call, of several agents.
     struct Operation {
         Verb verb = Verb::Take;
-        std::string prefix;
         std::vector<Errand> errands;
     };
 
-    explicit Implementation(Mirror& own) : mirror{own}, kept{own} {}
+    explicit Implementation(Mirror& own) : mirror{own}, kept{own}, asks{own} {}
 
-    std::uint64_t begin(Verb verb, const std::string& prefix, const Names& agents,
-                        const std::string& to);
+    std::uint64_t begin(Verb verb, const std::string& prefix, const Names& agents);
+    std::uint64_t beginHandOver(const std::vector<Lease>& leases, const std::string& to);
     Names holding(const std::string& prefix, const Names& agents) const;
     bool advance(Operation& operation, Moment now);  // true: all have answered
     void finish(const Operation& operation);
     void finishTaking(const Operation& operation);
     void giveBack(const std::string& agent, const std::string& prefix);
+    void lookAround(Moment now);
     void step(Moment now);
     void run();
     void releaseAll();
@@ -61,21 +62,34 @@ struct LeaseClient::Implementation {
     std::map<std::uint64_t, Answers> results;
     std::vector<Errand> releases;  // of what was granted in vain
     KeptLeases kept;
+    ControlAsks asks;
+    std::vector<std::string> askNews;
     std::function<void()> look;
-    Moment looked{};
+    Moment looked{}, heard{};
     bool renews = true, stopping = false;
     std::thread thread;
 };
 
 std::uint64_t LeaseClient::Implementation::begin(Verb verb, const std::string& prefix,
-                                                 const Names& agents, const std::string& to) {
-    Operation operation{verb, prefix, {}};
-    Mirror::Arguments arguments{{"prefix", prefix}};
-    if (verb == Verb::HandOver) arguments["to"] = Names{to};
+                                                 const Names& agents) {
+    Operation operation{verb, {}};
     for (const std::string& agent : agents) {
-        operation.errands.push_back({agent});
-        operation.errands.back().send(mirror, commands[static_cast<int>(verb)], arguments,
-                                      patience);
+        operation.errands.push_back({agent, prefix});
+        operation.errands.back().send(mirror, commands[static_cast<int>(verb)],
+                                      {{"prefix", prefix}}, patience);
+    }
+    operations.emplace(++last, std::move(operation));
+    changed.notify_all();
+    return last;
+}
+
+std::uint64_t LeaseClient::Implementation::beginHandOver(const std::vector<Lease>& leases,
+                                                         const std::string& to) {
+    Operation operation{Verb::HandOver, {}};
+    for (const Lease& each : leases) {
+        operation.errands.push_back({each.agent, each.prefix});
+        operation.errands.back().send(mirror, "handOverControl",
+                                      {{"prefix", each.prefix}, {"to", Names{to}}}, patience);
     }
     operations.emplace(++last, std::move(operation));
     changed.notify_all();
@@ -99,7 +113,7 @@ bool LeaseClient::Implementation::advance(Operation& operation, Moment now) {
         const bool answered = each.poll(mirror, now, patience);
         over = over && answered;
         if (answered && operation.verb == Verb::Take && each.answer.done()) {
-            kept.grant(each.agent, operation.prefix, each.sent);
+            kept.grant(each.agent, each.prefix, each.sent);
         }
     }
     return over;
@@ -109,7 +123,7 @@ void LeaseClient::Implementation::finish(const Operation& operation) {
     if (operation.verb == Verb::Take) return finishTaking(operation);
     if (operation.verb == Verb::Release) return;
     for (const Errand& each : operation.errands) {
-        if (each.answer.done()) kept.dropBelow(each.agent, operation.prefix);
+        if (each.answer.done()) kept.dropBelow(each.agent, each.prefix);
     }
 }
 
@@ -119,16 +133,16 @@ void LeaseClient::Implementation::finishTaking(const Operation& operation) {
                                            [](const Errand& each) { return each.answer.done(); });
     for (const Errand& each : operation.errands) {
         if (taken) {
-            kept.settle(each.agent, operation.prefix);
+            kept.settle(each.agent, each.prefix);
         } else if (each.answer.done() || each.answer.outcome == Outcome::Unknown) {
-            kept.drop(each.agent, operation.prefix);
-            giveBack(each.agent, operation.prefix);
+            kept.drop(each.agent, each.prefix);
+            giveBack(each.agent, each.prefix);
         }
     }
 }
 
 void LeaseClient::Implementation::giveBack(const std::string& agent, const std::string& prefix) {
-    releases.push_back({agent});
+    releases.push_back({agent, prefix});
     releases.back().send(mirror, "releaseControl", {{"prefix", prefix}}, releaseLimit);
 }
 
@@ -147,13 +161,20 @@ void LeaseClient::Implementation::step(Moment now) {
         changed.notify_all();
     }
     std::erase_if(releases, [&](Errand& each) { return each.poll(mirror, now, releaseLimit); });
+    lookAround(now);
+    kept.renew(now, renews);
+}
+
+void LeaseClient::Implementation::lookAround(Moment now) {
     // What is being taken, or was just released, may still stand in an image.
     if (look && operations.empty() && releases.empty() && now - looked >= betweenOffers) {
         looked = now;
         look();
         kept.findOffers();
     }
-    kept.renew(now, renews);
+    if (now - heard < betweenAsks) return;
+    heard = now;
+    asks.step(now, askNews);
 }
 
 void LeaseClient::Implementation::run() {
@@ -168,10 +189,11 @@ void LeaseClient::Implementation::run() {
 void LeaseClient::Implementation::releaseAll() {
     for (const auto& [number, operation] : operations) {
         for (const Errand& each : operation.errands) {
-            if (operation.verb == Verb::Take) giveBack(each.agent, operation.prefix);
+            if (operation.verb == Verb::Take) giveBack(each.agent, each.prefix);
         }
     }
     for (const Lease& each : kept.granted()) giveBack(each.agent, each.prefix);
+    asks.withdraw();
     const Moment end = std::chrono::steady_clock::now() + releaseLimit;
     for (Errand& each : releases) {
         const auto left =
@@ -199,7 +221,7 @@ LeaseClient::~LeaseClient() {
 
 std::uint64_t LeaseClient::take(const std::string& prefix, const std::vector<std::string>& agents) {
     const std::lock_guard lock{implementation_->mutex};
-    return implementation_->begin(Implementation::Verb::Take, prefix, agents, "");
+    return implementation_->begin(Implementation::Verb::Take, prefix, agents);
 }
 
 std::uint64_t LeaseClient::release(const std::string& prefix,
@@ -208,13 +230,59 @@ std::uint64_t LeaseClient::release(const std::string& prefix,
     const std::lock_guard lock{self.mutex};
     const std::vector<std::string> from = self.holding(prefix, agents);
     for (const std::string& agent : from) self.kept.drop(agent, prefix);
-    return self.begin(Implementation::Verb::Release, prefix, from, "");
+    return self.begin(Implementation::Verb::Release, prefix, from);
 }
 
-std::uint64_t LeaseClient::handOver(const std::string& prefix, const std::string& to) {
+std::uint64_t LeaseClient::handOver(const std::string& prefix, const std::string& to,
+                                    const std::vector<std::string>& agents) {
     const std::lock_guard lock{implementation_->mutex};
-    return implementation_->begin(Implementation::Verb::HandOver, prefix,
-                                  implementation_->holding(prefix, {}), to);
+    std::vector<Lease> leases;
+    for (const std::string& each : implementation_->holding(prefix, agents)) {
+        leases.push_back({each, prefix});
+    }
+    return implementation_->beginHandOver(leases, to);
+}
+
+// Of several that lie below one another the widest takes the others with it.
+std::uint64_t LeaseClient::grant(const Asked& asked) {
+    const std::lock_guard lock{implementation_->mutex};
+    std::vector<Lease> leases = asked.gives;
+    std::erase_if(leases, [&](const Lease& each) {
+        return std::ranges::any_of(asked.gives, [&](const Lease& other) {
+            return other.agent == each.agent && other.prefix != each.prefix &&
+                   isAtOrBelow(each.prefix, other.prefix);
+        });
+    });
+    return implementation_->beginHandOver(leases, asked.tool);
+}
+
+void LeaseClient::refuse(const Asked& asked) {
+    const std::lock_guard lock{implementation_->mutex};
+    implementation_->asks.refuse(asked);
+}
+
+std::vector<LeaseClient::Asked> LeaseClient::asked() const {
+    const std::lock_guard lock{implementation_->mutex};
+    return implementation_->asks.asked(implementation_->kept.held());
+}
+
+std::vector<LeaseClient::Holder> LeaseClient::holdersOf(const std::string& prefix) const {
+    return comms::holdersOf(implementation_->mirror, prefix);
+}
+
+void LeaseClient::ask(const std::string& prefix) {
+    const std::lock_guard lock{implementation_->mutex};
+    implementation_->asks.ask(prefix, std::chrono::steady_clock::now());
+}
+
+void LeaseClient::withdraw() {
+    const std::lock_guard lock{implementation_->mutex};
+    implementation_->asks.withdraw();
+}
+
+LeaseClient::Asking LeaseClient::asking() const {
+    const std::lock_guard lock{implementation_->mutex};
+    return implementation_->asks.asking();
 }
 
 bool LeaseClient::poll(std::uint64_t number, Answers& answers) {
@@ -257,7 +325,11 @@ void LeaseClient::renew(bool renews) {
 
 std::vector<std::string> LeaseClient::news() {
     const std::lock_guard lock{implementation_->mutex};
-    return implementation_->kept.takeNews();
+    std::vector<std::string> news = implementation_->kept.takeNews();
+    for (std::string& each : std::exchange(implementation_->askNews, {})) {
+        news.push_back(std::move(each));
+    }
+    return news;
 }
 
 }  // namespace cortex::comms

@@ -39,7 +39,7 @@ std::vector<ShownLease> leasesOf(const AgentStatus& agent, const AgentImage& ima
         const double period = static_cast<double>(agent.period) * 1e-9;
         const auto held =
             static_cast<double>(std::max<std::int64_t>(image->cycle() - cycles[i], 0));
-        ShownLease lease{agent.name, prefixes[i], holders[i], 0, held * period};
+        ShownLease lease{agent.name, prefixes[i], holders[i], 0, held * period, cycles[i]};
         lease.since = image->wallClock() - std::llround(lease.seconds * 1e9);
         leases.push_back(std::move(lease));
     }

@@ -196,6 +196,26 @@ void Mirror::actFor(const std::string& person) {
     implementation_->thread.read([&](MirrorState& state) { state.commands.actFor(person); });
 }
 
+void Mirror::introduce(const std::string& person) {
+    if (!isPerson(person)) {
+        throw Error(
+            "the name of who uses a tool has 1 to 63 bytes of UTF-8, without control characters");
+    }
+    implementation_->thread.change([&](MirrorState& state) { state.words.person = person; });
+}
+
+std::vector<ToolStatus> Mirror::tools() const {
+    return implementation_->thread.read([](MirrorState& state) { return state.tools.list(); });
+}
+
+void Mirror::tellAsks(const ControlAsk& asks,
+                      std::vector<std::pair<std::string, std::uint64_t>> refuses) {
+    implementation_->thread.change([&](MirrorState& state) {
+        state.words.asks = asks;
+        state.words.refuses = std::move(refuses);
+    });
+}
+
 std::uint64_t Mirror::send(std::string_view path, std::string_view command,
                            const Arguments& arguments, Milliseconds budget) {
     return implementation_->thread.send(path, command, arguments, budget);

@@ -103,7 +103,19 @@ void MirrorEndpoints::command() {
     answers_ = participant_.reader<Answer>(
         topics::answerTo(self_.name), [this](Answer&& sample) { inbox_.push(std::move(sample)); });
     commands_ = participant_.writer<Command>(topics::command);
-    self_.extras.push_back({commandsOthers, "1"});
+    renewExtras();
+}
+
+void MirrorEndpoints::say(const ToolWords& words) {
+    if (words == words_) return;
+    words_ = words;
+    speak();
+    renewExtras();
+}
+
+void MirrorEndpoints::renewExtras() {
+    self_.extras = words_.extras();
+    if (commands_) self_.extras.push_back({commandsOthers, "1"});
     presence_->write(self_);
 }
 

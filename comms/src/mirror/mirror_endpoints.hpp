@@ -4,6 +4,7 @@
 #include "dds/participant.hpp"
 #include "mirror/mirror_agents.hpp"
 #include "mirror/mirror_inbox.hpp"
+#include "mirror/mirror_tools.hpp"
 
 #include <array>
 #include <cstdint>
@@ -22,6 +23,7 @@ public:
     void view(const MirrorView& view, bool summarised);  // reads its streams and informs the agents
     void command();  // makes what commands need, and tells the agents to do so
     void listen();
+    void say(const ToolWords& words);                       // of this tool, from now on
     void announce(const MirrorAgents& agents, Moment now);  // this tool
     bool write(const Command& command);
 
@@ -46,6 +48,7 @@ public:
 
 private:
     void speak();
+    void renewExtras();
     void viewSummaries(bool wanted);
 
     const Sender tool_;
@@ -61,6 +64,7 @@ private:
     std::unique_ptr<Reader<EventMessage>> events_;
     std::unique_ptr<Reader<Summary>> summaries_;
     Presence self_;
+    ToolWords words_;  // that the others know
     Moment spoke_{}, announced_ = std::chrono::steady_clock::now();
     MirrorView view_;  // the one that the agents know
 };

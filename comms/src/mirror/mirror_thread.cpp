@@ -84,7 +84,10 @@ bool MirrorThread::turn() {
     {
         const std::lock_guard lock{mutex_};
         if (state_.stopping) return false;
-        if (taken - due > mostLate) state_.agents.excuse(taken - due, taken);
+        if (taken - due > mostLate) {
+            state_.agents.excuse(taken - due, taken);
+            state_.tools.excuse(taken - due, taken);
+        }
         serve(taken);
         state_.nameless = std::max(nameless, endpoints_->nameless());
     }
@@ -114,6 +117,7 @@ const MirrorAgent* MirrorThread::take(const MirrorSample& sample, Moment now) {
     MirrorAgents& agents = state_.agents;
     if (const auto* presence = std::get_if<Presence>(&sample)) {
         agents.take(*presence, now);
+        state_.tools.take(*presence, now);
     } else if (const auto* model = std::get_if<Model>(&sample)) {
         agents.take(*model, now);
     } else if (const auto* came = std::get_if<StreamBlock>(&sample)) {
@@ -126,6 +130,7 @@ const MirrorAgent* MirrorThread::take(const MirrorSample& sample, Moment now) {
         if (auto event = agents.take(*message)) events_.push_back(std::move(*event));
     } else {
         agents.withdraw(std::get<Withdrawn>(sample).agent);
+        state_.tools.withdraw(std::get<Withdrawn>(sample).agent);
     }
     return nullptr;
 }
@@ -150,7 +155,9 @@ void MirrorThread::joinAnew(Moment now) {
 
 void MirrorThread::serve(Moment now) {
     state_.agents.tick(state_.view, now);
+    state_.tools.tick(now);
     joinAnew(now);
+    endpoints_->say(state_.words);
     endpoints_->view(state_.view, state_.summarised);
     if (state_.commands.waiting() || state_.mayCommand) endpoints_->command();
     if (!state_.listeners.list().empty()) endpoints_->listen();

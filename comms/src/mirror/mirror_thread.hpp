@@ -8,6 +8,7 @@
 #include "mirror/mirror_endpoints.hpp"
 #include "mirror/mirror_inbox.hpp"
 #include "mirror/mirror_listeners.hpp"
+#include "mirror/mirror_tools.hpp"
 #include "peers/rejoin.hpp"
 #include "peers/sent_commands.hpp"
 
@@ -29,6 +30,7 @@ struct MirrorState {
         : agents{[this](const MirrorAgent& agent, const char* why) {
               commands.lose(agent.model.agent(), why);
           }},
+          tools{std::string{tool.nameText()}},
           commands{tool} {}
 
     // Whether all participants that were found, or that another one hears, have sent everything,
@@ -40,6 +42,8 @@ struct MirrorState {
     bool isOwned(std::string_view path, Mirror::Milliseconds others);
 
     MirrorAgents agents;
+    MirrorTools tools;  // the others
+    ToolWords words;    // of this one
     SentCommands commands;
     MirrorView view;
     bool summarised = false;  // summaries are viewed

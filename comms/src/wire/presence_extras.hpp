@@ -27,6 +27,11 @@ inline constexpr const char* firstOfPairs = "first";        // "one>two": who wa
 inline constexpr const char* rootPaths = "roots";           // its topmost paths, or "*"
 inline constexpr const char* otherSelf = "other";           // who else speaks in its name, in words
 inline constexpr const char* commandsOthers = "commands";   // "1": a tool that may command soon
+// Of a tool: who uses it, in words; what it asks holders of control for, "NUMBER PREFIX"; and, once
+// for each, an ask of another tool that it refuses, "NUMBER TOOL".
+inline constexpr const char* userOfTool = "person";
+inline constexpr const char* asksFor = "asks";
+inline constexpr const char* refusedAsk = "refuses";
 // Of an agent: "1": it can send summaries. Of an interest: "1": its sender wants them.
 inline constexpr const char* summaries = "summary";
 // Of the first sample of a model: the signed list of its agent.

@@ -15,7 +15,9 @@ static int usage(void) {
         "client DOMAIN list                         path, type, role and agent of each simplex\n"
         "client DOMAIN values PREFIX [BLOCKS]       values at and below PREFIX\n"
         "client DOMAIN summary PREFIX               quality and state at and below PREFIX\n"
-        "client DOMAIN call PATH COMMAND [NAME=V,V…]…\n");
+        "client DOMAIN call PATH COMMAND [NAME=V,V…]…\n"
+        "client DOMAIN ask NAME PREFIX              for control, in the name of a person: who is\n"
+        "                                           there, until somebody refuses it\n");
     return 2;
 }
 
@@ -276,6 +278,26 @@ static int call(Tool* tool, const Models* models, int count, char** words) {
     return 1;
 }
 
+// --- people --------------------------------------------------------------------------------------
+
+static int ask(Tool* tool, const char* person, const char* prefix) {
+    tool->person = person;
+    tool->asks = prefix;
+    int told = 0;
+    for (const int64_t end = now() + 40 * second; now() < end;) {
+        step(tool);
+        for (; told < tool->peopleCount; ++told) {
+            printf("%s is used by %s\n", tool->people[told].tool, tool->people[told].person);
+        }
+        for (int i = 0; i < told; ++i) {
+            if (!tool->people[i].refused) continue;
+            printf("%s refuses\n", tool->people[i].tool);
+            return 1;
+        }
+    }
+    return 3;
+}
+
 int main(int count, char** words) {
     if (count < 3) return usage();
     const char* verb = words[2];
@@ -291,6 +313,8 @@ int main(int count, char** words) {
         result = summary(&tool, &models, words[3]);
     } else if (strcmp(verb, "call") == 0 && count >= 5) {
         result = call(&tool, &models, count - 3, words + 3);
+    } else if (strcmp(verb, "ask") == 0 && count == 5) {
+        result = ask(&tool, words[3], words[4]);
     } else {
         usage();
     }

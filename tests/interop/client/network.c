@@ -95,6 +95,11 @@ static void tell(const Tool* tool, char* state) {
     char host[64] = "";
     gethostname(host, sizeof host - 1);
     uint16_t major = 1;
+    char asks[160];
+    cortex_Extra extras[2] = {{.name = "person", .value = (char*)tool->person},
+                              {.name = "asks", .value = asks}};
+    if (tool->asks != NULL) snprintf(asks, sizeof asks, "1 %s", tool->asks);
+    const uint32_t said = tool->person == NULL ? 0 : tool->asks == NULL ? 1 : 2;
     cortex_Presence presence = {.name = (char*)tool->name,
                                 .host = host,
                                 .epoch = tool->epoch,
@@ -102,7 +107,8 @@ static void tell(const Tool* tool, char* state) {
                                 .state = state,
                                 .majors = {._length = 1, ._buffer = &major},
                                 .interval = 100000000,
-                                .security = ""};
+                                .security = "",
+                                .extras = {._length = said, ._buffer = extras}};
     memcpy(presence.agent, idOf(tool->name, NULL, NULL).octets, 16);
     dds_write(tool->presences, &presence);
 }
@@ -122,7 +128,37 @@ static Agent* agentNamed(Tool* tool, const char* name) {
     return agent;
 }
 
+static Person* personIn(Tool* tool, const char* name) {
+    for (int i = 0; i < tool->peopleCount; ++i) {
+        if (strcmp(tool->people[i].tool, name) == 0) return &tool->people[i];
+    }
+    if (tool->peopleCount == mostPeople || strcmp(name, tool->name) == 0) return NULL;
+    Person* person = &tool->people[tool->peopleCount++];
+    snprintf(person->tool, sizeof person->tool, "%s", name);
+    return person;
+}
+
+static void takeTool(Tool* tool, const cortex_Presence* presence) {
+    const char *who = NULL, *asks = "";
+    bool refused = false;
+    char refusal[80];
+    snprintf(refusal, sizeof refusal, "1 %s", tool->name);
+    for (uint32_t i = 0; i < presence->extras._length; ++i) {
+        const cortex_Extra* extra = &presence->extras._buffer[i];
+        if (strcmp(extra->name, "person") == 0) who = extra->value;
+        if (strcmp(extra->name, "asks") == 0) asks = extra->value;
+        refused =
+            refused || (strcmp(extra->name, "refuses") == 0 && strcmp(extra->value, refusal) == 0);
+    }
+    Person* person = who == NULL ? NULL : personIn(tool, presence->name);
+    if (person == NULL) return;
+    snprintf(person->person, sizeof person->person, "%s", who);
+    snprintf(person->asks, sizeof person->asks, "%s", asks);
+    person->refused = refused;
+}
+
 static void take(Tool* tool, const cortex_Presence* presence) {
+    if (strcmp(presence->role, "tool") == 0) takeTool(tool, presence);
     Agent* agent = strcmp(presence->role, "agent") == 0 ? agentNamed(tool, presence->name) : NULL;
     if (agent == NULL || presence->epoch < agent->epoch) return;  // an earlier start of that name
     agent->epoch = presence->epoch;

@@ -6,7 +6,13 @@
 
 #include <dds/dds.h>
 
-enum { mostAgents = 64 };
+enum { mostAgents = 64, mostPeople = 16 };
+
+// Another tool that says who uses it.
+typedef struct {
+    char tool[64], person[64], asks[144];
+    bool refused;  // what this tool asks for
+} Person;
 
 typedef struct {
     char name[64];
@@ -16,6 +22,9 @@ typedef struct {
     int64_t presenceDue;  // ns
     Agent agents[mostAgents];
     int agentCount;
+    Person people[mostPeople];
+    int peopleCount;
+    const char *person, *asks;  // who uses this tool, and what it asks for; NULL: not said
 } Tool;
 
 int64_t now(void);  // ns, of this process alone

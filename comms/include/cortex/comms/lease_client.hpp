@@ -17,6 +17,7 @@ struct ShownLease {
     std::string agent, prefix, holder;
     std::int64_t since = 0;  // UTC ns
     double seconds = 0;      // since then, in the agent's own time
+    std::int64_t cycle = 0;  // of the agent, in which it was taken or handed over
 };
 
 // By prefix. Empty: nothing is held, or the agent's own simplex is not viewed.
@@ -41,6 +42,24 @@ public:
         CommandAnswer answer;  // Unknown: none came within 3 s
     };
     using Answers = std::vector<Answer>;
+    // What the user of another tool asks us for.
+    struct Asked {
+        std::string tool, person, prefix;
+        std::uint64_t number = 0;  // of that tool
+        std::vector<Lease> gives;  // what we would hand over: never empty
+    };
+    // Somebody who holds a part of what we ask for.
+    struct Holder {
+        std::string name;          // of a tool or an agent
+        std::string person;        // who uses it; empty: it does not say so, and cannot be asked
+        std::vector<Lease> holds;  // of what we ask for
+        bool refused = false;      // to us
+    };
+    // What we ask for, and whom; empty prefix: nothing.
+    struct Asking {
+        std::string prefix;
+        std::vector<Holder> holders;  // by name; those who gave it away or lost it are no more
+    };
 
     explicit LeaseClient(Mirror& mirror);
     ~LeaseClient();
@@ -53,13 +72,29 @@ public:
     // What is held from these agents with exactly this prefix; no agents: from all. It is not
     // renewed from now on, whatever they answer.
     std::uint64_t release(const std::string& prefix, const std::vector<std::string>& agents = {});
-    // The same leases go to another tool or agent, and what is held further down with them.
-    std::uint64_t handOver(const std::string& prefix, const std::string& to);
+    // The same leases go to another tool or agent, and what is held further down with them. No
+    // agents: those of all.
+    std::uint64_t handOver(const std::string& prefix, const std::string& to,
+                           const std::vector<std::string>& agents = {});
     bool poll(std::uint64_t number, Answers& answers);  // once
     Answers wait(std::uint64_t number);                 // at most 3 s
 
     std::vector<Lease> held() const;  // in the order in which they were taken
     bool covers(std::string_view agent, std::string_view path) const;
+
+    // Who holds a part of what lies at and below this prefix, ourselves left out. The agents' own
+    // simplexes must be in the mirror's view, as for all that follows.
+    std::vector<Holder> holdersOf(const std::string& prefix) const;
+    // Asks them all for it; what was asked for before is withdrawn. It ends when nobody else holds
+    // a part of it, when all who can be asked have refused, after two minutes, or with withdraw();
+    // news() says what became of it. Each tool must say who uses it (Mirror::introduce).
+    void ask(const std::string& prefix);
+    void withdraw();
+    Asking asking() const;
+    // Who asks for something that we hold a part of, and got no answer yet: the longest first.
+    std::vector<Asked> asked() const;
+    std::uint64_t grant(const Asked& asked);  // hands over what it gives; answers as handOver()
+    void refuse(const Asked& asked);
 
     // From now on accepts what is handed over to us. `look` is called twice a second; it keeps the
     // agents' own simplexes in the mirror's view.

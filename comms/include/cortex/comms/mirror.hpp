@@ -100,6 +100,16 @@ public:
     // bytes; empty: of the tool itself). Events and answers say it again; no right follows from it.
     // Throws Error for a longer name or one with control characters.
     void actFor(const std::string& person);
+    // From now on tells all others who uses this tool: a person who may hold control in it. Throws
+    // Error unless it is a text of 1 to 63 bytes of UTF-8 without control characters.
+    void introduce(const std::string& person);
+    // The others that say who uses them and are heard, by name. Those that another one replaces
+    // under its name, or that say nothing for four times their interval, are left out.
+    std::vector<ToolStatus> tools() const;
+    // What this tool asks for from now on, and what it refuses others. LeaseClient says both.
+    void tellAsks(const ControlAsk& asks,
+                  std::vector<std::pair<std::string, std::uint64_t>> refuses);
+
     // Sends a command. It expires if the agent has not read it within `budget` of the agent's time.
     // The number identifies the answer. Throws Error for unknown paths, commands and parameters,
     // and for values of the wrong kind. The agent checks states and ranges.

@@ -46,6 +46,24 @@ struct AgentStatus {
     std::string refused;      // messages: "4: a command with a wrong id", the reason of the last
 };
 
+// What a tool asks those for who hold control of a part of it. The number tells its asks apart,
+// from 1; 0: it asks for nothing.
+struct ControlAsk {
+    std::uint64_t number = 0;
+    std::string prefix;
+    bool operator==(const ControlAsk&) const = default;
+};
+
+// Another tool that says who uses it, as a window and a shell do: a person may hold control in it.
+struct ToolStatus {
+    std::string name, host;  // the name as agents see it: the holder of its leases
+    std::string person;      // as it says; nobody proves it, and no right follows from it
+    std::string security;    // as AgentStatus; if "on", the name up to '@' is its certificate's
+    ControlAsk asks;
+    // The asks of others that it has refused of late: the name of the other tool, and the number.
+    std::vector<std::pair<std::string, std::uint64_t>> refuses;
+};
+
 // What was not let in for one reason.
 struct Refused {
     std::uint64_t count = 0;
