@@ -4,7 +4,6 @@
 #include <chrono>
 
 namespace cortex::test {
-namespace {
 
 comms::NetworkOptions ownNetwork() {
     comms::NetworkOptions options;
@@ -12,8 +11,6 @@ comms::NetworkOptions ownNetwork() {
     options.interfaces = {"127.0.0.1"};
     return options;
 }
-
-}  // namespace
 
 bool becomesTrue(const std::function<bool()>& condition, const Place& place) {
     return looksUntil(condition, std::this_thread::yield, place);

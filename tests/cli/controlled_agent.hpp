@@ -17,7 +17,9 @@ namespace cortex::test {
 // While patience lasts.
 bool becomesTrue(const std::function<bool()>& condition, const Place& place = Place::current());
 
-// `cortex` on the network of this test.
+comms::NetworkOptions ownNetwork();  // that of this test
+
+// `cortex` on it.
 std::vector<std::string> cortexCommand(const std::vector<std::string>& arguments);
 
 // Who holds what, by `cortex leases`.

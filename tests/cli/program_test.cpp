@@ -10,9 +10,9 @@ namespace {
 
 using nlohmann::json;
 
-const std::vector<std::string> verbs{"validate",   "diff",   "types",  "graph",  "new-type",
-                                     "new-system", "agents", "list",   "show",   "watch",
-                                     "call",       "set",    "leases", "events", "conform"};
+const std::vector<std::string> verbs{
+    "validate", "diff",  "types", "graph", "new-type", "new-system", "agents", "list",
+    "show",     "watch", "call",  "set",   "leases",   "people",     "events", "conform"};
 
 TEST(CortexProgram, ExplainsEveryVerbWithAnExample) {
     const Outcome all = cortex({"--help"});

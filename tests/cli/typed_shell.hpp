@@ -13,12 +13,16 @@ namespace cortex::test {
 
 // `cortex shell` on a terminal of its own, on the network of this test.
 struct TypedShell : OnTerminal {
-    explicit TypedShell(const ModelFolder& folder)  // its home
+    // In its home; `person`: who uses it.
+    explicit TypedShell(const ModelFolder& folder, const std::string& person = "somebody")
         : OnTerminal{std::vector<std::string>{"/usr/bin/env", "HOME=" + folder.path().string()} +
-                     cortexCommand({"shell"})} {
+                     cortexCommand({"shell", "--name", person})},
+          who{person} {
         EXPECT_TRUE(shows("cortex> ")) << output();
-        const std::size_t begin = output().find("you are ") + 8;
-        name = output().substr(begin, output().find(' ', begin) - begin);
+        const std::string before = "you are " + person + " (";
+        const std::size_t begin = output().find(before) + before.size();
+        name = output().substr(begin, output().find(") in domain", begin) - begin);
+        who += " (" + name + ")";
     }
     // Types keys again each second until they have this effect: what comes while the line editor
     // changes the terminal's mode is lost. Control-U begins the line anew.
@@ -43,7 +47,7 @@ struct TypedShell : OnTerminal {
         EXPECT_TRUE(prompt || shows("> ")) << output();
     }
 
-    std::string name;
+    std::string name, who;  // of the tool, and of both
 };
 
 }  // namespace cortex::test

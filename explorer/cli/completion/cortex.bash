@@ -4,17 +4,17 @@ _cortex() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
     local verb=${COMP_WORDS[1]} options i
     local network="--domain --interface --peer --discovery-server --security --timeout --json --help"
-    local verbs="agents list show watch call set leases shell events top save restore conform doctor"
-    verbs+=" validate diff types graph new-type new-system security"
+    local verbs="agents list show watch call set leases people shell events top save restore"
+    verbs+=" conform doctor validate diff types graph new-type new-system security"
     COMPREPLY=()
     if ((COMP_CWORD == 1)); then
         mapfile -t COMPREPLY < <(compgen -W "$verbs --help --version" -- "$word")
         return
     fi
     case $verb in
-        agents | list | show | leases | doctor) options=$network ;;
+        agents | list | show | leases | people | doctor) options=$network ;;
         call | set) options="--take $network" ;;
-        shell) options="--keep-going ${network/--json /}" ;;
+        shell) options="--name --keep-going ${network/--json /}" ;;
         top) options="--rate --seconds --once --until-gone $network" ;;
         save) options="--force $network" ;;
         conform) options="--move --speed --home --grip --seconds --junit --force --take $network" ;;

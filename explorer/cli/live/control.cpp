@@ -5,10 +5,10 @@
 
 #include "common/needed_control.hpp"
 #include "live/lease_text.hpp"
+#include "live/people.hpp"
 #include "text/interrupts.hpp"
 
 #include <algorithm>
-#include <set>
 #include <thread>
 
 namespace cortex::cli {
@@ -24,18 +24,17 @@ using common::withoutEnd;
 std::string holdersText(Live& live, const Lease& key) {
     live.view({"/" + key.agent}, 100);
     live.mirror().waitForValues(std::max(live.left(), toTell));
-    std::string text;
-    for (const comms::AgentStatus& agent : live.mirror().agents()) {
-        if (agent.name != key.agent) continue;
-        for (const comms::ShownLease& each :
-             comms::leasesOf(agent, live.mirror().image(agent.name))) {
-            const bool common =
-                isAtOrBelow(each.prefix, key.prefix) || isAtOrBelow(key.prefix, each.prefix);
-            if (!common || each.holder == live.mirror().name()) continue;
-            text += (text.empty() ? "" : ", ") + holderText(live.mirror(), each);
-        }
-    }
-    return text;
+    auto leases = shownLeases(live);
+    std::erase_if(leases, [&](const comms::ShownLease& each) {
+        const bool common =
+            isAtOrBelow(each.prefix, key.prefix) || isAtOrBelow(key.prefix, each.prefix);
+        return each.agent != key.agent || !common || each.holder == live.mirror().name();
+    });
+    std::vector<std::string> holders, texts;
+    for (const auto& each : leases) holders.push_back(each.holder);
+    if (!holders.empty()) waitForPeople(live, holders);
+    for (const auto& each : leases) texts.push_back(holderText(live, each));
+    return joined(texts);
 }
 
 // No refusal: the agent was not heard, or its loop did not go on. To take control again does no
@@ -52,21 +51,8 @@ bool isSilence(const comms::CommandAnswer& answer) {
     if (holders.empty()) throw Failure{No, start + answer.text()};
     throw Failure{No, start + holders +
                           "; the holder must release it or hand it over to you, nobody else can; "
-                          "it ends 2 s after its holder ends ('cortex leases' shows all)"};
-}
-
-// The agents that have something at or below the prefix.
-std::set<std::string> agentsBelow(Live& live, const std::string& prefix) {
-    std::set<std::string> agents;
-    for (const FoundSimplex& each : live.below(prefix)) agents.insert(each.agent);
-    for (const comms::AgentStatus& each : live.mirror().agents()) {
-        if (each.state == "lost") agents.erase(each.name);
-    }
-    if (agents.empty()) {
-        throw Failure{NotFound, "no agent has anything at or below " + prefix +
-                                    "; 'cortex list' shows what there is"};
-    }
-    return agents;
+                          "it ends 2 s after its holder ends ('cortex leases' shows all, 'ask " +
+                          key.prefix + "' in 'cortex shell' asks for it)"};
 }
 
 // Tries again while an agent is silent and time is left. A refusal is final.
@@ -109,6 +95,19 @@ void checkAnswers(const comms::LeaseClient::Answers& answers, const std::string&
 }
 
 }  // namespace
+
+std::set<std::string> agentsBelow(Live& live, const std::string& prefix) {
+    std::set<std::string> agents;
+    for (const FoundSimplex& each : live.below(prefix)) agents.insert(each.agent);
+    for (const comms::AgentStatus& each : live.mirror().agents()) {
+        if (each.state == "lost") agents.erase(each.name);
+    }
+    if (agents.empty()) {
+        throw Failure{NotFound, "no agent has anything at or below " + prefix +
+                                    "; 'cortex list' shows what there is"};
+    }
+    return agents;
+}
 
 void takeControl(Live& live, const std::string& prefix) {
     checkPrefix(prefix);

@@ -6,6 +6,7 @@
 #include "live/live.hpp"
 
 #include <optional>
+#include <set>
 #include <string>
 
 // Control of parts of the plant: who may command them.
@@ -14,6 +15,8 @@ namespace cortex::cli {
 // Takes the lease on a prefix from every agent with something at or below it, or from none. Throws
 // Failure that names the holder and says what to do.
 void takeControl(Live& live, const std::string& prefix);
+// The agents that have something at or below the prefix; throws Failure if there is none.
+std::set<std::string> agentsBelow(Live& live, const std::string& prefix);
 void releaseControl(Live& live, const std::string& prefix);
 void handOverControl(Live& live, const std::string& prefix, const std::string& to);
 

@@ -2,6 +2,7 @@
 #include "live/lease_text.hpp"
 
 #include "live/live_values.hpp"
+#include "live/people.hpp"
 
 #include <cmath>
 
@@ -27,11 +28,11 @@ std::string hostOf(const comms::Mirror& mirror, const std::string& holder) {
     return holder.substr(at + 1, dot - at - 1);
 }
 
-std::string holderText(const comms::Mirror& mirror, const comms::ShownLease& lease) {
-    const std::string host = hostOf(mirror, lease.holder);
-    return lease.holder + (host.empty() ? "" : " on host " + host) + " holds " + lease.prefix +
-           " of agent " + lease.agent + " since " + common::utcText(lease.since) + " (" +
-           durationText(lease.seconds) + ")";
+std::string holderText(Live& live, const comms::ShownLease& lease) {
+    const std::string host = hostOf(live.mirror(), lease.holder);
+    return whoIs(live, lease.holder) + (host.empty() ? "" : " on host " + host) + " holds " +
+           lease.prefix + " of agent " + lease.agent + " since " + common::utcText(lease.since) +
+           " (" + durationText(lease.seconds) + ")";
 }
 
 }  // namespace cortex::cli

@@ -125,10 +125,14 @@ bool Live::waitInSlices(Wait wait) {
     return false;
 }
 
-void Live::waitForAll(const std::string& prefix) {
+bool Live::waitForAny() {
     everybodyCame_ =
         waitInSlices([&](Milliseconds limit) { return mirror().waitUntilComplete(limit); });
-    if (mirror().agents().empty()) failWithNobody();
+    return !mirror().agents().empty();
+}
+
+void Live::waitForAll(const std::string& prefix) {
+    if (!waitForAny()) failWithNobody();
     const bool found = waitInSlices([&](Milliseconds limit) {
         return !below(prefix).empty() || mirror().waitUntilComplete(limit, nobodyNew);
     });
@@ -295,6 +299,10 @@ void Live::printWarnings() const {
     }
     const std::string refused = refusedHere();
     if (!refused.empty()) std::cerr << "cortex: " << printable(refused) << '\n';
+    printClosed();
+}
+
+void Live::printClosed() const {
     const std::string others = closedText(mirror().closed());
     if (others.empty()) return;
     std::cerr << "cortex: " << others

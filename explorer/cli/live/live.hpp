@@ -56,6 +56,9 @@ public:
     comms::Mirror& mirror() { return session_->mirror(); }
     const comms::Mirror& mirror() const { return session_->mirror(); }
     comms::LeaseClient& leases() { return session_->leases(); }
+    AskNews& askNews() { return session_->askNews(); }
+    const std::string& person() const { return session_->person(); }  // who uses it, if known
+    std::chrono::steady_clock::time_point since() const { return session_->since(); }
     void view(std::vector<std::string> prefixes, std::uint32_t rate) {
         session_->view(std::move(prefixes), rate);
     }
@@ -70,12 +73,14 @@ public:
     // Until everything of everybody is here, and where nothing of it is at or below the prefix,
     // until nobody new comes; throws Failure if nobody is there.
     void waitForAll(const std::string& prefix = "/");
+    bool waitForAny();  // the first half of it; false: nobody is there
     // The path, if several agents have it.
     std::optional<comms::Contested> contestOf(const std::string& path) const;
     void tellContest(const std::string& path);  // on standard error, once
     // Paths of several agents, agents whose loop is not well, and participants that cannot be seen
     // without security, on standard error.
     void printWarnings() const;
+    void printClosed() const;  // the last of these alone
     comms::AgentStatus statusOf(const std::string& agent) const;
     // Participants that did not say who they are. Who comes when everybody was there does not
     // count.

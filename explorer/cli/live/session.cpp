@@ -46,6 +46,11 @@ comms::CommandAnswer Session::call(const std::string& path, const std::string& c
     }
 }
 
+void Session::introduce(const std::string& person) {
+    mirror_.introduce(person);
+    person_ = person;
+}
+
 void Session::view(std::vector<std::string> prefixes, std::uint32_t rate) {
     {
         const std::lock_guard lock{viewMutex_};

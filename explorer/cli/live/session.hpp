@@ -3,6 +3,8 @@
 
 #include "cortex/comms/lease_client.hpp"
 
+#include "live/ask_news.hpp"
+
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -31,6 +33,11 @@ public:
     const std::vector<std::string>& named() const { return named_; }
     const std::string& discoveryServer() const { return server_; }  // empty: none
     Milliseconds timeout() const { return timeout_; }
+    std::chrono::steady_clock::time_point since() const { return since_; }  // on the network
+    // Tells the others who uses this session. Throws Error for what nobody may be called.
+    void introduce(const std::string& person);
+    const std::string& person() const { return person_; }  // empty: nobody was introduced
+    AskNews& askNews() { return askNews_; }
     // As the mirror does, but an interrupt ends it; `meanwhile` is called ten times a second.
     comms::CommandAnswer call(const std::string& path, const std::string& command,
                               const comms::Mirror::Arguments& arguments, Milliseconds limit,
@@ -51,6 +58,9 @@ private:
     std::vector<std::string> named_;
     std::string server_;
     Milliseconds timeout_;
+    std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();
+    std::string person_;
+    AskNews askNews_;
     std::mutex viewMutex_;
     std::vector<std::string> wanted_, viewed_;
     std::uint32_t rate_ = slowRate, viewedRate_ = slowRate;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "text/line_editor.hpp"
 
+#include "cortex/core/cell.hpp"
+
 #include "text/interrupts.hpp"
 #include "text/plain_text.hpp"
+#include "text/words.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,6 +34,7 @@ std::string commonStart(const std::vector<std::string>& words) {
         const auto end = std::ranges::mismatch(start, each).in1;
         start.erase(end, start.end());
     }
+    start.resize(fittingLength(words.front(), start.size()));
     return start;
 }
 
@@ -133,7 +137,7 @@ struct LineEditor::Implementation {
     static unsigned char complete(EditLine* editor, int) {
         const LineInfo* line = el_line(editor);
         const std::string before{line->buffer, line->cursor};
-        const std::string word = before.substr(before.find_last_of(" \t") + 1);
+        const std::string word = before.substr(lastWord(before));
         std::vector<std::string> fitting = of(editor).hooks.complete(before);
         std::erase_if(fitting, [&](const std::string& each) { return !each.starts_with(word); });
         std::ranges::sort(fitting);

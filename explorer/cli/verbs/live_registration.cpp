@@ -154,6 +154,13 @@ longer with 'take PREFIX' in 'cortex shell'.
 Example:
   cortex leases)",
         std::make_shared<LiveOptions>(), listLeases);
+    verbs.add(
+        "people", "Show who is at a window or a shell, with what they hold and ask for",
+        R"(People are named as they say (--name of 'cortex shell' and 'cortex-explorer'), and tools as agents
+see them. In 'cortex shell', 'handover' and 'ask' take and pass control between them.
+Example:
+  cortex people)",
+        std::make_shared<LiveOptions>(), listPeople);
 }
 
 void addEvents(LiveVerbs& verbs) {

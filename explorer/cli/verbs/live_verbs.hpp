@@ -55,6 +55,7 @@ std::string howToSet(const std::string& path,
                      const std::vector<std::string>& arguments);  // command "set"
 
 Exit listLeases(const LiveOptions& options);
+Exit listPeople(const LiveOptions& options);
 
 struct EventOptions : LiveOptions {
     std::string prefix = "/";

@@ -3,7 +3,10 @@
 
 #include "cortex/core/nearest_names.hpp"
 
+#include "live/asking.hpp"
 #include "live/control.hpp"
+#include "live/people.hpp"
+#include "verbs/asking_commands.hpp"
 #include "verbs/live_registration.hpp"
 
 #include <algorithm>
@@ -33,8 +36,9 @@ Exit release(const ControlOptions& options) {
 
 Exit handOver(const ControlOptions& options) {
     Live live{options.network};
-    handOverControl(live, options.prefix, options.to);
-    std::cout << options.prefix << " was handed over to " << printable(options.to)
+    const std::string to = recipientOf(live, options.to);
+    handOverControl(live, options.prefix, to);
+    std::cout << options.prefix << " was handed over to " << whoIs(live, to)
               << ", who must renew it within 2 s; a shell does so by itself\n";
     return Yes;
 }
@@ -102,14 +106,17 @@ Example:
                std::make_shared<ControlOptions>(), release);
     const auto to = std::make_shared<ControlOptions>();
     addControl(
-        verbs, "handover", "Give control to another agent or tool",
-        R"(A shell says its name when it begins. It keeps what is handed over to it; another tool must renew it.
-Example:
+        verbs, "handover", "Give control to another agent, tool or person",
+        R"(A person is who uses one window or shell alone; 'people' shows their names. These keep what is handed
+over to them; another tool must renew it.
+Examples:
+  handover /arm alice
   handover /arm cortex@desk.4711-5e1f0a)",
         to, handOver)
-        ->add_option("TO", to->to, "Name of the agent or tool")
+        ->add_option("TO", to->to, "Whole name of the agent, tool or person")
         ->required()
         ->type_name("");
+    addAskingCommands(verbs);
     const auto name = std::make_shared<std::string>();
     verbs
         .addPlain("help", "List the verbs, or explain one", "Example:\n  help watch",

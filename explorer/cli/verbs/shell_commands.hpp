@@ -5,7 +5,7 @@
 
 namespace cortex::cli {
 
-// What a shell has beyond the verbs: take, release, handover, help, quit.
+// What a shell has beyond the verbs: take, release, handover, ask and its answers, help, quit.
 void addShellCommands(Verbs& verbs, bool& leaves);
 
 }  // namespace cortex::cli

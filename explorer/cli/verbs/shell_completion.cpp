@@ -3,24 +3,39 @@
 
 #include "cortex/core/command.hpp"
 
+#include "common/person_name.hpp"
+#include "text/words.hpp"
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <set>
-#include <sstream>
 #include <string_view>
 
 namespace cortex::cli {
 namespace {
 
-enum class What { Nothing, Path, Item, Command, Argument, Setting, File, Type, Mine, Name, Verb };
+enum class What {
+    Nothing,
+    Path,
+    Item,
+    Command,
+    Argument,
+    Setting,
+    File,
+    Type,
+    Mine,
+    Name,
+    Asking,
+    Verb
+};
 
 // What stands at the places of a verb; the last goes on.
 struct Places {
     std::string_view verb;
     std::array<What, 3> kinds;
 };
-constexpr std::array<Places, 17> places{{
+constexpr std::array<Places, 20> places{{
     {"list", {What::Path, What::Nothing, What::Nothing}},
     {"show", {What::Path, What::Nothing, What::Nothing}},
     {"watch", {What::Item, What::Item, What::Item}},
@@ -37,6 +52,9 @@ constexpr std::array<Places, 17> places{{
     {"take", {What::Path, What::Nothing, What::Nothing}},
     {"release", {What::Mine, What::Nothing, What::Nothing}},
     {"handover", {What::Mine, What::Name, What::Nothing}},
+    {"ask", {What::Path, What::Nothing, What::Nothing}},
+    {"grant", {What::Asking, What::Nothing, What::Nothing}},
+    {"refuse", {What::Asking, What::Nothing, What::Nothing}},
     {"help", {What::Verb, What::Nothing, What::Nothing}},
 }};
 
@@ -137,9 +155,18 @@ Texts mineOf(const Known& known) {
     return prefixes;
 }
 
-// Agents, and tools that hold a lease somewhere; other tools do not show themselves.
+// A name with what a terminal obeys stands for nobody: that of the tool does.
+void addPerson(Texts& names, const std::string& person) {
+    if (common::shownName(person) == person) names.push_back(person);
+}
+
+// Agents, tools that hold a lease somewhere or say who uses them, and these people.
 Texts namesOf(const Known& known) {
     Texts names;
+    for (const comms::ToolStatus& tool : known.session.mirror().tools()) {
+        names.push_back(tool.name);
+        addPerson(names, tool.person);
+    }
     for (const comms::AgentStatus& agent : known.session.mirror().agents()) {
         names.push_back(agent.name);
         for (const auto& each : comms::leasesOf(agent, known.session.mirror().image(agent.name))) {
@@ -147,6 +174,16 @@ Texts namesOf(const Known& known) {
         }
     }
     std::erase(names, known.session.mirror().name());
+    return names;
+}
+
+// Tools that ask for something of ours, and who uses them.
+Texts askingOf(const Known& known) {
+    Texts names;
+    for (const Asked& each : known.session.leases().asked()) {
+        names.push_back(each.tool);
+        addPerson(names, each.person);
+    }
     return names;
 }
 
@@ -191,31 +228,47 @@ Texts textsOf(What what, const Known& known, const std::string& word) {
             return mineOf(known);
         case What::Name:
             return namesOf(known);
+        case What::Asking:
+            return askingOf(known);
         case What::Verb:
             return verbsOf(known);
     }
     return {};
 }
 
+// What the beginning of a word says, without its quotes.
+std::string meant(const std::string& begun) {
+    auto words = splitWords(begun);
+    if (!words) words = splitWords(begun + begun.front());
+    return words && !words->empty() ? words->front() : "";
+}
+
+// As the user began to type it. A quote stays open where the text goes on.
+std::string typed(const std::string& text, const std::string& begun) {
+    constexpr std::string_view goesOn = "/.=";
+    std::string word = asWord(text, begun);
+    const bool open = !text.empty() && goesOn.find(text.back()) != std::string_view::npos;
+    if (open && word.back() != text.back()) word.pop_back();
+    return word;
+}
+
 }  // namespace
 
 std::vector<std::string> completionsOf(const std::string& before, const CLI::App& verbs,
                                        Session& session) {
-    std::istringstream stream{before};
-    Texts words;
-    for (std::string word; stream >> word;) words.push_back(word);
-    std::string word;
-    if (!before.empty() && before.back() != ' ' && before.back() != '\t') {
-        word = words.back();
-        words.pop_back();
-    }
+    const std::string begun = before.substr(lastWord(before));
+    Texts words = splitWords(before.substr(0, before.size() - begun.size())).value_or(Texts{});
+    const std::string word = meant(begun);
     if (!words.empty() && words.front() == "cortex") words.erase(words.begin());
     const Known known{verbs, session, words};
     if (words.empty()) return verbsOf(known);
     if (word.starts_with('-')) return optionsOf(known);
     const auto found = std::ranges::find(places, words.front(), &Places::verb);
     if (found == places.end()) return {};
-    return textsOf(found->kinds[std::min(words.size() - 1, found->kinds.size() - 1)], known, word);
+    const What what = found->kinds[std::min(words.size() - 1, found->kinds.size() - 1)];
+    Texts texts = textsOf(what, known, word);
+    for (std::string& each : texts) each = typed(each, begun);
+    return texts;
 }
 
 }  // namespace cortex::cli

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "verbs/shell_verb.hpp"
 
+#include "cortex/core/error.hpp"
+
+#include "common/person_name.hpp"
 #include "text/interrupts.hpp"
 #include "text/line_editor.hpp"
 #include "text/terminal.hpp"
@@ -56,7 +59,8 @@ public:
                            [this](const std::string& before) { return complete(before); },
                            [this] { return newsText(); }},
                           historyFile()};
-        std::cout << "cortex shell: you are " << session_->mirror().name() << " in domain "
+        std::cout << "cortex shell: you are "
+                  << common::whoText(session_->mirror().name(), session_->person()) << " in domain "
                   << session_->domain() << "; 'help' lists the verbs, Ctrl-D leaves" << std::endl;
         for (std::string line; !leaves_;) {
             leaveIfAsked();
@@ -101,6 +105,9 @@ private:
     std::string newsText() {
         std::vector<std::string> news;
         for (const std::string& each : session_->leases().news()) {
+            news.push_back("cortex: " + common::shownName(each));
+        }
+        for (const std::string& each : session_->askNews().news(session_->leases())) {
             news.push_back("cortex: " + printable(each));
         }
         return joined(news, "\n");
@@ -121,6 +128,15 @@ private:
     bool leaves_ = false;
 };
 
+std::string aPersonsName(const std::string& name) {
+    try {
+        common::personName(name);
+        return {};
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
 // Only this thread gets signals: those of the session are made while they are blocked.
 std::shared_ptr<Session> makeQuietSession(const NetworkArguments& network) {
     const Signals blocked;
@@ -138,6 +154,7 @@ Exit runShell(const ShellOptions& options) {
     }
     const Interrupts interrupts;
     const std::shared_ptr<Session> session = makeQuietSession(options.network);
+    session->introduce(common::personName(options.name));
     session->acceptOffers();
     Shell shell{options, session};
     if (!options.file.empty()) return shell.runLines(file, options.file);
@@ -151,15 +168,20 @@ void addShell(Verbs& verbs) {
         "shell", "Run verbs in one process, which can hold control of parts of the plant",
         R"(Each line is a verb as it stands behind 'cortex'. On a terminal with history and completion (Tab);
 Ctrl-C ends a verb, Ctrl-D the shell. Of a file or a pipe the first line that fails ends it, with the
-exit code of that line. In it, 'take', 'release' and 'handover' say who may command: docs/leases.md.
+exit code of that line. In it, 'take', 'release', 'handover' and 'ask' say who may command:
+docs/leases.md.
 Examples:
-  cortex shell
+  cortex shell --name alice
   cortex shell morning.txt
   echo "list /arm" | cortex shell)",
         [options] { return runShell(*options); });
     verb->add_option("FILE", options->file, "Lines to run; those typed or piped if not given")
         ->type_name("");
     verb->add_flag("--keep-going", options->keepGoing, "Go on after a line that fails");
+    verb->add_option("--name", options->name,
+                     "Who you are, as others see it; USER@HOST if not given; no right follows")
+        ->type_name("NAME")
+        ->check(aPersonsName);
     addNetwork(*verb, options->network, nullptr);
 }
 

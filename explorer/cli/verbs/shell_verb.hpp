@@ -12,6 +12,7 @@ namespace cortex::cli {
 struct ShellOptions {
     NetworkArguments network;
     std::string file;  // "": what is typed, or standard input
+    std::string name;  // of who uses it; "": user@host
     bool keepGoing = false;
 };
 // The verbs in one process, with one participant, until the end of its lines.

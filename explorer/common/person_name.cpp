@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/person_name.hpp"
+
+#include "cortex/core/cell.hpp"
+#include "cortex/core/error.hpp"
+#include "cortex/core/printable.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <string_view>
+
+#include <pwd.h>
+#include <unistd.h>
+
+namespace cortex::common {
+namespace {
+
+constexpr std::size_t longest = 63;
+
+// Octets of the line and paragraph separators and of the marks of direction in UTF-8.
+constexpr std::array<std::string_view, 14> turning{"\u061c", "\u200e", "\u200f", "\u2028", "\u2029",
+                                                   "\u202a", "\u202b", "\u202c", "\u202d", "\u202e",
+                                                   "\u2066", "\u2067", "\u2068", "\u2069"};
+constexpr std::array<std::string_view, 14> escapes{
+    "\\u061c", "\\u200e", "\\u200f", "\\u2028", "\\u2029", "\\u202a", "\\u202b",
+    "\\u202c", "\\u202d", "\\u202e", "\\u2066", "\\u2067", "\\u2068", "\\u2069"};
+
+std::string user() {
+    constexpr std::size_t enough = 16384;
+    std::vector<char> texts(enough);
+    passwd entry{}, *found = nullptr;
+    if (getpwuid_r(geteuid(), &entry, texts.data(), texts.size(), &found) == 0 &&
+        found != nullptr && *found->pw_name != '\0')
+        return found->pw_name;
+    const char* told = std::getenv("USER");
+    return told == nullptr || *told == '\0' ? "somebody" : told;
+}
+
+std::string userAtHost() {
+    std::array<char, 256> host{};
+    gethostname(host.data(), host.size() - 1);
+    std::string name = user() + "@" + host.data();
+    name.resize(fittingLength(name, longest));
+    return name == printable(name) ? name : "somebody";
+}
+
+}  // namespace
+
+std::string personName(const std::string& given) {
+    if (given.empty()) return userAtHost();
+    if (given.size() <= longest && given == printable(given)) return given;
+    throw Error{
+        "a name of a person is a text of at most 63 bytes, in UTF-8 and without control "
+        "characters" +
+        (given.size() > longest ? " (this has " + std::to_string(given.size()) + " bytes)" : "") +
+        "; give another one (--name NAME)"};
+}
+
+std::string shownName(const std::string& name) {
+    std::string shown = printable(name);
+    for (std::size_t i = 0; i < turning.size(); ++i) {
+        for (std::size_t at = 0; (at = shown.find(turning[i], at)) != std::string::npos;)
+            shown.replace(at, turning[i].size(), escapes[i]);
+    }
+    return shown;
+}
+
+std::string whoText(const std::string& name, const std::string& person) {
+    const std::string shown = shownName(name);
+    return person.empty() ? shown : shownName(person) + " (" + shown + ")";
+}
+
+std::string personOf(const std::vector<comms::ToolStatus>& tools, const std::string& holder) {
+    const auto found = std::ranges::find(tools, holder, &comms::ToolStatus::name);
+    return found == tools.end() ? "" : found->person;
+}
+
+}  // namespace cortex::common

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Control between people on the command line: who is there, asking, and handing over by name.
+#include "cortex/comms/lease_client.hpp"
+
+#include "cli/controlled_agent.hpp"
+#include "cli/typed_shell.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+using nlohmann::json;
+using Words = std::vector<std::string>;
+
+struct CortexPeople : CortexControl {
+    Outcome runsFile(const std::string& lines, const Words& options = {}) {
+        return cortex(
+            Words{"shell", folder.write("lines.txt", lines).string(), "--timeout", patient} +
+            options + network);
+    }
+};
+
+json peopleWhen(std::size_t count) {
+    return lookUntil([] { return liveJson({"people"}, "people"); },
+                     [&](const json& people) { return people.size() == count; });
+}
+
+// Until its verb `people` names the other one.
+void hear(TypedShell& shell, const std::string& other) { shell.typeUntil("people\r", other); }
+
+TEST_F(CortexPeople, AreListedWithTheirToolsBeforeTheyHoldAnything) {
+    EXPECT_TRUE(contains(live({"people"}).output, "nobody is at a window or a shell"));
+    TypedShell shell{folder, "Zora of the night"};
+
+    const json before = peopleWhen(1);
+    EXPECT_EQ(before[0]["person"], "Zora of the night") << before;
+    EXPECT_EQ(before[0]["tool"], shell.name);
+    EXPECT_NE(before[0]["host"], "");
+    EXPECT_TRUE(before[0]["holds"].empty());
+    EXPECT_EQ(before[0]["mine"], false);
+
+    shell.run("take /drive", "cortex [/drive]");
+    EXPECT_EQ(peopleWhen(1)[0]["holds"], (json{{{"agent", "mixer"}, {"prefix", "/drive"}}}));
+    EXPECT_EQ(leases()[0]["person"], "Zora of the night");
+    EXPECT_TRUE(contains(live({"leases"}).output, "Zora of the night"));
+    const Outcome refused = live({"set", "/drive", "naturalFrequency=8", "--take"});
+    EXPECT_TRUE(contains(refused.errors, shell.who + " on host ")) << refused.errors;
+    EXPECT_TRUE(contains(refused.errors, "'ask /drive' in 'cortex shell'")) << refused.errors;
+    shell.run("people", "  you");
+    EXPECT_EQ(peopleWhen(1).size(), 1U) << "a verb alone is nobody";
+}
+
+TEST_F(CortexPeople, AskAndGetAnAnswerThatBothSee) {
+    TypedShell alice{folder, "alice"}, bob{folder, "bob"};
+    alice.run("take /", "cortex [/]");
+    hear(bob, alice.name);
+    hear(alice, bob.name);
+    const std::string asks = "cortex: " + bob.who +
+                             " asks for /drive; 'grant' hands over "
+                             "everything of mixer, 'refuse' refuses";
+    alice.run("grant", "nobody asks for anything that you hold");
+    bob.run("withdraw", "you ask for nothing");
+
+    bob.run("ask /drive", alice.who + " is asked, and holds everything of mixer");
+    EXPECT_TRUE(alice.shows(asks)) << alice.output();
+    EXPECT_EQ(lookUntil([] { return liveJson({"people"}, "people"); },
+                        [](const json& people) { return people.size() == 2; })[1]["asks"],
+              "/drive");
+    alice.run("refuse", "/drive was refused to " + bob.who);
+    EXPECT_TRUE(bob.shows("control of /drive was refused to you by " + alice.who)) << bob.output();
+
+    bob.run("ask /drive", "is asked");
+    EXPECT_TRUE(alice.shows(asks)) << alice.output();
+    bob.run("withdraw", "you no longer ask for /drive");
+    EXPECT_TRUE(alice.shows("cortex: " + bob.who + " no longer asks for /drive"));
+    alice.run("grant alice", "nobody asks for anything that you hold");
+
+    bob.run("ask /drive", "is asked");
+    EXPECT_TRUE(alice.shows(asks)) << alice.output();
+    alice.run("grant bob", "everything of mixer was handed over to " + bob.who);
+    EXPECT_TRUE(bob.shows("control of / of agent mixer is yours now")) << bob.output();
+    EXPECT_EQ(leases()[0]["person"], "bob");
+    const auto first = alice.output().find("no longer asks");
+    EXPECT_EQ(alice.output().find("no longer asks", first + 1), std::string::npos)
+        << "what she answered herself: " << alice.output();
+}
+
+TEST_F(CortexPeople, AreHandedControlByTheirWholeNameWhereOneToolAloneHasIt) {
+    TypedShell bob{folder, "Bob of the night"}, alice{folder, "alice"};
+    hear(alice, bob.name);
+    alice.run("take /drive", "cortex [/drive]");
+    alice.run("handover /drive Bob", "no agent, tool or person is called 'Bob'");
+    alice.typeLine("handover /drive \"Bob o");
+    alice.type("\t");
+    EXPECT_TRUE(alice.shows("f the night\" ")) << alice.output();
+    alice.type("\r");
+    EXPECT_TRUE(alice.shows("/drive was handed over to " + bob.who)) << alice.output();
+    EXPECT_TRUE(bob.shows("control of /drive of agent mixer is yours now")) << bob.output();
+
+    const TypedShell other{folder, "alice"};
+    hear(bob, other.name);
+    hear(bob, alice.name);
+    bob.run("handover /drive alice", "several tools say that alice uses them");
+    EXPECT_EQ(leases()[0]["person"], "Bob of the night");
+    bob.run("handover /drive " + alice.name, "/drive was handed over to " + alice.who);
+    EXPECT_TRUE(alice.shows("control of /drive of agent mixer is yours now")) << alice.output();
+}
+
+TEST_F(CortexPeople, CannotAskWhereNobodyHoldsAPartOrNobodySaysWhoHeIs) {
+    const Holder holder{"/drive"};  // a program
+
+    const Outcome silent = runsFile("ask /drive\n");
+    EXPECT_EQ(silent.exit, 1);
+    EXPECT_TRUE(contains(silent.errors, "nobody can be asked for /drive: " + holder.name() +
+                                            " holds /drive of mixer and does not say who uses it"))
+        << silent.errors;
+    const Outcome free = runsFile("ask /axis\n");
+    EXPECT_EQ(free.exit, 1);
+    EXPECT_TRUE(contains(free.errors, "nobody else holds a part of /axis: 'take /axis' takes it"))
+        << free.errors;
+    const Outcome ours = runsFile("take /axis\nask /axis\n");
+    EXPECT_TRUE(contains(ours.errors, "you control /axis yourself")) << ours.errors;
+    EXPECT_EQ(runsFile("ask /drvie\n").exit, 3);
+    EXPECT_EQ(runsFile("ask drive\n").exit, 2);
+}
+
+// As another program may tell them: with what turns the text, and what a terminal obeys.
+TEST_F(CortexPeople, HaveNamesThatAreShownAsTextAndDoNothing) {
+    const std::string hostile =
+        "\u202eecila\u2066 <b>\"\\ \xc2\x9b"
+        "31m (cortex@vm.1-a)";
+    const std::string shown = "\\u202eecila\\u2066 <b>\"\\ \\x9b31m (cortex@vm.1-a)";
+    comms::Mirror mirror{"tool", ownNetwork()};
+    mirror.introduce(hostile);
+    comms::LeaseClient client{mirror};
+    TypedShell alice{folder, "alice"};
+    alice.run("take /drive", "cortex [/drive]");
+    hear(alice, shown + "  " + mirror.name());
+
+    client.ask("/drive");
+
+    EXPECT_TRUE(alice.shows("cortex: " + shown + " (" + mirror.name() + ") asks for /drive; "))
+        << alice.output();
+    alice.run("refuse ecila",
+              "nobody called 'ecila' asks for anything that you hold, but " + shown);
+    alice.run("refuse " + mirror.name(), "/drive was refused to " + shown);
+    EXPECT_FALSE(contains(alice.output(), "\u202e"));
+    EXPECT_FALSE(contains(alice.output(), "\xc2\x9b"));
+    EXPECT_EQ(peopleWhen(2).size(), 2U);
+}
+
+TEST(CortexPeopleNames, ThatNobodyMayHaveAreRefusedWithARemedy) {
+    for (const std::string& wrong : {std::string(64, 'x'), std::string(10'000, 'x'),
+                                     std::string{"a\nb"}, std::string{"\xff"}}) {
+        const Outcome outcome = cortex(Words{"shell", "--name", wrong} + network);
+        EXPECT_EQ(outcome.exit, 2) << outcome.output;
+        EXPECT_TRUE(contains(outcome.errors, "give another one (--name NAME)")) << outcome.errors;
+        EXPECT_LT(outcome.errors.size(), 300U);
+    }
+}
+
+}  // namespace
+}  // namespace cortex::test
