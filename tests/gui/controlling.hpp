@@ -58,7 +58,7 @@ protected:
 // Another window of the same person or of a colleague, without a screen. It goes on while that of
 // the test does.
 struct Colleague {
-    Colleague() {
+    explicit Colleague(const std::string& person = {}) : session{ownNetwork(), person} {
         QObject::connect(&alive, &QTimer::timeout, [this] { session.isAlive(); });
         alive.start(100);
     }
@@ -68,7 +68,7 @@ struct Colleague {
         now = session.frame()->control;
         return now;
     }
-    Session session{ownNetwork()};
+    Session session;
     Control now;
     QTimer alive;
 };

@@ -104,6 +104,19 @@ private:
     std::int64_t cycle_ = 0, waited_ = 0;
 };
 
+// As the agent itself shows who holds what of it.
+inline void giveLease(MadeAgent& agent, const std::string& own, const std::string& prefix,
+                      const std::string& holder) {
+    const std::uint32_t simplex = agent.at(own);
+    for (const auto& [item, text] : {std::pair{"leasePrefix", prefix}, {"leaseHolder", holder}}) {
+        const ItemLayout* layout = agent.structure->simplexes[simplex].layout->find(item);
+        std::vector<std::string> texts(layout->item->length);
+        texts.front() = text;
+        storeValue(*layout->item, Value{texts},
+                   agent.tables->live(simplex).at(Kind::String, layout->offset));
+    }
+}
+
 // A frame of these agents, with a number and structures of its own.
 inline std::shared_ptr<gui::Frame> frameOf(std::vector<gui::AgentFrame> agents) {
     static std::uint64_t count = 0;

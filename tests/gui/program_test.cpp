@@ -74,6 +74,15 @@ TEST(ProgramAlone, SaysThatADomainIsEmptyInTheWordsOfCortex) {
     EXPECT_TRUE(contains(made.errors, "no agent on domain " + domain)) << made.errors;
 }
 
+TEST(ProgramAlone, RefusesANameThatNobodyMayTellBeforeAWindowOpens) {
+    for (const std::string& name : {std::string(64, 'x'), std::string{"two\nlines"}}) {
+        const Outcome named =
+            explorerWith({"--name", name, "--screenshot", "/no/such/folder/x.png"});
+        EXPECT_EQ(named.exit, 2) << named.errors;
+        EXPECT_TRUE(contains(named.errors, "give another one (--name NAME)")) << named.errors;
+    }
+}
+
 TEST(ProgramAlone, RefusesOptionsThatItDoesNotKnowWithTheValidOnes) {
     const Outcome theme = explorerWith({"--theme", "pink"});
     EXPECT_EQ(theme.exit, 2);

@@ -4,6 +4,7 @@
 #include "cortex/core/path.hpp"
 
 #include "common/needed_control.hpp"
+#include "model/holders.hpp"
 #include "model/shown_time.hpp"
 #include "model/value_text.hpp"
 #include "session/lease.hpp"
@@ -52,7 +53,7 @@ QString whyNotControlled(const Frame& frame, Place place, std::string_view comma
         if (!isAtOrBelow(*needed, lease.prefix) && !(ofAgent && isAtOrBelow(lease.prefix, *needed)))
             continue;
         return say("held by %1 since %2 (%3)")
-            .arg(QString::fromStdString(lease.holder), clockText(lease.since),
+            .arg(shortNameOf(frame.control, lease.holder), clockText(lease.since),
                  ageText(lease.seconds));
     }
     return readOnlyText(offered(frame, place, *needed));

@@ -11,7 +11,7 @@
 namespace cortex::gui {
 
 // Why nothing can be sent to the simplex now that needs one of these states; empty: it can be sent.
-// "needs Standby", "held by cortex@desk.4711-3f since 12:03 (4 min)", "read-only: take control of
+// "needs Standby", "held by alice since 12:03 (4 min)", "read-only: take control of
 // /arm", "robot is not heard".
 // What stops something needs no control, whatever the command is that is named. Without a name it
 // is items that are set. What a command to an agent itself needs follows from its arguments.

@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
         std::cerr << "warning: " << problem.toStdString() << '\n';
     }
 
-    Session session{options->network};
+    Session session{options->network, options->person};
     session.setRate(options->rate);
     MainWindow window{session};
     window.resize(options->size);

@@ -3,6 +3,7 @@
 
 #include "cortex/core/nearest_names.hpp"
 
+#include "common/person_name.hpp"
 #include "record/recorded_item.hpp"
 
 #include <QString>
@@ -43,6 +44,15 @@ std::string checkItem(const std::string& text) {
                               : "an item is written as /drives/4.position or /arm.pose[3]";
 }
 
+std::string checkPerson(const std::string& name) {
+    try {
+        common::personName(name);
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return {};
+}
+
 }  // namespace
 
 std::optional<Options> parseOptions(int argc, char** argv, int& exit) {
@@ -75,6 +85,9 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exit) {
     app.add_option("--security", options.network.security,
                    "Folder made by `cortex security create-agent`; otherwise CORTEX_SECURITY")
         ->type_name("FOLDER");
+    app.add_option("--name", options.person,
+                   "Who you are: others see it beside what you control; otherwise user@host")
+        ->check(CLI::Validator{checkPerson, "NAME"});
     app.add_option("--view", options.view,
                    "What to show at first: simplex, data, relationships, commands, type, system, "
                    "agents, events, compare, manual, or view:NAME of a plug-in")

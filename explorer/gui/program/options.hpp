@@ -15,6 +15,7 @@ namespace cortex::gui {
 // What the command line asks for.
 struct Options {
     comms::NetworkOptions network;
+    std::string person;              // who uses the window; empty: user@host
     std::vector<std::string> paths;  // simplexes to open, each in a tab
     std::vector<std::string> plot;   // items, "/drives/4.position", in one plot
     std::string view;                // as --view lists them

@@ -11,6 +11,15 @@
 
 namespace cortex::gui {
 
+AgentFrame AgentFrame::later(double seconds) const {
+    AgentFrame result = *this;
+    result.status.age += seconds;
+    for (float& age : result.ages) {
+        if (age >= 0) age += static_cast<float>(seconds);
+    }
+    return result;
+}
+
 bool AgentFrame::beats() const { return !lost() && status.standstill.empty() && status.age < 1; }
 
 std::uint32_t AgentFrame::own() const {

@@ -44,6 +44,7 @@ struct AgentFrame {
     bool rests(std::uint32_t simplex) const;
     // How old what is shown of it is, in s; none: it never came.
     std::optional<float> age(std::uint32_t simplex) const;
+    AgentFrame later(double seconds) const;  // the same moment, so much older
 
     // It, or who writes it, starts up, is Active or shuts down: it would need its inputs.
     bool works(std::uint32_t simplex) const;
@@ -76,7 +77,11 @@ struct Place {
 
 // What this session may command. Without a prefix it is read-only.
 struct Control {
-    std::string self;  // how agents know this session
+    // Why an agent did not give what was to be taken.
+    struct Refusal {
+        std::string agent, why;
+    };
+    std::string self, person;  // how agents know this session, and who uses it
     // The paths at and below which it may command, as it was signed; none: it may only look.
     std::vector<std::string> rights{"/"};
     std::string prefix, asks;         // what it holds first; what it is taking just now
@@ -84,8 +89,16 @@ struct Control {
     std::vector<std::string> claims;  // that it held, and neither released nor handed over
     std::int64_t since = 0;           // UTC ns
     std::string notice;               // what became of it last; empty again when it is taken
-    std::string handed;               // the prefix that the notice says was handed over
-    std::vector<comms::LeaseClient::Lease> held;  // all, those handed over to it included
+    std::uint64_t told = 0;           // how many notices there were
+    // What the notice is about: prefixes that were handed over, one that was not taken, with who
+    // refused it, or one that others were asked for.
+    std::vector<std::string> handed;
+    std::string refused, sought;
+    std::vector<Refusal> refusals;
+    std::vector<comms::LeaseClient::Lease> held;   // all, those handed over to it included
+    std::vector<comms::ToolStatus> tools;          // of others who say who uses them
+    comms::LeaseClient::Asking asking;             // what it asks others for
+    std::vector<comms::LeaseClient::Asked> asked;  // what others ask it for, the longest first
 
     std::vector<std::string> prefixes() const;  // that are held, each once
     bool covers(const std::string& agent, std::string_view path) const;

@@ -3,16 +3,22 @@
 
 #include "cortex/comms/security.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/path.hpp"
 
+#include "common/person_name.hpp"
 #include "session/lease.hpp"
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <map>
 #include <utility>
 
 namespace cortex::gui {
 
 namespace {
+
+using Leases = std::vector<comms::LeaseClient::Lease>;
 
 // "Control of /arm of agent robot was lost: …."
 std::string asSentence(std::string text) {
@@ -29,26 +35,52 @@ std::vector<std::string> rightsIn(const std::string& security) {
     return {"/"};
 }
 
+// By prefix, the agents that it is held of; without what goes along with a wider one.
+std::map<std::string, std::vector<std::string>> widestOf(const Leases& held) {
+    std::map<std::string, std::vector<std::string>> agents;
+    for (const auto& each : held) {
+        const bool goesAlong = std::ranges::any_of(held, [&](const auto& other) {
+            return other.agent == each.agent && other.prefix != each.prefix &&
+                   isAtOrBelow(each.prefix, other.prefix);
+        });
+        if (!goesAlong) agents[each.prefix].push_back(each.agent);
+    }
+    return agents;
+}
+
+std::string inWords(const std::vector<std::string>& prefixes) {
+    std::string words;
+    for (const std::string& each : prefixes) words += (words.empty() ? "" : " and ") + each;
+    return words;
+}
+
 }  // namespace
 
 // The session has the agents' own simplexes in its view.
-LeaseKeeper::LeaseKeeper(comms::Mirror& mirror, const std::string& security) : client_{mirror} {
+LeaseKeeper::LeaseKeeper(comms::Mirror& mirror, const std::string& person,
+                         const std::string& security)
+    : mirror_{mirror}, client_{mirror} {
     control_.self = mirror.name();
+    control_.person = person;
     control_.rights = rightsIn(security);
     client_.acceptOffers([] {});
 }
 
 void LeaseKeeper::take(const std::string& prefix, const Frame& frame) {
-    if (taking_ != 0) return;
+    if (taking_ != 0) {
+        next_ = prefix;
+        return;
+    }
+    const Leases held = client_.held();
     std::vector<std::string> agents;
     for (const AgentFrame& agent : frame.agents) {
-        const bool ours =
-            std::ranges::any_of(control_.held, [&](const comms::LeaseClient::Lease& each) {
-                return each.agent == agent.status.name && each.prefix == prefix;
-            });
+        const bool ours = std::ranges::any_of(held, [&](const Lease& each) {
+            return each.agent == agent.status.name && each.prefix == prefix;
+        });
         if (!agent.lost() && !ours && hasBelow(agent, prefix)) agents.push_back(agent.status.name);
     }
     again_ = !agents.empty() && std::ranges::find(control_.claims, prefix) != control_.claims.end();
+    inVain_ = false;
     control_.asks = prefix;
     taking_ = client_.take(prefix, agents);
 }
@@ -56,38 +88,77 @@ void LeaseKeeper::take(const std::string& prefix, const Frame& frame) {
 void LeaseKeeper::release() {
     releaseAllBut({});
     control_.claims.clear();
+    inVain_ = taking_ != 0;
+    next_.clear();
 }
 
 void LeaseKeeper::releaseAllBut(const std::string& prefix) {
+    control_.held = client_.held();
     for (const std::string& each : control_.prefixes()) {
         if (each != prefix) releasing_.push_back(client_.release(each));
     }
 }
 
-void LeaseKeeper::handOver(const std::string& prefix, const std::string& to) {
-    if (handing_ != 0) return;
-    handed_ = prefix;
-    to_ = to;
-    handing_ = client_.handOver(prefix, to);
+void LeaseKeeper::handOver(const std::string& to) {
+    Giving giving{to, {}};
+    for (const auto& [prefix, agents] : widestOf(client_.held()))
+        giving.parts.push_back({client_.handOver(prefix, to, agents), {prefix}});
+    if (giving.parts.empty()) return tell("Nothing was handed over: nothing is held.");
+    givings_.push_back(std::move(giving));
 }
+
+// Once, also where the button is pressed twice.
+void LeaseKeeper::grant(const Asked& asked) {
+    const auto asks = client_.asked();
+    const bool isOver = std::ranges::none_of(asks, [&](const Asked& each) {
+        return each.tool == asked.tool && each.number == asked.number;
+    });
+    if (isOver || std::ranges::find(givings_, asked.tool, &Giving::to) != givings_.end()) return;
+    Part part{client_.grant(asked), {}};
+    for (const auto& [prefix, agents] : widestOf(asked.gives)) part.prefixes.push_back(prefix);
+    givings_.push_back({asked.tool, {std::move(part)}});
+}
+
+// What was said of a refusal is over.
+void LeaseKeeper::ask(const std::string& prefix) {
+    tell({});
+    client_.ask(prefix);
+}
+
+void LeaseKeeper::withdraw() { client_.withdraw(); }
+
+void LeaseKeeper::refuse(const Asked& asked) { client_.refuse(asked); }
 
 void LeaseKeeper::step(const Frame& frame, bool renews) {
     client_.renew(renews);
     comms::LeaseClient::Answers answers;
-    if (taking_ != 0 && client_.poll(taking_, answers)) finishTaking(frame, answers);
-    if (handing_ != 0 && client_.poll(handing_, answers)) finishHandOver(answers);
+    if (taking_ != 0 && client_.poll(taking_, answers)) finishTaking(answers);
+    if (taking_ == 0 && !next_.empty()) take(std::exchange(next_, {}), frame);
+    std::erase_if(givings_, [this](Giving& each) { return finishGiving(each); });
     std::erase_if(releasing_, [&](std::uint64_t each) { return client_.poll(each, answers); });
-    const std::vector<std::string> news = client_.news();
-    if (!news.empty()) tell(asSentence(news.back()));
-    noteHeld();
+    const std::string sought = std::exchange(control_.asking, client_.asking()).prefix;
+    std::string news;
+    for (const std::string& each : client_.news())
+        news += (news.empty() ? "" : " ") + asSentence(each);
+    if (!news.empty()) {
+        tell(news);
+        if (control_.asking.prefix.empty()) control_.sought = sought;
+    }
+    noteAll();
 }
 
-void LeaseKeeper::tell(std::string notice) {
-    control_.notice = std::move(notice);
+void LeaseKeeper::tell(const std::string& notice) {
+    control_.notice = common::shownName(notice);
+    ++control_.told;
     control_.handed.clear();
+    control_.refused.clear();
+    control_.refusals.clear();
+    control_.sought.clear();
 }
 
-void LeaseKeeper::noteHeld() {
+void LeaseKeeper::noteAll() {
+    control_.tools = mirror_.tools();
+    control_.asked = client_.asked();
     control_.held = client_.held();
     control_.prefix = control_.held.empty() ? "" : control_.held.front().prefix;
     control_.since = control_.held.empty() ? 0 : control_.held.front().since;
@@ -98,27 +169,22 @@ void LeaseKeeper::noteHeld() {
     }
 }
 
-void LeaseKeeper::finishTaking(const Frame& frame, const comms::LeaseClient::Answers& answers) {
+// Who holds what of it is said by whoever shows the notice, as it is by then.
+void LeaseKeeper::finishTaking(const comms::LeaseClient::Answers& answers) {
     taking_ = 0;
     const std::string prefix = std::exchange(control_.asks, {});
-    std::string refusals;
-    for (const auto& [name, answer] : answers) {
-        if (answer.done()) continue;
-        const auto agent = std::ranges::find(
-            frame.agents, name, [](const AgentFrame& each) { return each.status.name; });
-        const auto other = agent != frame.agents.end()
-                               ? leaseOfOthers(*agent, prefix, control_.self)
-                               : std::nullopt;
-        refusals += " " + name + ": " +
-                    (other ? other->holder + " holds " + other->prefix +
-                                 ", and must release it or hand it over."
-                           : answer.text() + ".");
+    std::vector<Control::Refusal> refusals;
+    for (const auto& [agent, answer] : answers) {
+        if (!answer.done()) refusals.push_back({agent, common::shownName(answer.text())});
     }
-    control_.held = client_.held();
-    const bool holds = std::ranges::find(control_.held, prefix,
-                                         &comms::LeaseClient::Lease::prefix) != control_.held.end();
-    if (!refusals.empty()) {
-        tell("Control of " + prefix + " was not taken." + refusals);
+    const Leases held = client_.held();
+    const bool holds = std::ranges::find(held, prefix, &Lease::prefix) != held.end();
+    if (std::exchange(inVain_, false)) {
+        if (holds) releasing_.push_back(client_.release(prefix));
+    } else if (!refusals.empty()) {
+        tell("Control of " + prefix + " was not taken.");
+        control_.refused = prefix;
+        control_.refusals = std::move(refusals);
     } else if (!holds) {
         tell("Nothing was taken: nobody who is heard has anything at or below " + prefix + ".");
     } else {
@@ -129,18 +195,32 @@ void LeaseKeeper::finishTaking(const Frame& frame, const comms::LeaseClient::Ans
     }
 }
 
-void LeaseKeeper::finishHandOver(const comms::LeaseClient::Answers& answers) {
-    handing_ = 0;
+bool LeaseKeeper::finishGiving(Giving& giving) {
+    std::vector<std::string> given, kept;
     std::string refusals;
-    for (const auto& [name, answer] : answers) {
-        if (!answer.done()) refusals += " " + name + ": " + answer.text() + ".";
+    for (Part& part : giving.parts) {
+        comms::LeaseClient::Answers answers;
+        if (!part.answered && !client_.poll(part.number, answers)) return false;
+        part.answered = true;
+        for (const auto& [name, answer] : answers) {
+            if (!answer.done()) part.refusals += " " + name + ": " + answer.text() + ".";
+        }
+        refusals += part.refusals;
+        std::ranges::copy(part.prefixes, std::back_inserter(part.refusals.empty() ? given : kept));
     }
-    tell("Control of " + handed_ +
-         (refusals.empty() ? " was handed over to " + to_ + "."
-                           : " was not handed over to " + to_ + "." + refusals));
-    if (!refusals.empty()) return;
-    std::erase(control_.claims, handed_);
-    control_.handed = handed_;
+    const std::string to = common::whoText(giving.to, common::personOf(control_.tools, giving.to));
+    if (given.empty()) {
+        tell("Control of " + inWords(kept) + " was not handed over to " + to + "." + refusals);
+        return true;
+    }
+    tell("Control of " + inWords(given) + " was handed over to " + to +
+         (kept.empty() ? "." : ", but not of " + inWords(kept) + "." + refusals));
+    std::erase_if(control_.claims, [&](const std::string& claim) {
+        return std::ranges::any_of(
+            given, [&](const std::string& each) { return isAtOrBelow(claim, each); });
+    });
+    control_.handed = std::move(given);
+    return true;
 }
 
 }  // namespace cortex::gui

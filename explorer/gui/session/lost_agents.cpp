@@ -24,16 +24,6 @@ comms::AgentEvent eventOf(const AgentFrame& agent, Severity severity, std::strin
     return event;
 }
 
-// The same agent, so much later.
-AgentFrame later(const AgentFrame& agent, double seconds) {
-    AgentFrame result = agent;
-    result.status.age += seconds;
-    for (float& age : result.ages) {
-        if (age >= 0) age += static_cast<float>(seconds);
-    }
-    return result;
-}
-
 }  // namespace
 
 std::vector<comms::AgentEvent> LostAgents::update(std::vector<AgentFrame>& agents, Moment now) {
@@ -92,7 +82,7 @@ void LostAgents::keep(std::vector<AgentFrame>& agents, Moment now) {
     for (const AgentFrame& agent : agents) known.try_emplace(agent.status.name, agent, now);
     for (auto& [name, each] : known_) {
         if (known.contains(name) || !each.frame.lost() || each.frame.status.ended) continue;
-        AgentFrame old = later(each.frame, std::chrono::duration<double>(now - each.when).count());
+        AgentFrame old = each.frame.later(std::chrono::duration<double>(now - each.when).count());
         note(old);
         const bool dismissed = dismissed_.erase({name, each.frame.status.epoch}) > 0;
         if (dismissed || known.size() >= mostKept) continue;

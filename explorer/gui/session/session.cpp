@@ -4,7 +4,7 @@
 #include "cortex/core/error.hpp"
 #include "cortex/core/realtime.hpp"
 
-#include "common/to_its_sender.hpp"
+#include "common/person_name.hpp"
 #include "session/utc_now.hpp"
 
 #include <algorithm>
@@ -53,19 +53,17 @@ AgentFrame agentFrame(const comms::Mirror& mirror, const comms::AgentStatus& sta
 std::shared_ptr<const Frame> aged(const Frame& frame, double seconds) {
     auto result = std::make_shared<Frame>(frame);
     result->seconds += seconds;
-    for (AgentFrame& agent : result->agents) {
-        agent.status.age += seconds;
-        for (float& age : agent.ages) {
-            if (age >= 0) age += static_cast<float>(seconds);
-        }
-    }
+    for (AgentFrame& agent : result->agents) agent = agent.later(seconds);
     return result;
 }
 
 }  // namespace
 
-Session::Session(comms::NetworkOptions options)
-    : options_{std::move(options)}, begin_{Clock::now()}, published_{begin_} {
+Session::Session(comms::NetworkOptions options, const std::string& person)
+    : options_{std::move(options)},
+      person_{common::personName(person)},
+      begin_{Clock::now()},
+      published_{begin_} {
     auto first = std::make_shared<Frame>();
     first->domain = options_.domain;
     frame_ = std::move(first);
@@ -114,8 +112,8 @@ std::uint64_t Session::send(std::string path, std::string command,
     {
         const std::lock_guard lock{mutex_};
         number = ++lastNumber_;
-        Request request{number, std::move(path), std::move(command), std::move(arguments),
-                        limit,  budget};
+        CommandRequest request{number, std::move(path), std::move(command), std::move(arguments),
+                               limit,  budget};
         requests_.push_back(std::move(request));
     }
     changed_.notify_all();
@@ -164,22 +162,42 @@ void Session::dismiss(std::string agent) {
     dismissed_.push_back(std::move(agent));
 }
 
-void Session::takeControl(std::string prefix) {
+void Session::change(ControlChange control) {
     {
         const std::lock_guard lock{mutex_};
-        control_ = std::move(prefix);
+        controlChanges_.push_back(std::move(control));
     }
     changed_.notify_all();
 }
 
-void Session::releaseControl() { takeControl({}); }
+void Session::takeControl(std::string prefix) {
+    change([prefix = std::move(prefix)](LeaseKeeper& leases, const Frame& frame) {
+        leases.take(prefix, frame);
+    });
+}
+
+void Session::releaseControl() {
+    change([](LeaseKeeper& leases, const Frame&) { leases.release(); });
+}
 
 void Session::handOver(std::string to) {
-    {
-        const std::lock_guard lock{mutex_};
-        handOverTo_ = std::move(to);
-    }
-    changed_.notify_all();
+    change([to = std::move(to)](LeaseKeeper& leases, const Frame&) { leases.handOver(to); });
+}
+
+void Session::askForControl(std::string prefix) {
+    change([prefix = std::move(prefix)](LeaseKeeper& leases, const Frame&) { leases.ask(prefix); });
+}
+
+void Session::withdrawAsk() {
+    change([](LeaseKeeper& leases, const Frame&) { leases.withdraw(); });
+}
+
+void Session::grant(comms::LeaseClient::Asked asked) {
+    change([asked = std::move(asked)](LeaseKeeper& leases, const Frame&) { leases.grant(asked); });
+}
+
+void Session::refuse(comms::LeaseClient::Asked asked) {
+    change([asked = std::move(asked)](LeaseKeeper& leases, const Frame&) { leases.refuse(asked); });
 }
 
 void Session::isAlive() { alive_ = Clock::now().time_since_epoch().count(); }
@@ -208,12 +226,12 @@ void Session::run() {
         }
         if (again && !mirror_) join();
         if (mirror_) applyView(std::move(wanted), std::move(others), rate);
-        sendRequests();
-        takeAnswers();
+        keepCommands();
         keepControl();
         keepHolds();
         publish();
     } while (pause());
+    sent_.reset();
     holds_.reset();
     leases_.reset();
     mirror_.reset();
@@ -247,8 +265,10 @@ void Session::join() {
         }
         comms::onNamedInterfaces(options);
         mirror_ = std::make_unique<comms::Mirror>("cortex-explorer", options);
-        leases_ = std::make_unique<LeaseKeeper>(*mirror_, options.security);
+        mirror_->introduce(person_);
+        leases_ = std::make_unique<LeaseKeeper>(*mirror_, person_, options.security);
         holds_ = std::make_unique<Holds>(*mirror_);
+        sent_ = std::make_unique<SentCommands>(*mirror_);
         applied_.clear();
         mirror_->prepareCommands();  // the first one may be Stop
         mirror_->onImage([this](const std::string& agent, const comms::AgentImage& image) {
@@ -263,73 +283,35 @@ void Session::join() {
     }
 }
 
-void Session::sendRequests() {
-    std::vector<Request> requests;
+void Session::keepCommands() {
+    std::vector<CommandRequest> requests;
     {
         const std::lock_guard lock{mutex_};
         requests = std::exchange(requests_, {});
     }
-    for (Request& each : requests) {
-        std::string problem = "no domain is joined";
-        if (mirror_) {
-            try {
-                each.sent = mirror_->send(each.path, each.command, each.arguments, each.budget);
-                each.since = Clock::now();
-                const auto last = frame_;
-                if (const auto place = last->find(each.path)) {
-                    each.agent = last->agents[place->agent].status.name;
-                    each.epoch = last->agents[place->agent].status.epoch;
-                }
-                unanswered_.push_back(std::move(each));
-                continue;
-            } catch (const std::exception& error) {
-                problem = error.what();
-            }
-        }
-        const std::lock_guard lock{mutex_};
-        outcomes_.push_back({each.number, each.path, each.command, {}, std::move(problem), 0});
-    }
-}
-
-void Session::takeAnswers() {
-    const auto now = Clock::now();
-    std::erase_if(unanswered_, [&](Request& each) {
-        CommandOutcome outcome{each.number, each.path, each.command, {}, {}, 0};
-        const bool answered = mirror_->poll(each.sent, outcome.answer);
-        if (!answered && now - each.since < each.limit && !isGone(each)) return false;
-        if (!answered) {
-            mirror_->abandon(each.sent);
-            outcome.answer.outcome = Outcome::Unknown;
-        }
-        outcome.answer.why = common::toItsSender(outcome.answer.why);
-        const std::lock_guard lock{mutex_};
-        outcomes_.push_back(std::move(outcome));
-        return true;
-    });
-}
-
-// Whether the agent that the command went to is lost, or has started anew.
-bool Session::isGone(const Request& request) const {
-    if (request.agent.empty()) return false;
     const auto last = frame_;
-    const auto agent = std::ranges::find(last->agents, request.agent,
-                                         [](const AgentFrame& each) { return each.status.name; });
-    return agent == last->agents.end() || agent->lost() || agent->status.epoch != request.epoch;
+    std::vector<CommandOutcome> outcomes;
+    if (sent_) {
+        outcomes = sent_->send(std::move(requests), *last);
+        std::ranges::move(sent_->step(*last), std::back_inserter(outcomes));
+    } else {
+        for (const CommandRequest& each : requests)
+            outcomes.push_back(
+                {each.number, each.path, each.command, {}, "no domain is joined", 0});
+    }
+    const std::lock_guard lock{mutex_};
+    std::ranges::move(outcomes, std::back_inserter(outcomes_));
 }
 
 void Session::keepControl() {
-    std::optional<std::string> wanted;
-    std::string to;
+    std::vector<ControlChange> changes;
     {
         const std::lock_guard lock{mutex_};
-        wanted = std::exchange(control_, std::nullopt);
-        to = std::exchange(handOverTo_, {});
+        changes = std::exchange(controlChanges_, {});
     }
     if (!leases_) return;
     const auto last = frame_;
-    if (wanted && wanted->empty()) leases_->release();
-    if (wanted && !wanted->empty()) leases_->take(*wanted, *last);
-    if (!to.empty()) leases_->handOver(leases_->now().prefix, to);
+    for (const auto& each : changes) each(*leases_, *last);
     const auto now = Clock::now().time_since_epoch().count();
     leases_->step(*last, Clock::duration{now - alive_} < deaf);
 }
@@ -393,7 +375,7 @@ void Session::keepLost(std::vector<AgentFrame>& agents) {
 bool Session::pause() {
     std::unique_lock lock{mutex_};
     changed_.wait_for(lock, framePeriod, [this] {
-        return ends_ || again_ || control_ || !handOverTo_.empty() || !requests_.empty() ||
+        return ends_ || again_ || !controlChanges_.empty() || !requests_.empty() ||
                !holdChanges_.empty();
     });
     return !ends_;

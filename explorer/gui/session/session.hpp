@@ -8,6 +8,7 @@
 #include "session/holds.hpp"
 #include "session/lease_keeper.hpp"
 #include "session/lost_agents.hpp"
+#include "session/sent_commands.hpp"
 
 #include <array>
 #include <atomic>
@@ -22,20 +23,13 @@
 
 namespace cortex::gui {
 
-// What became of a command that was sent.
-struct CommandOutcome {
-    std::uint64_t number = 0;  // that Session::send() gave
-    std::string path, command;
-    comms::CommandAnswer answer;
-    std::string problem;  // why it was never sent; otherwise empty
-    std::int64_t came{};  // UTC ns, when the window took it; 0: not yet
-};
-
 // One domain, looked at by a thread of its own: it alone joins, asks and leaves, so that nothing
 // the network does can hold up the screen. Called by the GUI thread; no call waits.
 class Session {
 public:
-    explicit Session(comms::NetworkOptions options);
+    // `person`: who uses the window, as all others are told; empty: user@host. Throws Error for a
+    // name that no tool may tell.
+    explicit Session(comms::NetworkOptions options, const std::string& person = {});
     ~Session();  // leaves the domain
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -75,18 +69,26 @@ public:
     std::vector<HoldEnd> takeHoldEnds();  // that ended by themselves since the last call
 
     // Control of everything at and below a path, or of nothing. Frame::control tells what came of
-    // it. It is renewed only while isAlive() is called at least once a second.
+    // it. It is renewed only while isAlive() is called at least once a second. What is wanted of
+    // control is done in its order.
     void takeControl(std::string prefix);
     void releaseControl();
-    void handOver(std::string to);  // what is held first
+    void handOver(std::string to);  // all that is held
     void isAlive();
+    // Those for it who hold a part of what lies there, until one of them answers; and what they
+    // ask us for.
+    void askForControl(std::string prefix);
+    void withdrawAsk();
+    void grant(comms::LeaseClient::Asked asked);
+    void refuse(comms::LeaseClient::Asked asked);
 
 private:
     void run();
     void join();
     void publish();
-    void sendRequests();
-    void takeAnswers();
+    using ControlChange = std::function<void(LeaseKeeper&, const Frame&)>;
+    void keepCommands();
+    void change(ControlChange control);
     void keepControl();
     void keepHolds();
     void applyView(std::vector<std::string> wanted, std::vector<comms::Viewed> views,
@@ -95,10 +97,12 @@ private:
     bool pause();  // until the next frame is due; false: the session ends
 
     comms::NetworkOptions options_;
+    std::string person_;
     Recorder recorder_;
     std::unique_ptr<comms::Mirror> mirror_;  // thread_ alone, once it runs
     std::unique_ptr<LeaseKeeper> leases_;    // ends before the mirror; thread_ alone
     std::unique_ptr<Holds> holds_;           // the same
+    std::unique_ptr<SentCommands> sent_;     // the same
     std::vector<comms::Viewed> applied_;     // the views that the mirror has; thread_ alone
     std::uint32_t appliedRate_ = 0;          // the same
     LostAgents lost_;                        // thread_ alone
@@ -106,19 +110,6 @@ private:
     std::chrono::steady_clock::time_point begin_;
     std::string problem_;
 
-    struct Request {
-        std::uint64_t number = 0;
-        std::string path, command;
-        comms::Mirror::Arguments arguments;
-        std::chrono::milliseconds limit{}, budget{};
-        std::string agent{};  // that owned the path, and its start
-        std::int64_t epoch = 0;
-        std::uint64_t sent = 0;  // the mirror's number of it
-        std::chrono::steady_clock::time_point since{};
-    };
-    bool isGone(const Request& request) const;
-
-    std::vector<Request> unanswered_;  // thread_ alone
     std::atomic<std::chrono::steady_clock::rep> alive_{0};
 
     mutable std::mutex mutex_;  // of what follows, held for a swap only
@@ -127,13 +118,12 @@ private:
     std::vector<comms::Viewed> others_;
     std::uint32_t rate_ = 30;
     std::vector<comms::AgentEvent> events_;
-    std::vector<Request> requests_;
+    std::vector<CommandRequest> requests_;
     std::vector<CommandOutcome> outcomes_;
     std::vector<std::function<void(Holds&)>> holdChanges_;  // in their order
     std::vector<HoldEnd> holdEnds_;
     std::vector<std::string> dismissed_;
-    std::optional<std::string> control_;  // wanted; empty: released; none: as it is
-    std::string handOverTo_;              // empty: nobody
+    std::vector<ControlChange> controlChanges_;  // in their order
     std::uint64_t lastNumber_ = 0;
     bool ends_ = false, again_ = false;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/lease_table.hpp"
 
+#include "model/holders.hpp"
 #include "model/plain_text.hpp"
 #include "model/value_text.hpp"
 #include "widgets/rows.hpp"
@@ -12,7 +13,7 @@ namespace cortex::gui {
 namespace {
 
 QStringList leaseTexts(const Frame& frame, const comms::ShownLease& lease) {
-    return {plainText(lease.prefix), plainText(lease.holder),
+    return {plainText(lease.prefix), wholeNameOf(frame.control, lease.holder),
             utcText(lease.since, "yyyy-MM-dd HH:mm:ss"), wholeAgeText(lease.seconds),
             lease.holder == frame.control.self ? LeaseTable::tr("you") : QString{}};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window/control_bar.hpp"
 
+#include "model/holders.hpp"
 #include "model/permission.hpp"
 #include "model/plain_text.hpp"
 #include "session/lease.hpp"
@@ -21,21 +22,6 @@ namespace cortex::gui {
 
 namespace {
 
-// Who else holds a part of what lies there, as the session says it.
-QString othersIn(const Frame& frame, const std::string& prefix) {
-    QStringList others;
-    for (const AgentFrame& agent : frame.agents) {
-        if (agent.lost() || !hasBelow(agent, prefix)) continue;
-        const auto lease = leaseOfOthers(agent, prefix, frame.control.self);
-        if (!lease) continue;
-        others << ControlBar::tr("%1: %2 holds %3, and must release it or hand it over.")
-                      .arg(QString::fromStdString(agent.status.name),
-                           QString::fromStdString(lease->holder),
-                           QString::fromStdString(lease->prefix));
-    }
-    return others.join(' ');
-}
-
 // Who has something there, has not ended, and is not controlled by us. All of an agent is below
 // "/", also while it is not known yet what that is.
 QStringList uncontrolled(const Frame& frame, const std::string& prefix) {
@@ -46,29 +32,6 @@ QStringList uncontrolled(const Frame& frame, const std::string& prefix) {
         names << QString::fromStdString(agent.status.name);
     }
     return names;
-}
-
-bool canBeTaken(const Frame& frame, const std::string& prefix) {
-    bool any = false;
-    for (const AgentFrame& agent : frame.agents) {
-        if (agent.lost() || !hasBelow(agent, prefix)) continue;
-        if (frame.control.covers(agent.status.name, prefix)) continue;
-        if (leaseOfOthers(agent, prefix, frame.control.self)) return false;
-        any = true;
-    }
-    return any;
-}
-
-// All that have something there are heard, and show that nobody at all holds a part of it.
-bool isFree(const Frame& frame, const std::string& prefix) {
-    bool any = false;
-    for (const AgentFrame& agent : frame.agents) {
-        if (agent.status.ended || !hasBelow(agent, prefix)) continue;
-        if (agent.lost() || !agent.came(agent.own())) return false;
-        if (leaseOfOthers(agent, prefix, {})) return false;
-        any = true;
-    }
-    return any;
 }
 
 // That the button needs for another text.
@@ -112,7 +75,8 @@ ControlBar::ControlBar(Session& session, QWidget* parent)
     connect(button_, &QPushButton::clicked, this, [this] { holds() ? release() : choose(); });
     connect(again_, &QPushButton::clicked, this, &ControlBar::takeAgain);
     connect(handOver_, &QPushButton::clicked, this, &ControlBar::chooseHandOver);
-    connect(&notice_->remedy(), &QPushButton::clicked, this, [this] { take(remedy_); });
+    connect(&notice_->remedy(), &QPushButton::clicked, this, &ControlBar::act);
+    connect(&notice_->refuse(), &QPushButton::clicked, this, &ControlBar::refuse);
     connect(notice_, &ControlNotice::closed, this, &ControlBar::closeNotice);
 }
 
@@ -131,7 +95,8 @@ QString ControlBar::partText(const std::string& prefix) const {
 QString ControlBar::text() const {
     const Control& control = frame_->control;
     if (!control.asks.empty()) return tr("Asking for %1").arg(scopeText(control.asks));
-    if (control.prefix.empty()) return tr("Read-only");
+    if (control.prefix.empty())
+        return control.asking.prefix.empty() ? tr("Read-only") : askingText();
     // Where there are many, the first one that is not whole is named.
     auto held = control.prefixes();
     const auto isWhole = [&](const std::string& each) {
@@ -143,8 +108,34 @@ QString ControlBar::text() const {
     if (held.size() == 2) parts << partText(held.back());
     if (held.size() > 2) parts << tr("%1 more").arg(held.size() - 1);
     const QString what = tr("You control %1").arg(parts.join(tr(" and ")));
-    if (narrow_ || !isWhole(held.front())) return what;
-    return tr("%1 since %2").arg(what, clockText(control.since));
+    const QString since = sinceText();
+    if (narrow_ || since.isEmpty() || !isWhole(held.front())) return what;
+    return tr("%1 since %2").arg(what, since);
+}
+
+// Where it is narrow, the name gives way.
+QString ControlBar::askingText() const {
+    const Control& control = frame_->control;
+    QStringList asked;
+    for (const auto& each : control.asking.holders) {
+        if (!each.person.empty() && !each.refused) asked << shortNameOf(control, each.name);
+    }
+    const QString scope = scopeText(control.asking.prefix);
+    if (narrow_ || asked.isEmpty()) return tr("Asking for %1").arg(scope);
+    const QString who = asked.size() == 1 ? cutName(asked.front(), longestNames)
+                                          : tr("%1 people").arg(asked.size());
+    return tr("Asking %1 for %2").arg(who, scope);
+}
+
+// Empty, where not all that is held is so since the same time.
+QString ControlBar::sinceText() const {
+    const auto& held = frame_->control.held;
+    const QString first = clockText(frame_->control.since);
+    const bool same = frame_->control.prefixes().size() == 1 &&
+                      std::ranges::all_of(held, [&](const comms::LeaseClient::Lease& each) {
+                          return clockText(each.since) == first;
+                      });
+    return same ? first : QString{};
 }
 
 QString ControlBar::heldText() const {
@@ -153,16 +144,25 @@ QString ControlBar::heldText() const {
     return parts.join(tr(" and "));
 }
 
-// All of them, for the tooltip.
+// All of them with their times, for the tooltip, and who asks for some of it.
 QString ControlBar::wholeText() const {
+    const Control& control = frame_->control;
     QStringList parts;
-    for (const std::string& each : frame_->control.prefixes()) {
+    for (const std::string& each : control.prefixes()) {
         const QStringList others = uncontrolled(*frame_, each);
-        const QString scope = scopeText(each);
-        parts << (others.isEmpty() ? scope
-                                   : tr("%1, but not of %2").arg(scope, others.join(tr(" and "))));
+        QString part = scopeText(each);
+        if (!others.isEmpty()) part = tr("%1, but not of %2").arg(part, others.join(tr(" and ")));
+        const auto lease =
+            std::ranges::find(control.held, each, &comms::LeaseClient::Lease::prefix);
+        parts << tr("%1 since %2").arg(part, clockText(lease->since));
     }
-    return parts.isEmpty() ? QString{} : tr("You control %1").arg(parts.join(QStringLiteral("; ")));
+    QStringList lines;
+    if (!parts.isEmpty()) lines << tr("You control %1").arg(parts.join(QStringLiteral("; ")));
+    for (const auto& each : control.asked)
+        lines << tr("%1 asks for %2").arg(wholeNameOf(control, each.tool), scopeText(each.prefix));
+    if (!control.asking.prefix.empty())
+        lines << tr("Asking for %1").arg(scopeText(control.asking.prefix));
+    return lines.join('\n');
 }
 
 void ControlBar::refresh(const std::shared_ptr<const Frame>& frame, const std::string& path) {
@@ -174,7 +174,6 @@ void ControlBar::refresh(const std::shared_ptr<const Frame>& frame, const std::s
     setToolTip(tipText(wholeText()));
     if (control.prefix != prefix_) {
         prefix_ = control.prefix;
-        if (holds()) closed_.clear();
         button_->setText(holds() ? tr("Release") : tr("Take control…"));
         update();
         Q_EMIT changed();
@@ -210,41 +209,19 @@ void ControlBar::showButtons() {
     policy.setRetainSizeWhenHidden(again);
     handOver_->setSizePolicy(policy);
     handOver_->setVisible(holds() && !narrow_);
-    button_->setMinimumWidth(narrow_ ? 0 : widthOf(*button_, tr("Take control…")));
+    button_->setMinimumWidth(widthOf(*button_, tr("Take control…")));
 }
 
-// A refusal follows the leases: it says who holds a part by now, or that nobody else does.
-QString ControlBar::refusal() {
-    const QString others = othersIn(*frame_, refused_);
-    if (others_.isEmpty()) others_ = others;
-    if (others == others_) return QString::fromStdString(said_);
-    if (others.isEmpty()) remedy_ = refused_;
-    return tr("Control of %1 was not taken. %2")
-        .arg(QString::fromStdString(refused_),
-             others.isEmpty() ? tr("Nobody else holds a part of it any longer.") : others);
-}
-
+// Nobody answers one person with a press that was meant for another one, or for something else.
 void ControlBar::refreshNotice() {
-    const Control& control = frame_->control;
-    const auto held = control.prefixes();
-    if (!control.asks.empty()) asked_ = control.asks;
-    if (std::ranges::find(held, asked_) != held.end()) asked_.clear();
-    if (control.notice != said_) {
-        said_ = control.notice;
-        refused_ = std::exchange(asked_, {});
-        others_.clear();
-        closed_.clear();
-    }
-    const bool offersLast = refused_.empty() && canBeTaken(*frame_, control.last);
-    remedy_ = offersLast ? control.last : std::string{};
-    QString text = refused_.empty() ? QString::fromStdString(said_) : refusal();
-    if (!control.handed.empty() && isFree(*frame_, control.handed)) {
-        text = tr("%1 Nobody holds it now: %2 is free.").arg(text, scopeText(control.handed));
-    }
-    const bool offers = !remedy_.empty() && control.asks.empty();
-    const QString remedy = remedy_ == control.last ? tr("Take %1 again") : tr("Take %1");
-    notice_->show(said_ == closed_ ? QString{} : text,
-                  offers ? remedy.arg(scopeText(remedy_)) : QString{});
+    news_.refresh(*frame_);
+    const ControlNews::Row& row = news_.row();
+    const bool same = row.act == shown_.act && row.prefix == shown_.prefix &&
+                      row.asked.tool == shown_.asked.tool &&
+                      row.asked.number == shown_.asked.number;
+    if (!same) notice_->show({}, {});
+    shown_ = row;
+    notice_->show(row.text, row.remedy, row.refusal);
 }
 
 // The time and all buttons but one give way; those stand in the menu, too.
@@ -272,6 +249,8 @@ void ControlBar::choose() {
         took_ = true;
         take(prefix);
     });
+    connect(panel_, &ControlPanel::asked, this, &ControlBar::ask);
+    connect(panel_, &ControlPanel::withdrawn, this, [this] { session_.withdrawAsk(); });
     took_ = false;
     connect(panel_, &Popover::closed, this, [this] {
         if (!took_) Q_EMIT declined();
@@ -283,29 +262,47 @@ void ControlBar::choose() {
 void ControlBar::chooseHandOver() {
     if (handOverPanel_ || !holds()) return;
     handOverPanel_ = new HandOverPanel{frame_, this};
-    connect(handOverPanel_, &HandOverPanel::chosen, this, [this](const std::string& name) {
-        closed_.clear();
-        asked_.clear();
-        session_.handOver(name);
-    });
+    connect(handOverPanel_, &HandOverPanel::chosen, this,
+            [this](const std::string& name) { session_.handOver(name); });
     handOverPanel_->openBelow(*button_);
-    handOverPanel_->nameField().setFocus();
+    handOverPanel_->focusFirst();
 }
 
-void ControlBar::take(const std::string& prefix) {
-    closed_.clear();
-    asked_ = prefix;
-    session_.takeControl(prefix);
+void ControlBar::take(const std::string& prefix) { session_.takeControl(prefix); }
+
+void ControlBar::ask(const std::string& prefix) { session_.askForControl(prefix); }
+
+void ControlBar::act() {
+    switch (shown_.act) {
+        case ControlNews::Act::None:
+            break;
+        case ControlNews::Act::Take:
+            take(shown_.prefix);
+            break;
+        case ControlNews::Act::Ask:
+            ask(shown_.prefix);
+            break;
+        case ControlNews::Act::Withdraw:
+            session_.withdrawAsk();
+            break;
+        case ControlNews::Act::Grant:
+            session_.grant(shown_.asked);
+            break;
+    }
 }
 
-// What was said about what is released is over.
+void ControlBar::refuse() {
+    if (shown_.act == ControlNews::Act::Grant) session_.refuse(shown_.asked);
+}
+
+// What was said about what is released is over; whom it asks is not.
 void ControlBar::release() {
-    closeNotice();
+    if (shown_.act != ControlNews::Act::Withdraw) closeNotice();
     session_.releaseControl();
 }
 
 void ControlBar::closeNotice() {
-    closed_ = said_;
+    news_.close();
     refreshNotice();
 }
 

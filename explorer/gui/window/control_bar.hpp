@@ -2,6 +2,7 @@
 #pragma once
 
 #include "session/session.hpp"
+#include "window/control_news.hpp"
 #include "window/control_panel.hpp"
 #include "window/hand_over_panel.hpp"
 
@@ -18,7 +19,8 @@ class TextLabel;
 // Whether this window may command, and what: "Read-only" with "Take control…", or "You control /arm
 // since 12:05 UTC" with "Hand over…" and "Release". Of whom it does not control it, though they
 // have something there, is said: "You control everything but robot"; and "Take again" is offered as
-// long as that is possible. What became of control stands in a row of its own.
+// long as that is possible. What became of control, and who asks for it, stands in a row of its
+// own.
 class ControlBar : public QWidget {
     Q_OBJECT
 public:
@@ -52,21 +54,23 @@ protected:
 
 private:
     QString partText(const std::string& prefix) const;
+    QString askingText() const;
+    QString sinceText() const;
     QString wholeText() const;
     void showButtons();
-    QString refusal();
     void refreshNotice();
     void closeNotice();
     void take(const std::string& prefix);
+    void ask(const std::string& prefix);
+    void act();  // what the remedy of the notice says
+    void refuse();
 
     Session& session_;
     std::shared_ptr<const Frame> frame_;
     std::string path_, prefix_;
     bool narrow_ = false, took_ = false;
-    std::string said_, closed_;    // the session's notice; the one that the user has read
-    std::string asked_, refused_;  // prefixes; the second one is what the notice is about
-    QString others_;               // who held a part of it when it was refused
-    std::string remedy_;           // the prefix that the notice offers
+    ControlNews news_;
+    ControlNews::Row shown_;  // in the notice
     TextLabel* label_;
     QPushButton *again_, *handOver_, *button_;
     ControlNotice* notice_;

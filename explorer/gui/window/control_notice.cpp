@@ -24,9 +24,12 @@ ControlNotice::ControlNotice(QWidget* parent)
       place_{new QWidget},
       told_{new TextLabel{TextSize::Note, true}},
       text_{new TextLabel{TextSize::Note, true, &Tokens::warnText}},
+      again_{new QPushButton},
       remedy_{new QPushButton},
+      refuse_{new QPushButton},
       close_{new QPushButton{tr("Close")}} {
-    for (QWidget* each : std::initializer_list<QWidget*>{told_, text_, remedy_, close_}) {
+    for (QWidget* each :
+         std::initializer_list<QWidget*>{told_, again_, text_, remedy_, refuse_, close_}) {
         each->setParent(this);
         each->hide();
     }
@@ -34,7 +37,7 @@ ControlNotice::ControlNotice(QWidget* parent)
         each->setWordWrap(true);
         each->setAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     }
-    for (QPushButton* each : {remedy_, close_}) each->setFocusPolicy(Qt::TabFocus);
+    for (QPushButton* each : {again_, remedy_, refuse_, close_}) each->setFocusPolicy(Qt::TabFocus);
     connect(close_, &QPushButton::clicked, this, &ControlNotice::dismiss);
     fresh_.setSingleShot(true);
     fresh_.setInterval(momentOfMouse);
@@ -53,26 +56,33 @@ void ControlNotice::lieIn(QWidget& window, std::vector<QWidget*> left) {
 bool ControlNotice::isEmpty() const { return told_->text().isEmpty() && text_->text().isEmpty(); }
 
 void ControlNotice::dismiss() {
-    if (!told_->text().isEmpty()) read_ = told_->text();
+    const bool told = !told_->text().isEmpty();
+    if (told) read_ = told_->text();
     tell(read_);
     Q_EMIT closed();
+    if (told) Q_EMIT outcomeClosed();
 }
 
-void ControlNotice::tell(const QString& outcome) {
+void ControlNotice::tell(const QString& outcome, const QString& again) {
     const QString unread = outcome == read_ ? QString{} : outcome;
-    if (unread == told_->text()) return;
+    const QString offer = unread.isEmpty() ? QString{} : again;
+    if (unread == told_->text() && offer == again_->text()) return;
     if (!unread.isEmpty()) read_.clear();
     told_->show(unread);
     told_->setVisible(!unread.isEmpty());
+    again_->setText(offer);
+    again_->setVisible(!offer.isEmpty());
     appear();
 }
 
-void ControlNotice::show(const QString& text, const QString& remedy) {
-    if (text == text_->text() && remedy == remedy_->text()) return;
+void ControlNotice::show(const QString& text, const QString& remedy, const QString& refusal) {
+    if (text == text_->text() && remedy == remedy_->text() && refusal == refuse_->text()) return;
     text_->show(text);
     remedy_->setText(remedy);
+    refuse_->setText(refusal);
     text_->setVisible(!text.isEmpty());
     remedy_->setVisible(!text.isEmpty() && !remedy.isEmpty());
+    refuse_->setVisible(!text.isEmpty() && !refusal.isEmpty());
     appear();
 }
 
@@ -80,15 +90,24 @@ QString ControlNotice::text() const { return text_->text(); }
 
 int ControlNotice::keptHeight() const { return std::max(Look::units(7), text_->heightOfLines(2)); }
 
+std::vector<ControlNotice::Shown> ControlNotice::buttons() const {
+    std::vector<Shown> all;
+    for (QPushButton* each : {again_, remedy_, refuse_, close_})
+        if (!each->isHidden()) all.emplace_back(each, each->text(), each->geometry());
+    return all;
+}
+
+// No button takes the place of another one under a finger.
 void ControlNotice::appear() {
-    close_->setVisible(!isEmpty());
-    if (isHidden() && !isEmpty()) {
-        setAttribute(Qt::WA_TransparentForMouseEvents);
-        fresh_.start();
-    }
+    close_->setVisible(!isEmpty() && refuse_->isHidden());
     setVisible(!isEmpty());
     fit();
     update();
+    auto now = buttons();
+    if (now == seen_) return;
+    seen_ = std::move(now);
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    fresh_.start();
 }
 
 // Over the place that is kept free; in a low window none is.
@@ -109,30 +128,37 @@ void ControlNotice::fit() {
 
 // The buttons are low, so that the room that is kept is small, and stay where they are whatever is
 // said. Where there are both texts, what became of the order has what it needs, at most half; in a
-// low window it stands above. Returns the height of all.
+// low window it stands above. Its own button stands behind it. Returns the height of all.
 int ControlNotice::placeTexts(int width, bool low) {
     const int gap = Look::units(2), left = Look::units(4), high = Look::units(6);
     const int kept = keptHeight();
+    const auto place = [&](QPushButton& button, int x) {
+        button.setGeometry(x, (kept - high) / 2, button.sizeHint().width(), high);
+    };
     int right = width - gap;
-    for (QPushButton* each : {close_, remedy_}) {
+    for (QPushButton* each : {close_, refuse_, remedy_}) {
         if (each->isHidden()) continue;
-        const int wide = each->sizeHint().width();
-        each->setGeometry(right -= wide, (kept - high) / 2, wide, high);
+        place(*each, right -= each->sizeHint().width());
         right -= gap;
     }
     const bool both = !told_->isHidden() && !text_->isHidden(), stacked = both && low;
+    const int again = again_->isHidden() ? 0 : gap + again_->sizeHint().width();
     const int needed = QFontMetrics{told_->font()}.horizontalAdvance(told_->text()) + 2;
-    const int half = both && !low ? left + std::min(needed, (right - left) / 2) : right;
+    const int room = (both && !low ? (right - left) / 2 : right - left) - again;
+    const int end = left + std::min(needed, room);
+    place(*again_, end + gap);
     const auto put = [](TextLabel& label, int from, int to) {
-        const int room = std::max(to - from, 1);
-        label.setGeometry(from, 0, room, label.heightForWidth(room));
+        const int wide = std::max(to - from, 1);
+        label.setGeometry(from, 0, wide, label.heightForWidth(wide));
         return label.isHidden() ? 0 : label.height();
     };
-    const int told = put(*told_, left, half);
-    const int text = put(*text_, both && !low ? half + gap : left, right);
-    const int all = std::max(kept, stacked ? told + text : std::max(told, text));
-    told_->move(told_->x(), (all - told - (stacked ? text : 0)) / 2);
-    text_->move(text_->x(), (all - text + (stacked ? told : 0)) / 2);
+    const int told = put(*told_, left, end);
+    const int text = put(*text_, both && !low ? end + again + gap : left, right);
+    const int first = again > 0 ? std::max(told, kept) : told;
+    const int all = std::max(kept, stacked ? first + text : std::max(told, text));
+    told_->move(told_->x(),
+                (all - (stacked ? text + first : told)) / 2 + (stacked ? (first - told) / 2 : 0));
+    text_->move(text_->x(), (all - text + (stacked ? first : 0)) / 2);
     return all;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QRect>
 #include <QTimer>
 #include <QWidget>
+#include <tuple>
 #include <vector>
 
 class QPushButton;
@@ -11,10 +13,11 @@ namespace cortex::gui {
 
 class TextLabel;
 
-// What became of a stop or start, and what was refused or lost, in amber, with a remedy. It lies
-// over the window, below the bar along the top. There a place of two lines is kept free for it;
-// what is longer, and all of it in a low window, lies over what is below. So nothing ever moves
-// under the mouse. For a moment after it has come, the mouse still reaches what it lies over.
+// What became of a stop or start, and what was asked, refused or lost, in amber, with a remedy. It
+// lies over the window, below the bar along the top. There a place of two lines is kept free for
+// it; what is longer, and all of it in a low window, lies over what is below. So nothing ever moves
+// under the mouse. For a moment after it has come, and after a button has changed, the mouse still
+// reaches what it lies over.
 class ControlNotice : public QWidget {
     Q_OBJECT
 public:
@@ -24,13 +27,18 @@ public:
     // In this window, but not over these buttons at its left edge.
     void lieIn(QWidget& window, std::vector<QWidget*> left);
 
-    void tell(const QString& outcome);                      // of a stop or start
-    void show(const QString& text, const QString& remedy);  // empty: nothing, and no button
+    // What became of a stop or start. `again`: what a button beside it says; empty: there is none.
+    void tell(const QString& outcome, const QString& again = {});
+    // Empty: nothing, and no button. `refusal`: what a button says in the place of Close.
+    void show(const QString& text, const QString& remedy, const QString& refusal = {});
     QString text() const;
+    QPushButton& againButton() { return *again_; }
     QPushButton& remedy() { return *remedy_; }
+    QPushButton& refuse() { return *refuse_; }
 
 Q_SIGNALS:
-    void closed();  // the user has read it
+    void closed();         // the user has read it
+    void outcomeClosed();  // the same, where something was told
 
 protected:
     bool event(QEvent* event) override;
@@ -38,7 +46,10 @@ protected:
     bool eventFilter(QObject* object, QEvent* event) override;
 
 private:
+    using Shown = std::tuple<QPushButton*, QString, QRect>;
+
     bool isEmpty() const;
+    std::vector<Shown> buttons() const;  // that are seen
     void dismiss();
     void appear();
     int keptHeight() const;
@@ -48,8 +59,9 @@ private:
     QWidget* place_;
     std::vector<QWidget*> left_;
     TextLabel *told_, *text_;
-    QPushButton *remedy_, *close_;
-    QString read_;  // outcome that the user has closed
+    QPushButton *again_, *remedy_, *refuse_, *close_;
+    std::vector<Shown> seen_;  // buttons, as they were when something was said
+    QString read_;             // outcome that the user has closed
     QTimer fresh_;
 };
 

@@ -3,6 +3,7 @@
 
 #include "cortex/core/path.hpp"
 
+#include "model/holders.hpp"
 #include "model/permission.hpp"
 #include "model/plain_text.hpp"
 #include "model/value_text.hpp"
@@ -49,6 +50,8 @@ QString onLossText(const AgentFrame& agent, const std::string& prefix) {
             .arg(counts[OnLeaseLost::Shutdown]);
     return faults == 0 ? running : running + ControlPanel::tr("; %1 in Fault").arg(faults);
 }
+
+constexpr double askWidth = 36;  // units, of "Ask 20 letters of a name"
 
 }  // namespace
 
@@ -104,6 +107,7 @@ ControlPanel::ControlPanel(std::shared_ptr<const Frame> frame, const std::string
       frame_{std::move(frame)},
       buttons_{new QButtonGroup{this}},
       holders_{new HolderLines},
+      ask_{new QPushButton},
       cancel_{new QPushButton{tr("Cancel")}},
       take_{new QPushButton} {
     for (std::string each = path; each.size() > 1; each.resize(each.rfind('/'))) {
@@ -118,8 +122,15 @@ ControlPanel::ControlPanel(std::shared_ptr<const Frame> frame, const std::string
     }
     holders_->keepRoomFor(longest());
     rows().addWidget(holders_);
-    buttons().addWidget(cancel_);
-    buttons().addWidget(take_);
+    for (QPushButton* each : {ask_, cancel_, take_}) buttons().addWidget(each);
+    QSizePolicy kept = ask_->sizePolicy();
+    kept.setRetainSizeWhenHidden(true);
+    ask_->setSizePolicy(kept);
+    ask_->setFixedWidth(Look::units(askWidth));
+    connect(ask_, &QPushButton::clicked, this, [this] {
+        asks() ? Q_EMIT withdrawn() : Q_EMIT asked(chosen());
+        close();
+    });
     connect(cancel_, &QPushButton::clicked, this, &QWidget::close);
     connect(take_, &QPushButton::clicked, this, [this] {
         Q_EMIT taken(chosen());
@@ -152,7 +163,7 @@ void ControlPanel::keyPressEvent(QKeyEvent* event) {
     switch (event->key()) {
         case Qt::Key_Return:
         case Qt::Key_Enter:
-            (cancel_->hasFocus() ? cancel_ : take_)->click();
+            (cancel_->hasFocus() ? cancel_ : ask_->hasFocus() ? ask_ : take_)->click();
             break;
         case Qt::Key_Escape:
             close();
@@ -170,6 +181,17 @@ void ControlPanel::refresh(std::shared_ptr<const Frame> frame) {
     frame_ = std::move(frame);
     holders_->show(describe(chosen()));
     take_->setText(tr("Take %1").arg(scopeText(chosen())));
+    showAsk();
+}
+
+bool ControlPanel::asks() const { return frame_->control.asking.prefix == chosen(); }
+
+// Its place is kept free for it. A long name ends with "…" and is whole above.
+void ControlPanel::showAsk() {
+    const QString text = asks() ? tr("Withdraw") : askText(*frame_, chosen());
+    const int room = ask_->width() - Look::units(6);
+    ask_->setText(ask_->fontMetrics().elidedText(text, Qt::ElideRight, room, Qt::TextShowMnemonic));
+    ask_->setVisible(!text.isEmpty());
 }
 
 QString ControlPanel::leaseText(const QString& agent, const comms::ShownLease& lease) const {
@@ -178,14 +200,31 @@ QString ControlPanel::leaseText(const QString& agent, const comms::ShownLease& l
     if (lease.holder == frame_->control.self)
         return tr("%1: you hold %2 since %3 (%4)").arg(agent, prefix, since, age);
     return tr("%1: %2 holds %3 since %4 (%5)")
-        .arg(agent, QString::fromStdString(lease.holder), prefix, since, age);
+        .arg(agent, wholeNameOf(frame_->control, lease.holder), prefix, since, age);
+}
+
+// Who holds a part of it and does not say who uses it.
+QString ControlPanel::whyNotAsked(const std::string& prefix) const {
+    const auto asked = canBeAsked(*frame_, prefix);
+    QStringList silent;
+    for (const std::string& each : holdersAt(*frame_, prefix)) {
+        if (std::ranges::find(asked, each) == asked.end())
+            silent << wholeNameOf(frame_->control, each);
+    }
+    return silent.isEmpty() ? QString{}
+                            : tr("Who does not say who uses it cannot be asked: %1.")
+                                  .arg(silent.join(QStringLiteral(", ")));
 }
 
 // What it may have to say once others have taken something.
 QString ControlPanel::longest() const {
     comms::ShownLease held;
     const std::string& self = frame_->control.self;
-    held.holder = self.empty() ? "cortex@host.123456-5e1f0a" : self + "00";
+    std::string person = frame_->control.person;
+    for (const comms::ToolStatus& each : frame_->control.tools) {
+        if (each.person.size() > person.size()) person = each.person;
+    }
+    held.holder = person + " (" + (self.empty() ? "cortex@host.123456-5e1f0a" : self + "00") + ")";
     held.prefix = scopes_.front();
     held.seconds = 6000;
     for (const std::string& each : frame_->control.prefixes()) {
@@ -208,6 +247,7 @@ QString ControlPanel::describe(const std::string& prefix, const comms::ShownLeas
         lines << QStringLiteral("    ") + onLossText(agent, prefix);
     }
     if (lines.isEmpty()) lines << tr("Nobody who is heard has anything there.");
+    if (const QString why = whyNotAsked(prefix); !why.isEmpty()) lines << why;
     QStringList released;
     for (const std::string& each : frame_->control.prefixes()) {
         if (each != prefix) released << scopeText(each);
@@ -218,8 +258,7 @@ QString ControlPanel::describe(const std::string& prefix, const comms::ShownLeas
                      .arg(scopeText(prefix), released.join(tr(", ")));
     }
     if (!frame_->control.self.empty())
-        lines
-            << tr("To others this window is %1.").arg(QString::fromStdString(frame_->control.self));
+        lines << tr("To others you are %1.").arg(ownName(frame_->control));
     return lines.join('\n');
 }
 

@@ -13,7 +13,6 @@
 #include "window/control_notice.hpp"
 #include "window/find_panel.hpp"
 #include "window/layout_keeper.hpp"
-#include "window/start_all.hpp"
 #include "window/status_bar.hpp"
 #include "window/stop_button.hpp"
 #include "window/top_bar.hpp"
@@ -62,9 +61,9 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
           {[this] { return saved(); }, [this](const auto& each) { restore(each); }},
           this}},
       stop_{new StopButton{session}},
-      start_{new StartAll{session, this}},
       edge_{new FocusEdge{this}},
       control_{new ControlBar{session}},
+      orders_{new Orders{session, *stop_, *control_, this}},
       bar_{new TopBar{*control_, *stop_}},
       arrangement_{*across_, *down_, [this] { layout_->noteChange(); }} {
     setWindowTitle(tr("CorteX Explorer"));
@@ -102,9 +101,6 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     connect(&host_, &ViewHost::controlWanted, this, take);
     connect(control_, &ControlBar::changed, this, qOverload<>(&QWidget::update));
     connect(bar_, &TopBar::findWanted, this, &MainWindow::find);
-    connect(stop_, &StopButton::begun, start_, &StartAll::forget);
-    connect(start_, &StartAll::controlWanted, this, take);
-    connect(control_, &ControlBar::declined, start_, &StartAll::forget);
     addKeys();
     const auto& [left, right] = workspace_->panes();
     regions_.set({bar_, &control_->notice(), tree_, &left->tabs(), &left->content(), &right->tabs(),
@@ -120,7 +116,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
 
 QMenu* MainWindow::makeMenu() {
     return makeWindowMenu(
-        {session_, *stop_, *control_, [this] { setTheme(1); },
+        {session_, *orders_, *control_, [this] { setTheme(1); },
          [this](double scale) { setScale(scale); }, [this](bool local) { setLocalTime(local); },
          [this] { openManual(); }, [this] { close(); }, [this] { find(); },
          [this](const QString& kind) { openKind(kind); }, [this] { workspace_->split(); },
@@ -130,15 +126,14 @@ QMenu* MainWindow::makeMenu() {
 }
 
 void MainWindow::openTreeMenu(const std::string& path, const QPoint& at) {
-    const bool isSimplex = session_.frame()->find(path).has_value();
     const TreeActions actions{
         [this](const std::string& of) { open(of); },
         [this](const std::string& of) { openTab(of); },
         [this](const std::string& of) { control_->choose(of); },
-        [this](const std::string& of) { start_->begin(of); },
-        [this](const std::string& of) { stop_->stop(of); },
+        [this](const auto& of, const auto& agent) { startAll().begin(of, agent); },
+        [this](const auto& of, const auto& agent) { stop_->stop(of, agent); },
     };
-    makeTreeMenu(path, isSimplex, actions, this)->popup(at);
+    makeTreeMenu(*session_.frame(), path, actions, this)->popup(at);
 }
 
 void MainWindow::addKeys() {
@@ -290,9 +285,7 @@ void MainWindow::refresh() {
     const auto outcomes = session_.takeOutcomes();
     commands_.deliver(outcomes);
     host_.refresh();
-    stop_->refresh(*frame, outcomes);
-    start_->refresh(*frame, outcomes);
-    bar_->tell(start_->text().isEmpty() ? stop_->progress() : start_->text());
+    orders_->refresh(*frame, outcomes);
     layout_->refresh(*frame);
     control_->refresh(frame, tree_->meant(workspace_->path()));
     session_.recorder().take();

@@ -9,6 +9,7 @@
 #include "views/manual_view.hpp"
 #include "views/view_host.hpp"
 #include "window/arrangement.hpp"
+#include "window/orders.hpp"
 #include "window/regions.hpp"
 
 #include <QPointer>
@@ -29,7 +30,6 @@ class FindPanel;
 class LayoutKeeper;
 class StatusBar;
 class FocusEdge;
-class StartAll;
 class StopButton;
 class SystemTree;
 class TopBar;
@@ -55,7 +55,8 @@ public:
     FindPanel* findPanel() const;  // null: it is not open
     LayoutKeeper& layouts() { return *layout_; }
     StopButton& stopButton() { return *stop_; }
-    StartAll& startAll() { return *start_; }
+    StartAll& startAll() { return orders_->startAll(); }
+    StartAgain& startAgain() { return orders_->startAgain(); }
     ControlBar& control() { return *control_; }
     bool ready() const;  // everything has come, with the values that are shown
     void refresh();      // with the newest frame
@@ -104,12 +105,12 @@ private:
     LayoutKeeper* layout_;
     Regions regions_;
     StopButton* stop_;
-    StartAll* start_;
     FocusEdge* edge_;
     bool leaves_ = false;      // the user said so
     bool refreshing_ = false;  // just now
     bool low_ = false;
     ControlBar* control_;
+    Orders* orders_;
     TopBar* bar_ = nullptr;
     Arrangement arrangement_;
     QTimer timer_;

@@ -91,13 +91,16 @@ QString scopeWord(const std::vector<std::string>& prefixes) {
     return say("%1 and %2 more").arg(scopeWords({prefixes.front()})).arg(prefixes.size() - 1);
 }
 
-void Order::begin(std::vector<std::string> prefixes, const std::vector<std::string>& except) {
+void Order::begin(std::vector<std::string> prefixes, const std::vector<std::string>& except,
+                  const std::string& only) {
     const auto frame = session_.frame();
     const auto wanted = widest(std::move(prefixes));
     prefixes_ = permitted(wanted, frame->control.rights);
     narrowed_ = prefixes_ != wanted;
+    only_ = only;
     told_.clear();
     meant_.clear();
+    worked_.clear();
     refusals_.clear();
     ended_.clear();
     since_.start();
@@ -105,13 +108,13 @@ void Order::begin(std::vector<std::string> prefixes, const std::vector<std::stri
     for (const AgentFrame& agent : frame->agents) {
         if (kind_ == Start && agent.lost()) continue;
         if (std::ranges::find(except, agent.status.name) != except.end()) continue;
+        if (!only.empty() && agent.status.name != only) continue;
         for (const std::string& each : prefixes_) tell(agent, each);
     }
     sendNext();
     active_ = !told_.empty();
-    const bool ofAll = frame->agents.empty() || prefixes_.front() == "/";
-    const QString of =
-        ofAll ? QString{} : say(" that has anything of %1").arg(scopeWord(prefixes_));
+    const bool ofAll = frame->agents.empty() || part().isEmpty();
+    const QString of = ofAll ? QString{} : say(" that has anything of %1").arg(part());
     text_ = say(words[kind_].nobody).arg(of);
     if (active_) count(*frame);
 }
@@ -120,13 +123,30 @@ void Order::tell(const AgentFrame& agent, const std::string& prefix) {
     if (agent.structure && !hasBelow(agent, prefix)) return;
     const std::size_t before = meant_.size();
     if (agent.structure) {
-        for (const SimplexInfo& info : agent.structure->simplexes) {
-            if (isMeant(info, prefix)) meant_.push_back({agent.status.name, info.path});
+        const auto& simplexes = agent.structure->simplexes;
+        for (std::uint32_t i = 0; i < simplexes.size(); ++i) {
+            if (!isMeant(simplexes[i], prefix)) continue;
+            meant_.push_back({agent.status.name, simplexes[i].path});
+            const auto state = agent.status.ended ? std::nullopt : agent.lastState(i);
+            const bool works = state == cortex::State::Active || state == cortex::State::StartingUp;
+            if (works) worked_.push_back(meant_.back());
         }
         // Where there is nothing to stop, another path is not interrupted for it.
         if (meant_.size() == before && prefixes_.size() > 1) return;
     }
     told_.push_back({agent.status.name, prefix});
+}
+
+QString Order::scope() const {
+    const QString paths = scopeWord(prefixes_);
+    return only_.empty() ? paths
+                         : say("%1 of agent %2").arg(paths, QString::fromStdString(only_));
+}
+
+// After "of"; empty: of everything.
+QString Order::part() const {
+    if (prefixes_.front() != "/") return scope();
+    return only_.empty() ? QString{} : say("agent %1").arg(QString::fromStdString(only_));
 }
 
 void Order::forget() {
@@ -205,7 +225,7 @@ std::ptrdiff_t Order::followers(const Frame& frame) const {
 // While it is on its way.
 void Order::count(const Frame& frame) {
     const auto standing = followers(frame);
-    text_ = say(words[kind_].doing).arg(scopeWord(prefixes_)).arg(standing).arg(meant_.size());
+    text_ = say(words[kind_].doing).arg(scope()).arg(standing).arg(meant_.size());
     const QStringList lost = unanswered(frame, true);
     if (!lost.isEmpty()) text_ += say("; not heard: %1").arg(lost.join(", "));
 }
@@ -225,8 +245,7 @@ void Order::finish(const Frame& frame) {
     const auto followed = followers(frame);
     const bool all = parts.isEmpty() && followed == std::ssize(meant_);
     incomplete_ = kind_ == Stop && !all;
-    const bool ofAll = prefixes_.front() == "/";
-    const QString of = ofAll ? QString{} : say(" of %1").arg(scopeWord(prefixes_));
+    const QString of = part().isEmpty() ? QString{} : say(" of %1").arg(part());
     const QString count = all ? say("All %1").arg(followed) + of
                               : say("%1 of %2").arg(followed).arg(meant_.size()) + of;
     parts.prepend(say(words[kind_].done).arg(count).arg(seconds, 0, 'f', 1));

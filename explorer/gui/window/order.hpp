@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "model/start_order.hpp"
 #include "session/session.hpp"
 
 #include <QElapsedTimer>
 #include <QString>
 #include <QStringList>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -35,9 +35,13 @@ public:
     enum Kind { Stop, Start };
     Order(Session& session, Kind kind) : session_{session}, kind_{kind} {}
 
-    // Of all agents but those.
-    void begin(std::vector<std::string> prefixes, const std::vector<std::string>& except = {});
+    // Of all agents but those, or of one alone.
+    void begin(std::vector<std::string> prefixes, const std::vector<std::string>& except = {},
+               const std::string& only = {});
     void forget();
+    bool isActive() const { return active_; }  // until it is known what followed
+    // What was Active or starting up when it began, as far as was known.
+    const std::vector<SimplexOf>& worked() const { return worked_; }
     void refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes);
     // "Stopping all: 9 of 14 in Standby", "All 14 of /lift and /drive in Standby, 0.4 s, 12:05:07",
     // "2 did not follow: …", "Not reached: robot". Empty before the first, and once states no
@@ -51,14 +55,12 @@ private:
         bool answered = false, interrupted = false;
         QElapsedTimer sent{};
     };
-    // A simplex: several agents may have one path.
-    struct Meant {
-        std::string agent, path;
-        auto operator<=>(const Meant&) const = default;
-    };
+    using Meant = SimplexOf;
     using State = std::optional<cortex::State>;  // none: it is not known now
 
     void tell(const AgentFrame& agent, const std::string& prefix);
+    QString scope() const;  // "all", "/arm", "all of agent robot"
+    QString part() const;
     void send(Told& told);
     void sendNext();
     bool mayBeSent(const Told& told) const;
@@ -77,12 +79,14 @@ private:
     Session& session_;
     const Kind kind_;
     std::vector<std::string> prefixes_;  // none below another one
+    std::string only_;                   // of this agent; empty: of all
     QString text_;
     bool narrowed_ = false;           // to what may be commanded
     bool active_ = false;             // until it is known what followed
     QElapsedTimer since_, answered_;  // since it began, since the last answer
     std::vector<Told> told_;
     std::vector<Meant> meant_;      // that are to reach Standby, or Active
+    std::vector<Meant> worked_;     // of them, when it began
     QStringList refusals_;          // "robot: …"
     std::map<Meant, State> ended_;  // the states that its result is about
     bool incomplete_ = false;       // its result says so

@@ -18,12 +18,13 @@ class StartAll : public QObject {
 public:
     explicit StartAll(Session& session, QObject* parent = nullptr);
 
-    void begin(const std::string& prefix);
+    void begin(const std::string& prefix, const std::string& agent = {});  // of all, or of one
     void forget();  // what waits, and what became of it
     void refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes);
     QString text() const;
 
 Q_SIGNALS:
+    void begun();
     void controlWanted(const std::string& prefix);
 
 private:
@@ -32,6 +33,7 @@ private:
     Session& session_;
     Order order_;
     std::string waits_;  // for control of this path; empty: for nothing
+    std::string agent_;  // empty: of all
     QElapsedTimer waiting_;
 };
 

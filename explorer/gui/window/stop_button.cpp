@@ -78,8 +78,8 @@ void StopButton::press() {
         return;
     }
     disarm();
-    Q_EMIT begun();
     order_.begin(wanted_, others_);
+    Q_EMIT begun();
 }
 
 void StopButton::disarm() {
@@ -120,10 +120,10 @@ QString StopButton::whole() const {
     return scope_ != wanted_ ? tr("%1, all that you may stop").arg(words) : words;
 }
 
-void StopButton::stop(const std::string& prefix) {
+void StopButton::stop(const std::string& prefix, const std::string& agent) {
     disarm();
+    order_.begin({prefix}, {}, agent);
     Q_EMIT begun();
-    order_.begin({prefix});
 }
 
 void StopButton::setScope(std::optional<std::string> prefix) {

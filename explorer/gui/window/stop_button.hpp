@@ -30,7 +30,10 @@ public:
     // Stops this path from now on, whatever is controlled; none: as above.
     void setScope(std::optional<std::string> prefix);
     const std::optional<std::string>& chosenScope() const { return chosen_; }
-    void stop(const std::string& prefix);  // this path, once
+    // This path, once, of one agent or of all.
+    void stop(const std::string& prefix, const std::string& agent = {});
+    bool isStopping() const { return order_.isActive(); }
+    const std::vector<SimplexOf>& worked() const { return order_.worked(); }  // when it began
     QSize sizeHint() const override;
 
 Q_SIGNALS:

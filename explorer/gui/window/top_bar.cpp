@@ -6,7 +6,6 @@
 #include "widgets/low_buttons.hpp"
 #include "widgets/text_label.hpp"
 #include "window/control_bar.hpp"
-#include "window/control_notice.hpp"
 #include "window/stop_button.hpp"
 
 #include <QEvent>
@@ -48,8 +47,6 @@ TopBar::TopBar(ControlBar& control, StopButton& stop, QWidget* parent)
 }
 
 void TopBar::setMenu(QMenu& menu) { menu_->setMenu(&menu); }
-
-void TopBar::tell(const QString& text) { control_.notice().tell(text); }
 
 void TopBar::setNarrow(bool narrow) {
     const int side = Look::units(narrow ? 1.5 : 3), size = Look::units(4);

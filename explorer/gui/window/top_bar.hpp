@@ -24,7 +24,6 @@ public:
 
     void setMenu(QMenu& menu);
     void setNarrow(bool narrow);
-    void tell(const QString& text);  // what became of a stop or start: in the line below
     QPushButton& menuButton() { return *menu_; }
     QPushButton& findButton() { return *find_; }
 

@@ -6,6 +6,7 @@
 #include "session/utc_now.hpp"
 #include "window/control_bar.hpp"
 #include "window/layout_menu.hpp"
+#include "window/orders.hpp"
 #include "window/pages.hpp"
 #include "window/stop_button.hpp"
 
@@ -48,6 +49,19 @@ void addTakeAgain(QMenu& menu, ControlBar& control) {
     });
 }
 
+// As the row below the bar offers it, also once that was closed.
+void addStarts(QMenu& menu, Orders& orders) {
+    StartAgain& again = orders.startAgain();
+    QAction* choice = menu.addAction({}, &again, &StartAgain::begin);
+    QObject::connect(&menu, &QMenu::aboutToShow, choice, [&again, choice] {
+        const QString why = again.whyNot();
+        choice->setEnabled(why.isEmpty());
+        choice->setText(why.isEmpty() ? entry("Start again what Stop stopped")
+                                      : entry("Start again what Stop stopped: %1").arg(why));
+    });
+    menu.addAction(entry("Start all…"), &orders, [&orders] { orders.startAll().begin("/"); });
+}
+
 }  // namespace
 
 QMenu* makeWindowMenu(const WindowActions& actions, QWidget* parent) {
@@ -72,7 +86,8 @@ QMenu* makeWindowMenu(const WindowActions& actions, QWidget* parent) {
     addTimes(*menu->addMenu(entry("Times")), actions.localTime);
     fillUnitMenu(*menu->addMenu(entry("Units of this view")), actions.units);
     addRates(*menu->addMenu(entry("Values")), actions.session);
-    addScopes(*menu->addMenu(entry("Stop stops")), actions.session, actions.stop);
+    addScopes(*menu->addMenu(entry("Stop stops")), actions.session, actions.orders.stop());
+    addStarts(*menu, actions.orders);
     menu->addSeparator();
     addTakeAgain(*menu, actions.control);
     addHandOver(*menu, actions.control);

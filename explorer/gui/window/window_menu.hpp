@@ -14,11 +14,12 @@ namespace cortex::gui {
 
 class ControlBar;
 class LayoutKeeper;
+class Orders;
 class StopButton;
 
 struct WindowActions {
     Session& session;
-    StopButton& stop;
+    Orders& orders;
     ControlBar& control;
     std::function<void()> nextTheme;
     std::function<void(double)> scale;
