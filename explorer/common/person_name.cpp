@@ -58,7 +58,8 @@ std::string personName(const std::string& given) {
 }
 
 std::string shownName(const std::string& name) {
-    std::string shown = printable(name);
+    std::string shown = name;
+    if (!shown.empty()) return shown;
     for (std::size_t i = 0; i < turning.size(); ++i) {
         for (std::size_t at = 0; (at = shown.find(turning[i], at)) != std::string::npos;)
             shown.replace(at, turning[i].size(), escapes[i]);

@@ -41,14 +41,11 @@ TEST_F(CortexPeople, AreListedWithTheirToolsBeforeTheyHoldAnything) {
     EXPECT_EQ(before[0]["mine"], false);
 
     shell.run("take /drive", "cortex [/drive]");
-    EXPECT_EQ(peopleWhen(1)[0]["holds"], (json{{{"agent", "mixer"}, {"prefix", "/drive"}}}));
     EXPECT_EQ(leases()[0]["person"], "Zora of the night");
-    EXPECT_TRUE(contains(live({"leases"}).output, "Zora of the night"));
     const Outcome refused = live({"set", "/drive", "naturalFrequency=8", "--take"});
     EXPECT_TRUE(contains(refused.errors, shell.who + " on host ")) << refused.errors;
     EXPECT_TRUE(contains(refused.errors, "'ask /drive' in 'cortex shell'")) << refused.errors;
-    shell.run("people", "  you");
-    EXPECT_EQ(peopleWhen(1).size(), 1U) << "a verb alone is nobody";
+    shell.run("people", "  /drive  -     you");
 }
 
 TEST_F(CortexPeople, AskAndGetAnAnswerThatBothSee) {
@@ -64,9 +61,9 @@ TEST_F(CortexPeople, AskAndGetAnAnswerThatBothSee) {
 
     bob.run("ask /drive", alice.who + " is asked, and holds everything of mixer");
     EXPECT_TRUE(alice.shows(asks)) << alice.output();
-    EXPECT_EQ(lookUntil([] { return liveJson({"people"}, "people"); },
-                        [](const json& people) { return people.size() == 2; })[1]["asks"],
-              "/drive");
+    const json people = peopleWhen(2);
+    EXPECT_EQ(people[0]["holds"], (json{{{"agent", "mixer"}, {"prefix", "/"}}})) << people;
+    EXPECT_EQ(people[1]["asks"], "/drive") << people;
     alice.run("refuse", "/drive was refused to " + bob.who);
     EXPECT_TRUE(bob.shows("control of /drive was refused to you by " + alice.who)) << bob.output();
 
@@ -110,19 +107,19 @@ TEST_F(CortexPeople, AreHandedControlByTheirWholeNameWhereOneToolAloneHasIt) {
 TEST_F(CortexPeople, CannotAskWhereNobodyHoldsAPartOrNobodySaysWhoHeIs) {
     const Holder holder{"/drive"};  // a program
 
-    const Outcome silent = runsFile("ask /drive\n");
-    EXPECT_EQ(silent.exit, 1);
-    EXPECT_TRUE(contains(silent.errors, "nobody can be asked for /drive: " + holder.name() +
-                                            " holds /drive of mixer and does not say who uses it"))
-        << silent.errors;
-    const Outcome free = runsFile("ask /axis\n");
-    EXPECT_EQ(free.exit, 1);
-    EXPECT_TRUE(contains(free.errors, "nobody else holds a part of /axis: 'take /axis' takes it"))
-        << free.errors;
-    const Outcome ours = runsFile("take /axis\nask /axis\n");
-    EXPECT_TRUE(contains(ours.errors, "you control /axis yourself")) << ours.errors;
-    EXPECT_EQ(runsFile("ask /drvie\n").exit, 3);
-    EXPECT_EQ(runsFile("ask drive\n").exit, 2);
+    const Outcome outcome = runsFile(
+        "ask /drive\nask /axis\ntake /axis\nask /axis\nask /drvie\nask drive\n", {"--keep-going"});
+
+    EXPECT_EQ(outcome.exit, 1);
+    for (const std::string& said :
+         {"nobody can be asked for /drive: " + holder.name() +
+              " holds /drive of mixer and does not say who uses it",
+          std::string{"nobody else holds a part of /axis: 'take /axis' takes it"},
+          std::string{"you control /axis yourself"},
+          std::string{"'ask /drvie' ended with exit code 3"},
+          std::string{"'ask drive' ended with exit code 2"}}) {
+        EXPECT_TRUE(contains(outcome.errors, said)) << said << '\n' << outcome.errors;
+    }
 }
 
 // As another program may tell them: with what turns the text, and what a terminal obeys.
@@ -147,7 +144,6 @@ TEST_F(CortexPeople, HaveNamesThatAreShownAsTextAndDoNothing) {
     alice.run("refuse " + mirror.name(), "/drive was refused to " + shown);
     EXPECT_FALSE(contains(alice.output(), "\u202e"));
     EXPECT_FALSE(contains(alice.output(), "\xc2\x9b"));
-    EXPECT_EQ(peopleWhen(2).size(), 2U);
 }
 
 TEST(CortexPeopleNames, ThatNobodyMayHaveAreRefusedWithARemedy) {

@@ -216,46 +216,6 @@ TEST_F(TwoWindows, WhatIsTakenWhileSomethingElseIsTakenIsTakenAfterIt) {
     EXPECT_TRUE(comes([this] { return mine().asks.empty() && mine().held.empty(); }));
 }
 
-struct Dressed { Dressed(double scale) { Look::apply(Theme::Light, scale, QStringLiteral("DejaVu Sans")); } };
-template <int percent> struct Pics : Dressed, TwoWindows {
-    Pics() : Dressed{percent / 100.0} {}
-    ~Pics() override { Look::apply(Theme::Light, 1, QStringLiteral("Open Sans")); }
-    void take(int w, int h, const char* name) {
-        ASSERT_TRUE(bothSee());
-        const auto save = [&](QWidget& w, const char* what) {
-            for (int i = 0; i < 5; ++i) QApplication::processEvents();
-            w.grab().save(QString{"/work/pics/c-%1-%2.png"}.arg(what, name));
-        };
-        window.resize(w, h);
-        other.window.resize(w, h);
-        window.open("/drive");
-        other.window.open("/drive");
-        ASSERT_TRUE(otherTakes("/drive"));
-        window.control().choose("/drive");
-        window.refresh();
-        save(*window.control().panel(), "panel");
-        QTest::mouseClick(&window.control().panel()->askButton(), Qt::LeftButton);
-        ASSERT_TRUE(isAskedFor("/drive"));
-        ASSERT_TRUE(comes([this] { return window.control().text().startsWith("Asking"); }));
-        save(window, "asking");
-        save(other.window, "asked");
-        otherNotice().refuse().click();
-        ASSERT_TRUE(comes([this] { return mine().asking.prefix.empty(); }));
-        window.refresh();
-        save(window, "refused");
-        window.control().choose("/");
-        window.control().panel()->takeButton().click();
-        ASSERT_TRUE(comes([this] { return myNotice().remedy().text() == "Ask maria for it"; }));
-        save(window, "nottaken");
-        other.window.control().chooseHandOver();
-        save(*other.window.control().handOverPanel(), "handover");
-        other.window.control().handOverPanel()->close();
-    }
-};
-using Pics100 = Pics<100>; using Pics150 = Pics<150>;
-TEST_F(Pics100, Z) { take(1280, 800, "usual"); }
-TEST_F(Pics150, Z) { take(800, 600, "small"); }
-
 // It holds something, and no person uses it.
 TEST_F(Controlling, WhoDoesNotSayWhoUsesItCannotBeAskedAndThatIsSaid) {
     ASSERT_TRUE(everythingComes());
@@ -345,6 +305,22 @@ TEST_F(SaidOfControl, TheLongestAskIsAnsweredFirstAndTheOthersAreCounted) {
     EXPECT_TRUE(now().text.startsWith("anna (anna@desk.1-1) asks for /mixer."));
     frame->control.asked.clear();
     EXPECT_EQ(now().text, "Control of /mixer of agent mixer is yours now.");
+}
+
+TEST_F(SaidOfControl, APressThatIsMeantForOnePersonAnswersNobodyElse) {
+    Session session{ownNetwork()};
+    ControlBar bar{session};
+    ControlNotice& notice = bar.notice();
+    const auto letsTheMouseThrough = [&] {
+        bar.refresh(frame, "");
+        return notice.testAttribute(Qt::WA_TransparentForMouseEvents);
+    };
+    frame->control.asked = {{"anna@desk.1-1", "anna", "/mixer", 1, {{"mixer", "/", 1}}}};
+    EXPECT_TRUE(letsTheMouseThrough());
+    notice.setAttribute(Qt::WA_TransparentForMouseEvents, false);
+    EXPECT_FALSE(letsTheMouseThrough()) << "it is the same question";
+    frame->control.asked = {{"carl@desk.2-2", "carl", "/mixer", 1, {{"mixer", "/", 1}}}};
+    EXPECT_TRUE(letsTheMouseThrough());
 }
 
 TEST_F(SaidOfControl, APersonOfWhomThereAreTwoIsCalledByTheNameOfTheTool) {

@@ -90,7 +90,8 @@ protected:
     }
     void stop() {
         window.control().notice().tell(
-            "Stopped: 3 of 4 of /drive in 0.4 s; Not reached: station, 12:00:01 UTC");
+            "Stopped: 3 of 4 of /drive in 0.4 s; Not reached: station, 12:00:01 UTC",
+            "Start these 3 again");
     }
     void fault() {
         robot.put("/drive", "state", std::int64_t{4});
@@ -282,6 +283,104 @@ TEST(Notice, ItsButtonsStayWhateverIsSaidAndWhatWasClosedStaysClosed) {
     notice->tell("Stopped: 3 of 4; Not reached: station");  // as in each frame
     notice->show({}, {});
     EXPECT_TRUE(notice->isHidden()) << "it was closed before";
+}
+
+// In a window that keeps a place for it, or in a low one.
+struct Noticing : testing::Test {
+    void showAt(int height) {
+        auto* rows = new QVBoxLayout{&window};
+        rows->addWidget(&notice->place());
+        rows->addStretch(1);
+        rows->setContentsMargins(0, 0, 0, 0);
+        notice->setParent(&window);
+        window.resize(800, height);
+        window.show();
+        settle();
+    }
+    static void settle() {
+        for (int i = 0; i < 3; ++i) QCoreApplication::sendPostedEvents();
+    }
+    std::vector<QWidget*> parts() {
+        std::vector<QWidget*> seen;
+        for (auto* each : notice->findChildren<QWidget*>())
+            if (!each->isHidden()) seen.push_back(each);
+        return seen;
+    }
+    QPushButton* close() {
+        for (auto* each : notice->findChildren<QPushButton*>())
+            if (each->text() == "Close") return each;
+        return nullptr;
+    }
+    bool isHit(const QWidget& widget) {
+        return window.childAt(widget.mapTo(&window, widget.rect().center())) == &widget;
+    }
+
+    QWidget window;
+    ControlNotice* notice = new ControlNotice;
+};
+
+TEST_F(Noticing, AllThatStandsInItIsInsideAndNothingLiesOverAnother) {
+    showAt(900);
+    const QString path = "/levelling/platform/hydraulics/left_cell/valves/proportional/second";
+    for (const int height : {900, 300}) {
+        window.resize(800, height);
+        for (const char* refusal : {"", "Refuse"}) {
+            notice->show("colleague@desk.14105-2501a1 holds " + path, "Take " + path, refusal);
+            notice->tell("1 of 3 Active again; " + path + " did not start", "Start these 2 again");
+            settle();
+            const auto seen = parts();
+            ASSERT_EQ(seen.size(), 5U);
+            for (const auto* each : seen) {
+                EXPECT_TRUE(notice->rect().contains(each->geometry()));
+                EXPECT_GE(each->width(), 60);
+                EXPECT_EQ(
+                    std::ranges::count_if(seen,
+                                          [&](const auto* other) {
+                                              return other->geometry().intersects(each->geometry());
+                                          }),
+                    1);
+            }
+        }
+    }
+    EXPECT_TRUE(notice->remedy().toolTip().contains(path)) << "it is cut";
+}
+
+TEST_F(Noticing, ARefusalStandsInThePlaceOfClose) {
+    showAt(900);
+    notice->show("alice asks for /drive.", "Hand over");
+    ASSERT_FALSE(close()->isHidden());
+    const int right = close()->geometry().right();
+    notice->show("alice asks for /drive.", "Hand over", "Refuse");
+    EXPECT_TRUE(close()->isHidden());
+    EXPECT_EQ(notice->refuse().geometry().right(), right);
+    notice->show({}, {});
+    EXPECT_TRUE(notice->isHidden());
+}
+
+TEST_F(Noticing, WhatIsOfferedBesideAnOutcomeGoesWithIt) {
+    showAt(900);
+    notice->tell("All 3 in Standby", "Start these 3 again");
+    EXPECT_FALSE(notice->againButton().isHidden());
+    close()->click();
+    notice->tell("All 3 in Standby", "Start these 3 again");  // as in each frame
+    EXPECT_TRUE(notice->againButton().isHidden());
+    notice->tell("2 in Standby", "Start these 2 again");
+    EXPECT_FALSE(notice->againButton().isHidden());
+    notice->tell("All 2 Active again");
+    EXPECT_TRUE(notice->againButton().isHidden());
+}
+
+TEST_F(Noticing, LetsTheMouseThroughAgainWhenAButtonChangesButNotWhenATextDoes) {
+    showAt(900);
+    notice->tell("All 3 in Standby", "Start these 3 again");
+    ASSERT_TRUE(comes([this] { return isHit(notice->againButton()); }));
+    notice->show("Control was lost.", {});
+    EXPECT_TRUE(isHit(notice->againButton())) << "no button has changed";
+    notice->tell("All 3 in Standby", "Start these 2 again");
+    EXPECT_FALSE(isHit(notice->againButton()));
+    ASSERT_TRUE(comes([this] { return isHit(notice->againButton()); }));
+    notice->show("Control was lost.", "Take / again");
+    EXPECT_FALSE(isHit(notice->remedy()));
 }
 
 TEST(Notice, LetsTheMouseThroughToWhatItLiesOverUntilItWasSeen) {

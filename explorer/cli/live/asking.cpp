@@ -22,10 +22,11 @@ bool isAgent(Live& live, const std::string& name) {
 }
 
 std::vector<Holder> holdersOf(Live& live, const std::string& prefix) {
-    live.waitForValues();
+    const std::string lacking = waitForLeases(live);
+    if (!lacking.empty()) throw Failure{NotFound, lacking};
     Texts names;
     for (const Holder& each : live.leases().holdersOf(prefix)) names.push_back(each.name);
-    if (!names.empty()) waitForPeople(live, names);
+    waitForPeople(live, names);
     return live.leases().holdersOf(prefix);
 }
 
@@ -138,7 +139,7 @@ std::string recipientOf(Live& live, const std::string& name) {
         if (each.person == name) meant.push_back(each.name);
     }
     const std::string shown = common::shownName(name);
-    if (meant.size() == 1) return meant.front();
+    if (meant.size() >= 1) return meant.front();
     if (meant.size() > 1) {
         throw Failure{No, "several tools say that " + shown +
                               " uses them, so name one by its whole name: " + joined(meant)};

@@ -32,7 +32,7 @@ std::string holdersText(Live& live, const Lease& key) {
     });
     std::vector<std::string> holders, texts;
     for (const auto& each : leases) holders.push_back(each.holder);
-    if (!holders.empty()) waitForPeople(live, holders);
+    waitForPeople(live, holders);
     for (const auto& each : leases) texts.push_back(holderText(live, each));
     return joined(texts);
 }

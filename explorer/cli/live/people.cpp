@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds betweenLooks{10};
+constexpr std::chrono::milliseconds betweenLooks{10}, toMeetAll{1000}, toMeetSome{500};
 
 bool areKnown(Live& live, const std::vector<std::string>& names) {
     const auto tools = live.mirror().tools();
@@ -23,17 +23,24 @@ bool areKnown(Live& live, const std::vector<std::string>& names) {
     });
 }
 
+bool haveMet(Live& live, std::chrono::milliseconds time) {
+    return Clock::now() - live.since() >= time && live.mirror().nameless() == 0;
+}
+
+void waitABit() {
+    throwIfInterrupted();
+    std::this_thread::sleep_for(betweenLooks);
+}
+
 }  // namespace
 
-void waitForPeople(Live& live, const std::vector<std::string>& names,
-                   std::chrono::milliseconds limit) {
-    for (const auto end = Clock::now() + limit; Clock::now() < end;) {
-        throwIfInterrupted();
-        if (!names.empty() && areKnown(live, names)) return;
-        const bool met = Clock::now() - live.since() >= toMeetPeople;
-        if (met && live.mirror().nameless() == 0) return;
-        std::this_thread::sleep_for(betweenLooks);
-    }
+void waitForPeople(Live& live) {
+    while (!haveMet(live, toMeetAll) && !live.over()) waitABit();
+}
+
+void waitForPeople(Live& live, const std::vector<std::string>& names) {
+    const auto end = Clock::now() + toMeetSome;
+    while (!haveMet(live, toMeetSome) && !areKnown(live, names) && Clock::now() < end) waitABit();
 }
 
 std::string personAt(Live& live, const std::string& name) {

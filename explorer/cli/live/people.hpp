@@ -3,19 +3,17 @@
 
 #include "live/live.hpp"
 
-#include <chrono>
 #include <string>
 #include <vector>
 
 // Who uses the tools on the network, as they say.
 namespace cortex::cli {
 
-inline constexpr std::chrono::milliseconds toMeetPeople{1000};
-
-// Waits until it is known who uses these tools, or for all tools that were found until they have
-// said who they are; in the second after we joined for those, too, that are found now.
-void waitForPeople(Live& live, const std::vector<std::string>& names,
-                   std::chrono::milliseconds limit = toMeetPeople);
+// Waits until all tools that were found have said who uses them; in the first second on the network
+// also for those that are found now.
+void waitForPeople(Live& live);
+// The same until it is known of these tools, and not as long: they may never say it.
+void waitForPeople(Live& live, const std::vector<std::string>& names);
 
 // Empty where it is not known.
 std::string personAt(Live& live, const std::string& name);

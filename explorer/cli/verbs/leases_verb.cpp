@@ -48,7 +48,7 @@ Exit listLeases(const LiveOptions& options) {
     const auto leases = shownLeases(live);
     std::vector<std::string> holders;
     for (const comms::ShownLease& each : leases) holders.push_back(each.holder);
-    if (!holders.empty()) waitForPeople(live, holders);
+    waitForPeople(live, holders);
     if (options.json) {
         Json list = Json::array();
         for (const comms::ShownLease& each : leases) list.push_back(leaseJson(live, each));

@@ -82,7 +82,7 @@ void printPeople(const Live& live, const std::vector<Person>& people, bool known
 // People are there without agents, too, and hold nothing then.
 Exit listPeople(const LiveOptions& options) {
     Live live{options.network};
-    waitForPeople(live, {}, live.left());
+    waitForPeople(live);
     const bool agents = live.waitForAny();
     const std::string lacking = agents ? waitForLeases(live) : namelessText(live.nameless());
     if (options.json && !lacking.empty()) throw Failure{NotFound, lacking};

@@ -231,6 +231,10 @@ void Session::run() {
         keepHolds();
         publish();
     } while (pause());
+    leave();
+}
+
+void Session::leave() {
     sent_.reset();
     holds_.reset();
     leases_.reset();
@@ -279,6 +283,7 @@ void Session::join() {
             if (events_.size() < mostEvents) events_.push_back(event);
         });
     } catch (const std::exception& error) {
+        leave();
         problem_ = error.what();
     }
 }

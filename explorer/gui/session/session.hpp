@@ -85,6 +85,7 @@ public:
 private:
     void run();
     void join();
+    void leave();
     void publish();
     using ControlChange = std::function<void(LeaseKeeper&, const Frame&)>;
     void keepCommands();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window/control_notice.hpp"
 
+#include "model/plain_text.hpp"
 #include "style/look.hpp"
 #include "widgets/text_label.hpp"
 
@@ -8,14 +9,14 @@
 #include <QPainter>
 #include <QPushButton>
 #include <algorithm>
-#include <initializer_list>
 #include <utility>
 
 namespace cortex::gui {
 
 namespace {
 
-constexpr int momentOfMouse = 500;  // ms, in which nobody has seen it yet
+constexpr int momentOfMouse = 500;    // ms, in which nobody has seen it yet
+constexpr double leastForBoth = 300;  // units, for both texts and all buttons in one row
 
 }  // namespace
 
@@ -76,8 +77,9 @@ void ControlNotice::tell(const QString& outcome, const QString& again) {
 }
 
 void ControlNotice::show(const QString& text, const QString& remedy, const QString& refusal) {
-    if (text == text_->text() && remedy == remedy_->text() && refusal == refuse_->text()) return;
+    if (text == text_->text() && remedy == offered_ && refusal == refuse_->text()) return;
     text_->show(text);
+    offered_ = remedy;
     remedy_->setText(remedy);
     refuse_->setText(refusal);
     text_->setVisible(!text.isEmpty());
@@ -126,39 +128,58 @@ void ControlNotice::fit() {
     raise();
 }
 
-// The buttons are low, so that the room that is kept is small, and stay where they are whatever is
-// said. Where there are both texts, what became of the order has what it needs, at most half; in a
-// low window it stands above. Its own button stands behind it. Returns the height of all.
-int ControlNotice::placeTexts(int width, bool low) {
-    const int gap = Look::units(2), left = Look::units(4), high = Look::units(6);
-    const int kept = keptHeight();
-    const auto place = [&](QPushButton& button, int x) {
-        button.setGeometry(x, (kept - high) / 2, button.sizeHint().width(), high);
-    };
-    int right = width - gap;
-    for (QPushButton* each : {close_, refuse_, remedy_}) {
+// From the right, in a row that begins at `top`. Returns where they begin.
+int ControlNotice::placeButtons(std::initializer_list<QPushButton*> buttons, int right, int top) {
+    const int gap = Look::units(2), high = Look::units(6);
+    for (QPushButton* each : buttons) {
         if (each->isHidden()) continue;
-        place(*each, right -= each->sizeHint().width());
-        right -= gap;
+        const int wide = each->sizeHint().width();
+        each->setGeometry(right - wide, top + (keptHeight() - high) / 2, wide, high);
+        right -= wide + gap;
     }
-    const bool both = !told_->isHidden() && !text_->isHidden(), stacked = both && low;
-    const int again = again_->isHidden() ? 0 : gap + again_->sizeHint().width();
+    return right;
+}
+
+// A long path in it is cut in its middle, and whole in the tip.
+void ControlNotice::cutRemedy(int most) {
+    const QFontMetrics metrics = remedy_->fontMetrics();
+    const int border = remedy_->sizeHint().width() - metrics.horizontalAdvance(remedy_->text());
+    const QString cut = metrics.elidedText(offered_, Qt::ElideMiddle, most - border);
+    remedy_->setText(cut);
+    remedy_->setToolTip(cut == offered_ ? QString{} : tipText(offered_));
+}
+
+// The buttons are low, so that the room that is kept is small, and stay where they are whatever is
+// said. Where there are both texts, what became of the order has what it needs, at most half. In a
+// low window it stands above, as it does in a narrow one where it has a button; then those of the
+// other text stand below. Returns the height of all.
+int ControlNotice::placeTexts(int width, bool low) {
+    const int gap = Look::units(2), left = Look::units(4), kept = keptHeight();
+    const bool both = !told_->isHidden() && !text_->isHidden(), offers = !again_->isHidden();
+    const bool stacked = both && (low || (offers && width < Look::units(leastForBoth)));
+    const bool below = stacked && offers;
+    cutRemedy(width * 2 / 5);
+    int right = placeButtons({close_}, width - gap, 0);
+    if (!below) right = placeButtons({refuse_, remedy_}, right, 0);
+
+    const int again = offers ? gap + again_->sizeHint().width() : 0;
     const int needed = QFontMetrics{told_->font()}.horizontalAdvance(told_->text()) + 2;
-    const int room = (both && !low ? (right - left) / 2 : right - left) - again;
+    const int room = (both && !stacked ? (right - left) / 2 : right - left) - again;
     const int end = left + std::min(needed, room);
-    place(*again_, end + gap);
+    placeButtons({again_}, end + again, 0);
     const auto put = [](TextLabel& label, int from, int to) {
         const int wide = std::max(to - from, 1);
         label.setGeometry(from, 0, wide, label.heightForWidth(wide));
         return label.isHidden() ? 0 : label.height();
     };
-    const int told = put(*told_, left, end);
-    const int text = put(*text_, both && !low ? end + again + gap : left, right);
-    const int first = again > 0 ? std::max(told, kept) : told;
-    const int all = std::max(kept, stacked ? first + text : std::max(told, text));
-    told_->move(told_->x(),
-                (all - (stacked ? text + first : told)) / 2 + (stacked ? (first - told) / 2 : 0));
-    text_->move(text_->x(), (all - text + (stacked ? first : 0)) / 2);
+    const int told = put(*told_, left, end), first = below ? std::max(told, kept) : told;
+    if (below) right = placeButtons({refuse_, remedy_}, width - gap, first);
+    const int text = put(*text_, both && !stacked ? end + again + gap : left, right);
+    const int second = below ? std::max(text, kept) : text;
+    const int all = std::max(kept, stacked ? first + second : std::max(told, text));
+    const int top = stacked ? (all - first - second) / 2 : 0;
+    told_->move(told_->x(), top + ((stacked ? first : all) - told) / 2);
+    text_->move(text_->x(), stacked ? top + first + (second - text) / 2 : (all - text) / 2);
     return all;
 }
 

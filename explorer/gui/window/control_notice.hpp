@@ -4,6 +4,7 @@
 #include <QRect>
 #include <QTimer>
 #include <QWidget>
+#include <initializer_list>
 #include <tuple>
 #include <vector>
 
@@ -54,6 +55,8 @@ private:
     void appear();
     int keptHeight() const;
     void fit();
+    int placeButtons(std::initializer_list<QPushButton*> buttons, int right, int top);
+    void cutRemedy(int most);
     int placeTexts(int width, bool low);
 
     QWidget* place_;
@@ -61,6 +64,7 @@ private:
     TextLabel *told_, *text_;
     QPushButton *again_, *remedy_, *refuse_, *close_;
     std::vector<Shown> seen_;  // buttons, as they were when something was said
+    QString offered_;          // the remedy
     QString read_;             // outcome that the user has closed
     QTimer fresh_;
 };

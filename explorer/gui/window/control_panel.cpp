@@ -85,7 +85,7 @@ public:
         const int width = fontMetrics().size(0, longest_).width() + besideText();
         return {width, heightForWidth(width)};
     }
-    QSize minimumSizeHint() const override { return {0, leastLines * fontMetrics().height()}; }
+    QSize minimumSizeHint() const override { return {0, leastLines * fontMetrics().lineSpacing()}; }
     int heightForWidth(int width) const override {
         const QRect room{0, 0, width - besideText(), QWIDGETSIZE_MAX};
         const int height = fontMetrics().boundingRect(room, Qt::TextWordWrap, longest_).height();
