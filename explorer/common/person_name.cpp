@@ -58,8 +58,7 @@ std::string personName(const std::string& given) {
 }
 
 std::string shownName(const std::string& name) {
-    std::string shown = name;
-    if (!shown.empty()) return shown;
+    std::string shown = printable(name);
     for (std::size_t i = 0; i < turning.size(); ++i) {
         for (std::size_t at = 0; (at = shown.find(turning[i], at)) != std::string::npos;)
             shown.replace(at, turning[i].size(), escapes[i]);

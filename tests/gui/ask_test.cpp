@@ -303,8 +303,14 @@ TEST_F(SaidOfControl, TheLongestAskIsAnsweredFirstAndTheOthersAreCounted) {
     EXPECT_EQ(now().act, ControlNews::Act::Grant) << "only an answer ends it";
     frame->control.asked.erase(frame->control.asked.begin());
     EXPECT_TRUE(now().text.startsWith("anna (anna@desk.1-1) asks for /mixer."));
-    frame->control.asked.clear();
+    const auto asked = std::exchange(frame->control.asked, {});
     EXPECT_EQ(now().text, "Control of /mixer of agent mixer is yours now.");
+    news.close();
+    frame->control.asked = asked;
+    now();
+    news.close();
+    frame->control.asked.clear();
+    EXPECT_EQ(now().text, "") << "that was read";
 }
 
 TEST_F(SaidOfControl, APressThatIsMeantForOnePersonAnswersNobodyElse) {

@@ -139,7 +139,7 @@ std::string recipientOf(Live& live, const std::string& name) {
         if (each.person == name) meant.push_back(each.name);
     }
     const std::string shown = common::shownName(name);
-    if (meant.size() >= 1) return meant.front();
+    if (meant.size() == 1) return meant.front();
     if (meant.size() > 1) {
         throw Failure{No, "several tools say that " + shown +
                               " uses them, so name one by its whole name: " + joined(meant)};

@@ -9,6 +9,15 @@
 
 namespace cortex::gui {
 
+CommandOutcome notSent(const CommandRequest& request, std::string problem) {
+    CommandOutcome outcome;
+    outcome.number = request.number;
+    outcome.path = request.path;
+    outcome.command = request.command;
+    outcome.problem = std::move(problem);
+    return outcome;
+}
+
 std::vector<CommandOutcome> SentCommands::send(std::vector<CommandRequest> requests,
                                                const Frame& frame) {
     std::vector<CommandOutcome> outcomes;
@@ -22,7 +31,7 @@ std::vector<CommandOutcome> SentCommands::send(std::vector<CommandRequest> reque
             }
             unanswered_.push_back(std::move(sent));
         } catch (const std::exception& error) {
-            outcomes.push_back({each.number, each.path, each.command, {}, error.what(), 0});
+            outcomes.push_back(notSent(each, error.what()));
         }
     }
     return outcomes;

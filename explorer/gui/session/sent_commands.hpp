@@ -26,6 +26,9 @@ struct CommandRequest {
     std::chrono::milliseconds limit{}, budget{};
 };
 
+// That it was never sent.
+CommandOutcome notSent(const CommandRequest& request, std::string problem);
+
 // Sends commands and waits for their answers, at most until their limit, or until their agent is
 // lost or has started anew. Session thread.
 class SentCommands {

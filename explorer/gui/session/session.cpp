@@ -301,8 +301,7 @@ void Session::keepCommands() {
         std::ranges::move(sent_->step(*last), std::back_inserter(outcomes));
     } else {
         for (const CommandRequest& each : requests)
-            outcomes.push_back(
-                {each.number, each.path, each.command, {}, "no domain is joined", 0});
+            outcomes.push_back(notSent(each, "no domain is joined"));
     }
     const std::lock_guard lock{mutex_};
     std::ranges::move(outcomes, std::back_inserter(outcomes_));

@@ -57,7 +57,7 @@ void addStarts(QMenu& menu, Orders& orders) {
         const QString why = again.whyNot();
         choice->setEnabled(why.isEmpty());
         choice->setText(why.isEmpty() ? entry("Start again what Stop stopped")
-                                      : entry("Start again what Stop stopped: %1").arg(why));
+                                      : entry("Start again: %1").arg(why));
     });
     menu.addAction(entry("Start all…"), &orders, [&orders] { orders.startAll().begin("/"); });
 }
