@@ -102,7 +102,7 @@ void LeaseKeeper::releaseAllBut(const std::string& prefix) {
 void LeaseKeeper::handOver(const std::string& to) {
     Giving giving{to, {}};
     for (const auto& [prefix, agents] : widestOf(client_.held()))
-        if (giving.parts.empty()) giving.parts.push_back({client_.handOver(prefix, to, agents), {prefix}});
+        giving.parts.push_back({client_.handOver(prefix, to, agents), {prefix}});
     if (giving.parts.empty()) return tell("Nothing was handed over: nothing is held.");
     givings_.push_back(std::move(giving));
 }
@@ -142,7 +142,7 @@ void LeaseKeeper::step(const Frame& frame, bool renews) {
         news += (news.empty() ? "" : " ") + asSentence(each);
     if (!news.empty()) {
         tell(news);
-        if (control_.asking.prefix.empty()) control_.sought.clear();
+        if (control_.asking.prefix.empty()) control_.sought = sought;
     }
     noteAll();
 }
@@ -180,7 +180,7 @@ void LeaseKeeper::finishTaking(const comms::LeaseClient::Answers& answers) {
     const Leases held = client_.held();
     const bool holds = std::ranges::find(held, prefix, &Lease::prefix) != held.end();
     if (std::exchange(inVain_, false)) {
-        (void)holds;
+        if (holds) releasing_.push_back(client_.release(prefix));
     } else if (!refusals.empty()) {
         tell("Control of " + prefix + " was not taken.");
         control_.refused = prefix;

@@ -49,6 +49,7 @@ void ControlNews::refresh(const Frame& frame) {
 }
 
 void ControlNews::close() {
+    if (row_.act == Act::Grant) return;
     closed_ = key_;
     row_ = {};
 }
