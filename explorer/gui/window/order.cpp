@@ -139,8 +139,7 @@ void Order::tell(const AgentFrame& agent, const std::string& prefix) {
 
 QString Order::scope() const {
     const QString paths = scopeWord(prefixes_);
-    return only_.empty() ? paths
-                         : say("%1 of agent %2").arg(paths, QString::fromStdString(only_));
+    return only_.empty() ? paths : say("%1 of agent %2").arg(paths, QString::fromStdString(only_));
 }
 
 // After "of"; empty: of everything.
