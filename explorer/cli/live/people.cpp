@@ -66,7 +66,7 @@ std::string waitForLeases(Live& live) {
     for (const comms::AgentStatus& each : live.mirror().agents()) own.push_back("/" + each.name);
     live.view(own, 100);
     const bool complete = live.waitForValues();
-    const std::string lacking = live.incomplete();
+    std::string lacking = live.incomplete();
     if (complete || !lacking.empty()) return lacking;
     return "not all agents have sent their leases in time; wait longer (--timeout)";
 }
