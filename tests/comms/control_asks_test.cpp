@@ -6,6 +6,7 @@
 #include "comms/stepped_agent.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -175,7 +176,7 @@ TEST_F(Asking, OfOneThatDoesNotSayWhoUsesItHaveNobodyToAnswerThem) {
 // Its agent still takes it for ours. Control is one explicit act, and so is to have it again.
 TEST_F(Asking, ControlThatWasLostDoesNotComeBackByItself) {
     Tool tool{"first", "alice"};
-    int looks = 0;
+    std::atomic<int> looks = 0;
     ASSERT_TRUE(tool.takes("/arm", {"robot"}));
     tool.leases.acceptOffers([&] { ++looks; });
     robot.stop();
