@@ -18,11 +18,13 @@ namespace {
 
 constexpr std::size_t longest = 63;
 
-// Octets of the line and paragraph separators and of the marks of direction in UTF-8.
-constexpr std::array<std::string_view, 14> turning{"\u061c", "\u200e", "\u200f", "\u2028", "\u2029",
-                                                   "\u202a", "\u202b", "\u202c", "\u202d", "\u202e",
-                                                   "\u2066", "\u2067", "\u2068", "\u2069"};
-constexpr std::array<std::string_view, 14> escapes{
+// Line and paragraph separators, marks of direction, and what is not seen at all.
+constexpr std::array<std::string_view, 21> turning{
+    "\u00ad", "\u200b", "\u200c", "\u200d", "\u2060", "\u3164", "\ufeff",
+    "\u061c", "\u200e", "\u200f", "\u2028", "\u2029", "\u202a", "\u202b",
+    "\u202c", "\u202d", "\u202e", "\u2066", "\u2067", "\u2068", "\u2069"};
+constexpr std::array<std::string_view, 21> escapes{
+    "\\u00ad", "\\u200b", "\\u200c", "\\u200d", "\\u2060", "\\u3164", "\\ufeff",
     "\\u061c", "\\u200e", "\\u200f", "\\u2028", "\\u2029", "\\u202a", "\\u202b",
     "\\u202c", "\\u202d", "\\u202e", "\\u2066", "\\u2067", "\\u2068", "\\u2069"};
 
@@ -37,22 +39,28 @@ std::string user() {
     return told == nullptr || *told == '\0' ? "somebody" : told;
 }
 
+bool isPersonName(const std::string& name) {
+    return name.size() <= longest && name == printable(name) &&
+           name.find_first_of("()") == std::string::npos && !name.starts_with(' ') &&
+           !name.ends_with(' ');
+}
+
 std::string userAtHost() {
     std::array<char, 256> host{};
     gethostname(host.data(), host.size() - 1);
     std::string name = user() + "@" + host.data();
     name.resize(fittingLength(name, longest));
-    return name == printable(name) ? name : "somebody";
+    return isPersonName(name) ? name : "somebody";
 }
 
 }  // namespace
 
 std::string personName(const std::string& given) {
     if (given.empty()) return userAtHost();
-    if (given.size() <= longest && given == printable(given)) return given;
+    if (isPersonName(given)) return given;
     throw Error{
-        "a name of a person is a text of at most 63 bytes, in UTF-8 and without control "
-        "characters" +
+        "a name of a person is a text of at most 63 bytes, in UTF-8, without control characters, "
+        "brackets ( ) and blanks at its ends" +
         (given.size() > longest ? " (this has " + std::to_string(given.size()) + " bytes)" : "") +
         "; give another one (--name NAME)"};
 }

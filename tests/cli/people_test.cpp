@@ -54,9 +54,9 @@ TEST_F(CortexPeople, AskAndGetAnAnswerThatBothSee) {
     hear(bob, alice.name);
     hear(alice, bob.name);
     const std::string asks = "cortex: " + bob.who +
-                             " asks for /drive; 'grant' hands over "
-                             "everything of mixer, 'refuse' refuses";
-    alice.run("grant", "nobody asks for anything that you hold");
+                             " asks for /drive; 'grant bob' hands over "
+                             "everything of mixer, 'refuse bob' refuses";
+    alice.run("grant bob", "nobody asks for anything that you hold");
     bob.run("withdraw", "you ask for nothing");
 
     bob.run("ask /drive", alice.who + " is asked, and holds everything of mixer");
@@ -64,6 +64,7 @@ TEST_F(CortexPeople, AskAndGetAnAnswerThatBothSee) {
     const json people = peopleWhen(2);
     EXPECT_EQ(people[0]["holds"], (json{{{"agent", "mixer"}, {"prefix", "/"}}})) << people;
     EXPECT_EQ(people[1]["asks"], "/drive") << people;
+    alice.run("grant", "NAME is required");
     alice.run("refuse", "/drive was refused to " + bob.who);
     EXPECT_TRUE(bob.shows("control of /drive was refused to you by " + alice.who)) << bob.output();
 
@@ -126,8 +127,8 @@ TEST_F(CortexPeople, CannotAskWhereNobodyHoldsAPartOrNobodySaysWhoHeIs) {
 TEST_F(CortexPeople, HaveNamesThatAreShownAsTextAndDoNothing) {
     const std::string hostile =
         "\u202eecila\u2066 <b>\"\\ \xc2\x9b"
-        "31m (cortex@vm.1-a)";
-    const std::string shown = "\\u202eecila\\u2066 <b>\"\\ \\x9b31m (cortex@vm.1-a)";
+        "31m";
+    const std::string shown = "\\u202eecila\\u2066 <b>\"\\ \\x9b31m";
     comms::Mirror mirror{"tool", ownNetwork()};
     mirror.introduce(hostile);
     comms::LeaseClient client{mirror};
@@ -147,8 +148,9 @@ TEST_F(CortexPeople, HaveNamesThatAreShownAsTextAndDoNothing) {
 }
 
 TEST(CortexPeopleNames, ThatNobodyMayHaveAreRefusedWithARemedy) {
-    for (const std::string& wrong : {std::string(64, 'x'), std::string(10'000, 'x'),
-                                     std::string{"a\nb"}, std::string{"\xff"}}) {
+    for (const std::string& wrong :
+         {std::string(64, 'x'), std::string(10'000, 'x'), std::string{"a\nb"}, std::string{"\xff"},
+          std::string{"alice (cortex@vm.1-2)"}, std::string{" "}}) {
         const Outcome outcome = cortex(Words{"shell", "--name", wrong} + network);
         EXPECT_EQ(outcome.exit, 2) << outcome.output;
         EXPECT_TRUE(contains(outcome.errors, "give another one (--name NAME)")) << outcome.errors;

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -132,6 +134,37 @@ TEST_F(Asking, AreRefusedInWordsAndMayBeAskedAnew) {
     EXPECT_EQ(first.leases.held().size(), 1U);
     second.leases.ask("/");
     EXPECT_TRUE(first.isAsked()) << "it is another one";
+}
+
+// However stubbornly they ask on, and although only eight refusals are told.
+TEST_F(Asking, AreRefusedOnceEachHoweverManyAsk) {
+    Tool holder{"first", "alice"};
+    ASSERT_TRUE(holder.takes("/arm", {"robot"}));
+    std::vector<std::unique_ptr<Mirror>> crowd;
+    for (int i = 0; i < 10; ++i) {
+        crowd.push_back(std::make_unique<Mirror>("stubborn", loopback()));
+        crowd.back()->introduce("mob");
+        crowd.back()->tellAsks({1, "/arm"}, {});
+    }
+    std::set<std::string> refused;
+    EXPECT_TRUE(comesTrue([&] {
+        for (const auto& each : holder.leases.asked()) {
+            EXPECT_TRUE(refused.insert(each.tool).second) << "it was refused before";
+            holder.leases.refuse(each);
+        }
+        return refused.size() == crowd.size();
+    }));
+    EXPECT_TRUE(holder.leases.asked().empty());
+}
+
+TEST_F(Asking, AreOnlyOfPathsAndOfOneWhoSaysWhoHeIs) {
+    Tool tool{"first", "alice"}, verb{"verb", ""};
+    for (const char* each : {"", "arm", "//", "/arm/", "/a b"}) {
+        EXPECT_THROW(tool.leases.ask(each), Error) << each;
+    }
+    EXPECT_THROW(tool.leases.ask("/" + std::string(127, 'a')), Error);
+    EXPECT_THROW(verb.leases.ask("/arm"), Error);
+    EXPECT_TRUE(tool.leases.asking().prefix.empty());
 }
 
 TEST_F(Asking, AreGoneAtTheHolderWhenTheyAreWithdrawnOrTheirToolEnds) {

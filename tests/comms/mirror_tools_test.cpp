@@ -63,6 +63,8 @@ TEST_F(MirrorToolsTest, SayOnlyWhatCanBeTheNameOfAPerson) {
     tools.take(usedBy("long", std::string(64, 'a')), begin);
     tools.take(usedBy("latin", "Zo\xeb"), begin);
     tools.take(usedBy("none", ""), begin);
+    tools.take(usedBy("blank", " "), begin);
+    tools.take(usedBy("brackets", "alice (window)"), begin);
     Presence forged = usedBy("window", "alice");
     forged.agent = agentId("other");
     tools.take(forged, begin);
@@ -84,7 +86,8 @@ TEST_F(MirrorToolsTest, SayWhatTheyAskForAndRefuse) {
 
 TEST_F(MirrorToolsTest, AskForNothingWhereTheirWordsAreNoAsk) {
     for (const char* each : {"", "7", "7 ", "/arm", "0 /arm", "x /arm", "7 arm", "-7 /arm",
-                             "99999999999999999999 /arm", "7 /arm\x1b[2J", "7/arm"}) {
+                             "99999999999999999999 /arm", "7 /arm\x1b[2J", "7/arm", "7 //",
+                             "7 /arm/", "7 /arm//left", "7 /arm left"}) {
         tools.take(of("window", {{"person", "alice"}, {"asks", each}}), begin);
         EXPECT_EQ(tools.list().front().asks, ControlAsk{}) << each;
     }

@@ -15,7 +15,8 @@ using Lease = LeaseClient::Lease;
 
 constexpr std::chrono::seconds untilShown{1};  // a lease that was refused to us a moment ago
 constexpr std::chrono::minutes longestAsk{2};
-constexpr std::size_t mostRefused = 8;
+constexpr std::chrono::milliseconds untilItCounts{300};  // so that nobody floods a person
+constexpr std::ptrdiff_t mostTold = 8;                   // refusals
 
 // Whether a lease on one path concerns what the agent has at and below another one.
 bool concerns(const Mirror& mirror, const std::string& agent, const std::string& leased,
@@ -74,29 +75,36 @@ std::vector<Holder> holdersOf(const Mirror& mirror, const std::string& prefix) {
 }
 
 void ControlAsks::ask(const std::string& prefix, Moment now) {
+    if (own_.number != 0 && own_.prefix == prefix) return;
+    tell({last_ + 1, prefix});
     own_ = {++last_, prefix};
     begun_ = now;
     holders_ = holdersOf(mirror_, prefix);
     met_ = !holders_.empty();
-    tell();
 }
 
 void ControlAsks::withdraw() {
     own_ = {};
     holders_.clear();
-    tell();
+    tell(own_);
 }
 
 LeaseClient::Asking ControlAsks::asking() const { return {own_.prefix, holders_}; }
 
-void ControlAsks::tell() { mirror_.tellAsks(own_, refused_); }
+// Whoever reads a refusal asks no longer: only those who do not are ever left out.
+void ControlAsks::tell(const ControlAsk& asks) {
+    const auto most = std::min(std::ssize(refused_), mostTold);
+    mirror_.tellAsks(asks, {refused_.end() - most, refused_.end()});
+}
 
 std::vector<Asked> ControlAsks::asked(const Leases& held) const {
     std::vector<Asked> list;
+    const Moment now = std::chrono::steady_clock::now();
     for (const ToolStatus& tool : mirror_.tools()) {
-        if (tool.asks.number == 0) continue;
-        if (std::ranges::find(refused_, Named{tool.name, tool.asks.number}) != refused_.end())
-            continue;
+        const Named named{tool.name, tool.asks.number};
+        const auto came = std::ranges::find(came_, named, &Came::named);
+        if (came == came_.end() || now - came->when < untilItCounts) continue;
+        if (std::ranges::find(refused_, named) != refused_.end()) continue;
         Asked asked{tool.name, tool.person, tool.asks.prefix, tool.asks.number, {}};
         for (const Lease& each : held) {
             if (concerns(mirror_, each.agent, each.prefix, asked.prefix))
@@ -105,16 +113,14 @@ std::vector<Asked> ControlAsks::asked(const Leases& held) const {
         if (!asked.gives.empty()) list.push_back(std::move(asked));
     }
     std::ranges::sort(list, {}, [&](const Asked& each) {
-        const auto place = std::ranges::find(came_, Named{each.tool, each.number});
-        return std::pair{place - came_.begin(), each.tool};
+        return std::ranges::find(came_, Named{each.tool, each.number}, &Came::named);
     });
     return list;
 }
 
 void ControlAsks::refuse(const Asked& asked) {
     refused_.emplace_back(asked.tool, asked.number);
-    if (refused_.size() > mostRefused) refused_.erase(refused_.begin());
-    tell();
+    tell(own_);
 }
 
 void ControlAsks::step(Moment now, std::vector<std::string>& news) {
@@ -123,13 +129,13 @@ void ControlAsks::step(Moment now, std::vector<std::string>& news) {
         const auto tool = find(tools, each.first);
         return tool == tools.end() || tool->asks.number != each.second;
     };
-    std::erase_if(came_, isOver);
+    std::erase_if(came_, [&](const Came& each) { return isOver(each.named); });
     for (const ToolStatus& each : tools) {
         const Named named{each.name, each.asks.number};
-        if (each.asks.number != 0 && std::ranges::find(came_, named) == came_.end())
-            came_.push_back(named);
+        if (each.asks.number != 0 && std::ranges::find(came_, named, &Came::named) == came_.end())
+            came_.push_back({named, now});
     }
-    if (std::erase_if(refused_, isOver) > 0) tell();
+    if (std::erase_if(refused_, isOver) > 0) tell(own_);
     if (own_.number != 0) follow(now, news);
 }
 

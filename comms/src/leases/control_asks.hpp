@@ -36,7 +36,7 @@ private:
 
     void follow(Moment now, std::vector<std::string>& news);
     void end(std::string why, std::vector<std::string>& news);
-    void tell();
+    void tell(const ControlAsk& asks);
 
     Mirror& mirror_;
     ControlAsk own_;  // number 0: none
@@ -44,7 +44,11 @@ private:
     Moment begun_{};
     bool met_ = false;  // somebody who holds a part of it
     std::vector<LeaseClient::Holder> holders_;
-    std::vector<Named> came_;     // asks of others, in the order in which they came
+    struct Came {
+        Named named;
+        Moment when;
+    };
+    std::vector<Came> came_;      // asks of others, in the order in which they came
     std::vector<Named> refused_;  // those of them that we refused
 };
 

@@ -3,6 +3,7 @@
 
 #include "cortex/comms/security.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/printable.hpp"
 
 #include "mirror/mirror_thread.hpp"
 
@@ -199,7 +200,8 @@ void Mirror::actFor(const std::string& person) {
 void Mirror::introduce(const std::string& person) {
     if (!isPerson(person)) {
         throw Error(
-            "the name of who uses a tool has 1 to 63 bytes of UTF-8, without control characters");
+            "the name of who uses a tool has 1 to 63 bytes of UTF-8, no control characters and "
+            "brackets, and no blank at its ends");
     }
     implementation_->thread.change([&](MirrorState& state) { state.words.person = person; });
 }
@@ -210,7 +212,13 @@ std::vector<ToolStatus> Mirror::tools() const {
 
 void Mirror::tellAsks(const ControlAsk& asks,
                       std::vector<std::pair<std::string, std::uint64_t>> refuses) {
+    if (asks.number != 0 && !canBeAskedFor(asks.prefix)) {
+        throw Error("control can be asked for of / or of a path of at most 127 bytes, not of '" +
+                    printable(asks.prefix) + "'");
+    }
     implementation_->thread.change([&](MirrorState& state) {
+        if (asks.number != 0 && state.words.person.empty())
+            throw Error("say who uses the program before it asks for control (introduce)");
         state.words.asks = asks;
         state.words.refuses = std::move(refuses);
     });

@@ -43,8 +43,7 @@ ToolStatus statusOf(const Presence& presence) {
     status.security = presence.security;
     status.person = textIn(presence, userOfTool);
     const auto asks = taken(textIn(presence, asksFor));
-    if (asks && asks->second.front() == '/' && isPlain(asks->second, longestPrefix))
-        status.asks = {asks->first, asks->second};
+    if (asks && canBeAskedFor(asks->second)) status.asks = {asks->first, asks->second};
     for (const Extra& extra : presence.extras) {
         if (extra.name != refusedAsk || status.refuses.size() == mostRefusals) continue;
         if (const auto refused = taken(extra.value))
@@ -65,7 +64,16 @@ std::vector<Extra> ToolWords::extras() const {
     return extras;
 }
 
-bool isPerson(const std::string& name) { return isPlain(name, longestName); }
+bool isPerson(const std::string& name) {
+    return isPlain(name, longestName) && name.find_first_of("()") == std::string::npos &&
+           !name.starts_with(' ') && !name.ends_with(' ');
+}
+
+bool canBeAskedFor(const std::string& prefix) {
+    if (prefix == "/") return true;
+    return isPlain(prefix, longestPrefix) && prefix.front() == '/' && prefix.back() != '/' &&
+           prefix.find("//") == std::string::npos && prefix.find(' ') == std::string::npos;
+}
 
 void MirrorTools::take(const Presence& presence, Moment now) {
     if (presence.role != "tool" || presence.name == self_) return;

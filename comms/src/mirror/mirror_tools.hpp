@@ -25,8 +25,11 @@ struct ToolWords {
     bool operator==(const ToolWords&) const = default;
 };
 
-// Whether it can be the name of a person: 1 to 63 bytes of UTF-8 without control characters.
+// Whether it can be the name of a person: 1 to 63 bytes of UTF-8 without control characters and
+// brackets, as a tool's name stands in these behind it, and without a blank at either end.
 bool isPerson(const std::string& name);
+// Whether control of it can be asked for: "/", or the path of a simplex, of at most 127 bytes.
+bool canBeAskedFor(const std::string& prefix);
 
 // The other tools of the domain that say who uses them. Of several starts of one name the one that
 // was heard first counts. Used under the mutex of the mirror.

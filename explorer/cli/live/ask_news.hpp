@@ -10,8 +10,8 @@ namespace cortex::cli {
 
 using Asked = comms::LeaseClient::Asked;
 
-// The word that names one who asks behind 'grant' and 'refuse', if several do: the person where
-// that is clear, otherwise the tool.
+// The word that names one who asks behind 'grant' and 'refuse': the person where that is clear,
+// otherwise the tool.
 std::string wordFor(const Asked& asked, const std::vector<Asked>& all);
 // Those that are meant by a tool's whole name or, if no tool is called so, by that of a person.
 std::vector<Asked> meantBy(const std::string& name, const std::vector<Asked>& all);

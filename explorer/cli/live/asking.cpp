@@ -23,9 +23,10 @@ bool isAgent(Live& live, const std::string& name) {
 
 std::vector<Holder> holdersOf(Live& live, const std::string& prefix) {
     const std::string lacking = waitForLeases(live);
-    if (!lacking.empty()) throw Failure{NotFound, lacking};
     Texts names;
     for (const Holder& each : live.leases().holdersOf(prefix)) names.push_back(each.name);
+    // Others may hold a part, too; but those who are known can be asked.
+    if (names.empty() && !lacking.empty()) throw Failure{NotFound, lacking};
     waitForPeople(live, names);
     return live.leases().holdersOf(prefix);
 }

@@ -57,12 +57,11 @@ CLI::App* addVerb(Verbs& verbs, const char* name, const char* description, const
     return verb;
 }
 
-void addAnswer(Verbs& verbs, const char* name, const char* description, const char* examples,
-               Exit (*run)(const AskOptions&)) {
+CLI::Option* addAnswer(Verbs& verbs, const char* name, const char* description,
+                       const char* examples, Exit (*run)(const AskOptions&)) {
     const auto options = std::make_shared<AskOptions>();
-    addVerb(verbs, name, description, examples, options, run)
-        ->add_option("NAME", options->of,
-                     "Whole name of the person or tool that asks; not needed if only one does")
+    return addVerb(verbs, name, description, examples, options, run)
+        ->add_option("NAME", options->of, "Whole name of the person or tool that asks")
         ->type_name("");
 }
 
@@ -80,14 +79,15 @@ Example:
         ->type_name("");
     addVerb(verbs, "withdraw", "Ask no longer", "Example:\n  withdraw",
             std::make_shared<AskOptions>(), withdraw);
+    // Whoever asks may be another one by the time that the line is read: so the name is required.
     addAnswer(verbs, "grant", "Hand over control to who asks for it",
               R"(It says what goes: who holds all of an agent cannot give a part.
-Examples:
-  grant
+Example:
   grant "alice of the night shift")",
-              grant);
-    addAnswer(verbs, "refuse", "Refuse control to who asks for it", "Example:\n  refuse alice",
-              refuse);
+              grant)
+        ->required();
+    addAnswer(verbs, "refuse", "Refuse control to who asks for it; without a name the only one",
+              "Example:\n  refuse alice", refuse);
 }
 
 }  // namespace cortex::cli

@@ -87,11 +87,13 @@ public:
     std::vector<Holder> holdersOf(const std::string& prefix) const;
     // Asks them all for it; what was asked for before is withdrawn. It ends when nobody else holds
     // a part of it, when all who can be asked have refused, after two minutes, or with withdraw();
-    // news() says what became of it. Each tool must say who uses it (Mirror::introduce).
+    // news() says what became of it. Asked for again meanwhile, it goes on. Throws Error unless the
+    // prefix is "/" or a path of at most 127 bytes, and unless Mirror::introduce() was called.
     void ask(const std::string& prefix);
     void withdraw();
     Asking asking() const;
-    // Who asks for something that we hold a part of, and got no answer yet: the longest first.
+    // Who asks for something that we hold a part of, and got no answer yet: the longest first. An ask
+    // counts once it has stood for 0.3 s.
     std::vector<Asked> asked() const;
     std::uint64_t grant(const Asked& asked);  // hands over what it gives; answers as handOver()
     void refuse(const Asked& asked);

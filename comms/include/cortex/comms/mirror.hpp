@@ -101,12 +101,14 @@ public:
     // Throws Error for a longer name or one with control characters.
     void actFor(const std::string& person);
     // From now on tells all others who uses this tool: a person who may hold control in it. Throws
-    // Error unless it is a text of 1 to 63 bytes of UTF-8 without control characters.
+    // Error unless it is a text of 1 to 63 bytes of UTF-8 without control characters and brackets
+    // ( ), and without a blank at either end.
     void introduce(const std::string& person);
     // The others that say who uses them and are heard, by name. Those that another one replaces
     // under its name, or that say nothing for four times their interval, are left out.
     std::vector<ToolStatus> tools() const;
-    // What this tool asks for from now on, and what it refuses others. LeaseClient says both.
+    // What this tool asks for from now on, and what it refuses others: eight at most reach them.
+    // LeaseClient says both. Throws Error as LeaseClient::ask() does.
     void tellAsks(const ControlAsk& asks,
                   std::vector<std::pair<std::string, std::uint64_t>> refuses);
 
