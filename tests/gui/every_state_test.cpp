@@ -345,14 +345,16 @@ TEST_F(Noticing, AllThatStandsInItIsInsideAndNothingLiesOverAnother) {
     EXPECT_TRUE(notice->remedy().toolTip().contains(path)) << "it is cut";
 }
 
-TEST_F(Noticing, ARefusalStandsInThePlaceOfClose) {
+TEST_F(Noticing, NoOtherButtonEverStandsInThePlaceOfClose) {
     showAt(900);
     notice->show("alice asks for /drive.", "Hand over");
     ASSERT_FALSE(close()->isHidden());
-    const int right = close()->geometry().right();
+    const int left = close()->geometry().left();
     notice->show("alice asks for /drive.", "Hand over", "Refuse");
     EXPECT_TRUE(close()->isHidden());
-    EXPECT_EQ(notice->refuse().geometry().right(), right);
+    EXPECT_LT(notice->refuse().geometry().right(), left);
+    notice->tell("All 3 in Standby", "Start these 3 again");
+    EXPECT_LT(notice->againButton().geometry().right(), left);
     notice->show({}, {});
     EXPECT_TRUE(notice->isHidden());
 }

@@ -30,13 +30,23 @@ bool isHeld(const std::vector<Lease>& held, const Asked& asked) {
 
 std::string textOf(const Asked& asked, const std::vector<Asked>& all) {
     std::string name;
-    if (all.size() > 1) name.append(1, ' ').append(wordFor(asked, all));
+    name.append(1, ' ').append(wordFor(asked, all));
     return common::whoText(asked.tool, asked.person) + " asks for " + asked.prefix + "; 'grant" +
            name + "' hands over " + common::leasesText(asked.gives) + ", 'refuse" + name +
            "' refuses";
 }
 
 }  // namespace
+
+bool isNameOfTool(const std::string& name) {
+    const std::size_t at = name.rfind('@'), dot = name.rfind('.'), dash = name.rfind('-');
+    const auto isMadeOf = [&](std::size_t begin, std::size_t end, const char* characters) {
+        return begin < end && name.find_first_not_of(characters, begin) >= end;
+    };
+    return at != std::string::npos && dot != std::string::npos && dash != std::string::npos &&
+           0 < at && at < dot && isMadeOf(dot + 1, dash, "0123456789") &&
+           isMadeOf(dash + 1, name.size(), "0123456789abcdef");
+}
 
 std::string wordFor(const Asked& asked, const std::vector<Asked>& all) {
     const auto meant = meantBy(asked.person, all);
@@ -49,7 +59,7 @@ std::vector<Asked> meantBy(const std::string& name, const std::vector<Asked>& al
     std::vector<Asked> tools, people;
     for (const Asked& each : all) {
         if (each.tool == name) tools.push_back(each);
-        if (each.person == name) people.push_back(each);
+        if (each.person == name && !isNameOfTool(name)) people.push_back(each);
     }
     return tools.empty() ? people : tools;
 }

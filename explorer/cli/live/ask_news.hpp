@@ -10,6 +10,9 @@ namespace cortex::cli {
 
 using Asked = comms::LeaseClient::Asked;
 
+// "desk.4711-5e1f0a" stands behind the @ in the name of a tool. Where a person has such a name, the
+// word means the tool alone.
+bool isNameOfTool(const std::string& name);
 // The word that names one who asks behind 'grant' and 'refuse': the person where that is clear,
 // otherwise the tool.
 std::string wordFor(const Asked& asked, const std::vector<Asked>& all);

@@ -56,17 +56,6 @@ std::string listOf(const std::vector<Asked>& all) {
     return joined(names);
 }
 
-// "desk.4711-5e1f0a" stands behind the @ in the name of a tool, but in that of no person.
-bool isNameOfTool(const std::string& name) {
-    const std::size_t at = name.rfind('@'), dot = name.rfind('.'), dash = name.rfind('-');
-    const auto isMadeOf = [&](std::size_t begin, std::size_t end, const char* characters) {
-        return begin < end && name.find_first_not_of(characters, begin) >= end;
-    };
-    return at != std::string::npos && dot != std::string::npos && dash != std::string::npos &&
-           0 < at && at < dot && isMadeOf(dot + 1, dash, "0123456789") &&
-           isMadeOf(dash + 1, name.size(), "0123456789abcdef");
-}
-
 bool isHolder(Live& live, const std::string& name) {
     const auto leases = shownLeases(live);
     return std::ranges::find(leases, name, &comms::ShownLease::holder) != leases.end();
@@ -137,7 +126,7 @@ std::string recipientOf(Live& live, const std::string& name) {
     Texts meant;
     for (const comms::ToolStatus& each : live.mirror().tools()) {
         if (each.name == name) return name;
-        if (each.person == name) meant.push_back(each.name);
+        if (each.person == name && !isNameOfTool(name)) meant.push_back(each.name);
     }
     const std::string shown = common::shownName(name);
     if (meant.size() == 1) return meant.front();

@@ -5,6 +5,7 @@
 #include "cortex/core/error.hpp"
 #include "cortex/core/path.hpp"
 
+#include "common/leases_text.hpp"
 #include "common/person_name.hpp"
 #include "session/lease.hpp"
 
@@ -17,6 +18,8 @@
 namespace cortex::gui {
 
 namespace {
+
+constexpr std::chrono::seconds together{2};
 
 using Leases = std::vector<comms::LeaseClient::Lease>;
 
@@ -116,6 +119,14 @@ void LeaseKeeper::grant(const Asked& asked) {
     if (isOver || std::ranges::find(givings_, asked.tool, &Giving::to) != givings_.end()) return;
     Part part{client_.grant(asked), {}};
     for (const auto& [prefix, agents] : widestOf(asked.gives)) part.prefixes.push_back(prefix);
+    const Leases held = client_.held();
+    const bool keeps = std::ranges::any_of(held, [&](const Lease& each) {
+        return std::ranges::find(part.prefixes, each.prefix) != part.prefixes.end() &&
+               std::ranges::none_of(asked.gives, [&](const Lease& given) {
+                   return given.agent == each.agent && given.prefix == each.prefix;
+               });
+    });
+    if (keeps) part.words = common::leasesText(asked.gives);
     givings_.push_back({asked.tool, {std::move(part)}});
 }
 
@@ -141,7 +152,12 @@ void LeaseKeeper::step(const Frame& frame, bool renews) {
     for (const std::string& each : client_.news())
         news += (news.empty() ? "" : " ") + asSentence(each);
     if (!news.empty()) {
+        // What several agents say of one act comes one after the other.
+        const auto now = std::chrono::steady_clock::now();
+        if (now - lastNews_ < together && control_.notice == news_) news = news_ + " " + news;
+        lastNews_ = now;
         tell(news);
+        news_ = control_.notice;
         if (control_.asking.prefix.empty()) control_.sought = sought;
     }
     noteAll();
@@ -197,7 +213,7 @@ void LeaseKeeper::finishTaking(const comms::LeaseClient::Answers& answers) {
 
 bool LeaseKeeper::finishGiving(Giving& giving) {
     std::vector<std::string> given, kept;
-    std::string refusals;
+    std::string refusals, words;
     for (Part& part : giving.parts) {
         comms::LeaseClient::Answers answers;
         if (!part.answered && !client_.poll(part.number, answers)) return false;
@@ -206,15 +222,18 @@ bool LeaseKeeper::finishGiving(Giving& giving) {
             if (!answer.done()) part.refusals += " " + name + ": " + answer.text() + ".";
         }
         refusals += part.refusals;
+        words += part.words;
         std::ranges::copy(part.prefixes, std::back_inserter(part.refusals.empty() ? given : kept));
     }
     const std::string to = common::whoText(giving.to, common::personOf(control_.tools, giving.to));
     if (given.empty()) {
-        tell("Control of " + inWords(kept) + " was not handed over to " + to + "." + refusals);
+        tell("Control of " + (words.empty() ? inWords(kept) : words) + " was not handed over to " +
+             to + "." + refusals);
         return true;
     }
-    tell("Control of " + inWords(given) + " was handed over to " + to +
+    tell("Control of " + (words.empty() ? inWords(given) : words) + " was handed over to " + to +
          (kept.empty() ? "." : ", but not of " + inWords(kept) + "." + refusals));
+    if (!words.empty()) return true;  // of the others it is held still
     std::erase_if(control_.claims, [&](const std::string& claim) {
         return std::ranges::any_of(
             given, [&](const std::string& each) { return isAtOrBelow(claim, each); });

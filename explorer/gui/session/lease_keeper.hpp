@@ -3,6 +3,7 @@
 
 #include "session/frame.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -43,6 +44,7 @@ private:
         std::vector<std::string> prefixes;
         bool answered = false;
         std::string refusals{};  // " mixer: Rejected (authority): …."
+        std::string words{};     // "everything of robot"; empty: all of its prefixes go
     };
     // What goes to somebody in one act.
     struct Giving {
@@ -64,6 +66,8 @@ private:
     std::string next_;          // to be taken after that; empty: nothing
     std::vector<std::uint64_t> releasing_;
     std::vector<Giving> givings_;
+    std::string news_;  // the last that was told
+    std::chrono::steady_clock::time_point lastNews_{};
     comms::LeaseClient client_;  // ends first, and releases all within a second
 };
 

@@ -15,7 +15,9 @@ namespace cortex::gui {
 
 namespace {
 
-constexpr int momentOfMouse = 500;    // ms, in which nobody has seen it yet
+constexpr int momentOfMouse = 500;  // ms, in which nobody has seen it yet
+constexpr int momentOfPress =
+    1500;  // ms, in which a hand may still be on its way to another button
 constexpr double leastForBoth = 300;  // units, for both texts and all buttons in one row
 
 }  // namespace
@@ -41,7 +43,6 @@ ControlNotice::ControlNotice(QWidget* parent)
     for (QPushButton* each : {again_, remedy_, refuse_, close_}) each->setFocusPolicy(Qt::TabFocus);
     connect(close_, &QPushButton::clicked, this, &ControlNotice::dismiss);
     fresh_.setSingleShot(true);
-    fresh_.setInterval(momentOfMouse);
     connect(&fresh_, &QTimer::timeout, this,
             [this] { setAttribute(Qt::WA_TransparentForMouseEvents, false); });
     place_->installEventFilter(this);
@@ -107,9 +108,11 @@ void ControlNotice::appear() {
     update();
     auto now = buttons();
     if (now == seen_) return;
+    if (!seen_.empty()) pressable_.start();
+    const bool replaces = pressable_.isValid() && !pressable_.hasExpired(momentOfPress);
     seen_ = std::move(now);
     setAttribute(Qt::WA_TransparentForMouseEvents);
-    fresh_.start();
+    fresh_.start(replaces ? momentOfPress : momentOfMouse);
 }
 
 // Over the place that is kept free; in a low window none is.
@@ -159,7 +162,10 @@ int ControlNotice::placeTexts(int width, bool low) {
     const bool stacked = both && (low || (offers && width < Look::units(leastForBoth)));
     const bool below = stacked && offers;
     cutRemedy(width * 2 / 5);
-    int right = placeButtons({close_}, width - gap, 0);
+    placeButtons({close_}, width - gap, 0);
+    // Its place is kept: no other button ever stands there.
+    const int besideClose = width - 2 * gap - close_->sizeHint().width();
+    int right = besideClose;
     if (!below) right = placeButtons({refuse_, remedy_}, right, 0);
 
     const int again = offers ? gap + again_->sizeHint().width() : 0;
@@ -173,7 +179,7 @@ int ControlNotice::placeTexts(int width, bool low) {
         return label.isHidden() ? 0 : label.height();
     };
     const int told = put(*told_, left, end), first = below ? std::max(told, kept) : told;
-    if (below) right = placeButtons({refuse_, remedy_}, width - gap, first);
+    if (below) right = placeButtons({refuse_, remedy_}, besideClose, first);
     const int text = put(*text_, both && !stacked ? end + again + gap : left, right);
     const int second = below ? std::max(text, kept) : text;
     const int all = std::max(kept, stacked ? first + second : std::max(told, text));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QElapsedTimer>
 #include <QRect>
 #include <QTimer>
 #include <QWidget>
@@ -67,6 +68,7 @@ private:
     QString offered_;          // the remedy
     QString read_;             // outcome that the user has closed
     QTimer fresh_;
+    QElapsedTimer pressable_;  // since other buttons stood there
 };
 
 }  // namespace cortex::gui

@@ -20,6 +20,7 @@ constexpr int patience = 10'000;      // ms, with agents that do not answer
 constexpr int betweenTries = 100;     // ms
 constexpr int turn = 500;             // ms, of one path where an agent has several
 constexpr int lastValues = 1000;      // ms after the last answer, until states are told too
+constexpr int untilRead = 10'000;     // ms, in which the result of a start can be read
 constexpr int mostNotFollowing = 3;   // that are named
 constexpr std::size_t mostPaths = 2;  // that are named
 constexpr std::chrono::milliseconds limit = std::chrono::seconds{70};  // it may take a minute
@@ -243,7 +244,8 @@ void Order::finish(const Frame& frame) {
     const double seconds = static_cast<double>(since_.elapsed()) / 1000;
     const auto followed = followers(frame);
     const bool all = parts.isEmpty() && followed == std::ssize(meant_);
-    incomplete_ = kind_ == Stop && !all;
+    incomplete_ = kind_ == Stop ? !all : !parts.isEmpty();
+    sinceEnd_.start();
     const QString of = part().isEmpty() ? QString{} : say(" of %1").arg(part());
     const QString count = all ? say("All %1").arg(followed) + of
                               : say("%1 of %2").arg(followed).arg(meant_.size()) + of;
@@ -300,6 +302,7 @@ bool Order::wasReached(const Meant& meant) const {
 
 // What was not done stays said until it is, whatever else happens: a person closes it.
 bool Order::agrees(const Frame& frame) const {
+    if (kind_ == Start && sinceEnd_.isValid() && !sinceEnd_.hasExpired(untilRead)) return true;
     if (incomplete_) return followers(frame) < std::ssize(meant_);
     return std::ranges::all_of(ended_, [&](const auto& each) {
         const State now = stateOf(frame, each.first);

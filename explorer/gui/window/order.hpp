@@ -84,6 +84,7 @@ private:
     bool narrowed_ = false;           // to what may be commanded
     bool active_ = false;             // until it is known what followed
     QElapsedTimer since_, answered_;  // since it began, since the last answer
+    QElapsedTimer sinceEnd_;          // since it is known what followed
     std::vector<Told> told_;
     std::vector<Meant> meant_;      // that are to reach Standby, or Active
     std::vector<Meant> worked_;     // of them, when it began

@@ -20,6 +20,7 @@ constexpr std::chrono::milliseconds longestStart =
     std::chrono::seconds{70};            // it may take a minute
 constexpr int lastStates = 1000;         // ms after an answer, until states are told too
 constexpr std::ptrdiff_t mostNamed = 3;  // that did not start
+constexpr int toBeRead = 10'000;         // ms, in which it can be read whatever happens
 
 const AgentFrame* heardAgent(const Frame& frame, const std::string& name) {
     const auto found = std::ranges::find(frame.agents, name,
@@ -72,7 +73,7 @@ void OrderedStart::forget() {
 
 void OrderedStart::refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes) {
     if (!active_) {
-        if (!text_.isEmpty() && !agrees(frame)) text_.clear();
+        if (!text_.isEmpty() && ended_.hasExpired(toBeRead) && !agrees(frame)) text_.clear();
         return;
     }
     for (const CommandOutcome& each : outcomes) take(each);
@@ -161,6 +162,7 @@ std::ptrdiff_t OrderedStart::count(StartStep step) const {
 
 void OrderedStart::finish() {
     active_ = false;
+    ended_.start();
     const auto followed = count(StartStep::Active);
     const double seconds = static_cast<double>(begun_.elapsed()) / 1000;
     complete_ = followed == std::ssize(members_);

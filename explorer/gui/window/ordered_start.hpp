@@ -27,7 +27,8 @@ public:
     void refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes);
     bool isActive() const { return active_; }  // until it is known what followed
     // "Starting 9 again: 3 Active", "All 9 Active again, 1.2 s, 12:05:20", "/arm did not start: …".
-    // Empty before the first, and once states no longer agree with it.
+    // Empty before the first, and once states no longer agree with it, though not in its first ten
+    // seconds.
     const QString& text() const { return text_; }
 
 private:
@@ -58,7 +59,7 @@ private:
     std::vector<Member> members_;
     StartOrder order_;
     bool active_ = false, complete_ = false;
-    QElapsedTimer begun_;
+    QElapsedTimer begun_, ended_;
     QString text_;
 };
 

@@ -17,6 +17,9 @@ Orders::Orders(Session& session, StopButton& stop, ControlBar& control, QObject*
     });
     connect(&all_, &StartAll::begun, &again_, &StartAgain::forget);
     connect(&again_, &StartAgain::begun, &all_, &StartAll::forget);
+    const auto startsAnew = [this] { stop_.forget(); };
+    connect(&all_, &StartAll::begun, this, startsAnew);
+    connect(&again_, &StartAgain::begun, this, startsAnew);
     const auto ask = [this](const std::string& prefix) { control_.choose(prefix); };
     connect(&all_, &StartAll::controlWanted, this, ask);
     connect(&again_, &StartAgain::controlWanted, this, ask);

@@ -26,6 +26,7 @@ public:
 
     void refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes);
     const QString& progress() const { return order_.text(); }
+    void forget() { order_.forget(); }  // what became of it
     const std::vector<std::string>& scope() const { return scope_; }
     // Stops this path from now on, whatever is controlled; none: as above.
     void setScope(std::optional<std::string> prefix);
