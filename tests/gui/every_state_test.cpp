@@ -355,6 +355,7 @@ TEST_F(Noticing, NoOtherButtonEverStandsInThePlaceOfClose) {
     EXPECT_LT(notice->refuse().geometry().right(), left);
     notice->tell("All 3 in Standby", "Start these 3 again");
     EXPECT_LT(notice->againButton().geometry().right(), left);
+    notice->tell({});
     notice->show({}, {});
     EXPECT_TRUE(notice->isHidden());
 }

@@ -92,8 +92,8 @@ public:
     void ask(const std::string& prefix);
     void withdraw();
     Asking asking() const;
-    // Who asks for something that we hold a part of, and got no answer yet: the longest first. An ask
-    // counts once it has stood for 0.3 s.
+    // Who asks for something that we hold a part of, and got no answer yet: the longest first. An
+    // ask counts once it has stood for 0.3 s.
     std::vector<Asked> asked() const;
     std::uint64_t grant(const Asked& asked);  // hands over what it gives; answers as handOver()
     void refuse(const Asked& asked);
