@@ -201,11 +201,17 @@ class CycloneClient(unittest.TestCase):
                              lambda all: any(each["asks"] for each in all))
                 self.assertEqual({each["person"]: each["asks"] for each in seen},
                                  {"alice": "", "bob": "/drives/1"})
-                shell.stdin.write("refuse bob\n")
-                shell.stdin.flush()
+                until(lambda: self.refuse(shell, asking), lambda _: asking.done())
                 said = asking.result()
             tool = next(each["tool"] for each in seen if each["person"] == "alice")
             self.assertEqual(said, [f"{tool} is used by alice", f"{tool} refuses"])
+
+    @staticmethod
+    def refuse(shell, asking):
+        """Again, while the shell has not heard of the ask yet."""
+        shell.stdin.write("refuse bob\n")
+        shell.stdin.flush()
+        concurrent.futures.wait([asking], timeout=0.2)
 
     def listed(self):
         """What the command line lists."""
