@@ -50,7 +50,7 @@ PUBLIC = {
                 "report service_threads spsc_ring standstill state system_findings text_faults tick value xml_text",
         "types": "agreement labelled_value type_model",
         "files": "model_files type_description",
-        "tables": "archive command_sentence event event_fold event_sinks image image_pool structure tables",
+        "tables": "archive command_sentence event event_fold event_memory event_sinks image image_pool structure tables",
         "commands": "argument_checks command loop_thread mailbox proposed_settings record",
         "model": "crossed_pairs header_hash make_structure registry sending_checks simplex simplex_tree validation",
         "agent": "agent command_exchange framework_item loopback program_interface transport",

@@ -39,30 +39,33 @@ std::string user() {
     return told == nullptr || *told == '\0' ? "somebody" : told;
 }
 
-bool isPersonName(const std::string& name) {
-    return name.size() <= longest && name == printable(name) &&
-           name.find_first_of("()") == std::string::npos && !name.starts_with(' ') &&
-           !name.ends_with(' ');
-}
-
 std::string userAtHost() {
     std::array<char, 256> host{};
     gethostname(host.data(), host.size() - 1);
     std::string name = user() + "@" + host.data();
     name.resize(fittingLength(name, longest));
-    return isPersonName(name) ? name : "somebody";
+    return comms::isPersonName(name) ? name : "somebody";
 }
 
 }  // namespace
 
 std::string personName(const std::string& given) {
     if (given.empty()) return userAtHost();
-    if (isPersonName(given)) return given;
+    if (comms::isPersonName(given)) return given;
     throw Error{
         "a name of a person is a text of at most 63 bytes, in UTF-8, without control characters, "
         "brackets ( ) and blanks at its ends" +
         (given.size() > longest ? " (this has " + std::to_string(given.size()) + " bytes)" : "") +
         "; give another one (--name NAME)"};
+}
+
+std::string nameInCommand(const std::string& person) {
+    if (person.size() <= longestInCommand) return person;
+    const std::size_t at = person.find('@');
+    const bool fits = at > 0 && at <= longestInCommand;  // npos does not
+    std::string name = person.substr(0, fits ? at : fittingLength(person, longestInCommand));
+    while (name.ends_with(' ')) name.pop_back();
+    return name;
 }
 
 std::string shownName(const std::string& name) {
@@ -75,8 +78,7 @@ std::string shownName(const std::string& name) {
 }
 
 std::string whoText(const std::string& name, const std::string& person) {
-    const std::string shown = shownName(name);
-    return person.empty() ? shown : shownName(person) + " (" + shown + ")";
+    return shownName(comms::whoText(name, person));
 }
 
 std::string personOf(const std::vector<comms::ToolStatus>& tools, const std::string& holder) {

@@ -3,6 +3,7 @@
 
 #include "cortex/comms/mirror_data.hpp"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,11 @@ namespace cortex::common {
 // Who uses this program: what --name gave, otherwise user@host. Throws Error with a remedy for what
 // no tool may tell of itself: more than 63 bytes, control characters, no UTF-8.
 std::string personName(const std::string& given);
+
+// The same in what a command has for it: of "user@host" the user alone where all is too long for
+// that, and otherwise the beginning.
+inline constexpr std::size_t longestInCommand = 31;  // bytes
+std::string nameInCommand(const std::string& person);
 
 // A name that came from elsewhere as it may be printed: what a terminal would obey, and what turns
 // the direction of the text behind it, becomes visible escapes.

@@ -2,6 +2,7 @@
 // Control of the plant from the command line: `--take` and `leases`.
 #include "cli/controlled_agent.hpp"
 #include "cli/on_terminal.hpp"
+#include "common/person_name.hpp"
 
 #include <csignal>
 #include <memory>
@@ -40,10 +41,15 @@ TEST_F(CortexControl, RestoreTakesWhatItChanges) {
     ASSERT_EQ(live({"set", "/drive", "naturalFrequency=8", "--take"}).exit, 0);
 
     EXPECT_EQ(live({"restore", saved}).exit, 1);
-    const json restored = liveJson({"restore", saved, "--take"}, "restore");
+    const json restored =
+        liveJson({"restore", saved, "--take", "--for", "Zora of the night"}, "restore");
 
     EXPECT_EQ(restored["results"][0]["outcome"], "Done") << restored;
     EXPECT_TRUE(leases().empty()) << leases();
+    const std::string events = live({"events"}).output;
+    for (const char* command : {"takeControl(prefix=\"/drive\")", "set(", "releaseControl("}) {
+        EXPECT_TRUE(contains(events, std::string{" for Zora of the night: "} + command)) << events;
+    }
 }
 
 TEST_F(CortexControl, ARefusalNamesTheHolderItsHostAndSinceWhen) {
@@ -184,7 +190,9 @@ TEST_F(CortexControl, ALeaseEndsWithAHolderThatWasKilled) {
 
     call->signal(SIGKILL);
 
-    EXPECT_TRUE(becomesTrue([&] { return hasEvent("no longer has control of /controller"); }));
+    const std::string lost = " for " + common::nameInCommand(common::personName("")) +
+                             " no longer has control of /controller";
+    EXPECT_TRUE(becomesTrue([&] { return hasEvent(lost); }));
     EXPECT_TRUE(leases().empty());
 }
 

@@ -19,7 +19,25 @@ struct HungAgent::Implementation {
     std::atomic<bool> hangs{false}, slow{false}, fails{false};
     std::string failure;        // set before `fails`
     std::atomic<int> hooks{0};  // begun
+    std::atomic<int> unsaid{0};
 
+    void say(Probe& probe) {
+        constexpr int inACycle = 50;
+        for (int i = 0; i < inACycle && unsaid.load() > 0; ++i) {
+            const int number = unsaid--;
+            const std::string words{static_cast<char>('a' + number / 676 % 26),
+                                    static_cast<char>('a' + number / 26 % 26),
+                                    static_cast<char>('a' + number % 26)};
+            probe.event(Severity::Info, EventText{words});
+        }
+    }
+    void run(Probe& probe) {
+        ++hooks;
+        say(probe);
+        if (fails.exchange(false)) probe.fault(7, failure);
+        const std::int64_t end = monotonicNow() + (slow.load() ? 15'000'000 : 0);
+        while (hangs.load() || monotonicNow() < end) std::this_thread::yield();
+    }
     bool standsStill() const { return cluster.cluster->agent().standstill().get().has_value(); }
 };
 
@@ -31,12 +49,8 @@ HungAgent::HungAgent(int domain) : implementation_{std::make_unique<Implementati
     options.domain = domain;
     options.interfaces = {"127.0.0.1"};
     self.cluster.cluster->addInterface<comms::DdsInterface>(options);
-    self.cluster.probe("/ctl").onStandby = [&self](Probe& probe, const Tick&) {
-        ++self.hooks;
-        if (self.fails.exchange(false)) probe.fault(7, self.failure);
-        const std::int64_t end = monotonicNow() + (self.slow.load() ? 15'000'000 : 0);
-        while (self.hangs.load() || monotonicNow() < end) std::this_thread::yield();
-    };
+    Probe& task = self.cluster.probe("/ctl");
+    task.onStandby = task.onActive = [&self](Probe& probe, const Tick&) { self.run(probe); };
     self.cluster.start();
 }
 
@@ -63,6 +77,11 @@ void HungAgent::overload() {
 void HungAgent::fail(const std::string& text) {
     implementation_->failure = text;
     implementation_->fails.store(true);
+}
+
+void HungAgent::chatter(int events) {
+    implementation_->unsaid.store(events);
+    waitUntil("that it has said all", [this] { return implementation_->unsaid.load() == 0; });
 }
 
 void HungAgent::release() {

@@ -7,7 +7,7 @@
 namespace cortex::test {
 
 // The agent "robot" in this process, on loopback, with one task, /ctl, that does not return from
-// its hook while it is told so, or takes three periods.
+// its hook while it is told so, or takes three periods, or says and does what it is told.
 class HungAgent {
 public:
     explicit HungAgent(int domain);
@@ -17,6 +17,7 @@ public:
     void release();                      // returns when its watchdog has seen it
     void overload();                     // returns when its loop says so
     void fail(const std::string& text);  // its task goes to Fault 7 with this text
+    void chatter(int events);  // returns when it has said so many things, each with other words
 
 private:
     struct Implementation;

@@ -2,6 +2,7 @@
 // The verbs that look at a network, against an agent that is a process of its own.
 #include "cli/json_schema.hpp"
 #include "cli/live_agent.hpp"
+#include "common/person_name.hpp"
 #include "core/model_folder.hpp"
 
 #include <algorithm>
@@ -113,7 +114,10 @@ TEST_F(CortexLive, CallsCommandsAndEndsWithWhatCameOfThem) {
     EXPECT_TRUE(contains(live({"call", "/drive", "startup"}).output, "Rejected"));
     EXPECT_GT(answer["round_trip_us"], answer["latency_us"]);
     live({"call", "/drive", "startup", "--for", "alice"});
-    EXPECT_TRUE(contains(live({"events"}).output, " for alice: startup()"));
+    const std::string events = live({"events"}).output;
+    EXPECT_TRUE(contains(events, " for alice: startup()")) << events;
+    const std::string myself = common::nameInCommand(common::personName(""));
+    EXPECT_TRUE(contains(events, " for " + myself + ": startup(): Done")) << events;
     EXPECT_EQ(live({"call", "/drive", "startup", "--for", std::string(40, 'x')}).exit, 2);
     EXPECT_EQ(liveJson({"call", "/mixer", "startup", "prefix=/"}, "call")["outcome"], "Done");
     EXPECT_EQ(liveJson({"show", "/controller"}, "show")["state"], "Active");

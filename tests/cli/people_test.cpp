@@ -125,10 +125,8 @@ TEST_F(CortexPeople, CannotAskWhereNobodyHoldsAPartOrNobodySaysWhoHeIs) {
 
 // As another program may tell them: with what turns the text, and what a terminal obeys.
 TEST_F(CortexPeople, HaveNamesThatAreShownAsTextAndDoNothing) {
-    const std::string hostile =
-        "\u202eecila\u2066 <b>\"\\ \xc2\x9b"
-        "31m";
-    const std::string shown = "\\u202eecila\\u2066 <b>\"\\ \\x9b31m";
+    const std::string hostile = "\u202eecila\u2066 <b>\"\\ 31m";
+    const std::string shown = "\\u202eecila\\u2066 <b>\"\\ 31m";
     comms::Mirror mirror{"tool", ownNetwork()};
     mirror.introduce(hostile);
     comms::LeaseClient client{mirror};
@@ -144,7 +142,23 @@ TEST_F(CortexPeople, HaveNamesThatAreShownAsTextAndDoNothing) {
               "nobody called 'ecila' asks for anything that you hold, but " + shown);
     alice.run("refuse " + mirror.name(), "/drive was refused to " + shown);
     EXPECT_FALSE(contains(alice.output(), "\u202e"));
-    EXPECT_FALSE(contains(alice.output(), "\xc2\x9b"));
+}
+
+// Who is called as somebody else's tool gets nothing that is meant for that.
+TEST_F(CortexPeople, WithTheNameOfAToolAreNeverMeantByIt) {
+    const std::string nobody = "cortex@nowhere.1-abc";
+    TypedShell bob{folder, "bob"}, alice{folder, "alice"};
+    comms::Mirror mallory{"mallory", ownNetwork()}, eve{"eve", ownNetwork()};
+    mallory.introduce(bob.name);
+    eve.introduce(nobody);
+    for (const std::string& each : {std::string{"bob  "}, mallory.name(), eve.name()})
+        hear(alice, each);
+    alice.run("take /drive", "cortex [/drive]");
+    alice.run("handover /drive " + bob.name, "/drive was handed over to " + bob.who);
+    EXPECT_TRUE(bob.shows("control of /drive of agent mixer is yours now")) << bob.output();
+
+    hear(bob, eve.name());
+    bob.run("handover /drive " + nobody, "/drive was handed over to " + nobody + ", who must");
 }
 
 TEST(CortexPeopleNames, ThatNobodyMayHaveAreRefusedWithARemedy) {

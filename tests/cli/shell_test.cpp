@@ -54,6 +54,24 @@ TEST_F(CortexShell, RunsTheLinesOfAFileWithOneParticipant) {
     EXPECT_FALSE(hasEvent("no longer has control"));
 }
 
+TEST_F(CortexShell, CommandsOnBehalfOfWhoUsesItUnlessACommandIsForSomebodyElse) {
+    const Outcome outcome = runsFile(
+        "take /drive\n"
+        "set /drive naturalFrequency=8\n"
+        "set /drive naturalFrequency=9 --for bob\n"
+        "call /drive startup\n"
+        "release /drive\n",
+        {"--name", "alice@a-host-with-a-name-that-is-long"});
+
+    EXPECT_EQ(outcome.exit, 0) << outcome.errors;
+    const std::string events = live({"events"}).output;
+    for (const char* command : {"alice: takeControl(prefix=\"/drive\")",
+                                "alice: set(naturalFrequency=8)", "bob: set(naturalFrequency=9)",
+                                "alice: startup()", "alice: releaseControl(prefix=\"/drive\")"}) {
+        EXPECT_TRUE(contains(events, std::string{" for "} + command + ": Done")) << events;
+    }
+}
+
 // Below the path of its agent, which the shell views all the time.
 TEST(CortexShellFile, ShowsAfterACommandWhatItHasDone) {
     const ModelFolder folder;

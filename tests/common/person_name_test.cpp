@@ -48,6 +48,30 @@ TEST(PersonName, IsRefusedWithARemedyWhereNoToolMayTellItOfItself) {
     }
 }
 
+TEST(PersonName, IsShortenedToWhatACommandHasForItWithTheUserWholeWhereHeFits) {
+    const std::string cloud = "@ip-10-0-0-1.eu-central-1.compute.internal";
+    const struct {
+        std::string person, said;
+    } table[] = {
+        {"alice", "alice"},
+        {"alice@desk", "alice@desk"},
+        {std::string(31, 'x'), std::string(31, 'x')},
+        {std::string(29, 'x') + "@d", std::string(29, 'x') + "@d"},
+        {std::string(30, 'x') + "@d", std::string(30, 'x')},
+        {std::string(31, 'x') + "@d", std::string(31, 'x')},
+        {std::string(32, 'x') + "@d", std::string(31, 'x')},
+        {"ubuntu" + cloud, "ubuntu"},
+        {"alice@home" + cloud, "alice"},
+        {cloud, cloud.substr(0, 31)},
+        {"Zoë of the night shift at the desk", "Zoë of the night shift at the"},
+        {std::string(30, 'x') + "ë", std::string(30, 'x')},
+        {std::string(29, 'x') + "ëë", std::string(29, 'x') + "ë"},
+        {std::string(29, 'x') + "€", std::string(29, 'x')},
+    };
+    for (const auto& each : table) EXPECT_EQ(nameInCommand(each.person), each.said) << each.person;
+    EXPECT_LE(nameInCommand(personName("")).size(), longestInCommand);
+}
+
 TEST(PersonName, StandsBesideTheNameOfTheToolOfWhichItIsTold) {
     EXPECT_EQ(whoText("cortex@desk.4711-5e1f0a", "alice"), "alice (cortex@desk.4711-5e1f0a)");
     EXPECT_EQ(whoText("mixer", ""), "mixer");

@@ -2,6 +2,7 @@
 // Participants that lie: what they say is counted and does nothing else.
 #include "comms/network_agent.hpp"
 #include "comms/raw_dds.hpp"
+#include "wire/presence_extras.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -209,6 +210,32 @@ TEST_F(HostilePeer, PresencesThatCannotBeAreCounted) {
         rejects("presence of liar", say([](Presence& each) { each.simplexes = 0xffffffffU; })));
     EXPECT_TRUE(near.sees("/near: liar is not heard: its clock is more than a day ahead"));
     EXPECT_TRUE(linked());
+}
+
+TEST_F(HostilePeer, ToolsThatAskForThePastAndDieOrNeverCeaseToAskKeepNoOtherFromIt) {
+    std::uint64_t number = 0;
+    const auto ask = [&](const std::string& name) {
+        Presence presence = liar.presence();
+        presence.name = name;
+        presence.agent = agentId(name);
+        presence.extras.push_back({ofThePast, std::to_string(++number) + " 0 1 0 near"});
+        liar.presences->write(presence);
+    };
+    std::size_t answered = 0;
+    Inbox<PastMessage> parts;
+    const auto reader = liar.participant.reader<PastMessage>(topics::past, parts.push());
+    for (int i = 0; i < 300; ++i) ask("dead " + std::to_string(i));
+    EXPECT_TRUE(comesTrue([&] {
+        for (int i = 0; i < 40; ++i) ask("a greedy one " + std::to_string(i));
+        Presence last = liar.presence();
+        last.name = "z";
+        last.agent = agentId(last.name);
+        last.extras.push_back({ofThePast, "7 0 1 0 near"});
+        liar.presences->write(last);
+        const auto all = parts.elements();
+        answered = all.size();
+        return std::ranges::any_of(all, [](const PastMessage& each) { return each.tool == "z"; });
+    })) << answered;
 }
 
 TEST_F(HostilePeer, InterestsThatCannotBeAreCounted) {

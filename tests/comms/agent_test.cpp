@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an agent tells of itself and what it asks for, over real DDS on the loopback interface.
 #include "cortex/core/clock.hpp"
+#include "cortex/core/event_memory.hpp"
 
 #include "comms/network_agent.hpp"
 #include "peers/peer_model.hpp"
@@ -155,6 +156,22 @@ TEST_F(DdsAgent, TellsItsEventsNumberedAndThatItStops) {
     EXPECT_EQ(numberIn(*heard(), eventsWritten), told[1].number);
 }
 
+TEST_F(DdsAgent, KeepsWhichValuesChangedTheirState) {
+    Simplex& plate = *agent.rig.tree.find("/plate");
+    start();
+    const EventMemory& memory = *agent.rig.outside.access.memory;
+    bool high = false;
+    EXPECT_TRUE(comesTrue([&] {
+        high = !high;
+        plate.data<double>("level") = high ? 9.0 : 1.0;
+        agent.rig.step();
+        const auto events = memory.page(0).events;
+        return std::ranges::any_of(events, [](const KeptEvent& each) {
+            return each.path == "/plate" && each.text == "level is outside its limits: 9";
+        });
+    }));
+}
+
 TEST_F(DdsAgent, SaysHowManyAgentsItHears) {
     const auto says = [&](std::uint64_t count) {
         return comesTrue([&] { return heard() && numberIn(*heard(), agentsHeard) == count; });
@@ -288,6 +305,19 @@ TEST_F(DdsAgent, IsSilentWhileAnotherStartOfItsNameWasThereFirst) {
         return std::ranges::any_of(tool.heard.elements(),
                                    [](const auto& each) { return each.state == "silent"; });
     }));
+    const EventMemory& memory = *agent.rig.outside.access.memory;
+    const auto changes = [&] {
+        return std::ranges::count(memory.page(0).events, EventKind::ValueChange, &KeptEvent::kind);
+    };
+    const auto before = changes();
+    const std::size_t said = tool.heard.elements().size();
+    EXPECT_TRUE(comesTrue([&] {
+        tool.presences->write(other);
+        agent.rig.tree.find("/plate")->data<double>("level") = agent.rig.tick.cycle % 2 * 9.0;
+        agent.rig.step();
+        return tool.heard.elements().size() > said;
+    }));
+    EXPECT_EQ(changes(), before) << "the other start is the one that is asked";
     agent.rig.agent->stop();
     const auto all = tool.heard.elements();
     EXPECT_TRUE(

@@ -186,7 +186,7 @@ TYPED_TEST(WireOfTwoProcesses, CarriesAnyContentOfEachKindAsItIs) {
     const std::size_t count = numberOf("CORTEX_MESSAGES", 60 / TypeParam::share);
     std::printf("CORTEX_SEED=%lu CORTEX_MESSAGES=%zu\n", seedOfRun(), count);
     for (const char* kind : {"presence", "model", "interest", "view", "link", "summary", "command",
-                             "answer", "event"}) {
+                             "answer", "event", "past"}) {
         this->compare(kind, count, maxInOneDatagram);
     }
 }

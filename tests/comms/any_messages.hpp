@@ -35,6 +35,7 @@ void forKind(std::string_view kind, F&& f) {
     if (kind == "command") f.template operator()<Command>(topics::command);
     if (kind == "answer") f.template operator()<Answer>(topics::answerTo("to"));
     if (kind == "event") f.template operator()<EventMessage>(topics::event);
+    if (kind == "past") f.template operator()<PastMessage>(topics::past);
 }
 
 // The content of a message as octets, in a form of this test's own.
@@ -123,6 +124,12 @@ private:
         to.extras.push_back({text(20), text(20)});
     }
 
+    void add(PastMessage& to, std::size_t left) {
+        RandomFields{random_()}(to.events.emplace_back());
+        to.events.back().text = text(left);
+        to.kept.push_back({text(20), static_cast<std::int64_t>(random_())});
+    }
+
     NamedValue values(std::size_t left) {
         NamedValue value{text(10), text(10), {}, {}, {}, {}};
         const std::size_t count = left / 8;
@@ -174,6 +181,8 @@ inline void sign(EventMessage& message) {
     message.name = anySender;
 }
 
+inline void sign(PastMessage& message) { message.name = anySender; }
+
 // A writer of states keeps one message of each key.
 inline Id& keyOf(Presence& message) { return message.agent; }
 inline Id& keyOf(Model& message) { return message.id; }
@@ -183,6 +192,7 @@ inline Id& keyOf(Summary& message) { return message.structureHash; }
 inline Id& keyOf(Command& message) { return message.link; }
 inline Id& keyOf(Answer& message) { return message.link; }
 inline Id& keyOf(EventMessage& message) { return message.agent; }
+inline Id& keyOf(PastMessage& message) { return message.agent; }
 
 // A message of 0 to `most` octets, as often of 100 to 1,000 as of 1,000 to 10,000. Beyond 64 kB it
 // is about as large as `most` says.

@@ -70,8 +70,8 @@ struct ShortNames {
         return std::string{Message::typeName}.substr(sizeof "cortex::" - 1);
     }
 };
-using Messages =
-    testing::Types<Presence, Model, Interest, Block, Summary, Command, Answer, EventMessage>;
+using Messages = testing::Types<Presence, Model, Interest, Block, Summary, Command, Answer,
+                                EventMessage, PastMessage>;
 TYPED_TEST_SUITE(Cdr, Messages, ShortNames);
 
 TYPED_TEST(Cdr, WritesTheOctetsOfTheSpecification) {

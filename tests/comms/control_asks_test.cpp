@@ -86,6 +86,7 @@ TEST_F(Asking, ToolsKnowOneAnotherBeforeAnybodyHoldsAnything) {
     ASSERT_EQ(first.mirror.tools().size(), 1U) << "a verb does not say who uses it";
     EXPECT_EQ(first.mirror.tools().front().name, second.mirror.name());
     EXPECT_THROW(verb.mirror.introduce("bob\n"), Error);
+    EXPECT_THROW(verb.mirror.introduce("bob\xc2\x9b"), Error) << "a terminal would obey it";
 }
 
 TEST_F(Asking, AreGrantedWithExactlyWhatTheyAreAbout) {

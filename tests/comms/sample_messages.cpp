@@ -338,4 +338,41 @@ Sample<EventMessage> sample() {
                 00 4:1 4:2 'n' 00 00*2 4:1 00)"};
 }
 
+template <>
+Sample<PastMessage> sample() {
+    return {.message = {.agent = idFrom(0),
+                        .name = "a",
+                        .epoch = 1,
+                        .tool = "t",
+                        .ask = 2,
+                        .after = 3,
+                        .last = 4,
+                        .more = true,
+                        .events = {{5, 6, 7, 8, "info", "value", "/p", "x"}},
+                        .kept = {{"loss", 9}},
+                        .extras = {}},
+            .layout = R"(
+                00 01 02 03 04 05 06 07 08 09 0a 0b 0c 0d 0e 0f
+                4:2 'a' 00
+                00*2 8:1
+                4:2 't' 00
+                00*2 8:2
+                8:3
+                8:4
+                01
+                00*3 4:1
+                    8:5
+                    8:6
+                    8:7
+                    8:8
+                    4:5 'info' 00
+                    00*3 4:6 'value' 00
+                    00*2 4:3 '/p' 00
+                    00 4:2 'x' 00
+                00*2 4:1
+                    4:5 'loss' 00
+                    00*3 8:9
+                4:0)"};
+}
+
 }  // namespace cortex::comms

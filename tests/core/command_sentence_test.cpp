@@ -73,6 +73,69 @@ TEST_F(Router, TellsACommandSoThatToolsKnowWhoSentItAndWhatBecameOfIt) {
     EXPECT_FALSE(partsOf(told("add", {{"amount", Value{std::vector{9.0}}}})).done);
 }
 
+TEST_F(Router, TellsTheHostOfASenderWhoseNameDoesNotSayIt) {
+    start();
+    const std::string cloud = "ip-10-0-0-1.eu-central-1.compute.internal";
+    const struct {
+        std::string name, host, told;
+    } table[] = {
+        {"operator", "desk", "operator@desk"},
+        {"cortex@desk.4711-5e1f0a", "desk", "cortex@desk.4711-5e1f0a"},
+        {"cortex@desk.lab.4711-5e1f0a", "desk.lab", "cortex@desk.lab.4711-5e1f0a"},
+        {"cortex@desk.4711-5e1f0a", "hall", "cortex@desk.4711-5e1f0a@hall"},
+        {"cortex@des.4711-5e1f0a", "desk", "cortex@des.4711-5e1f0a@desk"},
+        {"a.b@desk", "desk", "a.b@desk@desk"},
+        {"@.", "desk", "@.@desk"},
+        {"cortex-explorer@" + cloud.substr(0, 35) + ".4711-5e1f0a", cloud,
+         "cortex-explorer@" + cloud.substr(0, 35) + ".4711-5e1f0a"},
+        {"cortex@desk.4711-5e1f0a", "", "cortex@desk.4711-5e1f0a"},
+    };
+    std::int64_t epoch = 0;
+    for (const auto& each : table) {
+        answerTo({.path = "/worker",
+                  .command = "poke",
+                  .sender = each.name,
+                  .epoch = ++epoch,
+                  .host = each.host});
+        EXPECT_EQ(partsOf(newestOf(rig)).sender, each.told);
+    }
+}
+
+TEST_F(Router, TellsWhoSentWhichCommandAndItsOutcomeHoweverLongTheRestIs) {
+    rig.make();
+    worker.on("mix", [](Call& call) { return call.reject(Reason::Range, std::string(90, 'y')); });
+    rig.start();
+    const std::string person = "a-person-of-thirty-one-bytes...";
+    const ProgramInterface::Arguments items{{"gain", Value{std::vector{0.123456}}},
+                                            {"weights", Value{std::vector{0.125, -0.375, 1e-05}}},
+                                            {"title", Value{std::vector<std::string>{"abc"}}}};
+    for (std::size_t size = 1; size < sizeof(Sender::name); ++size) {
+        const std::string name(size, 'n');
+        const auto told = [&](const std::string& command,
+                              const ProgramInterface::Arguments& arguments) {
+            answerTo({.path = "/worker",
+                      .command = command,
+                      .arguments = arguments,
+                      .sender = name,
+                      .sequence = command == "set" ? 1U : 2U,
+                      .onBehalfOf = person});
+            return newestOf(rig);
+        };
+        const std::string done = told("set", items);
+        const std::string begin = name + " for " + person + ": set(gain=0.123456, ti";
+        EXPECT_EQ(done.substr(0, begin.size()), begin);
+        EXPECT_TRUE(partsOf(done).done) << done;
+        const std::string whole = "gain=0.123456, title=\"abc\", weights=0.125 -0.375 1e-05";
+        const std::string shown = partsOf(done).arguments;
+        EXPECT_TRUE(shown == whole || shown.ends_with("…")) << done;
+
+        const std::string refused = told("mix", {});
+        EXPECT_EQ(partsOf(refused).sender, name + " for " + person);
+        EXPECT_EQ(partsOf(refused).arguments.substr(0, 12), "mode=0, numb") << refused;
+        EXPECT_TRUE(partsOf(refused).outcome.starts_with("Rejected (")) << refused;
+    }
+}
+
 TEST(CommandSentence, IsTakenApart) {
     const struct {
         const char* text;
@@ -82,6 +145,12 @@ TEST(CommandSentence, IsTakenApart) {
          {"operator@desk", "jog", "speed=0.5", "Done", "2 cycles", true}},
         {"bridge@desk for Ada: stop(): Done in 1 cycle",
          {"bridge@desk for Ada", "stop", "", "Done", "1 cycle", true}},
+        {"cortex-explorer@vm.14105-2501a1 for alice@desk: takeControl(prefix=\"/\"): Done in 1 "
+         "cycle",
+         {"cortex-explorer@vm.14105-2501a1 for alice@desk", "takeControl", "prefix=\"/\"", "Done",
+          "1 cycle", true}},
+        {"cortex@vm.1-2@vm for cortex@vm.3-4: set(gain=0.5, weigh…): Done",
+         {"cortex@vm.1-2@vm for cortex@vm.3-4", "set", "gain=0.5, weigh…", "Done", "", true}},
         {"a@b: moveTo(x=1 2 3, name=in 5 cycles): Failed, blocked in the gate in 12 cycles",
          {"a@b", "moveTo", "x=1 2 3, name=in 5 cycles", "Failed, blocked in the gate", "12 cycles",
           false}},

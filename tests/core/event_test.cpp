@@ -277,6 +277,15 @@ TEST_F(EventFoldTest, TellsEachCommandThatFailsOrIsRefused) {
     EXPECT_EQ(told.size(), 5U);
 }
 
+TEST_F(EventFoldTest, KeepsApartRefusalsOfPeopleWhoseNamesDifferInANumber) {
+    for (const char* who : {"op1", "op2", "op2", "op3"}) {
+        const std::string text =
+            std::string{"desk for "} + who + ": set(x=1): Rejected (authority), no in 1 cycle";
+        fold.take(event(text.c_str(), EventKind::Refusal), 0);
+    }
+    EXPECT_EQ(told.size(), 3U);
+}
+
 TEST_F(EventFoldTest, KeepsApartWhatDiffersInPathSeverityOrWords) {
     fold.take(event("over"), 0);
     fold.take(event("under"), 0);

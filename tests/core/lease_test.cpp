@@ -27,6 +27,7 @@ struct Control : testing::Test {
     Hand& axis = rig.hand("/arm/axis", "Careful");
     Hand& army = rig.hand("/army");
     std::map<std::string, std::uint64_t> sequences;
+    std::map<std::string, std::string> people;  // on whose behalf senders command
     int calls = 0;
 
     void SetUp() override {
@@ -45,7 +46,8 @@ struct Control : testing::Test {
                           .arguments = arguments,
                           .sender = sender,
                           .sequence = ++sequences[sender],
-                          .answeredBelow = sequences[sender]});
+                          .answeredBelow = sequences[sender],
+                          .onBehalfOf = people[sender]});
         rig.step();
         return rig.outside.last();
     }
@@ -221,6 +223,41 @@ TEST_F(Control, IsHandedOverWithAllBelowAndNotFromBelowAWiderOne) {
     EXPECT_EQ(shown("leaseHolder", 0), "hall");
     EXPECT_EQ(shown("leaseHolder", 1), "hall");
     EXPECT_EQ(ask("hall", "/arm/axis", "poke").outcome, Outcome::Done);
+}
+
+TEST_F(Control, TellsOnWhoseBehalfItIsHeldWhereItIsRefusedToOthersAndWhereItIsLost) {
+    people["desk"] = "alice@desk";
+    take("desk", "/arm");
+    EXPECT_EQ(ask("hall", "/arm/axis", "poke").why, "/arm is held by desk for alice@desk");
+    EXPECT_EQ(take("hall", "/").why, "/arm is held by desk for alice@desk");
+    people["desk"] = "bob";
+    renew("desk", "/arm");
+    EXPECT_EQ(take("hall", "/").why, "/arm is held by desk for bob") << "who renewed it last";
+
+    rig.outside.loseSender("desk");
+    rig.step();
+    EXPECT_TRUE(rig.hasEvent("/rig: desk for bob no longer has control of /arm: it is gone"));
+}
+
+TEST_F(Control, HandedOverIsOnBehalfOfWhoRenewsItAndUntilThenOfNobody) {
+    people = {{"desk", "alice"}, {"hall", "bob"}};
+    take("desk", "/arm");
+    ask("desk", "/rig", "handOverControl", {{"prefix", text("/arm")}, {"to", text("hall")}});
+    EXPECT_EQ(ask("desk", "/arm", "poke").why, "/arm is held by hall");
+
+    renew("hall", "/arm");
+    EXPECT_EQ(ask("desk", "/arm", "poke").why, "/arm is held by hall for bob");
+    rig.step(210);
+    EXPECT_TRUE(rig.hasEvent("hall for bob no longer has control of /arm: it was not renewed"));
+}
+
+TEST_F(Control, HandedOverAndNeverRenewedIsLostWithoutThePersonBefore) {
+    people["desk"] = "alice";
+    take("desk", "/arm");
+    ask("desk", "/rig", "handOverControl", {{"prefix", text("/arm")}, {"to", text("hall")}});
+    rig.step(210);
+
+    EXPECT_TRUE(rig.hasEvent("/rig: hall no longer has control of /arm: it was not renewed"));
 }
 
 TEST_F(Control, IsHandedOverToANameOnly) {

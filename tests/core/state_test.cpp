@@ -129,7 +129,7 @@ TEST(EnumNames, AreReadBack) {
     expectReadBack<Reason>(8, reasonFromName);
     expectReadBack<Quality>(4, qualityFromName);
     expectReadBack<Severity>(3, severityFromName);
-    expectReadBack<EventKind>(10, eventKindFromName);
+    expectReadBack<EventKind>(13, eventKindFromName);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ bool comesBefore(const Visitor* a, const Visitor* b) {
 }
 
 std::string describe(const OutsideCommandPlan& plan) {
-    std::string text = plan.command + "(";
+    std::string text;
     bool first = true;
     for (const auto& [name, value] : plan.arguments) {
         text += (first ? "" : ", ") + name + "=";
@@ -35,7 +35,20 @@ std::string describe(const OutsideCommandPlan& plan) {
             text += "\"" + std::get<3>(value).front() + "\"";
         }
     }
-    return text + ")";
+    return text;
+}
+
+// Where all is too long, the arguments give way first, and then what became of it.
+std::string eventOf(const OutsideCommandPlan& plan, const std::string& became,
+                    const std::string& latency) {
+    constexpr std::size_t most = 150, least = 20;
+    const std::string head = plan.sender + ": " + plan.command + "(", end = "): " + became;
+    const std::size_t others = head.size() + end.size();
+    const std::size_t room = std::max(most - std::min(most, others), least);
+    std::string arguments = inEvent(describe(plan));
+    if (arguments.size() > room) arguments = cut(arguments, room - 3) + "…";
+    const std::string text = head + arguments + end;
+    return text.size() + latency.size() <= most ? text + latency : inEvent(text);
 }
 
 }  // namespace
@@ -183,13 +196,16 @@ void Reference::collect() {
             ending.outcome == Outcome::Rejected || ending.outcome == Outcome::Expired;
         post(visitor->simplex, done ? Severity::Info : Severity::Warning,
              refused ? EventKind::Refusal : EventKind::Command,
-             visitor->plan->sender + ": " + describe(*visitor->plan) + ": " + name(ending.outcome) +
-                 (ending.reason == Reason::None ? ""
-                                                : std::string{" ("} + name(ending.reason) + ")") +
-                 (ending.why.empty() ? "" : ", " + ending.why) + " in " +
-                 (visitor->latency == 0   ? "the same cycle"
-                  : visitor->latency == 1 ? "1 cycle"
-                                          : std::to_string(visitor->latency) + " cycles"));
+             eventOf(*visitor->plan,
+                     inEvent(std::string{name(ending.outcome)} +
+                             (ending.reason == Reason::None
+                                  ? ""
+                                  : std::string{" ("} + name(ending.reason) + ")") +
+                             (ending.why.empty() ? "" : ", " + ending.why)),
+                     visitor->latency == 0 ? " in the same cycle"
+                     : visitor->latency == 1
+                         ? " in 1 cycle"
+                         : " in " + std::to_string(visitor->latency) + " cycles"));
     }
     std::erase_if(active_, [](const Visitor* visitor) { return visitor->over; });
 }

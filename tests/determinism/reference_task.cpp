@@ -245,7 +245,7 @@ SlotState Reference::readInputs(int simplex, std::int64_t elapsed) {
 void Reference::inputLost(int simplex, Link& link) {
     const SlotState& source = link.source->state;
     std::string text = "input " + link.rule->name + " from " + at(link.target).path;
-    if (!link.lost) return post(simplex, Severity::Info, EventKind::Message, text + " is back");
+    if (!link.lost) return post(simplex, Severity::Info, EventKind::Loss, text + " is back");
     if (source.quality >= Quality::Bad) {
         text += std::string{" is "} + name(source.quality);
         if (source.cause != noSimplex) text += ", first cause " + all_[source.cause].path;
@@ -260,7 +260,7 @@ void Reference::inputLost(int simplex, Link& link) {
     if (link.rule->onLoss == OnLoss::Fault && at(simplex).task->state == State::Active) {
         return fault(simplex, -2, text);
     }
-    post(simplex, Severity::Warning, EventKind::Message,
+    post(simplex, Severity::Warning, EventKind::Loss,
          text + "; reaction: " + name(link.rule->onLoss));
 }
 

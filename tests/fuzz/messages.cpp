@@ -26,10 +26,10 @@ void readAndWrite(Payload payload) {
     if (!decode(Payload{written}, again) || encoded(again) != written) std::abort();
 }
 
-constexpr void (*kinds[])(Payload) = {readAndWrite<Presence>, readAndWrite<Model>,
-                                      readAndWrite<Block>,    readAndWrite<Command>,
-                                      readAndWrite<Answer>,   readAndWrite<EventMessage>,
-                                      readAndWrite<Interest>, readAndWrite<Summary>};
+constexpr void (*kinds[])(Payload) = {
+    readAndWrite<Presence>,    readAndWrite<Model>,    readAndWrite<Block>,
+    readAndWrite<Command>,     readAndWrite<Answer>,   readAndWrite<EventMessage>,
+    readAndWrite<PastMessage>, readAndWrite<Interest>, readAndWrite<Summary>};
 
 }  // namespace
 

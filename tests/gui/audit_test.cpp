@@ -6,8 +6,10 @@
 #include "gui/window_fixture.hpp"
 #include "model/shown_time.hpp"
 #include "plots/plot_view.hpp"
+#include "session/utc_now.hpp"
 #include "style/look.hpp"
 #include "views/compare_view.hpp"
+#include "views/fault_history_view.hpp"
 #include "views/manual_view.hpp"
 #include "widgets/item_drag.hpp"
 #include "window/control_bar.hpp"
@@ -77,6 +79,20 @@ const std::array views{
     View{"leases", [](MainWindow& window) { openAgents(window, 2); }},
     View{"agreement", [](MainWindow& window) { openAgents(window, 3); }},
     View{"events", [](MainWindow& window) { window.openKind("events"); }},
+    View{"before a fault",
+         [](MainWindow& window) {
+             static const std::int64_t now = utcNow();
+             comms::AgentEvent fault;
+             fault.agent = "mixer";
+             fault.wallClock = now;
+             fault.kind = "fault";
+             fault.severity = Severity::Error;
+             fault.path = "/drive";
+             fault.text = "fault 7: the axis does not follow its demand";
+             window.workspace().openBefore(fault);
+             const auto* view = qobject_cast<FaultHistoryView*>(window.current());
+             EXPECT_TRUE(comes([&] { return view->settled(); }));
+         }},
     View{"compare",
          [](MainWindow& window) {
              window.openKind("compare");

@@ -46,7 +46,7 @@ TEST_F(Events, SayHowManyAreNoLongerKept) {
     events.add(changes(1, events.kept()));
     EXPECT_FALSE(says(list, "no longer kept"));
     events.add(changes(events.kept() + 1, 1'010));
-    EXPECT_TRUE(says(list, "the oldest 1,010 are no longer kept"));
+    EXPECT_TRUE(says(list, "1,010 older ones are no longer kept"));
 }
 
 TEST_F(Events, TheStripSaysHowManyAreNewAndGoesToThemAtAPress) {
@@ -182,8 +182,8 @@ TEST(EventDetails, HaveACommandForAShellThatSeesTheSameNetwork) {
     EventPanel panel{network};
     panel.show(EventRow{eventOf(1, "fault", "/a b", "broken", Severity::Error)}, 3);
     EXPECT_TRUE(says(panel,
-                     "As a command: cortex events '/a b' --severity error --domain 7 "
-                     "--interface eth0 --peer 'far station'"));
+                     "As a command: cortex events '/a b' --before-fault --until "
+                     "1970-01-01T00:00:01Z --domain 7 --interface eth0 --peer 'far station'"));
 }
 
 TEST_F(EventTab, HasTheFilterOfTheStripAndSaysHowMuchItShows) {
@@ -207,6 +207,14 @@ TEST_F(EventTab, HasTheFilterOfTheStripAndSaysHowMuchItShows) {
     EXPECT_EQ(table().model()->rowCount(), 0);
     type("nonsense:1");
     EXPECT_TRUE(says(view, "\"nonsense:\" is no field."));
+}
+
+TEST_F(EventTab, AKindIsFoundAsTheCommandLineSpellsItAndAWrongOneIsNamed) {
+    events.add(changes(1, 10));
+    type("kind:state-change");
+    EXPECT_EQ(table().model()->rowCount(), 10);
+    type("kind:comand");
+    EXPECT_TRUE(says(view, "\"kind:comand\" is no kind."));
 }
 
 TEST_F(EventTab, NoFilterHidesAFaultUnsaidAndTheStripTakesItAway) {

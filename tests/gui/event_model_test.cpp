@@ -60,12 +60,12 @@ TEST_F(EventRows, AreTheirOwnAfterTenSecondsAndAtAnotherSeverity) {
     EXPECT_EQ(times(2), QString::fromUtf8("×2"));
 }
 
-TEST_F(EventRows, ChangesOfStateFaultsAndCommandsAreNeverOne) {
-    for (const char* kind : {"state change", "fault", "command"}) {
+TEST_F(EventRows, ChangesOfStateFaultsCommandsAndLossesAreNeverOne) {
+    for (const char* kind : {"state change", "fault", "command", "control", "loss"}) {
         events.add({eventOf(events.count() + 1, kind, "/a", "the same"),
                     eventOf(events.count() + 2, kind, "/a", "the same")});
     }
-    EXPECT_EQ(shown.rowCount(), 6);
+    EXPECT_EQ(shown.rowCount(), 10);
 }
 
 TEST_F(EventRows, NumbersOfNamesAreNoNumbers) {
@@ -80,7 +80,7 @@ TEST_F(EventRows, NumbersOfNamesAreNoNumbers) {
 }
 
 TEST_F(EventRows, WhatTheWindowSaysOfAnAgentHasNoNumberThatCouldBeMissing) {
-    const comms::AgentEvent restarted = eventOf(0, "agent", "/robot", "agent restarted");
+    const comms::AgentEvent restarted = eventOf(0, "loss", "/robot", "agent restarted");
     events.add({restarted, limit(500, "first that came")});
     EXPECT_EQ(shown.rowCount(), 2);
     EXPECT_EQ(text(0), "agent restarted");

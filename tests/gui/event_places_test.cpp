@@ -35,7 +35,7 @@ TEST_F(Events, NoButtonOfTheStripMovesWhenAnotherComes) {
 // One of each kind that the program knows, and some of others.
 std::vector<comms::AgentEvent> allKinds(std::uint64_t first) {
     std::vector<comms::AgentEvent> all;
-    for (int kind = 0; kind <= static_cast<int>(EventKind::Message); ++kind)
+    for (int kind = 0; kind <= static_cast<int>(EventKind::ValueChange); ++kind)
         all.push_back(eventOf(first++, name(static_cast<EventKind>(kind)), "/a", "something"));
     for (const char* kind : {"agent lost", "agent heard", "of a later program"})
         all.push_back(eventOf(first++, kind, "/a", "something"));

@@ -238,7 +238,9 @@ TEST_F(EveryState, WhatHasNoRoomIsCountedAndOpensWhole) {
     fault();
     show(standstill(now()));
     auto& area = *page().findChild<MessageArea*>();
-    const auto links = area.findChildren<Link*>();
+    QList<Link*> links;
+    for (auto* each : area.findChildren<Link*>())
+        if (!each->text().isEmpty()) links << each;  // the other one lies over the first message
     ASSERT_EQ(links.size(), 1);
     ASSERT_TRUE(links[0]->isVisible());
     EXPECT_TRUE(links[0]->text().endsWith(" more"));

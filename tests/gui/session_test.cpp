@@ -3,6 +3,7 @@
 #include "session/session.hpp"
 
 #include "cortex/comms/dds_interface.hpp"
+#include "cortex/comms/lease_client.hpp"
 
 #include "comms/network_agent.hpp"
 #include "support/probe.hpp"
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
+#include <string>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -97,6 +100,90 @@ TEST(Session, TakesValuesAsOftenAsIsAsked) {
     agent.cluster->stop();
     ASSERT_EQ(times.size(), 6U);
     EXPECT_GT(times.back() - times[1], 400'000'000) << "four times some 200 ms";
+}
+
+// Two agents that run by themselves, and two windows without a screen.
+struct TwoAgents : testing::Test {
+    struct Agent {
+        explicit Agent(const std::string& name) : agent{{}, name} {
+            agent.probe("/" + name + "/axis");
+            agent.trigger = nullptr;
+            agent.cluster->setTriggerSource<cs::InternalClock>(std::chrono::milliseconds{5});
+            agent.cluster->addInterface<DdsInterface>(loopback());
+            agent.start();
+        }
+        ~Agent() { agent.cluster->stop(); }
+        ProbeCluster agent;
+    };
+    bool comes(const std::function<bool()>& condition) {
+        return comesTrue([&] {
+            for (Session* each : {&alice, &bob}) each->isAlive();
+            return condition();
+        });
+    }
+    bool holdsBoth(const Session& session) {
+        return comes([&] { return session.frame()->control.held.size() == 2; });
+    }
+    bool seesBoth(const Session& session) {
+        return comes([&] {
+            const auto frame = session.frame();
+            return frame->find("/left/axis") && frame->find("/right/axis");
+        });
+    }
+    // What agents have told so far.
+    std::string heard(Session& session) {
+        for (const auto& each : session.takeEvents()) told += each.agent + ": " + each.text + '\n';
+        return told;
+    }
+
+    Agent left{"left"}, right{"right"};
+    Session alice{loopback(), "alice@a-host-with-a-name-that-is-long"}, bob{loopback(), "bob"};
+    std::string told;
+};
+
+TEST_F(TwoAgents, AreCommandedOnBehalfOfWhoUsesTheWindow) {
+    ASSERT_TRUE(seesBoth(bob));
+    bob.send("/left/axis", "startup");
+    bob.takeControl("/");
+    ASSERT_TRUE(holdsBoth(bob));
+    const std::string self = bob.frame()->control.self;
+    const std::string taken = " for bob: takeControl(prefix=\"/\"): Done";
+    for (const std::string& event : {"left: " + self + taken, "right: " + self + taken,
+                                     "left: " + self + " for bob: startup(): "}) {
+        EXPECT_TRUE(comes([&] { return heard(bob).find(event) != std::string::npos; })) << told;
+    }
+}
+
+// One after the other, in two steps of the window's session. Again, where that took too long.
+TEST_F(TwoAgents, HandedOverTogetherAreToldInOneNotice) {
+    ASSERT_TRUE(seesBoth(alice) && seesBoth(bob));
+    Mirror mirror{"tool", loopback()};
+    LeaseClient client{mirror};
+    ASSERT_TRUE(mirror.waitUntilComplete(std::chrono::seconds{60}));
+    const auto notice = [this] { return alice.frame()->control.notice; };
+    const auto tells = [&](const std::string& agent) {
+        const std::string said = "Control of / of agent " + agent + " is yours now.";
+        return notice().find(said) != std::string::npos;
+    };
+    bool together = false;
+    for (int attempt = 0; attempt < 5 && !together; ++attempt) {
+        alice.releaseControl();
+        ASSERT_TRUE(comes([&] {
+            const auto answers = client.wait(client.take("/", {"left", "right"}));
+            return std::ranges::all_of(answers,
+                                       [](const auto& each) { return each.answer.done(); });
+        }));
+        for (const std::string& each : {std::string{"left"}, std::string{"right"}}) {
+            client.wait(client.handOver("/", alice.frame()->control.self, {each}));
+            ASSERT_TRUE(comes([&] { return tells(each); })) << notice();
+        }
+        together = tells("left");
+    }
+    EXPECT_TRUE(together) << notice();
+    bob.takeControl("/");
+    EXPECT_TRUE(comes([this] { return bob.frame()->control.refusals.size() == 2; }));
+    for (const auto& each : bob.frame()->control.refusals)
+        EXPECT_NE(each.why.find(" for alice"), std::string::npos) << each.why;
 }
 
 TEST(Session, SaysWhyACommandCannotBeSent) {

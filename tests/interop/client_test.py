@@ -206,6 +206,30 @@ class CycloneClient(unittest.TestCase):
             tool = next(each["tool"] for each in seen if each["person"] == "alice")
             self.assertEqual(said, [f"{tool} is used by alice", f"{tool} refuses"])
 
+    def test_reads_what_an_agent_has_kept(self):
+        with self.demo():
+            client = Client(0)
+            until(lambda: client.run("call", "/drives/1", "startup", exits=None),
+                  lambda seen: seen[0].startswith("Rejected state"))
+            owner = next(each[3] for each in client.list() if each[0] == "/drives/1")
+            client.run("call", f"/{owner}", "takeControl", "prefix=/drives", exits=None)
+            lines = until(lambda: client.run("past", "/drives/1"),
+                          lambda seen: any(each.startswith("control") for each in seen))
+            expected = subprocess.run(
+                [BINARY / "bin/cortex", "events", "--since", "1d", "--json", "--domain",
+                 str(domain(0)), "--interface", "127.0.0.1"], capture_output=True, check=True).stdout
+            self.assertRegex("\n".join(lines), r"state change info /drives/1 .*Active")
+            self.assertRegex("\n".join(lines), r"control info .*takeControl.*: Done")
+            self.assertRegex("\n".join(lines), r"refusal warning /drives/1 .*startup")
+            kept = [each.split()[1] for each in lines if each.startswith("kept")]
+            self.assertEqual(sorted(kept), ["command", "control", "fault", "loss", "message", "refusal",
+                                            "state", "value"])
+            shown = {(each["kind"], each["path"], each["text"]) for each in json.loads(expected)}
+            for each in lines:
+                if each.startswith(("control", "refusal")):
+                    kind, _, path, text = each.split(" ", 3)
+                    self.assertIn((kind, path, text), shown)
+
     @staticmethod
     def refuse(shell, asking):
         """Again, while the shell has not heard of the ask yet."""

@@ -29,7 +29,8 @@ using Pairs = testing::Types<Pair<Presence, cortex_Presence, &cortex_Presence_de
                              Pair<Summary, cortex_Summary, &cortex_Summary_desc>,
                              Pair<Command, cortex_Command, &cortex_Command_desc>,
                              Pair<Answer, cortex_Answer, &cortex_Answer_desc>,
-                             Pair<EventMessage, cortex_EventMessage, &cortex_EventMessage_desc>>;
+                             Pair<EventMessage, cortex_EventMessage, &cortex_EventMessage_desc>,
+                             Pair<PastMessage, cortex_Past, &cortex_Past_desc>>;
 
 struct ShortNames {
     template <class P>

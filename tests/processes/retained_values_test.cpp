@@ -280,12 +280,17 @@ TEST_F(RetainedValues, CannotBeWrittenWhichIsToldOnceWhileTheAgentGoesOn) {
 TEST_F(RetainedValues, AreWrittenOnceTheirFolderIsThereWhichIsTold) {
     const std::filesystem::path late = folder.path() / "late";
     AgentProcess agent{folder, system, options({"--retain", (late / "r.xml").string()})};
-    ASSERT_TRUE(agent.prints("is missing: mkdir"));
+    for (const char* what : {"retained items are", "what the agent remembers is"}) {
+        ASSERT_TRUE(agent.prints(what + (" not written: the folder " + late.string()) +
+                                 " is missing: mkdir -p "));
+    }
 
     std::filesystem::create_directory(late);
 
     EXPECT_TRUE(agent.prints("retained items are written again: "));
+    EXPECT_TRUE(agent.prints("what the agent remembers is written again: "));
     EXPECT_TRUE(std::filesystem::exists(late / "r.xml"));
+    EXPECT_TRUE(contains(textOf(late / "r.memory"), "cortex-agent memory\t1\tplant\n"));
 }
 
 TEST_F(RetainedValues, SettingsThatWereSavedAreStartValuesAndEveryDifferenceIsShown) {

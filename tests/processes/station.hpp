@@ -47,6 +47,8 @@ public:
     }
     std::vector<AgentEvent> events() const;
 
+    comms::Mirror& mirror() { return mirror_; }
+
 private:
     comms::AgentImage imageOf(const std::string& path) const;
 

@@ -48,6 +48,7 @@ void PlayedInterface::send(const Message& message) {
         OutsideCommand command;
         std::ranges::copy(message.sender, command.sender.name.begin());
         std::ranges::copy(message.host, command.sender.host.begin());
+        std::ranges::copy(message.onBehalfOf, command.onBehalfOf.begin());
         command.sender.epoch = message.epoch;
         command.targetEpoch = message.targetEpoch != 0 ? message.targetEpoch : structure.epoch;
         command.sequence = message.sequence;

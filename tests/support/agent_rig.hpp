@@ -66,7 +66,7 @@ public:
         std::string sender = "tool";
         std::uint64_t sequence = 1, answeredBelow = 1;
         std::int64_t epoch = 1, targetEpoch = 0, notAfter = 100'000, until = 0;
-        std::string host = {};
+        std::string host = {}, onBehalfOf = {};
         std::int32_t sizeError = 0;
     };
     void send(const Message& message);

@@ -10,6 +10,7 @@
 
 #include "give_way.hpp"
 #include "hook_check.hpp"
+#include "memory_file.hpp"
 #include "model_dump.hpp"
 #include "options.hpp"
 #include "patient_output.hpp"
@@ -21,6 +22,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -93,21 +96,26 @@ void applyFiles(const CommandLine& line, SimplexTree& tree, RetainedFile& retain
     std::cout << std::flush;
 }
 
-// What is read is never written: neither model nor settings.
+// A file that is written: neither read by this agent, as a model or settings, nor written twice.
 void refuseToWrite(const CommandLine& line, const ModelFiles& model) {
-    std::vector<std::filesystem::path> read = model.files;
+    namespace fs = std::filesystem;
+    std::vector<fs::path> read = model.files;
     if (!line.settingsFile.empty()) read.push_back(line.settingsFile);
+    const auto refuse = [](const std::string& option, const fs::path& file, const char* why) {
+        throw UsageError(option + " " + file.string() + ": it is " + why + ": name another file");
+    };
+    std::set<fs::path> written;
     for (const auto& [option, file] :
-         {std::pair{"--log ", line.log}, std::pair{"--retain ", line.retainFile}}) {
-        const bool isRead = std::ranges::any_of(read, [&](const std::filesystem::path& each) {
+         {std::pair{"--log", line.log}, std::pair{"--retain", line.retainFile},
+          std::pair{"--memory", line.memoryFile}}) {
+        if (file.empty()) continue;
+        const bool isRead = std::ranges::any_of(read, [&target = file](const fs::path& each) {
             std::error_code ignored;
-            return std::filesystem::equivalent(file, each, ignored);
+            return fs::equivalent(target, each, ignored);
         });
-        if (isRead) {
-            throw UsageError(option + file.string() +
-                             ": it is read by this agent, and would be written over: name another "
-                             "file");
-        }
+        if (isRead) refuse(option, file, "read by this agent, and would be written over");
+        if (!written.insert(fs::absolute(file).lexically_normal()).second)
+            refuse(option, file, "that of another option as well");
     }
 }
 
@@ -207,11 +215,30 @@ void printAndStop(cs::ClusterCS& cluster, const std::string& name,
     std::cout << metricsTable(cluster.image(), name) << counts << std::flush;
 }
 
+// The past of its earlier starts, where a file has it.
+std::unique_ptr<MemoryFile> remember(const CommandLine& line, bool retains,
+                                     ClusterSettings& settings) {
+    using namespace std::chrono;
+    const nanoseconds now = system_clock::now().time_since_epoch();
+    settings.options.memory = std::make_shared<EventMemory>(line.memoryEntries, now.count());
+    const std::filesystem::path file = memoryFile(line, retains);
+    if (file.empty()) return nullptr;
+    const cs::BoundedStep step{"reading " + file.string()};
+    auto memory = std::make_unique<MemoryFile>(file, settings.name, settings.options.memory);
+    try {
+        std::cout << memory->load() << std::flush;
+    } catch (const Error& error) {
+        throw UsageError(error.what());
+    }
+    return memory;
+}
+
 int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTree& tree,
                RetainedFile& retained, HookCheck& hookCheck) {
     ClusterSettings settings = clusterSettings(tree.description(), line);
     const bool retains = RetainedFile::hasItems(tree);
     if (retains) ++settings.options.imageReaders;
+    const auto memory = remember(line, retains, settings);
     cs::ClusterCS cluster{settings.name, settings.options};
     cluster.addSimplexTree(tree);
     cluster.useClasses(registry);
@@ -231,12 +258,14 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
         notStarted.emplace(cluster, settings.name, optionsOfTools(line));
     cluster.start();
     if (retains) retained.keep(cluster);
+    if (memory) memory->keep();
     printStart(line, cluster, settings, tree.simplexes().size());
     const auto isSecond = [&] { return network != nullptr && network->isSecond(); };
     const auto isOver = countdown(line.seconds, startUp);
     GiveWay giveWay{cluster, settings.name, line.startup};
     watch(cluster, settings.name, [&] {
         hookCheck.look();
+        if (memory) memory->giveWay(isSecond());
         if (!line.wait && isSecond()) return true;
         const auto turn = giveWay.look(isSecond());
         if (turn == GiveWay::Turn::OursAgain && startUp) startUp->again();
@@ -256,6 +285,7 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     printAndStop(cluster, settings.name, network);
     for (const std::string& each : cluster.notShutDown()) notFollowed += "shutdown: " + each + "\n";
     retained.finish();
+    if (memory) memory->finish();
     std::cerr << notFollowed << std::flush;
     const bool broken = hookCheck.printEnd();
     if (halted || endedItself || cs::exitWasRefused()) return Halted;

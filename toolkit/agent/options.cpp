@@ -106,6 +106,18 @@ void addDump(CLI::App& app, CommandLine& line) {
         ->check(aPath);
 }
 
+void addMemory(CLI::App& app, CommandLine& line) {
+    app.add_option("--memory", line.memoryFile,
+                   "file that keeps faults, commands, states, control and losses over restarts; if "
+                   "not given, SYSTEM.memory where there are items with retain=\"true\", otherwise "
+                   "none")
+        ->type_name("FILE");
+    app.add_option("--memory-entries", line.memoryEntries,
+                   "how many of them are kept, with a file or without; 20000 if not given")
+        ->type_name("N")
+        ->check(CLI::Range(100, 1'000'000));
+}
+
 void addLoop(CLI::App& app, CommandLine& line) {
     app.add_option("--frequency", line.frequency, "cycles per second")
         ->type_name("HZ")
@@ -203,6 +215,7 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
                    "file that keeps items with retain=\"true\" over restarts; SYSTEM.retained.xml "
                    "beside the system file if not given")
         ->type_name("FILE");
+    addMemory(app, line);
     app.add_option("--files", line.files,
                    "folder below which simplexes may read and write files, such as taught points; "
                    "none if not given")
@@ -242,6 +255,15 @@ std::filesystem::path retainFile(const CommandLine& line) {
     if (!line.retainFile.empty()) return line.retainFile;
     std::filesystem::path file = line.system;
     return file.replace_extension(".retained.xml");
+}
+
+std::filesystem::path memoryFile(const CommandLine& line, bool retains) {
+    if (!line.memoryFile.empty() || !retains) return line.memoryFile;
+    std::filesystem::path file = retainFile(line);
+    for (const char* each : {".xml", ".retained"}) {
+        if (file.extension() == each) file.replace_extension();
+    }
+    return file += ".memory";
 }
 
 comms::NetworkOptions networkOptions(const CommandLine& line) {

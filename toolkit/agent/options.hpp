@@ -3,10 +3,12 @@
 
 #include "cortex/comms/network_options.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/event_memory.hpp"
 #include "cortex/core/model_files.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,7 +27,8 @@ struct CommandLine {
     std::filesystem::path system;
     std::vector<std::filesystem::path> plugins;
     std::vector<std::string> settings;  // PATH.ITEM=VALUE
-    std::filesystem::path settingsFile, retainFile;
+    std::filesystem::path settingsFile, retainFile, memoryFile;
+    std::size_t memoryEntries = EventMemory::usualEntries;
     std::string files;  // folder that simplexes may use
     std::optional<double> frequency;
     std::optional<std::uint32_t> threads;
@@ -48,6 +51,9 @@ std::optional<CommandLine> parseCommandLine(int argc, char** argv, int& exitCode
 
 // Where retained items are kept: as asked for, otherwise mixer.retained.xml beside mixer.xml.
 std::filesystem::path retainFile(const CommandLine& line);
+// Where what it remembers is kept: as asked for, otherwise mixer.memory beside the file of retained
+// items; empty where there are none.
+std::filesystem::path memoryFile(const CommandLine& line, bool retains);
 
 struct ClusterSettings {
     std::string name;

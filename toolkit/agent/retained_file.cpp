@@ -11,79 +11,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <iostream>
-#include <string_view>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 namespace cortex::toolkit {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A descriptor that is closed with its block; -1 where it could not be opened.
-class OpenFile {
-public:
-    OpenFile(const fs::path& path, int flags)
-        : file_{open(path.c_str(), flags | O_CLOEXEC, 0644)} {}
-    ~OpenFile() {
-        if (file_ >= 0) close(file_);
-    }
-    OpenFile(const OpenFile&) = delete;
-    OpenFile& operator=(const OpenFile&) = delete;
-
-    bool writeAll(std::string_view text) const {
-        while (file_ >= 0 && !text.empty()) {
-            const ssize_t size = ::write(file_, text.data(), text.size());
-            if (size < 0 && errno != EINTR) return false;
-            if (size > 0) text.remove_prefix(static_cast<std::size_t>(size));
-        }
-        return file_ >= 0;
-    }
-    bool sync() const { return file_ >= 0 && fsync(file_) == 0; }
-
-private:
-    int file_;
-};
-
-// A new file takes the place of the old one: of /dev/null as well, where we may do so.
-std::string otherThanAFile(const fs::path& path) {
-    std::error_code none;
-    switch (fs::symlink_status(path, none).type()) {
-        case fs::file_type::regular:
-        case fs::file_type::not_found:
-            return "";
-        case fs::file_type::symlink:
-            return path.string() + " is a symbolic link, which would be replaced: name the file";
-        case fs::file_type::directory:
-            return path.string() + " is a folder: name a file in it";
-        default:
-            return path.string() +
-                   " is no regular file, and would be replaced by one: name another file";
-    }
-}
-
-// In one step: after a power failure the file is the old or the new one. "" or why it is the old.
-std::string replaceFile(const fs::path& file, const std::string& text) {
-    const fs::path next = file.string() + ".new";
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path{"."};
-    if (std::string other = otherThanAFile(file); !other.empty()) return other;
-    if (std::error_code none; !fs::exists(folder, none)) {
-        return "the folder " + folder.string() + " is missing: mkdir -p " + folder.string() +
-               ", and they are written within a second";
-    }
-    const auto failed = [&] { return file.string() + ": " + std::strerror(errno); };
-    {
-        const OpenFile output{next, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW};
-        if (!output.writeAll(text) || !output.sync()) return failed();
-    }
-    if (std::rename(next.c_str(), file.c_str()) != 0) return failed();
-    return OpenFile{folder, O_RDONLY | O_DIRECTORY}.sync() ? "" : failed();
-}
 
 // A model is not set aside as a file of values with errors in it. "" or what the file is.
 std::string otherThanValues(const fs::path& file) {
@@ -183,9 +117,9 @@ void RetainedFile::write() {
         if (text == written_) return;
         const std::string problem = replaceFile(file_, text);
         if (problem.empty()) written_ = text;
-        tell(problem);
+        trouble_.tell(problem);
     } catch (const Error& error) {
-        tell(error.what());  // too many images are held: in a second again
+        trouble_.tell(error.what());  // too many images are held: in a second again
     }
 }
 
@@ -211,16 +145,6 @@ std::string RetainedFile::textOf(const Image& image) {
         text += "  </simplex>\n";
     }
     return text + "</system>\n";
-}
-
-// Once for each reason.
-void RetainedFile::tell(const std::string& problem) {
-    if (problem != problem_ && !problem.empty()) {
-        std::cerr << "retained items are not written: " << problem << std::endl;
-    } else if (!problem_.empty() && problem.empty()) {
-        std::cerr << "retained items are written again: " << file_.string() << std::endl;
-    }
-    problem_ = problem;
 }
 
 }  // namespace cortex::toolkit

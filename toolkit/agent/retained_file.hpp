@@ -4,6 +4,8 @@
 #include "cortex/core/simplex_tree.hpp"
 #include "cortex/cs/cluster_cs.hpp"
 
+#include "durable_file.hpp"
+
 #include <condition_variable>
 #include <filesystem>
 #include <map>
@@ -18,7 +20,8 @@ namespace cortex::toolkit {
 // images and writes once a second at most; the loop knows nothing of it.
 class RetainedFile {
 public:
-    explicit RetainedFile(std::filesystem::path file) : file_{std::move(file)} {}
+    explicit RetainedFile(const std::filesystem::path& file)
+        : file_{file}, trouble_{"retained items are", file} {}
     ~RetainedFile();
     RetainedFile(const RetainedFile&) = delete;
     RetainedFile& operator=(const RetainedFile&) = delete;
@@ -36,12 +39,12 @@ private:
     void run();
     void write();
     std::string textOf(const Image& image);
-    void tell(const std::string& problem);
 
     std::filesystem::path file_;
     cs::ClusterCS* cluster_ = nullptr;
     std::map<std::string, std::string> good_;  // path.item: the last value that may be restored
-    std::string written_, problem_;
+    std::string written_;
+    WriteTrouble trouble_;
     std::mutex mutex_;
     std::condition_variable wake_;
     bool ending_ = false;

@@ -185,7 +185,8 @@ bool AgentNetwork::follow() {
         const auto has = addresses({each});
         if (had == has) continue;
         self_.event(Severity::Info, self_.simplex,
-                    "interface " + each.name + (has.empty() ? lossOf(each) : gain(has, joins)));
+                    "interface " + each.name + (has.empty() ? lossOf(each) : gain(has, joins)),
+                    EventKind::Loss);
     }
     if (joins) joined_ = now;
     return joins;

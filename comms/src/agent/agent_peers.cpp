@@ -120,7 +120,7 @@ void AgentPeers::hear(Peer& peer, const Presence& presence, std::int64_t now) {
     peer.missed = false;
     if (!std::exchange(peer.heard, true) && peer.agent) {
         self_.event(Severity::Info, self_.simplex,
-                    "agent " + peer.name + " was found, on host " + presence.host);
+                    "agent " + peer.name + " was found, on host " + presence.host, EventKind::Loss);
     }
     if (!complete) sayIfKnown(peer);
 }
@@ -139,7 +139,8 @@ void AgentPeers::lose(Peer& peer, const std::string& why) {
     if (!std::exchange(peer.heard, false)) return;
     changed_ = true;
     if (peer.agent) {
-        self_.event(Severity::Warning, self_.simplex, "agent " + peer.name + " is lost: " + why);
+        self_.event(Severity::Warning, self_.simplex, "agent " + peer.name + " is lost: " + why,
+                    EventKind::Loss);
     }
     lost_(peer.name, peer.epoch());
 }

@@ -82,7 +82,8 @@ AgentSelf::AgentSelf(const AgentAccess& agent)
       simplex{agent.structure->find("/" + name)},
       began{monotonicNow()} {}
 
-void AgentSelf::event(Severity severity, std::uint32_t about, std::string_view text) const {
+void AgentSelf::event(Severity severity, std::uint32_t about, std::string_view text,
+                      EventKind kind) const {
     Event event;
     if (const Image image = access.newestImage()) {
         event.cycle = image.cycle();
@@ -90,7 +91,7 @@ void AgentSelf::event(Severity severity, std::uint32_t about, std::string_view t
     }
     event.simplex = about;
     event.severity = severity;
-    event.kind = EventKind::Agent;
+    event.kind = kind;
     event.text = EventText{text};
     access.events->postOutside(event);
 }

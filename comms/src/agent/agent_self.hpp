@@ -48,7 +48,8 @@ struct AgentSelf {
 
     const Structure& structure() const { return *access.structure; }
     // Posts an event from outside the loop.
-    void event(Severity severity, std::uint32_t simplex, std::string_view text) const;
+    void event(Severity severity, std::uint32_t simplex, std::string_view text,
+               EventKind kind = EventKind::Agent) const;
 
     AgentAccess access;
     std::string name, host;

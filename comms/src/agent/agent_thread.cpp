@@ -57,6 +57,8 @@ AgentThread::AgentThread(const AgentAccess& agent, const NetworkOptions& options
       links_{self_},
       streams_{self_, model_.structureHash(), participant_},
       summary_{self_, model_.structureHash(), participant_},
+      past_{self_, participant_},
+      values_{self_},
       calls_{self_, links_, participant_},
       peers_{self_,
              [this](const std::string& name, std::int64_t epoch) { commands_.lost(name, epoch); },
@@ -102,6 +104,7 @@ void AgentThread::joinAnew() {
     answers_.renew();
     streams_.renew();
     summary_.renew();
+    past_.renew();
     calls_.leave();
     linksIn_.clear();
     answerIn_.reset();
@@ -241,6 +244,7 @@ void AgentThread::step() {
     }
     if (!silent_) streams_.step(now);
     if (!silent_) summary_.step(now);
+    if (!silent_) values_.step(now);
     peers_.look(now);
     takeMessages(now);
     reportRefusals();
@@ -258,6 +262,7 @@ void AgentThread::step() {
     }
     commands_.step(now);
     calls_.step(peers_.all(), silent_);
+    if (!silent_) past_.step(now);
     sendEvents();
     if (peers_.isSecond() != silent_) beSilent(!silent_);
     sendPresence(now);
@@ -270,6 +275,7 @@ void AgentThread::takeMessages(std::int64_t now) {
         peers_.take(presence, came);
         if (presence.state != "stopping" && !peers_.isOther(presence.name, presence.epoch)) {
             commands_.heard(presence, came);
+            past_.take(presence, came);
             if (!silent_ && numberIn(presence, commandsOthers) != 0) {
                 answers_.prepare(presence.name);
             }

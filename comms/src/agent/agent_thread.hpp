@@ -11,12 +11,14 @@
 #include "agent/agent_links.hpp"
 #include "agent/agent_model.hpp"
 #include "agent/agent_network.hpp"
+#include "agent/agent_past.hpp"
 #include "agent/agent_peers.hpp"
 #include "agent/agent_received.hpp"
 #include "agent/agent_rivals.hpp"
 #include "agent/agent_self.hpp"
 #include "agent/agent_streams.hpp"
 #include "agent/agent_summary.hpp"
+#include "agent/agent_value_watch.hpp"
 #include "dds/participant.hpp"
 #include "peers/rejoin.hpp"
 
@@ -100,6 +102,8 @@ private:
     std::unique_ptr<Writer<Interest>> interestOut_;  // null: this agent links nothing
     AgentStreams streams_;
     AgentSummary summary_;
+    AgentPast past_;
+    AgentValueWatch values_;
     AgentCallSender calls_;
     AgentPeers peers_;
     std::unique_ptr<Reader<Presence>> presenceIn_;

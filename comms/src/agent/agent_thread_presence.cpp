@@ -32,6 +32,7 @@ Presence AgentThread::presence(const char* state) const {
                            {uptimeOfAgent, std::to_string(monotonicNow() - self_.began)});
     presence.extras.push_back({rootPaths, rivals_.roots()});
     presence.extras.push_back({summaries, "1"});
+    presence.extras.push_back({ofThePast, "1"});
     if (const std::string pairs = textOf(rivals_.says()); !pairs.empty()) {
         presence.extras.push_back({firstOfPairs, pairs});
     }

@@ -30,6 +30,7 @@ inline const Id& claimedName(const Summary& sample) { return sample.agent; }
 inline const std::string& claimedName(const Command& sample) { return sample.sender; }
 inline const std::string& claimedName(const Answer& sample) { return sample.agent; }
 inline const std::string& claimedName(const EventMessage& sample) { return sample.name; }
+inline const std::string& claimedName(const PastMessage& sample) { return sample.name; }
 
 // Guards a participant with security: asks Fast DDS for security, notices participants that Fast
 // DDS refused, and refuses samples whose name is not that of their sender. Any thread.

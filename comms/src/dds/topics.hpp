@@ -35,6 +35,7 @@ inline const Topic viewEvery{"cortex/1/view/every", Qos::Cycle};
 inline const Topic summary{"cortex/1/view/summary", Qos::Cycle};
 inline const Topic command{"cortex/1/command", Qos::Exchange};
 inline const Topic event{"cortex/1/event", Qos::Log};
+inline const Topic past{"cortex/1/past", Qos::Exchange};
 inline Topic linkOf(const std::string& agent) {
     return {"cortex/1/link/" + toHex(agentId(agent)), Qos::Cycle};
 }

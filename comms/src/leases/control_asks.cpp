@@ -46,13 +46,10 @@ std::vector<ToolStatus>::const_iterator find(const std::vector<ToolStatus>& tool
     return std::ranges::find(tools, name, &ToolStatus::name);
 }
 
-std::string nameOf(const Holder& holder) {
-    return holder.person.empty() ? holder.name : holder.person + " (" + holder.name + ")";
-}
-
 std::string namesOf(const std::vector<Holder>& holders) {
     std::string names;
-    for (const Holder& each : holders) names += (names.empty() ? "" : ", ") + nameOf(each);
+    for (const Holder& each : holders)
+        names += (names.empty() ? "" : ", ") + whoText(each.name, each.person);
     return names;
 }
 

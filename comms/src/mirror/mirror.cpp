@@ -198,7 +198,7 @@ void Mirror::actFor(const std::string& person) {
 }
 
 void Mirror::introduce(const std::string& person) {
-    if (!isPerson(person)) {
+    if (!isPersonName(person)) {
         throw Error(
             "the name of who uses a tool has 1 to 63 bytes of UTF-8, no control characters and "
             "brackets, and no blank at its ends");
@@ -278,6 +278,46 @@ void Listening::stop() {
 bool Mirror::eventsComplete() const {
     return implementation_->thread.read(
         [](MirrorState& state) { return state.agents.eventsComplete(); });
+}
+
+std::uint64_t Mirror::askPast(const std::string& agent, std::int64_t from, std::int64_t until) {
+    std::uint64_t number = 0;
+    implementation_->thread.change(
+        [&](MirrorState& state) { number = state.past.ask(agent, from, until); });
+    return number;
+}
+
+bool Mirror::pollPast(std::uint64_t number, PastEvents& past) {
+    return implementation_->thread.read(
+        [&](MirrorState& state) { return state.past.poll(number, past); });
+}
+
+void Mirror::abandonPast(std::uint64_t number) {
+    implementation_->thread.change([&](MirrorState& state) { (void)state.past.giveUp(number); });
+}
+
+std::vector<PastEvents> Mirror::past(std::int64_t from, std::int64_t until, Milliseconds limit) {
+    std::vector<std::uint64_t> numbers;
+    implementation_->thread.change([&](MirrorState& state) {
+        for (const auto& [name, agent] : state.agents.all())
+            numbers.push_back(state.past.ask(name, from, until));
+    });
+    implementation_->thread.waitFor(limit, [&](MirrorState& state) {
+        return std::ranges::all_of(numbers,
+                                   [&](std::uint64_t each) { return state.past.isOver(each); });
+    });
+    std::vector<PastEvents> all;
+    implementation_->thread.change([&](MirrorState& state) {
+        for (const std::uint64_t each : numbers) {
+            PastEvents past;
+            if (!state.past.poll(each, past)) {
+                past = state.past.giveUp(each);
+                past.trouble = "not all of it came within " + std::to_string(limit.count()) + " ms";
+            }
+            all.push_back(std::move(past));
+        }
+    });
+    return all;
 }
 
 std::uint64_t Mirror::refused() const { return implementation_->thread.refused(); }

@@ -53,6 +53,10 @@ bool MirrorAgent::summarises() const {
     return present() && numberIn(*model.presence(), summaries) != 0;
 }
 
+bool MirrorAgent::remembers() const {
+    return present() && numberIn(*model.presence(), ofThePast) != 0;
+}
+
 // Of one that cannot say so itself, as its image says.
 std::vector<SimplexMark> MirrorAgent::marks(Moment now) const {
     if (!structure) return {};
@@ -112,6 +116,7 @@ AgentStatus MirrorAgent::status(Moment now) const {
         status.hears = static_cast<std::uint32_t>(
             std::min<std::uint64_t>(numberIn(presence, agentsHeard), mostHeard));
         status.summarises = summarises();
+        status.remembers = remembers();
         status.refused = textIn(presence, refusedMessages);
         status.otherSelf = textIn(presence, otherSelf).substr(0, longestReason);
     }

@@ -57,6 +57,7 @@ struct MirrorAgent {
     AgentStatus status(Moment now) const;
     AgentImage image() const;  // empty: nothing of it is viewed
     bool summarises() const;
+    bool remembers() const;
     std::vector<SimplexMark> marks(Moment now) const;
     CommandTarget target();                        // throws Error where its structure has not come
     std::string standstillText(Moment now) const;  // empty: its loop runs

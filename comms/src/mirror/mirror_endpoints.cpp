@@ -132,6 +132,13 @@ void MirrorEndpoints::listen() {
         topics::event, [this](EventMessage&& sample) { inbox_.push(std::move(sample)); });
 }
 
+void MirrorEndpoints::hearPast() {
+    if (past_) return;
+    past_ = participant_.reader<PastMessage>(topics::past, [this](PastMessage&& sample) {
+        if (sample.tool == tool_.nameText()) inbox_.push(std::move(sample));
+    });
+}
+
 void MirrorEndpoints::announce(const MirrorAgents& agents, Moment now) {
     if (presence_ && (now - spoke_).count() >= self_.interval) {
         self_.interval = intervalAmong(presence_->readers());

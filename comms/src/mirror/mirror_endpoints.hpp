@@ -23,6 +23,7 @@ public:
     void view(const MirrorView& view, bool summarised);  // reads its streams and informs the agents
     void command();  // makes what commands need, and tells the agents to do so
     void listen();
+    void hearPast();                                        // what agents have kept
     void say(const ToolWords& words);                       // of this tool, from now on
     void announce(const MirrorAgents& agents, Moment now);  // this tool
     bool write(const Command& command);
@@ -62,6 +63,7 @@ private:
     std::unique_ptr<Writer<Command>> commands_;
     std::unique_ptr<Reader<Answer>> answers_;
     std::unique_ptr<Reader<EventMessage>> events_;
+    std::unique_ptr<Reader<PastMessage>> past_;
     std::unique_ptr<Reader<Summary>> summaries_;
     Presence self_;
     ToolWords words_;  // that the others know

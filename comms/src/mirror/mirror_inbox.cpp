@@ -7,15 +7,16 @@ namespace cortex::comms {
 namespace {
 
 constexpr std::size_t mostSamples = 1'000'000;
-constexpr std::size_t mostBlocks = 1'000;  // they are large, and the next one makes up for it
+constexpr std::size_t mostBlocks = 1'000;  // they are large, and come again or anew
 
 }  // namespace
 
 void MirrorInbox::push(MirrorSample sample) {
     {
         const std::lock_guard lock{mutex_};
-        const bool block =
-            std::holds_alternative<StreamBlock>(sample) || std::holds_alternative<Summary>(sample);
+        const bool block = std::holds_alternative<StreamBlock>(sample) ||
+                           std::holds_alternative<Summary>(sample) ||
+                           std::holds_alternative<PastMessage>(sample);
         if (samples_.size() >= mostSamples || (block && blocks_ >= mostBlocks)) {
             ++dropped_;
             return;

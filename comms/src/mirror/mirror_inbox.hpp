@@ -24,8 +24,8 @@ struct StreamBlock {
     std::size_t stream;
 };
 
-using MirrorSample =
-    std::variant<Presence, Model, StreamBlock, Summary, Answer, EventMessage, Withdrawn>;
+using MirrorSample = std::variant<Presence, Model, StreamBlock, Summary, Answer, EventMessage,
+                                  PastMessage, Withdrawn>;
 
 // Carries samples from the threads of DDS to the mirror's thread. It is bounded. Any thread.
 class MirrorInbox {

@@ -128,6 +128,9 @@ const MirrorAgent* MirrorThread::take(const MirrorSample& sample, Moment now) {
         state_.commands.take(*answer);
     } else if (const auto* message = std::get_if<EventMessage>(&sample)) {
         if (auto event = agents.take(*message)) events_.push_back(std::move(*event));
+    } else if (const auto* past = std::get_if<PastMessage>(&sample)) {
+        const MirrorAgent* agent = agents.find(past->name);
+        if (agent != nullptr && agent->model.epoch() == past->epoch) state_.past.take(*past, now);
     } else {
         agents.withdraw(std::get<Withdrawn>(sample).agent);
         state_.tools.withdraw(std::get<Withdrawn>(sample).agent);
@@ -157,6 +160,9 @@ void MirrorThread::serve(Moment now) {
     state_.agents.tick(state_.view, now);
     state_.tools.tick(now);
     joinAnew(now);
+    state_.past.tick(state_.agents, now);
+    state_.words.past = state_.past.words();
+    if (state_.past.waiting()) endpoints_->hearPast();
     endpoints_->say(state_.words);
     endpoints_->view(state_.view, state_.summarised);
     if (state_.commands.waiting() || state_.mayCommand) endpoints_->command();
@@ -191,8 +197,8 @@ std::uint64_t MirrorThread::send(std::string_view path, std::string_view command
 
 std::uint64_t MirrorThread::refused() const {
     const std::lock_guard lock{mutex_};
-    return state_.agents.refused() + state_.commands.refused() + inbox_.dropped() +
-           endpoints_->malformed();
+    return state_.agents.refused() + state_.commands.refused() + state_.past.refused() +
+           inbox_.dropped() + endpoints_->malformed();
 }
 
 }  // namespace cortex::comms

@@ -8,6 +8,7 @@
 #include "mirror/mirror_endpoints.hpp"
 #include "mirror/mirror_inbox.hpp"
 #include "mirror/mirror_listeners.hpp"
+#include "mirror/mirror_past.hpp"
 #include "mirror/mirror_tools.hpp"
 #include "peers/rejoin.hpp"
 #include "peers/sent_commands.hpp"
@@ -31,6 +32,7 @@ struct MirrorState {
               commands.lose(agent.model.agent(), why);
           }},
           tools{std::string{tool.nameText()}},
+          past{std::string{tool.nameText()}},
           commands{tool} {}
 
     // Whether all participants that were found, or that another one hears, have sent everything,
@@ -44,6 +46,7 @@ struct MirrorState {
     MirrorAgents agents;
     MirrorTools tools;  // the others
     ToolWords words;    // of this one
+    MirrorPast past;
     SentCommands commands;
     MirrorView view;
     bool summarised = false;  // summaries are viewed

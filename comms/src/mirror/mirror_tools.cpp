@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mirror/mirror_tools.hpp"
 
-#include "cortex/core/text_faults.hpp"
+#include "cortex/core/printable.hpp"
 
 #include "wire/ids.hpp"
 #include "wire/presence_extras.hpp"
@@ -17,10 +17,8 @@ namespace {
 
 constexpr std::size_t mostTools = 1024, mostRefusals = 8, longestName = 63, longestPrefix = 127;
 
-bool isPlain(std::string_view text, std::size_t longest) {
-    return !text.empty() && text.size() <= longest && textFault(text) == nullptr &&
-           std::ranges::none_of(text,
-                                [](unsigned char each) { return each < ' ' || each == 127U; });
+bool isPlain(const std::string& text, std::size_t longest) {
+    return !text.empty() && text.size() <= longest && text == printable(text);
 }
 
 std::string numbered(std::uint64_t number, const std::string& text) {
@@ -61,12 +59,17 @@ std::vector<Extra> ToolWords::extras() const {
     for (const auto& [tool, number] : refuses) {
         extras.push_back({refusedAsk, numbered(number, tool)});
     }
+    for (const std::string& each : past) extras.push_back({ofThePast, each});
     return extras;
 }
 
-bool isPerson(const std::string& name) {
+bool isPersonName(const std::string& name) {
     return isPlain(name, longestName) && name.find_first_of("()") == std::string::npos &&
            !name.starts_with(' ') && !name.ends_with(' ');
+}
+
+std::string whoText(const std::string& tool, const std::string& person) {
+    return person.empty() ? tool : person + " (" + tool + ")";
 }
 
 bool canBeAskedFor(const std::string& prefix) {
@@ -84,7 +87,7 @@ void MirrorTools::take(const Presence& presence, Moment now) {
         if (known != tools_.end() && !isOther) known->second.ends = true;
         return;
     }
-    if (!isPerson(textIn(presence, userOfTool))) {
+    if (!isPersonName(textIn(presence, userOfTool))) {
         if (known != tools_.end() && !isOther) tools_.erase(known);
         return;
     }

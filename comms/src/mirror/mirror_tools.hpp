@@ -20,14 +20,12 @@ struct ToolWords {
     std::string person;
     ControlAsk asks;
     std::vector<std::pair<std::string, std::uint64_t>> refuses;
+    std::vector<std::string> past{};  // what it asks agents for
 
     std::vector<Extra> extras() const;
     bool operator==(const ToolWords&) const = default;
 };
 
-// Whether it can be the name of a person: 1 to 63 bytes of UTF-8 without control characters and
-// brackets, as a tool's name stands in these behind it, and without a blank at either end.
-bool isPerson(const std::string& name);
 // Whether control of it can be asked for: "/", or the path of a simplex, of at most 127 bytes.
 bool canBeAskedFor(const std::string& prefix);
 

@@ -247,6 +247,7 @@ template std::size_t encodedSize(const Summary&);
 template std::size_t encodedSize(const Command&);
 template std::size_t encodedSize(const Answer&);
 template std::size_t encodedSize(const EventMessage&);
+template std::size_t encodedSize(const PastMessage&);
 
 template std::size_t encode(const Presence&, std::span<std::uint8_t>);
 template std::size_t encode(const Model&, std::span<std::uint8_t>);
@@ -256,6 +257,7 @@ template std::size_t encode(const Summary&, std::span<std::uint8_t>);
 template std::size_t encode(const Command&, std::span<std::uint8_t>);
 template std::size_t encode(const Answer&, std::span<std::uint8_t>);
 template std::size_t encode(const EventMessage&, std::span<std::uint8_t>);
+template std::size_t encode(const PastMessage&, std::span<std::uint8_t>);
 
 template bool canEncode(const Presence&);
 template bool canEncode(const Model&);
@@ -265,6 +267,7 @@ template bool canEncode(const Summary&);
 template bool canEncode(const Command&);
 template bool canEncode(const Answer&);
 template bool canEncode(const EventMessage&);
+template bool canEncode(const PastMessage&);
 
 template bool decode(std::span<const std::uint8_t>, Presence&);
 template bool decode(std::span<const std::uint8_t>, Model&);
@@ -274,5 +277,6 @@ template bool decode(std::span<const std::uint8_t>, Summary&);
 template bool decode(std::span<const std::uint8_t>, Command&);
 template bool decode(std::span<const std::uint8_t>, Answer&);
 template bool decode(std::span<const std::uint8_t>, EventMessage&);
+template bool decode(std::span<const std::uint8_t>, PastMessage&);
 
 }  // namespace cortex::comms

@@ -304,4 +304,46 @@ struct EventMessage {
     bool operator==(const EventMessage&) const = default;
 };
 
+// An entry of the memory of an agent.
+struct PastEventMessage {
+    std::int64_t epoch = 0;
+    std::uint64_t number = 0;
+    std::int64_t cycle = 0, wallClock = 0;
+    std::string severity, kind, path, text;
+
+    static void visit(auto& self, auto&& f) {
+        f(self.epoch, self.number, self.cycle, self.wallClock, self.severity, self.kind, self.path,
+          self.text);
+    }
+    bool operator==(const PastEventMessage&) const = default;
+};
+
+struct KeptSinceMessage {
+    std::string kind;
+    std::int64_t since = 0;
+
+    static void visit(auto& self, auto&& f) { f(self.kind, self.since); }
+    bool operator==(const KeptSinceMessage&) const = default;
+};
+
+struct PastMessage {
+    static constexpr const char* typeName = "cortex::Past";
+    Id agent{};
+    std::string name;
+    std::int64_t epoch = 0;
+    std::string tool;
+    std::uint64_t ask = 0, after = 0, last = 0;
+    bool more = false;
+    std::vector<PastEventMessage> events;
+    std::vector<KeptSinceMessage> kept;
+    std::vector<Extra> extras;
+
+    const Id& key() const { return agent; }
+    static void visit(auto& self, auto&& f) {
+        f(self.agent, self.name, self.epoch, self.tool, self.ask, self.after, self.last, self.more,
+          self.events, self.kept, self.extras);
+    }
+    bool operator==(const PastMessage&) const = default;
+};
+
 }  // namespace cortex::comms

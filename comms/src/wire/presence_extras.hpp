@@ -34,6 +34,9 @@ inline constexpr const char* asksFor = "asks";
 inline constexpr const char* refusedAsk = "refuses";
 // Of an agent: "1": it can send summaries. Of an interest: "1": its sender wants them.
 inline constexpr const char* summaries = "summary";
+// Of an agent: "1": it keeps what tools ask for of the past. Of a tool, once for each ask:
+// "NUMBER FROM UNTIL AFTER AGENT".
+inline constexpr const char* ofThePast = "past";
 // Of the first sample of a model: the signed list of its agent.
 inline constexpr const char* signedList = "authority";
 inline constexpr const char* validUntil = "until";  // of a command, by the clock of its target

@@ -6,11 +6,31 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <type_traits>
 
 namespace cortex::comms {
 namespace {
 
 constexpr unsigned qualityBits = 0x3U, stateBits = 0x7U, stateShift = 2U, outsideBit = 0x20U;
+
+template <class T>
+bool isElementOutside(const DataItem& item, T element) {
+    const cortex::Number number{element};
+    if ((item.min && number < *item.min) || (item.max && *item.max < number)) return true;
+    if constexpr (std::is_same_v<T, std::int64_t>) {
+        return isClosed(item) && !item.labels.contains(element);
+    }
+    return false;
+}
+
+bool isAnyOutside(const ItemLayout& each, const Slice& slice) {
+    for (std::uint32_t i = 0; i < each.item->length; ++i) {
+        if (isOutside(each, slice, i)) return true;
+    }
+    return false;
+}
+
+}  // namespace
 
 bool isLimited(const ItemLayout& each) {
     const DataItem& item = *each.item;
@@ -18,24 +38,11 @@ bool isLimited(const ItemLayout& each) {
     return number && !each.constant && (item.min || item.max || isClosed(item));
 }
 
-template <class T>
-bool isAnyOutside(const DataItem& item, const T* elements) {
-    return std::any_of(elements, elements + item.length, [&](T element) {
-        const cortex::Number number{element};
-        if ((item.min && number < *item.min) || (item.max && *item.max < number)) return true;
-        if constexpr (std::is_same_v<T, std::int64_t>) {
-            return isClosed(item) && !item.labels.contains(element);
-        }
-        return false;
-    });
+bool isOutside(const ItemLayout& each, const Slice& slice, std::uint32_t element) {
+    const DataItem& item = *each.item;
+    if (item.kind == Kind::Int) return isElementOutside(item, slice.ints[each.offset + element]);
+    return isElementOutside(item, slice.floats[each.offset + element]);
 }
-
-bool isOutside(const ItemLayout& each, const Slice& slice) {
-    if (each.item->kind == Kind::Int) return isAnyOutside(*each.item, slice.ints + each.offset);
-    return isAnyOutside(*each.item, slice.floats + each.offset);
-}
-
-}  // namespace
 
 std::uint8_t octetOf(const SimplexMark& mark) {
     const unsigned state = mark.state ? static_cast<unsigned>(*mark.state) + 1 : 0;
@@ -80,7 +87,7 @@ SimplexMark SimplexMarks::of(std::uint32_t simplex, const Slice& slice) const {
     }
     mark.outside = mark.quality == Quality::Good &&
                    std::ranges::any_of(looked.limited, [&](const ItemLayout* each) {
-                       return isOutside(*each, slice);
+                       return isAnyOutside(*each, slice);
                    });
     return mark;
 }

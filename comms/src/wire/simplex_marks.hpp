@@ -16,6 +16,11 @@ namespace cortex::comms {
 std::uint8_t octetOf(const SimplexMark& mark);
 std::optional<SimplexMark> markOf(std::uint8_t octet);  // none: no such state
 
+// Whether values of an item can be outside its limits; constants never are.
+bool isLimited(const ItemLayout& each);
+// Whether this element is outside them. What is no number never is.
+bool isOutside(const ItemLayout& each, const Slice& slice, std::uint32_t element);
+
 // Finds out how the simplexes of a structure are, which outlives it. It allocates nothing.
 class SimplexMarks {
 public:

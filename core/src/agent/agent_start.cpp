@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/agent.hpp"
 #include "cortex/core/error.hpp"
+#include "cortex/core/event_memory.hpp"
 #include "cortex/core/make_structure.hpp"
 #include "cortex/core/system_findings.hpp"
 #include "cortex/core/validation.hpp"
@@ -89,6 +90,7 @@ AgentRuntime::AgentRuntime(std::string name, SimplexTree& tree, AgentOptions opt
     images_ = std::make_unique<ImagePool>(*tables_, options_.imageReaders + kept);
     threads_.resize(std::max(options_.loopThreads, 1U));
     events_ = std::make_unique<EventLog>(structure_, threadCount(), options_.eventCapacity);
+    keepEvents();
     for (std::uint32_t i = 0; i < threadCount(); ++i) {
         threads_[i].events = &events_->ring(i);
         threads_[i].latencyCounts.resize(latencyBuckets);
@@ -104,6 +106,18 @@ AgentRuntime::~AgentRuntime() {
         if (simplex != nullptr) simplex->runtime_ = nullptr;
     }
     for (const auto& sender : senders_) sender->lane = nullptr;
+}
+
+void AgentRuntime::keepEvents() {
+    if (!options_.memory) {
+        options_.memory =
+            std::make_shared<EventMemory>(EventMemory::usualEntries, utcMicroseconds() * 1000);
+    }
+    events_->addSink(
+        [memory = options_.memory](const Event& event, const Structure& structure) {
+            memory->take(event, structure);
+        },
+        EventLog::Repeats::Folded);
 }
 
 void AgentRuntime::addAgentSimplex() {
@@ -298,6 +312,7 @@ void AgentRuntime::start() {
     const AgentAccess access{.structure = structure_,
                              .images = images_.get(),
                              .events = events_.get(),
+                             .memory = options_.memory.get(),
                              .period = options_.period,
                              .calls = callsToAgents(),
                              .realTime = options_.realTime,

@@ -50,6 +50,21 @@ bool Lease::heldBy(const Sender& sender) const {
            (holder.epoch == 0 || holder.epoch == sender.epoch);
 }
 
+void Lease::actFor(std::string_view person) {
+    onBehalfOf = {};
+    std::ranges::copy(person.substr(0, onBehalfOf.size() - 1), onBehalfOf.begin());
+}
+
+EventText Lease::holderText() const {
+    EventText text{holder.nameText()};
+    if (onBehalfOf.front() != '\0') text << " for " << onBehalfOf.data();
+    return text;
+}
+
+EventText Lease::refusal() const {
+    return EventText{prefix.view()} << " is held by " << holderText().view();
+}
+
 LeaseTable::LeaseTable(AgentRuntime& runtime)
     : lifetime_{std::max(lifetime / std::max(runtime.options().period, std::int64_t{1}),
                          std::int64_t{1})},
@@ -82,9 +97,7 @@ Outcome LeaseTable::take(Call& call, std::string_view prefix, std::int64_t cycle
         return call.reject(Reason::Range, (EventText{"no simplex below "} << prefix).view());
     }
     if (const Lease* lease = other(prefix, true, *call.sender())) {
-        EventText why{lease->prefix.view()};
-        why << " is held by " << lease->holder.nameText();
-        return call.reject(Reason::Authority, why.view());
+        return call.reject(Reason::Authority, lease->refusal().view());
     }
     auto place = std::ranges::find_if(leases_, [&](const Lease& lease) {
         return lease.heldBy(*call.sender()) && lease.prefix.view() == prefix;
@@ -92,7 +105,8 @@ Outcome LeaseTable::take(Call& call, std::string_view prefix, std::int64_t cycle
     if (place == leases_.end()) place = std::ranges::find(leases_, false, &Lease::held);
     if (place == leases_.end()) return call.reject(Reason::Busy, "eight leases are held already");
     const std::int64_t since = place->held ? place->since : cycle;
-    *place = {EventText{prefix}, *call.sender(), since, cycle, true};
+    *place = {EventText{prefix}, *call.sender(), {}, since, cycle, true};
+    place->actFor(call.onBehalfOf());
     show(*place);
     return Outcome::Done;
 }
@@ -114,6 +128,7 @@ Outcome LeaseTable::renew(Call& call, std::string_view prefix, std::int64_t cycl
     Lease* lease = mine(call, prefix);
     if (lease == nullptr) return Outcome::Rejected;
     lease->holder = *call.sender();
+    lease->actFor(call.onBehalfOf());
     lease->renewed = cycle;
     return Outcome::Done;
 }
@@ -138,6 +153,7 @@ Outcome LeaseTable::handOver(Call& call, std::string_view prefix, std::string_vi
     for (Lease& each : leases_) {
         if (!each.heldBy(sender) || !isAtOrBelow(each.prefix.view(), given.view())) continue;
         each.holder = {};
+        each.onBehalfOf = {};
         std::ranges::copy(to, each.holder.name.begin());
         each.since = each.renewed = cycle;
         show(each);

@@ -16,10 +16,14 @@ namespace cortex {
 struct Lease {
     EventText prefix;                     // without a slash at its end; "/" for all
     Sender holder;                        // epoch 0: handed over, and not renewed yet
+    std::array<char, 32> onBehalfOf{};    // who is behind it, as it said last; often empty
     std::int64_t since = 0, renewed = 0;  // cycles
     bool held = false;
 
     bool heldBy(const Sender& sender) const CORTEX_REALTIME;
+    void actFor(std::string_view person) CORTEX_REALTIME;
+    EventText holderText() const CORTEX_REALTIME;  // "cortex@desk.4711-5e1f0a for alice"
+    EventText refusal() const CORTEX_REALTIME;     // "/arm is held by ..."
 };
 
 // Who controls which part of the plant: taken, renewed, handed over and released by commands to

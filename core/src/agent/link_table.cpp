@@ -125,7 +125,7 @@ void LinkTable::tellMissing(bool offered, const char* what) {
 }
 
 void LinkTable::post(Severity severity, std::uint32_t simplex, const char* text) {
-    runtime_.post(runtime_.thread(0), severity, EventKind::Agent, simplex, text);
+    runtime_.post(runtime_.thread(0), severity, EventKind::Loss, simplex, text);
 }
 
 }  // namespace cortex

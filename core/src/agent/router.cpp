@@ -318,51 +318,6 @@ void Router::answer(std::uint32_t interface, const OutsideAnswer& answer) {
           EventText{"an answer to "} << answer.sender.nameText() << " was dropped: too many");
 }
 
-// For report().
-OutsideCommand Router::messageOf(const OutsideEntry& entry) const {
-    OutsideCommand message;
-    message.sender = entry.sender;
-    message.onBehalfOf = entry.onBehalfOf;
-    message.simplex = entry.simplex;
-    message.command = entry.command;
-    message.size = runtime_.commands(entry.simplex).entries[entry.command].request.size;
-    message.request = entry.request;
-    return message;
-}
-
-// "operator@desk: zero(speed=0.5): Done in 2 cycles". Renewals that succeed would drown the rest.
-void Router::report(const OutsideCommand& command, const AnswerHead& answer) {
-    if (answer.outcome == Outcome::Done && isRenewal(command.simplex, command.command)) return;
-    EventText text{command.sender.nameText()};
-    if (command.sender.host.front() != '\0') text << "@" << command.sender.host.data();
-    if (command.onBehalfOf.front() != '\0') text << " for " << command.onBehalfOf.data();
-    text << ": ";
-    const bool here = command.simplex < structure_.simplexes.size();
-    if (here && command.command < runtime_.commands(command.simplex).entries.size()) {
-        const CommandTable& table = runtime_.commands(command.simplex);
-        const CommandTable::Entry& entry = table.entries[command.command];
-        text << entry.name << "(";
-        if (command.size == entry.request.size) {
-            describeRecord(table, command.command, command.request, text);
-        }
-        text << "): ";
-    }
-    text << name(answer.outcome);
-    if (answer.reason != Reason::None) text << " (" << name(answer.reason) << ")";
-    if (!answer.why.view().empty()) text << ", " << answer.why.view();
-    if (answer.latencyCycles == 0)
-        text << " in the same cycle";
-    else
-        text << " in " << answer.latencyCycles
-             << (answer.latencyCycles == 1 ? " cycle" : " cycles");
-    const bool executed = answer.outcome != Outcome::Rejected &&
-                          answer.outcome != Outcome::MailboxFull &&
-                          answer.outcome != Outcome::Expired;
-    event(answer.outcome == Outcome::Done ? Severity::Info : Severity::Warning,
-          executed ? EventKind::Command : EventKind::Refusal, here ? command.simplex : noSimplex,
-          text);
-}
-
 void Router::write(std::span<CommunicationInterface* const> interfaces) {
     calls_.expire();
     for (std::uint32_t i = 0; i < interfaces.size(); ++i)

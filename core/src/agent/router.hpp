@@ -71,7 +71,10 @@ private:
     void publish(OutsideEntry& entry);
     void release(OutsideEntry& entry);
     void answer(std::uint32_t interface, const OutsideAnswer& answer);
+
+    // router_report.cpp: the event that says what became of one.
     OutsideCommand messageOf(const OutsideEntry& entry) const;
+    EventKind kindOf(const OutsideCommand& command, bool executed) const;
     void report(const OutsideCommand& command, const AnswerHead& answer);
 
     // router_order.cpp: when they go on their way.

@@ -34,9 +34,7 @@ void Router::authorise(const OutsideEntry& entry, Verdict& verdict) const {
     const bool wide = entry.simplex == runtime_.agentSimplex() && takesText(request, "prefix");
     if (wide) path = textIn(request, "prefix", entry.request);
     if (const Lease* lease = leases_.other(path, wide, entry.sender)) {
-        EventText why{lease->prefix.view()};
-        verdict = {Outcome::Rejected, Reason::Authority,
-                   why << " is held by " << lease->holder.nameText()};
+        verdict = {Outcome::Rejected, Reason::Authority, lease->refusal()};
     } else if (runtime_.options().controlRequired && !leases_.covered(path, entry.sender)) {
         verdict = {Outcome::Rejected, Reason::Authority, "control is required: take it first"};
     }
@@ -117,9 +115,9 @@ void Router::senderLost(const Sender& sender) {
 }
 
 void Router::controlLost(const Lease& lease, std::string_view how) {
-    EventText text{lease.holder.nameText()};
+    EventText text = lease.holderText();
     text << " no longer has control of " << lease.prefix.view() << ": " << how;
-    event(Severity::Warning, EventKind::Agent, runtime_.agentSimplex(), text);
+    event(Severity::Warning, EventKind::Control, runtime_.agentSimplex(), text);
     for (const std::uint32_t simplex : leaseMinded_) {
         const SimplexInfo& info = structure_.simplexes[simplex];
         if (!isAtOrBelow(info.path, lease.prefix.view())) continue;

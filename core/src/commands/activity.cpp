@@ -84,7 +84,7 @@ Verdict Activity::call(const CommandTable::Entry& entry, bool first, bool cancel
     call.setTime(agent_.present.nominalTime, startedTime_);
     call.setFirst(first);
     call.setCancelling(cancelling);
-    if (origin_.outside != nullptr) call.setSender(&origin_.outside->sender);
+    if (origin_.outside != nullptr) origin_.outside->tellOrigin(call);
     const Outcome outcome = handler_(call);
     return outcome == Outcome::Done ? doneVerdict(entry, response) : verdictOf(outcome, call);
 }

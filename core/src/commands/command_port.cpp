@@ -243,7 +243,7 @@ void CommandPort::execute(std::uint32_t command, const std::byte* request, std::
     }
     Call call{request, response};
     call.setTime(thread_->nominalTime, thread_->nominalTime);
-    if (outside != nullptr) call.setSender(&outside->sender);
+    if (outside != nullptr) outside->tellOrigin(call);
     verdict = shortVerdict(handler(call), call, entry, response);
 }
 

@@ -50,6 +50,10 @@ struct OutsideEntry {
     bool moved = false;  // the state has left where it was
 
     bool final() const { return answer.outcome != Outcome::Running; }
+    void tellOrigin(Call& call) const CORTEX_REALTIME {
+        call.setSender(&sender);
+        call.setOnBehalfOf(onBehalfOf.data());
+    }
     void settle(const Verdict& verdict, const ChunkClock& clock) CORTEX_REALTIME {
         answer.number = sequence;
         answer.outcome = verdict.outcome;

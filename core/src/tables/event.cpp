@@ -23,9 +23,9 @@
 namespace cortex {
 
 template <>
-inline constexpr std::array spellings<EventKind>{"state change", "fault",    "refusal", "overflow",
-                                                 "limit",        "conflict", "agent",   "command",
-                                                 "watchdog",     "message"};
+inline constexpr std::array spellings<EventKind>{
+    "state change", "fault",    "refusal", "overflow", "limit", "conflict", "agent",
+    "command",      "watchdog", "message", "control",  "loss",  "value"};
 
 namespace {
 
@@ -320,6 +320,7 @@ void EventLog::addDrops() {
     event.time = lastTime_;
     event.clock = monotonicNow();
     event.severity = Severity::Warning;
+    event.kind = EventKind::Loss;
     event.text << static_cast<std::int64_t>(drops - reportedDrops_)
                << " events dropped: more were posted than their ring holds";
     reportedDrops_ = drops;

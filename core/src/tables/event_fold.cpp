@@ -20,10 +20,12 @@ constexpr std::int64_t foldedFor = 1'000'000'000;  // ns
 constexpr std::size_t mostOpen = 1'000;
 
 constexpr std::array foldedKinds{EventKind::Refusal,  EventKind::Overflow, EventKind::Limit,
-                                 EventKind::Conflict, EventKind::Agent,    EventKind::Message};
+                                 EventKind::Conflict, EventKind::Agent,    EventKind::Message,
+                                 EventKind::Loss};
 
 bool isDone(const Event& event) {
-    if (event.kind != EventKind::Command || event.severity != Severity::Info) return false;
+    const bool ran = event.kind == EventKind::Command || event.kind == EventKind::Control;
+    if (!ran || event.severity != Severity::Info) return false;
     const auto sentence = commandSentence(event.text.view());
     return sentence && sentence->done;
 }
@@ -33,9 +35,14 @@ bool mayFold(const Event& event) {
     return isDone(event) || (kind && event.severity != Severity::Error);
 }
 
-// Without its numbers: two that missed 3 and 5 ticks are the same event again.
+// Without its numbers: two that missed 3 and 5 ticks are the same event again. Whoever sent a
+// command that was refused is another one where only numbers differ.
 std::string wordsOf(std::string_view text) {
     std::string words;
+    if (const auto sentence = commandSentence(text)) {
+        words = sentence->sender;
+        text.remove_prefix(sentence->sender.size());
+    }
     for (const char each : text) {
         if (std::isdigit(static_cast<unsigned char>(each)) == 0) words += each;
     }

@@ -273,6 +273,7 @@ void ClusterCS::startAll() {
     options.period = self.trigger->period();
     options.epoch = self.options.epoch;
     options.files = self.options.files;
+    options.memory = self.options.memory;
     options.realTime = self.trigger->realTime();
     self.agent = std::make_unique<AgentRuntime>(self.name, *self.tree, options);
     if (Report report = missingClasses(*self.agent, self.registry); !report.ok())

@@ -114,8 +114,7 @@ void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick,
     if (!input.lost) {
         if (!std::exchange(input.told, false)) return;
         text << " is back";
-        set_.agent.post(*simplex.thread_->loop, Severity::Info, EventKind::Message, task.index,
-                        text);
+        set_.agent.post(*simplex.thread_->loop, Severity::Info, EventKind::Loss, task.index, text);
         return;
     }
     if (input.state->quality >= Quality::Bad) {
@@ -141,7 +140,7 @@ void TaskInputs::lossChanged(Task& task, TaskInput& input, const Tick& tick,
         simplex.enterFault(InputLost, text.view());
     } else {
         text << "; reaction: " << name(input.rule->onLoss);
-        set_.agent.post(*simplex.thread_->loop, Severity::Warning, EventKind::Message, task.index,
+        set_.agent.post(*simplex.thread_->loop, Severity::Warning, EventKind::Loss, task.index,
                         text);
     }
 }

@@ -13,14 +13,19 @@ _cortex() {
     fi
     case $verb in
         agents | list | show | leases | people | doctor) options=$network ;;
-        call | set) options="--take $network" ;;
+        call | set) options="--take --for $network" ;;
         shell) options="--name --keep-going ${network/--json /}" ;;
         top) options="--rate --seconds --once --until-gone $network" ;;
         save) options="--force $network" ;;
-        conform) options="--move --speed --home --grip --seconds --junit --force --take $network" ;;
-        restore) options="--dry-run --take $network" ;;
+        conform)
+            options="--move --speed --home --grip --seconds --junit --force --take --for $network"
+            ;;
+        restore) options="--dry-run --take --for $network" ;;
         watch) options="--rate --count --csv --labels $network" ;;
-        events) options="--follow --severity --csv $network" ;;
+        events)
+            options="--follow --since --until --before-fault --seconds --kind --severity --csv"
+            options+=" $network"
+            ;;
         validate | diff) options="--json --help" ;;
         types) options="--file $network" ;;
         graph) options="--file --dot $network" ;;

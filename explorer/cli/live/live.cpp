@@ -105,6 +105,7 @@ Live::Live(const NetworkArguments& arguments)
 Live::~Live() {
     session_->listen({});
     session_->view({}, Session::slowRate);
+    session_->actFor({});
 }
 
 // Agents, and the parts of their models that have come.
@@ -229,6 +230,13 @@ std::vector<std::string> Live::paths() const {
     std::vector<std::string> paths;
     for (const FoundSimplex& each : below("/")) paths.push_back(each.info().path);
     return paths;
+}
+
+void Live::failIfNothingIsAt(const std::string& prefix) const {
+    if (!below(prefix).empty() || !incomplete().empty()) return;
+    const std::string nearest = nearestNames(prefix, paths());
+    throw Failure{NotFound, "no agent has anything at or below " + prefix +
+                                (nearest.empty() ? "" : "; " + nearest)};
 }
 
 FoundSimplex Live::find(const std::string& path, Milliseconds others) {

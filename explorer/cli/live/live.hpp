@@ -58,6 +58,8 @@ public:
     comms::LeaseClient& leases() { return session_->leases(); }
     AskNews& askNews() { return session_->askNews(); }
     const std::string& person() const { return session_->person(); }  // who uses it, if known
+    // On whose behalf its commands are, to its end; empty: of whoever uses it.
+    void actFor(const std::string& person) { session_->actFor(person); }
     std::chrono::steady_clock::time_point since() const { return session_->since(); }
     void view(std::vector<std::string> prefixes, std::uint32_t rate) {
         session_->view(std::move(prefixes), rate);
@@ -110,11 +112,14 @@ public:
     std::chrono::milliseconds left() const {
         return patience_.left(std::chrono::steady_clock::now());
     }
+    bool isLimited() const { return !patience_.grows(); }  // somebody has said how long to wait
     bool over() const { return patience_.over(std::chrono::steady_clock::now()); }
     std::chrono::milliseconds timeout() const { return patience_.time(); }
     std::string limitText() const;  // "3 s": for how long it waits, as far as is known by now
     int domain() const { return session_->domain(); }
-    Trouble nobody() const;                    // why no agent is heard, with what to try
+    Trouble nobody() const;  // why no agent is heard, with what to try
+    // Throws Failure naming the nearest, unless somebody has, or may have, something there.
+    void failIfNothingIsAt(const std::string& prefix) const;
     [[noreturn]] void failWithNobody() const;  // throws that as Failure
 
 private:

@@ -34,6 +34,4 @@ private:
     std::vector<comms::AgentEvent> events_;
 };
 
-void sortByTime(std::vector<comms::AgentEvent>& events);
-
 }  // namespace cortex::cli

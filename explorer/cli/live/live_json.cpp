@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/live_json.hpp"
 
-#include "live/live_events.hpp"
 #include "live/live_values.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <string_view>
-#include <tuple>
 
 namespace cortex::cli {
 
@@ -57,12 +54,6 @@ Json eventJson(const comms::AgentEvent& event) {
 
 void printLine(const Json& json) {
     std::cout << json.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
-}
-
-void sortByTime(std::vector<comms::AgentEvent>& events) {
-    std::ranges::sort(events, {}, [](const comms::AgentEvent& event) {
-        return std::tuple{event.wallClock, event.number, std::string_view{event.agent}};
-    });
 }
 
 }  // namespace cortex::cli

@@ -29,6 +29,7 @@ public:
         known_ = std::max(known_, known);
         end_ = std::max(end_, std::min(end, begin_ + longest));
     }
+    bool grows() const { return grows_; }        // nobody has said how long
     Milliseconds time() const { return time_; }  // without what has come
     Milliseconds whole() const {                 // from the start, in tenths of a second
         constexpr Milliseconds tenth{100};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/session.hpp"
 
+#include "common/person_name.hpp"
 #include "common/to_its_sender.hpp"
 #include "text/interrupts.hpp"
 
@@ -21,7 +22,9 @@ Session::Session(const comms::NetworkOptions& options, std::vector<std::string> 
       server_{options.discoveryServer},
       timeout_{timeout},
       mirror_{"cortex", options},
-      leases_{mirror_} {}
+      leases_{mirror_} {
+    actFor({});
+}
 
 comms::CommandAnswer Session::call(const std::string& path, const std::string& command,
                                    const comms::Mirror::Arguments& arguments, Milliseconds limit,
@@ -49,6 +52,11 @@ comms::CommandAnswer Session::call(const std::string& path, const std::string& c
 void Session::introduce(const std::string& person) {
     mirror_.introduce(person);
     person_ = person;
+    actFor({});
+}
+
+void Session::actFor(const std::string& person) {
+    mirror_.actFor(common::nameInCommand(person.empty() ? common::personName(person_) : person));
 }
 
 void Session::view(std::vector<std::string> prefixes, std::uint32_t rate) {

@@ -37,6 +37,8 @@ public:
     // Tells the others who uses this session. Throws Error for what nobody may be called.
     void introduce(const std::string& person);
     const std::string& person() const { return person_; }  // empty: nobody was introduced
+    // Commands are on behalf of this person from now on; empty: of whoever uses this session.
+    void actFor(const std::string& person);
     AskNews& askNews() { return askNews_; }
     // As the mirror does, but an interrupt ends it; `meanwhile` is called ten times a second.
     comms::CommandAnswer call(const std::string& path, const std::string& command,

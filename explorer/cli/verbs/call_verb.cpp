@@ -136,6 +136,7 @@ Exit callCommand(const CallOptions& options) {
     std::optional<Interrupts> interrupts;
     if (options.take) interrupts.emplace();
     Live live{options.network};
+    live.actFor(options.person);
     const FoundSimplex simplex = live.find(options.path);
     const CommandTable table = commandTable(simplex.type());
     if (options.command == "set") checkSettable(simplex, table, options.arguments);
@@ -148,7 +149,6 @@ Exit callCommand(const CallOptions& options) {
     std::optional<BriefControl> control;
     const auto prefix = controlledBy(simplex, entry, arguments);
     if (options.take && prefix) control.emplace(live, simplex.agent, *prefix);
-    live.mirror().actFor(options.person);
     const std::chrono::milliseconds left = live.left();
     const auto sent = std::chrono::steady_clock::now();
     std::optional<Progress> progress;

@@ -101,6 +101,7 @@ Exit testConformance(const ConformOptions& options) {
     if (!options.junit.empty() && !options.force) refuseExisting(options.junit);
     const Interrupts interrupts;
     Live live{options.network};
+    live.actFor(options.person);
     std::vector<conform::Plant> plants;
     for (const std::string& each : options.paths) plants.push_back(conform::findPlant(live, each));
     const std::int64_t began = utcNow();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cortex/core/labelled_value.hpp"
-#include "cortex/core/nearest_names.hpp"
 
 #include "common/shell_line.hpp"
 #include "live/live_values.hpp"
@@ -136,13 +135,7 @@ Exit listSimplexes(const ListOptions& options) {
     if (options.json && !lacking.empty()) throw Failure{NotFound, lacking};
     live.printWarnings();
     const auto lines = linesOf(live, live.below(options.prefix));
-    if (lines.empty() && lacking.empty()) {
-        std::vector<std::string> paths;
-        for (const FoundSimplex& each : live.below("/")) paths.push_back(each.info().path);
-        const std::string nearest = nearestNames(options.prefix, paths);
-        throw Failure{NotFound, "no agent has anything at or below " + options.prefix +
-                                    (nearest.empty() ? "" : "; " + nearest)};
-    }
+    if (lines.empty()) live.failIfNothingIsAt(options.prefix);
     if (options.json) {
         Json list = Json::array();
         for (const Line& each : lines) list.push_back(lineJson(each));

@@ -4,6 +4,7 @@
 #include "cortex/comms/network_options.hpp"
 #include "cortex/core/value.hpp"
 
+#include "common/person_name.hpp"
 #include "verbs/live_verbs.hpp"
 
 #include <memory>
@@ -101,19 +102,18 @@ Examples:
         ->needs(csv);
 }
 
-CLI::Option* addTake(CLI::App& verb, bool& take) {
-    return verb.add_flag(
-        "--take", take, "Take control (the lease) of what is commanded, and release it at the end");
-}
-
-void addPerson(CLI::App& verb, std::string& person) {
-    constexpr std::size_t longest = 31;
-    verb.add_option("--for", person,
-                    "On behalf of whom, for the events of the agent; no right follows")
+// Of a verb that commands. Returns that which takes control.
+CLI::Option* addCommanding(CLI::App& verb, CommandingOptions& options) {
+    verb.add_option("--for", options.person,
+                    "On behalf of whom, for the events of the agent; you if not given; no right "
+                    "follows")
         ->type_name("NAME")
         ->check([](const std::string& name) {
-            return name.size() <= longest ? "" : "a name has at most 31 bytes";
+            return name.size() <= common::longestInCommand ? "" : "a name has at most 31 bytes";
         });
+    return verb.add_flag(
+        "--take", options.take,
+        "Take control (the lease) of what is commanded, and release it at the end");
 }
 
 void addCall(LiveVerbs& verbs) {
@@ -131,8 +131,7 @@ Examples:
     verb->add_option("NAME=VALUE", call->arguments,
                      "Parameters; those not given have their defaults")
         ->type_name("");
-    addTake(*verb, call->take);
-    addPerson(*verb, call->person);
+    addCommanding(*verb, *call);
 
     const auto set = std::make_shared<CallOptions>();
     verb = verbs.add("set", "Set settable items of a simplex, all together or none",
@@ -142,8 +141,7 @@ Examples:
                      set, setItems);
     verb->add_option("PATH", set->path, "Path of the simplex")->required()->type_name("");
     verb->add_option("ITEM=VALUE", set->arguments, "New values")->required()->type_name("");
-    addTake(*verb, set->take);
-    addPerson(*verb, set->person);
+    addCommanding(*verb, *set);
 }
 
 void addLeases(LiveVerbs& verbs) {
@@ -163,19 +161,54 @@ Example:
         std::make_shared<LiveOptions>(), listPeople);
 }
 
+void addTimes(CLI::App& verb, EventOptions& events) {
+    CLI::Option* follow = verb.get_option("--follow");
+    CLI::Option* since =
+        verb.add_option("--since", events.since, "With what agents have kept since then")
+            ->type_name("TIME");
+    verb.add_option("--until", events.until, "Not later than that, of --since or --before-fault")
+        ->type_name("TIME")
+        ->excludes(follow);
+    CLI::Option* before =
+        verb.add_flag("--before-fault", events.beforeFault,
+                      "The newest fault at or below PREFIX, and what all agents did before it")
+            ->excludes(since)
+            ->excludes(follow);
+    verb.add_option("--seconds", events.seconds, "How long before it, 10 if not given")
+        ->type_name("N")
+        ->needs(before)
+        ->check(ofSeconds)
+        ->check(CLI::Range(0.001, 86'400.0));
+}
+
 void addEvents(LiveVerbs& verbs) {
     const auto events = std::make_shared<EventOptions>();
-    CLI::App* verb =
-        verbs.add("events", "Print what has happened: the last 1,000 events of each agent",
-                  R"(Examples:
+    CLI::App* verb = verbs.add(
+        "events", "Print what has happened: the last 1,000 events of each agent",
+        R"(With --since also what agents have kept: faults and errors, changes of state, commands with who sent
+them, refusals, control, losses, and values that changed their state. Of all else there are the last
+1,000 events of an agent. Exit code 3: an agent could not say all that it keeps.
+TIME: 90s, 10m, 1h or 2d ago; 14:05 or 14:05:10; 2026-11-29, 2026-11-29T14:05 or 2026-11-29T14:05:10Z;
+in UTC, by the clocks of the agents.
+Examples:
   cortex events
-  cortex events /arm --follow --severity warning)",
-                  events, showEvents);
+  cortex events /arm --follow --severity warning
+  cortex events /arm --since 1h --kind command        who moved it?
+  cortex events --before-fault /arm                   what led to its newest fault?)",
+        events, showEvents);
     verb->add_option("PREFIX", events->prefix, "Path; all if not given")->type_name("");
-    verb->add_flag("--follow", events->follow, "Go on with those that happen from now on");
+    verb->add_flag("--follow", events->follow,
+                   "Go on with those that happen from now on, but for values");
     verb->add_option("--severity", events->severity, "The least: info, warning or error")
         ->type_name("S")
         ->check(CLI::IsMember({"info", "warning", "error"}));
+    verb->add_option(
+            "--kind", events->kinds,
+            "Only of this kind: fault, command, state-change, control, refusal, loss, value, …; "
+            "several times for several")
+        ->type_name("KIND")
+        ->allow_extra_args(false);
+    addTimes(*verb, *events);
     verb->add_flag("--csv", events->csv, "Print comma-separated values")
         ->excludes(verb->get_option("--json"));
 }
@@ -204,7 +237,7 @@ Examples:
         restore, restoreItems);
     verb->add_option("FILE", restore->file, "File that 'save' wrote")->required()->type_name("");
     CLI::Option* dry = verb->add_flag("--dry-run", restore->dryRun, "Only show what would change");
-    addTake(*verb, restore->take)->excludes(dry);
+    addCommanding(*verb, *restore)->excludes(dry);
 }
 
 void addTop(LiveVerbs& verbs) {
@@ -275,7 +308,7 @@ Examples:
     verb->add_option("--junit", conform->junit, "Write the results as JUnit XML, too")
         ->type_name("FILE");
     verb->add_flag("--force", conform->force, "Replace a file that exists");
-    addTake(*verb, conform->take);
+    addCommanding(*verb, *conform);
 }
 
 }  // namespace

@@ -42,11 +42,14 @@ struct WatchOptions : LiveOptions {
 };
 Exit watchValues(const WatchOptions& options);
 
-struct CallOptions : LiveOptions {
+struct CommandingOptions : LiveOptions {
+    bool take = false;   // control, for as long as it takes
+    std::string person;  // on behalf of whom; empty: of whoever uses the program
+};
+
+struct CallOptions : CommandingOptions {
     std::string path, command;
     std::vector<std::string> arguments;  // name=value
-    bool take = false;                   // control, for as long as it takes
-    std::string person;                  // on behalf of whom; empty: nobody says
 };
 Exit callCommand(const CallOptions& options);
 Exit setItems(const CallOptions& options);
@@ -61,6 +64,10 @@ struct EventOptions : LiveOptions {
     std::string prefix = "/";
     bool follow = false, csv = false;
     std::string severity = "info";
+    std::vector<std::string> kinds;           // empty: all
+    std::optional<std::string> since, until;  // as they were written
+    bool beforeFault = false;
+    double seconds = 10;  // before it
 };
 Exit showEvents(const EventOptions& options);
 
@@ -70,16 +77,16 @@ struct SaveOptions : LiveOptions {
 };
 Exit saveItems(const SaveOptions& options);
 
-struct RestoreOptions : LiveOptions {
+struct RestoreOptions : CommandingOptions {
     std::string file;
-    bool dryRun = false, take = false;
+    bool dryRun = false;
 };
 Exit restoreItems(const RestoreOptions& options);
 
-struct ConformOptions : LiveOptions {
+struct ConformOptions : CommandingOptions {
     std::vector<std::string> paths;  // of devices
     std::string junit;               // file; empty: none
-    bool force = false, home = false, take = false;
+    bool force = false, home = false;
     std::optional<double> move;  // amplitude in the unit of the axis; none: nothing moves
     std::optional<double> grip;  // m, between the jaws, 0: nothing; none: it does not grip
     double speed = 0.25;         // share of the axis' greatest speed

@@ -282,6 +282,7 @@ Exit restoreItems(const RestoreOptions& options) {
         if (SimplexTree::pathError(each.path).empty()) paths.push_back(each.path);
     }
     Live live{options.network};
+    live.actFor(options.person);
     live.view(paths, 100);
     live.waitForAll();
     for (const std::string& each : paths) live.waitForOwner(each);

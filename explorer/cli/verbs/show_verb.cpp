@@ -249,6 +249,12 @@ std::vector<std::uint32_t> devicesOf(const FoundSimplex& shown) {
     return devices;
 }
 
+void printHint(const Shown& shown) {
+    if (shown.state() != State::Fault || !shown.owner.remembers) return;
+    std::cout << "\ncortex events --before-fault " << shown.simplex.info().path
+              << " shows the ten seconds before\n";
+}
+
 }  // namespace
 
 Exit showSimplex(const ShowOptions& options) {
@@ -275,6 +281,7 @@ Exit showSimplex(const ShowOptions& options) {
     printData(shown);
     printRelationships(shown.simplex);
     printCommands(shown, commandTable(shown.simplex.type()));
+    printHint(shown);
     return Yes;
 }
 

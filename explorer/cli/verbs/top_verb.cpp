@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "common/past_events.hpp"
 #include "live/live_events.hpp"
 #include "live/live_json.hpp"
 #include "live/live_values.hpp"
@@ -93,7 +94,7 @@ public:
         for (comms::AgentEvent& each : arrivals.take(Milliseconds{0})) {
             if (each.path.empty() || view.shows(each.path)) events_.push_back(std::move(each));
         }
-        sortByTime(events_);
+        common::sortByTime(events_);
         if (events_.size() > eventsKept) {
             events_.erase(events_.begin(), events_.end() - static_cast<long>(eventsKept));
         }

@@ -28,11 +28,11 @@ void addPart(EventDetails& details, const char* name, std::string_view text) {
 
 // Of an event that says what became of a command.
 void addCommand(EventDetails& details, const comms::AgentEvent& event) {
-    const bool told =
-        event.kind == name(EventKind::Command) || event.kind == name(EventKind::Refusal);
-    const auto sentence = told ? commandSentence(event.text) : std::nullopt;
+    const auto sentence = tellsOfCommand(event.kind) ? commandSentence(event.text) : std::nullopt;
     if (!sentence) return;
-    addPart(details, "sender", sentence->sender);
+    const SenderParts sender = senderParts(sentence->sender);
+    addPart(details, "on behalf of", sender.person);
+    addPart(details, "sender", sender.tool);
     std::string command{sentence->command};
     command.append("(").append(sentence->arguments);
     addPart(details, "command", command + (sentence->outcome.empty() ? "…" : ")"));

@@ -24,6 +24,7 @@ EventFilter::EventFilter(EventModel& events, QObject* parent)
             [this](const QModelIndex& first, const QModelIndex& last) {
                 tell(first.row(), last.row());
             });
+    connect(&events, &QAbstractItemModel::modelReset, this, &EventFilter::rebuild);
 }
 
 std::optional<std::size_t> EventFilter::placeOf(std::uint64_t serial) const {
@@ -129,6 +130,7 @@ void EventFilter::tell(int first, int last) {
 
 void EventFilter::rebuild() {
     beginResetModel();
+    if (opened_) opened_ = events_.renumbered(*opened_);
     shown_.clear();
     counts_ = {};
     counted_.assign(static_cast<std::size_t>(events_.rowCount()), 0);
@@ -225,11 +227,11 @@ QVariant EventFilter::data(const QModelIndex& index, int role) const {
                             role);
     }
     const comms::AgentEvent& event = *member == 0 ? row.event : row.others[*member - 1];
-    if (role == Qt::ToolTipRole) return tipText(plainText(event.text));
+    if (role == Qt::ToolTipRole) return tipText(plainText(saidText(event)));
     if (role != Qt::DisplayRole && role != Qt::AccessibleTextRole) return {};
     if (column == EventModel::Times) return {};
     if (column == EventModel::Time) return EventModel::timeText(event.wallClock);
-    return QStringLiteral("    ") + plainText(event.text);
+    return QStringLiteral("    ") + plainText(saidText(event));
 }
 
 QVariant EventFilter::headerData(int section, Qt::Orientation orientation, int role) const {

@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::size_t mostOpen = 10'000, mostKinds = 64, mostStarts = 10'000;
 
-std::size_t heldBy(const EventRow& row) { return 1 + row.others.size(); }
-
 }  // namespace
 
 void EventModel::add(std::vector<comms::AgentEvent> events) {
@@ -52,6 +50,10 @@ std::vector<EventRow> EventModel::withGaps(std::vector<comms::AgentEvent> events
             before = event;
             before.text.clear();
         }
+        if (past_.contains({event.agent, event.epoch, event.number})) {
+            --count_;
+            continue;
+        }
         rows.emplace_back(std::move(event));
     }
     // What is missing stands behind the last one that came.
@@ -70,10 +72,10 @@ void EventModel::place(EventRow row, std::vector<EventRow>& fresh, std::set<std:
             const std::size_t at = open->second - first_;
             EventRow& other = at < rows_.size() ? rows_[at] : fresh[at - rows_.size()];
             if (other.takes(row.event)) {
-                const std::size_t held = heldBy(other);
+                if (at < rows_.size()) release(other);
                 other.take(std::move(row.event));
                 if (at < rows_.size()) {
-                    held_ += heldBy(other) - held;
+                    hold(other);
                     changed.insert(at);
                 }
                 return;
@@ -91,7 +93,7 @@ void EventModel::place(EventRow row, std::vector<EventRow>& fresh, std::set<std:
 void EventModel::append(std::vector<EventRow> fresh) {
     if (open_.size() > mostOpen) open_.clear();
     if (fresh.empty()) return;
-    for (const EventRow& each : fresh) held_ += heldBy(each);
+    for (const EventRow& each : fresh) hold(each);
     const auto first = static_cast<int>(rows_.size());
     beginInsertRows({}, first, first + static_cast<int>(fresh.size()) - 1);
     rows_.insert(rows_.end(), std::make_move_iterator(fresh.begin()),
@@ -100,10 +102,12 @@ void EventModel::append(std::vector<EventRow> fresh) {
 }
 
 void EventModel::drop() {
+    if (held_ > kept_ && rows_.front().kept && tooMuchChatter(0) > 0) merge({});
     std::size_t gone = 0;
     while (held_ > kept_ && gone + 1 < rows_.size()) {
         const EventRow& row = rows_[gone++];
-        held_ -= heldBy(row);
+        release(row);
+        past_.erase({row.event.agent, row.event.epoch, row.event.number});
         dropped_ += row.isGap() ? 0 : row.times;
     }
     if (gone == 0) return;

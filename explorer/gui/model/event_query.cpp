@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/event_query.hpp"
 
+#include "cortex/core/event.hpp"
+#include "cortex/core/nearest_names.hpp"
 #include "cortex/core/path.hpp"
 
 #include "model/query.hpp"
 
+#include <QCoreApplication>
 #include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 namespace cortex::gui {
 
@@ -20,6 +25,15 @@ bool has(const std::string& text, const QString& part) {
 
 bool is(const std::string& text, const QString& value) {
     return QString::fromStdString(text).compare(value, Qt::CaseInsensitive) == 0;
+}
+
+// Agents of a later build may have it all the same.
+QString unknownKind(const QString& kind) {
+    std::vector<std::string> names;
+    for (int i = 0; i <= static_cast<int>(EventKind::ValueChange); ++i)
+        names.emplace_back(name(static_cast<EventKind>(i)));
+    return QCoreApplication::translate("Query", "\"kind:%1\" is no kind. %2")
+        .arg(kind, QString::fromStdString(nearestNames(kind.toStdString(), names)));
 }
 
 }  // namespace
@@ -41,6 +55,11 @@ EventQuery::Term EventQuery::termFrom(QString word) {
                            return term.field == QLatin1String{each};
                        });
     if (!known) trouble_ = unknownField(term.field, eventFields);
+    if (term.field == QLatin1String{"kind"}) {
+        term.value.replace('-', ' ');  // as the command line has it
+        if (!eventKindFromName(term.value.toLower().toStdString()))
+            trouble_ = unknownKind(term.value);
+    }
     return term;
 }
 

@@ -4,6 +4,7 @@
 #include "cortex/core/command_sentence.hpp"
 #include "cortex/core/event.hpp"
 
+#include "model/event_key.hpp"
 #include "model/plain_text.hpp"
 
 #include <QCoreApplication>
@@ -17,13 +18,18 @@ namespace {
 
 constexpr std::int64_t foldsFor = 10'000'000'000;  // ns without another one
 
-constexpr std::array unfoldedKinds{EventKind::Fault, EventKind::StateChange, EventKind::Command};
+constexpr std::array unfoldedKinds{EventKind::Fault, EventKind::StateChange, EventKind::Command,
+                                   EventKind::Control, EventKind::Loss};
 
 }  // namespace
 
-EventRow::EventRow(comms::AgentEvent first) : event{std::move(first)} {
+std::string saidText(const comms::AgentEvent& event) {
+    return tellsOfCommand(event.kind) ? personFirst(event.text) : event.text;
+}
+
+EventRow::EventRow(comms::AgentEvent first) : event{std::move(first)}, kept{isKept(event)} {
     if (!mayFold()) return;
-    NumberedText text = numberedText(event.text);
+    NumberedText text = numberedText(saidText(event));
     words = std::move(text.words);
     for (const std::string& each : text.numbers) numbers.emplace_back(each);
 }
@@ -52,6 +58,10 @@ bool EventRow::mayFold() const {
                                 [&](EventKind each) { return event.kind == name(each); });
 }
 
+bool EventRow::isFault() const {
+    return !isGap() && (event.severity == Severity::Error || event.kind == name(EventKind::Fault));
+}
+
 bool EventRow::isRoutine() const {
     if (event.kind != name(EventKind::Command) || event.severity != Severity::Info) return false;
     const auto sentence = commandSentence(event.text);
@@ -69,7 +79,7 @@ bool EventRow::takes(const comms::AgentEvent& next) const {
 
 void EventRow::take(comms::AgentEvent next) {
     ++times;
-    const NumberedText text = numberedText(next.text);
+    const NumberedText text = numberedText(saidText(next));
     for (std::size_t i = 0; i < std::min(numbers.size(), text.numbers.size()); ++i) {
         numbers[i].take(text.numbers[i]);
     }
@@ -78,7 +88,7 @@ void EventRow::take(comms::AgentEvent next) {
 }
 
 QString EventRow::text() const {
-    return times == 1 ? plainText(event.text) : foldedText(words, numbers);
+    return times == 1 ? plainText(saidText(event)) : foldedText(words, numbers);
 }
 
 }  // namespace cortex::gui

@@ -23,7 +23,8 @@ struct EventRow {
     static EventRow gap(const comms::AgentEvent& last, std::uint64_t missing);
 
     bool isGap() const { return missing > 0; }
-    bool mayFold() const;     // never faults, errors, changes of state, and commands
+    bool mayFold() const;     // never faults, errors, changes of state, commands, losses
+    bool isFault() const;     // or another error: what was before it can be asked for
     bool isRoutine() const;   // a jog command, of which ten come a second
     std::string key() const;  // alike for rows that fold
     bool takes(const comms::AgentEvent& next) const;  // ten seconds after the last it ends
@@ -39,6 +40,10 @@ struct EventRow {
     bool matches = true;                   // what is typed into the filter
     std::size_t kind = 0;                  // index of its kind in the model
     bool late = false;                     // what stands above it is of a later time
+    bool kept = false;                     // agents keep such events; all else is chatter
 };
+
+// "alice (cortex@desk.4711-5e1f0a): jog(speed=0.5): Done": of a command, on whose behalf first.
+std::string saidText(const comms::AgentEvent& event);
 
 }  // namespace cortex::gui

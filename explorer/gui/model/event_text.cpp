@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/event_text.hpp"
 
+#include "cortex/core/command_sentence.hpp"
+#include "cortex/core/event.hpp"
 #include "cortex/core/value.hpp"
 
 #include "model/plain_text.hpp"
@@ -65,7 +67,43 @@ QString shown(double number) {
     return text.startsWith('-') ? QChar{0x2212} + text.mid(1) : text;
 }
 
+// Who sent a command, or lost control; empty: the text tells neither.
+std::string_view senderIn(std::string_view text) {
+    if (const auto sentence = commandSentence(text)) return sentence->sender;
+    const std::size_t at = text.find(" no longer has control of ");
+    return at != std::string_view::npos ? text.substr(0, at) : std::string_view{};
+}
+
 }  // namespace
+
+bool tellsOfCommand(const std::string& kind) {
+    return kind == name(EventKind::Command) || kind == name(EventKind::Control) ||
+           kind == name(EventKind::Refusal);
+}
+
+SenderParts senderParts(std::string_view sender) {
+    constexpr std::string_view times = " times within a second: ", behalf = " for ";
+    SenderParts parts;
+    if (const auto at = sender.find(times); at != std::string_view::npos) {
+        parts.before = sender.substr(0, at + times.size());
+        sender.remove_prefix(parts.before.size());
+    }
+    const auto at = sender.find(behalf);
+    parts.tool = sender.substr(0, at);
+    if (at != std::string_view::npos) parts.person = sender.substr(at + behalf.size());
+    return parts;
+}
+
+// A name with brackets could stand for another tool: the tool is first then.
+std::string personFirst(const std::string& text) {
+    const std::string_view said = senderIn(text);
+    const SenderParts parts = senderParts(said);
+    if (parts.person.empty() || parts.person.find_first_of("()") != std::string_view::npos)
+        return text;
+    std::string shown{parts.before};
+    shown.append(parts.person).append(" (").append(parts.tool).append(")");
+    return shown + text.substr(said.size());
+}
 
 NumberedText numberedText(const std::string& text) {
     NumberedText result;

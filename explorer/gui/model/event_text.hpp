@@ -3,10 +3,26 @@
 
 #include <QString>
 #include <string>
+#include <string_view>
 #include <vector>
 
 // Texts of events with their numbers taken out: two that differ only in numbers are one row.
 namespace cortex::gui {
+
+// Whether events of this kind say what became of a command.
+bool tellsOfCommand(const std::string& kind);
+
+// Who sent a command, and on whose behalf. It refers to the text.
+struct SenderParts {
+    std::string_view before;  // "2 times within a second: "
+    std::string_view tool;    // "cortex@desk.4711-5e1f0a"
+    std::string_view person;  // "alice"; empty: the tool said none
+};
+SenderParts senderParts(std::string_view sender);
+
+// "alice (cortex@desk.4711-5e1f0a): jog(…): Done" of "cortex@desk.4711-5e1f0a for alice: jog(…):
+// Done". Any other text is as it was.
+std::string personFirst(const std::string& text);
 
 // "position limited from # to # rad", and the numbers as they were written. What belongs to a name
 // (/drives/4, A4, 0x8611, 12:04) is no number.

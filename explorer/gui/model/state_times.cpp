@@ -53,6 +53,21 @@ std::string StateTimes::fault(const Frame& frame, Place place) const {
     return found != nullptr ? found->fault : std::string{};
 }
 
+std::optional<comms::AgentEvent> StateTimes::faultEvent(const Frame& frame, Place place) const {
+    const Change* found = last(frame, place);
+    if (found == nullptr || found->fault.empty()) return std::nullopt;
+    comms::AgentEvent event;
+    event.agent = frame.agents[place.agent].status.name;
+    event.epoch = found->epoch;
+    event.number = found->number;
+    event.wallClock = found->when;
+    event.severity = Severity::Error;
+    event.kind = name(EventKind::Fault);
+    event.path = frame.info(place).path;
+    event.text = found->fault;
+    return event;
+}
+
 QString StateTimes::text(const Frame& frame, Place place) const {
     const AgentFrame& agent = frame.agents[place.agent];
     const Change* found = last(frame, place);

@@ -6,6 +6,7 @@
 #include <QString>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,8 @@ public:
     QString longest() const;  // no text is wider, of a state that began within the last 99 minutes
     // What the event said of the fault in which it is; empty: none is known.
     std::string fault(const Frame& frame, Place place) const;
+    // That event, but for its cycle.
+    std::optional<comms::AgentEvent> faultEvent(const Frame& frame, Place place) const;
 
 private:
     struct Change {

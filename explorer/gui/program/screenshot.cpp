@@ -75,7 +75,7 @@ int writeScreenshot(MainWindow& window, const Session& session, const Options& o
     while (!ready && static_cast<double>(timer.elapsed()) < limit * 1000) {
         QApplication::processEvents(QEventLoop::WaitForMoreEvents);
         const auto now = session.frame();
-        ready = window.ready() && hasSomeTime(window) &&
+        ready = window.ready() && !window.asksForPast() && hasSomeTime(window) &&
                 (now->complete || haveAll(*now, options.paths));
     }
     const auto frame = session.frame();

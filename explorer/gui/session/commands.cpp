@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view folded = " times within a second: ";
 
-// "tool@desk", "tool@desk for Ada", "2 times within a second: tool@desk"
+// "tool", "tool@desk", "tool for Ada", "2 times within a second: tool for Ada"
 bool isFrom(std::string_view sender, std::string_view self) {
     if (const auto at = sender.find(folded); at != std::string_view::npos)
         sender.remove_prefix(at + folded.size());
@@ -27,7 +27,8 @@ bool isFrom(std::string_view sender, std::string_view self) {
 
 // The names in "a=1, b=2 3"; of several commands in one event only the last one has them.
 std::vector<std::string> itemsIn(const CommandSentence& set) {
-    const bool all = set.outcome.empty() || set.sender.find(folded) != std::string_view::npos;
+    const bool all = set.outcome.empty() || set.arguments.ends_with("…") ||
+                     set.sender.find(folded) != std::string_view::npos;
     if (all) return {std::string{}};
     std::vector<std::string> items;
     for (std::size_t begin = 0, end = 0; begin < set.arguments.size(); begin = end) {

@@ -18,7 +18,7 @@ comms::AgentEvent eventOf(const AgentFrame& agent, Severity severity, std::strin
     event.cycle = agent.status.cycle;
     event.wallClock = utcNow();
     event.severity = severity;
-    event.kind = name(EventKind::Agent);
+    event.kind = name(EventKind::Loss);
     event.path = '/' + agent.status.name;
     event.text = std::move(text);
     return event;

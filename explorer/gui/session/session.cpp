@@ -229,12 +229,14 @@ void Session::run() {
         keepCommands();
         keepControl();
         keepHolds();
+        keepPast();
         publish();
     } while (pause());
     leave();
 }
 
 void Session::leave() {
+    past_.reset();
     sent_.reset();
     holds_.reset();
     leases_.reset();
@@ -270,9 +272,11 @@ void Session::join() {
         comms::onNamedInterfaces(options);
         mirror_ = std::make_unique<comms::Mirror>("cortex-explorer", options);
         mirror_->introduce(person_);
+        mirror_->actFor(common::nameInCommand(person_));
         leases_ = std::make_unique<LeaseKeeper>(*mirror_, person_, options.security);
         holds_ = std::make_unique<Holds>(*mirror_);
         sent_ = std::make_unique<SentCommands>(*mirror_);
+        past_ = std::make_unique<PastAsks>(*mirror_);
         applied_.clear();
         mirror_->prepareCommands();  // the first one may be Stop
         mirror_->onImage([this](const std::string& agent, const comms::AgentImage& image) {

@@ -8,6 +8,7 @@
 #include "session/holds.hpp"
 #include "session/lease_keeper.hpp"
 #include "session/lost_agents.hpp"
+#include "session/past_asks.hpp"
 #include "session/sent_commands.hpp"
 
 #include <array>
@@ -47,7 +48,11 @@ public:
     Recorder& recorder() { return recorder_; }
     // The events that came since the last call, the last 1,000 of each agent first.
     std::vector<comms::AgentEvent> takeEvents();
-    void joinAgain();  // after it could not join
+    // Asks an agent for what it keeps of a time (UTC ns by its clock, both ends included), and
+    // gives a number. Its answer always comes, if only with why there is none.
+    std::uint64_t askPast(std::string agent, std::int64_t from, std::int64_t until);
+    std::vector<PastAnswer> takePast();  // that came since the last call, each once
+    void joinAgain();                    // after it could not join
     // A lost agent stays in all frames until a person dismisses it, or it is heard again.
     void dismiss(std::string agent);
     // Sends a command at once, and gives its number. It expires if its agent has not read it within
@@ -92,6 +97,7 @@ private:
     void change(ControlChange control);
     void keepControl();
     void keepHolds();
+    void keepPast();
     void applyView(std::vector<std::string> wanted, std::vector<comms::Viewed> views,
                    std::uint32_t rate);
     void keepLost(std::vector<AgentFrame>& agents);
@@ -104,6 +110,7 @@ private:
     std::unique_ptr<LeaseKeeper> leases_;    // ends before the mirror; thread_ alone
     std::unique_ptr<Holds> holds_;           // the same
     std::unique_ptr<SentCommands> sent_;     // the same
+    std::unique_ptr<PastAsks> past_;         // the same
     std::vector<comms::Viewed> applied_;     // the views that the mirror has; thread_ alone
     std::uint32_t appliedRate_ = 0;          // the same
     LostAgents lost_;                        // thread_ alone
@@ -121,6 +128,8 @@ private:
     std::vector<comms::AgentEvent> events_;
     std::vector<CommandRequest> requests_;
     std::vector<CommandOutcome> outcomes_;
+    std::vector<PastAsk> pastAsks_;
+    std::vector<PastAnswer> pastAnswers_;
     std::vector<std::function<void(Holds&)>> holdChanges_;  // in their order
     std::vector<HoldEnd> holdEnds_;
     std::vector<std::string> dismissed_;

@@ -86,6 +86,7 @@ BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, 
     connect(own_, &OwnView::opened, this, &BaseView::opened);
     connect(own_, &OwnView::selected, this, &BaseView::selected);
     connect(header_, &SimplexHeader::dismissed, this, &BaseView::dismissed);
+    connect(header_, &SimplexHeader::beforeWanted, this, &BaseView::beforeWanted);
     connect(header_, &SimplexHeader::typeWanted, this, &BaseView::openType);
 
     auto* content = new QWidget;

@@ -51,6 +51,7 @@ public:
 Q_SIGNALS:
     void opened(const std::string& path);    // the user followed a link
     void selected(const std::string& path);  // in the view of a plug-in
+    void beforeWanted(const comms::AgentEvent& fault);
     void plotWanted(const std::vector<RecordedItem>& items);
     void placesWanted(QMenu* menu, const std::vector<RecordedItem>& items);
     void compareWanted(const QString& item);

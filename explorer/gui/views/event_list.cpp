@@ -30,6 +30,7 @@ EventList::EventList(EventFilter& events, QWidget* parent)
       filter_{new TextLabel{TextSize::Text, false, &Tokens::accent}},
       hidden_{new TextLabel{TextSize::Text, true, &Tokens::faultText}},
       count_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
+      before_{new QPushButton{tr("Ten seconds before")}},
       showAll_{new QPushButton{tr("Show all")}},
       new_{new QPushButton},
       head_{makeHead()} {
@@ -53,6 +54,12 @@ EventList::EventList(EventFilter& events, QWidget* parent)
     }
     connect(&events, &EventFilter::changed, this, &EventList::tellCount);
     connect(rows_, &EventTable::opened, this, &EventList::opened);
+    connect(rows_, &EventTable::beforeWanted, this, &EventList::beforeWanted);
+    connect(rows_, &EventTable::selectionSet, this, &EventList::tellBefore);
+    connect(rows_, &EventTable::selectionDropped, this, &EventList::tellBefore);
+    connect(before_, &QPushButton::clicked, this, [this] {
+        if (const auto* fault = rows_->selectedFault()) Q_EMIT beforeWanted(*fault);
+    });
     connect(rows_, &EventTable::moved, this, &EventList::tellNew);
     connect(showAll_, &QPushButton::clicked, &events, &EventFilter::showAll);
     connect(new_, &QPushButton::clicked, rows_, &EventTable::follow);
@@ -66,7 +73,8 @@ QWidget* EventList::makeHead() {
     new_->setCheckable(true);  // blue
     new_->setToolTip(tr("To the newest: F or End in the rows"));
     showAll_->setToolTip(tr("Takes the filter of all events away"));
-    for (QPushButton* each : {showAll_, new_}) {
+    before_->setToolTip(tr("What all agents say of the ten seconds before it: Enter in the rows"));
+    for (QPushButton* each : {before_, showAll_, new_}) {
         each->setFocusPolicy(Qt::TabFocus);
         each->hide();
     }
@@ -79,10 +87,12 @@ QWidget* EventList::makeHead() {
     }
     row->addStretch(1);
     row->addWidget(new_);
-    row->addWidget(showAll_);
-    QSizePolicy kept = showAll_->sizePolicy();
-    kept.setRetainSizeWhenHidden(true);
-    showAll_->setSizePolicy(kept);
+    for (QPushButton* each : {before_, showAll_}) {
+        row->addWidget(each);
+        QSizePolicy kept = each->sizePolicy();
+        kept.setRetainSizeWhenHidden(true);
+        each->setSizePolicy(kept);
+    }
     return head;
 }
 
@@ -91,7 +101,8 @@ void EventList::fit() {
     const int height = Look::units(7.5);
     if (head_->maximumHeight() == height) return;
     head_->setFixedHeight(height);
-    for (QPushButton* each : {showAll_, new_}) each->setFixedHeight(height - Look::units(1.5));
+    for (QPushButton* each : {before_, showAll_, new_})
+        each->setFixedHeight(height - Look::units(1.5));
 }
 
 void EventList::changeEvent(QEvent* event) {
@@ -107,7 +118,7 @@ QString EventList::countOf(const EventFilter& events) {
     QString text = shown == kept ? tr("%1 so far, all agents").arg(countText(all.count()))
                                  : tr("%1 of %2 shown").arg(countText(shown), countText(kept));
     if (all.dropped() > 0) {
-        text += tr("; the oldest %1 are no longer kept").arg(countText(all.dropped()));
+        text += tr("; %1 older ones are no longer kept").arg(countText(all.dropped()));
     }
     return text;
 }
@@ -138,6 +149,8 @@ void EventList::tellNew() {
         left_.start();
     }
 }
+
+void EventList::tellBefore() { before_->setVisible(rows_->selectedFault() != nullptr); }
 
 void EventList::lookWhetherLeft() {
     const QWidget* focused = QApplication::focusWidget();

@@ -21,12 +21,13 @@ class EventList : public QWidget {
 public:
     explicit EventList(EventFilter& events, QWidget* parent = nullptr);
 
-    static QString countOf(const EventFilter& events);  // "441 of 1,652 shown; the oldest 10 are …"
+    static QString countOf(const EventFilter& events);  // "441 of 1,652 shown; 10 older ones are …"
     // "2 faults or errors not shown"; empty: all are.
     static QString hiddenIn(const EventFilter& events);
 
 Q_SIGNALS:
     void opened(const std::string& path);
+    void beforeWanted(const comms::AgentEvent& fault);
 
 protected:
     void changeEvent(QEvent* event) override;
@@ -36,12 +37,13 @@ private:
     void fit();
     void tellCount();
     void tellNew();
+    void tellBefore();
     void lookWhetherLeft();
 
     EventFilter& events_;
     EventTable* rows_;
     TextLabel *filter_, *hidden_, *count_;
-    QPushButton *showAll_, *new_;
+    QPushButton *before_, *showAll_, *new_;
     QWidget* head_;
     QTimer left_{this};  // while it does not follow
     int away_ = 0;       // times of left_ at which nobody was in it

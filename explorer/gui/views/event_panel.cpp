@@ -2,6 +2,7 @@
 #include "views/event_panel.hpp"
 
 #include "common/shell_line.hpp"
+#include "common/utc_text.hpp"
 #include "model/event_details.hpp"
 #include "widgets/state_mark.hpp"
 #include "widgets/text_label.hpp"
@@ -20,11 +21,19 @@ namespace {
 
 constexpr int pairsInColumn = 6;
 
-// The same for a shell.
+// The same for a shell: also what only the agent's memory has. Of a fault what was before it.
 QString shellCommand(const EventRow& row, const comms::NetworkOptions& network) {
+    constexpr std::int64_t second = 1'000'000'000;
+    const auto timeText = [](std::int64_t time) { return common::utcText(time, 0); };
     std::vector<std::string> words{"events"};
     if (!row.event.path.empty()) words.push_back(row.event.path);
-    if (row.event.severity != Severity::Info) {
+    if (row.event.kind == name(EventKind::Fault)) {
+        words.emplace_back("--before-fault");
+    } else {
+        words.insert(words.end(), {"--since", timeText(row.event.wallClock)});
+    }
+    words.insert(words.end(), {"--until", timeText(row.newest().wallClock + second)});
+    if (row.event.kind != name(EventKind::Fault) && row.event.severity != Severity::Info) {
         words.insert(words.end(), {"--severity", name(row.event.severity)});
     }
     return QString::fromStdString(common::shellLine(words, network));
@@ -39,6 +48,7 @@ EventPanel::EventPanel(comms::NetworkOptions network, QWidget* parent)
       title_{new TextLabel{TextSize::Text, true}},
       dropped_{new TextLabel{TextSize::Text, true, &Tokens::dataText}},
       command_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
+      before_{new QPushButton{tr("Ten seconds before")}},
       open_{new QPushButton{tr("Show in tree")}},
       more_{new QWidget} {
     setAutoFillBackground(true);
@@ -50,14 +60,18 @@ EventPanel::EventPanel(comms::NetworkOptions network, QWidget* parent)
     head->addWidget(mark_);
     head->addWidget(title_, 1);
     head->addWidget(dropped_);
+    head->addWidget(before_);
     head->addWidget(open_);
     auto* rows = new QVBoxLayout{this};
     rows->setSpacing(Look::units(1));
     rows->addLayout(head);
     rows->addWidget(more_);
     addPairs();
-    connect(open_, &QPushButton::clicked, this, [this] { Q_EMIT opened(path_); });
-    for (QWidget* each : std::initializer_list<QWidget*>{mark_, open_}) {  // their places are kept
+    connect(open_, &QPushButton::clicked, this, [this] { Q_EMIT opened(event_.path); });
+    connect(before_, &QPushButton::clicked, this, [this] { Q_EMIT beforeWanted(event_); });
+    before_->setToolTip(tr("What all agents say of the ten seconds before it: Enter in the rows"));
+    // Their places are kept.
+    for (QWidget* each : std::initializer_list<QWidget*>{mark_, before_, open_}) {
         QSizePolicy policy = each->sizePolicy();
         policy.setRetainSizeWhenHidden(true);
         each->setSizePolicy(policy);
@@ -98,11 +112,12 @@ void EventPanel::show(const EventRow& row, std::uint64_t serial) {
     if (serial_ == serial && times_ == row.times) return;
     serial_ = serial;
     times_ = row.times;
-    path_ = event.path;
+    event_ = event;
     mark_->show(row.isGap() ? Shape::Bad : shapeOf(event.severity));
     title_->show(row.text(), row.isGap() ? &Tokens::dataText : &Tokens::ink);
     mark_->setVisible(true);
-    open_->setVisible(!path_.empty());
+    open_->setVisible(!event_.path.empty());
+    before_->setVisible(row.isFault());
     command_->show(tr("As a command: %1").arg(shellCommand(row, network_)));
     fill(row);
 }

@@ -30,6 +30,7 @@ public:
 
 Q_SIGNALS:
     void opened(const std::string& path);
+    void beforeWanted(const comms::AgentEvent& fault);
 
 protected:
     void paintEvent(QPaintEvent* event) override;
@@ -39,12 +40,12 @@ private:
     void fill(const EventRow& row);
 
     const comms::NetworkOptions network_;
-    std::string path_;
+    comms::AgentEvent event_;
     std::optional<std::uint64_t> serial_;  // of what is shown
     std::uint64_t times_ = 0;
     StateMark* mark_;
     TextLabel *title_, *dropped_, *command_;
-    QPushButton* open_;
+    QPushButton *before_, *open_;
     QWidget* more_;                                              // all but the text
     std::array<std::pair<TextLabel*, TextLabel*>, 12> pairs_{};  // name and text
 };

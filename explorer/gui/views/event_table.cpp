@@ -118,9 +118,8 @@ EventTable::EventTable(EventFilter& events, QWidget* parent) : QTableView{parent
             [this](const QModelIndex&, int first, int last) {
                 if (first == 0) removed(last + 1);
             });
-    connect(&events, &QAbstractItemModel::modelAboutToBeReset, this,
-            [this] { before_ = selected(); });
-    connect(&events, &QAbstractItemModel::modelReset, this, &EventTable::keepSelection);
+    connect(&events, &QAbstractItemModel::modelAboutToBeReset, this, &EventTable::noteRows);
+    connect(&events, &QAbstractItemModel::modelReset, this, &EventTable::keepRows);
     connect(verticalScrollBar(), &QScrollBar::actionTriggered, this, [this] {
         const QScrollBar& bar = *verticalScrollBar();
         follows_ = bar.sliderPosition() == bar.maximum();
@@ -128,14 +127,21 @@ EventTable::EventTable(EventFilter& events, QWidget* parent) : QTableView{parent
         Q_EMIT moved();
     });
     connect(this, &QTableView::activated, this, [this](const QModelIndex& index) {
-        const std::string& path = events_.at(index.row()).event.path;
-        if (!path.empty()) Q_EMIT opened(path);
+        const EventRow& row = events_.at(index.row());
+        if (row.isFault()) return Q_EMIT beforeWanted(row.event);
+        if (!row.event.path.empty()) Q_EMIT opened(row.event.path);
     });
 }
 
 std::optional<std::uint64_t> EventTable::selected() const {
     if (!currentIndex().isValid()) return std::nullopt;
     return events_.serial(currentIndex().row());
+}
+
+const comms::AgentEvent* EventTable::selectedFault() const {
+    if (!currentIndex().isValid()) return nullptr;
+    const EventRow& row = events_.at(currentIndex().row());
+    return row.isFault() ? &row.event : nullptr;
 }
 
 bool EventTable::isAtEnd() const {
@@ -194,14 +200,36 @@ void EventTable::rowsAboutToBeRemoved(const QModelIndex& parent, int first, int 
     QTableView::rowsAboutToBeRemoved(parent, first, last);
 }
 
-void EventTable::keepSelection() {
-    const auto row = before_ ? events_.rowOf(*before_) : std::nullopt;
+// The first row in sight, or that under the pointer.
+void EventTable::noteRows() {
+    before_ = selected();
+    const QPoint pointer = viewport()->mapFromGlobal(QCursor::pos());
+    QModelIndex row = isUnderPointer() ? indexAt(pointer) : QModelIndex{};
+    if (!row.isValid()) row = indexAt({0, 0});
+    stands_.reset();
+    if (!row.isValid()) return;
+    stands_ = events_.serial(row.row());
+    standsAt_ = row.row() - verticalScrollBar()->value();
+}
+
+void EventTable::keepRows() {
+    const EventModel& all = events_.events();
+    const auto rowNow = [&](std::optional<std::uint64_t> serial) {
+        if (serial) serial = all.renumbered(*serial);
+        return serial ? events_.rowOf(*serial) : std::nullopt;
+    };
+    const auto row = rowNow(before_), stands = rowNow(stands_);
     keeps_ = true;
     setCurrentIndex(row ? events_.index(*row, 0) : QModelIndex{});
     keeps_ = false;
     if (before_ && !row) Q_EMIT selectionDropped();
     before_.reset();
-    if (follows_) return follow();
+    // Another filter shows the newest again; what agents kept moves no row that is looked at.
+    if (follows_ && !(all.renumbers() && isUnderPointer())) return follow();
+    if (all.renumbers() && stands) {
+        updateGeometries();
+        verticalScrollBar()->setValue(*stands - standsAt_);
+    }
     Q_EMIT moved();
 }
 

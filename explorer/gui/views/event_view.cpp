@@ -2,6 +2,7 @@
 #include "views/event_view.hpp"
 
 #include "model/event_csv.hpp"
+#include "model/event_past.hpp"
 #include "model/plain_text.hpp"
 #include "style/explorer_style.hpp"
 #include "views/event_chips.hpp"
@@ -15,8 +16,10 @@
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLineEdit>
+#include <QMenu>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 namespace cortex::gui {
 
@@ -26,12 +29,16 @@ constexpr double leastHeight = 120;  // units, from which on there is room for a
 
 }  // namespace
 
-EventView::EventView(EventFilter& events, const comms::NetworkOptions& network, QWidget* parent)
+EventView::EventView(EventFilter& events, const comms::NetworkOptions& network, EventPast* past,
+                     QWidget* parent)
     : QWidget{parent},
       events_{events},
+      past_{past},
       field_{new QLineEdit},
       count_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
       exported_{new TextLabel{TextSize::Text}},
+      reach_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
+      back_{new QPushButton},
       follow_{new QPushButton{tr("Follow")}},
       below_{new QPushButton{this}},
       chips_{new EventChips{events}},
@@ -64,6 +71,11 @@ EventView::EventView(EventFilter& events, const comms::NetworkOptions& network, 
         shown_ = rows_->selected();
         showDetails();
     });
+    connect(&events_.events(), &QAbstractItemModel::modelReset, this, [this] {
+        if (shown_) shown_ = events_.events().renumbered(*shown_).value_or(0);
+    });
+    connect(rows_, &EventTable::beforeWanted, this, &EventView::beforeWanted);
+    connect(panel_, &EventPanel::beforeWanted, this, &EventView::beforeWanted);
     connect(panel_, &EventPanel::opened, this, &EventView::opened);
     field_->setText(events_.events().query().text());  // as the view before it, or the strip
     refresh();
@@ -85,14 +97,52 @@ QWidget* EventView::makeBar() {
         first->addWidget(each, 4);
     }
     exported_->hide();
+    first->addWidget(back_);
     first->addWidget(follow_);
     first->addWidget(save);
+    makeBack();
     auto* bar = new QWidget;
     auto* rows = new QVBoxLayout{bar};
     rows->addLayout(first);
     rows->addWidget(chips_);
+    rows->addWidget(reach_);
     bar_ = rows;
     return bar;
+}
+
+// How far back agents are asked.
+void EventView::makeBack() {
+    back_->setVisible(past_ != nullptr);
+    reach_->setVisible(past_ != nullptr);
+    if (past_ == nullptr) return;
+    auto* menu = new QMenu{back_};
+    for (const EventPast::Back each : EventPast::choices) {
+        connect(menu->addAction(EventPast::name(each)), &QAction::triggered, this, [this, each] {
+            past_->ask(each);
+            tellPast();
+        });
+    }
+    back_->setMenu(menu);
+    back_->setToolTip(tr("How far back agents are asked for what they keep of the past"));
+    fitBack();
+}
+
+// As wide as its longest text, so that nothing moves when another one is chosen.
+void EventView::fitBack() {
+    if (past_ == nullptr) return;
+    int width = 0;
+    for (const EventPast::Back each : EventPast::choices) {
+        back_->setText(EventPast::name(each));
+        width = std::max(width, back_->sizeHint().width());
+    }
+    if (back_->minimumWidth() != width) back_->setFixedWidth(width);
+    tellPast();
+}
+
+void EventView::tellPast() {
+    if (past_ == nullptr) return;
+    back_->setText(EventPast::name(past_->back()));
+    reach_->show(past_->reach());
 }
 
 void EventView::search() {
@@ -109,6 +159,7 @@ void EventView::refresh() {
     const QString hidden = EventList::hiddenIn(events_);
     count_->show(EventList::countOf(events_) + (hidden.isEmpty() ? hidden : "; " + hidden));
     chips_->refresh();
+    tellPast();
     placeButton();
     showDetails();
 }
@@ -150,6 +201,7 @@ void EventView::makeRoom() {
     panel_->setCompact(compact);
     chips_->setRows(compact ? 1 : 2);
     for (QPushButton* each : findChildren<QPushButton*>()) lowerWhereLow({each});
+    fitBack();
 }
 
 void EventView::focusFilter() {

@@ -15,15 +15,19 @@ namespace cortex::gui {
 
 class EventChips;
 class EventPanel;
+class EventPast;
 class EventTable;
 class RowNote;
 class TextLabel;
 
-// The events of all agents as a view of their own: a filter, chips, all columns, details.
+// The events of all agents as a view of their own: a filter, how far back agents are asked for what
+// they keep, chips, all columns, details.
 class EventView : public QWidget {
     Q_OBJECT
 public:
-    EventView(EventFilter& events, const comms::NetworkOptions& network, QWidget* parent = nullptr);
+    // `past`: null where nobody is asked.
+    EventView(EventFilter& events, const comms::NetworkOptions& network, EventPast* past = nullptr,
+              QWidget* parent = nullptr);
 
     void refresh();
     void focusFilter();
@@ -31,12 +35,16 @@ public:
 
 Q_SIGNALS:
     void opened(const std::string& path);
+    void beforeWanted(const comms::AgentEvent& fault);
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
     QWidget* makeBar();
+    void makeBack();
+    void fitBack();
+    void tellPast();
     void askForFile();
     void search();
     void placeButton();
@@ -44,9 +52,10 @@ private:
     void showDetails();
 
     EventFilter& events_;
+    EventPast* past_;
     QLineEdit* field_;
-    TextLabel *count_, *exported_;
-    QPushButton *follow_, *below_;
+    TextLabel *count_, *exported_, *reach_;
+    QPushButton *back_, *follow_, *below_;
     EventChips* chips_;
     EventTable* rows_;
     RowNote* trouble_;  // over the last rows

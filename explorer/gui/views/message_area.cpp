@@ -18,14 +18,17 @@ constexpr double widestPopover = 110;  // units
 
 bool isSame(const MessageArea::Message& one, const MessageArea::Message& other) {
     return one.text == other.text && one.colour == other.colour && one.strong == other.strong &&
-           one.tip == other.tip;
+           one.tip == other.tip && one.opens == other.opens;
 }
 
 }  // namespace
 
-MessageArea::MessageArea(QWidget* parent) : QWidget{parent}, more_{new Link{{}, this}} {
+MessageArea::MessageArea(QWidget* parent)
+    : QWidget{parent}, more_{new Link{{}, this}}, press_{new Link{{}, this}} {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     more_->hide();
+    press_->hide();
+    connect(press_, &QAbstractButton::clicked, this, &MessageArea::pressed);
     connect(more_, &QAbstractButton::clicked, this, &MessageArea::openAll);
 }
 
@@ -71,6 +74,18 @@ void MessageArea::place() {
         more_->move(width() - more_->width(), height() - more_->height());
     }
     more_->setVisible(left > 0);
+    const bool opens = !messages_.empty() && !messages_.front().opens.isEmpty();
+    press_->setVisible(opens);
+    if (!opens) return;
+    const Message& first = messages_.front();
+    QRect place = labels_.front()->geometry();  // no wider than the words
+    const QString& words = first.text;
+    const int width = labels_.front()->fontMetrics().horizontalAdvance(words) + Look::units(2);
+    place.setWidth(std::min(place.width(), width));
+    press_->setGeometry(place);
+    press_->setAccessibleName(first.text + QStringLiteral(": ") + first.opens);
+    press_->setToolTip(first.tip.isEmpty() ? first.opens : first.opens + '\n' + first.tip);
+    press_->raise();
 }
 
 // A first one that is longer than everything is cut; of the others those that fit are shown.

@@ -24,6 +24,7 @@ public:
         QColor Tokens::* colour = &Tokens::ink2;
         bool strong = false;
         QString tip{};
+        QString opens{};  // of the first one: what a press on it opens; empty: nothing
     };
 
     explicit MessageArea(QWidget* parent = nullptr);
@@ -32,6 +33,9 @@ public:
     void setRoom(int lines, TextSize size);
     QSize sizeHint() const override;
     QSize minimumSizeHint() const override { return sizeHint(); }
+
+Q_SIGNALS:
+    void pressed();  // the first message, which opens something
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -46,7 +50,7 @@ private:
     TextSize size_ = TextSize::Text;
     std::vector<Message> messages_;
     std::vector<TextLabel*> labels_;  // one for each message, and more that are hidden
-    Link* more_;
+    Link *more_, *press_;             // the one lies over the first message
     QPointer<Popover> all_;
 };
 

@@ -81,6 +81,9 @@ SimplexHeader::SimplexHeader(QWidget* lifeCycle, const StateTimes& times, QWidge
     dismiss_->hide();
     connect(dismiss_, &QPushButton::clicked, this,
             [this] { Q_EMIT dismissed(agentName_.toStdString()); });
+    connect(messages_, &MessageArea::pressed, this, [this] {
+        if (fault_) Q_EMIT beforeWanted(*fault_);
+    });
     layOut();
 }
 
@@ -299,11 +302,15 @@ void SimplexHeader::refreshState(const Frame& frame, Place place) {
                  faulted ? &Tokens::faultText : &Tokens::ink);
 }
 
-MessageArea::Message SimplexHeader::fault(const Frame& frame, Place place) const {
+// Where its event is known, the text opens what was before it.
+MessageArea::Message SimplexHeader::fault(const Frame& frame, Place place) {
+    fault_.reset();
     if (frame.agents[place.agent].state(place.simplex) != State::Fault) return {};
     const FaultText fault = faultText(frame, place, times_);
-    return {fault.text, &Tokens::ink, true,
-            fault.cut ? tr("The rest stands in the events.") : QString{}};
+    fault_ = times_.faultEvent(frame, place);
+    return {fault.text, fault_ ? &Tokens::accent : &Tokens::ink, true,
+            fault.cut ? tr("The rest stands in the events.") : QString{},
+            fault_ ? tr("Ten seconds before") : QString{}};
 }
 
 // In fewer words where there is little room.

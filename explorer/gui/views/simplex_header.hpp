@@ -34,6 +34,7 @@ public:
 Q_SIGNALS:
     void dismissed(const std::string& agent);  // a lost agent may go
     void typeWanted(const std::string& type);  // the user followed the link of an ancestor
+    void beforeWanted(const comms::AgentEvent& fault);
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -50,7 +51,7 @@ private:
     Room room() const;
     void refreshState(const Frame& frame, Place place);
     void refreshAgent(const Frame& frame, Place place);
-    MessageArea::Message fault(const Frame& frame, Place place) const;
+    MessageArea::Message fault(const Frame& frame, Place place);
     MessageArea::Message notice(const Frame& frame, Place place) const;
     bool isTerse() const;
     QString factsOf(const QString& agent, const QString& age) const;
@@ -69,6 +70,7 @@ private:
     QBoxLayout *title_ = nullptr, *first_ = nullptr, *second_ = nullptr, *rows_ = nullptr,
                *states_ = nullptr;
     QString agentName_, description_, reasons_;
+    std::optional<comms::AgentEvent> fault_;  // in which it is, where its event is known
     bool brief_ = false, hasStates_ = false;
     int taskWide_ = 0;  // px, the most that its task needed so far
 };

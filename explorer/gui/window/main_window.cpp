@@ -51,7 +51,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       session_{session},
       commands_{session},
       tree_{new SystemTree},
-      workspace_{new Workspace{{session, commands_, host_, times_, eventFilter_}}},
+      workspace_{new Workspace{{session, commands_, host_, times_, eventFilter_, past_}}},
       eventList_{new EventList{eventFilter_}},
       across_{new QSplitter{Qt::Horizontal}},
       down_{new QSplitter{Qt::Vertical}},
@@ -95,6 +95,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     connect(tree_, &SystemTree::pinned, this, &MainWindow::openTab);
     connect(tree_, &SystemTree::menuWanted, this, &MainWindow::openTreeMenu);
     connect(eventList_, &EventList::opened, this, &MainWindow::open);
+    connect(eventList_, &EventList::beforeWanted, workspace_, &Workspace::openBefore);
     connect(status_, &StatusBar::nextWanted, this,
             [this](Abnormal::Kind kind) { openAbnormal(false, kind); });
     const auto take = [this](const std::string& prefix) { control_->choose(prefix); };
@@ -108,6 +109,7 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     ManualView::helpOf(*tree_, tr("Finding something"));
     ManualView::helpOf(*control_, tr("Control and commands"));
     ManualView::helpOf(*stop_, tr("Stop"));
+    ManualView::helpOf(*eventList_, tr("Events and the past"));
     setMinimumSize(800, 600);
     resize(1280, 800);
     connect(&timer_, &QTimer::timeout, this, &MainWindow::refresh);
@@ -279,6 +281,7 @@ void MainWindow::refresh() {
     times_.add(events);
     commands_.hear(events, frame->control.self);
     events_.add(std::move(events));
+    past_.refresh(*frame);
     tree_->refresh(frame);
     abnormal_.update(*frame);
     status_->refresh(*frame, abnormal_);

@@ -3,6 +3,7 @@
 
 #include "model/abnormal.hpp"
 #include "model/event_filter.hpp"
+#include "model/event_past.hpp"
 #include "model/find_index.hpp"
 #include "model/state_times.hpp"
 #include "session/commands.hpp"
@@ -59,7 +60,8 @@ public:
     StartAgain& startAgain() { return orders_->startAgain(); }
     ControlBar& control() { return *control_; }
     bool ready() const;  // everything has come, with the values that are shown
-    void refresh();      // with the newest frame
+    bool asksForPast() const { return past_.asking(); }
+    void refresh();  // with the newest frame
     SystemTree& tree() { return *tree_; }
     QWidget* current() const;
     Arrangement& arrangement() { return arrangement_; }
@@ -94,6 +96,7 @@ private:
     EventModel events_;
     EventFilter eventFilter_{events_};  // one for all that show events
     StateTimes times_;
+    EventPast past_{session_, events_, times_};
     Abnormal abnormal_;
     SystemTree* tree_;
     Workspace* workspace_;

@@ -9,6 +9,7 @@
 #include "views/base_view.hpp"
 #include "views/compare_view.hpp"
 #include "views/event_view.hpp"
+#include "views/fault_history_view.hpp"
 #include "views/graph_view.hpp"
 #include "views/manual_view.hpp"
 #include "views/own_view.hpp"
@@ -56,8 +57,10 @@ Page agentsPage(const PageParts& parts) {
 }
 
 Page eventsPage(const PageParts& parts) {
-    auto* view = new EventView{parts.events, parts.session.options()};
+    auto* view = new EventView{parts.events, parts.session.options(), &parts.past};
+    ManualView::helpOf(*view, titleIn("Events and the past"));
     QObject::connect(view, &EventView::opened, view, parts.open);
+    QObject::connect(view, &EventView::beforeWanted, view, parts.before);
     return {QStringLiteral("events"), view, [view](const FramePointer&) { view->refresh(); }};
 }
 
@@ -180,6 +183,7 @@ std::pair<Page, QString> makePage(const PageParts& parts, const QString& kind,
         page.units.choose(ShownUnits::restored(saved[QStringLiteral("units")].toArray()));
         return {std::move(page), path.empty() ? titleIn("Simplex") : QString::fromStdString(path)};
     }
+    if (kind == QLatin1String{beforeKind}) return makeBeforePage(parts, saved);
     for (const FixedPage& each : fixedPages) {
         if (kind != QLatin1String{each.kind}) continue;
         Page page = each.make(parts);
@@ -203,6 +207,7 @@ Page makeSimplexPage(const PageParts& parts, const std::string& path) {
     view->show(path);
     QObject::connect(view, &BaseView::opened, view, parts.open);
     QObject::connect(view, &BaseView::selected, view, parts.select);
+    QObject::connect(view, &BaseView::beforeWanted, view, parts.before);
     QObject::connect(view, &BaseView::plotWanted, view, parts.plot);
     QObject::connect(view, &BaseView::placesWanted, view, parts.places);
     QObject::connect(view, &BaseView::compareWanted, view, parts.compare);
@@ -220,6 +225,16 @@ Page makeSimplexPage(const PageParts& parts, const std::string& path) {
             [view](const Frame& now) { return wantedBy(*view, now); },
             unitsOf(view),
             [view] { return view->chosenItems(); }};
+}
+
+std::pair<Page, QString> makeBeforePage(const PageParts& parts, const QJsonObject& saved) {
+    auto* view = new FaultHistoryView{FaultHistory::restored(saved), parts.past};
+    ManualView::helpOf(*view, titleIn("Events and the past"));
+    QObject::connect(view, &FaultHistoryView::opened, view, parts.open);
+    Page page{QLatin1String{beforeKind}, view,
+              [view](const FramePointer& now) { view->refresh(*now); },
+              [view] { return view->history().saved(); }};
+    return {std::move(page), view->history().title()};
 }
 
 std::string pathOf(const Page& page) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/event_filter.hpp"
+#include "model/event_past.hpp"
 #include "model/state_times.hpp"
 #include "views/view_host.hpp"
 #include "window/pane.hpp"
@@ -23,11 +24,13 @@ struct PageParts {
     ViewHost& host;
     const StateTimes& times;
     EventFilter& events;
+    EventPast& past;
     std::function<void(const std::string&)> open{}, select{};  // a simplex, from within a page
     std::function<void(const std::vector<RecordedItem>&)> plot{};
     std::function<void(QMenu*, const std::vector<RecordedItem>&)> places{};  // to plot in
-    std::function<void(const QString&)> compare{};  // an item of all simplexes
-    std::function<void()> changed{};                // something that a layout keeps
+    std::function<void(const QString&)> compare{};           // an item of all simplexes
+    std::function<void()> changed{};                         // something that a layout keeps
+    std::function<void(const comms::AgentEvent&)> before{};  // what was before a fault
 };
 
 // A kind of page that has one tab at most.
@@ -42,6 +45,9 @@ std::vector<PageKind> pageKinds();
 std::pair<Page, QString> makePage(const PageParts& parts, const QString& kind,
                                   const QJsonObject& saved);
 Page makeSimplexPage(const PageParts& parts, const std::string& path);
+// The ten seconds before a fault, as FaultHistory::saved() has it.
+inline constexpr const char* beforeKind = "before";
+std::pair<Page, QString> makeBeforePage(const PageParts& parts, const QJsonObject& saved);
 // The simplex that a page shows; empty: it shows none.
 std::string pathOf(const Page& page);
 

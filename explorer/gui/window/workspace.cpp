@@ -45,6 +45,7 @@ Workspace::Workspace(PageParts parts, QWidget* parent)
         qobject_cast<CompareView*>(openKind(key("compare")))->compare(item.toStdString());
     };
     parts_.changed = [this] { Q_EMIT changed(); };
+    parts_.before = [this](const comms::AgentEvent& fault) { openBefore(fault); };
     release_.setSingleShot(true);
     connect(&release_, &QTimer::timeout, this,
             [this] { parts_.session.recorder().record(this, {}); });
@@ -157,70 +158,6 @@ QWidget* Workspace::openKind(const QString& kind) {
     const int at = page.closable ? place(pane()) : pane().count();
     pane().choose(pane().add(std::move(page), title, at));
     return current();
-}
-
-// "Plot", "Plot 2", …
-QString Workspace::freeTitle(const QString& title) const {
-    const auto isTaken = [this](const QString& text) {
-        return std::ranges::any_of(panes_, [&](const Pane* each) {
-            for (int tab = 0; tab < each->count(); ++tab) {
-                if (each->title(tab) == text) return true;
-            }
-            return false;
-        });
-    };
-    QString text = title;
-    for (int number = 2; isTaken(text); ++number) text = tr("%1 %2").arg(title).arg(number);
-    return text;
-}
-
-std::vector<OpenPlot> Workspace::plots() const {
-    std::vector<OpenPlot> all;
-    for (const Pane* each : panes_) {
-        for (int tab = 0; tab < each->count(); ++tab) {
-            if (auto* view = qobject_cast<PlotView*>(each->page(tab).widget)) {
-                all.push_back({view, each->title(tab)});
-            }
-        }
-    }
-    return all;
-}
-
-void Workspace::plotIn(PlotView& plot, const std::vector<RecordedItem>& items, int panel) {
-    for (std::size_t i = 0; i < panes_.size(); ++i) {
-        for (int tab = 0; tab < panes_[i]->count(); ++tab) {
-            if (panes_[i]->page(tab).widget != &plot) continue;
-            active_ = i;
-            panes_[i]->choose(tab);
-        }
-    }
-    lastPlot_ = &plot;
-    plot.add(items, panel, panel >= 0 && panel >= plot.lines().panels());
-    plot.setFocus();
-}
-
-void Workspace::openPlot(const std::vector<RecordedItem>& items) {
-    const auto open = plots();
-    if (open.empty()) return newPlot(items);
-    const auto last = std::ranges::find(open, lastPlot_.data(), &OpenPlot::view);
-    plotIn(*(last != open.end() ? last->view : open.front().view), items, -1);
-}
-
-void Workspace::newPlot(const std::vector<RecordedItem>& items) {
-    auto [page, title] = makePage(parts_, key("plot"), {});
-    auto& plot = *qobject_cast<PlotView*>(page.widget);
-    pane().choose(pane().add(std::move(page), freeTitle(title), place(pane())));
-    plotIn(plot, items, -1);
-}
-
-void Workspace::addPlaces(QMenu& menu, const std::vector<RecordedItem>& items) {
-    if (items.empty()) {
-        menu.addAction(tr("Nothing here is a value"))->setEnabled(false);
-        return;
-    }
-    fillPlotMenu(menu, plots(), [this, items](PlotView* plot, int panel) {
-        plot == nullptr ? newPlot(items) : plotIn(*plot, items, panel);
-    });
 }
 
 std::vector<RecordedItem> Workspace::chosenItems() const {

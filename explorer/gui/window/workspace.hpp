@@ -32,6 +32,7 @@ public:
     QWidget* openKind(const QString& kind);  // in its tab; makes one if there is none
     void openPlot(const std::vector<RecordedItem>& items);  // in the last plot, or a new one
     void newPlot(const std::vector<RecordedItem>& items);
+    void openBefore(const comms::AgentEvent& fault);  // the ten seconds before it
     // Fills a menu with where these can be plotted.
     void addPlaces(QMenu& menu, const std::vector<RecordedItem>& items);
     std::vector<RecordedItem> chosenItems() const;  // of the view in front

@@ -17,7 +17,8 @@ static int usage(void) {
         "client DOMAIN summary PREFIX               quality and state at and below PREFIX\n"
         "client DOMAIN call PATH COMMAND [NAME=V,V…]…\n"
         "client DOMAIN ask NAME PREFIX              for control, in the name of a person: who is\n"
-        "                                           there, until somebody refuses it\n");
+        "                                           there, until somebody refuses it\n"
+        "client DOMAIN past PREFIX                  what the agent of PREFIX has kept\n");
     return 2;
 }
 
@@ -298,6 +299,50 @@ static int ask(Tool* tool, const char* person, const char* prefix) {
     return 3;
 }
 
+// --- the past ------------------------------------------------------------------------------------
+
+// Prints a part of it; false: it is none that was asked for.
+static bool takePast(const cortex_Past* past, const Tool* tool, const Agent* agent,
+                     uint64_t after) {
+    if (strcmp(past->tool, tool->name) != 0 || strcmp(past->name, agent->name) != 0 ||
+        past->epoch != agent->epoch || past->ask != 1 || past->after != after) {
+        return false;
+    }
+    for (uint32_t i = 0; i < past->events._length; ++i) {
+        const cortex_PastEvent* each = &past->events._buffer[i];
+        printf("%s %s %s %s\n", each->kind, each->severity, each->path, each->text);
+    }
+    if (past->more) return true;
+    for (uint32_t i = 0; i < past->kept._length; ++i) {
+        printf("kept %s %" PRId64 "\n", past->kept._buffer[i].kind, past->kept._buffer[i].since);
+    }
+    return true;
+}
+
+static int past(Tool* tool, const Agent* agent) {
+    uint64_t after = 0;
+    bool more = true;
+    for (const int64_t end = now() + 20 * second; more && now() < end;) {
+        char ask[160];
+        snprintf(ask, sizeof ask, "1 0 %" PRId64 " %" PRIu64 " %s", INT64_MAX, after, agent->name);
+        tool->past = ask;
+        step(tool);
+        tool->past = NULL;
+        void* samples[16] = {NULL};
+        dds_sample_info_t infos[16];
+        const int count = dds_take(tool->pasts, samples, infos, 16, 16);
+        for (int i = 0; i < count && more; ++i) {
+            const cortex_Past* part = samples[i];
+            if (!infos[i].valid_data || !takePast(part, tool, agent, after)) continue;
+            after = part->last;
+            more = part->more;
+            tool->presenceDue = 0;
+        }
+        if (count > 0) dds_return_loan(tool->pasts, samples, count);
+    }
+    return more ? 3 : 0;
+}
+
 int main(int count, char** words) {
     if (count < 3) return usage();
     const char* verb = words[2];
@@ -315,6 +360,8 @@ int main(int count, char** words) {
         result = call(&tool, &models, count - 3, words + 3);
     } else if (strcmp(verb, "ask") == 0 && count == 5) {
         result = ask(&tool, words[3], words[4]);
+    } else if (strcmp(verb, "past") == 0 && count == 4) {
+        result = past(&tool, ownerOf(&tool, &models, words[3]));
     } else {
         usage();
     }

@@ -48,6 +48,8 @@ static const TopicRow commandTopic = {"cortex/1/command", &cortex_Command_desc, 
 // Each sender of commands has one of its own: its id follows.
 static const TopicRow answerTopic = {"cortex/1/answer/", &cortex_Answer_desc, true, false, 64};
 
+static const TopicRow pastTopic = {"cortex/1/past", &cortex_Past_desc, true, false, 64};
+
 static dds_qos_t* qosOf(const TopicRow* row) {
     dds_qos_t* qos = dds_create_qos();
     dds_qset_reliability(
@@ -83,6 +85,7 @@ void join(Tool* tool, dds_domainid_t domain) {
     tool->blocks = endpoint(tool, &viewTopic, false);
     tool->summaries = endpoint(tool, &summaryTopic, false);
     tool->commands = endpoint(tool, &commandTopic, true);
+    tool->pasts = endpoint(tool, &pastTopic, false);
     char name[64];
     snprintf(name, sizeof name, "%s%.1s", answerTopic.name,
              hex(idOf(tool->name, NULL, NULL).octets));
@@ -96,10 +99,15 @@ static void tell(const Tool* tool, char* state) {
     gethostname(host, sizeof host - 1);
     uint16_t major = 1;
     char asks[160];
-    cortex_Extra extras[2] = {{.name = "person", .value = (char*)tool->person},
-                              {.name = "asks", .value = asks}};
     if (tool->asks != NULL) snprintf(asks, sizeof asks, "1 %s", tool->asks);
-    const uint32_t said = tool->person == NULL ? 0 : tool->asks == NULL ? 1 : 2;
+    const cortex_Extra all[] = {{.name = "person", .value = (char*)tool->person},
+                                {.name = "asks", .value = tool->asks != NULL ? asks : NULL},
+                                {.name = "past", .value = (char*)tool->past}};
+    cortex_Extra extras[3];
+    uint32_t said = 0;
+    for (int i = 0; i < 3; ++i) {
+        if (all[i].value != NULL) extras[said++] = all[i];
+    }
     cortex_Presence presence = {.name = (char*)tool->name,
                                 .host = host,
                                 .epoch = tool->epoch,

@@ -18,13 +18,14 @@ typedef struct {
     char name[64];
     int64_t epoch;
     dds_entity_t participant, presences, presenceReader, interests, modelReader, blocks, summaries,
-        commands, answers;
+        commands, answers, pasts;
     int64_t presenceDue;  // ns
     Agent agents[mostAgents];
     int agentCount;
     Person people[mostPeople];
     int peopleCount;
-    const char *person, *asks;  // who uses this tool, and what it asks for; NULL: not said
+    // Who uses this tool, what it asks for, and what of the past; NULL: not said.
+    const char *person, *asks, *past;
 } Tool;
 
 int64_t now(void);  // ns, of this process alone

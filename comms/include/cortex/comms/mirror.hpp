@@ -132,6 +132,16 @@ public:
     // times a second.
     bool eventsComplete() const;
 
+    // Asks an agent for what it has kept of a time that is over (UTC ns by its clock, both ends
+    // included). The number identifies the answer. Several asks wait for one another.
+    std::uint64_t askPast(const std::string& agent, std::int64_t from, std::int64_t until);
+    // Once: everything has come, or PastEvents::trouble says why not. An agent has 5 s for each
+    // part of it.
+    bool pollPast(std::uint64_t number, PastEvents& past);
+    void abandonPast(std::uint64_t number);  // nobody will fetch the answer
+    // The same of all agents that are known, within `limit`: also of those that cannot say it.
+    std::vector<PastEvents> past(std::int64_t from, std::int64_t until, Milliseconds limit);
+
     std::uint64_t refused() const;  // samples that were malformed or impossible
     // What this mirror's own gate has not let in, by the reason: "datagrams: a submessage …".
     std::map<std::string, Refused> refusals() const;

@@ -43,6 +43,7 @@ struct AgentStatus {
     std::string otherSelf;    // who else speaks in its name, in words; empty: nobody
     std::uint32_t hears = 0;  // agents, itself included, as it says; 0: not said
     bool summarises = false;  // it can say how all its simplexes are (Mirror::viewSummary)
+    bool remembers = false;   // it can say what it keeps of the past (Mirror::askPast)
     std::string refused;      // messages: "4: a command with a wrong id", the reason of the last
 };
 
@@ -63,6 +64,12 @@ struct ToolStatus {
     // The asks of others that it has refused of late: the name of the other tool, and the number.
     std::vector<std::pair<std::string, std::uint64_t>> refuses;
 };
+
+// Whether it can be the name of a person: 1 to 63 bytes of UTF-8 without control characters and
+// brackets, as a tool's name stands in these behind it, and without a blank at either end.
+bool isPersonName(const std::string& name);
+// "alice (cortex@desk.4711-5e1f0a)"; without a person the name of the tool alone.
+std::string whoText(const std::string& tool, const std::string& person);
 
 // What was not let in for one reason.
 struct Refused {
@@ -98,6 +105,20 @@ struct AgentEvent {
     // Number among the events that the same input causes again; 0: it came from measured times.
     // None: its agent does not say so.
     std::optional<std::uint64_t> repeatable{};
+};
+
+// What an agent has kept of a time that is over: faults and errors, changes of state, commands,
+// refusals, control, losses, and values that changed their state. Each kind has room of its own.
+struct PastEvents {
+    struct Since {
+        std::string kind;       // "fault"
+        std::int64_t time = 0;  // UTC ns: everything of this kind after it is kept
+    };
+
+    std::string agent;
+    std::vector<AgentEvent> events;  // as they came; the number of a value that changed is 0
+    std::vector<Since> since;        // of each kind
+    std::string trouble;             // why it is not all that the agent has; empty: it is
 };
 
 // The answer to a command, with the time that it took.

@@ -44,8 +44,7 @@ std::optional<Reason> reasonFromName(std::string_view text);
 
 // Who sent a command from outside: an agent or a tool, and its start (UTC microseconds).
 struct Sender {
-    std::array<char, 64> name{};  // zero-terminated
-    std::array<char, 64> host{};
+    std::array<char, 64> name{}, host{};  // zero-terminated
     std::int64_t epoch = 0;
 
     std::string_view nameText() const { return name.data(); }
@@ -117,10 +116,12 @@ public:
     Reason reason() const { return reason_; }
     // The agent or tool that sent it from outside; null along a relationship.
     const Sender* sender() const { return sender_; }
+    std::string_view onBehalfOf() const { return person_; }  // as its sender says; often empty
 
     void setFirst(bool first) { first_ = first; }
     void setCancelling(bool cancelling) { cancelling_ = cancelling; }
     void setSender(const Sender* sender) { sender_ = sender; }
+    void setOnBehalfOf(std::string_view person) { person_ = person; }
     void setTime(std::int64_t now, std::int64_t begun) {  // nominal, ns
         now_ = now;
         begun_ = begun;
@@ -137,9 +138,9 @@ private:
     const std::byte* request_;
     std::byte* response_;
     const Sender* sender_ = nullptr;
+    std::string_view person_;
     std::int64_t now_ = 0, begun_ = 0;
-    bool first_ = true;
-    bool cancelling_ = false;
+    bool first_ = true, cancelling_ = false;
     Reason reason_ = Reason::None;
     std::optional<EventText> why_;
 };
@@ -193,8 +194,7 @@ CommandTable commandTable(const Type& type);
 enum class LifeCycle : std::uint8_t { None, Startup, Shutdown, ClearFaults };
 LifeCycle lifeCycleCommand(std::string_view command);
 
-// The whole record; "" if good.
-EventText checkArguments(const RecordLayout& layout, const std::byte* record);
+EventText checkArguments(const RecordLayout& layout, const std::byte* record);  // "" if good
 void initialiseRecord(const RecordLayout& layout, std::byte* record);
 
 }  // namespace cortex

@@ -34,7 +34,10 @@ enum class EventKind : std::uint8_t {
     Agent,
     Command,
     Watchdog,
-    Message
+    Message,
+    Control,     // taken, handed over, released or lost
+    Loss,        // of an agent, an input or events, and that it is back
+    ValueChange  // only in what an agent keeps of the past: a value that changed its state
 };
 
 const char* name(EventKind kind);
@@ -43,6 +46,8 @@ std::optional<EventKind> eventKindFromName(std::string_view text);
 // Bounded text that is built without allocation; what does not fit is cut.
 class EventText {
 public:
+    static constexpr std::size_t capacity = 150;  // bytes
+
     EventText() = default;
     EventText(std::string_view text) { *this << text; }                 // NOLINT: reads as a text
     EventText(const char* text) : EventText{std::string_view{text}} {}  // NOLINT
@@ -60,7 +65,7 @@ public:
     std::string_view view() const { return {text_.data(), length_}; }
 
 private:
-    std::array<char, 150> text_{};
+    std::array<char, capacity> text_{};
     std::uint16_t length_ = 0;
 };
 

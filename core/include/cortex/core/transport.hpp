@@ -124,14 +124,17 @@ public:
     virtual bool nextCall(AgentCall& call) CORTEX_REALTIME = 0;
 };
 
+class EventMemory;
+
 // What an interface may use of the agent that it serves, on any thread but the loop's.
 struct AgentAccess {
     std::shared_ptr<const Structure> structure;
     ImagePool* images = nullptr;
     EventLog* events = nullptr;
-    std::int64_t period = 0;  // ns
-    std::uint32_t calls = 0;  // commands to other agents that may be on their way at once
-    bool realTime = false;    // the loop's clock is that of the machine, so commands end by it too
+    EventMemory* memory = nullptr;  // of the past
+    std::int64_t period = 0;        // ns
+    std::uint32_t calls = 0;        // commands to other agents that may be on their way at once
+    bool realTime = false;  // the loop's clock is that of the machine, so commands end by it too
     const StandstillNote* standstill = nullptr;  // of the loop
     const LoopPace* pace = nullptr;              // of the loop
 

@@ -31,15 +31,16 @@ class LaneBlock;
 
 struct AgentOptions {
     std::uint32_t imageReaders = 8;
-    std::uint32_t imageKeepers = 0;       // interfaces that keep images of their own
-    std::uint32_t loopThreads = 1;        // threads that post events: workers and the loop
-    std::uint32_t eventCapacity = 4096;   // per loop thread
-    std::uint32_t outsideCommands = 256;  // on their way at once, of all senders
-    bool controlRequired = false;         // commands from outside need a lease
-    std::int64_t period = 1'000'000;      // ns, nominal
-    std::int64_t epoch = 0;               // of this start, UTC microseconds; 0: now
-    bool realTime = false;                // false: stepped, so that only nominal time counts
-    std::string files{};                  // folder of what simplexes read and write; "": none
+    std::uint32_t imageKeepers = 0;         // interfaces that keep images of their own
+    std::uint32_t loopThreads = 1;          // threads that post events: workers and the loop
+    std::uint32_t eventCapacity = 4096;     // per loop thread
+    std::uint32_t outsideCommands = 256;    // on their way at once, of all senders
+    bool controlRequired = false;           // commands from outside need a lease
+    std::int64_t period = 1'000'000;        // ns, nominal
+    std::int64_t epoch = 0;                 // of this start, UTC microseconds; 0: now
+    bool realTime = false;                  // false: stepped, so that only nominal time counts
+    std::string files{};                    // folder of what simplexes read and write; "": none
+    std::shared_ptr<EventMemory> memory{};  // of the past; null: one of the usual size
 };
 
 // One agent at run time: structure, tables, mailboxes, images, events and the two ends of a cycle.
@@ -80,6 +81,7 @@ public:
     Tables& tables() { return *tables_; }
     ImagePool& images() { return *images_; }
     EventLog& events() { return *events_; }
+    EventMemory& memory() { return *options_.memory; }
     StandstillNote& standstill() { return standstill_; }
     LoopPace& pace() { return pace_; }
     LoopThread& thread(std::uint32_t worker) { return threads_[worker]; }
@@ -156,6 +158,7 @@ private:
     friend class Router;
     friend class LinkTable;
 
+    void keepEvents();
     void addAgentSimplex();
     void checkModel();
     void bindSimplexes();

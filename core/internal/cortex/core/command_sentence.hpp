@@ -6,16 +6,17 @@
 
 namespace cortex {
 
-// What an event of kind `command` or `refusal` says of a command that came from outside, taken
-// apart: "operator@desk: jog(speed=0.5): Done in 2 cycles". The text of an event is bounded: parts
-// that were cut off are empty. Agents write it in Router::report().
+// What an event of kind `command`, `control` or `refusal` says of a command that came from outside,
+// taken apart: "operator@desk: jog(speed=0.5): Done in 2 cycles". The text of an event is bounded:
+// parts that were cut off are empty. Agents write it in Router::report().
 struct CommandSentence {
-    std::string_view sender;     // "operator@desk", "bridge@desk for Ada"
-    std::string_view command;    // "jog"
-    std::string_view arguments;  // "speed=0.5"; of a text that was cut in them what is left
-    std::string_view outcome;    // "Done", "Rejected (range), speed is above 1 rad/s"
-    std::string_view latency;    // "2 cycles", "the same cycle"
-    bool done = false;           // the outcome is Done
+    std::string_view sender;   // "operator@desk", "cortex@desk.4711-5e1f0a for Ada"
+    std::string_view command;  // "jog"
+    std::string_view
+        arguments;             // "speed=0.5"; what is left of them ends in "…" where they were cut
+    std::string_view outcome;  // "Done", "Rejected (range), speed is above 1 rad/s"
+    std::string_view latency;  // "2 cycles", "the same cycle"
+    bool done = false;         // the outcome is Done
 };
 
 // None: the text says no such thing.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cortex/core/event.hpp"
+#include "cortex/core/event_memory.hpp"
 #include "cortex/core/image.hpp"
 #include "cortex/core/program_interface.hpp"
 #include "cortex/core/registry.hpp"
@@ -53,6 +54,8 @@ struct ClusterOptions {
     // The folder below which simplexes may read and write files, such as taught points; "": they
     // may not.
     std::string files{};
+    // What it keeps of the past for tools that ask. Null: 20,000 entries, of this start.
+    std::shared_ptr<EventMemory> memory{};
 };
 
 // What heartbeat functions get, after each cycle on the loop thread, and from the watchdog.

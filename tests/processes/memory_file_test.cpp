@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an agent remembers survives its restart, in a file.
+#include "cli/cortex_process.hpp"
+#include "comms/inbox.hpp"
+#include "processes/station.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace cortex::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RememberedOverRestarts : public testing::Test {
+protected:
+    static fs::path systemIn(const ModelFolder& in) {
+        in.write("types.xml",
+                 "<ontology name='t' version='1.0'><include file='base.xml'/>"
+                 "<type name='Counter' extends='Processor'>"
+                 "<data name='count' kind='int' min='0' retain='true'/>"
+                 "<data name='gain' kind='float' max='10' default='1' settable='always'/>"
+                 "<data name='share' kind='float'/>"
+                 "<data name='title' kind='string' capacity='40'/></type></ontology>");
+        in.write("rules.xml",
+                 "<morphology name='m' version='1.0'><include file='base-morphology.xml'/>"
+                 "<include file='types.xml'/></morphology>");
+        return in.write("plant.xml",
+                        "<system name='s'><morphology file='rules.xml'/>"
+                        "<cluster name='plant' frequency='100'/>"
+                        "<simplex path='/output' type='DigitalIoConcept'/>"
+                        "<simplex path='/counter' type='Counter'>"
+                        "<relate rule='outputs' to='/output'/></simplex></system>");
+    }
+    AgentProcess agentIn(const ModelFolder& in, std::vector<std::string> options = {}) const {
+        options.insert(options.end(), {"--plugin", CORTEX_BINARY_DIR "/lib/plugins/counter.so"});
+        return {in, systemIn(in), options};
+    }
+    AgentProcess agentWith(const std::vector<std::string>& options = {}) const {
+        return agentIn(folder, options);
+    }
+    std::string text() const { return fs::exists(memory) ? textOf(memory) : ""; }
+    bool isWritten(const std::string& part) {
+        return station.waitFor([&] { return contains(text(), part); });
+    }
+    void setGain(const std::string& value) {
+        const comms::NetworkOptions network = comms::loopback();
+        const Outcome done =
+            cortex({"set", "/counter", "gain=" + value, "--domain", std::to_string(network.domain),
+                    "--interface", network.interfaces.front(), "--timeout", "60"});
+        ASSERT_EQ(done.exit, 0) << done.errors;
+    }
+    // The commands of all starts, as tools are told them.
+    std::vector<std::string> commands() {
+        const std::int64_t always = std::numeric_limits<std::int64_t>::max();
+        std::vector<std::string> found;
+        for (const comms::PastEvents& each :
+             station.mirror().past(0, always, std::chrono::seconds{60})) {
+            if (!each.trouble.empty()) found.push_back(each.trouble);
+            for (const AgentEvent& event : each.events) {
+                if (event.kind != "command") continue;
+                const std::size_t name = event.text.find("set(");
+                if (name == std::string::npos) continue;
+                found.push_back(event.text.substr(name, event.text.find(')') + 1 - name));
+            }
+        }
+        return found;
+    }
+
+    const ModelFolder folder;
+    const fs::path memory = folder.path() / "plant.memory";
+    Station station;
+};
+
+using Texts = std::vector<std::string>;
+
+TEST_F(RememberedOverRestarts, ACommandIsToldThoughTheAgentWasKilled) {
+    AgentProcess agent = agentWith();
+    setGain("2.5");
+    ASSERT_TRUE(isWritten("set(gain=2.5)")) << text();
+    const std::int64_t first = station.epochOf("plant");
+    agent.kill9();
+    AgentProcess again = agentWith();
+    ASSERT_TRUE(station.waitFor([&] {
+        return station.hears("plant") && station.epochOf("plant") != first;
+    })) << again.output();
+    setGain("4");
+
+    const Texts both{"set(gain=2.5)", "set(gain=4)"};
+    ASSERT_TRUE(station.waitFor([&] { return commands() == both; })) << again.output();
+    EXPECT_EQ(again.endInOrder(), 0);
+    EXPECT_TRUE(contains(again.output(), "plant.memory: all that happened since 20"))
+        << again.output();
+    EXPECT_TRUE(contains(text(), "set(gain=4)")) << "the rest is written at the end";
+}
+
+TEST_F(RememberedOverRestarts, WhatCannotBeReadIsToldAndTheAgentStartsAllTheSame) {
+    const std::string entry = "1\t2\t3\t4\tinfo\tcommand\t/counter\tann: set(gain=1): Done\n";
+    folder.write("plant.memory",
+                 "cortex-agent memory\t1\tplant\n" + entry + "broken\n" + entry + "1\t2\t3\t4\ter");
+
+    AgentProcess agent = agentWith();
+    ASSERT_TRUE(agent.prints("plant.memory: 1 line that cannot be read is left out\n"));
+
+    const Texts both{"set(gain=1)", "set(gain=1)"};
+    EXPECT_TRUE(station.waitFor([&] { return commands() == both; })) << agent.output();
+    EXPECT_EQ(agent.endInOrder(), 0);
+    EXPECT_TRUE(contains(text(), entry + entry)) << text();
+    EXPECT_FALSE(contains(text(), "broken"));
+}
+
+TEST_F(RememberedOverRestarts, AFileIsMadeSmallerThatHasMoreThanTheAgentKeeps) {
+    std::string old = "cortex-agent memory\t1\tplant\nsince\tcommand\t1\n";
+    for (int i = 0; i < 10'000; ++i) {
+        old += "1\t" + std::to_string(i) + "\t3\t4\tinfo\tcommand\t/counter\tann: set(gain=1)\n";
+    }
+    folder.write("plant.memory", old);
+
+    AgentProcess agent = agentWith({"--memory-entries", "100", "--seconds", "0.05"});
+    EXPECT_EQ(agent.waitForEnd(), 0) << agent.output();
+
+    EXPECT_LT(text().size(), 65'536U);
+    EXPECT_TRUE(contains(text(), "1\t9999\t3")) << "the newest are kept";
+    EXPECT_TRUE(contains(text(), "since\tcommand\t5\n"));
+}
+
+TEST_F(RememberedOverRestarts, AFileOfSomethingElseIsRefusedAndLeftAsItIs) {
+    const fs::path system = systemIn(folder);
+    const fs::path other = folder.write("notes.txt", "notes\n");
+    const std::string same = (folder.path() / "same").string();
+    for (const auto& [options, told] : std::vector<std::pair<Texts, std::string>>{
+             {{"--memory", system.string()}, "it is read by this agent"},
+             {{"--memory", other.string()}, "is no file of what an agent remembers"},
+             {{"--memory", folder.path().string()}, "is a folder"},
+             {{"--memory", same, "--log", same}, "it is that of another option as well"}}) {
+        const std::string before = textOf(system);
+        AgentProcess agent = agentWith(options);
+        EXPECT_EQ(agent.waitForEnd(), 2) << told;
+        EXPECT_TRUE(contains(agent.output(), told)) << agent.output();
+        EXPECT_EQ(textOf(system), before);
+    }
+    EXPECT_EQ(textOf(other), "notes\n");
+}
+
+TEST_F(RememberedOverRestarts, AStartThatWaitsGoesOnWithTheFileOfTheFirst) {
+    AgentProcess first = agentWith();
+    setGain("2");
+    ASSERT_TRUE(isWritten("set(gain=2)"));
+    const ModelFolder other;
+    const std::string file = memory.string();
+    AgentProcess refused = agentIn(other, {"--memory", file});
+    EXPECT_EQ(refused.waitForEnd(), 5) << refused.output();
+    AgentProcess second = agentIn(other, {"--memory", file, "--wait"});
+    ASSERT_TRUE(second.prints("this one waits until it has ended\n"));
+    setGain("3");
+    EXPECT_EQ(first.endInOrder(), 0) << first.output();
+    ASSERT_TRUE(station.waitFor([&] { return commands() == Texts{"set(gain=2)", "set(gain=3)"}; }))
+        << second.output();
+    setGain("4");
+
+    EXPECT_EQ(second.endInOrder(), 0) << second.output();
+    for (const char* each : {"set(gain=2)", "set(gain=3)", "set(gain=4)"}) {
+        EXPECT_TRUE(contains(text(), each)) << text();
+    }
+    EXPECT_FALSE(contains(refused.output() + second.output(), "not written")) << second.output();
+}
+
+}  // namespace
+}  // namespace cortex::test
