@@ -4,8 +4,6 @@
 #include "cortex/core/command_sentence.hpp"
 #include "cortex/core/path.hpp"
 
-#include "common/utc_text.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,12 +20,6 @@ namespace cortex::common {
 namespace {
 
 using Since = comms::PastEvents::Since;
-
-// Rounded up to a second: what is before it may be gone.
-std::string sinceText(std::int64_t time) {
-    constexpr std::int64_t almost = 999'999'999;
-    return utcText(std::min(time, std::numeric_limits<std::int64_t>::max() - almost) + almost, 0);
-}
 
 // Of two in order of time; what others say can be any time.
 std::uint64_t nanosecondsBetween(const comms::AgentEvent& one, const comms::AgentEvent& next) {
@@ -105,26 +97,29 @@ AgentEvents merged(AgentEvents kept, AgentEvents live) {
     return live;
 }
 
-std::string keptText(std::vector<Since> since, std::int64_t from, std::int64_t epoch) {
+std::string keptText(std::vector<Since> since, std::int64_t from, std::int64_t epoch,
+                     const std::function<std::string(std::int64_t)>& timeText) {
     constexpr double aMoment = 2e9;  // longer ago is an earlier start, whose memory was read
     const std::size_t all = since.size();
     std::erase_if(since, [&](const Since& each) { return each.time <= from; });
     if (since.empty()) return "";
-    std::map<std::string, std::vector<std::string>, std::greater<>> kinds;  // by time
-    for (const Since& each : since) kinds[sinceText(each.time)].push_back(manyOf(each.kind));
+    constexpr std::int64_t millisecond = 1'000'000;
+    std::map<std::int64_t, std::vector<std::string>, std::greater<>> kinds;  // by time
+    for (const Since& each : since) kinds[each.time / millisecond].push_back(manyOf(each.kind));
     const bool none = since.size() == all;  // is kept as long as that
     const auto oldest = std::prev(kinds.end());
     if (none && all > 1 && kinds.size() == 1) {
         const double begun = static_cast<double>(since.back().time);
         const bool atStart = std::abs(begun - 1000 * static_cast<double>(epoch)) < aMoment;
-        return "keeps what happened since " + oldest->first + (atStart ? ", when it started" : "");
+        return "keeps what happened since " + timeText(oldest->first * millisecond) +
+               (atStart ? ", when it started" : "");
     }
     if (none && oldest->second.size() > 1) oldest->second = {"all else"};
     std::string text;
     for (const auto& [time, names] : kinds) {
         const bool begun = !text.empty();
-        text +=
-            (begun ? ", " : "") + listed(names) + (begun ? " since " : " are kept since ") + time;
+        text += (begun ? ", " : "") + listed(names) + (begun ? " since " : " are kept since ") +
+                timeText(time * millisecond);
     }
     return text + "; older ones are not kept";
 }

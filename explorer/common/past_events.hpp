@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,18 +17,19 @@ using AgentEvents = std::vector<comms::AgentEvent>;
 
 void sortByTime(AgentEvents& events);  // by the clock of each agent
 
-// Each once, in order of time: of what came both ways that which came live, as it says more. Values
-// that changed their state have no number, and are kept alone.
+// Each once, in order of time: of what came both ways that which came live, as it says more. What
+// was never published, such as a value that changed, has no number and is kept alone.
 AgentEvents merged(AgentEvents kept, AgentEvents live);
 
 // Whether it is at or below a path, or tells who has control of something at, below or above it:
 // the path of such an event is that of the agent.
 bool concerns(const comms::AgentEvent& event, const std::string& prefix);
 
-// "commands are kept since 2026-11-29T10:12:07Z; older ones are not kept"; "" where everything
-// after `from` is kept, UTC ns. `epoch`: of the agent, UTC microseconds.
+// "commands are kept since 2026-11-29T10:12:07.250Z; older ones are not kept"; "" where everything
+// after `from` is kept, UTC ns. `epoch`: of the agent, UTC microseconds. `timeText`: of UTC ns, as
+// the times of the events are shown; with milliseconds.
 std::string keptText(std::vector<comms::PastEvents::Since> since, std::int64_t from,
-                     std::int64_t epoch);
+                     std::int64_t epoch, const std::function<std::string(std::int64_t)>& timeText);
 
 // The newest fault at or below a path, and those at most a second before it: the first of them
 // comes nearest to the cause. Places in events in order of time.

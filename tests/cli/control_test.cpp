@@ -172,7 +172,7 @@ TEST_F(CortexControl, ALongCommandThatIsNotWaitedForAnyLongerIsKnownToRun) {
 
     const auto leave = [] {
         return cortex(Words{"call", "/controller", "moveTo", "speedShare=0.01", "--take"} +
-                      network + Words{"--timeout", "3"});
+                      network + Words{"--timeout", "2"});
     };
     // Again, where the loop stood still for so long that an axis counted as lost.
     const Outcome left = lookUntil(leave, [](const Outcome& each) { return each.exit == 4; });

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <future>
 #include <memory>
 #include <stdexcept>
 
@@ -78,6 +79,18 @@ Outcome runProgram(const std::string& program, const std::vector<std::string>& a
 Outcome cortex(const std::vector<std::string>& arguments,
                const std::map<std::string, std::string>& environment, const std::string& folder) {
     return runProgram(CORTEX_BINARY_DIR "/bin/cortex", arguments, environment, folder);
+}
+
+std::vector<Outcome> cortexAtOnce(const std::vector<std::vector<std::string>>& commands,
+                                  const std::map<std::string, std::string>& environment) {
+    std::vector<std::future<Outcome>> running;
+    for (const auto& each : commands) {
+        running.push_back(
+            std::async(std::launch::async, [&] { return cortex(each, environment); }));
+    }
+    std::vector<Outcome> outcomes;
+    for (auto& each : running) outcomes.push_back(each.get());
+    return outcomes;
 }
 
 }  // namespace cortex::test

@@ -16,6 +16,9 @@ struct Outcome {
 Outcome cortex(const std::vector<std::string>& arguments,
                const std::map<std::string, std::string>& environment = {},
                const std::string& folder = ".");
+// The same of several that run at once.
+std::vector<Outcome> cortexAtOnce(const std::vector<std::vector<std::string>>& commands,
+                                  const std::map<std::string, std::string>& environment = {});
 
 // Runs another program the same way; it is looked for in PATH.
 Outcome runProgram(const std::string& program, const std::vector<std::string>& arguments,

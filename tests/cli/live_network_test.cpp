@@ -5,6 +5,7 @@
 #include "comms/network_agent.hpp"
 #include "core/model_folder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -70,15 +71,18 @@ TEST_F(CortexLive, ASilentParticipantIsNamedByWhateverTellsOfAllAgents) {
     const Ghost ghost;
     const std::string words = "1 participant of CorteX was found and did not say who it is";
     const std::string file = (folder.path() / "saved.xml").string();
-    for (const Words& verb :
-         {Words{"list"}, Words{"list", "/arm"}, Words{"agents"}, Words{"save", file, "--force"}}) {
-        const Outcome outcome =
-            lookUntil([&] { return liveWithin("1.5", verb); },
-                      [&](const Outcome& seen) {
-                          return contains(seen.errors, words) && !contains(seen.errors, "no agent");
+    std::vector<Words> verbs{{"list"}, {"list", "/arm"}, {"agents"}, {"save", file, "--force"}};
+    for (Words& each : verbs) each = each + network + Words{"--timeout", "1.5"};
+    const auto all =
+        lookUntil([&] { return cortexAtOnce(verbs); },
+                  [&](const std::vector<Outcome>& seen) {
+                      return std::ranges::all_of(seen, [&](const Outcome& each) {
+                          return contains(each.errors, words) && !contains(each.errors, "no agent");
                       });
-        EXPECT_EQ(outcome.exit, 3) << verb.front();
-        EXPECT_TRUE(contains(outcome.errors, words)) << verb.front() << outcome.errors;
+                  });
+    for (const Outcome& outcome : all) {
+        EXPECT_EQ(outcome.exit, 3) << outcome.errors;
+        EXPECT_TRUE(contains(outcome.errors, words)) << outcome.errors;
         EXPECT_FALSE(contains(outcome.errors, "no agent has")) << outcome.errors;
     }
 }

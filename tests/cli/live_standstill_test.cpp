@@ -99,7 +99,7 @@ TEST(LiveStandstill, IsWhyACallHasNoAnswer) {
     robot.hang();
 
     const std::string why = "the loop of robot hangs in /ctl.stateStandby for ";
-    const std::vector<std::string> words{"call", "/ctl", "startup", "--timeout", "5"};
+    const std::vector<std::string> words{"call", "/ctl", "startup", "--timeout", "2"};
     // Again, where its time was over before the agent was found.
     const Outcome call = lookUntil([&] { return cortex(words + network); },
                                    [&](const Outcome& each) { return contains(each.output, why); });

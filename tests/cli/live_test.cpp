@@ -118,7 +118,12 @@ TEST_F(CortexLive, CallsCommandsAndEndsWithWhatCameOfThem) {
     EXPECT_TRUE(contains(events, " for alice: startup()")) << events;
     const std::string myself = common::nameInCommand(common::personName(""));
     EXPECT_TRUE(contains(events, " for " + myself + ": startup(): Done")) << events;
-    EXPECT_EQ(live({"call", "/drive", "startup", "--for", std::string(40, 'x')}).exit, 2);
+    for (const std::string& wrong : {std::string(32, 'x'), std::string{"alice (cortex@desk)"},
+                                     std::string{"\xc2\x9b"}, std::string{"alice "}}) {
+        const Outcome refused = live({"call", "/drive", "startup", "--for", wrong});
+        EXPECT_EQ(refused.exit, 2) << wrong;
+        EXPECT_TRUE(contains(refused.errors, "a name has at most 31 bytes")) << refused.errors;
+    }
     EXPECT_EQ(liveJson({"call", "/mixer", "startup", "prefix=/"}, "call")["outcome"], "Done");
     EXPECT_EQ(liveJson({"show", "/controller"}, "show")["state"], "Active");
 }

@@ -261,7 +261,7 @@ TEST_F(CortexShell, ShowsTheLastValuesOfALostAgentInBrackets) {
     agent->end(SIGKILL);
     ASSERT_TRUE(shell.shows("control of /drive of agent mixer was lost")) << shell.output();
 
-    shell.run("show /drive", "[Standby]");
+    shell.run("show /drive --timeout 1", "[Standby]");
     EXPECT_TRUE(contains(shell.output(), "[12")) << shell.output();
     EXPECT_TRUE(std::regex_search(shell.output(), std::regex{"startPosition +0\\.5 "}))
         << "a constant as it is";

@@ -88,14 +88,14 @@ TEST(CortexTake, TakesControlAgainWhileTheAgentDoesNotAnswerAndTimeIsLeft) {
     robot.hang();
     const Words call{"call", "/ctl", "startup", "--take"};
     const std::string words = "no control of /ctl of agent robot: ";
+    OnTerminal patient{cortexCommand(call)};
     const Outcome brief =  // again, where the agent was not found in that time
         lookUntil([&] { return tool("2", call); },
                   [&](const Outcome& seen) { return contains(seen.errors, words); });
     EXPECT_TRUE(contains(brief.errors, words)) << brief.errors;
     EXPECT_EQ(brief.exit, 3);
 
-    OnTerminal patient{cortexCommand(call)};
-    EXPECT_FALSE(patient.shows("no control", std::chrono::seconds{5})) << patient.output();
+    EXPECT_FALSE(patient.shows("no control", std::chrono::seconds{2})) << patient.output();
     robot.release();
 
     EXPECT_TRUE(patient.shows("Done")) << patient.output();

@@ -2,6 +2,8 @@
 // What agents keep, with what came live: as both programs show it.
 #include "common/past_events.hpp"
 
+#include "common/utc_text.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -94,50 +96,54 @@ TEST(PastEvents, OfControlConcernThePathThatWasTaken) {
     }
 }
 
+std::string inUtc(std::int64_t time) { return utcText(time); }
+
 TEST(PastEvents, OfWhatIsNotKeptSoLongItIsSaidSinceWhen) {
     const std::int64_t ten = noon + 10 * second;
     const struct {
         const char* what;
         std::vector<Since> since;
         std::string text;
-    } table[] = {
-        {"all is kept", {{"fault", noon}, {"command", noon - second}}, ""},
-        {"nothing is said", {}, ""},
-        {"one kind",
-         {{"fault", noon}, {"command", ten}},
-         "commands are kept since 2026-11-29T12:00:10Z; older ones are not kept"},
-        {"two kinds",
-         {{"fault", noon}, {"command", ten - second}, {"state change", ten}},
-         "state changes are kept since 2026-11-29T12:00:10Z, commands since 2026-11-29T12:00:09Z; "
-         "older ones are not kept"},
-        {"as one",
-         {{"fault", noon}, {"command", ten}, {"loss", ten}, {"control", ten}},
-         "commands, losses and changes of control are kept since 2026-11-29T12:00:10Z; older ones "
-         "are not kept"},
-        {"a part of a second is not said to be kept",
-         {{"fault", noon}, {"message", noon + 1}},
-         "other errors are kept since 2026-11-29T12:00:01Z; older ones are not kept"},
-        {"all, from its start on",
-         {{"fault", noon + second}, {"command", noon + second}},
-         "keeps what happened since 2026-11-29T12:00:01Z, when it started"},
-        {"all, from an earlier start on, shortly before",
-         {{"fault", noon + 3 * second}, {"command", noon + 3 * second}},
-         "keeps what happened since 2026-11-29T12:00:03Z"},
-        {"all, from another time on",
-         {{"fault", noon + 3600 * second}, {"command", noon + 3600 * second}},
-         "keeps what happened since 2026-11-29T13:00:00Z"},
-        {"all, and some were dropped",
-         {{"fault", noon + second}, {"command", ten}, {"loss", noon + second}},
-         "commands are kept since 2026-11-29T12:00:10Z, all else since 2026-11-29T12:00:01Z; older "
-         "ones are not kept"},
-        {"a single kind",
-         {{"fault", noon + second}},
-         "faults are kept since 2026-11-29T12:00:01Z; older ones are not kept"},
-        {"a kind of a later build",
-         {{"fault", noon}, {"smell", ten}},
-         "smell are kept since 2026-11-29T12:00:10Z; older ones are not kept"}};
+    } table[] = {{"all is kept", {{"fault", noon}, {"command", noon - second}}, ""},
+                 {"nothing is said", {}, ""},
+                 {"one kind",
+                  {{"fault", noon}, {"command", ten}},
+                  "commands are kept since 2026-11-29T12:00:10.000Z; older ones are not kept"},
+                 {"two kinds",
+                  {{"fault", noon}, {"command", ten - second}, {"state change", ten}},
+                  "state changes are kept since 2026-11-29T12:00:10.000Z, commands since "
+                  "2026-11-29T12:00:09.000Z; "
+                  "older ones are not kept"},
+                 {"as one",
+                  {{"fault", noon}, {"command", ten}, {"loss", ten}, {"control", ten}},
+                  "commands, losses and changes of control are kept since "
+                  "2026-11-29T12:00:10.000Z; older ones "
+                  "are not kept"},
+                 {"to the millisecond, as events are shown",
+                  {{"fault", noon}, {"message", noon + second * 77 / 100 + 1}},
+                  "other errors are kept since 2026-11-29T12:00:00.770Z; older ones are not kept"},
+                 {"all, from its start on",
+                  {{"fault", noon + second}, {"command", noon + second}},
+                  "keeps what happened since 2026-11-29T12:00:01.000Z, when it started"},
+                 {"all, from an earlier start on, shortly before",
+                  {{"fault", noon + 3 * second}, {"command", noon + 3 * second}},
+                  "keeps what happened since 2026-11-29T12:00:03.000Z"},
+                 {"all, from another time on",
+                  {{"fault", noon + 3600 * second}, {"command", noon + 3600 * second}},
+                  "keeps what happened since 2026-11-29T13:00:00.000Z"},
+                 {"all, and some were dropped",
+                  {{"fault", noon + second}, {"command", ten}, {"loss", noon + second}},
+                  "commands are kept since 2026-11-29T12:00:10.000Z, all else since "
+                  "2026-11-29T12:00:01.000Z; older "
+                  "ones are not kept"},
+                 {"a single kind",
+                  {{"fault", noon + second}},
+                  "faults are kept since 2026-11-29T12:00:01.000Z; older ones are not kept"},
+                 {"a kind of a later build",
+                  {{"fault", noon}, {"smell", ten}},
+                  "smell are kept since 2026-11-29T12:00:10.000Z; older ones are not kept"}};
     for (const auto& each : table)
-        EXPECT_EQ(keptText(each.since, noon, noonEpoch), each.text) << each.what;
+        EXPECT_EQ(keptText(each.since, noon, noonEpoch, inUtc), each.text) << each.what;
 }
 
 TEST(PastEvents, TheFirstFaultOfAChainIsTheOneToExplain) {
@@ -185,8 +191,8 @@ TEST(PastEvents, OfImpossibleTimesAreShownAsWell) {
     EXPECT_EQ(textsOf(beforeEvent(events, 1, second)), "b ");
     EXPECT_EQ(textsOf(beforeEvent(events, 0, second)), "a ");
     EXPECT_EQ(secondsBefore(events[0], events[1]), "-18446744073.709 s");
-    EXPECT_NE(keptText({{"fault", last}, {"command", first}}, 0, first), "");
-    EXPECT_EQ(keptText({{"fault", first}}, 0, last), "");
+    EXPECT_NE(keptText({{"fault", last}, {"command", first}}, 0, first, inUtc), "");
+    EXPECT_EQ(keptText({{"fault", first}}, 0, last, inUtc), "");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // What the command line and the window both say: numbers, times, rates, lines for a shell, what
 // must be controlled for a command, and where no agent is heard.
 #include "common/csv_cell.hpp"
+#include "common/kind_meaning.hpp"
 #include "common/loop_text.hpp"
 #include "common/needed_control.hpp"
 #include "common/no_agent.hpp"
@@ -9,7 +10,9 @@
 #include "common/shell_line.hpp"
 #include "common/to_its_sender.hpp"
 #include "common/utc_text.hpp"
+#include "core/model_folder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -31,6 +34,18 @@ DataItem itemWith(const std::string& format, double resolution) {
     item.format = format;
     item.resolution = resolution;
     return item;
+}
+
+TEST(KindsOfBoth, EachHasASentenceThatStandsInTheManual) {
+    const std::string manual = textOf(CORTEX_SOURCE_DIR "/docs/explorer.md");
+    for (int i = 0; i <= static_cast<int>(EventKind::ValueChange); ++i) {
+        const std::string kind = name(static_cast<EventKind>(i));
+        const std::string meaning{kindMeaning(kind)};
+        EXPECT_TRUE(meaning.ends_with('.')) << kind;
+        EXPECT_LT(std::ranges::count(meaning, ' '), 25) << meaning;
+        EXPECT_NE(manual.find("| `" + kind + "` | " + meaning + " |"), std::string::npos) << kind;
+    }
+    EXPECT_EQ(kindMeaning("of a later build"), "");
 }
 
 TEST(NumberOfBoth, FollowsFormatThenResolutionThenSixDigits) {

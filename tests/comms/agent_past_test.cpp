@@ -4,6 +4,7 @@
 #include "cortex/core/event_memory.hpp"
 
 #include "comms/network_agent.hpp"
+#include "comms/past_of.hpp"
 #include "wire/presence_extras.hpp"
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -33,12 +33,9 @@ struct AgentPastTest : testing::Test {
         AgentRuntime& runtime = *agent.rig.agent;
         runtime.post(runtime.thread(0), severity, kind, plate, EventText{text});
     }
-    // Everything of the agents that are heard.
     PastEvents ask(std::int64_t from = 0, std::int64_t until = always) {
         EXPECT_TRUE(mirror.waitUntilComplete(20s));
-        std::vector<PastEvents> all = mirror.past(from, until, 20s);
-        EXPECT_EQ(all.size(), 1U);
-        return std::move(all.at(0));
+        return pastOf(mirror, "robot", from, until);
     }
     static std::vector<std::string> texts(const PastEvents& past) {
         std::vector<std::string> all;

@@ -109,7 +109,7 @@ TEST_F(Leases, OfAnAgentThatEndedAreLostInWords) {
     EXPECT_EQ(tool.leases.held().front().agent, "robot");
     const auto news = tool.leases.news();
     ASSERT_EQ(news.size(), 1U);
-    EXPECT_TRUE(news.front().starts_with("control of / of agent station was lost: "));
+    EXPECT_EQ(news.front(), "control of / of agent station was lost: the agent has ended");
 }
 
 TEST_F(Leases, AreReleasedAtTheEndOfTheirClient) {

@@ -140,7 +140,7 @@ TEST_F(Secured, ALateToolHearsHundredsOfEventsAtOnce) {
     // How they are packed is a matter of luck. All stay: see docs/security.md on who leaves early.
     std::list<Inbox<AgentEvent>> inboxes;
     std::list<Mirror> tools;
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i < 6; ++i) {
         Inbox<AgentEvent>& events = inboxes.emplace_back();
         tools.emplace_back("cortex", secured(folder)).onEvent(events.push());
 

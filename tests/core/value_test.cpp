@@ -118,7 +118,9 @@ TEST(Value, SaysWhatItExpectedAndWhatItFound) {
     EXPECT_FALSE(parseValue(Kind::Float, 3, "1 2", why));
     EXPECT_EQ(why, "expected 3 values, found 2");
     EXPECT_FALSE(parseValue(Kind::Int, 1, "1.5", why));
-    EXPECT_EQ(why, "expected a whole number of 64 bit, found '1.5'");
+    EXPECT_EQ(why, "expected a whole number, found '1.5'");
+    EXPECT_FALSE(parseValue(Kind::Int, 1, "9223372036854775808", why));
+    EXPECT_EQ(why, "expected a whole number of 64 bit, found '9223372036854775808'");
     EXPECT_FALSE(parseValue(Kind::Int, 1, "", why));
     EXPECT_EQ(why, "expected 1 value, found 0");
     EXPECT_FALSE(parseValue(Kind::Float, 1, "nan", why));

@@ -5,6 +5,7 @@
 #include "views/base_view.hpp"
 #include "views/event_list.hpp"
 #include "views/graph_view.hpp"
+#include "window/status_bar.hpp"
 
 #include <QAbstractItemView>
 #include <QPushButton>
@@ -20,13 +21,13 @@ class Abnormals : public Window {
 protected:
     // A counter of the line at the bottom: "2 lost".
     QWidget* counter(const QString& text) {
-        for (auto* each : window.findChildren<QWidget*>()) {
+        for (auto* each : window.findChild<StatusBar*>()->findChildren<QWidget*>()) {
             if (each->accessibleName() == text) return each;
         }
         return nullptr;
     }
     QWidget* anyCounter(const QString& end) {
-        for (auto* each : window.findChildren<QWidget*>()) {
+        for (auto* each : window.findChild<StatusBar*>()->findChildren<QWidget*>()) {
             const QString name = each->accessibleName();
             if (name.endsWith(end) && name.front().isDigit() && name.front() != '0') return each;
         }
@@ -53,7 +54,7 @@ protected:
 
 TEST_F(Abnormals, AreCountedWhateverTheTreeShows) {
     ASSERT_TRUE(everythingComes());
-    EXPECT_NE(counter("0 outside"), nullptr);
+    EXPECT_NE(counter("0 outside limits"), nullptr);
     window.tree().filter("agent:nobody");
     agent->end(SIGKILL);
     EXPECT_TRUE(comes([this] { return anyCounter(" lost") != nullptr; }));

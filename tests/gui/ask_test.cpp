@@ -161,7 +161,7 @@ TEST_F(TwoWindows, WhoAsksReadsThatItWasRefused) {
         << myNotice().text().toStdString();
     EXPECT_TRUE(otherReads(""));
     EXPECT_EQ(theirs().prefix, "/drive");
-    EXPECT_EQ(window.control().text(), "Read-only");
+    EXPECT_EQ(window.control().text(), "Read-only; Stop works");
 }
 
 TEST_F(TwoWindows, WhatIsWithdrawnIsAskedNoMoreAndWhatWasSaidBeforeComesBack) {
@@ -178,7 +178,7 @@ TEST_F(TwoWindows, WhatIsWithdrawnIsAskedNoMoreAndWhatWasSaidBeforeComesBack) {
     myNotice().remedy().click();
     EXPECT_TRUE(otherReads(before));
     EXPECT_TRUE(iRead(""));
-    EXPECT_EQ(window.control().text(), "Read-only");
+    EXPECT_EQ(window.control().text(), "Read-only; Stop works");
 }
 
 TEST_F(TwoWindows, WhatIsReleasedWhileItIsAskedForIsOffered) {

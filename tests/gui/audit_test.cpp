@@ -61,6 +61,7 @@ void openAgents(MainWindow& window, int tab) {
 }
 
 const std::array views{
+    View{"overview", [](MainWindow& window) { window.openKind("overview"); }},
     View{"data",
          [](MainWindow& window) {
              window.open("/drive");

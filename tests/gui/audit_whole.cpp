@@ -22,10 +22,10 @@ using gui::EventModel;
 using gui::ItemModel;
 
 // Of these, every text: the lease, what was refused or lost, what became of a stop, why a command
-// cannot be sent, state and quality, counters.
-constexpr std::array wholeParts{"cortex::gui::ControlBar", "cortex::gui::ControlNotice",
-                                "cortex::gui::LifeCycleBar", "cortex::gui::SimplexHeader",
-                                "cortex::gui::StatusBar"};
+// cannot be sent, what is asked, state and quality, counters.
+constexpr std::array wholeParts{"cortex::gui::ControlBar",    "cortex::gui::ControlNotice",
+                                "cortex::gui::LifeCycleBar",  "cortex::gui::Question",
+                                "cortex::gui::SimplexHeader", "cortex::gui::StatusBar"};
 // It says the same in fewer words where there is little room, but never half of it.
 constexpr auto inFewerWords = "cortex::gui::StopButton";
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // In which zone times are shown, and agents whose clock differs from ours.
+#include "model/event_details.hpp"
 #include "model/event_model.hpp"
+#include "model/outcome_text.hpp"
+#include "model/past_reach.hpp"
 #include "model/shown_time.hpp"
 #include "plot_fixture.hpp"
 #include "plots/time_axis.hpp"
 #include "plots/time_ticks.hpp"
 #include "record/clock_offset.hpp"
+#include "views/lease_table.hpp"
 
 #include <QTemporaryDir>
 #include <cstdlib>
@@ -41,6 +45,32 @@ TEST_F(InIndia, LocalTimesAreShownWithTheNameOfTheirZone) {
     showLocalTime(false);
     EXPECT_EQ(timeText(0, 1), "00:00:00");
     EXPECT_EQ(events.headerData(EventModel::Time, Qt::Horizontal, Qt::DisplayRole), "Time (UTC)");
+}
+
+TEST_F(InIndia, EachTimeThatIsSaidHasItsZone) {
+    constexpr std::int64_t when = 1'764'410'000'250 * ms;
+    CommandOutcome outcome;
+    outcome.answer.outcome = Outcome::Done;
+    outcome.came = when;
+    EXPECT_TRUE(outcomeText(outcome).endsWith("  15:23:20.250 IST"));
+    comms::AgentEvent event;
+    event.kind = "overflow";
+    event.wallClock = when;
+    const auto details = detailsOf(EventRow{event});
+    EXPECT_TRUE(std::ranges::any_of(details, [](const auto& each) {
+        return each ==
+               std::pair{QStringLiteral("time"), QStringLiteral("2025-11-29 15:23:20.250 IST")};
+    }));
+    PastReach reach;
+    reach.agent = "robot";
+    reach.asking = false;
+    reach.since = {{"command", when}};
+    EXPECT_EQ(reachText({reach}, 0),
+              "robot: commands are kept since 2025-11-29 15:23:20.250 IST; older ones are not "
+              "kept");
+    LeaseTable leases;
+    leases.show(*frameOf({agent.now()}), agent.now());
+    EXPECT_EQ(leases.headerItem()->text(2), "Since (IST)");
 }
 
 TEST_F(InIndia, TicksStandAtFullHoursOfTheZone) {

@@ -14,6 +14,7 @@
 
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollBar>
 
 namespace cortex::test {
 namespace {
@@ -94,6 +95,28 @@ TEST_F(Commanding, AFormThatComesBackShowsWhatBecameOfItsCommand) {
     EXPECT_TRUE(says(card("startup"), "Done  "));
 }
 
+TEST_F(Commanding, AFormThatComesBackHasWhatWasTypedAndIsScrolledAsItWas) {
+    ASSERT_TRUE(everythingComes());
+    shows("/controller", "commands");
+    const auto field = [this] { return card("moveTo").findChild<ValueField*>(); };
+    const auto bar = [this] {
+        return window.current()->findChild<CommandList*>()->verticalScrollBar();
+    };
+    field()->setText("0.25");
+    QApplication::processEvents();
+    ASSERT_GT(bar()->maximum(), 20);
+    bar()->setValue(20);
+    shows("/drive", "commands");
+    shows("/controller", "commands");
+    EXPECT_EQ(field()->text(), "0.25");
+    QApplication::processEvents();
+    EXPECT_EQ(bar()->value(), 20);
+    field()->setText({});
+    shows("/drive", "commands");
+    shows("/controller", "commands");
+    EXPECT_TRUE(field()->isEmpty()) << "what was taken away does not come back";
+}
+
 TEST_F(Commanding, ThatACommandMayHaveBeenExecutedIsNotLostByLookingAtSomethingElse) {
     ASSERT_TRUE(everythingComes());
     shows("/drive", "commands");
@@ -170,7 +193,7 @@ TEST_F(SteadyCards, NothingMovesWhileALongCommandRunsAndWhenItIsCancelledOrAFiel
     shows("/controller", "commands");
     const Places before = placesIn(page());
     card("moveTo").findChild<ValueField*>()->setText("too fast");
-    EXPECT_TRUE(says(card("moveTo"), "speedShare expected")) << shownTexts();
+    EXPECT_TRUE(says(card("moveTo"), "speedShare: number expected")) << shownTexts();
     EXPECT_EQ(movedSince(before, page()), "") << "what is wrong with a field";
     ASSERT_TRUE(movesForLong());
     EXPECT_EQ(movedSince(before, page()), "");

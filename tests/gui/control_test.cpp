@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Control and commands from the window, with a real agent over DDS.
 #include "gui/controlling.hpp"
+#include "widgets/question.hpp"
 #include "widgets/value_field.hpp"
 #include "window/control_notice.hpp"
 #include "window/start_all.hpp"
@@ -10,7 +11,6 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QRadioButton>
 #include <QSet>
@@ -24,7 +24,7 @@ namespace {
 TEST_F(Controlling, IsReadOnlyAtFirstAndSaysHowToTakeControl) {
     ASSERT_TRUE(everythingComes());
     window.open("/drive");
-    EXPECT_EQ(window.control().text(), "Read-only");
+    EXPECT_EQ(window.control().text(), "Read-only; Stop works");
     EXPECT_FALSE(button("Startup").isEnabled());
     EXPECT_TRUE(says("read-only: take control of /drive"));
     ASSERT_EQ(live({"call", "/drive", "startup"}).exit, 0);
@@ -50,7 +50,7 @@ TEST_F(Controlling, TakesControlCommandsAndReleases) {
     EXPECT_TRUE(says("read-only: take control of /controller")) << "it is beside what is held";
     QApplication::setActiveWindow(&window);
     QTest::keyClick(&window, Qt::Key_T, Qt::ControlModifier | Qt::ShiftModifier);
-    EXPECT_TRUE(comes([this] { return window.control().text() == "Read-only"; }));
+    EXPECT_TRUE(comes([this] { return window.control().text() == "Read-only; Stop works"; }));
     EXPECT_TRUE(comes([] { return leases().find("/drive") == std::string::npos; }));
     EXPECT_TRUE(isIn("/drive", State::Active)) << "releasing stops nothing";
 }
@@ -132,8 +132,9 @@ TEST_F(Controlling, AWindowThatHangsHoldsNothing) {
     ASSERT_TRUE(everythingComes());
     ASSERT_TRUE(takes("/"));
     // No event is handled from here on, as in a window that hangs.
-    EXPECT_TRUE(comesWithoutEvents(
-        [] { return test::live({"leases"}).output == "nobody holds control of anything\n"; }));
+    EXPECT_TRUE(comesWithoutEvents([] {
+        return test::live({"leases"}).output == "nobody holds control of anything of mixer\n";
+    }));
     EXPECT_TRUE(comes([this] { return !window.control().holds(); }));
     EXPECT_TRUE(
         window.control().notice().text().startsWith("Control of / of agent mixer was lost: "))
@@ -287,13 +288,15 @@ TEST_F(Controlling, AsksBeforeItIsClosed) {
     ASSERT_TRUE(takes("/"));
     const auto answer = [this](const char* text) {
         EXPECT_FALSE(window.close());
-        const auto all = window.findChildren<QMessageBox*>();
+        const auto all = window.findChildren<Question*>();
         const auto found =
             std::ranges::find_if(all, [](const auto* each) { return each->isVisible(); });
         ASSERT_NE(found, all.end());
-        QMessageBox* question = *found;
-        EXPECT_EQ(question->text(), "Release everything and quit?");
-        for (auto* each : question->buttons()) {
+        Question* question = *found;
+        EXPECT_EQ(question->accessibleName(), "Release everything and quit?");
+        EXPECT_FALSE(window.close());
+        EXPECT_EQ(window.findChildren<Question*>().size(), all.size()) << "it is asked once";
+        for (auto* each : question->findChildren<QPushButton*>()) {
             if (each->text() == text) return each->click();
         }
         FAIL() << "no such button";

@@ -160,6 +160,17 @@ TEST_F(Editing, TheKeyboardIsInTheTableAfterSetting) {
     }
     EXPECT_TRUE(says("Set: dampingRatio "));
     EXPECT_EQ(QApplication::focusWidget(), &table());
+    for (const bool byButton : {true, false}) {
+        ASSERT_TRUE(comes([&] { return button("Undo").isVisible(); }));
+        if (byButton) button("Undo").setFocus();
+        byButton ? QTest::keyClick(&button("Undo"), Qt::Key_Space)
+                 : QTest::keyClick(&table(), Qt::Key_Z, Qt::ControlModifier);
+        EXPECT_TRUE(says("Undone: dampingRatio 0.75"));
+        EXPECT_EQ(QApplication::focusWidget(), &table());
+        EXPECT_TRUE(comes([&] { return valueOf("dampingRatio") == "0.9"; }));
+        enters("dampingRatio", "0.75", Qt::Key_Return);
+        EXPECT_TRUE(says("Set: dampingRatio "));
+    }
 }
 
 TEST_F(Editing, AWrongFieldKeepsWhatWasTyped) {
@@ -232,11 +243,11 @@ TEST_F(EditingArrays, ElementsAreEnteredOneByOne) {
     EXPECT_EQ(element(2).data(), "0.25");
     EXPECT_TRUE(shows(1, "0"));
     enters(3, "abc", Qt::Key_Tab);
-    EXPECT_TRUE(says("pose 3 "));
+    EXPECT_TRUE(says("pose 3: number expected"));
     ASSERT_NE(field(), nullptr);
     const auto frames = session.frame()->number;
     EXPECT_TRUE(comes([&] { return session.frame()->number > frames + 3; }));
-    EXPECT_TRUE(says("pose 3 ")) << "it stays as long as it is there";
+    EXPECT_TRUE(says("pose 3: number expected")) << "it stays as long as it is there";
     QTest::keyClick(field(), Qt::Key_Escape);
     EXPECT_TRUE(says("Not sent yet."));
     // What others set meanwhile of the rest stays.
@@ -258,6 +269,26 @@ TEST_F(EditingArrays, ElementsAreEnteredOneByOne) {
         pose[1] = 0.25;
         return (*frame->agents[place->agent].image)->value(place->simplex, *item) == Value{pose};
     }));
+}
+
+TEST_F(Editing, WillNotUndoWhatAnotherStartOfTheAgentHadSet) {
+    ASSERT_TRUE(isReady());
+    ASSERT_TRUE(takes("/drive"));
+    enters("dampingRatio", "0.8", Qt::Key_Return);
+    ASSERT_TRUE(says("Set: dampingRatio "));
+    const auto startNow = [this] {
+        const auto frame = session.frame();
+        const auto place = frame->find("/drive");
+        return place ? frame->agents[place->agent].status.epoch : 0;
+    };
+    const auto before = startNow();
+    agent.reset();
+    start();
+    ASSERT_TRUE(comes([&] { return startNow() > before; }));
+    window.refresh();
+    bar().undo();
+    EXPECT_TRUE(says("Not undone: the agent has started anew since."))
+        << bar().findChild<TextLabel*>()->text().toStdString();
 }
 
 TEST_F(Editing, WillNotUndoWhatSomebodyElseHasSetSince) {

@@ -255,6 +255,35 @@ TEST_F(EventTab, TheStripCountsAlsoWhatTheFilterHides) {
     EXPECT_TRUE(says(list, "0 of 15 shown"));
 }
 
+TEST_F(EventTab, CountsAsNewBelowOnlyWhatTheFilterShows) {
+    events.add(changes(1, 200));
+    scrollUp(table());
+    events.add(changes(201, 6));
+    events.add({limit(207, "limited to 1")});
+    ASSERT_NE(button("7 new below"), nullptr);
+    type("nothing has this");
+    EXPECT_EQ(button("new below"), nullptr);
+    type("kind:limit");
+    EXPECT_NE(button("1 new below"), nullptr);
+    type("");
+    EXPECT_NE(button("7 new below"), nullptr);
+}
+
+TEST_F(EventTab, TheDetailsGoWithARowThatTheFilterHides) {
+    events.add({limit(1, "position limited from -2.5 to -2 rad")});
+    events.add(changes(2, 3));
+    table().setCurrentIndex(table().model()->index(0, 0));
+    ASSERT_TRUE(says(view, "/arm/demands/4"));
+    ASSERT_NE(button("Show in tree"), nullptr);
+    type("nothing has this");
+    EXPECT_FALSE(says(view, "/arm/demands/4"));
+    EXPECT_TRUE(says(view, "Choose an event."));
+    EXPECT_EQ(button("Show in tree"), nullptr);
+    type("");
+    table().setCurrentIndex(table().model()->index(0, 0));
+    EXPECT_TRUE(says(view, "/arm/demands/4"));
+}
+
 TEST_F(EventTab, ShowsTheDetailsOfTheSelectedRowAlsoWhenItDropsOut) {
     events.add({limit(1, "position limited from -2.5 to -2 rad"),
                 limit(2, "position limited from -2.25 to -2 rad")});
@@ -287,6 +316,28 @@ TEST_F(EventTab, OpensARowOfManyByTheRightArrowAndClosesItByTheLeftOne) {
     press(Qt::Key_Left);
     EXPECT_EQ(table().model()->rowCount(), 2);
     EXPECT_EQ(table().currentIndex().row(), 0) << "of the row that was open";
+}
+
+TEST_F(EventTab, DownAndEnterInItsFilterGoToTheNewestRowAndUpInTheFirstGoesBack) {
+    auto& field = *view.findChild<QLineEdit*>();
+    QApplication::setActiveWindow(&view);
+    events.add(changes(1, 200));
+    for (const auto key : {Qt::Key_Down, Qt::Key_Return}) {
+        view.focusFilter();
+        table().setCurrentIndex({});
+        ASSERT_TRUE(isAtTheEnd(table()));
+        QTest::keyClick(&field, key);
+        EXPECT_TRUE(table().hasFocus());
+        EXPECT_GE(table().currentIndex().row(), table().model()->rowCount() - 2);
+    }
+    table().setCurrentIndex(table().model()->index(1, 0));
+    view.focusFilter();
+    QTest::keyClick(&field, Qt::Key_Down);
+    EXPECT_EQ(table().currentIndex().row(), 1) << "to the one that is chosen";
+    QTest::keyClick(&table(), Qt::Key_Up);
+    EXPECT_TRUE(table().hasFocus());
+    QTest::keyClick(&table(), Qt::Key_Up);
+    EXPECT_TRUE(field.hasFocus());
 }
 
 TEST_F(EventTab, WritesControlCharactersAsTheyAre) {

@@ -125,6 +125,23 @@ TEST_F(EventRows, JogCommandsAreHiddenFromTheStart) {
     EXPECT_EQ(shown.rowCount(), 2);
 }
 
+TEST_F(EventRows, JogCommandsAreShownWhileTheWordsNameThem) {
+    events.add({eventOf(1, "command", "/jog", "desk: jog(axis=1, velocity=0.1): Done in 1 cycle")});
+    for (const char* each : {"kind:command", "jog", "in:/jog text:jog", "fault or kind:Command"}) {
+        shown.search(each);
+        EXPECT_TRUE(shown.showsRoutine()) << each;
+        EXPECT_EQ(shown.rowCount(), 1) << each;
+        shown.search("desk -kind:limit");
+        EXPECT_FALSE(shown.showsRoutine()) << "as before " << each;
+    }
+    shown.search("jog");
+    shown.showRoutine(false);
+    EXPECT_EQ(shown.rowCount(), 0) << "the chip is the person's";
+    shown.showRoutine(true);
+    shown.search("desk");
+    EXPECT_EQ(shown.rowCount(), 1);
+}
+
 TEST_F(EventRows, ARowKeepsNoMoreThanThousandOfItsEventsAndCountsAll) {
     for (std::uint64_t i = 1; i <= 2'000; ++i) events.add({limit(i, "at " + std::to_string(i))});
     ASSERT_EQ(shown.rowCount(), 1);

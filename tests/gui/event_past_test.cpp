@@ -299,8 +299,9 @@ TEST(PastReachText, SaysWhoseMemoryDoesNotReachBackAndWhoHasNone) {
     EXPECT_EQ(reachText({}, from), "");
     EXPECT_EQ(reachText({whole}, from),
               "All agents keep what happened since 2025-11-29 09:53:20 UTC.");
-    EXPECT_EQ(reachText({whole, some}, from),
-              "robot: commands are kept since 2025-11-29T09:54:20Z; older ones are not kept");
+    EXPECT_EQ(
+        reachText({whole, some}, from),
+        "robot: commands are kept since 2025-11-29 09:54:20.000 UTC; older ones are not kept");
     EXPECT_EQ(reachText({whole, old, asking}, from),
               "asking late…; zoo: it was built before agents kept a memory: only its last 1,000 "
               "events");

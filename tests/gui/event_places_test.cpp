@@ -69,6 +69,20 @@ TEST_F(EventTab, NoRowAndNoChipMovesWhenKindsComeAndCountsGrow) {
     }
 }
 
+TEST_F(EventTab, AChipSaysWhatItsKindTells) {
+    view.resize(1600, 600);
+    events.add(allKinds(1));
+    view.refresh();
+    std::map<QString, QString> tips;
+    for (const auto* each : view.findChildren<Chip*>())
+        tips[each->accessibleName().section(' ', 0, 0)] = each->toolTip().replace('\n', ' ');
+    EXPECT_EQ(tips["limit"],
+              "A value was beyond its limits. A demand was cut to them. Hides these");
+    EXPECT_TRUE(tips["overflow"].startsWith("The loop of an agent did not keep its time"));
+    EXPECT_TRUE(tips["watchdog"].startsWith("The loop of an agent stands still"));
+    EXPECT_EQ(tips["of"], "Hides these") << "of a later program nothing is known";
+}
+
 TEST_F(EventTab, NoChipBecomesWiderUnderThePointer) {
     events.add(changes(1, 3));
     view.refresh();

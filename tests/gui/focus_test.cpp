@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window by keyboard alone, with a real agent over DDS.
 #include "gui/window_fixture.hpp"
+#include "motion/jog_button.hpp"
 #include "views/base_view.hpp"
+#include "views/compare_view.hpp"
 #include "widgets/focus_edge.hpp"
 #include "window/control_bar.hpp"
 
+#include <QAbstractItemView>
 #include <QApplication>
 #include <QLayout>
 #include <QLineEdit>
+#include <QMenu>
 #include <QPushButton>
 #include <QTabBar>
+#include <QTimer>
 #include <QTreeView>
 
 #include <QtTest/QTest>
@@ -35,6 +40,36 @@ protected:
     }
 };
 
+TEST_F(ByKeyboard, EnterPressesWhatHasTheKeyboard) {
+    ASSERT_TRUE(everythingComes());
+    window.activateWindow();
+    window.openKind("events");
+    const auto buttons = window.current()->findChildren<QPushButton*>();
+    const auto back =
+        std::ranges::find_if(buttons, [](const auto* each) { return each->menu() != nullptr; });
+    ASSERT_NE(back, buttons.end());
+    bool opened = false;
+    QObject::connect((*back)->menu(), &QMenu::aboutToShow, &window, [&] {
+        opened = true;
+        QTimer::singleShot(0, (*back)->menu(), &QWidget::close);
+    });
+    (*back)->setFocus();
+    press(Qt::Key_Return);
+    EXPECT_TRUE(opened);
+}
+
+TEST_F(ByKeyboard, EnterDoesNotJog) {
+    explorer::JogButton jog{"+"};
+    int pressed = 0;
+    QObject::connect(&jog, &QPushButton::pressed, [&] { ++pressed; });
+    jog.setParent(&window);
+    jog.show();
+    jog.setFocus();
+    QTest::keyClick(&jog, Qt::Key_Return);
+    EXPECT_EQ(pressed, 0);
+    jog.setParent(nullptr);
+}
+
 TEST_F(ByKeyboard, F6WalksThePartsOfTheWindowAndShiftF6GoesBack) {
     ASSERT_TRUE(everythingComes());
     window.open("/drive");
@@ -42,14 +77,85 @@ TEST_F(ByKeyboard, F6WalksThePartsOfTheWindowAndShiftF6GoesBack) {
     window.tree().focusFilter();
     QWidget* filter = QApplication::focusWidget();
     press(Qt::Key_F6);
+    EXPECT_EQ(QApplication::focusWidget(), window.tree().findChild<QTreeView*>());
+    press(Qt::Key_F6);
     EXPECT_NE(qobject_cast<QTabBar*>(QApplication::focusWidget()), nullptr);
     press(Qt::Key_F6);
     EXPECT_TRUE(window.current()->isAncestorOf(QApplication::focusWidget()));
     press(Qt::Key_F6, Qt::ShiftModifier);
     EXPECT_NE(qobject_cast<QTabBar*>(QApplication::focusWidget()), nullptr);
     press(Qt::Key_F6, Qt::ShiftModifier);
+    press(Qt::Key_F6, Qt::ShiftModifier);
     EXPECT_EQ(QApplication::focusWidget(), filter);
     EXPECT_GE(walked(Qt::Key_F6).size(), 5U);
+}
+
+TEST_F(ByKeyboard, F6ReachesTheRowsOfEachViewInAHandfulOfPresses) {
+    ASSERT_TRUE(everythingComes());
+    window.activateWindow();
+    for (int i = 0; i < 9; ++i) window.plotChosen();  // events: it says that nothing is chosen
+    const auto reaches = [&](const std::string& view) {
+        window.refresh();
+        window.tree().focusFilter();
+        for (int presses = 1; presses <= 5; ++presses) {
+            press(Qt::Key_F6);
+            const QWidget* now = QApplication::focusWidget();
+            if (qobject_cast<const QAbstractItemView*>(now) != nullptr &&
+                window.current()->isAncestorOf(now))
+                return;
+        }
+        ADD_FAILURE() << view;
+    };
+    for (const char* kind : {"overview", "agents", "events", "compare"}) {
+        window.openKind(kind);
+        if (auto* compare = qobject_cast<CompareView*>(window.current())) compare->compare("state");
+        reaches(kind);
+        if (std::string_view{kind} != "events") continue;
+        press(Qt::Key_F6, Qt::ShiftModifier);
+        EXPECT_NE(qobject_cast<QLineEdit*>(QApplication::focusWidget()), nullptr)
+            << "and back to its filter";
+    }
+    window.open("/drive");
+    for (const char* part : {"data", "relationships", "type"}) {
+        window.openPart(part);
+        reaches(part);
+    }
+}
+
+// What it paints with the focus, and without it.
+TEST_F(ByKeyboard, EachStopOfTabShowsThatItHasTheFocus) {
+    ASSERT_TRUE(everythingComes());
+    window.activateWindow();
+    const auto walk = [&](const std::string& view) {
+        window.refresh();
+        QApplication::processEvents();
+        window.tree().focusFilter();
+        std::vector<QWidget*> all;
+        for (int i = 0; i < 100; ++i) {
+            press(Qt::Key_Tab);
+            QWidget* now = QApplication::focusWidget();
+            if (std::ranges::find(all, now) != all.end()) break;
+            all.push_back(now);
+            const QRect place{now->mapTo(&window, QPoint{}), now->size()};
+            const QImage focused = window.grab(place).toImage();
+            now->clearFocus();
+            EXPECT_NE(window.grab(place).toImage(), focused)
+                << view << ": " << now->metaObject()->className() << ' '
+                << now->accessibleName().toStdString();
+            now->setFocus(Qt::TabFocusReason);
+        }
+        EXPECT_GT(all.size(), 2U) << view;
+    };
+    for (const char* kind :
+         {"overview", "system", "agents", "events", "plot", "compare", "manual"}) {
+        window.openKind(kind);
+        walk(kind);
+    }
+    window.open("/drive");
+    for (const char* part : {"data", "relationships", "commands", "type"}) {
+        window.openPart(part);
+        walk(part);
+    }
 }
 
 TEST_F(ByKeyboard, TabGoesFromTopToBottomInEachPartAndReachesEverything) {

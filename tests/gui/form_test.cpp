@@ -2,12 +2,17 @@
 // What is entered in forms, and what is said of commands.
 #include "model/outcome_text.hpp"
 #include "model/shell_text.hpp"
+#include "session/typed_arguments.hpp"
+#include "widgets/popover.hpp"
 #include "widgets/value_field.hpp"
 
+#include <QAbstractItemView>
 #include <QApplication>
 #include <QComboBox>
+#include <QKeyEvent>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QVBoxLayout>
 #include <QWheelEvent>
 
 #include <gtest/gtest.h>
@@ -43,6 +48,47 @@ TEST(Field, SaysWhatIsWrongWhileTyping) {
     EXPECT_FALSE(field.problem().isEmpty());
     field.setText(QString::fromUtf8("1.5"));
     EXPECT_EQ(field.value(), Value{std::vector{1.5}});
+}
+
+TEST(Field, GivesTheKeyboardToTheChoiceThatIsChosen) {
+    DataItem item = itemOfKind(Kind::Int);
+    item.labels = {{0, "Position"}, {1, "Velocity"}};
+    item.hasDefault = true;
+    item.initial = std::vector<std::int64_t>{1};
+    ValueField field{item};
+    const auto buttons = field.findChildren<QPushButton*>();
+    EXPECT_EQ(field.focusProxy(), buttons[1]);
+    field.setText("Position");
+    EXPECT_EQ(field.focusProxy(), buttons[0]);
+    buttons[1]->click();
+    EXPECT_EQ(field.focusProxy(), buttons[1]);
+}
+
+TEST(Popovers, EnterPressesTheButtonThatHasTheKeyboard) {
+    Popover popover{"Choose"};
+    QPushButton one{"one"}, other{"other"};
+    QComboBox list;
+    list.addItems({"first", "second"});
+    int pressed = 0;
+    QObject::connect(&other, &QPushButton::clicked, [&] { ++pressed; });
+    for (QWidget* each : std::initializer_list<QWidget*>{&one, &other, &list})
+        popover.rows().addWidget(each);
+    popover.setAttribute(Qt::WA_DeleteOnClose, false);
+    popover.show();
+    const auto enter = [](QWidget& to, bool again = false) {
+        to.setFocus();
+        QKeyEvent key{QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier, {}, again};
+        QApplication::sendEvent(&to, &key);
+    };
+    enter(one);
+    EXPECT_EQ(pressed, 0);
+    enter(other);
+    EXPECT_EQ(pressed, 1);
+    enter(other, true);
+    EXPECT_EQ(pressed, 1) << "a key that is held down presses once";
+    enter(list);
+    EXPECT_TRUE(list.view()->isVisible());
+    list.hidePopup();
 }
 
 TEST(Field, TakesTheMinusSignThatTheWindowShows) {
@@ -129,6 +175,26 @@ TEST(OutcomeText, ShowsWhatACommandGives) {
     CommandOutcome outcome = answered(Outcome::Done);
     outcome.answer.response["value"] = std::vector{-0.5};
     EXPECT_TRUE(outcomeText(outcome, &command).endsWith(QString::fromUtf8("\nvalue = −0.5 m")));
+}
+
+TEST(TypedArguments, AreForgottenWhereTheParameterMeansSomethingElse) {
+    TypedArguments typed;
+    const TypedArguments::Key key{"/arm", "turn", "value"};
+    DataItem angle = itemOfKind(Kind::Float);
+    angle.unit = "deg";
+    typed.keep(key, angle, "2");
+    EXPECT_EQ(typed.of(key, angle), "2");
+    DataItem other = angle;
+    other.description = "How far.";
+    EXPECT_EQ(typed.of(key, other), "2");
+    other.unit = "rad";
+    EXPECT_EQ(typed.of(key, other), "");
+    other = angle;
+    other.labels = {{2, "Ten"}};
+    EXPECT_EQ(typed.of(key, other), "");
+    other = angle;
+    other.length = 2;
+    EXPECT_EQ(typed.of(key, other), "");
 }
 
 TEST(ShellText, IsQuotedForAShell) {

@@ -273,7 +273,7 @@ TEST_F(TwoAgentsInTheBar, NoButtonStandsWhereAnotherOneStoodWhenControlIsLost) {
     EXPECT_EQ(placeOf("Take control…"), releaseAt);
 }
 
-TEST(StopOfWhatIsHeld, LeavesOutAnAgentOfWhichSomebodyElseHoldsAPartAndNamesIt) {
+TEST(StopOfWhatIsHeld, LeavesOutAnAgentThatIsNotControlledAndNamesIt) {
     MadeAgent left{"left", [](SimplexTree& tree) { tree.add("/a", "Probe"); }};
     MadeAgent right{"right", [](SimplexTree& tree) {
                         tree.add("/b", "Probe");
@@ -281,19 +281,30 @@ TEST(StopOfWhatIsHeld, LeavesOutAnAgentOfWhichSomebodyElseHoldsAPartAndNamesIt) 
                     }};
     Session session{ownNetwork()};
     StopButton stop{session};
-    const auto said = [&](const std::string& stateOfRight) {
-        const auto frame = frameOf({left.now(), right.now(stateOfRight)});
-        frame->control.held = {{"left", "/", 1}};
+    std::vector<comms::LeaseClient::Lease> held{{"left", "/", 1}};
+    const auto said = [&](const std::string& stateOfRight, bool ended = false) {
+        std::vector<AgentFrame> agents{left.now(), right.now(stateOfRight)};
+        agents.back().status.ended = ended;
+        const auto frame = frameOf(std::move(agents));
+        frame->control.held = held;
         frame->control.prefix = "/";
         stop.refresh(*frame, {});
         return stop.text().toStdString();
     };
-    EXPECT_EQ(said("running"), "Stop all");
+    EXPECT_EQ(said("running"), "Stop all but right") << "nobody holds it";
     giveLease(right, "/right", "/b", "colleague@desk.1-2");
     EXPECT_EQ(said("running"), "Stop all but right");
-    EXPECT_EQ(said("lost"), "Stop all") << "it is told all the same: it may come back";
-    giveLease(right, "/right", "", "");
+    EXPECT_EQ(said("lost"), "Stop all but right");
+    EXPECT_EQ(said("lost", true), "Stop all") << "it ended as it should";
+    held.push_back({"right", "/b", 1});
+    EXPECT_EQ(said("running"), "Stop all but a part of right");
+    held.back().prefix = "/";
     EXPECT_EQ(said("running"), "Stop all");
+    held.pop_back();
+    stop.setScope("/");
+    EXPECT_EQ(said("running"), "Stop always all");
+    stop.click();
+    EXPECT_EQ(stop.text().toStdString(), "Again: stop all") << "it is more than is controlled";
 }
 
 TEST(TakingControl, SaysHowManyRunAndHowManyAreInFault) {

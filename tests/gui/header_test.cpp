@@ -9,6 +9,8 @@
 #include "widgets/text_label.hpp"
 #include "window/status_bar.hpp"
 
+#include <QFontInfo>
+
 #include <QtTest/QTest>
 
 namespace cortex::test {
@@ -129,11 +131,15 @@ TEST_F(Header, SaysWhenTheAgentOfAnInputHasEndedAsLongAsItIsGone) {
         frame.gone = {gone};
         header.show(frame, *frame.find("/reader"));
         EXPECT_TRUE(says("The input /order is gone: robot ended at 01:00:00 UTC."));
-        EXPECT_FALSE(says("quality lost, at rest")) << "it is Active";
+        EXPECT_FALSE(says("at rest")) << "it is Active";
+        EXPECT_TRUE(says("input lost"));
+        EXPECT_FALSE(says("Input lost: ")) << "the other sentence says more";
     }
     Frame frame = *frameOf({desk.now(), robot.now()});
     header.show(frame, *frame.find("/reader"));
     EXPECT_FALSE(says("is gone"));
+    header.show(*frameOf({desk.now()}), {0, desk.at("/reader")});
+    EXPECT_TRUE(says("Input lost: /order, which is not heard."));
 }
 
 TEST_F(Header, OfALostAgentNothingIsYoungerThanItsNewestCycle) {
@@ -148,7 +154,8 @@ TEST_F(Header, WhatRestsHasNoAge) {
     robot.put("/probe", "state", std::int64_t{0});
     robot.degrade("/probe", Quality::Stale, "/probe");
     show("/probe", {robot.now()});
-    EXPECT_TRUE(says("quality stale, at rest"));
+    EXPECT_TRUE(says("at rest: writes nothing"));
+    EXPECT_FALSE(says("stale"));
     EXPECT_TRUE(says("agent robot"));
     EXPECT_FALSE(says("ago"));
     EXPECT_FALSE(says("100 ms"));
@@ -228,7 +235,29 @@ TEST_F(Header, SaysWhoWritesADemandAndWhyItIsSafe) {
     show("/order", {robot.now()});
     EXPECT_TRUE(says("Written by /probe (Standby)."));
     EXPECT_TRUE(says("Safe values, as /probe is in Standby."));
-    EXPECT_TRUE(says("quality stale, at rest"));
+    EXPECT_TRUE(says("at rest: not written"));
+}
+
+TEST_F(Header, OfDataSaysWhatTheyAreAndNotInTheSizeOfAState) {
+    const auto said = [this](const QString& text) -> const TextLabel& {
+        for (const auto* each : header.findChildren<TextLabel*>()) {
+            if (each->text() == text) return *each;
+        }
+        throw std::runtime_error{"it does not say " + text.toStdString()};
+    };
+    show("/probe", {robot.now()});
+    const int ofAState = QFontInfo{said("Standby").font()}.pixelSize();
+    show("/order", {robot.now()});
+    const TextLabel& role = said("modification: data of the plant as it is wished to be");
+    EXPECT_LT(QFontInfo{role.font()}.pixelSize(), ofAState);
+    EXPECT_FALSE(role.font().bold());
+    EXPECT_EQ(role.accessibleDescription(),
+              "modification: data of the plant as it is wished to be. It has no state and no task "
+              "of its own.");
+    header.resize(200, 300);
+    show("/order", {robot.now()});
+    EXPECT_TRUE(says("modification")) << "where it has no room";
+    EXPECT_FALSE(says("modification: "));
 }
 
 TEST_F(Header, SaysWhatPartOfThePeriodItsTaskTakes) {
@@ -276,6 +305,7 @@ TEST_F(Header, AnOverloadedLoopShowsTheRateItReaches) {
     slow.status.rate = 734;
     const auto frame = frameOf({slow});
     StatusBar bar;
+    bar.resize(1280, bar.height());
     bar.refresh(*frame, Abnormal{});
     AgentTable table;
     table.refresh(*frame);
@@ -290,6 +320,26 @@ TEST_F(Header, AnOverloadedLoopShowsTheRateItReaches) {
     EXPECT_TRUE(inTable);
     EXPECT_TRUE(table.topLevelItem(0)->text(table.columnCount() - 1).startsWith("overloaded: 734"));
     EXPECT_GE(table.columnWidth(5), QFontMetrics{table.font()}.horizontalAdvance("734 of 1000 Hz"));
+}
+
+TEST_F(Header, AgentsThatHaveNoRoomInTheLineBelowAreAButtonToAll) {
+    const auto frame = frameOf(std::vector<AgentFrame>(5, robot.now()));
+    StatusBar bar;
+    int wanted = 0;
+    QObject::connect(&bar, &StatusBar::agentsWanted, [&] { ++wanted; });
+    auto& more = *bar.findChild<Link*>();
+    bar.resize(1600, bar.height());
+    bar.refresh(*frame, Abnormal{});
+    EXPECT_EQ(more.text(), "+2");
+    EXPECT_EQ(more.accessibleName(), "2 agents");
+    bar.resize(560, bar.height());
+    bar.refresh(*frame, Abnormal{});
+    EXPECT_EQ(more.text(), "5 agents");
+    EXPECT_FALSE(more.isHidden());
+    more.click();
+    EXPECT_EQ(wanted, 1);
+    bar.refresh(*frameOf({robot.now()}), Abnormal{});
+    EXPECT_TRUE(more.isHidden());
 }
 
 TEST_F(Header, ALoopThatReachesItsRateAgainIsNotSaidToMissIt) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The field of an item in the table of data: what is typed stays, whatever comes meanwhile.
-#include "gui/made_agent.hpp"
-#include "model/item_model.hpp"
-#include "widgets/item_table.hpp"
+#include "gui/item_field.hpp"
+
+#include "widgets/choice_list.hpp"
+#include "widgets/entry_hint.hpp"
 
 #include <QApplication>
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QWheelEvent>
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -18,67 +20,6 @@
 
 namespace cortex::test {
 namespace {
-
-using namespace gui;
-
-class ItemField : public testing::Test {
-protected:
-    ItemField() {
-        starts();
-        items.show("/worker");
-        shows({agent->now()});
-        table.show();
-    }
-    void starts() {
-        agent.emplace(
-            "robot", [](SimplexTree& tree) { tree.add("/worker", "Worker"); }, "command-types.xml");
-    }
-    void shows(std::vector<AgentFrame> agents) { items.update(frameOf(std::move(agents))); }
-    // Somebody else sets it.
-    void comes(double gain) {
-        agent->put("/worker", "gain", gain);
-        shows({agent->now()});
-    }
-    QModelIndex cellOf(const QString& item) {
-        for (int group = 0; group < items.rowCount(); ++group) {
-            const QModelIndex above = items.index(group, 0);
-            for (int row = 0; row < items.rowCount(above); ++row) {
-                if (items.index(row, ItemModel::Name, above).data() == item)
-                    return items.index(row, ItemModel::Value, above);
-            }
-        }
-        return {};
-    }
-    // The field that is open; null: none.
-    QLineEdit* field() {
-        const auto fields = table.viewport()->findChildren<QLineEdit*>();
-        const auto found =
-            std::ranges::find_if(fields, [](const auto* each) { return !each->isHidden(); });
-        return found == fields.end() ? nullptr : *found;
-    }
-    bool opens(const QModelIndex& cell) {
-        table.setCurrentIndex(cell);
-        QKeyEvent edit{QEvent::KeyPress, Qt::Key_F2, Qt::NoModifier};
-        QApplication::sendEvent(&table, &edit);
-        return field() != nullptr;
-    }
-    bool opens() { return opens(cellOf("gain")); }
-    void press(Qt::Key key) {
-        QTest::keyClick(field(), key);
-        QApplication::processEvents();
-    }
-    // What was entered for an item and is not sent yet.
-    std::optional<Value> entered(const std::string& item = "gain") {
-        const auto edits = items.edits();
-        const auto found = edits.find(item);
-        return found != edits.end() ? std::optional{found->second} : std::nullopt;
-    }
-    static Value one(double value) { return std::vector{value}; }
-
-    std::optional<MadeAgent> agent;
-    ItemModel items;
-    ItemTable table{items};
-};
 
 TEST_F(ItemField, KeepsItsTextAndSelectionWhateverComes) {
     ASSERT_TRUE(opens());
@@ -162,6 +103,170 @@ TEST_F(ItemField, OfAnElementStaysOpenWhereTheAgentStartsAnew) {
     EXPECT_EQ(field()->text(), "0.5");
     press(Qt::Key_Return);
     EXPECT_EQ(entered("weights"), (Value{std::vector<double>{0, 0.5, 0}}));
+}
+
+TEST_F(ItemField, WhatIsEnteredIsThereWhenItsSimplexIsShownAgain) {
+    ASSERT_TRUE(opens());
+    QTest::keyClicks(field(), "7");
+    press(Qt::Key_Tab);
+    if (field() != nullptr) press(Qt::Key_Escape);
+    ASSERT_EQ(entered(), one(7));
+    items.show("/other");
+    EXPECT_FALSE(entered()) << "that is another simplex";
+    EXPECT_EQ(items.kept().size(), 1U);
+    items.show("/worker");
+    shows({agent->now()});
+    EXPECT_EQ(entered(), one(7));
+    EXPECT_EQ(cellOf("gain").data(), "7");
+    items.show("/other");
+    items.clearEdits("/worker", {{"gain", one(7)}}, ItemEdits::count());  // it was sent meanwhile
+    items.show("/worker");
+    EXPECT_FALSE(entered());
+    EXPECT_EQ(items.kept().size(), 0U);
+}
+
+// Where labels are chosen.
+class LabelField : public ItemField {
+protected:
+    LabelField() {
+        table.resize(900, 700);
+        table.activateWindow();
+        QApplication::processEvents();
+    }
+    // The list that is open; null: none.
+    ChoiceList* list() {
+        const auto lists = table.findChildren<ChoiceList*>();
+        const auto found =
+            std::ranges::find_if(lists, [](const auto* each) { return each->isVisible(); });
+        return found == lists.end() ? nullptr : *found;
+    }
+    bool opens(const QString& item) { return ItemField::opens(cellOf(item)) && list() != nullptr; }
+    QStringList rows() {
+        QStringList texts;
+        for (int i = 0; i < list()->count(); ++i) texts << list()->item(i)->text();
+        return texts;
+    }
+    static Value number(std::int64_t value) { return std::vector<std::int64_t>{value}; }
+};
+
+TEST_F(LabelField, ListsAllLabelsAndThePresentOneIsChosen) {
+    agent->put("/worker", "mode", std::int64_t{2});
+    shows({agent->now()});
+    ASSERT_TRUE(opens("mode"));
+    EXPECT_EQ(rows(), (QStringList{"Idle (0)", "Jog (1)", "Hold (2)"}));
+    EXPECT_EQ(list()->currentRow(), 2);
+    press(Qt::Key_Escape);
+    EXPECT_EQ(list(), nullptr);
+    EXPECT_FALSE(entered("mode"));
+    ASSERT_TRUE(opens("on"));
+    EXPECT_EQ(rows(), (QStringList{"false", "true"}));
+    EXPECT_EQ(list()->currentRow(), 0);
+    press(Qt::Key_Escape);
+    ASSERT_TRUE(ItemField::opens(cellOf("gain")));
+    EXPECT_EQ(list(), nullptr) << "it has no labels";
+}
+
+TEST_F(LabelField, IsChosenFromByArrowsAndEnter) {
+    ASSERT_TRUE(opens("mode"));
+    press(Qt::Key_Down);
+    press(Qt::Key_Down);
+    press(Qt::Key_Down);
+    press(Qt::Key_Up);
+    EXPECT_EQ(list()->currentRow(), 1);
+    press(Qt::Key_Return);
+    EXPECT_EQ(entered("mode"), number(1));
+    EXPECT_EQ(list(), nullptr);
+    EXPECT_EQ(field(), nullptr);
+}
+
+TEST_F(LabelField, IsChosenFromByItsFirstLetters) {
+    ASSERT_TRUE(opens("mode"));
+    QTest::keyClicks(field(), "ho");
+    EXPECT_EQ(list()->currentRow(), 2);
+    press(Qt::Key_Tab);
+    if (field() != nullptr) press(Qt::Key_Escape);
+    EXPECT_EQ(entered("mode"), number(2));
+    ASSERT_TRUE(opens("on"));
+    QTest::keyClicks(field(), "T");
+    press(Qt::Key_Return);
+    EXPECT_EQ(entered("on"), Value{std::vector<bool>{true}});
+}
+
+TEST_F(LabelField, SaysTheLabelsWhereNoneBeginsLikeThat) {
+    ASSERT_TRUE(opens("mode"));
+    QTest::keyClicks(field(), "x");
+    EXPECT_EQ(list(), nullptr);
+    EXPECT_EQ(table.findChild<EntryHint*>()->text(), "'x' is no label; try Idle, Jog or Hold");
+    QString refused;
+    QObject::connect(&items, &ItemModel::refused, [&](const QString& why) { refused = why; });
+    press(Qt::Key_Return);
+    EXPECT_EQ(refused, "mode: 'x' is no label; try Idle, Jog or Hold");
+    EXPECT_FALSE(entered("mode"));
+    ASSERT_NE(field(), nullptr);
+    field()->selectAll();
+    QTest::keyClicks(field(), "J");
+    EXPECT_NE(list(), nullptr);
+    press(Qt::Key_Return);
+    EXPECT_EQ(entered("mode"), number(1));
+}
+
+TEST_F(LabelField, IsChosenFromWithTheMouseAndTheWheelChangesNothing) {
+    ASSERT_TRUE(opens("mode"));
+    const QPoint third = list()->visualItemRect(list()->item(2)).center();
+    QWheelEvent wheel{third, list()->mapToGlobal(third), {0, 0}, {0, 120}, Qt::NoButton,
+                      {},    Qt::NoScrollPhase,          false};
+    QApplication::sendEvent(list()->viewport(), &wheel);
+    EXPECT_EQ(field()->text(), "Idle");
+    EXPECT_EQ(list()->currentRow(), 0);
+    QTest::mouseClick(list()->viewport(), Qt::LeftButton, {}, third);
+    EXPECT_EQ(entered("mode"), number(2));
+    EXPECT_EQ(field(), nullptr);
+}
+
+TEST_F(LabelField, IsChosenAgainWhereSomebodyElseHasSetAnotherOne) {
+    ASSERT_TRUE(opens("mode"));
+    agent->put("/worker", "mode", std::int64_t{2});
+    shows({agent->now()});
+    EXPECT_EQ(list()->currentRow(), 0) << "what is chosen stays";
+    press(Qt::Key_Down);
+    press(Qt::Key_Up);
+    press(Qt::Key_Return);
+    EXPECT_EQ(entered("mode"), number(0));
+}
+
+TEST_F(LabelField, StaysOpenWithWhatIsChosenWhereTheAgentStartsAnew) {
+    ASSERT_TRUE(opens("mode"));
+    press(Qt::Key_Down);
+    starts();
+    shows({agent->now()});
+    ASSERT_NE(field(), nullptr);
+    EXPECT_EQ(field()->text(), "Jog");
+    ASSERT_NE(list(), nullptr);
+    EXPECT_EQ(list()->currentRow(), 1);
+    press(Qt::Key_Return);
+    EXPECT_EQ(entered("mode"), number(1));
+}
+
+TEST_F(LabelField, ShowsAValueWithoutALabelAsItsNumber) {
+    agent->put("/worker", "mode", std::int64_t{7});
+    shows({agent->now()});
+    ASSERT_TRUE(opens("mode"));
+    EXPECT_EQ(field()->text(), "7");
+    EXPECT_EQ(list()->currentRow(), -1);
+    press(Qt::Key_Return);
+    EXPECT_FALSE(entered("mode")) << "it is left as it was";
+}
+
+TEST(ChoiceListOfAnOpenEnumeration, LetsANumberBeTyped) {
+    QWidget window;
+    QLineEdit typed{&window};
+    ChoiceList choices{{{1, "Slow"}, {2, "12V"}}, true, typed};
+    EXPECT_TRUE(choices.follow("2", true));
+    EXPECT_EQ(choices.currentRow(), 1);
+    EXPECT_FALSE(choices.follow("12", true)) << "it is a value by itself";
+    EXPECT_EQ(choices.currentRow(), -1);
+    EXPECT_TRUE(choices.follow("12", false));
+    EXPECT_EQ(choices.chosen(), "12V");
 }
 
 TEST_F(ItemField, IsNotOpenedInTheTableOfAnotherSimplex) {

@@ -10,6 +10,7 @@
 #include "widgets/rows.hpp"
 
 #include <QApplication>
+#include <QKeyEvent>
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -55,6 +56,53 @@ protected:
     ItemModel items;
     ItemTable table{items};
 };
+
+class Shortcuts : public testing::Test {
+protected:
+    static TypeModel model() {
+        const ModelFolder folder;
+        return TypeModel::load(
+            folder.write("plates.xml",
+                         "<ontology name='plates' version='1.0'><include file='base.xml'/>"
+                         "<type name='Plate' extends='Concept'>"
+                         "<data name='angle' kind='float' settable='always'/>"
+                         "<data name='label' kind='string' settable='always'/>"
+                         "<data name='mode' kind='int' settable='always' labels='0:Park,1:Run'/>"
+                         "<data name='said' kind='string'/>"
+                         "</type></ontology>"));
+    }
+    // Whether the row of the item takes the letter before a shortcut of the window does.
+    bool takes(const char* item, Qt::Key key, const char* text) {
+        const QModelIndex group = items.index(0, 0);
+        for (int row = 0; row < items.rowCount(group); ++row) {
+            const QModelIndex index = items.index(row, ItemModel::Name, group);
+            if (index.data() != item) continue;
+            table.setCurrentIndex(index);
+            QKeyEvent event{QEvent::ShortcutOverride, key, Qt::NoModifier, text};
+            event.ignore();
+            QApplication::sendEvent(&table, &event);
+            return event.isAccepted();
+        }
+        ADD_FAILURE() << item;
+        return false;
+    }
+
+    MadeAgent agent{"robot", [](SimplexTree& tree) { tree.add("/plate", "Plate"); }, model()};
+    std::shared_ptr<Frame> frame = frameOf({agent.now()});
+    ItemModel items;
+    ItemTable table{items};
+};
+
+TEST_F(Shortcuts, GiveWayToALetterThatBeginsAText) {
+    items.show("/plate");
+    items.update(frame);
+    EXPECT_TRUE(takes("label", Qt::Key_P, "p"));
+    EXPECT_TRUE(takes("label", Qt::Key_Slash, "/"));
+    EXPECT_TRUE(takes("mode", Qt::Key_P, "p"));
+    EXPECT_FALSE(takes("mode", Qt::Key_Slash, "/")) << "no label begins with it";
+    EXPECT_FALSE(takes("angle", Qt::Key_P, "p")) << "a number does not";
+    EXPECT_FALSE(takes("said", Qt::Key_P, "p")) << "it cannot be set";
+}
 
 TEST_F(Ranges, HaveTheirNumbersWholeWhereThereIsRoomAndTheRemarkGivesWay) {
     for (const int width : {210, 260, 300}) {

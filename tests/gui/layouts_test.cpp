@@ -7,6 +7,7 @@
 #include "views/event_list.hpp"
 #include "window/layout_keeper.hpp"
 #include "window/layout_menu.hpp"
+#include "window/window_size.hpp"
 
 #include <QAction>
 #include <QDir>
@@ -17,6 +18,7 @@
 #include <QScreen>
 #include <QSplitter>
 #include <QTemporaryDir>
+#include <QTreeView>
 #include <algorithm>
 
 namespace cortex::test {
@@ -75,6 +77,16 @@ TEST_F(KeptWindows, KnowThatTheTreeAndTheEventsAreHidden) {
     EXPECT_FALSE(layout["events"].toBool(true));
 }
 
+TEST_F(KeptWindows, KnowWhichRowsOfTheTreeAreOpen) {
+    ASSERT_TRUE(everythingComes());
+    auto& rows = *window.tree().findChild<QTreeView*>();
+    rows.setCurrentIndex(tree().indexOf("/axis"));
+    QTest::keyClick(&rows, Qt::Key_Left);
+    EXPECT_EQ(saved()["rows"].toObject()["closed"].toArray(), QJsonArray{"/axis"});
+    layouts().reset();
+    EXPECT_TRUE(rows.isExpanded(tree().indexOf("/axis")));
+}
+
 TEST_F(KeptWindows, ShowHiddenEventsHiddenAfterAStart) {
     put("hidden.json", {{"window", QJsonObject{{"down", QJsonArray{698, 0}}}}, {"events", false}});
     MainWindow another{session};
@@ -116,6 +128,12 @@ TEST_F(KeptWindows, GiveTheTreeItsUsualWidthWhenTheyAreReset) {
     layouts().reset();
 
     EXPECT_EQ(window.tree().width(), usualTree());
+}
+
+TEST_F(KeptWindows, AreNoLargerThanTheScreenAtTheStart) {
+    window.resize(99'999, 99'999);
+    fitToScreen(window);
+    EXPECT_EQ(window.size(), window.screen()->availableSize().expandedTo(window.minimumSize()));
 }
 
 TEST_F(KeptWindows, KeepTheSizeWithinTheScreenAndNotTooSmall) {

@@ -2,10 +2,10 @@
 // Texts of agents are shown as they are: no markup in them is rendered.
 #include "gui/window_fixture.hpp"
 #include "views/command_card.hpp"
+#include "widgets/question.hpp"
 #include "widgets/rows.hpp"
 #include "widgets/text_label.hpp"
 
-#include <QMessageBox>
 #include <QTextDocument>
 #include <QToolTip>
 
@@ -41,7 +41,7 @@ TEST(PlainText, TheQuestionBeforeACommandRendersNoMarkup) {
     CommandCard card{commands, "/drive", command};
     card.show();
     card.run();
-    auto* question = card.findChild<QMessageBox*>();
+    auto* question = card.findChild<Question*>();
     ASSERT_NE(question, nullptr);
     bool shown = false;
     for (const auto* label : question->findChildren<QLabel*>()) {

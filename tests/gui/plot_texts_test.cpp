@@ -297,6 +297,11 @@ TEST_F(PlotTexts, AnExportDoesNotTellOfTheOneBefore) {
     EXPECT_TRUE(anyLabelSays("written to "));
     view.exportTo(folder.filePath("b.png"));
     EXPECT_FALSE(anyLabelSays("written to ")) << "while the picture is made";
+    Q_EMIT dialog->fileSelected(folder.filePath("no/c.png"));
+    EXPECT_TRUE(view.notice().endsWith("no/c.png was not written: No such file or directory."));
+    Q_EMIT dialog->fileSelected(folder.filePath("c.png"));
+    EXPECT_TRUE(view.notice().isEmpty()) << view.notice().toStdString();
+    EXPECT_TRUE(anyLabelSays("written to "));
     dialog->close();
 }
 

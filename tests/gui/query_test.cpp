@@ -66,6 +66,14 @@ TEST(Query, NamesTheNearestFieldForAnUnknownOne) {
     EXPECT_TRUE(Query{"state:Fault"}.trouble().isEmpty());
 }
 
+TEST(Query, NamesTheNearestStateQualityAndRoleForAnUnknownOne) {
+    EXPECT_TRUE(Query{"state:Fualt"}.trouble().contains("Fault"));
+    EXPECT_TRUE(Query{"-quality:lots"}.trouble().contains("lost"));
+    EXPECT_TRUE(Query{"role:activ"}.trouble().contains("active"));
+    for (const char* each : {"state:fault", "quality:Lost", "role:Active", "state:", "agent:lots"})
+        EXPECT_EQ(Query{each}.trouble(), QString{}) << each;
+}
+
 TEST(Query, NamesTheNearestTypesForAnUnknownOneOnceAllAreKnown) {
     MadeAgent robot = clusterNamed("robot");
     const auto frame = frameOf({robot.now()});

@@ -13,10 +13,10 @@ namespace cortex::test {
 // An agent of this process, "rival", that has /drive, as the agent of the window's tests has.
 class Rival {
 public:
-    explicit Rival(const comms::NetworkOptions& network, bool fails = false) {
+    explicit Rival(const comms::NetworkOptions& on, bool fails = false) {
         cluster_.trigger = nullptr;
         cluster_.cluster->setTriggerSource<cs::InternalClock>(std::chrono::milliseconds{5});
-        cluster_.cluster->addInterface<comms::DdsInterface>(network);
+        cluster_.cluster->addInterface<comms::DdsInterface>(on);
         Probe& drive = cluster_.probe("/drive");
         if (fails) {
             drive.onStandby = [](Probe& probe, const Tick&) {

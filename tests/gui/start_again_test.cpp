@@ -6,12 +6,14 @@
 #include "gui/audit.hpp"
 #include "gui/window_fixture.hpp"
 #include "support/probe.hpp"
+#include "widgets/question.hpp"
 #include "window/control_bar.hpp"
 #include "window/control_notice.hpp"
 #include "window/order.hpp"
 #include "window/stop_button.hpp"
 
 #include <QApplication>
+#include <QLabel>
 #include <QMenu>
 #include <QPushButton>
 #include <QTreeView>
@@ -20,6 +22,7 @@
 #include <chrono>
 #include <mutex>
 
+#include <QtTest/QTest>
 #include <gtest/gtest.h>
 
 namespace cortex::test {
@@ -93,6 +96,23 @@ protected:
         window.stopButton().click();
         if (window.stopButton().text().startsWith("Again")) window.stopButton().click();
         return comes([this] { return window.stopButton().progress().contains(" in Standby, "); });
+    }
+    // Everything, while there is but one of the agents.
+    bool holdsLeftOnly() {
+        left.probes.start();
+        const bool isThere =
+            comes([this] { return session.frame()->find("/cell/base").has_value(); });
+        if (!isThere || !takes("/")) return false;
+        right.probes.start();
+        return comes([this] {
+            const auto frame = session.frame();
+            return frame->find("/cell/arm") && !frame->control.covers("right", "/") &&
+                   areIn(State::Standby, three);
+        });
+    }
+    bool stopSays(const QString& start, const QString& part) {
+        const QString& text = window.stopButton().progress();
+        return text.startsWith(start) && text.contains(part);
     }
     bool offers(const QString& text) {
         return comes([&] {
@@ -218,7 +238,7 @@ TEST_F(StartingAgain, ASecondStopLosesNothingOfTheFirst) {
     ASSERT_TRUE(offers("Start these 3 again")) << "it may come back";
     pressAgain();
     EXPECT_TRUE(says("1 of 3 Active again, ")) << window.startAgain().text().toStdString();
-    EXPECT_TRUE(says("; not heard: right, ")) << window.startAgain().text().toStdString();
+    EXPECT_TRUE(says("; ended: right, ")) << window.startAgain().text().toStdString();
 }
 
 TEST_F(StartingAgain, AStopEndsItAndWhatWaitsIsNotStartedLater) {
@@ -290,6 +310,80 @@ TEST_F(StartingAgain, AnAgentsOwnRowStopsAndStartsThatAgentAlone) {
     EXPECT_EQ(window.control().panel()->takeButton().text(), "Take everything");
     window.control().panel()->takeButton().click();
     EXPECT_TRUE(comes([this] { return areIn(State::Active, {"/cell/base", "/cell/idle"}); }));
+}
+
+TEST_F(StartingAgain, OnePressStopsNothingOfAnAgentThatIsNotControlled) {
+    ASSERT_TRUE(holdsLeftOnly());
+    session.send("/cell/base", "startup");
+    right.startup("/cell/arm");
+    ASSERT_TRUE(comes([this] { return areIn(State::Active, {"/cell/base", "/cell/arm"}); }));
+    ASSERT_TRUE(comes([this] { return window.stopButton().text() == "Stop all but right"; }))
+        << window.stopButton().text().toStdString();
+    ASSERT_TRUE(stops());
+    EXPECT_TRUE(window.stopButton().progress().startsWith("All 2 in Standby, "))
+        << window.stopButton().progress().toStdString();
+    EXPECT_TRUE(areIn(State::Active, {"/cell/arm"}));
+    window.stopButton().setScope("/");
+    window.stopButton().click();
+    EXPECT_EQ(window.stopButton().text(), "Again: stop all");
+    window.stopButton().click();
+    EXPECT_TRUE(comes([this] { return areIn(State::Standby, {"/cell/arm"}); }));
+}
+
+TEST_F(StartingAgain, StartAllAsksForControlOfAnAgentThatIsNotControlled) {
+    ASSERT_TRUE(holdsLeftOnly());
+    entry("Start all…")->trigger();
+    EXPECT_EQ(window.startAll().text(), "Starting all: needs control");
+    ASSERT_NE(window.control().panel(), nullptr);
+    window.control().panel()->close();
+    EXPECT_TRUE(window.startAll().text().isEmpty());
+    EXPECT_TRUE(areIn(State::Standby, three));
+    entry("Start all…")->trigger();
+    window.control().panel()->takeButton().click();
+    EXPECT_TRUE(comes([this] { return areIn(State::Active, three); }));
+}
+
+TEST_F(StartingAgain, TheMenuAsksBeforeItStartsWhatIsControlled) {
+    ASSERT_TRUE(runs({"/cell/base"}));
+    ASSERT_TRUE(takes("/"));
+    const auto asked = [this]() -> Question* {
+        entry("Start all…")->trigger();
+        for (auto* each : window.findChildren<Question*>())
+            if (each->isVisible()) return each;
+        return nullptr;
+    };
+    Question* question = asked();
+    ASSERT_NE(question, nullptr);
+    const auto labels = question->findChildren<QLabel*>();
+    EXPECT_TRUE(std::ranges::any_of(
+        labels, [](auto* each) { return each->text() == "3 simplexes are in Standby."; }));
+    EXPECT_EQ(question->accessibleName(), "Start everything?");
+    QTest::keyClick(question, Qt::Key_Return);
+    EXPECT_FALSE(question->isVisible());
+    EXPECT_TRUE(window.startAll().text().isEmpty()) << "what changes nothing has the keyboard";
+    question = asked();
+    ASSERT_NE(question, nullptr);
+    question->yes().click();
+    EXPECT_TRUE(comes([this] { return areIn(State::Active, three); }));
+}
+
+TEST_F(StartingAgain, NothingIsMissedOfAnAgentThatEndedAsItShould) {
+    ASSERT_TRUE(runs(three));
+    ASSERT_TRUE(takes("/"));
+    right.probes.cluster->stop();
+    const auto hasEnded = [this] {
+        const auto frame = session.frame();
+        return std::ranges::any_of(frame->agents, [](const AgentFrame& each) {
+            return each.status.name == "right" && each.status.ended;
+        });
+    };
+    ASSERT_TRUE(comes(hasEnded));
+    ASSERT_TRUE(stops());
+    EXPECT_TRUE(stopSays("All 2 in Standby, ", "; ended: right, "))
+        << window.stopButton().progress().toStdString();
+    const QString lost = "Control of / of agent right was lost: the agent has ended.";
+    EXPECT_TRUE(comes([&] { return window.control().notice().text().contains(lost); }))
+        << window.control().notice().text().toStdString();
 }
 
 TEST_F(StartingAgain, TheMenuStartsAllOfEverythingOnceControlIsGiven) {

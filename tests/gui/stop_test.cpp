@@ -6,6 +6,7 @@
 #include "gui/rival.hpp"
 #include "gui/window_fixture.hpp"
 #include "style/look.hpp"
+#include "widgets/question.hpp"
 #include "widgets/text_label.hpp"
 #include "window/stop_button.hpp"
 
@@ -105,6 +106,16 @@ TEST_F(Stopping, F12WorksWhileAMenuIsOpen) {
     menu.close();
 }
 
+TEST_F(Stopping, F12WorksWhileAQuestionIsOpen) {
+    ASSERT_TRUE(everythingRuns());
+    Question question{{"zero on /drive?", {}, "Run zero", "Cancel"}, &window};
+    question.setAttribute(Qt::WA_DeleteOnClose, false);
+    question.openBelow(window.stopButton());
+    presses12Twice(question.no());
+    EXPECT_TRUE(everythingStops());
+    question.close();
+}
+
 TEST_F(Stopping, AKeyThatIsHeldDownIsOnePress) {
     ASSERT_TRUE(everythingComes());
     QTest::keyClick(&window, Qt::Key_F12);
@@ -147,7 +158,7 @@ TEST_F(Stopping, ItsResultNamesWhenAndGoesWhenStatesNoLongerAgree) {
     ASSERT_TRUE(everythingRuns());
     pressesTwice();
     ASSERT_TRUE(says("All 2 in Standby, "));
-    EXPECT_TRUE(QRegularExpression{R"( s, \d\d:\d\d:\d\d$)"}
+    EXPECT_TRUE(QRegularExpression{R"( s, \d\d:\d\d:\d\d UTC$)"}
                     .match(window.stopButton().progress())
                     .hasMatch())
         << window.stopButton().progress().toStdString();

@@ -10,6 +10,7 @@
 #include <QApplication>
 #include <QContextMenuEvent>
 #include <QKeyEvent>
+#include <QLineEdit>
 #include <QScrollBar>
 #include <QTimer>
 #include <QTreeView>
@@ -127,6 +128,24 @@ TEST_F(Tree, TypingInTheFilterOpensNoOtherSimplex) {
     EXPECT_EQ(current(), "/control/hold");
 }
 
+TEST_F(Tree, DownFromTheFilterGoesToTheRowThatIsChosenWhereItIsShown) {
+    tree.refresh(frameOf({robot.now()}));
+    tree.choose("/control/hold");
+    chosen.clear();
+    auto* filter = tree.findChild<QLineEdit*>();
+    const auto down = [&] {
+        tree.focusFilter();
+        QTest::keyClick(filter, Qt::Key_Down);
+    };
+    down();
+    EXPECT_EQ(current(), "/control/hold");
+    EXPECT_TRUE(chosen.empty()) << "what is shown stays";
+    tree.filter("clutch");
+    down();
+    EXPECT_NE(current(), "/control/hold") << "it is not shown";
+    EXPECT_TRUE(rows().currentIndex().isValid());
+}
+
 TEST_F(Tree, AKeyOpensWhatItGoesTo) {
     tree.refresh(frameOf({robot.now()}));
     tree.choose("/control/clutch");
@@ -234,7 +253,7 @@ TEST_F(Tree, SaysHowManyTheFilterShowsAlsoWhenOnlyTheirValuesChange) {
     };
     robot.put("/drive", "state", std::int64_t{2});
     show(1);
-    EXPECT_TRUE(counts("3 of 1 agent"));
+    EXPECT_TRUE(counts("3 in 1 agent"));
     tree.filter("state:Active");
     EXPECT_TRUE(counts("1 of 3 shown"));
     robot.put("/control/hold", "state", std::int64_t{2});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/value_text.hpp"
 
+#include "model/plain_text.hpp"
 #include "support/small_structure.hpp"
 
 #include <limits>
@@ -53,6 +54,29 @@ TEST(ValueText, NamesLabelsAndSaysWhereThereIsNone) {
     EXPECT_EQ(valueText(mode, std::vector<std::int64_t>{7}).toStdString(), "7 (no label)");
 }
 
+TEST(EnteredValue, SaysInPlainWordsWhatIsExpected) {
+    const auto why = [](const DataItem& of, const char* text) {
+        QString reason;
+        EXPECT_FALSE(enteredValue(of, text, reason)) << text;
+        return wrongText(of.name, reason).toStdString();
+    };
+    const std::vector<std::int64_t> whole{0};
+    EXPECT_EQ(why(item("count", whole), "1.5"), "count: whole number expected");
+    EXPECT_EQ(why(item("count", whole), "9223372036854775808"),
+              "count: expected a whole number of 64 bit, found '9223372036854775808'");
+    EXPECT_EQ(why(item("gain", std::vector{0.0}), "fast"), "gain: number expected");
+    EXPECT_EQ(why(item("on", std::vector<bool>{false}), "1"), "on: true or false expected");
+    DataItem mode = item("mode", whole);
+    mode.labels = {{0, "Standby"}, {1, "Homing"}, {2, "Velocity"}, {3, "Torque"}};
+    EXPECT_EQ(why(mode, "x"), "mode: 'x' is no label; try Standby, Homing or Velocity");
+    EXPECT_EQ(why(mode, "Torqu"), "mode: 'Torqu' is no label; try Torque");
+    EXPECT_EQ(why(mode, "7"), "mode: '7' is no label; try Standby, Homing or Velocity");
+    mode.max = std::int64_t{9};
+    QString reason;
+    EXPECT_TRUE(enteredValue(mode, "7", reason)) << "an open enumeration has other numbers, too";
+    EXPECT_EQ(why(mode, "10"), "mode is out of the range * to 9");
+}
+
 TEST(ValueText, ShowsTheFirstThreeOfAnArray) {
     const std::vector<double> numbers{1, 2, 3, 4};
     EXPECT_EQ(valueText(item("x", numbers), numbers).toStdString(), "1  2  3  …");
@@ -61,6 +85,23 @@ TEST(ValueText, ShowsTheFirstThreeOfAnArray) {
 TEST(ValueText, ShowsNoControlCharacters) {
     const std::vector<std::string> text{"a\nb\x1b[31mc"};
     EXPECT_EQ(valueText(item("x", text), text).toStdString(), "a\uFFFDb\uFFFD[31mc");
+}
+
+TEST(ValueText, DoesNotLetALabelTurnWhatStandsBesideIt) {
+    DataItem mode = item("mode", std::vector<std::int64_t>{0});
+    mode.labels = {{1, "a\u202Eb"}, {2, "Jog"}, {3, "\u05D0\u05D1"}};
+    const auto number = [](std::int64_t one) { return Value{std::vector{one}}; };
+    EXPECT_EQ(valueText(mode, number(1)).toStdString(), "a\uFFFDb (1)");
+    EXPECT_EQ(valueText(mode, number(3)).toStdString(), "\u2068\u05D0\u05D1\u2069 (3)");
+    EXPECT_EQ(entryText(mode, number(1)).toStdString(), "1") << "it cannot be read in a field";
+    EXPECT_EQ(entryText(mode, number(2)).toStdString(), "Jog");
+    EXPECT_EQ(entryText(mode, number(3)).toStdString(), "\u05D0\u05D1");
+}
+
+TEST(IsolatedText, StaysInItsPlaceAmongOtherWords) {
+    EXPECT_EQ(isolatedText("0.5").toStdString(), "0.5");
+    EXPECT_EQ(isolatedText("a\u202Eb\n").toStdString(), "a\uFFFDb\uFFFD");
+    EXPECT_EQ(isolatedText("\u05D0").toStdString(), "\u2068\u05D0\u2069");
 }
 
 TEST(UnitText, IsTypeset) {

@@ -34,11 +34,13 @@ TEST_F(Workspaces, APinnedTabKeepsItsSimplexWhileTheFirstFollows) {
     ASSERT_TRUE(everythingComes());
     window.open("/axis/observed");
     window.openTab("/drive");
-    EXPECT_EQ(titles(0), (QStringList{"/axis/observed", "/drive", "System", "Agents", "Events"}));
+    EXPECT_EQ(titles(0),
+              (QStringList{"Overview", "/axis/observed", "/drive", "System", "Agents", "Events"}));
 
     window.open("/controller");
 
-    EXPECT_EQ(titles(0), (QStringList{"/controller", "/drive", "System", "Agents", "Events"}));
+    EXPECT_EQ(titles(0),
+              (QStringList{"Overview", "/controller", "/drive", "System", "Agents", "Events"}));
 }
 
 TEST_F(Workspaces, TabsAreSeenAlsoWhereAViewIsOpenedBeforeTheWindow) {
@@ -49,12 +51,36 @@ TEST_F(Workspaces, TabsAreSeenAlsoWhereAViewIsOpenedBeforeTheWindow) {
     EXPECT_GE(another.workspace().panes()[0]->tabs().height(), Look::units(7));
 }
 
+TEST_F(Workspaces, WhatIsOpenedIsGoneToWhereAPinnedTabShowsIt) {
+    ASSERT_TRUE(everythingComes());
+    window.open("/axis/observed");
+    window.openTab("/drive");
+    const QStringList before = titles(0);
+    window.open("/drive");
+    EXPECT_EQ(titles(0), before);
+    EXPECT_EQ(window.workspace().path(), "/drive");
+    window.open("/controller");
+    EXPECT_EQ(titles(0)[1], "/controller") << "the other one follows";
+}
+
+TEST_F(Workspaces, TheKeyboardGoesWithTheTabThatIsMovedToTheOtherPane) {
+    ASSERT_TRUE(everythingComes());
+    window.openTab("/drive");
+    press("Ctrl+\\");
+    const Pane& right = *window.workspace().panes()[1];
+    ASSERT_EQ(titles(1), QStringList{"/drive"});
+    ASSERT_NE(QApplication::focusWidget(), nullptr);
+    EXPECT_TRUE(right.isAncestorOf(QApplication::focusWidget()));
+    press("Ctrl+W");
+    EXPECT_EQ(right.count(), 0);
+}
+
 class ManyTabs : public Workspaces {
 protected:
     ManyTabs() {
         window.resize(800, 600);
         for (const char* each : {"/drive", "/controller", "/axis/observed", "/axis/demanded",
-                                 "/drive", "/controller", "/axis/observed"})
+                                 "/drive2", "/controller2", "/axis/observed2"})
             window.openTab(each);
         QApplication::processEvents();
     }
@@ -121,6 +147,17 @@ TEST_F(ManyTabs, KeepTheirPlacesWhenOneThatIsSeenIsChosen) {
     }
 }
 
+TEST_F(Workspaces, ALongPathTakesNoMoreOfTheRowThanOthersAndIsWholeInItsToolTip) {
+    const std::string path = "/drive" + std::string(110, 'x');
+    window.workspace().openTab(path);
+    window.refresh();
+    QApplication::processEvents();
+    QTabBar& tabs = window.workspace().panes()[0]->tabs();
+    const int tab = tabs.currentIndex();
+    EXPECT_LE(tabs.tabRect(tab).width(), Look::units(50));
+    EXPECT_TRUE(tabs.tabToolTip(tab).contains(QString::fromStdString(path)));
+}
+
 TEST_F(Workspaces, ATabThatIsNotOfferedIsNeitherSeenNorBehindTheButton) {
     TabRow row;
     for (const char* each : {"Own", "Data", "Type"}) row.addTab(each);
@@ -143,14 +180,16 @@ TEST_F(Workspaces, AClosedTabComesBackWithWhatItShowed) {
     ASSERT_TRUE(everythingComes());
     window.openTab("/drive");
     press("Ctrl+W");
-    EXPECT_EQ(titles(0), (QStringList{"Simplex", "System", "Agents", "Events"}));
+    EXPECT_EQ(titles(0), (QStringList{"Overview", "Simplex", "System", "Agents", "Events"}));
+    press("Ctrl+2");
     press("Ctrl+W");
-    EXPECT_EQ(titles(0), (QStringList{"Simplex", "System", "Agents", "Events"}))
-        << "the first one stays";
+    EXPECT_EQ(titles(0), (QStringList{"Overview", "Simplex", "System", "Agents", "Events"}))
+        << "that of what is chosen stays";
 
     press("Ctrl+Shift+W");
 
-    EXPECT_EQ(titles(0), (QStringList{"Simplex", "/drive", "System", "Agents", "Events"}));
+    EXPECT_EQ(titles(0),
+              (QStringList{"Overview", "Simplex", "/drive", "System", "Agents", "Events"}));
     EXPECT_EQ(window.workspace().path(), "/drive");
 }
 
@@ -273,7 +312,7 @@ TEST_F(KeptLayouts, AreRestoredBeforeAnythingHasCome) {
 
     EXPECT_EQ(another.workspace().panes()[0]->count(), left.size());
     EXPECT_EQ(another.workspace().panes()[1]->title(0), right.front());
-    EXPECT_EQ(another.workspace().panes()[0]->title(1), "/drive");
+    EXPECT_EQ(another.workspace().panes()[0]->title(2), "/drive");
 }
 
 TEST_F(KeptLayouts, ThatAreBrokenAreSetAsideWithWords) {
@@ -290,7 +329,7 @@ TEST_F(KeptLayouts, ThatAreBrokenAreSetAsideWithWords) {
 
         EXPECT_TRUE(told.contains("It was set aside as ")) << told.toStdString();
         EXPECT_FALSE(QFile::exists(file.fileName()));
-        EXPECT_EQ(titles(0), (QStringList{"Simplex", "System", "Agents", "Events"}));
+        EXPECT_EQ(titles(0), (QStringList{"Overview", "Simplex", "System", "Agents", "Events"}));
     }
     EXPECT_EQ(files().size(), 4) << "nothing is lost";
 }
@@ -304,6 +343,37 @@ TEST_F(KeptLayouts, OfSomebodyElseKeepThePlaceOfAViewThatIsNotInstalled) {
     EXPECT_TRUE(titles(0).contains("boom-overview"));
     const QByteArray kept = QJsonDocument{window.workspace().saved()}.toJson();
     EXPECT_TRUE(kept.contains("\"zoom\": 3")) << kept.toStdString();
+}
+
+TEST_F(KeptLayouts, OfEarlierBuildsGetTheFirstPageOnceAndKeepTheirTabInFront) {
+    const auto tab = [](const char* kind) { return QJsonObject{{"kind", kind}}; };
+    const QJsonArray tabs{tab("simplex"), tab("system"), tab("agents"), tab("events")};
+    window.workspace().restore({{"panes", QJsonArray{QJsonObject{{"tabs", tabs}, {"front", 2}}}}});
+    EXPECT_EQ(titles(0), (QStringList{"Overview", "Simplex", "System", "Agents", "Events"}));
+    EXPECT_TRUE(window.workspace().shows("agents"));
+
+    window.openKind("overview");
+    press("Ctrl+W");
+    const QJsonObject saved = window.workspace().saved();
+    window.workspace().restore(saved);
+    EXPECT_EQ(titles(0), (QStringList{"Simplex", "System", "Agents", "Events"})) << "it was closed";
+    window.openKind("overview");  // as the menu does
+    EXPECT_TRUE(window.workspace().shows("overview"));
+    EXPECT_EQ(titles(0).front(), "Overview");
+}
+
+TEST_F(KeptLayouts, HaveTheFirstPageAndTheSimplexWhereTheyStood) {
+    window.workspace().panes()[0]->tabs().moveTab(0, 2);
+    const QStringList before = titles(0);
+    ASSERT_EQ(before, (QStringList{"Simplex", "System", "Overview", "Agents", "Events"}));
+    window.workspace().panes()[0]->tabs().moveTab(0, 1);
+    const QStringList moved = titles(0);
+    const QJsonObject saved = window.workspace().saved();
+    window.workspace().restore(saved);
+    EXPECT_EQ(titles(0), moved);
+    window.workspace().panes()[0]->choose(1);
+    press("Ctrl+W");
+    EXPECT_EQ(titles(0), moved) << "the tab of the simplex stays";
 }
 
 TEST_F(KeptLayouts, AreResetAndComeBack) {

@@ -136,17 +136,27 @@ def same(printed, elements):
     return [number(each) for each in printed.split()] == [float(each) for each in elements]
 
 
+@contextlib.contextmanager
+def demonstration():
+    with contextlib.ExitStack() as stack:
+        for system in SYSTEMS:
+            stack.enter_context(agent(system, 0, "--startup"))
+        yield
+
+
 class CycloneClient(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.enterClassContext(demonstration())
+
     def test_lists_what_the_command_line_lists(self):
-        with self.demo():
-            # Again, while one of the agents is not heard yet.
-            _, expected = until(lambda: (Client(0).list(), self.listed()),
-                                lambda seen: seen[0] == seen[1])
-            self.assertGreater(len(expected), 40)
+        # Again, while one of the agents is not heard yet.
+        _, expected = until(lambda: (Client(0).list(), self.listed()),
+                            lambda seen: seen[0] == seen[1])
+        self.assertGreater(len(expected), 40)
 
     def test_prints_live_values(self):
-        with self.demo():
-            lines = Client(0).run("values", "/playback", "20")
+        lines = Client(0).run("values", "/playback", "20")
         cycles = [int(line.split()[1]) for line in lines if line.startswith("cycle")]
         times = [float(line.split()[2]) for line in lines if line.startswith("/playback.time =")]
         self.assertEqual(len(times), 20)
@@ -155,39 +165,37 @@ class CycloneClient(unittest.TestCase):
         self.assertIn('/playback.file = "synthetic_hand_path.csv"', lines)
 
     def test_prints_how_the_simplexes_of_an_agent_are(self):
-        with self.demo():
-            client = Client(0)
-            listed = client.list()
-            owner = next(each[3] for each in listed if each[0] == "/drives/1")
-            until(lambda: client.run("summary", "/drives/1"),  # it is started up meanwhile
-                  lambda seen: seen == ["/drives/1 good Active"])
-            marks = dict(line.split(" ", 1) for line in client.run("summary", "/"))
-            self.assertEqual(sorted(marks), sorted(each[0] for each in listed if each[3] == owner))
-            self.assertEqual(len(client.run("summary", "/drives/1")), 1)
+        client = Client(0)
+        listed = client.list()
+        owner = next(each[3] for each in listed if each[0] == "/drives/1")
+        until(lambda: client.run("summary", "/drives/1"),  # it is started up meanwhile
+              lambda seen: seen == ["/drives/1 good Active"])
+        marks = dict(line.split(" ", 1) for line in client.run("summary", "/"))
+        self.assertEqual(sorted(marks), sorted(each[0] for each in listed if each[3] == owner))
+        self.assertEqual(len(client.run("summary", "/drives/1")), 1)
 
     def test_calls_commands_and_gets_their_answers(self):
-        with self.demo():
-            client = Client(0)
-            owner = next(each[3] for each in client.list() if each[0] == "/drives/1")
-            startup = ("call", f"/{owner}", "startup", "prefix=/")
-            until(lambda: client.run(*startup, exits=None),  # after that of its own start
-                  lambda seen: seen != ["Rejected busy startup is running"])
-            self.assertEqual(client.run(*startup), ["Done none "])
-            answer, = client.run("call", "/drives/1", "startup", exits=1)
-            self.assertEqual(answer, "Rejected state startup needs Standby, is Active")
-            answer, = client.run("call", "/drives/1", "strtup", exits=1)
-            self.assertRegex(answer, "^Rejected unknown .*startup")
-            answer, = client.run("call", f"/{owner}", "takeControl", "prefix=7", exits=1)
-            self.assertRegex(answer, "^Rejected range .*7")
+        client = Client(0)
+        owner = next(each[3] for each in client.list() if each[0] == "/drives/1")
+        startup = ("call", f"/{owner}", "startup", "prefix=/")
+        until(lambda: client.run(*startup, exits=None),  # after that of its own start
+              lambda seen: seen != ["Rejected busy startup is running"])
+        self.assertEqual(client.run(*startup), ["Done none "])
+        answer, = client.run("call", "/drives/1", "startup", exits=1)
+        self.assertEqual(answer, "Rejected state startup needs Standby, is Active")
+        answer, = client.run("call", "/drives/1", "strtup", exits=1)
+        self.assertRegex(answer, "^Rejected unknown .*startup")
+        answer, = client.run("call", f"/{owner}", "takeControl", "prefix=7", exits=1)
+        self.assertRegex(answer, "^Rejected range .*7")
 
     def test_reads_and_commands_random_models(self):
-        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        with concurrent.futures.ThreadPoolExecutor(6) as pool:
             for _ in pool.map(self.checkModel, range(1, int(os.environ.get("MODELS", "12")) + 1)):
                 pass
 
     def test_asks_a_person_for_control(self):
         network = ["--domain", str(domain(0)), "--interface", "127.0.0.1"]
-        with self.demo(), subprocess.Popen(
+        with subprocess.Popen(
                 [BINARY / "bin/cortex", "shell", "--name", "alice", "--keep-going", *network],
                 text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as shell:
             shell.stdin.write("take /drives\n")
@@ -207,28 +215,27 @@ class CycloneClient(unittest.TestCase):
             self.assertEqual(said, [f"{tool} is used by alice", f"{tool} refuses"])
 
     def test_reads_what_an_agent_has_kept(self):
-        with self.demo():
-            client = Client(0)
-            until(lambda: client.run("call", "/drives/1", "startup", exits=None),
-                  lambda seen: seen[0].startswith("Rejected state"))
-            owner = next(each[3] for each in client.list() if each[0] == "/drives/1")
-            client.run("call", f"/{owner}", "takeControl", "prefix=/drives", exits=None)
-            lines = until(lambda: client.run("past", "/drives/1"),
-                          lambda seen: any(each.startswith("control") for each in seen))
-            expected = subprocess.run(
-                [BINARY / "bin/cortex", "events", "--since", "1d", "--json", "--domain",
-                 str(domain(0)), "--interface", "127.0.0.1"], capture_output=True, check=True).stdout
-            self.assertRegex("\n".join(lines), r"state change info /drives/1 .*Active")
-            self.assertRegex("\n".join(lines), r"control info .*takeControl.*: Done")
-            self.assertRegex("\n".join(lines), r"refusal warning /drives/1 .*startup")
-            kept = [each.split()[1] for each in lines if each.startswith("kept")]
-            self.assertEqual(sorted(kept), ["command", "control", "fault", "loss", "message", "refusal",
-                                            "state", "value"])
-            shown = {(each["kind"], each["path"], each["text"]) for each in json.loads(expected)}
-            for each in lines:
-                if each.startswith(("control", "refusal")):
-                    kind, _, path, text = each.split(" ", 3)
-                    self.assertIn((kind, path, text), shown)
+        client = Client(0)
+        until(lambda: client.run("call", "/drives/1", "startup", exits=None),
+              lambda seen: seen[0].startswith("Rejected state"))
+        owner = next(each[3] for each in client.list() if each[0] == "/drives/1")
+        client.run("call", f"/{owner}", "takeControl", "prefix=/drives", exits=None)
+        lines = until(lambda: client.run("past", "/drives/1"),
+                      lambda seen: any(each.startswith("control") for each in seen))
+        expected = subprocess.run(
+            [BINARY / "bin/cortex", "events", "--since", "1d", "--json", "--domain",
+             str(domain(0)), "--interface", "127.0.0.1"], capture_output=True, check=True).stdout
+        self.assertRegex("\n".join(lines), r"state change info /drives/1 .*Active")
+        self.assertRegex("\n".join(lines), r"control info .*takeControl.*: Done")
+        self.assertRegex("\n".join(lines), r"refusal warning /drives/1 .*startup")
+        kept = [each.split()[1] for each in lines if each.startswith("kept")]
+        self.assertEqual(sorted(kept), ["command", "control", "fault", "loss", "message", "refusal",
+                                        "state", "value"])
+        shown = {(each["kind"], each["path"], each["text"]) for each in json.loads(expected)}
+        for each in lines:
+            if each.startswith(("control", "refusal")):
+                kind, _, path, text = each.split(" ", 3)
+                self.assertIn((kind, path, text), shown)
 
     @staticmethod
     def refuse(shell, asking):
@@ -244,13 +251,6 @@ class CycloneClient(unittest.TestCase):
              "127.0.0.1", "--timeout", str(PATIENCE)], capture_output=True, check=True).stdout
         return {(each["path"], each["type"], each["role"], each["agent"])
                 for each in json.loads(listed)}
-
-    @contextlib.contextmanager
-    def demo(self):
-        with contextlib.ExitStack() as stack:
-            for system in SYSTEMS:
-                stack.enter_context(agent(system, 0, "--startup"))
-            yield
 
     def checkModel(self, seed):
         model = random_model.Model(seed)

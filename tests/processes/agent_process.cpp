@@ -29,6 +29,22 @@ std::size_t entriesOf(const fs::path& folder) {
 
 }  // namespace
 
+std::filesystem::path plantIn(const ModelFolder& folder, const std::string& path,
+                              const std::string& type, const std::string& items) {
+    folder.write("types.xml",
+                 "<ontology name='t' version='1.0'><include file='base.xml'/><type name='" + type +
+                     "' extends='Processor'>" + items + "</type></ontology>");
+    folder.write("rules.xml",
+                 "<morphology name='m' version='1.0'><include file='base-morphology.xml'/>"
+                 "<include file='types.xml'/></morphology>");
+    return folder.write("plant.xml",
+                        "<system name='s'><morphology file='rules.xml'/>"
+                        "<cluster name='plant' frequency='100'/>"
+                        "<simplex path='/output' type='DigitalIoConcept'/><simplex path='" +
+                            path + "' type='" + type +
+                            "'><relate rule='outputs' to='/output'/></simplex></system>");
+}
+
 AgentProcess::AgentProcess(const ModelFolder& folder, fs::path system,
                            std::vector<std::string> options, Outputs outputs)
     : output_{folder.path() / (system.stem().string() + ".txt")}, outputs_{outputs} {

@@ -49,6 +49,11 @@ private:
     std::vector<pid_t> pids_;
 };
 
+// The system file of an agent /plant of 100 Hz: /output, and at `path` a processor of this type,
+// which writes it. `items`: the <data> of the type.
+std::filesystem::path plantIn(const ModelFolder& folder, const std::string& path,
+                              const std::string& type, const std::string& items = "");
+
 // What a process holds.
 struct Held {
     long memory = 0;  // kB, shared pages in proportion (Pss)

@@ -39,20 +39,7 @@ constexpr auto longestEnd = 60s;
 
 class EndOfAProcess : public testing::Test {
 protected:
-    EndOfAProcess() {
-        folder.write("types.xml",
-                     "<ontology name='t' version='1.0'><include file='base.xml'/>"
-                     "<type name='NeverReturns' extends='Processor'/></ontology>");
-        folder.write("rules.xml",
-                     "<morphology name='m' version='1.0'><include file='base-morphology.xml'/>"
-                     "<include file='types.xml'/></morphology>");
-        system = folder.write("plant.xml",
-                              "<system name='s'><morphology file='rules.xml'/>"
-                              "<cluster name='plant' frequency='100'/>"
-                              "<simplex path='/output' type='DigitalIoConcept'/>"
-                              "<simplex path='/stuck' type='NeverReturns'>"
-                              "<relate rule='outputs' to='/output'/></simplex></system>");
-    }
+    EndOfAProcess() { system = plantIn(folder, "/stuck", "NeverReturns"); }
     ~EndOfAProcess() override { unsetenv("NEVER_RETURNS_FROM"); }
 
     // The exit code of one that never gets to run.

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an agent remembers survives its restart, in a file.
 #include "cli/cortex_process.hpp"
-#include "comms/inbox.hpp"
+#include "comms/past_of.hpp"
 #include "processes/station.hpp"
 
-#include <chrono>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,22 +19,11 @@ namespace fs = std::filesystem;
 class RememberedOverRestarts : public testing::Test {
 protected:
     static fs::path systemIn(const ModelFolder& in) {
-        in.write("types.xml",
-                 "<ontology name='t' version='1.0'><include file='base.xml'/>"
-                 "<type name='Counter' extends='Processor'>"
-                 "<data name='count' kind='int' min='0' retain='true'/>"
-                 "<data name='gain' kind='float' max='10' default='1' settable='always'/>"
-                 "<data name='share' kind='float'/>"
-                 "<data name='title' kind='string' capacity='40'/></type></ontology>");
-        in.write("rules.xml",
-                 "<morphology name='m' version='1.0'><include file='base-morphology.xml'/>"
-                 "<include file='types.xml'/></morphology>");
-        return in.write("plant.xml",
-                        "<system name='s'><morphology file='rules.xml'/>"
-                        "<cluster name='plant' frequency='100'/>"
-                        "<simplex path='/output' type='DigitalIoConcept'/>"
-                        "<simplex path='/counter' type='Counter'>"
-                        "<relate rule='outputs' to='/output'/></simplex></system>");
+        return plantIn(in, "/counter", "Counter",
+                       "<data name='count' kind='int' min='0' retain='true'/>"
+                       "<data name='gain' kind='float' max='10' default='1' settable='always'/>"
+                       "<data name='share' kind='float'/>"
+                       "<data name='title' kind='string' capacity='40'/>");
     }
     AgentProcess agentIn(const ModelFolder& in, std::vector<std::string> options = {}) const {
         options.insert(options.end(), {"--plugin", CORTEX_BINARY_DIR "/lib/plugins/counter.so"});
@@ -58,17 +45,14 @@ protected:
     }
     // The commands of all starts, as tools are told them.
     std::vector<std::string> commands() {
-        const std::int64_t always = std::numeric_limits<std::int64_t>::max();
         std::vector<std::string> found;
-        for (const comms::PastEvents& each :
-             station.mirror().past(0, always, std::chrono::seconds{60})) {
-            if (!each.trouble.empty()) found.push_back(each.trouble);
-            for (const AgentEvent& event : each.events) {
-                if (event.kind != "command") continue;
-                const std::size_t name = event.text.find("set(");
-                if (name == std::string::npos) continue;
-                found.push_back(event.text.substr(name, event.text.find(')') + 1 - name));
-            }
+        const comms::PastEvents past = comms::pastOf(station.mirror(), "plant");
+        if (!past.trouble.empty()) found.push_back(past.trouble);
+        for (const AgentEvent& event : past.events) {
+            if (event.kind != "command") continue;
+            const std::size_t name = event.text.find("set(");
+            if (name == std::string::npos) continue;
+            found.push_back(event.text.substr(name, event.text.find(')') + 1 - name));
         }
         return found;
     }
@@ -128,6 +112,10 @@ TEST_F(RememberedOverRestarts, AFileIsMadeSmallerThatHasMoreThanTheAgentKeeps) {
     EXPECT_LT(text().size(), 65'536U);
     EXPECT_TRUE(contains(text(), "1\t9999\t3")) << "the newest are kept";
     EXPECT_TRUE(contains(text(), "since\tcommand\t5\n"));
+    EXPECT_TRUE(contains(agent.output(),
+                         "plant.memory: the oldest entries are dropped, 9970 in all, as they are "
+                         "more than the agent keeps (--memory-entries)\n"))
+        << agent.output();
 }
 
 TEST_F(RememberedOverRestarts, AFileOfSomethingElseIsRefusedAndLeftAsItIs) {

@@ -21,25 +21,14 @@ const std::string counter = "/counter";
 class RetainedValues : public testing::Test {
 protected:
     RetainedValues() {
-        folder.write("types.xml",
-                     "<ontology name='t' version='1.0'><include file='base.xml'/>"
-                     "<type name='Counter' extends='Processor'>"
-                     "<data name='count' kind='int' min='0' retain='true'/>"
-                     "<data name='gain' kind='float' unit='Hz' min='0' max='10' default='1' "
-                     "settable='always' retain='true'/>"
-                     "<data name='share' kind='float' min='0' max='1' retain='true'/>"
-                     "<data name='offset' kind='float' default='0.5' settable='always'/>"
-                     "<data name='title' kind='string' capacity='40' settable='always' "
-                     "retain='true'/></type></ontology>");
-        folder.write("rules.xml",
-                     "<morphology name='m' version='1.0'><include file='base-morphology.xml'/>"
-                     "<include file='types.xml'/></morphology>");
-        system = folder.write("plant.xml",
-                              "<system name='s'><morphology file='rules.xml'/>"
-                              "<cluster name='plant' frequency='100'/>"
-                              "<simplex path='/output' type='DigitalIoConcept'/>"
-                              "<simplex path='/counter' type='Counter'>"
-                              "<relate rule='outputs' to='/output'/></simplex></system>");
+        system = plantIn(folder, counter, "Counter",
+                         "<data name='count' kind='int' min='0' retain='true'/>"
+                         "<data name='gain' kind='float' unit='Hz' min='0' max='10' default='1' "
+                         "settable='always' retain='true'/>"
+                         "<data name='share' kind='float' min='0' max='1' retain='true'/>"
+                         "<data name='offset' kind='float' default='0.5' settable='always'/>"
+                         "<data name='title' kind='string' capacity='40' settable='always' "
+                         "retain='true'/>");
     }
     std::vector<std::string> options(std::vector<std::string> more = {}) const {
         std::vector<std::string> all{"--plugin", CORTEX_BINARY_DIR "/lib/plugins/counter.so"};

@@ -36,20 +36,7 @@ protected:
             "another start of its name is there; this one waits until it has ended\n"));
         return agent;
     }
-    static fs::path file(const ModelFolder& in) {
-        in.write("types.xml",
-                 "<ontology name='t' version='1.0'><include file='base.xml'/>"
-                 "<type name='NeverReturns' extends='Processor'/></ontology>");
-        in.write("rules.xml",
-                 "<morphology name='m' version='1.0'><include file='base-morphology.xml'/>"
-                 "<include file='types.xml'/></morphology>");
-        return in.write("plant.xml",
-                        "<system name='s'><morphology file='rules.xml'/>"
-                        "<cluster name='plant' frequency='100'/>"
-                        "<simplex path='/output' type='DigitalIoConcept'/>"
-                        "<simplex path='/stuck' type='NeverReturns'>"
-                        "<relate rule='outputs' to='/output'/></simplex></system>");
-    }
+    static fs::path file(const ModelFolder& in) { return plantIn(in, "/stuck", "NeverReturns"); }
     static bool says(const AgentProcess& agent, const std::string& words) {
         return contains(agent.output(), words);
     }

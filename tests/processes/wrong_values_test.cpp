@@ -18,22 +18,11 @@ namespace {
 // A counter whose type says that it counts to 1, and that its share, which is 0.25, is at most 0.2.
 struct WrongValues : testing::Test {
     WrongValues() {
-        folder.write("types.xml",
-                     "<ontology name='t' version='1.0'><include file='base.xml'/>"
-                     "<type name='Counter' extends='Processor'>"
-                     "<data name='count' kind='int' labels='0:None 1:One'/>"
-                     "<data name='gain' kind='float' min='0' max='10' default='1'/>"
-                     "<data name='share' kind='float' max='0.2'/>"
-                     "<data name='title' kind='string'/></type></ontology>");
-        folder.write("rules.xml",
-                     "<morphology name='m' version='1.0'><include file='base-morphology.xml'/>"
-                     "<include file='types.xml'/></morphology>");
-        system = folder.write("plant.xml",
-                              "<system name='s'><morphology file='rules.xml'/>"
-                              "<cluster name='plant' frequency='100'/>"
-                              "<simplex path='/output' type='DigitalIoConcept'/>"
-                              "<simplex path='/counter' type='Counter'>"
-                              "<relate rule='outputs' to='/output'/></simplex></system>");
+        system = plantIn(folder, "/counter", "Counter",
+                         "<data name='count' kind='int' labels='0:None 1:One'/>"
+                         "<data name='gain' kind='float' min='0' max='10' default='1'/>"
+                         "<data name='share' kind='float' max='0.2'/>"
+                         "<data name='title' kind='string'/>");
     }
     static std::string tool(std::vector<std::string> arguments) {
         const comms::NetworkOptions network = comms::loopback();

@@ -134,7 +134,7 @@ const std::vector<Refused>& refused() {
         {"kind='float' length='2'", "value='1'", "found 1"},
         {"kind='int'", "value='9223372036854775808'", "64 bit"},
         {"kind='int'", "value='-9223372036854775809'", "64 bit"},
-        {"kind='int'", "value='1e3'", "64 bit"},
+        {"kind='int'", "value='1e3'", "a whole number,"},
         {"kind='int' min='9007199254740993'", "value='9007199254740992'", "at least"},
         {"kind='float' max='0.1'", "value='0.10000000000000002'", "at most"},
         {"kind='bool'", "value='TRUE'", "true or false"},

@@ -233,6 +233,71 @@ std::unique_ptr<MemoryFile> remember(const CommandLine& line, bool retains,
     return memory;
 }
 
+// A cluster with what stands beside it.
+struct Running {
+    const CommandLine& line;
+    const ClusterSettings& settings;
+    cs::ClusterCS& cluster;
+    HookCheck& hookCheck;
+    RetainedFile& retained;
+    MemoryFile* memory = nullptr;                  // null: the memory has no file
+    const comms::DdsInterface* network = nullptr;  // null: offline
+    std::optional<StartUp> startUp = {};           // or the next
+    std::optional<NotStarted> notStarted = {};
+
+    bool isSecond() const { return network != nullptr && network->isSecond(); }
+};
+
+// The interface to the network; null: offline.
+const comms::DdsInterface* setUp(cs::ClusterCS& cluster, const CommandLine& line,
+                                 const ClusterSettings& settings, HookCheck& hookCheck) {
+    setTrigger(cluster, settings);
+    hookCheck.watch(cluster);
+    cluster.addEventSink(line.log.empty() ? printEvents(std::cerr) : logEvents(line.log),
+                         EventLog::Repeats::Folded);
+    return line.offline ? nullptr
+                        : &cluster.addInterface<comms::DdsInterface>(networkOptions(line));
+}
+
+// Until its end. False: another start of it is there, to which this one leaves everything.
+bool runToEnd(Running& running) {
+    const auto isOver = countdown(running.line.seconds, running.startUp);
+    GiveWay giveWay{running.cluster, running.settings.name, running.line.startup};
+    watch(running.cluster, running.settings.name, [&] {
+        const bool isSecond = running.isSecond();
+        running.hookCheck.look();
+        if (running.memory != nullptr) running.memory->giveWay(isSecond);
+        if (!running.line.wait && isSecond) return true;
+        const auto turn = giveWay.look(isSecond);
+        const bool isOurs = turn != GiveWay::Turn::Theirs;
+        if (!running.startUp) {
+            if (isOurs) running.notStarted->look();
+        } else {
+            if (turn == GiveWay::Turn::OursAgain) running.startUp->again();
+            if (isOurs) running.startUp->look();
+        }
+        return isOver();
+    });
+    return !giveWay.isAway() && !running.isSecond();
+}
+
+int endInOrder(Running& running) {
+    cs::ClusterCS& cluster = running.cluster;
+    if (running.notStarted) running.notStarted->lookAtEnd();
+    const bool endedItself = !cluster.running();  // its trigger has ended, as an event says
+    const bool halted = cluster.ended() == cs::Ended::Halted;
+    std::string notFollowed = running.startUp ? running.startUp->endText() : "";
+    printAndStop(cluster, running.settings.name, running.network);
+    for (const std::string& each : cluster.notShutDown()) notFollowed += "shutdown: " + each + "\n";
+    running.retained.finish();
+    if (running.memory != nullptr) running.memory->finish();
+    std::cerr << notFollowed << std::flush;
+    const bool broken = running.hookCheck.printEnd();
+    if (halted || endedItself || cs::exitWasRefused()) return Halted;
+    if (!notFollowed.empty()) return NotFollowed;
+    return broken ? HooksBroke : Ended;
+}
+
 int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTree& tree,
                RetainedFile& retained, HookCheck& hookCheck) {
     ClusterSettings settings = clusterSettings(tree.description(), line);
@@ -242,55 +307,22 @@ int runCluster(const CommandLine& line, const ClassRegistry& registry, SimplexTr
     cs::ClusterCS cluster{settings.name, settings.options};
     cluster.addSimplexTree(tree);
     cluster.useClasses(registry);
-    setTrigger(cluster, settings);
-    hookCheck.watch(cluster);
-    cluster.addEventSink(line.log.empty() ? printEvents(std::cerr) : logEvents(line.log),
-                         EventLog::Repeats::Folded);
-    const comms::DdsInterface* network =
-        line.offline ? nullptr : &cluster.addInterface<comms::DdsInterface>(networkOptions(line));
+    Running running{line, settings, cluster, hookCheck, retained, memory.get()};
+    running.network = setUp(cluster, line, settings, hookCheck);
     const auto finish = [](RetainedFile* each) { each->finish(); };
     const std::unique_ptr<RetainedFile, decltype(finish)> keeping{&retained, finish};
-    std::optional<StartUp> startUp;
-    std::optional<NotStarted> notStarted;
     if (line.startup)
-        startUp.emplace(cluster, settings.name);
+        running.startUp.emplace(cluster, settings.name);
     else
-        notStarted.emplace(cluster, settings.name, optionsOfTools(line));
+        running.notStarted.emplace(cluster, settings.name, optionsOfTools(line));
     cluster.start();
     if (retains) retained.keep(cluster);
     if (memory) memory->keep();
     printStart(line, cluster, settings, tree.simplexes().size());
-    const auto isSecond = [&] { return network != nullptr && network->isSecond(); };
-    const auto isOver = countdown(line.seconds, startUp);
-    GiveWay giveWay{cluster, settings.name, line.startup};
-    watch(cluster, settings.name, [&] {
-        hookCheck.look();
-        if (memory) memory->giveWay(isSecond());
-        if (!line.wait && isSecond()) return true;
-        const auto turn = giveWay.look(isSecond());
-        if (turn == GiveWay::Turn::OursAgain && startUp) startUp->again();
-        if (turn != GiveWay::Turn::Theirs) startUp ? startUp->look() : notStarted->look();
-        return isOver();
-    });
-    if (giveWay.isAway() || isSecond()) {
-        std::cerr << "another start of " << settings.name << " is there; this one ends"
-                  << std::endl;
-        cluster.stop();
-        return Second;
-    }
-    if (notStarted) notStarted->lookAtEnd();
-    const bool endedItself = !cluster.running();  // its trigger has ended, as an event says
-    const bool halted = cluster.ended() == cs::Ended::Halted;
-    std::string notFollowed = startUp ? startUp->endText() : "";
-    printAndStop(cluster, settings.name, network);
-    for (const std::string& each : cluster.notShutDown()) notFollowed += "shutdown: " + each + "\n";
-    retained.finish();
-    if (memory) memory->finish();
-    std::cerr << notFollowed << std::flush;
-    const bool broken = hookCheck.printEnd();
-    if (halted || endedItself || cs::exitWasRefused()) return Halted;
-    if (!notFollowed.empty()) return NotFollowed;
-    return broken ? HooksBroke : Ended;
+    if (runToEnd(running)) return endInOrder(running);
+    std::cerr << "another start of " << settings.name << " is there; this one ends" << std::endl;
+    cluster.stop();
+    return Second;
 }
 
 // A destructor of a plug-in may hang.

@@ -2,7 +2,6 @@
 #include "memory_file.hpp"
 
 #include "cortex/core/error.hpp"
-#include "cortex/core/service_threads.hpp"
 
 #include "memory_text.hpp"
 
@@ -74,18 +73,12 @@ std::string MemoryFile::load() {
 }
 
 void MemoryFile::keep() {
-    const ServiceThreads named{"cortex-memory"};
-    thread_ = std::thread{[this] { run(); }};
+    static constexpr Repeating::Pause interval{200}, afterTrouble{1000};
+    writing_.start("cortex-memory", {}, [this] { return step() ? interval : afterTrouble; });
 }
 
 void MemoryFile::finish() {
-    if (!thread_.joinable()) return;
-    {
-        const std::lock_guard lock{mutex_};
-        ending_ = true;
-    }
-    wake_.notify_all();
-    thread_.join();
+    if (!writing_.finish()) return;
     synced_ = {};
     if (step() && file_) markEnd();
 }
@@ -93,17 +86,6 @@ void MemoryFile::finish() {
 // What follows is of another start.
 void MemoryFile::markEnd() {
     if (file_.writeAll(endLine())) end_.size += endLine().size();
-}
-
-void MemoryFile::run() {
-    constexpr std::chrono::milliseconds interval{200}, afterTrouble{1000};
-    std::unique_lock lock{mutex_};
-    bool good = false;
-    do {
-        lock.unlock();
-        good = step();
-        lock.lock();
-    } while (!wake_.wait_for(lock, good ? interval : afterTrouble, [this] { return ending_; }));
 }
 
 bool MemoryFile::step() {
@@ -180,8 +162,6 @@ void MemoryFile::read(const OpenFile& file, bool beforeStart) {
     const bool isKnown = fstat(file.number(), &there) == 0;
     const MemoryRead read = readMemory(file, *std::ranges::max_element(own), take);
     const bool crashed = isKnown && read.epoch != 0 && !read.ended && found.contains(read.epoch);
-    if (crashed)
-        tellCrash(read.epoch, there.st_mtim.tv_sec * 1'000'000'000 + there.st_mtim.tv_nsec);
     known_.merge(found);
     EventMemory::Times since = own;
     for (std::size_t i = 0; i < since.size(); ++i) {
@@ -189,6 +169,9 @@ void MemoryFile::read(const OpenFile& file, bool beforeStart) {
         since[i] = isRead_ ? std::max(own[i], read.since[i]) : read.since[i];
     }
     memory_->goOn(since);
+    tellDropped(file, since);
+    if (crashed)
+        tellCrash(read.epoch, there.st_mtim.tv_sec * 1'000'000'000 + there.st_mtim.tv_nsec);
     isRead_ = true;
     end_.size = read.bytes;
     end_.since = read.since;
@@ -198,6 +181,24 @@ void MemoryFile::read(const OpenFile& file, bool beforeStart) {
               << (read.unreadable == 1 ? " line that cannot be read is"
                                        : " lines that cannot be read are")
               << " left out" << std::endl;
+}
+
+// What the earlier start had kept since then, and this one has no room for.
+void MemoryFile::tellDropped(const OpenFile& file, const EventMemory::Times& before) const {
+    const EventMemory::Times now = memory_->since();
+    if (now == before || lseek(file.number(), 0, SEEK_SET) != 0) return;
+    std::ptrdiff_t dropped = 0;
+    const auto isConcerned = [&](const KeptEvent& event) {
+        const auto kind = static_cast<std::size_t>(
+            std::ranges::find(EventMemory::kinds, event.kind) - EventMemory::kinds.begin());
+        return kind < now.size() && event.wallClock >= before[kind] && event.wallClock < now[kind];
+    };
+    readMemory(file, 0, [&](const KeptEvent& event) { dropped += isConcerned(event) ? 1 : 0; });
+    const auto kept = memory_->page(0, std::numeric_limits<std::int64_t>::min());
+    dropped -= std::ranges::count_if(kept.events, isConcerned);
+    if (dropped <= 0) return;
+    std::cerr << path_.string() << ": the oldest entries are dropped, " << dropped
+              << " in all, as they are more than the agent keeps (--memory-entries)" << std::endl;
 }
 
 // What that start kept last may not have come to the file, so nothing is not peace.

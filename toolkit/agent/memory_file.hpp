@@ -4,18 +4,16 @@
 #include "cortex/core/event_memory.hpp"
 
 #include "durable_file.hpp"
+#include "repeating.hpp"
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <string>
-#include <thread>
 
 namespace cortex::toolkit {
 
@@ -47,7 +45,6 @@ private:
     };
     using Clock = std::chrono::steady_clock;
 
-    void run();
     bool step();          // whether nothing is wrong
     std::string write();  // this and the next: "" or why not
     std::string take(bool beforeStart);
@@ -56,6 +53,7 @@ private:
     bool writePage(const OpenFile& file, End& end, bool& more);
     std::string wrongFile() const;
     void read(const OpenFile& file, bool beforeStart);
+    void tellDropped(const OpenFile& file, const EventMemory::Times& before) const;
     void tellCrash(std::int64_t epoch, std::int64_t written);
     void markEnd();
     bool isIntact() const;
@@ -76,10 +74,7 @@ private:
     std::set<std::int64_t> known_;  // epochs of which the memory has what the file had
 
     std::atomic<bool> away_{false};
-    std::mutex mutex_;
-    std::condition_variable wake_;
-    bool ending_ = false;
-    std::thread thread_;
+    Repeating writing_;
 };
 
 }  // namespace cortex::toolkit

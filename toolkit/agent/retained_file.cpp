@@ -4,14 +4,12 @@
 #include "cortex/core/error.hpp"
 #include "cortex/core/labelled_value.hpp"
 #include "cortex/core/model_files.hpp"
-#include "cortex/core/service_threads.hpp"
 #include "cortex/core/xml_text.hpp"
 
 #include "stored_values.hpp"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <iostream>
 
 namespace cortex::toolkit {
@@ -48,10 +46,6 @@ bool isRetained(const ItemLayout& each) { return each.item->retain; }
 
 }  // namespace
 
-RetainedFile::~RetainedFile() {
-    if (thread_.joinable()) finish();
-}
-
 bool RetainedFile::hasItems(const SimplexTree& tree) {
     return std::ranges::any_of(tree.simplexes(), [](const auto& each) {
         return std::ranges::any_of(each.second->type().data, &DataItem::retain);
@@ -85,30 +79,16 @@ std::string RetainedFile::restore(SimplexTree& tree) {
 }
 
 void RetainedFile::keep(cs::ClusterCS& cluster) {
+    static constexpr Repeating::Pause interval{1000};
     cluster_ = &cluster;
-    const ServiceThreads named{"cortex-retain"};
-    thread_ = std::thread{[this] { run(); }};
+    writing_.start("cortex-retain", interval, [this] {
+        write();
+        return interval;
+    });
 }
 
 void RetainedFile::finish() {
-    if (!thread_.joinable()) return;
-    {
-        const std::lock_guard lock{mutex_};
-        ending_ = true;
-    }
-    wake_.notify_all();
-    thread_.join();
-    write();
-}
-
-void RetainedFile::run() {
-    constexpr std::chrono::seconds interval{1};
-    std::unique_lock lock{mutex_};
-    while (!wake_.wait_for(lock, interval, [this] { return ending_; })) {
-        lock.unlock();
-        write();
-        lock.lock();
-    }
+    if (writing_.finish()) write();
 }
 
 void RetainedFile::write() {

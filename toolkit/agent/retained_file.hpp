@@ -5,13 +5,11 @@
 #include "cortex/cs/cluster_cs.hpp"
 
 #include "durable_file.hpp"
+#include "repeating.hpp"
 
-#include <condition_variable>
 #include <filesystem>
 #include <map>
-#include <mutex>
 #include <string>
-#include <thread>
 
 namespace cortex::toolkit {
 
@@ -22,7 +20,7 @@ class RetainedFile {
 public:
     explicit RetainedFile(const std::filesystem::path& file)
         : file_{file}, trouble_{"retained items are", file} {}
-    ~RetainedFile();
+    ~RetainedFile() { finish(); }
     RetainedFile(const RetainedFile&) = delete;
     RetainedFile& operator=(const RetainedFile&) = delete;
 
@@ -36,7 +34,6 @@ public:
     void finish();  // the last values, of the last cycle
 
 private:
-    void run();
     void write();
     std::string textOf(const Image& image);
 
@@ -45,10 +42,7 @@ private:
     std::map<std::string, std::string> good_;  // path.item: the last value that may be restored
     std::string written_;
     WriteTrouble trouble_;
-    std::mutex mutex_;
-    std::condition_variable wake_;
-    bool ending_ = false;
-    std::thread thread_;
+    Repeating writing_;
 };
 
 }  // namespace cortex::toolkit

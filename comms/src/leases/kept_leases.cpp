@@ -112,6 +112,12 @@ bool KeptLeases::lose(const Kept& kept, const std::string& why) {
     return false;
 }
 
+bool KeptLeases::hasEnded(const std::string& agent) const {
+    return std::ranges::any_of(mirror_.agents(), [&](const AgentStatus& each) {
+        return each.name == agent && each.ended;
+    });
+}
+
 bool KeptLeases::renewOne(Kept& kept, Moment now, bool renews) {
     Errand& renewal = kept.renewal;
     if (!renewal.over() && renewal.poll(mirror_, now, renewalBudget)) {
@@ -126,7 +132,9 @@ bool KeptLeases::renewOne(Kept& kept, Moment now, bool renews) {
         }
     }
     if (now - kept.renewed > lifetime)
-        return lose(kept, "the agent has confirmed no renewal for 2 s");
+        return lose(kept, hasEnded(kept.lease.agent)
+                              ? "the agent has ended"
+                              : "the agent has confirmed no renewal for 2 s");
     if (!renews || !renewal.over() || now - renewal.sent < betweenRenewals) return true;
     renewal.send(mirror_, "renewControl", {{"prefix", kept.lease.prefix}}, renewalBudget);
     return !renewal.over() || lose(kept, renewal.answer.why);

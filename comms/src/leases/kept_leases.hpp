@@ -52,6 +52,7 @@ private:
     Kept* find(std::string_view agent, std::string_view prefix);
     bool renewOne(Kept& kept, Moment now, bool renews);  // false: it is over
     bool lose(const Kept& kept, const std::string& why);
+    bool hasEnded(const std::string& agent) const;
     void take(const ShownLease& shown);
     bool wasLost(const ShownLease& shown) const;
 

@@ -292,32 +292,10 @@ bool Mirror::pollPast(std::uint64_t number, PastEvents& past) {
         [&](MirrorState& state) { return state.past.poll(number, past); });
 }
 
-void Mirror::abandonPast(std::uint64_t number) {
-    implementation_->thread.change([&](MirrorState& state) { (void)state.past.giveUp(number); });
-}
-
-std::vector<PastEvents> Mirror::past(std::int64_t from, std::int64_t until, Milliseconds limit) {
-    std::vector<std::uint64_t> numbers;
-    implementation_->thread.change([&](MirrorState& state) {
-        for (const auto& [name, agent] : state.agents.all())
-            numbers.push_back(state.past.ask(name, from, until));
-    });
-    implementation_->thread.waitFor(limit, [&](MirrorState& state) {
-        return std::ranges::all_of(numbers,
-                                   [&](std::uint64_t each) { return state.past.isOver(each); });
-    });
-    std::vector<PastEvents> all;
-    implementation_->thread.change([&](MirrorState& state) {
-        for (const std::uint64_t each : numbers) {
-            PastEvents past;
-            if (!state.past.poll(each, past)) {
-                past = state.past.giveUp(each);
-                past.trouble = "not all of it came within " + std::to_string(limit.count()) + " ms";
-            }
-            all.push_back(std::move(past));
-        }
-    });
-    return all;
+PastEvents Mirror::abandonPast(std::uint64_t number) {
+    PastEvents past;
+    implementation_->thread.change([&](MirrorState& state) { past = state.past.giveUp(number); });
+    return past;
 }
 
 std::uint64_t Mirror::refused() const { return implementation_->thread.refused(); }

@@ -50,11 +50,6 @@ PastEvents MirrorPast::giveUp(std::uint64_t number) {
     return past;
 }
 
-bool MirrorPast::isOver(std::uint64_t number) const {
-    const auto found = asked_.find(number);
-    return found == asked_.end() || found->second.over;
-}
-
 void MirrorPast::finish(Asked& asked, std::string trouble) {
     asked.over = true;
     asked.past.trouble = std::move(trouble);

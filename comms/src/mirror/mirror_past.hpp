@@ -24,7 +24,6 @@ public:
     bool poll(std::uint64_t number, PastEvents& past);  // once
     // What has come so far, which nobody will fetch any more.
     PastEvents giveUp(std::uint64_t number);
-    bool isOver(std::uint64_t number) const;  // or unknown
 
     void take(const PastMessage& message, Moment now);
     void tick(const MirrorAgents& agents, Moment now);  // begins what is due, finds who is silent

@@ -72,9 +72,15 @@ bool splitStrings(std::string_view text, std::vector<std::string>& parts) {
     return true;
 }
 
-template <class T, class Convert>
+// One that is whole, and too large, is told how large it may be.
+const char* wholeExpected(std::string_view word) {
+    const bool whole = word.find_first_not_of("+-0123456789") == std::string_view::npos;
+    return whole ? "a whole number of 64 bit" : "a whole number";
+}
+
+template <class T, class Convert, class Expected>
 std::optional<Value> parseElements(std::size_t length, std::string_view text, Convert convert,
-                                   const char* expected, std::string& why) {
+                                   Expected expected, std::string& why) {
     const auto words = splitBlanks(text);
     if (words.size() != length) {
         why = wrongCount(length, words.size());
@@ -85,7 +91,7 @@ std::optional<Value> parseElements(std::size_t length, std::string_view text, Co
     for (const std::string_view word : words) {
         const auto element = convert(word);
         if (!element) {
-            why = std::string{"expected "} + expected + ", found " + inQuotes(word);
+            why = std::string{"expected "} + expected(word) + ", found " + inQuotes(word);
             return std::nullopt;
         }
         elements.push_back(*element);
@@ -160,12 +166,13 @@ std::optional<Value> parseValue(Kind kind, std::size_t length, std::string_view 
                                 std::string& why) {
     switch (kind) {
         case Kind::Int:
-            return parseElements<std::int64_t>(length, text, toInt, "a whole number of 64 bit",
-                                               why);
+            return parseElements<std::int64_t>(length, text, toInt, wholeExpected, why);
         case Kind::Float:
-            return parseElements<double>(length, text, toFloat, "a finite number", why);
+            return parseElements<double>(
+                length, text, toFloat, [](auto) { return "a finite number"; }, why);
         case Kind::Bool:
-            return parseElements<bool>(length, text, toBool, "true or false", why);
+            return parseElements<bool>(
+                length, text, toBool, [](auto) { return "true or false"; }, why);
         case Kind::String:
             return parseStrings(length, text, why);
     }

@@ -3,6 +3,7 @@
 
 #include "cortex/core/path.hpp"
 
+#include "common/utc_text.hpp"
 #include "text/interrupts.hpp"
 
 #include <algorithm>
@@ -12,6 +13,8 @@
 #include <thread>
 #include <utility>
 
+#include <unistd.h>
+
 namespace cortex::cli {
 namespace {
 
@@ -19,12 +22,42 @@ constexpr std::chrono::milliseconds betweenPolls{2};
 // At least: one that is silent must not cost what the others say.
 constexpr std::chrono::milliseconds timeForEachAsk{500};
 
+// On a terminal, after a second: who has not answered yet. It is gone at the end.
+class AskingLine {
+public:
+    AskingLine() = default;
+    ~AskingLine() {
+        if (!shown_.empty()) std::cerr << "\r\033[K" << std::flush;
+    }
+    AskingLine(const AskingLine&) = delete;
+    AskingLine& operator=(const AskingLine&) = delete;
+
+    void look(const std::map<std::uint64_t, std::string>& waiting) {
+        constexpr std::chrono::seconds silent{1};
+        constexpr std::size_t widest = 78;
+        if (!onTerminal_ || waiting.empty() || Clock::now() - begun_ < silent) return;
+        std::vector<std::string> agents;
+        for (const auto& [number, agent] : waiting) agents.push_back(agent);
+        const std::string line = clipped(printable("asking " + joined(agents)), widest);
+        if (line == shown_) return;
+        shown_ = line;
+        std::cerr << "\r\033[K" << line << std::flush;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    Clock::time_point begun_ = Clock::now();
+    bool onTerminal_ = isatty(STDERR_FILENO) == 1;
+    std::string shown_;
+};
+
 // Asks that are on their way; their end gives up those that are not answered.
 class AsksOfPast {
 public:
     explicit AsksOfPast(comms::Mirror& mirror) : mirror_{mirror} {}
     ~AsksOfPast() {
-        for (const auto& [number, agent] : waiting_) mirror_.abandonPast(number);
+        for (const auto& [number, agent] : waiting_) (void)mirror_.abandonPast(number);
     }
     AsksOfPast(const AsksOfPast&) = delete;
     AsksOfPast& operator=(const AsksOfPast&) = delete;
@@ -35,8 +68,10 @@ public:
     std::vector<comms::PastEvents> answers(Live& live) {
         const auto least = std::chrono::steady_clock::now() + timeForEachAsk;
         std::vector<comms::PastEvents> all;
+        AskingLine line;
         while (!waiting_.empty()) {
             throwIfInterrupted();
+            line.look(waiting_);
             std::erase_if(waiting_, [&](const auto& each) {
                 comms::PastEvents past;
                 if (!mirror_.pollPast(each.first, past)) return false;
@@ -48,12 +83,13 @@ public:
             if (!waiting_.empty()) std::this_thread::sleep_for(betweenPolls);
         }
         for (const auto& [number, agent] : waiting_) {
-            comms::PastEvents late;
+            comms::PastEvents late = mirror_.abandonPast(number);
             late.agent = agent;
             late.trouble = "not all that it keeps came within " + live.limitText() +
                            "; wait longer (--timeout)";
             all.push_back(std::move(late));
         }
+        waiting_.clear();
         return all;
     }
 
@@ -111,7 +147,8 @@ void KeptPast::printNotes(std::int64_t from, const std::vector<std::string>& kin
             return !kinds.empty() && std::ranges::count(kinds, each.kind) == 0;
         });
         const std::string text =
-            common::keptText(std::move(since), from, live_.statusOf(agent).epoch);
+            common::keptText(std::move(since), from, live_.statusOf(agent).epoch,
+                             [](std::int64_t time) { return common::utcText(time); });
         if (!text.empty()) note(agent + ": " + text);
     }
     for (const auto& [agent, trouble] : troubles_) note(agent + ": " + trouble);

@@ -208,7 +208,9 @@ std::string Live::incomplete() const {
         parts.push_back(std::move(part));
     }
     if (const std::uint32_t unheard = mirror().unheard(); unheard > 0) {
-        const std::size_t here = mirror().agents().size();
+        const auto agents = mirror().agents();
+        const auto here = static_cast<std::size_t>(
+            std::ranges::count_if(agents, [](const auto& each) { return each.state != "lost"; }));
         parts.push_back(std::to_string(here) + " of " + std::to_string(here + unheard) + " agents");
     }
     const std::string others = namelessText(nameless());

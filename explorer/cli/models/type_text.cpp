@@ -3,6 +3,7 @@
 
 #include "cortex/core/agreement.hpp"
 
+#include "common/role_meaning.hpp"
 #include "models/type_json.hpp"
 #include "text/output.hpp"
 
@@ -167,9 +168,9 @@ std::string roleText(const Type& type) {
                                        "the loop itself, between cycles, without a task of its own"
                                      : "active: has a task in every cycle";
         case Role::Observation:
-            return "observation: data of the plant as it is";
         case Role::Modification:
-            return "modification: data of the plant as it is wished to be";
+            return std::string{name(type.role)} + ": " +
+                   std::string{common::roleMeaning(type.role)};
         case Role::Descriptive:
             break;
     }

@@ -42,10 +42,11 @@ void checkValues(const EventOptions& options) {
         throw Failure{Usage,
                       "--follow cannot show values that change later: agents tell them only when "
                       "they are asked; leave out --follow, and ask again"};
-    if (!options.since)
-        throw Failure{Usage,
-                      "--kind value needs --since: agents keep values that changed their "
-                      "state, and do not publish them as events"};
+    if (!options.since && !options.beforeFault)
+        throw Failure{
+            Usage,
+            "--kind value needs --since or --before-fault: agents keep values that changed their "
+            "state, and do not publish them as events"};
 }
 
 TimeSpan spanOf(const EventOptions& options) {

@@ -23,7 +23,11 @@ Json leaseJson(Live& live, const comms::ShownLease& lease) {
 
 void printLeases(Live& live, const std::vector<comms::ShownLease>& leases) {
     if (leases.empty()) {
-        std::cout << "nobody holds control of anything\n";
+        std::vector<std::string> heard;  // another one may stand still
+        for (const comms::AgentStatus& each : live.mirror().agents()) {
+            if (each.state != "lost") heard.push_back(each.name);
+        }
+        std::cout << "nobody holds control of anything of " << printable(joined(heard)) << '\n';
         return;
     }
     Columns columns{0};

@@ -109,7 +109,11 @@ CLI::Option* addCommanding(CLI::App& verb, CommandingOptions& options) {
                     "follows")
         ->type_name("NAME")
         ->check([](const std::string& name) {
-            return name.size() <= common::longestInCommand ? "" : "a name has at most 31 bytes";
+            const bool fits = name.size() <= common::longestInCommand;
+            return name.empty() || (fits && comms::isPersonName(name))
+                       ? ""
+                       : "a name has at most 31 bytes of UTF-8, no control characters and brackets "
+                         "( ), and no blank at its ends";
         });
     return verb.add_flag(
         "--take", options.take,

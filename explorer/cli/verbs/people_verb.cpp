@@ -47,7 +47,7 @@ std::string holdsText(const Person& person, bool known) {
     std::ranges::sort(prefixes);
     const auto [first, last] = std::ranges::unique(prefixes);
     prefixes.erase(first, last);
-    if (!known) prefixes.emplace_back("?");
+    if (!known) prefixes.emplace_back("not told");
     return prefixes.empty() ? "-" : joined(prefixes);
 }
 

@@ -37,15 +37,15 @@ std::uint32_t standsFor(const AgentFrame& agent) {
 
 }  // namespace
 
-void Abnormal::add(Kind kind, const AgentFrame& agent, std::uint32_t simplex) {
+void Abnormal::add(Kind kind, const AgentFrame& agent, Place place) {
     ++counts_[kind];
-    if (kind == Lost && agent.lost() && simplex != standsFor(agent)) return;
-    paths_[kind].push_back(agent.structure->simplexes[simplex].path);
+    if (kind == Lost && agent.lost() && place.simplex != standsFor(agent)) return;
+    found_[kind].push_back({agent.structure->simplexes[place.simplex].path, place});
 }
 
-void Abnormal::findOutside(const AgentFrame& agent) {
+void Abnormal::findOutside(const AgentFrame& agent, std::uint32_t index) {
     forOwnSimplexes(agent, [&](std::uint32_t simplex) {
-        if (isOutside(agent, simplex)) add(Outside, agent, simplex);
+        if (isOutside(agent, simplex)) add(Outside, agent, {index, simplex});
     });
 }
 
@@ -56,21 +56,22 @@ void Abnormal::update(const Frame& frame) {
     const bool limits = changed || looks_++ % looksBetweenLimits == 0;
     structures_ = frame.structures;
     come_ = come;
+    ++looked_;
     for (const Kind kind : {Fault, Outside, Lost}) {
         if (kind == Outside && !limits) continue;
         counts_[kind] = 0;
-        paths_[kind].clear();
+        found_[kind].clear();
     }
     for (std::uint32_t i = 0; i < frame.agents.size(); ++i) {
         const AgentFrame& agent = frame.agents[i];
         if (agent.status.ended) continue;
         forOwnSimplexes(agent, [&](std::uint32_t simplex) {
-            if (agent.state(simplex) == State::Fault) add(Fault, agent, simplex);
+            if (agent.state(simplex) == State::Fault) add(Fault, agent, {i, simplex});
             const bool lost = agent.came(simplex) && agent.quality(simplex) == Quality::Lost &&
                               frame.excuse({i, simplex}) == Excuse::None;
-            if (agent.lost() || lost) add(Lost, agent, simplex);
+            if (agent.lost() || lost) add(Lost, agent, {i, simplex});
         });
-        if (limits) findOutside(agent);
+        if (limits) findOutside(agent, i);
     }
 }
 
@@ -78,8 +79,8 @@ std::string Abnormal::next(const std::string& path, bool back, std::optional<Kin
     std::vector<std::string> all;
     for (const Kind each : {Fault, Outside, Lost}) {
         if (kind && each != *kind) continue;
-        for (const std::string& found : paths_[each]) {
-            if (std::ranges::find(all, found) == all.end()) all.push_back(found);
+        for (const Found& found : found_[each]) {
+            if (std::ranges::find(all, found.path) == all.end()) all.push_back(found.path);
         }
     }
     if (all.empty()) return {};

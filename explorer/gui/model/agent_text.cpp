@@ -53,12 +53,25 @@ QString cameText(const comms::AgentStatus& agent) {
     return words("%1 of %2").arg(all - std::min(agent.missing, all)).arg(all);
 }
 
-QString missedText(const AgentFrame& agent) {
-    QString text = overloadText(agent.status);
+QString missedTicksText(const AgentFrame& agent) {
     const std::uint32_t own = agent.own();
-    if (text.isEmpty() || own == noSimplex || !agent.came(own)) return text;
+    if (!agent.status.overloaded || own == noSimplex || !agent.came(own)) return {};
     const auto missed = itemOf<std::int64_t>(agent, own, "overflowCount");
-    return missed ? words("%1; %2 ticks missed since its start").arg(text).arg(*missed) : text;
+    return missed ? words("%1 ticks missed since its start").arg(*missed) : QString{};
+}
+
+QString missedText(const AgentFrame& agent) {
+    const QString text = overloadText(agent.status), ticks = missedTicksText(agent);
+    return text.isEmpty() || ticks.isEmpty() ? text : words("%1; %2").arg(text, ticks);
+}
+
+int troubleRank(const AgentFrame& agent) {
+    const comms::AgentStatus& s = agent.status;
+    if (s.ended) return 4;
+    if (agent.lost()) return 0;
+    if (!s.standstill.empty()) return 1;
+    if (s.overloaded) return 2;
+    return s.missing > 0 ? 3 : 5;
 }
 
 QStringList troublesOf(const comms::AgentStatus& agent) {

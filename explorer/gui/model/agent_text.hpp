@@ -16,6 +16,9 @@ QString stateWord(const comms::AgentStatus& agent);  // "running", "ended"
 QString cameText(const comms::AgentStatus& agent);   // "37 of 44", of types and simplexes
 // "overloaded: 46 of 200 Hz; 437 ticks missed since its start"; empty: it is not.
 QString missedText(const AgentFrame& agent);
+QString missedTicksText(const AgentFrame& agent);  // the second half of that alone
+// Where it stands in the order of the worst first.
+int troubleRank(const AgentFrame& agent);
 // Everything else that is wrong with it, the worst first.
 QStringList troublesOf(const comms::AgentStatus& agent);
 

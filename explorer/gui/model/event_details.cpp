@@ -4,6 +4,7 @@
 #include "cortex/core/command_sentence.hpp"
 #include "cortex/core/event.hpp"
 
+#include "common/kind_meaning.hpp"
 #include "model/plain_text.hpp"
 #include "model/shown_time.hpp"
 
@@ -40,12 +41,19 @@ void addCommand(EventDetails& details, const comms::AgentEvent& event) {
     addPart(details, "latency", sentence->latency);
 }
 
+// "overflow: The loop of an agent did not keep its time: …".
+QString kindText(const std::string& kind) {
+    const std::string meaning{common::kindMeaning(kind)};
+    return meaning.empty() ? plainText(kind)
+                           : detail("%1: %2").arg(plainText(kind), detail(meaning.c_str()));
+}
+
 void addTimes(EventDetails& details, const EventRow& row) {
     const comms::AgentEvent &first = row.event, &last = row.newest();
-    const QString time = shownTimeText(first.wallClock, "yyyy-MM-dd HH:mm:ss.zzz");
+    const QString time = timeAndZone(first.wallClock, "yyyy-MM-dd HH:mm:ss.zzz");
     details.emplace_back(row.times == 1 ? detail("time") : detail("first"), time);
     if (row.times == 1) return;
-    details.emplace_back(detail("last"), shownTimeText(last.wallClock, "yyyy-MM-dd HH:mm:ss.zzz"));
+    details.emplace_back(detail("last"), timeAndZone(last.wallClock, "yyyy-MM-dd HH:mm:ss.zzz"));
     const double seconds = static_cast<double>(last.wallClock - first.wallClock) * 1e-9;
     QString times = detail("%1 in %2 s").arg(countText(row.times)).arg(seconds, 0, 'f', 1);
     if (seconds >= 0.1) {
@@ -65,10 +73,10 @@ EventDetails detailsOf(const EventRow& row) {
         details.emplace_back(detail("number"), fromTo(countText(first.number + 1),
                                                       countText(first.number + row.missing)));
         details.emplace_back(detail("after"),
-                             shownTimeText(first.wallClock, "yyyy-MM-dd HH:mm:ss.zzz"));
+                             timeAndZone(first.wallClock, "yyyy-MM-dd HH:mm:ss.zzz"));
         return details;
     }
-    details.emplace_back(detail("kind"), plainText(first.kind));
+    details.emplace_back(detail("kind"), kindText(first.kind));
     if (first.number > 0) {  // otherwise the window's own
         details.emplace_back(detail("cycle"), fromTo(number(first.cycle), number(last.cycle)));
         details.emplace_back(detail("number"),

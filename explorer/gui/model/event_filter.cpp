@@ -4,6 +4,7 @@
 #include "model/plain_text.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cortex::gui {
 
@@ -149,7 +150,14 @@ void EventFilter::rebuild() {
 }
 
 void EventFilter::search(const QString& text) {
-    events_.search(EventQuery{text});
+    const EventQuery query{text};
+    const bool names = query.namesJogs();
+    if (names && !showsRoutine_) {
+        showsRoutine_ = namesRoutine_ = true;
+    } else if (!names && std::exchange(namesRoutine_, false)) {
+        showsRoutine_ = false;
+    }
+    events_.search(query);
     rebuild();
 }
 
@@ -164,6 +172,8 @@ void EventFilter::showKind(const std::string& kind, bool shown) {
 }
 
 void EventFilter::showRoutine(bool shown) {
+    if (shown == showsRoutine_) return;
+    namesRoutine_ = false;
     showsRoutine_ = shown;
     rebuild();
 }

@@ -87,7 +87,7 @@ private:
     int members_ = 0;  // rows below the one that is open
     std::set<Severity> hidden_;
     std::set<std::string> hiddenKinds_;
-    bool showsRoutine_ = false;
+    bool showsRoutine_ = false, namesRoutine_ = false;  // only while the words name it
     Counts counts_;
     std::deque<std::uint64_t> counted_;  // events of each row of the model that are in the counts
 };

@@ -72,7 +72,8 @@ void EventPast::refresh(const Frame& frame) {
         asked.lost = agent.lost();
         const bool knowsClock = agent.image && *agent.image;
         const bool waited = frame.seconds - asked.since > patienceWithClock;
-        if (!asked.waits || !(knowsClock || agent.lost() || waited)) continue;
+        const bool answersAtOnce = agent.lost() || !agent.status.remembers;  // that it cannot
+        if (!asked.waits || !(knowsClock || answersAtOnce || waited)) continue;
         ask(agent, asked, knowsClock ? (*agent.image)->wallClock() : frame.utc);
     }
     std::erase_if(asked_, [&](const auto& each) {

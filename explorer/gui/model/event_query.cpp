@@ -71,6 +71,18 @@ bool EventQuery::matches(const comms::AgentEvent& event) const {
     });
 }
 
+bool EventQuery::namesJogs() const {
+    const auto names = [](const Term& term) {
+        const bool kind = term.field == QLatin1String{"kind"};
+        const bool word = term.field.isEmpty() || term.field == QLatin1String{"text"};
+        return !term.no && ((kind && is(name(EventKind::Command), term.value)) ||
+                            (word && is("jog", term.value)));
+    };
+    return std::ranges::any_of(alternatives_, [&](const std::vector<Term>& terms) {
+        return std::ranges::any_of(terms, names);
+    });
+}
+
 bool EventQuery::holds(const Term& term, const comms::AgentEvent& event) {
     const QString& field = term.field;
     if (field.isEmpty()) {

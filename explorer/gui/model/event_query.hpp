@@ -21,6 +21,7 @@ public:
     // What is wrong with it, with the nearest names; empty: nothing.
     const QString& trouble() const { return trouble_; }
     bool matches(const comms::AgentEvent& event) const;
+    bool namesJogs() const;  // `kind:command` or `jog` is among its words
 
 private:
     struct Term {

@@ -74,6 +74,18 @@ std::string_view senderIn(std::string_view text) {
     return at != std::string_view::npos ? text.substr(0, at) : std::string_view{};
 }
 
+// A name with brackets could stand for another tool: the tool is first then.
+std::string withPerson(const std::string& text, bool withTool) {
+    const std::string_view said = senderIn(text);
+    const SenderParts parts = senderParts(said);
+    if (parts.person.empty() || parts.person.find_first_of("()") != std::string_view::npos)
+        return text;
+    std::string shown{parts.before};
+    shown.append(parts.person);
+    if (withTool) shown.append(" (").append(parts.tool).append(")");
+    return shown + text.substr(said.size());
+}
+
 }  // namespace
 
 bool tellsOfCommand(const std::string& kind) {
@@ -94,16 +106,9 @@ SenderParts senderParts(std::string_view sender) {
     return parts;
 }
 
-// A name with brackets could stand for another tool: the tool is first then.
-std::string personFirst(const std::string& text) {
-    const std::string_view said = senderIn(text);
-    const SenderParts parts = senderParts(said);
-    if (parts.person.empty() || parts.person.find_first_of("()") != std::string_view::npos)
-        return text;
-    std::string shown{parts.before};
-    shown.append(parts.person).append(" (").append(parts.tool).append(")");
-    return shown + text.substr(said.size());
-}
+std::string personFirst(const std::string& text) { return withPerson(text, true); }
+
+std::string personAlone(const std::string& text) { return withPerson(text, false); }
 
 NumberedText numberedText(const std::string& text) {
     NumberedText result;

@@ -23,6 +23,8 @@ SenderParts senderParts(std::string_view sender);
 // "alice (cortex@desk.4711-5e1f0a): jog(…): Done" of "cortex@desk.4711-5e1f0a for alice: jog(…):
 // Done". Any other text is as it was.
 std::string personFirst(const std::string& text);
+// "alice: jog(…): Done" of the same, where there is little room: the tool stands elsewhere.
+std::string personAlone(const std::string& text);
 
 // "position limited from # to # rad", and the numbers as they were written. What belongs to a name
 // (/drives/4, A4, 0x8611, 12:04) is no number.

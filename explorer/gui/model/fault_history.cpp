@@ -83,7 +83,7 @@ QString FaultHistory::title() const {
     return (faults ? inHistory("Before the fault of %1 at %2")
                    : inHistory("Before the error of %1 at %2"))
         .arg(plainText(fault_.path.empty() ? fault_.agent : fault_.path),
-             shownTimeText(fault_.wallClock, "HH:mm:ss") + ' ' + zoneName(fault_.wallClock));
+             timeAndZone(fault_.wallClock, "HH:mm:ss"));
 }
 
 QJsonObject FaultHistory::saved() const {

@@ -39,6 +39,7 @@ int rank(const std::string& word, const std::string& lower, const std::string& l
 std::string Found::text() const {
     switch (kind) {
         case FoundKind::View:
+        case FoundKind::Action:
             return name;
         case FoundKind::Simplex:
             return path;

@@ -11,14 +11,14 @@
 
 namespace cortex::gui {
 
-enum class FoundKind : std::uint8_t { View, Simplex, Command, Item };
+enum class FoundKind : std::uint8_t { View, Action, Simplex, Command, Item };
 
 // Something that can be opened.
 struct Found {
     FoundKind kind = FoundKind::Simplex;
-    std::string path;    // of the simplex; of a view: its kind
-    std::string name;    // of the item or command; of a view: its title
-    std::string type{};  // of the simplex, or what it is of
+    std::string path;    // of the simplex; of a view: its kind; of an action: its number
+    std::string name;    // of the item or command; of a view: its title; of an action: its text
+    std::string type{};  // of the simplex, or what it is of; of an action: its keys
     // As it is looked for and shown: "/drives/4.position".
     std::string text() const;
 };
@@ -27,7 +27,7 @@ struct Found {
 class FindIndex {
 public:
     explicit FindIndex(const Frame& frame);
-    void add(Found view);
+    void add(Found found);
 
     // The best ones first. All words must be in the text or the type, in any order; upper and lower
     // case are alike. A word of a last name counts more than one of a path, and its begin more than

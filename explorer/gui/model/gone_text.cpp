@@ -16,9 +16,8 @@ QString sayGone(const char* text) { return QCoreApplication::translate("Gone", t
 
 QString goneText(const GoneAgent& agent) {
     const QString text =
-        agent.ended ? sayGone("%1 ended at %2 %3.") : sayGone("%1 was heard last at %2 %3.");
-    return text.arg(plainText(agent.name), shownTimeText(agent.when, "HH:mm:ss"),
-                    zoneName(agent.when));
+        agent.ended ? sayGone("%1 ended at %2.") : sayGone("%1 was heard last at %2.");
+    return text.arg(plainText(agent.name), timeAndZone(agent.when, "HH:mm:ss"));
 }
 
 QString goneInputText(const Frame& frame, Place place) {

@@ -87,6 +87,16 @@ QString askText(const Frame& frame, const std::string& prefix) {
                  .replace('&', QLatin1String{"&&"}));
 }
 
+QStringList uncontrolled(const Frame& frame, const std::string& prefix) {
+    QStringList names;
+    for (const AgentFrame& agent : frame.agents) {
+        const bool has = prefix == "/" || hasBelow(agent, prefix);
+        if (!has || agent.status.ended || frame.control.covers(agent.status.name, prefix)) continue;
+        names << QString::fromStdString(agent.status.name);
+    }
+    return names;
+}
+
 bool canBeTaken(const Frame& frame, const std::string& prefix) {
     bool any = false;
     for (const AgentFrame& agent : frame.agents) {

@@ -4,6 +4,7 @@
 #include "session/frame.hpp"
 
 #include <QString>
+#include <QStringList>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ std::vector<std::string> holdersAt(const Frame& frame, const std::string& prefix
 std::vector<std::string> canBeAsked(const Frame& frame, const std::string& prefix);
 // Of a button: "Ask alice", "Ask 2 people"; empty: nobody can be asked.
 QString askText(const Frame& frame, const std::string& prefix);
+
+// The agents that have something there, have not ended, and are not controlled by us as a whole.
+// All of an agent is below "/", also while it is not known yet what that is.
+QStringList uncontrolled(const Frame& frame, const std::string& prefix);
 
 // Whether somebody who is heard has something there that is not ours, and nobody else holds it.
 bool canBeTaken(const Frame& frame, const std::string& prefix);

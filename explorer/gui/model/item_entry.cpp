@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person enters into the table of values, and copies from it.
 #include "model/item_node.hpp"
+#include "model/plain_text.hpp"
 #include "model/value_text.hpp"
 
 #include <utility>
@@ -28,6 +29,7 @@ QString ItemModel::whyNotSettable(const QModelIndex& index) const {
 
 bool ItemModel::setData(const QModelIndex& index, const QVariant& text, int role) {
     if (role != Qt::EditRole || !settable(index)) return false;
+    enteredLast_ = nodeOf(index)->row.item->name;
     if (text == data(index, Qt::EditRole)) {  // opened, and left as it was
         Q_EMIT accepted();
         return true;
@@ -37,12 +39,12 @@ bool ItemModel::setData(const QModelIndex& index, const QVariant& text, int role
     QString why;
     auto value = entered(row, text.toString(), why);
     if (value && row.whole) {
-        edits_.enter(item.name, std::move(*value));
-    } else if (value && !edits_.enter(row.item->name, row.element, *value)) {
+        edits_.enter(item, std::move(*value));
+    } else if (value && !edits_.enter(*row.item, row.element, *value)) {
         why = tr("has no values yet");
     }
     if (!why.isEmpty()) {
-        Q_EMIT refused(QString::fromStdString(item.name) + ' ' + why);
+        Q_EMIT refused(wrongText(item.name, why));
         return false;
     }
     for (const auto& group : root_->children) refresh(*group);
@@ -87,11 +89,34 @@ QString ItemModel::copyText(const QModelIndex& index) const {
     return live ? text : bracketed(text);
 }
 
-void ItemModel::clearEdits() { clearEdits(edits_.count()); }
+void ItemModel::clearEdits() { clearEdits(path_, edits_.all(), ItemEdits::count()); }
 
-void ItemModel::clearEdits(std::uint64_t entries) {
-    edits_.clear(entries);
+void ItemModel::clearEdits(const std::string& path, const ItemEdits::Values& sent,
+                           std::uint64_t entries) {
+    if (path != path_) {
+        ItemEdits::All kept = kept_->take(path);
+        ItemEdits::clear(kept, sent, entries);
+        kept_->put(path, std::move(kept));
+        return;
+    }
+    edits_.clear(sent, entries);
     for (const auto& group : root_->children) refresh(*group);
+}
+
+void ItemModel::changeEdits(const std::string& path) {
+    if (path == path_) return;
+    enteredLast_.clear();
+    kept_->put(path_, edits_.take());
+    edits_.put(kept_->take(path));
+}
+
+void ItemModel::setAsideChanged() {
+    const Type& type = frame_->type(*built_);
+    QStringList items;
+    for (const std::string& each :
+         edits_.dropChanged([&](const std::string& item) { return type.findData(item); }))
+        items << plainText(each);
+    if (!items.isEmpty()) Q_EMIT setAside(path_, items);
 }
 
 }  // namespace cortex::gui

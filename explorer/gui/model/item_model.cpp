@@ -56,9 +56,10 @@ ItemModel::ItemModel(QObject* parent)
       root_{std::make_unique<Node>()},
       edits_{[this](const std::string& item) { return valueNow(item); }} {}
 
-ItemModel::~ItemModel() = default;
+ItemModel::~ItemModel() { kept_->put(path_, edits_.take()); }
 
 void ItemModel::show(const std::string& path) {
+    changeEdits(path);
     path_ = path;
     build();
 }
@@ -89,6 +90,7 @@ void ItemModel::build() {
         addRelated(*built_);
     }
     endResetModel();
+    if (built_) setAsideChanged();
 }
 
 // Its own type first, then each ancestor that adds items, from the nearest to Simplex.

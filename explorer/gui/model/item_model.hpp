@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "model/item_edits.hpp"
 #include "model/shown_units.hpp"
 #include "session/frame.hpp"
+#include "session/item_edits.hpp"
 #include "style/shapes.hpp"
 
 #include <QAbstractItemModel>
+#include <QStringList>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cortex::gui {
@@ -39,7 +41,8 @@ public:
     explicit ItemModel(QObject* parent = nullptr);
     ~ItemModel() override;
 
-    void show(const std::string& path);  // and its related simplexes
+    // And its related simplexes. What was entered for the one before is there when it comes back.
+    void show(const std::string& path);
     const std::string& path() const { return path_; }
     void update(std::shared_ptr<const Frame> frame);
 
@@ -53,9 +56,15 @@ public:
     static DataItem entryItem(const Row& row);
     // What a person entered for it, in the unit of the model; none, and why, where it is wrong.
     std::optional<cortex::Value> entered(const Row& row, const QString& text, QString& why) const;
+    // Without those that were there when the simplex was shown again, but for the item entered
+    // last.
+    ItemEdits::Values freshEdits() const { return edits_.fresh(enteredLast_); }
     void clearEdits();
-    std::uint64_t entries() const { return edits_.count(); }  // of all time
-    void clearEdits(std::uint64_t entries);  // what was entered until there were so many
+    // What was sent for that simplex when so many had been entered.
+    void clearEdits(const std::string& path, const ItemEdits::Values& sent, std::uint64_t entries);
+    // What was entered for simplexes that are not shown; by itself it has a store of its own.
+    void keepIn(std::shared_ptr<KeptEdits> kept) { kept_ = std::move(kept); }
+    const KeptEdits& kept() const { return *kept_; }
     bool settable(const QModelIndex& index) const;
     QString whyNotSettable(const QModelIndex& index) const;  // empty: it is
     // The value at full precision in plain ASCII, in the unit of the model; in brackets where it is
@@ -75,6 +84,8 @@ public:
 Q_SIGNALS:
     void refused(const QString& why);  // what was entered: "gain is out of the range 0 to 1"
     void accepted();                   // what was entered, also where it is as it was before
+    // What was entered for items whose definition has changed since, and is forgotten.
+    void setAside(const std::string& path, const QStringList& items);
 
 private:
     struct Node;
@@ -90,6 +101,8 @@ private:
     std::optional<cortex::Value> valueOf(const Node& node, std::optional<Place> place) const;
     void read(Node& node, std::optional<Place> place) const;
     void readNothing(Row& row, std::optional<Place> place) const;
+    void changeEdits(const std::string& path);
+    void setAsideChanged();
     bool settableRow(const Row& row) const;
     std::optional<cortex::Value> valueNow(const std::string& item) const;
     QString editedText(const Row& row) const;
@@ -103,6 +116,8 @@ private:
     std::uint64_t structures_ = 0;
     ShownUnits units_;
     ItemEdits edits_;
+    std::string enteredLast_;  // item
+    std::shared_ptr<KeptEdits> kept_ = std::make_shared<KeptEdits>();
 };
 
 }  // namespace cortex::gui

@@ -17,7 +17,7 @@ QString tell(const char* text) { return QCoreApplication::translate("Outcome", t
 // When the window had the outcome.
 QString timeOf(const CommandOutcome& outcome) {
     if (outcome.came == 0) return {};
-    return QStringLiteral("  ") + shownTimeText(outcome.came, "HH:mm:ss.zzz");
+    return QStringLiteral("  ") + timeAndZone(outcome.came, "HH:mm:ss.zzz");
 }
 
 QString doneText(const CommandOutcome& outcome, const Command* command) {

@@ -18,6 +18,10 @@ constexpr int mostNamed = 12;  // agents
 
 QString inReach(const char* text) { return QCoreApplication::translate("PastReach", text); }
 
+std::string timeText(std::int64_t utc) {
+    return timeAndZone(utc, "yyyy-MM-dd HH:mm:ss.zzz").toStdString();
+}
+
 QString agentName(const std::string& name) { return plainText(common::shownName(name)); }
 
 QString askingText(const QStringList& names) {
@@ -28,8 +32,8 @@ QString askingText(const QStringList& names) {
 
 QString allText(std::int64_t from) {
     if (from <= 0) return inReach("All agents have said what they keep.");
-    return inReach("All agents keep what happened since %1 %2.")
-        .arg(shownTimeText(from, "yyyy-MM-dd HH:mm:ss"), zoneName(from));
+    return inReach("All agents keep what happened since %1.")
+        .arg(timeAndZone(from, "yyyy-MM-dd HH:mm:ss"));
 }
 
 }  // namespace
@@ -42,8 +46,9 @@ QString reachText(const std::vector<PastReach>& agents, std::int64_t from) {
             asking << agentName(each.agent);
             continue;
         }
-        QString said = plainText(
-            each.trouble.empty() ? common::keptText(each.since, from, each.started) : each.trouble);
+        QString said = plainText(each.trouble.empty()
+                                     ? common::keptText(each.since, from, each.started, timeText)
+                                     : each.trouble);
         if (!each.trouble.empty() && !each.remembers)
             said += inReach(": only its last 1,000 events");
         if (!said.isEmpty()) parts << QStringLiteral("%1: %2").arg(agentName(each.agent), said);

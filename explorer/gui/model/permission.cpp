@@ -61,7 +61,7 @@ QString whyNotControlled(const Frame& frame, Place place, std::string_view comma
 
 }  // namespace
 
-QString clockText(std::int64_t utc) { return shownTimeText(utc, "HH:mm") + ' ' + zoneName(utc); }
+QString clockText(std::int64_t utc) { return timeAndZone(utc, "HH:mm"); }
 
 QString scopeText(const std::string& prefix) {
     return prefix == "/" ? say("everything") : QString::fromStdString(prefix);

@@ -5,12 +5,16 @@
 #include <QLocale>
 #include <QStringList>
 #include <QTimeZone>
+#include <algorithm>
 
 namespace cortex::gui {
 
 namespace {
 
 constexpr int tipColumns = 90;
+
+// Letters beyond the first plane come in two halves.
+bool isSeen(QChar each) { return each.isPrint() || each.isSurrogate(); }
 
 }  // namespace
 
@@ -20,6 +24,17 @@ QString plainText(const std::string& text) {
         if (!c.isPrint()) c = ' ';
     }
     return result;
+}
+
+bool isPlain(const QString& text) { return std::ranges::all_of(text, isSeen); }
+
+QString isolatedText(const std::string& text) {
+    QString plain = QString::fromStdString(text);
+    std::ranges::replace_if(plain, [](QChar each) { return !isSeen(each); }, QChar{0xFFFD});
+    const bool turns = std::ranges::any_of(plain, [](QChar each) {
+        return each.direction() == QChar::DirR || each.direction() == QChar::DirAL;
+    });
+    return turns ? QChar{0x2068} + plain + QChar{0x2069} : plain;
 }
 
 QString tipText(const QString& text) {

@@ -11,6 +11,12 @@ namespace cortex::gui {
 // In one line: control characters, line breaks too, are blanks.
 QString plainText(const std::string& text);
 
+// Whether it is shown as it is written: nothing in it is unseen, or turns what stands beside it.
+bool isPlain(const QString& text);
+
+// A value among other words, whose order it does not change, also where it is from right to left.
+QString isolatedText(const std::string& text);
+
 // For a tool tip: lines that are too long for a screen are broken at blanks.
 QString tipText(const QString& text);
 

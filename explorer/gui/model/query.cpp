@@ -79,6 +79,23 @@ QString unknownType(const QString& name, const Frame& frame) {
     return near.empty() ? text + '.' : text + QStringLiteral("; ") + QString::fromStdString(near);
 }
 
+// Of the fields whose values are known by name; empty: it is one, or it is another field.
+QString unknownValue(const QString& field, const QString& value) {
+    std::vector<std::string> names;
+    const auto add = [&](auto last) {
+        using Named = decltype(last);
+        for (int i = 0; i <= static_cast<int>(last); ++i)
+            names.emplace_back(name(static_cast<Named>(i)));
+    };
+    if (field == QLatin1String{"state"}) add(State::Fault);
+    if (field == QLatin1String{"quality"}) add(Quality::Lost);
+    if (field == QLatin1String{"role"}) add(Role::Active);
+    const auto is = [&](const std::string& each) { return equal(each, value); };
+    if (names.empty() || value.isEmpty() || std::ranges::any_of(names, is)) return {};
+    return QCoreApplication::translate("Query", "\"%1:%2\" is no %1. %3")
+        .arg(field, value, QString::fromStdString(nearestNames(value.toStdString(), names)));
+}
+
 }  // namespace
 
 std::vector<QStringList> alternativesOf(const QString& text) {
@@ -129,6 +146,8 @@ Query::Term Query::termFrom(QString text) {
         if (std::ranges::none_of(fields, [&](auto each) { return equal(each, term.field); })) {
             trouble_ = unknownField(term.field, fields);
         }
+        const QString wrong = unknownValue(term.field, term.value);
+        if (!wrong.isEmpty()) trouble_ = wrong;
     }
     return term;
 }

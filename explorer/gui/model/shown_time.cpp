@@ -33,4 +33,8 @@ QString shownTimeText(std::int64_t utc, const char* format) {
     return timeAt(utc, local).toString(QString::fromLatin1(format));
 }
 
+QString timeAndZone(std::int64_t utc, const char* format) {
+    return shownTimeText(utc, format) + ' ' + zoneName(utc);
+}
+
 }  // namespace cortex::gui

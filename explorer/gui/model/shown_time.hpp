@@ -17,5 +17,6 @@ QString localZoneName(std::int64_t utc);
 std::int64_t zoneOffset(std::int64_t utc);  // seconds that are added to UTC
 
 QString shownTimeText(std::int64_t utc, const char* format);  // "HH:mm:ss.zzz"
+QString timeAndZone(std::int64_t utc, const char* format);    // "12:05:07 UTC"
 
 }  // namespace cortex::gui

@@ -21,7 +21,7 @@ bool isStateChange(const comms::AgentEvent& event) {
 
 QString sinceText(std::int64_t when, double seconds) {
     return QCoreApplication::translate("StateTimes", "since %1, %2")
-        .arg(shownTimeText(when, "HH:mm:ss") + ' ' + zoneName(when), wholeAgeText(seconds));
+        .arg(timeAndZone(when, "HH:mm:ss"), wholeAgeText(seconds));
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ QString StateTimes::text(const Frame& frame, Place place) const {
     const Change* found = last(frame, place);
     if (found == nullptr) {
         return QCoreApplication::translate("StateTimes", "since before %1")
-            .arg(shownTimeText(begin_, "HH:mm") + ' ' + zoneName(begin_));
+            .arg(timeAndZone(begin_, "HH:mm"));
     }
     const std::int64_t when = found->when;
     // By the clock of the agent, which also stamped the event.

@@ -2,8 +2,10 @@
 #include "model/value_text.hpp"
 
 #include "cortex/core/labelled_value.hpp"
+#include "cortex/core/nearest_names.hpp"
 
 #include "common/number_text.hpp"
+#include "model/plain_text.hpp"
 
 #include <QCoreApplication>
 #include <algorithm>
@@ -55,7 +57,38 @@ QString label(const DataItem& item, std::int64_t number) {
     if (item.labels.empty()) return digits;
     const auto found = item.labels.find(number);
     if (found == item.labels.end()) return tr("%1 (no label)").arg(digits);
-    return QStringLiteral("%1 (%2)").arg(QString::fromStdString(found->second), digits);
+    return QStringLiteral("%1 (%2)").arg(isolatedText(found->second), digits);
+}
+
+// "Standby, Homing or Velocity": the nearest, otherwise the first.
+QString labelsToTry(const DataItem& item, const std::string& text) {
+    constexpr int mostTried = 3;
+    std::vector<std::string> labels;
+    for (const auto& [number, each] : item.labels) labels.push_back(each);
+    const QString near = QString::fromStdString(nearestNames(text, labels));
+    QStringList tried =
+        near.mid(near.indexOf(QStringLiteral(": ")) + 2).split(QStringLiteral(", "));
+    if (near.isEmpty()) {
+        tried.clear();
+        for (const std::string& each : labels) tried << QString::fromStdString(each);
+    }
+    tried = tried.mid(0, mostTried);
+    const QString last = tried.takeLast();
+    return tried.isEmpty() ? last : tr("%1 or %2").arg(tried.join(QStringLiteral(", ")), last);
+}
+
+// Of one element. `read`: it is of its kind, and no value of this item.
+QString whyNoValue(const DataItem& item, const QString& text, bool read,
+                   const std::string& reason) {
+    if (!item.labels.empty() && (!read || isClosed(item))) {
+        return tr("'%1' is no label; try %2").arg(text, labelsToTry(item, text.toStdString()));
+    }
+    if (read) return QString::fromStdString(reason);
+    if (item.kind == Kind::Bool) return tr("true or false expected");
+    if (item.kind == Kind::Float) return tr("number expected");
+    const bool tooLarge = QString::fromStdString(reason).contains(QStringLiteral("64 bit"));
+    return tooLarge || item.kind != Kind::Int ? QString::fromStdString(reason)
+                                              : tr("whole number expected");
 }
 
 }  // namespace
@@ -125,7 +158,23 @@ QString entryText(const DataItem& item, const Value& value) {
     if (!labelled) return QString::fromStdString(toText(value));
     QStringList all;
     for (const std::string& each : labels) all << QString::fromStdString(each);
-    return all.join(' ');
+    const bool plain = std::ranges::all_of(all, isPlain);
+    return plain ? all.join(' ') : QString::fromStdString(toText(value));
+}
+
+QString wrongText(const std::string& item, const QString& why) {
+    const bool isSaidOfIt = why.startsWith(QLatin1String{"is "});
+    return QString::fromStdString(item) +
+           (isSaidOfIt ? QStringLiteral(" ") : QStringLiteral(": ")) + why;
+}
+
+std::vector<std::pair<std::int64_t, QString>> choicesOf(const DataItem& item) {
+    if (item.length != 1) return {};
+    if (item.kind == Kind::Bool) return {{0, QStringLiteral("false")}, {1, QStringLiteral("true")}};
+    std::vector<std::pair<std::int64_t, QString>> choices;
+    for (const auto& [number, label] : item.labels)
+        choices.emplace_back(number, QString::fromStdString(label));
+    return choices;
 }
 
 std::optional<Value> enteredValue(const DataItem& item, const QString& text, QString& why) {
@@ -133,7 +182,9 @@ std::optional<Value> enteredValue(const DataItem& item, const QString& text, QSt
     const std::string plain = QString{text}.replace(minus, QLatin1Char{'-'}).toStdString();
     auto value = parseItemValue(item, plain, reason);
     if (value) reason = valueError(item, *value);
-    why = QString::fromStdString(reason);
+    why = reason.empty()     ? QString{}
+          : item.length == 1 ? whyNoValue(item, text.trimmed(), value.has_value(), reason)
+                             : QString::fromStdString(reason);
     if (!reason.empty()) value.reset();
     return value;
 }

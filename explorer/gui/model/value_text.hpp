@@ -6,6 +6,8 @@
 
 #include <QString>
 #include <functional>
+#include <utility>
+#include <vector>
 
 // Values as the screen shows them. Copies use cortex::toText, in plain ASCII at full precision.
 namespace cortex::gui {
@@ -30,6 +32,11 @@ QString entryText(const DataItem& item, const Value& value);
 // What a person has entered, also with the minus sign that is shown; none, and why, where it
 // cannot be the item's value.
 std::optional<Value> enteredValue(const DataItem& item, const QString& text, QString& why);
+// "gain is out of the range 0 to 1", "mode: 'Foo' is no label; try Off or On".
+QString wrongText(const std::string& item, const QString& why);
+// The labels among which an item has its value, as they are entered: of a switch too; none: it is
+// typed.
+std::vector<std::pair<std::int64_t, QString>> choicesOf(const DataItem& item);
 
 QString unitText(const std::string& ucum);  // "N.m" as "N·m", "m/s2" as "m/s²"
 QString ageText(double seconds);            // "6 ms", "2.1 s", "12 min", "3 h 05 min"

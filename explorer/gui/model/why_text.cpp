@@ -33,25 +33,46 @@ QString named(const Frame& frame, Place place) {
     return how.isEmpty() ? path : QStringLiteral("%1 (%2)").arg(path, how.join(", "));
 }
 
-// What made it not good; none: itself, or it is good. One of another agent is looked for there.
-std::optional<Place> causeOf(const Frame& frame, Place place) {
+// What made it not good, as its agent says; null: itself, or it is good.
+const SimplexInfo* saidCause(const Frame& frame, Place place) {
     const AgentFrame& agent = frame.agents[place.agent];
-    if (!agent.came(place.simplex) || agent.quality(place.simplex) == Quality::Good) return {};
+    if (!agent.came(place.simplex) || agent.quality(place.simplex) == Quality::Good) return nullptr;
     const std::uint32_t cause = (*agent.image)->state(place.simplex).cause;
     const auto& all = agent.structure->simplexes;
-    if (cause >= all.size() || cause == place.simplex) return {};
-    if (!all[cause].remote) return Place{place.agent, cause};
-    return frame.find(all[cause].path);
+    return cause < all.size() && cause != place.simplex ? &all[cause] : nullptr;
+}
+
+// One of another agent is looked for there.
+std::optional<Place> placeOf(const Frame& frame, Place seenFrom, const SimplexInfo& info) {
+    if (info.remote) return frame.find(info.path);
+    return Place{seenFrom.agent, frame.agents[seenFrom.agent].structure->find(info.path)};
 }
 
 QString causesOf(const Frame& frame, Place place) {
     QStringList causes;
-    auto next = causeOf(frame, place);
-    while (next && causes.size() < mostCauses && !causes.contains(named(frame, *next))) {
-        causes << named(frame, *next);
-        next = causeOf(frame, *next);
+    const SimplexInfo* cause = saidCause(frame, place);
+    while (cause != nullptr && causes.size() < mostCauses) {
+        const auto next = placeOf(frame, place, *cause);
+        const QString text =
+            next ? named(frame, *next)
+                 : sayWhy("%1, which is not heard").arg(QString::fromStdString(cause->path));
+        if (causes.contains(text)) break;
+        causes << text;
+        if (!next) break;
+        place = *next;
+        cause = saidCause(frame, place);
     }
     return causes.join(QStringLiteral(" ← "));
+}
+
+// That which has ended has a sentence of its own.
+QString notGoodBecause(const Frame& frame, Place place) {
+    if (frame.goneInput(place)) return {};
+    const QString causes = causesOf(frame, place);
+    if (causes.isEmpty()) return {};
+    if (lostInput(frame, place)) return sayWhy("Input lost: %1.").arg(causes);
+    return sayWhy("Quality %1 because of %2.")
+        .arg(QLatin1String{name(frame.agents[place.agent].quality(place.simplex))}, causes);
 }
 
 QString writersOf(const Frame& frame, Place place) {
@@ -94,14 +115,21 @@ QString whyText(const Frame& frame, Place place) {
     const QString writers = writersOf(frame, place);
     if (!writers.isEmpty()) sentences << sayWhy("Written by %1.").arg(writers);
     const QString stale = staleBecause(frame, place);
-    if (!stale.isEmpty()) sentences << stale;
-    const QString causes = stale.isEmpty() ? causesOf(frame, place) : QString{};
-    if (!causes.isEmpty()) {
-        sentences << sayWhy("Quality %1 because of %2.")
-                         .arg(QLatin1String{name(frame.agents[place.agent].quality(place.simplex))},
-                              causes);
-    }
+    sentences << (stale.isEmpty() ? notGoodBecause(frame, place) : stale);
+    sentences.removeAll({});
     return sentences.join(' ');
+}
+
+std::optional<std::string> lostInput(const Frame& frame, Place place) {
+    const AgentFrame& agent = frame.agents[place.agent];
+    if (agent.lost() || agent.quality(place.simplex) != Quality::Lost) return {};
+    for (int step = 0; step < mostCauses; ++step) {
+        const SimplexInfo* cause = saidCause(frame, place);
+        if (cause == nullptr) return {};
+        if (cause->remote) return cause->path;
+        place.simplex = agent.structure->find(cause->path);
+    }
+    return {};
 }
 
 // The sentence of all tools. Of a lost agent nothing is claimed any more.

@@ -84,7 +84,9 @@ void AxisRow::show(const MotionAxis& axis, const RowLook& look) {
         if (look.held != 0) continue;  // what is held ends with its own reason
         const bool atLimit = axis.isAtLimit(direction);
         button.setEnabled(look.whyNot.isEmpty() && !atLimit);
-        button.setToolTip(atLimit ? axis.limitText() : look.whyNot);
+        QStringList reasons{look.whyNot, atLimit ? axis.limitText() : QString{}};
+        reasons.removeAll({});
+        button.setToolTip(reasons.join(QStringLiteral("; ")));
     }
     showField(otherUnit);
     if (noSpeed_ != nullptr) {

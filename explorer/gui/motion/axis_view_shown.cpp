@@ -126,7 +126,9 @@ void AxisView::showLines() {
     if (!whyNot_.isEmpty() && !jog_->runs()) {
         hint = whyNot_;
     } else if (!limits.isEmpty()) {
-        hint = limits;
+        const QString why = whyNoJog(rows_->selected());  // a limit does not hide it
+        hint = why.isEmpty() ? limits
+                             : tr("%1 %2: %3.").arg(limits, axis(rows_->selected()).name, why);
         tone = Tone::Limit;
     } else if (jogs && rows_->count() > 0) {
         hint = tr("← → jog %1 while they are held, ↑ ↓ choose the axis.")

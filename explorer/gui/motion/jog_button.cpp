@@ -25,10 +25,11 @@ JogButton::JogButton(const QString& text, QWidget* parent) : QPushButton{text, p
     dress();
 }
 
+// Enter presses nothing here: a jog is held.
 void JogButton::keyPressEvent(QKeyEvent* event) {
     if (std::ranges::find(movingKeys, event->key()) != movingKeys.end())
         event->ignore();
-    else
+    else if (event->key() != Qt::Key_Return && event->key() != Qt::Key_Enter)
         QPushButton::keyPressEvent(event);
 }
 

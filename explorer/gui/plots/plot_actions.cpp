@@ -16,7 +16,6 @@
 #include <QJsonArray>
 #include <QKeyEvent>
 #include <QMenu>
-#include <QMessageBox>
 #include <QPainter>
 #include <QSvgGenerator>
 #include <array>
@@ -154,16 +153,19 @@ void PlotView::askForFile(const QString& kind) {
     dialog->setAcceptMode(QFileDialog::AcceptSave);
     dialog->setDefaultSuffix(kind);
     dialog->selectFile(QStringLiteral("plot.%1").arg(kind));
-    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& file) {
-        const QString why = exportTo(file);
-        if (why.isEmpty()) {
-            written_ = tr("written to %1").arg(file);
-            frames_ = 0;
-            return redraw();
-        }
-        QMessageBox::warning(this, tr("Export"), tr("%1 was not written: %2.").arg(file, why));
-    });
+    connect(dialog, &QFileDialog::fileSelected, this,
+            [this](const QString& file) { exportAndTell(file); });
     dialog->open();
+}
+
+void PlotView::exportAndTell(const QString& file) {
+    const QString why = exportTo(file);
+    if (why.isEmpty())
+        written_ = tr("written to %1").arg(file);
+    else
+        notWritten_ = tr("%1 was not written: %2.").arg(file, why);
+    frames_ = 0;
+    redraw();
 }
 
 QString PlotView::exportTo(const QString& file) {
@@ -176,6 +178,7 @@ QString PlotView::exportTo(const QString& file) {
         tr("%1 %2 to %3 %4")
             .arg(dayText(span.from), momentText(span.from), momentText(span.to), zoneText(span.to));
     written_.clear();  // the picture does not tell of the export before
+    notWritten_.clear();
     frames_ = 0;
     redraw();
     const PlotReport report{*column_, side_->isHidden() ? nullptr : legend_, when, names};

@@ -99,6 +99,7 @@ void PlotView::showNotices() {
     if (!written_.isEmpty()) kept += QStringLiteral("; ") + written_;
     foot_->show(kept);
     QStringList notices;
+    if (!notWritten_.isEmpty()) notices << notWritten_;
     if (recorder_.shortened()) {
         notices << tr("Oldest minutes dropped: the memory limit is reached");
     }

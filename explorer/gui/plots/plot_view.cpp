@@ -13,6 +13,7 @@
 #include "plots/time_ticks.hpp"
 #include "style/look.hpp"
 #include "widgets/drop_zone.hpp"
+#include "widgets/focus_edge.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QEvent>
@@ -55,6 +56,7 @@ PlotView::PlotView(Recorder& recorder, QWidget* parent)
       pointer_{new PlotPointer{*this}} {
     setAccessibleName(tr("Plot"));
     setFocusPolicy(Qt::StrongFocus);
+    setProperty(wantsFocusEdge, true);
     setAcceptDrops(true);
     build();
     connect(bar_, &PlotBar::followWanted, this, [this] {

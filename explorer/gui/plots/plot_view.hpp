@@ -73,6 +73,7 @@ public:
     void redraw();                 // what is there, as it is now
     // By its ending: .csv, .png, .svg. Empty, or why it was not written.
     QString exportTo(const QString& file);
+    void exportAndTell(const QString& file);  // and says what became of it
 
 Q_SIGNALS:
     void changed();  // something that a layout keeps
@@ -133,7 +134,7 @@ private:
     CursorOverlay* overlay_;
     DropZone* zone_;
     PlotPointer* pointer_;
-    QString notice_, written_;                    // the file of the last export
+    QString notice_, written_, notWritten_;       // what became of the last export
     QElapsedTimer silence_;                       // since anything came
     double newest_ = 0;                           // s, UTC, of anything
     std::map<std::string, std::int64_t> shifts_;  // of the clocks of agents, as they are drawn

@@ -10,6 +10,7 @@
 #include "window/layout_keeper.hpp"
 #include "window/main_window.hpp"
 #include "window/pages.hpp"
+#include "window/window_size.hpp"
 
 #include <QApplication>
 #include <algorithm>
@@ -48,15 +49,18 @@ int main(int argc, char** argv) {
     if (picture || measured || options->sized) window.layouts().keepSize();
     const QString layout = QString::fromStdString(options->layout);
     if (!picture || !layout.isEmpty()) window.layouts().begin(options->network.domain, layout);
+    if (!picture && !measured && !options->sized && !window.isMaximized()) fitToScreen(window);
     for (const std::string& path : options->paths) {
         path == options->paths.front() ? window.open(path) : window.openTab(path);
     }
-    window.openPart(options->view);
     const std::vector<PageKind> kinds = pageKinds();
-    const auto kind = QString::fromStdString(options->view);
-    if (kind.startsWith("view:") ||
-        std::ranges::find(kinds, kind, &PageKind::kind) != kinds.end()) {
-        window.openKind(kind);
+    const auto view = QString::fromStdString(options->view);
+    const bool isKind =
+        view.startsWith("view:") || std::ranges::find(kinds, view, &PageKind::kind) != kinds.end();
+    if (isKind) {
+        window.openKind(view);
+    } else if (!view.isEmpty()) {
+        window.openPart(options->view);  // of the simplex that is shown
     }
     std::vector<RecordedItem> plotted;
     for (const std::string& each : options->plot) plotted.push_back(*recordedItem(each));

@@ -32,9 +32,9 @@ std::string checkSize(const std::string& text) {
 }
 
 std::string checkView(const std::string& name) {
-    const std::vector<std::string> known{"simplex", "data",   "relationships", "commands",
-                                         "type",    "system", "agents",        "events",
-                                         "compare", "manual"};
+    const std::vector<std::string> known{"overview", "simplex", "data",   "relationships",
+                                         "commands", "type",    "system", "agents",
+                                         "events",   "compare", "manual"};
     if (name.starts_with("view:") || std::ranges::find(known, name) != known.end()) return {};
     return "there is no view " + name + "; " + nearestNames(name, known);
 }
@@ -89,8 +89,8 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exit) {
                    "Who you are: others see it beside what you control; otherwise user@host")
         ->check(CLI::Validator{checkPerson, "NAME"});
     app.add_option("--view", options.view,
-                   "What to show at first: simplex, data, relationships, commands, type, system, "
-                   "agents, events, compare, manual, or view:NAME of a plug-in")
+                   "What to show at first: overview, simplex, data, relationships, commands, type, "
+                   "system, agents, events, compare, manual, or view:NAME of a plug-in")
         ->check(CLI::Validator{checkView, "NAME"});
     app.add_option("--layout", options.layout,
                    "Arrange the window as this file says, which the menu has saved; nothing is "

@@ -4,6 +4,7 @@
 #include "cortex/core/command_sentence.hpp"
 #include "cortex/core/event.hpp"
 
+#include "session/item_edits.hpp"
 #include "session/utc_now.hpp"
 
 #include <chrono>
@@ -42,6 +43,9 @@ std::vector<std::string> itemsIn(const CommandSentence& set) {
 }
 
 }  // namespace
+
+Commands::Commands(Session& session)
+    : session_{session}, keptEdits_{std::make_shared<KeptEdits>()} {}
 
 void Commands::send(const std::string& path, const std::string& command,
                     comms::Mirror::Arguments arguments, std::chrono::milliseconds limit,

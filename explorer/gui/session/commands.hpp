@@ -2,17 +2,21 @@
 #pragma once
 
 #include "session/session.hpp"
+#include "session/typed_arguments.hpp"
 
 #include <QObject>
 #include <QPointer>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace cortex::gui {
+
+struct KeptEdits;
 
 // The commands of the window: whoever sends one is called with its outcome. What became of the last
 // one of each name stays with its simplex, whatever is shown by then. GUI thread.
@@ -24,7 +28,7 @@ public:
         std::optional<CommandOutcome> outcome;  // none: it is on its way
     };
 
-    explicit Commands(Session& session) : session_{session} {}
+    explicit Commands(Session& session);
     const comms::NetworkOptions& network() const { return session_.options(); }
 
     // `done` is called once, unless `asker` is gone by then. `keptAs`: the name under which last()
@@ -34,6 +38,9 @@ public:
               Done done, const std::string& keptAs = {},
               std::chrono::milliseconds budget = std::chrono::seconds{5});
     Session& session() { return session_; }
+    TypedArguments& typed() { return typed_; }
+    // Items that were entered and not sent, of what no table shows just now.
+    const std::shared_ptr<KeptEdits>& keptEdits() const { return keptEdits_; }
     void deliver(const std::vector<CommandOutcome>& outcomes);
     const Last* last(const std::string& path, const std::string& name) const;  // null: none
 
@@ -50,6 +57,8 @@ private:
         Key key;
     };
     Session& session_;
+    TypedArguments typed_;
+    std::shared_ptr<KeptEdits> keptEdits_;
     std::map<std::uint64_t, Asked> asked_;
     std::map<Key, Last> last_;
     // By path and item; an empty one: any of them.

@@ -110,6 +110,14 @@ std::vector<std::string> Control::prefixes() const {
     return prefixes;
 }
 
+std::vector<std::string> Control::prefixesOf(const std::string& agent) const {
+    std::vector<std::string> prefixes;
+    for (const comms::LeaseClient::Lease& each : held) {
+        if (each.agent == agent) prefixes.push_back(each.prefix);
+    }
+    return prefixes;
+}
+
 bool Control::covers(const std::string& agent, std::string_view path) const {
     return std::ranges::any_of(held, [&](const comms::LeaseClient::Lease& each) {
         return each.agent == agent && isAtOrBelow(path, each.prefix);

@@ -101,6 +101,7 @@ struct Control {
     std::vector<comms::LeaseClient::Asked> asked;  // what others ask it for, the longest first
 
     std::vector<std::string> prefixes() const;  // that are held, each once
+    std::vector<std::string> prefixesOf(const std::string& agent) const;
     bool covers(const std::string& agent, std::string_view path) const;
 };
 

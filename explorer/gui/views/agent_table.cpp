@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/agent_table.hpp"
 
+#include "common/role_meaning.hpp"
 #include "model/agent_text.hpp"
 #include "model/shown_time.hpp"
 #include "model/value_text.hpp"
@@ -14,7 +15,7 @@ namespace cortex::gui {
 
 namespace {
 
-constexpr int nameRole = Qt::UserRole, startedColumn = 4, troubleColumn = 11;
+constexpr int nameRole = Qt::UserRole, startedColumn = 4, simplexesColumn = 7, troubleColumn = 11;
 
 QStringList textsOf(const AgentFrame& agent) {
     const comms::AgentStatus& s = agent.status;
@@ -48,6 +49,7 @@ AgentTable::AgentTable(QWidget* parent) : QTreeWidget{parent} {
     setHeaderLabels({tr("Agent"), tr("Host"), tr("State"), tr("Age"), QString{}, tr("Rate"),
                      tr("Cycle"), tr("Simplexes"), tr("Types"), tr("Lost samples"), tr("Security"),
                      tr("Trouble")});
+    headerItem()->setToolTip(simplexesColumn, tr(common::simplexMeaning));
     keepWidths(*this, {28.0, 34.0, 24.0, 18.0, 44.0, 20.0, 24.0, 20.0, 16.0, 26.0, 28.0});
     connect(this, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* now) {
         if (filling_ || now == nullptr) return;

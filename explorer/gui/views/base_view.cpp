@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/base_view.hpp"
 
+#include "common/role_meaning.hpp"
 #include "model/gone_text.hpp"
+#include "model/nothing_text.hpp"
 #include "model/plotted_items.hpp"
 #include "model/value_text.hpp"
 #include "plugin/plugins.hpp"
@@ -14,7 +16,10 @@
 #include "views/simplex_header.hpp"
 #include "views/type_page.hpp"
 #include "views/view_host.hpp"
+#include "widgets/empty_page.hpp"
+#include "widgets/focus_edge.hpp"
 #include "widgets/item_table.hpp"
+#include "widgets/reading_order.hpp"
 #include "widgets/tab_row.hpp"
 #include "widgets/text_label.hpp"
 
@@ -23,6 +28,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace cortex::gui {
 
@@ -40,8 +46,7 @@ constexpr std::array<std::string_view, TabCount> partNames{"own", "data", "relat
 BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, QWidget* parent)
     : QWidget{parent},
       whole_{new QStackedWidget},
-      emptyTitle_{new TextLabel{TextSize::Empty}},
-      emptyText_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
+      empty_{new EmptyPage},
       lifeCycle_{new LifeCycleBar{commands}},
       header_{new SimplexHeader{lifeCycle_, times}},
       tabs_{new TabRow},
@@ -52,6 +57,7 @@ BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, 
       relations_{new RelationTable},
       commands_{new CommandList{commands}},
       type_{new TypePage} {
+    items_.keepIn(commands.keptEdits());
     headerRow_ = new QVBoxLayout;
     headerRow_->addWidget(header_);
     makeRoom();
@@ -71,7 +77,7 @@ BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, 
     connect(table_, &ItemTable::placesWanted, this, &BaseView::placesWanted);
     connect(table_, &ItemTable::compareWanted, this, &BaseView::compareWanted);
     connect(table_, &ItemTable::unitsChanged, this, &BaseView::unitsChanged);
-    connect(table_, &ItemTable::submitted, edits_, &EditBar::submit);
+    connect(table_, &ItemTable::submitted, edits_, &EditBar::submitFresh);
     connect(table_, &ItemTable::givenUp, edits_, &EditBar::forgetRefusal);
     connect(edits_, &EditBar::pressed, table_, qOverload<>(&QWidget::setFocus));
     auto* undo = new QShortcut{QKeySequence::Undo, this};
@@ -97,19 +103,10 @@ BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, 
     rows->addWidget(tabs_);
     rows->addWidget(pages_, 1);
 
-    auto* empty = new QWidget;
-    auto* lines = new QVBoxLayout{empty};
-    lines->addStretch(1);
-    for (TextLabel* label : {emptyTitle_, emptyText_}) {
-        label->setAlignment(Qt::AlignCenter);
-        label->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-        lines->addWidget(label);
-    }
-    lines->addStretch(2);
-
-    whole_->addWidget(empty);
+    whole_->addWidget(empty_);
     whole_->addWidget(content);
     setAutoFillBackground(true);
+    setProperty(wantsFocusEdge, true);  // while the keyboard waits in it
     auto* outer = new QVBoxLayout{this};
     outer->setContentsMargins(0, 0, 0, 0);
     outer->addWidget(whole_);
@@ -118,6 +115,7 @@ BaseView::BaseView(Commands& commands, ViewHost& host, const StateTimes& times, 
 void BaseView::show(const std::string& path) {
     path_ = path;
     fresh_ = true;
+    goal_.reset();
     items_.show(path);
     lifeCycle_->show(path);
     edits_->show(path);
@@ -138,6 +136,21 @@ void BaseView::openPart(const std::string& name) {
     if (found == partNames.end()) return;
     wanted_ = static_cast<int>(found - partNames.begin());
     tabs_->setCurrentIndex(wanted_);
+}
+
+void BaseView::enter(const std::string& part, const std::string& name) {
+    openPart(part);
+    goal_ = name;
+    if (whole_->currentIndex() == 1 && !fresh_) return reachGoal();
+    setFocus(Qt::OtherFocusReason);
+}
+
+void BaseView::reachGoal() {
+    const std::string name = *std::exchange(goal_, std::nullopt);
+    if (tabs_->currentIndex() == DataTab && table_->choose(name)) return;
+    if (tabs_->currentIndex() == CommandsTab && commands_->choose(name)) return;
+    QWidget* stop = mainStop(*pages_->currentWidget());  // none: a view may have nothing for keys
+    (stop != nullptr ? stop : tabs_)->setFocus(Qt::TabFocusReason);
 }
 
 void BaseView::refresh(const std::shared_ptr<const Frame>& frame) {
@@ -161,6 +174,8 @@ void BaseView::refresh(const std::shared_ptr<const Frame>& frame) {
     own_->refresh(*frame);
     fresh_ = false;
     structures_ = frame->structures;
+    if (!goal_) return;  // also where somebody has gone elsewhere meanwhile
+    window()->focusWidget() == this ? reachGoal() : goal_.reset();
 }
 
 bool BaseView::wantsRoom() const {
@@ -182,33 +197,13 @@ void BaseView::makeRoom() {
 
 // Nobody is heard, the domain cannot be joined, the path is not there, nothing is chosen.
 void BaseView::showNothing(const Frame& frame) {
-    if (!frame.problem.empty()) {
-        emptyTitle_->show(tr("Domain %1 cannot be joined.").arg(frame.domain));
-        emptyText_->show(QString::fromStdString(frame.problem));
-    } else if (!frame.joined) {
-        emptyTitle_->show(tr("Joining domain %1…").arg(frame.domain));
-        emptyText_->show(
-            frame.security.empty()
-                ? QString{}
-                : tr("Security: reading %1.").arg(QString::fromStdString(frame.security)));
-    } else if (frame.agents.empty()) {
-        emptyTitle_->show(tr("Nobody is heard in domain %1.").arg(frame.domain));
-        const QString looked = tr("Looked for %1.").arg(ageText(frame.seconds));
-        emptyText_->show(frame.closed == 0
-                             ? looked
-                             : looked + ' ' +
-                                   tr("%n participants with security were found; they are seen "
-                                      "only with a folder of their authority.",
-                                      nullptr, static_cast<int>(frame.closed)));
-    } else if (path_.empty()) {
-        emptyTitle_->show(tr("Choose a simplex in the tree."));
-        emptyText_->show({});
-    } else {
-        const GoneAgent* gone = frame.goneFrom(path_);
-        const QString comes = tr("This pane fills itself when it comes.");
-        emptyTitle_->show(tr("%1 is not heard.").arg(QString::fromStdString(path_)));
-        emptyText_->show(gone != nullptr ? goneText(*gone) + ' ' + comes : comes);
-    }
+    if (const auto nothing = nothingText(frame)) return empty_->show(nothing->title, nothing->text);
+    if (path_.empty())
+        return empty_->show(tr("Choose a simplex in the tree."), tr(common::simplexMeaning));
+    const GoneAgent* gone = frame.goneFrom(path_);
+    const QString comes = tr("This pane fills itself when it comes.");
+    empty_->show(tr("%1 is not heard.").arg(QString::fromStdString(path_)),
+                 gone != nullptr ? goneText(*gone) + ' ' + comes : comes);
 }
 
 // An ancestor, in the tab of the type.

@@ -8,6 +8,7 @@
 #include <QTabBar>
 #include <QWidget>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,13 +21,13 @@ class ItemTable;
 class OwnView;
 class RelationTable;
 class CommandList;
+class EmptyPage;
 class EditBar;
 class LifeCycleBar;
 class TypePage;
 class SimplexHeader;
 class StateTimes;
 class TabRow;
-class TextLabel;
 class ViewHost;
 
 // What can be said of every simplex, whatever its type: state, data, relationships, commands, type.
@@ -40,6 +41,9 @@ public:
     const std::string& path() const { return path_; }
     void refresh(const std::shared_ptr<const Frame>& frame);
     void openPart(const std::string& name);  // "data", "relationships", "commands", "type"
+    // Puts the keyboard into what is shown, as soon as it is there: into the part, at the item or
+    // command of this name. Without a part, where one works in the tab that is in front.
+    void enter(const std::string& part = {}, const std::string& name = {});
     const ShownUnits& units() const { return items_.units(); }  // of the table of data
     void setUnits(const ShownUnits& units);
     // The row of data that is chosen, otherwise all numbers of its own type that are not constant.
@@ -64,19 +68,21 @@ private:
     void showOwnView(const Type& type, const TypeModel& types);
     void makeRoom();
     void showNothing(const Frame& frame);
+    void reachGoal();
 
     std::string path_;
     std::uint64_t structures_ = 0;
     bool fresh_ = true;  // another path is shown since the last frame
     ItemModel items_;
     QStackedWidget* whole_;
-    TextLabel *emptyTitle_, *emptyText_;
+    EmptyPage* empty_;
     LifeCycleBar* lifeCycle_;
     SimplexHeader* header_;
     QLayout* headerRow_;
     std::shared_ptr<const Structure> types_;  // of what is shown
     TabRow* tabs_;
-    int wanted_ = 0;  // tab that the user chose
+    int wanted_ = 0;                   // tab that the user chose
+    std::optional<std::string> goal_;  // item or command for the keyboard, which waits in the view
     QStackedWidget* pages_;
     OwnView* own_;
     ItemTable* table_;

@@ -171,10 +171,17 @@ void CommandCard::addParameter(QGridLayout& grid, const DataItem& item) {
     grid.addWidget(range, row, 2, Qt::AlignLeft);
     grid.addWidget(about, row, 3);
     fields_.push_back(field);
-    connect(field, &ValueField::changed, this, &CommandCard::decide);
+    const TypedArguments::Key key{path_, command_.name, item.name};
+    if (const QString typed = commands_.typed().of(key, item); !typed.isEmpty())
+        field->setText(typed);
+    connect(field, &ValueField::changed, this, [this, field, key, item] {
+        commands_.typed().keep(key, item, field->text());
+        decide();
+    });
 }
 
 void CommandCard::refresh(const Frame& frame, Place place) {
+    owner_ = startOf(frame.agents[place.agent]);
     whyNot_ = comms::isControlCommand(command_.name)
                   ? tr("the window does this itself: Ctrl+T")
                   : whyNotNow(frame, place, command_.available, command_.name, arguments());
@@ -213,9 +220,8 @@ void CommandCard::refreshProgress(const AgentFrame& agent, std::uint32_t simplex
 QString CommandCard::whyNotRun() const {
     if (isSending_) return tr("sending");
     for (std::size_t i = 0; i < fields_.size(); ++i) {
-        const QString name = QString::fromStdString(command_.request[i].name);
         const QString problem = fields_[i]->problem();
-        if (!problem.isEmpty()) return QStringLiteral("%1 %2").arg(name, problem);
+        if (!problem.isEmpty()) return wrongText(command_.request[i].name, problem);
     }
     if (!whyNot_.isEmpty()) return whyNot_;
     for (std::size_t i = 0; i < fields_.size(); ++i) {
@@ -249,8 +255,16 @@ void CommandCard::run() {
         send();
 }
 
+bool CommandCard::takeFocus() {
+    QWidget* first = fields_.empty() ? static_cast<QWidget*>(run_) : fields_.front();
+    first->setFocus(Qt::TabFocusReason);
+    return first->isEnabled();
+}
+
 void CommandCard::ask() {
-    askToRun(this, path_, command_, arguments(), [this] { send(); });
+    askToRun(*this, *run_,
+             {path_, command_, arguments(), [this] { return owner_; },
+              [this] { return whyNotRun(); }, [this] { send(); }});
 }
 
 void CommandCard::send() {

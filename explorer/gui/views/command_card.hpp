@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "session/agent_start.hpp"
 #include "session/commands.hpp"
 
 #include <QWidget>
@@ -27,7 +28,8 @@ public:
                 QWidget* parent = nullptr);
 
     void refresh(const Frame& frame, Place place);
-    void run();  // asks first where the type says so
+    void run();        // asks first where the type says so
+    bool takeFocus();  // in its first field, otherwise on Run; false: that is off
     const Command& command() const { return command_; }
 
 protected:
@@ -52,8 +54,9 @@ private:
 
     Commands& commands_;
     std::string path_;
-    Command command_;  // a copy: the agent's types may go
-    QString whyNot_;   // from outside of the form
+    Command command_;   // a copy: the agent's types may go
+    AgentStart owner_;  // of the path just now
+    QString whyNot_;    // from outside of the form
     bool isSending_ = false, runs_ = false;
     std::string shown_;  // which outcomes are shown
     QString answer_;     // all of them

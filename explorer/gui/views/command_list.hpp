@@ -4,6 +4,8 @@
 #include "session/commands.hpp"
 
 #include <QScrollArea>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace cortex::gui {
@@ -15,14 +17,18 @@ class CommandList : public QScrollArea {
     Q_OBJECT
 public:
     explicit CommandList(Commands& commands, QWidget* parent = nullptr);
-    void show(const Frame& frame, Place place);  // forms that stay keep what was entered
+    // Forms that come back have what was entered, and are scrolled as they were.
+    void show(const Frame& frame, Place place);
     void refresh(const Frame& frame, Place place);
+    // Puts the keyboard in the form of this command and scrolls to it; false: there is none.
+    bool choose(const std::string& command);
 
 private:
     Commands& commands_;
     std::string path_;
     std::vector<Command> shown_;
     std::vector<CommandCard*> cards_;
+    std::map<std::string, int> scrolled_;  // by path: how far
 };
 
 }  // namespace cortex::gui

@@ -3,6 +3,7 @@
 
 #include "model/whole_file.hpp"
 #include "style/look.hpp"
+#include "widgets/filter_keys.hpp"
 #include "widgets/range_bar.hpp"
 #include "widgets/rows.hpp"
 #include "widgets/text_label.hpp"
@@ -99,6 +100,7 @@ CompareView::CompareView(QWidget* parent)
     setAutoFillBackground(true);
     connect(item_, &QLineEdit::editingFinished, this, &CompareView::search);
     connect(filter_, &QLineEdit::textChanged, this, &CompareView::search);
+    joinFilter(*filter_, *table_);
     connect(plot_, &QPushButton::clicked, this, [this] {
         if (const auto items = chosenItems(); !items.empty()) Q_EMIT plotWanted(items);
     });

@@ -75,6 +75,7 @@ EditBar::EditBar(Commands& commands, ItemModel& items, QWidget* parent)
         refused_ = true;
     });
     connect(&items_, &ItemModel::accepted, this, &EditBar::forgetRefusal);
+    connect(&items_, &ItemModel::setAside, this, &EditBar::sayAside);
     setLow(false);
     hide();
 }
@@ -89,7 +90,6 @@ void EditBar::show(const std::string& path) {
     if (path == path_) return;
     path_ = path;
     frame_ = nullptr;
-    items_.clearEdits();
     sayLast();
 }
 
@@ -126,8 +126,9 @@ void EditBar::refresh(const std::shared_ptr<const Frame>& frame, Place place) {
     discard_->setVisible(count > 0);
     discard_->setEnabled(!sending_.contains(path_));
     const auto last = lastDone();
+    if (last != done_.end() && shows(*frame_, path_, last->after)) last->came = true;
     undo_->setVisible(last != done_.end() && count == 0);
-    if (last != done_.end()) undo_->setToolTip(tipText(textOf(*last)));
+    if (last != done_.end()) undo_->setToolTip(tipText(tr("%1\nCtrl+Z").arg(textOf(*last))));
     setVisible(count > 0 || !told_->text().isEmpty());
 }
 
@@ -135,7 +136,7 @@ void EditBar::refresh(const std::shared_ptr<const Frame>& frame, Place place) {
 void EditBar::sayPending() {
     const QString why = whyNot(items_.edits());
     set_->setEnabled(why.isEmpty());
-    set_->setToolTip(tipText(why));
+    set_->setToolTip(why.isEmpty() ? tr("Enter in a field") : tipText(why));
     if (refused_ || sending_.contains(path_)) return;
     if (why.isEmpty() && !told_->text().isEmpty() && !saysWhyNot_) return;
     saysWhyNot_ = true;
@@ -178,17 +179,21 @@ QString EditBar::whyNot(const comms::Mirror::Arguments& items) const {
     return {};
 }
 
-void EditBar::submit() {
-    if (frame_ == nullptr) return;
-    const auto edits = items_.edits();
-    if (edits.empty() || !whyNot(edits).isEmpty()) return;
-    Done change{path_, {}, {}};
+int EditBar::unsent() const { return static_cast<int>(items_.edits().size()); }
+
+void EditBar::submit() { sendEdits(items_.edits()); }
+
+void EditBar::submitFresh() { sendEdits(items_.freshEdits()); }
+
+void EditBar::sendEdits(const ItemEdits::Values& edits) {
+    if (frame_ == nullptr || edits.empty() || !whyNot(edits).isEmpty()) return;
+    Done change{path_, {}, {}, startOf(frame_->agents[place_.agent])};
     for (const auto& [name, value] : edits) {
         const auto before = valueNow(*frame_, path_, name);
         if (before) change.before[name] = *before;
         change.after[name] = value;
     }
-    send({std::move(change), false, items_.entries()});
+    send({std::move(change), false, ItemEdits::count()});
 }
 
 void EditBar::discard() {
@@ -208,11 +213,8 @@ EditBar::Changes::iterator EditBar::lastDone() {
 void EditBar::undo() {
     const auto found = lastDone();
     if (found == done_.end() || frame_ == nullptr) return;
-    for (const auto& [name, value] : found->after) {
-        if (valueNow(*frame_, path_, name) == value && !isSetByOthers(*found, name)) continue;
-        tell(path_,
-             tr("Not undone: somebody else has set %1 since.").arg(QString::fromStdString(name)),
-             &Tokens::warnText);
+    if (const QString why = whyNotUndone(*found); !why.isEmpty()) {
+        tell(path_, why, &Tokens::warnText);
         done_.erase(found);
         return;
     }
@@ -224,6 +226,26 @@ void EditBar::undo() {
     done_.erase(found);
     std::swap(change.before, change.after);
     send({std::move(change), true});
+}
+
+// What it never can be.
+QString EditBar::whyNotUndone(const Done& change) const {
+    const AgentStart now = startOf(frame_->agents[place_.agent]);
+    if (now.agent != change.start.agent)
+        return tr("Not undone: %1 has %2 since.").arg(plainText(now.agent), plainText(change.path));
+    if (now != change.start) return tr("Not undone: the agent has started anew since.");
+    for (const auto& [name, value] : change.after) {
+        const bool isAsSet = !change.came || valueNow(*frame_, path_, name) == value;
+        if (isAsSet && !isSetByOthers(change, name)) continue;
+        return tr("Not undone: somebody else has set %1 since.").arg(plainText(name));
+    }
+    return {};
+}
+
+void EditBar::sayAside(const std::string& path, const QStringList& items) {
+    const char* text = items.size() == 1 ? QT_TR_NOOP("Not kept: %1, as its type has changed")
+                                         : QT_TR_NOOP("Not kept: %1, as their types have changed");
+    tell(path, tr(text).arg(items.join(tr(", "))), &Tokens::warnText);
 }
 
 bool EditBar::isSetByOthers(const Done& change, const std::string& item) const {
@@ -249,7 +271,8 @@ void EditBar::answered(const Sent& sent, const CommandOutcome& outcome) {
     if (outcome.answer.done()) return finish(sent);
     tell(change.path, failureText(outcome), &Tokens::warnText);
     if (outcome.answer.outcome == Outcome::Unknown) unanswered_[change.path] = sent;
-    if (sent.undoes) done_.push_back({change.path, change.after, change.before, change.byOthers});
+    if (sent.undoes)
+        done_.push_back({change.path, change.after, change.before, change.start, change.byOthers});
 }
 
 void EditBar::finish(const Sent& sent) {
@@ -258,7 +281,7 @@ void EditBar::finish(const Sent& sent) {
         change.byOthers[name] = commands_.setByOthers(change.path, name);
     QString text = (sent.undoes ? tr("Undone: %1") : tr("Set: %1")).arg(textOf(change));
     if (!sent.undoes) {
-        if (change.path == path_) items_.clearEdits(sent.entries);
+        items_.clearEdits(change.path, change.after, sent.entries);
         if (change.before.size() == change.after.size()) done_.push_back(change);
         if (done_.size() > mostUndone) done_.erase(done_.begin());
     }
@@ -277,7 +300,7 @@ QString EditBar::textOf(const std::string& path, const std::string& item,
     const auto place = frame_ ? frame_->find(path) : std::nullopt;
     const DataItem* known = place ? frame_->type(*place).findData(item) : nullptr;
     const auto shown = known != nullptr ? items_.units().of(*known) : nullptr;
-    if (!shown) return QString::fromStdString(toText(value));
+    if (!shown) return isolatedText(toText(value));
     return shownEntry(shown.get(), *known, value) + ' ' + unitText(shown->item.unit);
 }
 
@@ -289,7 +312,7 @@ QString EditBar::textOf(const Done& change) const {
                                 ? textOf(change.path, name, before->second)
                                 : QStringLiteral("?");
         parts << QStringLiteral("%1 %2 → %3")
-                     .arg(QString::fromStdString(name), was, textOf(change.path, name, value));
+                     .arg(plainText(name), was, textOf(change.path, name, value));
     }
     return parts.join(QStringLiteral(", "));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/item_model.hpp"
+#include "session/agent_start.hpp"
 #include "session/commands.hpp"
 
 #include <QWidget>
@@ -24,10 +25,13 @@ class EditBar : public QWidget {
 public:
     EditBar(Commands& commands, ItemModel& items, QWidget* parent = nullptr);
 
-    void setLow(bool low);               // there is little height
-    void show(const std::string& path);  // what was entered for another one is discarded
+    void setLow(bool low);  // there is little height
+    void show(const std::string& path);
     void refresh(const std::shared_ptr<const Frame>& frame, Place place);
-    void submit();
+    int unsent() const;  // values that were entered, of what is shown
+    void submit();       // all of them
+    // Enter in a field: without those that were there when the simplex was shown again.
+    void submitFresh();
     void forgetRefusal();  // of a value that is put right or given up
     void discard();
     // Sets what was set last here as it was before, unless somebody else has set it since. It needs
@@ -42,7 +46,9 @@ private:
     struct Done {
         std::string path;
         comms::Mirror::Arguments before, after;
+        AgentStart start;                                 // that was to set them
         std::map<std::string, std::uint64_t> byOthers{};  // how often others had set them by then
+        bool came = false;                                // the agent has shown them as set
     };
     struct Sent {
         Done change;
@@ -60,6 +66,9 @@ private:
     QString whyNot(const comms::Mirror::Arguments& items) const;
     Changes::iterator lastDone();  // of what is shown
     bool isSetByOthers(const Done& change, const std::string& item) const;
+    QString whyNotUndone(const Done& change) const;
+    void sendEdits(const ItemEdits::Values& edits);
+    void sayAside(const std::string& path, const QStringList& items);
     void send(Sent sent);
     void answered(const Sent& sent, const CommandOutcome& outcome);
     void finish(const Sent& sent);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/event_chips.hpp"
 
+#include "common/kind_meaning.hpp"
 #include "model/plain_text.hpp"
 #include "style/look.hpp"
 #include "widgets/chip.hpp"
@@ -60,12 +61,15 @@ void EventChips::refresh() {
         if (chip == nullptr) {
             chip = add(new Chip{plainText(kind)}, events_.shows(kind),
                        [this, kind](bool shown) { events_.showKind(kind, shown); });
+            const std::string_view meaning = common::kindMeaning(kind);
+            chip->explain(tr(std::string{meaning}.c_str()));
         }
         show(*chip, events_.shows(kind), counts.kinds[i]);
     }
     if (routine_ == nullptr && (counts.routine > 0 || events_.showsRoutine())) {
         routine_ = add(new Chip{tr("jog")}, events_.showsRoutine(),
                        [this](bool shown) { events_.showRoutine(shown); });
+        routine_->explain(tr("Commands that repeat while somebody jogs an axis."));
     }
     if (routine_ != nullptr) show(*routine_, events_.showsRoutine(), counts.routine);
     place();

@@ -2,6 +2,8 @@
 #include "views/event_list.hpp"
 
 #include "model/plain_text.hpp"
+#include "model/shown_time.hpp"
+#include "session/utc_now.hpp"
 #include "views/event_table.hpp"
 #include "widgets/text_label.hpp"
 
@@ -27,6 +29,7 @@ EventList::EventList(EventFilter& events, QWidget* parent)
     : QWidget{parent},
       events_{events},
       rows_{new EventTable{events}},
+      title_{new TextLabel{TextSize::Text, true}},
       filter_{new TextLabel{TextSize::Text, false, &Tokens::accent}},
       hidden_{new TextLabel{TextSize::Text, true, &Tokens::faultText}},
       count_{new TextLabel{TextSize::Text, false, &Tokens::ink2}},
@@ -53,6 +56,7 @@ EventList::EventList(EventFilter& events, QWidget* parent)
         connect(each, &QAbstractItemModel::dataChanged, this, &EventList::tellCount);
     }
     connect(&events, &EventFilter::changed, this, &EventList::tellCount);
+    connect(&events.events(), &QAbstractItemModel::headerDataChanged, this, &EventList::tellCount);
     connect(rows_, &EventTable::opened, this, &EventList::opened);
     connect(rows_, &EventTable::beforeWanted, this, &EventList::beforeWanted);
     connect(rows_, &EventTable::selectionSet, this, &EventList::tellBefore);
@@ -68,8 +72,6 @@ EventList::EventList(EventFilter& events, QWidget* parent)
 
 // The buttons stand at the end, and one that is not needed leaves its place free.
 QWidget* EventList::makeHead() {
-    auto* title = new TextLabel{TextSize::Text, true};
-    title->show(tr("Events"));
     new_->setCheckable(true);  // blue
     new_->setToolTip(tr("To the newest: F or End in the rows"));
     showAll_->setToolTip(tr("Takes the filter of all events away"));
@@ -82,7 +84,7 @@ QWidget* EventList::makeHead() {
     auto* row = new QHBoxLayout{head};
     row->setContentsMargins(Look::units(3), 0, Look::units(3), 0);
     row->setSpacing(Look::units(4));
-    for (QWidget* each : std::initializer_list<QWidget*>{title, filter_, hidden_, count_}) {
+    for (QWidget* each : std::initializer_list<QWidget*>{title_, filter_, hidden_, count_}) {
         row->addWidget(each);
     }
     row->addStretch(1);
@@ -129,7 +131,9 @@ QString EventList::hiddenIn(const EventFilter& events) {
     return hidden == 0 ? QString{} : tr("%n faults or errors not shown", nullptr, hidden);
 }
 
+// The rows have no title that could name the zone.
 void EventList::tellCount() {
+    title_->show(tr("Events (%1)").arg(zoneName(utcNow())));
     filter_->show(events_.text());
     filter_->setVisible(!filter_->text().isEmpty());
     showAll_->setVisible(!filter_->text().isEmpty());

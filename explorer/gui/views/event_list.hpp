@@ -42,7 +42,7 @@ private:
 
     EventFilter& events_;
     EventTable* rows_;
-    TextLabel *filter_, *hidden_, *count_;
+    TextLabel *title_, *filter_, *hidden_, *count_;
     QPushButton *before_, *showAll_, *new_;
     QWidget* head_;
     QTimer left_{this};  // while it does not follow

@@ -75,9 +75,8 @@ EventPanel::EventPanel(comms::NetworkOptions network, QWidget* parent)
         QSizePolicy policy = each->sizePolicy();
         policy.setRetainSizeWhenHidden(true);
         each->setSizePolicy(policy);
-        each->hide();
     }
-    title_->show(tr("Choose an event: its details stand here."), &Tokens::ink2);
+    clear();
     setCompact(false);
 }
 
@@ -104,6 +103,18 @@ void EventPanel::setCompact(bool compact) {
     const int side = Look::units(4), above = Look::units(compact ? 0.5 : 2);
     layout()->setContentsMargins(side, above, side, above);
     more_->setVisible(!compact);
+}
+
+void EventPanel::clear() {
+    serial_.reset();
+    for (QWidget* each : std::initializer_list<QWidget*>{mark_, before_, open_}) each->hide();
+    for (const auto& [name, text] : pairs_) {
+        name->show({});
+        text->show({});
+    }
+    title_->show(tr("Choose an event."), &Tokens::ink2);
+    dropped_->show({});
+    command_->show({});
 }
 
 void EventPanel::show(const EventRow& row, std::uint64_t serial) {

@@ -18,13 +18,15 @@ class StateMark;
 class TextLabel;
 
 // The details of the row that is selected. A row that drops out leaves them, with the words `no
-// longer kept`. Its height is the same for every event, and before there is one.
+// longer kept`; one that a filter hides does not. Its height is the same for every event, and
+// before there is one.
 class EventPanel : public QWidget {
     Q_OBJECT
 public:
     explicit EventPanel(comms::NetworkOptions network, QWidget* parent = nullptr);
 
     void show(const EventRow& row, std::uint64_t serial);  // its number among all rows
+    void clear();
     void sayDropped();
     void setCompact(bool compact);  // the text alone, where there is little room
 

@@ -60,7 +60,8 @@ public:
         const bool times = index.column() == EventModel::Times;
         paintText(*painter, box, opener(index, row) + index.data().toString(),
                   rowInk(option, inkOf(index.column(), row, shape)),
-                  times ? Qt::AlignRight : Qt::AlignLeft, times || row.isGap());
+                  times ? Qt::AlignRight : Qt::AlignLeft, times || row.isGap(),
+                  index.column() == EventModel::Path ? Qt::ElideMiddle : Qt::ElideRight);
     }
 
 private:
@@ -123,7 +124,7 @@ EventTable::EventTable(EventFilter& events, QWidget* parent) : QTableView{parent
     connect(verticalScrollBar(), &QScrollBar::actionTriggered, this, [this] {
         const QScrollBar& bar = *verticalScrollBar();
         follows_ = bar.sliderPosition() == bar.maximum();
-        if (follows_) newBelow_ = 0;
+        if (follows_) forgetNew();
         Q_EMIT moved();
     });
     connect(this, &QTableView::activated, this, [this](const QModelIndex& index) {
@@ -160,15 +161,29 @@ void EventTable::leaveEvent(QEvent* event) {
 
 void EventTable::follow() {
     follows_ = true;
-    newBelow_ = 0;
+    forgetNew();
     scrollToBottom();
     Q_EMIT moved();
 }
 
 void EventTable::look() {
     follows_ = isAtEnd();
-    if (follows_) newBelow_ = 0;
+    if (follows_) forgetNew();
     Q_EMIT moved();
+}
+
+void EventTable::forgetNew() {
+    newBelow_ = 0;
+    newFrom_.reset();
+}
+
+// Of those that are shown.
+void EventTable::countNew() {
+    newBelow_ = 0;
+    for (int row = events_.rowCount() - 1; newFrom_ && row >= 0; --row) {
+        if (events_.serial(row) < *newFrom_) break;
+        if (!events_.isMember(row)) newBelow_ += events_.at(row).times;
+    }
 }
 
 void EventTable::inserted(int first, int last) {
@@ -177,6 +192,7 @@ void EventTable::inserted(int first, int last) {
         newBelow_ == 0 ? scrollToBottom() : follow();
         return;
     }
+    if (!newFrom_) newFrom_ = events_.serial(first);
     for (int row = first; row <= last; ++row) newBelow_ += events_.at(row).times;
     Q_EMIT moved();
 }
@@ -224,6 +240,8 @@ void EventTable::keepRows() {
     keeps_ = false;
     if (before_ && !row) Q_EMIT selectionDropped();
     before_.reset();
+    if (newFrom_) newFrom_ = all.renumbered(*newFrom_);
+    countNew();
     // Another filter shows the newest again; what agents kept moves no row that is looked at.
     if (follows_ && !(all.renumbers() && isUnderPointer())) return follow();
     if (all.renumbers() && stands) {

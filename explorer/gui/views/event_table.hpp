@@ -45,6 +45,8 @@ private:
     bool isAtEnd() const;
     bool isUnderPointer() const;
     void look();  // whether it is at its end after it was scrolled
+    void forgetNew();
+    void countNew();
     void inserted(int first, int last);
     void removed(int count);
     void noteRows();
@@ -54,6 +56,7 @@ private:
     EventFilter& events_;
     bool follows_ = true, keeps_ = false;
     std::uint64_t newBelow_ = 0;
+    std::optional<std::uint64_t> newFrom_;  // the first row that came since
     // While the model is reset: what was selected, and what stood how far below the top.
     std::optional<std::uint64_t> before_, stands_;
     int standsAt_ = 0;

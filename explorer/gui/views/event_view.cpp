@@ -9,6 +9,7 @@
 #include "views/event_list.hpp"
 #include "views/event_panel.hpp"
 #include "views/event_table.hpp"
+#include "widgets/filter_keys.hpp"
 #include "widgets/low_buttons.hpp"
 #include "widgets/row_note.hpp"
 #include "widgets/text_label.hpp"
@@ -59,6 +60,7 @@ EventView::EventView(EventFilter& events, const comms::NetworkOptions& network, 
     below_->setChecked(true);
     below_->hide();
     connect(field_, &QLineEdit::textChanged, this, &EventView::search);
+    joinFilter(*field_, *rows_);
     connect(&events_, &EventFilter::changed, this, [this] {  // it may be cleared elsewhere
         const QString& text = events_.events().query().text();
         if (text != field_->text().trimmed()) field_->setText(text);
@@ -164,14 +166,16 @@ void EventView::refresh() {
     showDetails();
 }
 
-// The details stay as they are when their row is hidden, and say so when it is no longer kept.
+// The details go when their row is hidden, and say so when it is no longer kept.
 void EventView::showDetails() {
     if (!shown_) return;
     const EventModel& all = events_.events();
-    if (*shown_ < all.first())
-        panel_->sayDropped();
-    else
-        panel_->show(all.at(static_cast<int>(*shown_ - all.first())), *shown_);
+    if (*shown_ < all.first()) return panel_->sayDropped();
+    if (!events_.rowOf(*shown_)) {
+        shown_.reset();
+        return panel_->clear();
+    }
+    panel_->show(all.at(static_cast<int>(*shown_ - all.first())), *shown_);
 }
 
 void EventView::placeButton() {

@@ -3,6 +3,7 @@
 
 #include "model/holders.hpp"
 #include "model/plain_text.hpp"
+#include "model/shown_time.hpp"
 #include "model/value_text.hpp"
 #include "widgets/rows.hpp"
 
@@ -12,9 +13,11 @@ namespace cortex::gui {
 
 namespace {
 
+constexpr int sinceColumn = 2;
+
 QStringList leaseTexts(const Frame& frame, const comms::ShownLease& lease) {
     return {plainText(lease.prefix), wholeNameOf(frame.control, lease.holder),
-            utcText(lease.since, "yyyy-MM-dd HH:mm:ss"), wholeAgeText(lease.seconds),
+            shownTimeText(lease.since, "yyyy-MM-dd HH:mm:ss"), wholeAgeText(lease.seconds),
             lease.holder == frame.control.self ? LeaseTable::tr("you") : QString{}};
 }
 
@@ -28,11 +31,13 @@ LeaseTable::LeaseTable(QWidget* parent) : QTreeWidget{parent} {
     setUpRows(*this);
     setRootIsDecorated(false);
     setAccessibleName(tr("Leases"));
-    setHeaderLabels({tr("Part"), tr("Held by"), tr("Since (UTC)"), tr("For"), {}});
+    setHeaderLabels({tr("Part"), tr("Held by"), QString{}, tr("For"), {}});
     keepWidths(*this, {50, 60, 44, 24});
 }
 
 void LeaseTable::show(const Frame& frame, const AgentFrame& agent) {
+    const QString since = tr("Since (%1)").arg(zoneName(frame.utc));
+    if (headerItem()->text(sinceColumn) != since) headerItem()->setText(sinceColumn, since);
     std::vector<comms::ShownLease> leases;
     if (agent.image) leases = comms::leasesOf(agent.status, *agent.image);
     std::vector<std::string> prefixes;

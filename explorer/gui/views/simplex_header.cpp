@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "views/simplex_header.hpp"
 
+#include "common/role_meaning.hpp"
 #include "model/fault_text.hpp"
 #include "model/gone_text.hpp"
-#include "model/item_of.hpp"
 #include "model/plain_text.hpp"
 #include "model/value_text.hpp"
 #include "model/why_text.hpp"
@@ -32,22 +32,6 @@ std::vector<std::string> chainOf(const Type& type, const TypeModel& types) {
 }
 
 constexpr std::array widestAges{0.999, 99.9, 99.0 * 60};  // s, of ms, seconds, minutes
-
-// Nothing of it changes by itself, so that its age says nothing.
-bool neverChanges(const SimplexInfo& info) {
-    return info.role != Role::Active && info.writers.empty();
-}
-
-// "task 2.3 µs of 1 ms".
-QString taskText(const AgentFrame& agent, std::uint32_t simplex) {
-    const auto time = itemOf<double>(agent, simplex, "taskTime");
-    if (!time || agent.lost()) return {};
-    const double period =
-        static_cast<double>(agent.status.period) * agent.structure->simplexes[simplex].every;  // ns
-    return SimplexHeader::tr("task %1 µs of %2 ms")
-        .arg(*time, 0, 'f', 1)
-        .arg(period * 1e-6, 0, 'g', 4);
-}
 
 int widthOf(const QString& text, const QFont& font) {
     return QFontMetrics{font}.horizontalAdvance(text) + 2;
@@ -169,7 +153,7 @@ SimplexHeader::Room SimplexHeader::room() const {
     QStringList ages;
     for (const double seconds : widestAges) ages << factsOf(agentName_, ageText(seconds));
     room.facts = longest(*agent_, ages) +
-                 longest(*quality_, {qualityText(Quality::Stale, true), waitingText()}) + taskWide_;
+                 longest(*quality_, {restText(false), tr("input lost"), waitingText()}) + taskWide_;
     return room;
 }
 
@@ -177,9 +161,10 @@ SimplexHeader::Room SimplexHeader::room() const {
 // own; in a low one the name of the type goes. State, quality and buttons are never cut.
 void SimplexHeader::fit() {
     const bool low = Look::isLow(*this);
-    for (TextLabel* each : {state_, path_})
-        each->setTextSize(low ? TextSize::Value : TextSize::Title, true);
-    mark_->setUnits(low ? 6 : 8);
+    const TextSize title = low ? TextSize::Value : TextSize::Title;
+    path_->setTextSize(title, true);
+    state_->setTextSize(hasWord_ ? title : TextSize::Text, hasWord_);
+    mark_->setUnits(!hasWord_ ? 4 : low ? 6 : 8);
     const bool hasTask = !brief_ && !low;  // it stands among the data, too
     taskWide_ = hasTask ? std::max(taskWide_, task_->sizeHint().width() + Look::units(3)) : 0;
     task_->setVisible(hasTask);
@@ -224,7 +209,7 @@ void SimplexHeader::placeState(bool one, bool flat, int left) {
     const QString outcome = outcome_->isHidden() ? QString{} : outcome_->text();
     const int needed = outcome.isEmpty() ? 0 : widthOf(outcome, outcome_->font());
     since_->setVisible(hasStates_ && (!flat || needed <= left));
-    state_->setToolTip(since_->isHidden() ? since_->text() : QString{});
+    if (hasWord_) state_->explain(since_->isHidden() ? since_->text() : QString{});
 }
 
 void SimplexHeader::resizeEvent(QResizeEvent* event) {
@@ -238,7 +223,7 @@ void SimplexHeader::show(const Frame& frame, Place place) {
     if (path != path_->text()) taskWide_ = 0;
     path_->show(path);
     type_->show(QString::fromStdString(type.name));
-    path_->setToolTip(tipText(type_->text()));
+    path_->explain(type_->text());
     description_ = QString::fromStdString(type.description);
     qDeleteAll(ancestors_->findChildren<QWidget*>(QString{}, Qt::FindDirectChildrenOnly));
     QStringList names;
@@ -251,7 +236,7 @@ void SimplexHeader::show(const Frame& frame, Place place) {
         ancestors_->layout()->addWidget(link);
         names << QString::fromStdString(each);
     }
-    type_->setToolTip(tipText(names.join(QStringLiteral(" ‹ "))));
+    type_->explain(names.join(QStringLiteral(" ‹ ")));
     refresh(frame, place);
 }
 
@@ -280,6 +265,7 @@ void SimplexHeader::refreshState(const Frame& frame, Place place) {
     const AgentFrame& agent = frame.agents[place.agent];
     const Type& type = frame.type(place);
     hasStates_ = type.active() && !type.isA("Agent");
+    hasWord_ = type.active();
     outcome_->setVisible(hasStates_ && !Look::isLow(*this));  // it stands among the messages there
     since_->show(hasStates_ && !agent.lost() ? times_.text(frame, place) : QString{});
     if (type.isA("Agent")) {  // it has commands, but no state of its own
@@ -290,7 +276,7 @@ void SimplexHeader::refreshState(const Frame& frame, Place place) {
     }
     if (!hasStates_) {
         mark_->show(Shape::Data);
-        state_->show(QLatin1String{name(frame.info(place).role)}, &Tokens::ink);
+        showRole(frame.info(place).role);
         return;
     }
     const auto state = agent.state(place.simplex), last = agent.lastState(place.simplex);
@@ -302,6 +288,17 @@ void SimplexHeader::refreshState(const Frame& frame, Place place) {
                  faulted ? &Tokens::faultText : &Tokens::ink);
 }
 
+// Data have no state: what they are stands there, no larger than the rest. The meaning gives way.
+void SimplexHeader::showRole(Role role) {
+    state_->setTextSize(TextSize::Text, false);
+    const QString word{QLatin1String{name(role)}};
+    const QString meaning = tr(std::string{common::roleMeaning(role)}.c_str());
+    const QString whole = meaning.isEmpty() ? word : tr("%1: %2").arg(word, meaning);
+    const int room = width() - mark_->sizeHint().width() - Look::units(6);
+    state_->show(widthOf(whole, state_->font()) <= room ? whole : word, &Tokens::ink2);
+    state_->explain(tr("%1. It has no state and no task of its own.").arg(whole));
+}
+
 // Where its event is known, the text opens what was before it.
 MessageArea::Message SimplexHeader::fault(const Frame& frame, Place place) {
     fault_.reset();
@@ -311,40 +308,6 @@ MessageArea::Message SimplexHeader::fault(const Frame& frame, Place place) {
     return {fault.text, fault_ ? &Tokens::accent : &Tokens::ink, true,
             fault.cut ? tr("The rest stands in the events.") : QString{},
             fault_ ? tr("Ten seconds before") : QString{}};
-}
-
-// In fewer words where there is little room.
-bool SimplexHeader::isTerse() const { return brief_ || Look::isLow(*this); }
-
-QString SimplexHeader::factsOf(const QString& agent, const QString& age) const {
-    const QString name = isTerse() ? agent : tr("agent %1").arg(agent);
-    return age.isEmpty() ? name : tr("%1, %2 old").arg(name, age);
-}
-
-QString SimplexHeader::qualityText(Quality quality, bool rests) const {
-    const QString word{QLatin1String{name(quality)}};
-    const QString said = isTerse() ? word : tr("quality %1").arg(word);
-    return rests ? tr("%1, at rest").arg(said) : said;
-}
-
-QString SimplexHeader::waitingText() const {
-    return isTerse() ? tr("no values yet") : tr("waiting for the first values");
-}
-
-void SimplexHeader::refreshAgent(const Frame& frame, Place place) {
-    const AgentFrame& agent = frame.agents[place.agent];
-    const auto age = agent.age(place.simplex);
-    const Excuse excuse = frame.excuse(place);
-    agentName_ = QString::fromStdString(agent.status.name);
-    const bool ages = agent.lost() || (excuse != Excuse::Rests && !neverChanges(frame.info(place)));
-    agent_->show(factsOf(agentName_, age && ages ? ageText(*age) : QString{}));
-    const bool came = agent.came(place.simplex);
-    const Quality quality = agent.lost() ? Quality::Lost : agent.quality(place.simplex);
-    const bool amiss = came && quality != Quality::Good && excuse == Excuse::None;
-    quality_->show(came ? qualityText(quality, excuse == Excuse::Rests) : waitingText(),
-                   amiss ? &Tokens::dataText : &Tokens::ink2);
-    task_->show(taskText(agent, place.simplex));
-    dismiss_->setVisible(agent.lost());
 }
 
 MessageArea::Message SimplexHeader::notice(const Frame& frame, Place place) const {

@@ -50,12 +50,14 @@ private:
     void placeState(bool one, bool flat, int left);
     Room room() const;
     void refreshState(const Frame& frame, Place place);
+    void showRole(Role role);
     void refreshAgent(const Frame& frame, Place place);
     MessageArea::Message fault(const Frame& frame, Place place);
     MessageArea::Message notice(const Frame& frame, Place place) const;
     bool isTerse() const;
     QString factsOf(const QString& agent, const QString& age) const;
-    QString qualityText(Quality quality, bool rests) const;
+    QString qualityText(Quality quality) const;
+    QString restText(bool isData) const;
     QString waitingText() const;
 
     const StateTimes& times_;
@@ -72,7 +74,8 @@ private:
     QString agentName_, description_, reasons_;
     std::optional<comms::AgentEvent> fault_;  // in which it is, where its event is known
     bool brief_ = false, hasStates_ = false;
-    int taskWide_ = 0;  // px, the most that its task needed so far
+    bool hasWord_ = false;  // a state, or what an agent is; data have neither
+    int taskWide_ = 0;      // px, the most that its task needed so far
 };
 
 }  // namespace cortex::gui

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "model/system_model.hpp"
+#include "views/tree_openness.hpp"
+#include "widgets/filter_keys.hpp"
 
 #include <QWidget>
 #include <memory>
@@ -32,10 +34,13 @@ public:
     std::string meant(const std::string& shown) const;
     void filter(const QString& text);
     void focusFilter();
+    TreeOpenness& openness() { return openness_; }
 
 Q_SIGNALS:
-    void chosen(const std::string& path);                        // shown in the current tab
-    void pinned(const std::string& path);                        // in a tab of its own
+    void chosen(const std::string& path);   // shown in the current tab
+    void pinned(const std::string& path);   // in a tab of its own
+    void entered(const std::string& path);  // as chosen, with the keyboard
+    void changed();                         // a person has opened or closed a row
     void menuWanted(const std::string& path, const QPoint& at);  // on the screen
     void left();  // something was chosen, or Esc with nothing to clear
 
@@ -45,7 +50,8 @@ protected:
 private:
     TreeRows* makeRows();
     bool coversViews() const;
-    void openFirstLevels();
+    void leaveFilter(FilterKey key);
+    void openAbove(const QModelIndex& index);
     void useFilter();
     void keepCurrent();
     void askMenu(const QPoint& at);
@@ -54,12 +60,12 @@ private:
 
     SystemModel model_;
     TreeRows* tree_;
+    TreeOpenness openness_;
     QLineEdit* filter_;
     QBoxLayout* head_;
     const QWidget* back_ = nullptr;
     TextLabel* count_;
-    RowNote* trouble_;  // over the last rows
-    bool opened_ = false;
+    RowNote* trouble_;     // over the last rows
     std::string wanted_;   // to be chosen as soon as it is there
     std::string current_;  // row that a person went to, or that was chosen, also while it is gone
     bool filtered_ = false;

@@ -10,6 +10,7 @@
 #include "views/held_button.hpp"
 #include "views/run_question.hpp"
 
+#include <QApplication>
 #include <algorithm>
 #include <utility>
 
@@ -108,13 +109,31 @@ void ViewHost::send(QWidget& asker, const explorer::Order& order, Done done) {
         if (done) done({false, why, {}});
         if (found.why.isEmpty()) offerControl(*frame, *found.place, found.available);
     } else if (found.command != nullptr && found.command->confirm) {
-        askToRun(&asker, order.path, *found.command, order.arguments,
-                 [this, &asker, order, command = *found.command, done = std::move(done)] {
-                     sendNow(asker, order, &command, done);
-                 });
+        ask(asker, order, *found.command, std::move(done));
     } else {
         sendNow(asker, order, found.command, std::move(done));
     }
+}
+
+// At the button that has the keyboard, if it is of the view that asks.
+void ViewHost::ask(QWidget& asker, const explorer::Order& order, const Command& command,
+                   Done done) {
+    const QWidget* focused = QApplication::focusWidget();
+    const bool isOfIt = focused != nullptr && asker.isAncestorOf(focused);
+    const auto whyNot = [this, order] {
+        const auto frame = commands_.session().frame();
+        return whyNotNowOf(*frame, findOrder(*frame, order), order);
+    };
+    const auto yes = [this, &asker, order, command, done = std::move(done)] {
+        sendNow(asker, order, &command, done);
+    };
+    const auto owner = [this, path = order.path] {
+        const auto frame = commands_.session().frame();
+        const auto place = frame->find(path);
+        return place ? startOf(frame->agents[place->agent]) : AgentStart{};
+    };
+    askToRun(asker, isOfIt ? *focused : asker,
+             {order.path, command, order.arguments, owner, whyNot, yes});
 }
 
 // Only where nothing else stands in the way.

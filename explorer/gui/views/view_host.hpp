@@ -31,6 +31,7 @@ Q_SIGNALS:
 
 private:
     void offerControl(const Frame& frame, Place place, StateSet available);
+    void ask(QWidget& asker, const explorer::Order& order, const Command& command, Done done);
     void sendNow(QWidget& asker, const explorer::Order& order, const Command* command, Done done);
 
     Commands& commands_;

@@ -47,13 +47,20 @@ void Chip::show(std::uint64_t count, bool grows) {
     tell();
 }
 
+void Chip::explain(const QString& meaning) {
+    meaning_ = meaning;
+    setAccessibleDescription(meaning);
+    tell();
+}
+
 QString Chip::rest(const QString& count) const {
     return isChecked() ? ' ' + count : tr(" %1 hidden").arg(count);
 }
 
 void Chip::tell() {
     setAccessibleName(word_ + rest(count_));
-    setToolTip(isChecked() ? tr("Hides these") : tr("Shows these"));
+    const QString act = isChecked() ? tr("Hides these") : tr("Shows these");
+    setToolTip(meaning_.isEmpty() ? act : tipText(meaning_ + '\n' + act));
     updateGeometry();
     update();
 }

@@ -16,6 +16,7 @@ public:
     explicit Chip(const QString& word, std::optional<Shape> mark = std::nullopt,
                   QWidget* parent = nullptr);
 
+    void explain(const QString& meaning);  // in the tooltip
     // Of rows of its kind, shown or not. It has room for more digits than it shows; `grows`: it may
     // have more of it now.
     void show(std::uint64_t count, bool grows = true);
@@ -28,7 +29,7 @@ private:
     void tell();
     QString rest(const QString& count) const;  // after the word
 
-    QString word_, count_, room_;  // room_: as wide as a count may be
+    QString word_, meaning_, count_, room_;  // room_: as wide as a count may be
     std::optional<Shape> mark_;
 };
 

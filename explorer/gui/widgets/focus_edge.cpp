@@ -21,8 +21,10 @@ FocusEdge::FocusEdge(QWidget* window) : QWidget{window} {
 
 void FocusEdge::moveTo(QWidget* focused) {
     if (around_) around_->removeEventFilter(this);
-    auto* area = qobject_cast<QAbstractScrollArea*>(focused);
-    around_ = area != nullptr && area->window() == window() ? area : nullptr;
+    const bool wanted = focused != nullptr && focused->window() == window() &&
+                        (qobject_cast<QAbstractScrollArea*>(focused) != nullptr ||
+                         focused->property(wantsFocusEdge).toBool());
+    around_ = wanted ? focused : nullptr;
     if (around_) around_->installEventFilter(this);
     fit();
 }

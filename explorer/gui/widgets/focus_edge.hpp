@@ -6,6 +6,9 @@
 
 namespace cortex::gui {
 
+// A property of widgets that want the edge as tables do.
+inline constexpr const char* wantsFocusEdge = "wantsFocusEdge";
+
 // An edge around the table, tree or text of its window that has the focus. Fields and buttons draw
 // their own.
 class FocusEdge : public QWidget {

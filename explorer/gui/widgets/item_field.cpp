@@ -1,14 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "widgets/item_field.hpp"
 
+#include "model/value_text.hpp"
+#include "widgets/choice_list.hpp"
+
 namespace cortex::gui {
 
 ItemField::ItemField(const ItemModel::Row& row, QWidget* parent)
     : QLineEdit{parent},
       path_{row.path},
-      item_{row.item->name},
+      item_{*row.item},
       element_{row.element},
-      whole_{row.whole} {}
+      whole_{row.whole} {
+    const DataItem item = ItemModel::entryItem(row);
+    const auto choices = choicesOf(item);
+    if (choices.empty()) return;
+    choices_ = new ChoiceList{choices, item.kind != Kind::Bool, *this};
+    connect(choices_, &ChoiceList::taken, this, [this] { Q_EMIT chosen(this); });
+}
+
+ItemField::~ItemField() { delete choices_; }
+
+bool ItemField::follow(bool isValue) {
+    isValue_ = isValue || isAsFilled();  // also of a number that has no label
+    if (!choices_) return isValue_;
+    const bool means = choices_->follow(text(), isValue_) || isValue_;
+    choices_->setUseful(means || text().isEmpty());
+    return means;
+}
+
+void ItemField::complete() {
+    if (isValue_ || !choices_ || choices_->chosen().isEmpty()) return;
+    setText(choices_->chosen());
+    setModified(true);
+}
 
 void ItemField::fill(const QString& text) {
     if (filled_) return;

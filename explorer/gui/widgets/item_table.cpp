@@ -7,6 +7,7 @@
 #include "model/value_text.hpp"
 #include "style/explorer_style.hpp"
 #include "widgets/entry_hint.hpp"
+#include "widgets/item_delegate.hpp"
 #include "widgets/item_drag.hpp"
 #include "widgets/item_widths.hpp"
 #include "widgets/range_bar.hpp"
@@ -31,181 +32,14 @@ namespace {
 constexpr double rounding = 0.01;  // units
 constexpr int mostOpenRows = 20;   // of a related simplex; one with more is closed at first
 
-class ItemDelegate : public QStyledItemDelegate {
-public:
-    ItemDelegate(const ItemModel& items, ItemTable* parent)
-        : QStyledItemDelegate{parent}, items_{items} {}
-
-    QSize sizeHint(const QStyleOptionViewItem& /*option*/,
-                   const QModelIndex& /*index*/) const override {
-        return {Look::units(10), static_cast<const ItemTable*>(parent())->rowHeight()};
-    }
-
-    void paint(QPainter* painter, const QStyleOptionViewItem& option,
-               const QModelIndex& index) const override {
-        const ItemModel::Row& row = items_.row(index);
-        if (row.item == nullptr) return;  // a group is painted as a whole
-        const Tokens& c = Look::colours();
-        const QRect box = option.rect.adjusted(Look::units(2), 0, -Look::units(2), 0);
-        const bool outside = isBeyondLimits(row.mark);
-        const QColor ink = rowInk(option, row.mark ? textColour(*row.mark, c) : c.ink);
-        switch (index.column()) {
-            case ItemModel::Name:
-                paintText(*painter, box, row.name, rowInk(option, c.ink));
-                break;
-            case ItemModel::Value:
-                if (!row.edited.isEmpty()) {
-                    paintEdited(*painter, option, row);
-                    break;
-                }
-                paintText(*painter, option.rect.adjusted(0, 0, -Look::units(2), 0), row.value, ink,
-                          Qt::AlignRight, outside);
-                paintLineOf(*painter, option, row);
-                break;
-            case ItemModel::Unit:
-                paintText(*painter, box, row.unit, rowInk(option, c.ink2));
-                break;
-            case ItemModel::Range:
-                paintRangeOf(*painter, option, box, row);
-                break;
-            case ItemModel::Remark:
-                paintRemark(*painter, option, box, row);
-                break;
-            default:
-                paintText(*painter, box, row.note, rowInk(option, c.ink2));
-        }
-    }
-
-    QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& /*option*/,
-                          const QModelIndex& index) const override {
-        const ItemModel::Row row = items_.row(index);
-        auto* field = new ItemField{row, parent};
-        const QString name = QString::fromStdString(ItemModel::entryItem(row).name);
-        field->setAccessibleName(row.unit.isEmpty() ? name
-                                                    : name + QStringLiteral(", ") + row.unit);
-        if (isWide(row) && !row.unit.isEmpty()) putUnitInside(*field, row.unit);
-        auto* hint = new EntryHint{*field};
-        connect(field, &QLineEdit::textChanged, hint, [this, field, hint, row] {
-            QString why;
-            field->setProperty(wrongInput, !items_.entered(row, field->text(), why));
-            hint->say(why);
-            field->update();
-        });
-        return field;
-    }
-
-    void setEditorData(QWidget* editor, const QModelIndex& index) const override {
-        static_cast<ItemField*>(editor)->fill(index.data(Qt::EditRole).toString());
-    }
-
-    // A field that is left as it was opened enters nothing, whatever the value is by now.
-    void setModelData(QWidget* editor, QAbstractItemModel* model,
-                      const QModelIndex& index) const override {
-        const auto* field = static_cast<ItemField*>(editor);
-        model->setData(index, field->isAsFilled() ? index.data(Qt::EditRole) : field->text());
-    }
-
-    // A field whose text is wrong stays open with it; Esc gives it up.
-    bool eventFilter(QObject* object, QEvent* event) override {
-        auto* field = qobject_cast<QLineEdit*>(object);
-        if (field == nullptr || !field->property(wrongInput).toBool() || !ends(*event)) {
-            return QStyledItemDelegate::eventFilter(object, event);
-        }
-        Q_EMIT commitData(field);  // it is refused, with the reason
-        return event->type() == QEvent::KeyPress;
-    }
-
-    void updateEditorGeometry(QWidget* editor, const QStyleOptionViewItem& option,
-                              const QModelIndex& index) const override {
-        const ItemModel::Row& row = items_.row(index);
-        QRect box = option.rect;
-        if (isWide(row))
-            box.setWidth(Look::units(usualItemWidths[ItemModel::Value] +
-                                     usualItemWidths[ItemModel::Unit] +
-                                     usualItemWidths[ItemModel::Range]));
-        editor->setGeometry(box);
-    }
-
-private:
-    // Its field lies over the columns beside it.
-    static bool isWide(const ItemModel::Row& row) {
-        return (row.whole && row.item->length > 1) || row.item->kind == Kind::String;
-    }
-
-    // Such a field covers the column of units.
-    static void putUnitInside(QLineEdit& field, const QString& unit) {
-        auto* label = new TextLabel{TextSize::Text, false, &Tokens::ink2};
-        label->show(unit);
-        auto* across = new QHBoxLayout{&field};
-        across->setContentsMargins(0, 0, Look::units(2), 0);
-        across->addStretch(1);
-        across->addWidget(label);
-        field.setTextMargins(0, 0, textWidth(unit) + Look::units(3), 0);
-    }
-
-    // Whether the event ends what is entered, other than by giving it up.
-    static bool ends(const QEvent& event) {
-        if (event.type() == QEvent::FocusOut) return true;
-        if (event.type() != QEvent::KeyPress) return false;
-        const int key = static_cast<const QKeyEvent&>(event).key();
-        return key == Qt::Key_Return || key == Qt::Key_Enter || key == Qt::Key_Tab ||
-               key == Qt::Key_Backtab;
-    }
-
-    // What is not sent yet has a dot before it; what the agent has now stands beside it.
-    static void paintEdited(QPainter& painter, const QStyleOptionViewItem& option,
-                            const ItemModel::Row& row) {
-        paintText(painter, option.rect.adjusted(0, 0, -Look::units(2), 0),
-                  QStringLiteral("● ") + row.edited, rowInk(option, Look::colours().accent),
-                  Qt::AlignRight, true);
-    }
-
-    // Where the column of ranges has given way.
-    void paintLineOf(QPainter& painter, const QStyleOptionViewItem& option,
-                     const ItemModel::Row& row) const {
-        const auto* view = qobject_cast<const QTreeView*>(parent());
-        if (view == nullptr || !view->isColumnHidden(ItemModel::Range)) return;
-        if (!row.min || !row.max) return;
-        paintRangeLine(painter, option.rect.adjusted(Look::units(2), 0, -Look::units(2), 0),
-                       {*row.min, *row.max, row.number, isLive(row)});
-    }
-
-    static bool isLive(const ItemModel::Row& row) { return !row.mark || isBeyondLimits(row.mark); }
-
-    static void paintRangeOf(QPainter& painter, const QStyleOptionViewItem& option, QRect box,
-                             const ItemModel::Row& row) {
-        if (!row.min && !row.max) return;
-        const QColor ink = rowInk(option, Look::colours().ink2);
-        int side = std::max((box.width() - Look::units(leastTrack)) / 2, 0);
-        const auto& [least, most] = limitsOf(row);
-        if (std::max(textWidth(least), textWidth(most)) > side) side = 0;  // whole, or not at all
-        paintText(painter, {box.left(), box.top(), side, box.height()}, least, ink, Qt::AlignRight);
-        paintText(painter, {box.right() - side, box.top(), side, box.height()}, most, ink);
-        if (!row.min || !row.max) return;
-        paintRange(painter, box.adjusted(side, 0, -side, 0),
-                   {*row.min, *row.max, row.number, isLive(row)});
-    }
-
-    static void paintRemark(QPainter& painter, const QStyleOptionViewItem& option, QRect box,
-                            const ItemModel::Row& row) {
-        const Tokens& c = Look::colours();
-        if (!row.edited.isEmpty()) {
-            paintText(painter, box, ItemTable::tr("now %1").arg(row.value), rowInk(option, c.ink));
-            return;
-        }
-        if (!row.mark) {
-            paintText(painter, box, row.remark, rowInk(option, c.ink2));
-            return;
-        }
-        const int size = markSize();
-        cortex::gui::paint(painter, markBox(box.left(), box, size), *row.mark, c);
-        box.setLeft(box.left() + size + Look::units(1.5));
-        paintText(painter, box, word(*row.mark), rowInk(option, textColour(*row.mark, c)),
-                  Qt::AlignLeft, true);
-    }
-
-    const ItemModel& items_;
-};
+// A character, not one of the keys that do something.
+bool isTyped(const QEvent* event) {
+    const bool key = event != nullptr && (event->type() == QEvent::KeyPress ||
+                                          event->type() == QEvent::ShortcutOverride);
+    if (!key) return false;
+    const QString text = static_cast<const QKeyEvent*>(event)->text();
+    return !text.isEmpty() && text[0].isPrint() && !text[0].isSpace();
+}
 
 }  // namespace
 
@@ -217,7 +51,7 @@ ItemTable::ItemTable(ItemModel& model, QWidget* parent) : QTreeView{parent}, ite
     setSelectionBehavior(SelectRows);
     setDragEnabled(true);
     setDragDropMode(DragOnly);
-    setEditTriggers(DoubleClicked | EditKeyPressed);
+    setEditTriggers(DoubleClicked | EditKeyPressed | AnyKeyPressed);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     connect(&model, &QAbstractItemModel::modelAboutToBeReset, this, &ItemTable::keepField);
     connect(&model, &QAbstractItemModel::modelReset, this, &ItemTable::openGroups);
@@ -247,13 +81,38 @@ void ItemTable::startDrag(Qt::DropActions /*actions*/) {
     drag->exec(Qt::CopyAction);
 }
 
-// Whatever column the cursor is in: it is the value that is edited. Tab goes on to the next one.
+// A text, or a label that begins with it.
+bool ItemTable::beginsValue(const QKeyEvent& event) const {
+    constexpr Qt::KeyboardModifiers none = Qt::ShiftModifier | Qt::KeypadModifier;
+    const bool plain = (event.modifiers() & ~none) == 0 && isTyped(&event);
+    if (!plain || !items_.settable(currentIndex())) return false;
+    const DataItem& item = *items_.row(currentIndex()).item;
+    const auto choices = choicesOf(item);
+    return choices.empty() ? item.kind == Kind::String
+                           : std::ranges::any_of(choices, [&](const auto& each) {
+                                 return each.second.startsWith(event.text(), Qt::CaseInsensitive);
+                             });
+}
+
+bool ItemTable::event(QEvent* event) {
+    if (event->type() == QEvent::ShortcutOverride && state() != EditingState &&
+        beginsValue(*static_cast<QKeyEvent*>(event))) {
+        event->accept();
+        return true;
+    }
+    return QTreeView::event(event);
+}
+
+// Whatever column the cursor is in: it is the value that is edited. What is typed begins it, too.
+// Tab goes on to the next one.
 bool ItemTable::edit(const QModelIndex& index, EditTrigger trigger, QEvent* event) {
     const QModelIndex value = index.siblingAtColumn(ItemModel::Value);
-    const bool asked = trigger == DoubleClicked || trigger == EditKeyPressed;
+    if (trigger == AnyKeyPressed && !isTyped(event)) return false;
+    const bool asked =
+        trigger == DoubleClicked || trigger == EditKeyPressed || trigger == AnyKeyPressed;
     if (asked && state() == EditingState) {  // a wrong one comes first
         if (auto* open = openField()) open->setFocus();
-        return false;
+        return trigger == AnyKeyPressed;
     }
     return QTreeView::edit(asked ? value : index, trigger, event);
 }
@@ -280,52 +139,6 @@ void ItemTable::openGroups() {
         setExpanded(group, items_.rowCount(group) <= mostOpenRows);
     }
     fitColumns();
-}
-
-ItemField* ItemTable::openField() const {
-    for (auto* each : viewport()->findChildren<QLineEdit*>()) {
-        auto* field = dynamic_cast<ItemField*>(each);
-        if (field != nullptr && !field->isHidden()) return field;  // one that was closed is hidden
-    }
-    return nullptr;
-}
-
-// What is typed outlasts the rows, which are made anew where an agent starts anew.
-void ItemTable::keepField() {
-    if (const ItemField* field = openField()) kept_ = field->kept();
-}
-
-QModelIndex ItemTable::cellOf(const ItemField::Kept& field) const {
-    for (int group = 0; group < items_.rowCount(); ++group) {
-        const QModelIndex above = items_.index(group, 0);
-        for (int row = 0; row < items_.rowCount(above); ++row) {
-            const QModelIndex cell = items_.index(row, ItemModel::Value, above);
-            const ItemModel::Row& each = items_.row(cell);
-            if (each.item == nullptr || each.path != field.path || each.item->name != field.item)
-                continue;
-            const QModelIndex whole = cell.siblingAtColumn(0);
-            const int element = static_cast<int>(field.element);
-            return field.whole ? cell : items_.index(element, ItemModel::Value, whole);
-        }
-    }
-    return {};
-}
-
-void ItemTable::openKept() {
-    if (!kept_) return;
-    if (kept_->path != items_.path()) return kept_.reset();
-    const QModelIndex cell = cellOf(*kept_);
-    if (!items_.settable(cell)) {  // its simplex may come again; the keyboard is elsewhere then
-        kept_->focused = false;
-        return;
-    }
-    const ItemField::Kept kept = *std::exchange(kept_, std::nullopt);
-    QWidget* elsewhere = kept.focused ? nullptr : QApplication::focusWidget();
-    setExpanded(cell.parent(), true);
-    setCurrentIndex(cell);
-    if (!edit(cell, AllEditTriggers, nullptr)) return;
-    if (ItemField* field = openField()) field->restore(kept);
-    if (elsewhere != nullptr) elsewhere->setFocus();
 }
 
 void ItemTable::resizeEvent(QResizeEvent* event) {

@@ -25,6 +25,9 @@ public:
 
     void setLow(bool low);  // there is little height: rows are lower, columns have no titles
     int rowHeight() const;
+    // Makes the row of an item of the simplex itself the current one, in sight and with the
+    // keyboard.
+    bool choose(const std::string& item);
 
 Q_SIGNALS:
     void submitted();  // Enter in a field
@@ -36,6 +39,7 @@ Q_SIGNALS:
     void unitsChanged();
 
 protected:
+    bool event(QEvent* event) override;  // what begins a value is no shortcut
     void startDrag(Qt::DropActions actions) override;
     bool edit(const QModelIndex& index, EditTrigger trigger, QEvent* event) override;
     void closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) override;
@@ -45,6 +49,7 @@ protected:
                  const QModelIndex& index) const override;
 
 private:
+    bool beginsValue(const QKeyEvent& event) const;
     void openGroups();
     ItemField* openField() const;  // null: none
     void keepField();

@@ -55,8 +55,11 @@ void lookAtItems(const ItemModel& items, Look look) {
 
 std::pair<QString, QString> limitsOf(const ItemModel::Row& row) {
     const DataItem& item = row.asShown();
-    return {row.min ? numberText(item, *row.min) : QStringLiteral("−∞"),
-            row.max ? numberText(item, *row.max) : QStringLiteral("∞")};
+    const QString least = row.min ? numberText(item, *row.min) : QString{};
+    const QString most = row.max ? numberText(item, *row.max) : QString{};
+    if (!row.max) return {QStringLiteral("≥ ") + least, {}};
+    if (!row.min) return {{}, QStringLiteral("≤ ") + most};
+    return {least, most};
 }
 
 int longestValue(const ItemModel& items) {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "widgets/link.hpp"
 
-#include "style/look.hpp"
-
 #include <QFontMetrics>
 #include <QKeyEvent>
 #include <QPainter>
 
 namespace cortex::gui {
 
-Link::Link(const QString& text, QWidget* parent) : QAbstractButton{parent} {
+Link::Link(const QString& text, TextSize size, QWidget* parent)
+    : QAbstractButton{parent}, size_{size} {
     setText(text);
     setAccessibleName(text);
     setCursor(Qt::PointingHandCursor);
@@ -18,14 +17,14 @@ Link::Link(const QString& text, QWidget* parent) : QAbstractButton{parent} {
 }
 
 QSize Link::sizeHint() const {
-    const QFontMetrics metrics{Look::font()};
+    const QFontMetrics metrics{Look::font(size_)};
     return {metrics.horizontalAdvance(text()) + Look::units(1),
             std::max(metrics.height(), Look::units(6))};
 }
 
 void Link::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter{this};
-    QFont font = Look::font();
+    QFont font = Look::font(size_);
     font.setUnderline(underMouse() || hasFocus());
     painter.setFont(font);
     painter.setPen(Look::colours().accent);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "style/look.hpp"
+
 #include <QAbstractButton>
 
 namespace cortex::gui {
@@ -9,12 +11,17 @@ namespace cortex::gui {
 class Link : public QAbstractButton {
     Q_OBJECT
 public:
-    explicit Link(const QString& text, QWidget* parent = nullptr);
+    explicit Link(const QString& text, QWidget* parent = nullptr)
+        : Link{text, TextSize::Text, parent} {}
+    Link(const QString& text, TextSize size, QWidget* parent = nullptr);
     QSize sizeHint() const override;
 
 protected:
     void paintEvent(QPaintEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;  // Enter, besides the blank
+
+private:
+    TextSize size_;
 };
 
 }  // namespace cortex::gui

@@ -2,6 +2,7 @@
 #include "widgets/popover.hpp"
 
 #include "style/look.hpp"
+#include "widgets/enter_key.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QCloseEvent>
@@ -49,15 +50,15 @@ protected:
 
 Popover::Popover(const QString& title, QWidget* parent)
     : QFrame{parent, Qt::Popup | Qt::FramelessWindowHint},
+      title_{new TextLabel{TextSize::Value, true}},
       rows_{new QVBoxLayout},
       buttons_{new QHBoxLayout} {
     setAttribute(Qt::WA_DeleteOnClose);
     auto* all = new QVBoxLayout{this};
     all->setContentsMargins(Look::units(5), Look::units(4), Look::units(5), Look::units(4));
     all->setSizeConstraint(QLayout::SetNoConstraint);
-    auto* label = new TextLabel{TextSize::Value, true};
-    label->show(title);
-    all->addWidget(label);
+    title_->show(title);
+    all->addWidget(title_);
     auto* content = new QWidget;
     content->setLayout(rows_);
     rows_->setContentsMargins(0, 0, 0, 0);
@@ -67,12 +68,22 @@ Popover::Popover(const QString& title, QWidget* parent)
     setAccessibleName(title);
 }
 
-void Popover::openBelow(const QWidget& anchor) {
-    const QWidget& window = *anchor.window();
-    const QScreen* screen = anchor.screen();
+void Popover::lieOnScreenOf(const QWidget& widget) {
+    const QScreen* screen = widget.screen();
     if (screen == nullptr) screen = QGuiApplication::primaryScreen();
     screen_ = screen->availableGeometry();
     fit();
+}
+
+void Popover::openAmid(const QWidget& window) {
+    lieOnScreenOf(window);
+    moveInside(window.mapToGlobal(window.rect().center()) - rect().center());
+    show();
+}
+
+void Popover::openBelow(const QWidget& anchor) {
+    const QWidget& window = *anchor.window();
+    lieOnScreenOf(anchor);
     const QPoint at = anchor.mapToGlobal({}), edge = window.mapToGlobal({});
     const int right = std::max(edge.x() + window.width() - width(), edge.x());
     const int below = at.y() + anchor.height(), above = at.y() - height();
@@ -111,6 +122,10 @@ bool Popover::event(QEvent* event) {
 void Popover::closeEvent(QCloseEvent* event) {
     QFrame::closeEvent(event);
     Q_EMIT closed();
+}
+
+void Popover::keyPressEvent(QKeyEvent* event) {
+    if (!pressFocused(*event, *this)) QFrame::keyPressEvent(event);
 }
 
 void Popover::paintEvent(QPaintEvent* /*event*/) {

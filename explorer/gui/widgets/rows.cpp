@@ -51,12 +51,12 @@ QColor rowInk(const QStyleOptionViewItem& option, const QColor& wanted) {
 }
 
 void paintText(QPainter& painter, const QRect& box, const QString& text, const QColor& colour,
-               Qt::Alignment align, bool strong) {
+               Qt::Alignment align, bool strong, Qt::TextElideMode cut) {
     if (text.isEmpty() || box.width() <= 0) return;
     const QFont font = Look::font(TextSize::Text, strong);
     painter.setFont(font);
     painter.setPen(colour);
-    const QString shown = QFontMetrics{font}.elidedText(text, Qt::ElideRight, box.width());
+    const QString shown = QFontMetrics{font}.elidedText(text, cut, box.width());
     painter.drawText(box, static_cast<int>(align | Qt::AlignVCenter) | Qt::TextSingleLine, shown);
 }
 

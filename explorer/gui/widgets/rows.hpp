@@ -22,7 +22,8 @@ void paintRow(QPainter& painter, const QStyleOptionViewItem& option, const QColo
 QColor rowInk(const QStyleOptionViewItem& option, const QColor& wanted);
 // Text in one line, with … where it does not fit.
 void paintText(QPainter& painter, const QRect& box, const QString& text, const QColor& colour,
-               Qt::Alignment align = Qt::AlignLeft, bool strong = false);
+               Qt::Alignment align = Qt::AlignLeft, bool strong = false,
+               Qt::TextElideMode cut = Qt::ElideRight);
 int textWidth(const QString& text, bool strong = false);
 
 // Rows of one height, no frame, no grid; the header above, if there is one, is not moved.

@@ -60,7 +60,9 @@ int TabRow::high() const {
 QSize TabRow::sizeHint() const {
     int all = 0;
     for (int tab = 0; tab < count(); ++tab) {
-        if (isOffered(tab)) all += QTabBar::tabSizeHint(tab).width();
+        if (!isOffered(tab)) continue;
+        const int wide = QTabBar::tabSizeHint(tab).width();
+        all += widest_ > 0 ? std::min(wide, Look::units(widest_)) : wide;
     }
     return {all, high()};
 }
@@ -68,7 +70,8 @@ QSize TabRow::sizeHint() const {
 QSize TabRow::minimumSizeHint() const { return {moreWidth() + Look::units(20), high()}; }
 
 QSize TabRow::tabSizeHint(int tab) const {
-    const int most = std::max(width() - (count() > 1 ? moreWidth() : 0), Look::units(20));
+    int most = std::max(width() - (count() > 1 ? moreWidth() : 0), Look::units(20));
+    if (widest_ > 0) most = std::min(most, Look::units(widest_));
     const QSize size = QTabBar::tabSizeHint(tab);
     const int high = Look::isLow(*this) ? Look::units(lowTab) : size.height();
     return {std::min(size.width(), most), std::min(size.height(), high)};

@@ -20,7 +20,8 @@ public:
     // which is about room here.
     void offer(int tab, bool offered);
     bool isOffered(int tab) const { return !tabData(tab).isValid() || tabData(tab).toBool(); }
-    int end() const;  // right edge of the last tab that is seen
+    void setWidest(double units) { widest_ = units; }  // of each tab; cut in its middle
+    int end() const;                                   // right edge of the last tab that is seen
     QToolButton& moreButton() { return *more_; }
 
     QSize sizeHint() const override;
@@ -40,6 +41,7 @@ private:
     void openMenu();
 
     QToolButton* more_;
+    double widest_ = 0;  // 0: as wide as its text
     bool fitting_ = false;
 };
 

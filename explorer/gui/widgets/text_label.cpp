@@ -59,6 +59,12 @@ void TextLabel::show(const QString& text, QColor Tokens::* colour) {
     show(text);
 }
 
+void TextLabel::explain(const QString& tip) {
+    tip_ = tipText(tip);
+    setToolTip(tip_);
+    setAccessibleDescription(tip);
+}
+
 void TextLabel::setTextSize(TextSize size, bool strong) {
     if (size == size_ && strong == strong_) return;
     size_ = size;
@@ -96,7 +102,9 @@ void TextLabel::paintEvent(QPaintEvent* /*event*/) {
         return;
     }
     const QString shown = fontMetrics().elidedText(text(), elide_, width());
-    setToolTip(shown == text() ? QString{} : tipText(text()));
+    QStringList tips{shown == text() ? QString{} : tipText(text()), tip_};
+    tips.removeAll({});
+    setToolTip(tips.join('\n'));
     painter.drawText(rect(), static_cast<int>(alignment()) | Qt::TextSingleLine, shown);
 }
 

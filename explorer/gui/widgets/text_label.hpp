@@ -18,6 +18,8 @@ public:
     void show(const QString& text);
     void show(const QString& text, QColor Tokens::* colour);
 
+    // In the tooltip, also where nothing of the text is cut.
+    void explain(const QString& tip);
     void keepWhole() { whole_ = true; }         // never cut: what is beside it gives way
     void keepEnd() { elide_ = Qt::ElideLeft; }  // paths differ at their ends
     void setTextSize(TextSize size, bool strong);
@@ -39,6 +41,7 @@ private:
     TextSize size_;
     bool strong_;
     QColor Tokens::* colour_;
+    QString tip_;
     Qt::TextElideMode elide_ = Qt::ElideRight;
     bool dressing_ = false, whole_ = false;
 };

@@ -25,11 +25,9 @@ protected:
     void wheelEvent(QWheelEvent* event) override { event->ignore(); }
 };
 
-QStringList choicesOf(const DataItem& item) {
-    if (item.length != 1) return {};
-    if (item.kind == Kind::Bool) return {QStringLiteral("false"), QStringLiteral("true")};
+QStringList labelsFor(const DataItem& item) {
     QStringList texts;
-    for (const auto& [number, label] : item.labels) texts << QString::fromStdString(label);
+    for (const auto& [number, label] : choicesOf(item)) texts << label;
     return texts;
 }
 
@@ -39,7 +37,7 @@ ValueField::ValueField(const DataItem& item, QWidget* parent) : QWidget{parent},
     auto* row = new QHBoxLayout{this};
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(Look::units(1));
-    if (choicesOf(item_).isEmpty())
+    if (labelsFor(item_).isEmpty())
         addField();
     else
         addChoices();
@@ -47,7 +45,7 @@ ValueField::ValueField(const DataItem& item, QWidget* parent) : QWidget{parent},
 }
 
 void ValueField::addChoices() {
-    const QStringList choices = choicesOf(item_);
+    const QStringList choices = labelsFor(item_);
     const QString first = item_.hasDefault ? entryText(item_, item_.initial) : QString{};
     if (static_cast<std::size_t>(choices.size()) > mostButtons) {
         list_ = new QuietList;
@@ -70,9 +68,17 @@ void ValueField::addChoices() {
         layout()->addWidget(button);
     }
     static_cast<QHBoxLayout*>(layout())->addStretch(1);
-    setFocusProxy(buttons_->buttons().front());
-    connect(buttons_, qOverload<QAbstractButton*>(&QButtonGroup::buttonClicked), this,
-            &ValueField::changed);
+    goToChosen();
+    connect(buttons_, qOverload<QAbstractButton*>(&QButtonGroup::buttonClicked), this, [this] {
+        goToChosen();
+        Q_EMIT changed();
+    });
+}
+
+// The keyboard comes to the one that is chosen.
+void ValueField::goToChosen() {
+    QAbstractButton* chosen = buttons_->checkedButton();
+    setFocusProxy(chosen != nullptr ? chosen : buttons_->buttons().front());
 }
 
 void ValueField::addField() {
@@ -96,15 +102,16 @@ void ValueField::addField() {
 QString ValueField::text() const {
     if (field_ != nullptr) return field_->text();
     if (list_ != nullptr) return list_->currentText();
-    return choicesOf(item_).value(buttons_->checkedId());
+    return labelsFor(item_).value(buttons_->checkedId());
 }
 
 void ValueField::setText(const QString& text) {
     if (field_ != nullptr) field_->setText(text);
     if (list_ != nullptr) list_->setCurrentText(text);
     if (buttons_ == nullptr) return;
-    const int chosen = choicesOf(item_).indexOf(text);
+    const int chosen = labelsFor(item_).indexOf(text);
     if (chosen >= 0) buttons_->button(chosen)->setChecked(true);
+    goToChosen();
     Q_EMIT changed();
 }
 

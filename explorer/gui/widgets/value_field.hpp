@@ -26,14 +26,15 @@ public:
     QString problem() const;
     bool isEmpty() const;
     void setText(const QString& text);
+    QString text() const;  // as it was entered or chosen
 
 Q_SIGNALS:
     void changed();
 
 private:
     void addChoices();
+    void goToChosen();
     void addField();
-    QString text() const;
 
     DataItem item_;
     QLineEdit* field_ = nullptr;  // one of these three

@@ -4,7 +4,6 @@
 #include "model/holders.hpp"
 #include "model/permission.hpp"
 #include "model/plain_text.hpp"
-#include "session/lease.hpp"
 #include "widgets/low_buttons.hpp"
 #include "widgets/text_label.hpp"
 #include "window/control_notice.hpp"
@@ -16,23 +15,12 @@
 #include <QStyle>
 #include <QStyleOptionButton>
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace cortex::gui {
 
 namespace {
-
-// Who has something there, has not ended, and is not controlled by us. All of an agent is below
-// "/", also while it is not known yet what that is.
-QStringList uncontrolled(const Frame& frame, const std::string& prefix) {
-    QStringList names;
-    for (const AgentFrame& agent : frame.agents) {
-        const bool has = prefix == "/" || hasBelow(agent, prefix);
-        if (!has || agent.status.ended || frame.control.covers(agent.status.name, prefix)) continue;
-        names << QString::fromStdString(agent.status.name);
-    }
-    return names;
-}
 
 // That the button needs for another text.
 int widthOf(const QPushButton& button, const QString& text) {
@@ -96,7 +84,7 @@ QString ControlBar::text() const {
     const Control& control = frame_->control;
     if (!control.asks.empty()) return tr("Asking for %1").arg(scopeText(control.asks));
     if (control.prefix.empty())
-        return control.asking.prefix.empty() ? tr("Read-only") : askingText();
+        return control.asking.prefix.empty() ? readOnlyText() : askingText();
     // Where there are many, the first one that is not whole is named.
     auto held = control.prefixes();
     const auto isWhole = [&](const std::string& each) {
@@ -111,6 +99,26 @@ QString ControlBar::text() const {
     const QString since = sinceText();
     if (narrow_ || since.isEmpty() || !isWhole(held.front())) return what;
     return tr("%1 since %2").arg(what, since);
+}
+
+// Stop needs no control, but somebody who hears it, and the right to command.
+QString ControlBar::readOnlyText() const {
+    const bool stops = !frame_->control.rights.empty() &&
+                       std::ranges::any_of(frame_->agents, std::not_fn(&AgentFrame::lost));
+    const QString least = tr("Read-only");
+    if (!stops) return least;
+    const QMargins margins = layout()->contentsMargins();
+    const int room = room_ - margins.left() - layout()->spacing() - button_->minimumWidth() - 2;
+    for (const QString& each : {tr("Read-only; Stop works"), tr("Only Stop works")}) {
+        if (QFontMetrics{label_->font()}.horizontalAdvance(each) <= room) return each;
+    }
+    return least;
+}
+
+void ControlBar::setRoom(int room) {
+    if (std::exchange(room_, room) == room) return;
+    label_->show(text());
+    layout()->activate();  // nothing is cut until the next request to lay it out
 }
 
 // Where it is narrow, the name gives way.
@@ -162,6 +170,10 @@ QString ControlBar::wholeText() const {
         lines << tr("%1 asks for %2").arg(wholeNameOf(control, each.tool), scopeText(each.prefix));
     if (!control.asking.prefix.empty())
         lines << tr("Asking for %1").arg(scopeText(control.asking.prefix));
+    if (lines.isEmpty())
+        lines << tr(
+            "Read-only: this window changes nothing until it takes control. Only Stop "
+            "needs no control.");
     return lines.join('\n');
 }
 

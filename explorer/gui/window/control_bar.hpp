@@ -16,11 +16,11 @@ namespace cortex::gui {
 class ControlNotice;
 class TextLabel;
 
-// Whether this window may command, and what: "Read-only" with "Take control…", or "You control /arm
-// since 12:05 UTC" with "Hand over…" and "Release". Of whom it does not control it, though they
-// have something there, is said: "You control everything but robot"; and "Take again" is offered as
-// long as that is possible. What became of control, and who asks for it, stands in a row of its
-// own.
+// Whether this window may command, and what: "Read-only; Stop works" with "Take control…", or "You
+// control /arm since 12:05 UTC" with "Hand over…" and "Release". Of whom it does not control it,
+// though they have something there, is said: "You control everything but robot"; and "Take again"
+// is offered as long as that is possible. What became of control, and who asks for it, stands in a
+// row of its own.
 class ControlBar : public QWidget {
     Q_OBJECT
 public:
@@ -29,6 +29,7 @@ public:
     // `path`: the simplex that is shown, which the scopes are made from.
     void refresh(const std::shared_ptr<const Frame>& frame, const std::string& path);
     void setNarrow(bool narrow);
+    void setRoom(int room);                  // px; where it is short, "Only Stop works", or less
     void choose();                           // opens the popover
     void choose(const std::string& prefix);  // the same, with this path chosen
     void release();
@@ -54,6 +55,7 @@ protected:
 
 private:
     QString partText(const std::string& prefix) const;
+    QString readOnlyText() const;
     QString askingText() const;
     QString sinceText() const;
     QString wholeText() const;
@@ -69,6 +71,7 @@ private:
     std::shared_ptr<const Frame> frame_;
     std::string path_, prefix_;
     bool narrow_ = false, took_ = false;
+    int room_ = 0;
     ControlNews news_;
     ControlNews::Row shown_;  // in the notice
     TextLabel* label_;

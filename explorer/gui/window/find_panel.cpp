@@ -23,6 +23,8 @@ QString kindText(FoundKind kind) {
     switch (kind) {
         case FoundKind::View:
             return FindPanel::tr("view");
+        case FoundKind::Action:
+            return FindPanel::tr("action");
         case FoundKind::Simplex:
             return FindPanel::tr("simplex");
         case FoundKind::Command:
@@ -95,6 +97,10 @@ bool FindPanel::eventFilter(QObject* object, QEvent* event) {
     const auto* key = static_cast<QKeyEvent*>(event);
     const int row = list_->indexOfTopLevelItem(list_->currentItem());
     const int page = key->key() == Qt::Key_PageDown || key->key() == Qt::Key_PageUp ? 10 : 1;
+    if (key->key() == Qt::Key_K && key->modifiers() == Qt::ControlModifier) {  // begins anew
+        field_->selectAll();
+        return true;
+    }
     switch (key->key()) {
         case Qt::Key_Down:
         case Qt::Key_PageDown:
@@ -114,10 +120,15 @@ bool FindPanel::eventFilter(QObject* object, QEvent* event) {
     }
 }
 
-FindPanel* openFindPanel(const Frame& frame, const std::vector<PageKind>& kinds, QWidget& button) {
+FindPanel* openFindPanel(const Frame& frame, const std::vector<PageKind>& kinds,
+                         const std::vector<FindAction>& actions, QWidget& button) {
     FindIndex index{frame};
     for (const PageKind& each : kinds) {
         index.add({FoundKind::View, each.kind.toStdString(), each.title.toStdString()});
+    }
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+        index.add({FoundKind::Action, std::to_string(i), actions[i].text.toStdString(),
+                   actions[i].keys.toStdString()});
     }
     auto* panel = new FindPanel{std::move(index), button.window()};
     panel->openBelow(button.isVisible() ? button : *button.parentWidget());

@@ -3,6 +3,7 @@
 
 #include "model/find_index.hpp"
 #include "widgets/popover.hpp"
+#include "window/find_actions.hpp"
 #include "window/pages.hpp"
 
 class QLineEdit;
@@ -12,7 +13,8 @@ namespace cortex::gui {
 
 class TextLabel;
 
-// What Ctrl+K opens: one field that finds simplexes, items, commands and views.
+// What Ctrl+K opens: one field that finds simplexes, items, commands, views and what the
+// window does.
 class FindPanel : public Popover {
     Q_OBJECT
 public:
@@ -39,6 +41,7 @@ private:
 };
 
 // Below the button, within its window, with all that is known now.
-FindPanel* openFindPanel(const Frame& frame, const std::vector<PageKind>& kinds, QWidget& button);
+FindPanel* openFindPanel(const Frame& frame, const std::vector<PageKind>& kinds,
+                         const std::vector<FindAction>& actions, QWidget& button);
 
 }  // namespace cortex::gui

@@ -126,19 +126,21 @@ void HandOverPanel::focusFirst() {
     (any ? static_cast<QWidget*>(others_) : name_)->setFocus(Qt::TabFocusReason);
 }
 
-// A row is chosen by an arrow before Enter hands over: nobody gets it by a key that opened this.
+// A row is chosen, by an arrow or Enter, before Enter hands over: nobody gets it by the key that
+// opened this.
 bool HandOverPanel::eventFilter(QObject* object, QEvent* event) {
     if (object != others_ || event->type() != QEvent::KeyPress)
         return Popover::eventFilter(object, event);
     const auto* key = static_cast<QKeyEvent*>(event);
     const auto chosen = others_->selectedItems();
-    if (key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter) {
-        if (!chosen.isEmpty() && !key->isAutoRepeat())
-            give(chosen.front()->data(nameRole).toString());
+    const bool enter = key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter;
+    if (enter && key->isAutoRepeat()) return true;
+    if (enter && !chosen.isEmpty()) {
+        give(chosen.front()->data(nameRole).toString());
         return true;
     }
     const bool arrow = key->key() == Qt::Key_Down || key->key() == Qt::Key_Up;
-    if (!arrow || !chosen.isEmpty()) return Popover::eventFilter(object, event);
+    if (!(arrow || enter) || !chosen.isEmpty()) return Popover::eventFilter(object, event);
     for (int i = 0; i < others_->count(); ++i) {
         if (!others_->item(i)->flags().testFlag(Qt::ItemIsEnabled)) continue;
         others_->setCurrentRow(i);

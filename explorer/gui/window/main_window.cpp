@@ -24,7 +24,6 @@
 #include <QApplication>
 #include <QCloseEvent>
 #include <QMenu>
-#include <QMessageBox>
 #include <QPainter>
 #include <QPushButton>
 #include <QResizeEvent>
@@ -51,7 +50,8 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       session_{session},
       commands_{session},
       tree_{new SystemTree},
-      workspace_{new Workspace{{session, commands_, host_, times_, eventFilter_, past_}}},
+      workspace_{
+          new Workspace{{session, commands_, host_, times_, eventFilter_, past_, abnormal_}}},
       eventList_{new EventList{eventFilter_}},
       across_{new QSplitter{Qt::Horizontal}},
       down_{new QSplitter{Qt::Vertical}},
@@ -65,7 +65,8 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
       control_{new ControlBar{session}},
       orders_{new Orders{session, *stop_, *control_, this}},
       bar_{new TopBar{*control_, *stop_}},
-      arrangement_{*across_, *down_, [this] { layout_->noteChange(); }} {
+      arrangement_{*across_, *down_, [this] { layout_->noteChange(); }},
+      leaving_{*this, *control_, orders_->startAgain(), commands_.keptEdits()} {
     setWindowTitle(tr("CorteX Explorer"));
     arrangement_.join(*tree_, *workspace_);
     down_->addWidget(workspace_);
@@ -93,11 +94,18 @@ MainWindow::MainWindow(Session& session, QWidget* parent)
     connect(workspace_, &Workspace::chosen, tree_, &SystemTree::choose);
     connect(tree_, &SystemTree::chosen, this, &MainWindow::choose);
     connect(tree_, &SystemTree::pinned, this, &MainWindow::openTab);
+    connect(tree_, &SystemTree::changed, layout_, &LayoutKeeper::noteChange);
+    connect(tree_, &SystemTree::entered, this, [this](const std::string& path) {
+        choose(path);
+        enter();
+    });
     connect(tree_, &SystemTree::menuWanted, this, &MainWindow::openTreeMenu);
     connect(eventList_, &EventList::opened, this, &MainWindow::open);
     connect(eventList_, &EventList::beforeWanted, workspace_, &Workspace::openBefore);
     connect(status_, &StatusBar::nextWanted, this,
             [this](Abnormal::Kind kind) { openAbnormal(false, kind); });
+    connect(status_, &StatusBar::agentsWanted, this,
+            [this] { openKind(QStringLiteral("agents")); });
     const auto take = [this](const std::string& prefix) { control_->choose(prefix); };
     connect(&host_, &ViewHost::controlWanted, this, take);
     connect(control_, &ControlBar::changed, this, qOverload<>(&QWidget::update));
@@ -121,9 +129,9 @@ QMenu* MainWindow::makeMenu() {
         {session_, *orders_, *control_, [this] { setTheme(1); },
          [this](double scale) { setScale(scale); }, [this](bool local) { setLocalTime(local); },
          [this] { openManual(); }, [this] { close(); }, [this] { find(); },
-         [this](const QString& kind) { openKind(kind); }, [this] { workspace_->split(); },
-         [this] { workspace_->reopenTab(); }, [this] { workspace_->newPlot({}); },
-         [this] { plotChosen(); }, [this] { return workspace_->units(); }, *layout_},
+         [this](const QString& kind) { openKind(kind); }, [this] { split(); },
+         [this] { reopenTab(); }, [this] { workspace_->newPlot({}); }, [this] { plotChosen(); },
+         [this] { return workspace_->units(); }, *layout_},
         &bar_->menuButton());
 }
 
@@ -143,18 +151,20 @@ void MainWindow::addKeys() {
         connect(new QShortcut{QKeySequence{QLatin1String{keys}}, this}, &QShortcut::activated, this,
                 action);
     };
-    key("Ctrl+F", [this] {
-        if (auto* events = qobject_cast<EventView*>(current())) return events->focusFilter();
-        arrangement_.showTree();
-        tree_->focusFilter();
-    });
+    for (const char* filter : {"Ctrl+F", "/"}) {
+        key(filter, [this] {
+            if (auto* events = qobject_cast<EventView*>(current())) return events->focusFilter();
+            arrangement_.showTree();
+            tree_->focusFilter();
+        });
+    }
     key("Ctrl+G", [this] { plotChosen(); });
     key("Ctrl+K", [this] { find(); });
     key("Ctrl+B", [this] { arrangement_.toggleTree(); });
     key("Ctrl+E", [this] { arrangement_.toggleEvents(*workspace_); });
     key("Ctrl+W", [this] { workspace_->closeTab(); });
-    key("Ctrl+Shift+W", [this] { workspace_->reopenTab(); });
-    key("Ctrl+\\", [this] { workspace_->split(); });
+    key("Ctrl+Shift+W", [this] { reopenTab(); });
+    key("Ctrl+\\", [this] { split(); });
     key("Ctrl+Shift+L", [this] { setTheme(1); });
     key("Ctrl+0", [this] { setScale(1); });
     key("Ctrl++", [this] { setScale(std::min(Look::scale() + 0.25, 1.5)); });
@@ -175,46 +185,6 @@ void MainWindow::addKeys() {
 
 QWidget* MainWindow::current() const { return workspace_->current(); }
 
-void MainWindow::open(const std::string& path) {
-    workspace_->open(path);
-    refresh();
-}
-
-// A view that shows the whole system may show it itself.
-void MainWindow::choose(const std::string& path) {
-    if (!workspace_->select(path)) open(path);
-}
-
-void MainWindow::openTab(const std::string& path) {
-    workspace_->openTab(path);
-    refresh();
-}
-
-void MainWindow::openKind(const QString& kind) {
-    workspace_->openKind(kind);
-    refresh();
-}
-
-FindPanel* MainWindow::findPanel() const { return find_; }
-
-void MainWindow::find() {
-    if (find_) return;
-    find_ = openFindPanel(*session_.frame(), pageKinds(), bar_->findButton());
-    connect(find_, &FindPanel::chosen, this, &MainWindow::openFound);
-}
-
-void MainWindow::openFound(const Found& found, bool beside) {
-    if (found.kind == FoundKind::View) return openKind(QString::fromStdString(found.path));
-    if (found.kind == FoundKind::Item && beside) {
-        const auto items = plottedItems(*session_.frame(), found.path, found.name);
-        return items.empty() ? tell(tr("It is not there any more."), false) : openPlot(items);
-    }
-    beside ? workspace_->openTab(found.path, true) : workspace_->open(found.path);
-    refresh();
-    if (found.kind == FoundKind::Item) openPart("data");
-    if (found.kind == FoundKind::Command) openPart("commands");
-}
-
 void MainWindow::tell(const QString& text, bool trouble) {
     comms::AgentEvent event;
     event.agent = "cortex-explorer";
@@ -229,6 +199,7 @@ void MainWindow::tell(const QString& text, bool trouble) {
 QJsonObject MainWindow::saved() const {
     return {{QStringLiteral("workspace"), workspace_->saved()},
             {QStringLiteral("window"), arrangement_.saved()},
+            {QStringLiteral("rows"), tree_->openness().saved()},
             {QStringLiteral("events"), arrangement_.wantsEvents()},
             {QStringLiteral("size"), savedSize(*this)},
             {QStringLiteral("localTime"), showsLocalTime()}};
@@ -239,37 +210,12 @@ void MainWindow::restore(const QJsonObject& saved) {
     restoreSize(*this, saved[QStringLiteral("size")].toObject());
     arrangement_.restore(saved[QStringLiteral("window")].toObject(),
                          saved[QStringLiteral("events")].toBool(true));
+    tree_->openness().restore(saved[QStringLiteral("rows")].toObject());
     showStrip();
     setLocalTime(saved[QStringLiteral("localTime")].toBool());
 }
 
 void MainWindow::showStrip() { arrangement_.giveWay(*workspace_); }
-
-void MainWindow::openManual() {
-    const QString section = ManualView::sectionOf(QApplication::focusWidget());
-    manual_ = qobject_cast<ManualView*>(workspace_->openKind(QStringLiteral("manual")));
-    if (!manual_) return;
-    manual_->openAt(section.isEmpty() ? tr("What it shows") : section);
-    manual_->setFocus();
-}
-
-// The next one that is in Fault, outside of its limits or lost, or the one before.
-void MainWindow::openAbnormal(bool back, std::optional<Abnormal::Kind> kind) {
-    const std::string next = abnormal_.next(workspace_->path(), back, kind);
-    if (!next.empty()) open(next);
-}
-
-void MainWindow::openPlot(const std::vector<RecordedItem>& items) {
-    workspace_->openPlot(items);
-    refresh();
-}
-void MainWindow::plotChosen() {
-    const auto items = workspace_->chosenItems();
-    if (items.empty()) return tell(tr("Nothing is chosen that can be plotted."), false);
-    openPlot(items);
-}
-
-void MainWindow::openPart(const std::string& name) { workspace_->openPart(name); }
 
 // A view may open another one while it is refreshed; that is seen in the next frame.
 void MainWindow::refresh() {
@@ -327,6 +273,7 @@ void MainWindow::setScale(double scale) {
 void MainWindow::setLocalTime(bool wanted) {
     if (wanted == showsLocalTime()) return;
     showLocalTime(wanted);
+    Q_EMIT events_.headerDataChanged(Qt::Horizontal, EventModel::Time, EventModel::Time);
     for (QWidget* each : findChildren<QWidget*>()) each->update();
     layout_->noteChange();
     refresh();
@@ -347,23 +294,9 @@ void MainWindow::paintEvent(QPaintEvent* /*event*/) {
 
 // Nothing but what the user asked for ends control: the end of the program releases it.
 void MainWindow::closeEvent(QCloseEvent* event) {
-    if (!control_->holds() || leaves_) {
-        layout_->save();
-        event->accept();
-        return;
-    }
-    event->ignore();
-    auto* question = new QMessageBox{this};
-    question->setAttribute(Qt::WA_DeleteOnClose);
-    question->setText(tr("Release %1 and quit?").arg(control_->heldText()));
-    question->setInformativeText(tr("What is Active stays so."));
-    auto* quit = question->addButton(tr("Quit"), QMessageBox::AcceptRole);
-    question->setDefaultButton(question->addButton(tr("Stay"), QMessageBox::RejectRole));
-    connect(quit, &QAbstractButton::clicked, this, [this] {
-        leaves_ = true;
-        close();
-    });
-    question->open();
+    if (!leaving_.mayLeave([this] { close(); })) return event->ignore();
+    layout_->save();
+    event->accept();
 }
 
 // Where it is narrow, the tree takes the place of the views until something is chosen in it.

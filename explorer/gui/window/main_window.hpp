@@ -10,6 +10,7 @@
 #include "views/manual_view.hpp"
 #include "views/view_host.hpp"
 #include "window/arrangement.hpp"
+#include "window/leaving.hpp"
 #include "window/orders.hpp"
 #include "window/regions.hpp"
 
@@ -44,12 +45,14 @@ public:
     explicit MainWindow(Session& session, QWidget* parent = nullptr);
 
     void open(const std::string& path);     // where what is chosen is shown
-    void openTab(const std::string& path);  // in one of its own
-    void openKind(const QString& kind);     // "system", "agents", "events", "view:NAME", …
+    void openTab(const std::string& path);  // in one of its own, with the keyboard
+    void reopenTab();
+    void openKind(const QString& kind);  // "system", "agents", "events", "view:NAME", …
     void openPlot(const std::vector<RecordedItem>& items);  // in the last plot, or a new one
     void plotChosen();                                      // in the view in front
     void openManual();  // at what is said about what has the keyboard
     ManualView* manual() { return manual_; }
+    void split();                            // side by side; the keyboard goes with the tab
     void openPart(const std::string& name);  // of the simplex that is shown
     Workspace& workspace() { return *workspace_; }
     void find();                   // opens the field that finds everything
@@ -70,8 +73,9 @@ protected:
     void paintEvent(QPaintEvent* event) override;
     void closeEvent(QCloseEvent* event) override;  // asks first while it is in control
     void resizeEvent(QResizeEvent* event) override;
-    bool focusNextPrevChild(bool next) override;  // in reading order
-    void changeEvent(QEvent* event) override;     // another size of text
+    void keyPressEvent(QKeyEvent* event) override;  // Enter presses what has the keyboard
+    bool focusNextPrevChild(bool next) override;    // in reading order
+    void changeEvent(QEvent* event) override;       // another size of text
 
 private:
     QMenu* makeMenu();
@@ -84,6 +88,7 @@ private:
     void restyle();
     void arrange();
     void openFound(const Found& found, bool beside);
+    void enter();                                  // the view in front, with the keyboard
     void tell(const QString& text, bool trouble);  // among the events
     QJsonObject saved() const;
     void restore(const QJsonObject& saved);
@@ -109,13 +114,13 @@ private:
     Regions regions_;
     StopButton* stop_;
     FocusEdge* edge_;
-    bool leaves_ = false;      // the user said so
     bool refreshing_ = false;  // just now
     bool low_ = false;
     ControlBar* control_;
     Orders* orders_;
     TopBar* bar_ = nullptr;
     Arrangement arrangement_;
+    Leaving leaving_;
     QTimer timer_;
 };
 

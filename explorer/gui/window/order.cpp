@@ -63,21 +63,38 @@ std::vector<std::string> widest(std::vector<std::string> prefixes) {
     return prefixes;
 }
 
-std::vector<std::string> permitted(const std::vector<std::string>& prefixes,
-                                   const std::vector<std::string>& rights) {
+std::vector<std::string> overlap(const std::vector<std::string>& prefixes,
+                                 const std::vector<std::string>& others) {
     std::vector<std::string> parts;
     const auto add = [&](const std::string& path) {
         if (std::ranges::find(parts, path) == parts.end()) parts.push_back(path);
     };
     for (const std::string& each : prefixes) {
-        for (const std::string& right : rights) {
-            if (isAtOrBelow(each, right))
+        for (const std::string& other : others) {
+            if (isAtOrBelow(each, other))
                 add(each);
-            else if (isAtOrBelow(right, each))
-                add(right);
+            else if (isAtOrBelow(other, each))
+                add(other);
         }
     }
-    return parts.empty() ? prefixes : widest(std::move(parts));
+    return widest(std::move(parts));
+}
+
+std::vector<std::string> permitted(const std::vector<std::string>& prefixes,
+                                   const std::vector<std::string>& rights) {
+    auto parts = overlap(prefixes, rights);
+    return parts.empty() ? prefixes : parts;
+}
+
+int inStandby(const Frame& frame, const std::string& prefix) {
+    int count = 0;
+    for (const AgentFrame& agent : frame.agents) {
+        if (!agent.structure || agent.lost()) continue;
+        const auto& simplexes = agent.structure->simplexes;
+        for (std::uint32_t i = 0; i < simplexes.size(); ++i)
+            count += isMeant(simplexes[i], prefix) && agent.state(i) == State::Standby ? 1 : 0;
+    }
+    return count;
 }
 
 QString scopeWords(const std::vector<std::string>& prefixes) {
@@ -92,8 +109,7 @@ QString scopeWord(const std::vector<std::string>& prefixes) {
     return say("%1 and %2 more").arg(scopeWords({prefixes.front()})).arg(prefixes.size() - 1);
 }
 
-void Order::begin(std::vector<std::string> prefixes, const std::vector<std::string>& except,
-                  const std::string& only) {
+void Order::begin(std::vector<std::string> prefixes, Whom whom, const std::string& only) {
     const auto frame = session_.frame();
     const auto wanted = widest(std::move(prefixes));
     prefixes_ = permitted(wanted, frame->control.rights);
@@ -103,14 +119,21 @@ void Order::begin(std::vector<std::string> prefixes, const std::vector<std::stri
     meant_.clear();
     worked_.clear();
     refusals_.clear();
+    over_.clear();
     ended_.clear();
     since_.start();
     answered_.start();
     for (const AgentFrame& agent : frame->agents) {
+        const std::string& name = agent.status.name;
+        if (!only.empty() && name != only) continue;
+        if (agent.status.ended) {
+            if (hasMeant(agent, prefixes_)) over_ << QString::fromStdString(name);
+            continue;
+        }
         if (kind_ == Start && agent.lost()) continue;
-        if (std::ranges::find(except, agent.status.name) != except.end()) continue;
-        if (!only.empty() && agent.status.name != only) continue;
-        for (const std::string& each : prefixes_) tell(agent, each);
+        const auto parts =
+            whom == Whom::All ? prefixes_ : overlap(prefixes_, frame->control.prefixesOf(name));
+        for (const std::string& each : parts) tell(agent, each);
     }
     sendNext();
     active_ = !told_.empty();
@@ -118,6 +141,25 @@ void Order::begin(std::vector<std::string> prefixes, const std::vector<std::stri
     const QString of = ofAll ? QString{} : say(" that has anything of %1").arg(part());
     text_ = say(words[kind_].nobody).arg(of);
     if (active_) count(*frame);
+}
+
+bool Order::hasMeant(const AgentFrame& agent, const std::vector<std::string>& prefixes) {
+    return agent.structure && std::ranges::any_of(prefixes, [&](const std::string& prefix) {
+               return std::ranges::any_of(agent.structure->simplexes, [&](const SimplexInfo& info) {
+                   return isMeant(info, prefix);
+               });
+           });
+}
+
+// That ended since it was told.
+void Order::leaveEnded(const Frame& frame) {
+    for (const AgentFrame& agent : frame.agents) {
+        const std::string& name = agent.status.name;
+        if (!agent.status.ended || std::ranges::count(told_, name, &Told::agent) == 0) continue;
+        over_ << QString::fromStdString(name);
+        std::erase_if(told_, [&](const Told& each) { return each.agent == name; });
+        std::erase_if(meant_, [&](const Meant& each) { return each.agent == name; });
+    }
 }
 
 void Order::tell(const AgentFrame& agent, const std::string& prefix) {
@@ -128,7 +170,7 @@ void Order::tell(const AgentFrame& agent, const std::string& prefix) {
         for (std::uint32_t i = 0; i < simplexes.size(); ++i) {
             if (!isMeant(simplexes[i], prefix)) continue;
             meant_.push_back({agent.status.name, simplexes[i].path});
-            const auto state = agent.status.ended ? std::nullopt : agent.lastState(i);
+            const auto state = agent.lastState(i);
             const bool works = state == cortex::State::Active || state == cortex::State::StartingUp;
             if (works) worked_.push_back(meant_.back());
         }
@@ -190,6 +232,7 @@ void Order::refresh(const Frame& frame, const std::vector<CommandOutcome>& outco
         return;
     }
     for (const CommandOutcome& each : outcomes) take(each);
+    leaveEnded(frame);
     sendNext();
     const bool waits = std::ranges::any_of(told_, [&](const Told& each) {
         return !each.answered && (goesOn(each) || each.number != 0);
@@ -228,6 +271,7 @@ void Order::count(const Frame& frame) {
     text_ = say(words[kind_].doing).arg(scope()).arg(standing).arg(meant_.size());
     const QStringList lost = unanswered(frame, true);
     if (!lost.isEmpty()) text_ += say("; not heard: %1").arg(lost.join(", "));
+    if (!over_.isEmpty()) text_ += say("; ended: %1").arg(over_.join(", "));
 }
 
 // What followed, what did not and why, and when that was. What a start leaves in Standby may be
@@ -250,9 +294,10 @@ void Order::finish(const Frame& frame) {
     const QString count = all ? say("All %1").arg(followed) + of
                               : say("%1 of %2").arg(followed).arg(meant_.size()) + of;
     parts.prepend(say(words[kind_].done).arg(count).arg(seconds, 0, 'f', 1));
+    if (!over_.isEmpty()) parts << say("ended: %1").arg(over_.join(", "));
     if (narrowed_) parts << say("you may command nothing else");
     text_ = parts.join(QStringLiteral("; "));
-    text_ += ", " + shownTimeText(utcNow(), "HH:mm:ss");
+    text_ += ", " + timeAndZone(utcNow(), "HH:mm:ss");
 }
 
 QString Order::notFollowed(const Frame& frame) const {

@@ -22,6 +22,11 @@ std::vector<std::string> widest(std::vector<std::string> prefixes);
 // say why they refuse it.
 std::vector<std::string> permitted(const std::vector<std::string>& prefixes,
                                    const std::vector<std::string>& rights);
+// What of it lies at and below these; it may be nothing.
+std::vector<std::string> overlap(const std::vector<std::string>& prefixes,
+                                 const std::vector<std::string>& others);
+// How many of them there a start would ask, of agents that are heard.
+int inStandby(const Frame& frame, const std::string& prefix);
 QString scopeWord(const std::vector<std::string>& prefixes);   // "all", "/arm", "/arm and 2 more"
 QString scopeWords(const std::vector<std::string>& prefixes);  // each of them
 
@@ -29,14 +34,16 @@ QString scopeWords(const std::vector<std::string>& prefixes);  // each of them
 // agent that has something there. A stop also goes to an agent that is not heard just now: again
 // until it answers, for at most ten seconds. An agent does one such command at a time, and a newer
 // one ends it: several paths of one agent take turns. A start is sent once, as nothing may start
-// long after it was asked for. What signed rights do not cover is left out, and that is said.
+// long after it was asked for. What signed rights do not cover is left out, and that is said. An
+// agent that ended as it should is not told, and nothing of it is missed.
 class Order {
 public:
     enum Kind { Stop, Start };
+    enum class Whom { All, Held };  // Held: of each agent, only what is held of it
     Order(Session& session, Kind kind) : session_{session}, kind_{kind} {}
 
-    // Of all agents but those, or of one alone.
-    void begin(std::vector<std::string> prefixes, const std::vector<std::string>& except = {},
+    // Of all agents, or of one alone.
+    void begin(std::vector<std::string> prefixes, Whom whom = Whom::All,
                const std::string& only = {});
     void forget();
     bool isActive() const { return active_; }  // until it is known what followed
@@ -58,6 +65,8 @@ private:
     using Meant = SimplexOf;
     using State = std::optional<cortex::State>;  // none: it is not known now
 
+    static bool hasMeant(const AgentFrame& agent, const std::vector<std::string>& prefixes);
+    void leaveEnded(const Frame& frame);
     void tell(const AgentFrame& agent, const std::string& prefix);
     QString scope() const;  // "all", "/arm", "all of agent robot"
     QString part() const;
@@ -89,6 +98,7 @@ private:
     std::vector<Meant> meant_;      // that are to reach Standby, or Active
     std::vector<Meant> worked_;     // of them, when it began
     QStringList refusals_;          // "robot: …"
+    QStringList over_;              // agents that have ended
     std::map<Meant, State> ended_;  // the states that its result is about
     bool incomplete_ = false;       // its result says so
 };

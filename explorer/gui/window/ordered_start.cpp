@@ -29,6 +29,14 @@ const AgentFrame* heardAgent(const Frame& frame, const std::string& name) {
     return known ? &*found : nullptr;
 }
 
+bool hasEnded(const Frame& frame, const std::string& agent) {
+    const auto isIt = [&](const AgentFrame& each) { return each.status.name == agent; };
+    const auto known = std::ranges::find_if(frame.agents, isIt);
+    if (known != frame.agents.end()) return known->status.ended;
+    return std::ranges::any_of(
+        frame.gone, [&](const GoneAgent& each) { return each.name == agent && each.ended; });
+}
+
 // Who works and has it as an output may manage it. That is not told, but its agent knows it: a
 // command of the agent for the path of this one leaves it to its manager.
 bool mayBeManaged(const AgentFrame& agent, std::uint32_t simplex) {
@@ -94,6 +102,7 @@ void OrderedStart::take(const CommandOutcome& outcome) {
 void OrderedStart::look(const Frame& frame, Member& member) {
     const AgentFrame* agent = heardAgent(frame, member.simplex.agent);
     member.unheard = agent == nullptr;
+    member.ended = member.unheard && hasEnded(frame, member.simplex.agent);
     if (member.unheard) return fail(member, tr("its agent was not heard"));
     const std::uint32_t simplex = agent->structure->find(member.simplex.path);
     if (simplex == noSimplex) return fail(member, tr("it is not there any more"));
@@ -171,22 +180,24 @@ void OrderedStart::finish() {
                            : tr("%1 of %2 Active again, %3 s").arg(followed).arg(members_.size()))
                           .arg(seconds, 0, 'f', 1)};
     text_ = (parts + failures()).join(QStringLiteral("; "));
-    text_ += ", " + shownTimeText(utcNow(), "HH:mm:ss");
+    text_ += ", " + timeAndZone(utcNow(), "HH:mm:ss");
 }
 
 QStringList OrderedStart::failures() const {
-    QStringList parts, unheard;
+    QStringList parts, unheard, ended;
     std::ptrdiff_t failed = 0;
     for (const Member& each : members_) {
         if (each.step != StartStep::Failed && each.step != StartStep::Left) continue;
         if (each.unheard)
-            unheard << QString::fromStdString(each.simplex.agent);
+            (each.ended ? ended : unheard) << QString::fromStdString(each.simplex.agent);
         else if (++failed <= mostNamed)
             parts << tr("%1 did not start: %2").arg(nameOf(each.simplex), each.why);
     }
     if (failed > mostNamed) parts << tr("%1 more did not start").arg(failed - mostNamed);
-    const bool one = failed + unheard.size() == 1;
+    const bool one = failed + unheard.size() + ended.size() == 1;
     unheard.removeDuplicates();
+    ended.removeDuplicates();
+    if (!ended.isEmpty()) parts << tr("ended: %1").arg(ended.join(", "));
     if (!unheard.isEmpty()) parts << tr("not heard: %1").arg(unheard.join(", "));
     if (const auto waits = count(StartStep::Waits); waits > 0)
         parts << (waits == 1 ? tr("%1 waits for %2") : tr("%1 wait for %2"))

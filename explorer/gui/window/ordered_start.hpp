@@ -38,6 +38,7 @@ private:
         std::uint64_t number = 0;  // of the command that is on its way; 0: none
         bool ofAgent = false;      // the command is one of its agent
         bool unheard = false;      // its agent
+        bool ended = false;        // its agent, as it should
         QElapsedTimer since{};     // it was answered, or seen to start
         QString why{};             // it did not start
     };

@@ -12,11 +12,11 @@
 #include "views/fault_history_view.hpp"
 #include "views/graph_view.hpp"
 #include "views/manual_view.hpp"
+#include "views/overview_view.hpp"
 #include "views/own_view.hpp"
-#include "widgets/text_label.hpp"
+#include "widgets/empty_page.hpp"
 
 #include <QCoreApplication>
-#include <QVBoxLayout>
 #include <array>
 #include <utility>
 
@@ -36,6 +36,22 @@ using FramePointer = std::shared_ptr<const Frame>;
 const QString ownPrefix = QStringLiteral("view:");
 
 QString titleIn(const char* text) { return QCoreApplication::translate("Pages", text); }
+
+Page overviewPage(const PageParts& parts) {
+    auto* view = new OverviewView{parts.abnormal, parts.times, parts.events.events()};
+    ManualView::helpOf(*view, titleIn("The first page"));
+    QObject::connect(view, &OverviewView::opened, view, parts.open);
+    QObject::connect(view, &OverviewView::itemOpened, view, parts.item);
+    QObject::connect(view, &OverviewView::eventsOpened, view,
+                     [open = parts.kind] { open(QStringLiteral("events")); });
+    QObject::connect(view, &OverviewView::agentOpened, view,
+                     [open = parts.kind](const std::string& name) {
+                         auto* agents = qobject_cast<AgentView*>(open(QStringLiteral("agents")));
+                         if (!name.empty()) agents->choose(name);
+                     });
+    return {QLatin1String{overviewKind}, view,
+            [view](const FramePointer& now) { view->refresh(now); }};
+}
 
 Page systemPage(const PageParts& parts) {
     auto* view = new GraphView;
@@ -102,6 +118,7 @@ struct FixedPage {
 };
 
 constexpr std::array fixedPages{
+    FixedPage{overviewKind, QT_TRANSLATE_NOOP("Pages", "Overview"), &overviewPage, true},
     FixedPage{"system", QT_TRANSLATE_NOOP("Pages", "System"), &systemPage, true},
     FixedPage{"agents", QT_TRANSLATE_NOOP("Pages", "Agents"), &agentsPage, true},
     FixedPage{"events", QT_TRANSLATE_NOOP("Pages", "Events"), &eventsPage, true},
@@ -145,20 +162,11 @@ Wanted wantedBy(BaseView& view, const Frame& now) {
 
 // A page of a layout that cannot be made here. It keeps its place, and what it had saved.
 Page missingPage(const QString& kind, const QJsonObject& saved) {
-    auto* widget = new QWidget;
-    auto* lines = new QVBoxLayout{widget};
-    auto* title = new TextLabel{TextSize::Empty};
-    auto* text = new TextLabel{TextSize::Text, false, &Tokens::ink2};
+    auto* widget = new EmptyPage;
     QString name = kind;
     if (name.startsWith(ownPrefix)) name.remove(0, ownPrefix.size());
-    title->show(titleIn("View “%1” is not installed.").arg(name));
-    text->show(titleIn("The layout keeps its place."));
-    lines->addStretch(1);
-    for (TextLabel* each : {title, text}) {
-        each->setAlignment(Qt::AlignCenter);
-        lines->addWidget(each);
-    }
-    lines->addStretch(2);
+    widget->show(titleIn("View “%1” is not installed.").arg(name),
+                 titleIn("The layout keeps its place."));
     return {kind, widget, [](const FramePointer&) {}, [saved] { return saved; }};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "model/abnormal.hpp"
 #include "model/event_filter.hpp"
 #include "model/event_past.hpp"
 #include "model/state_times.hpp"
@@ -25,7 +26,10 @@ struct PageParts {
     const StateTimes& times;
     EventFilter& events;
     EventPast& past;
+    const Abnormal& abnormal;
     std::function<void(const std::string&)> open{}, select{};  // a simplex, from within a page
+    std::function<void(const std::string&, const std::string&)> item{};  // of a simplex
+    std::function<QWidget*(const QString&)> kind{};                      // a view of this kind
     std::function<void(const std::vector<RecordedItem>&)> plot{};
     std::function<void(QMenu*, const std::vector<RecordedItem>&)> places{};  // to plot in
     std::function<void(const QString&)> compare{};           // an item of all simplexes
@@ -45,6 +49,7 @@ std::vector<PageKind> pageKinds();
 std::pair<Page, QString> makePage(const PageParts& parts, const QString& kind,
                                   const QJsonObject& saved);
 Page makeSimplexPage(const PageParts& parts, const std::string& path);
+inline constexpr const char* overviewKind = "overview";  // the first page
 // The ten seconds before a fault, as FaultHistory::saved() has it.
 inline constexpr const char* beforeKind = "before";
 std::pair<Page, QString> makeBeforePage(const PageParts& parts, const QJsonObject& saved);

@@ -27,6 +27,7 @@ Pane::Pane(const QString& name, QWidget* parent)
       content_{new QStackedWidget},
       zone_{new DropZone{tabs_}} {
     tabs_->setMovable(true);
+    tabs_->setWidest(50);
     tabs_->setAccessibleName(name);
     tabs_->setContextMenuPolicy(Qt::CustomContextMenu);
     tabs_->setSelectionBehaviorOnRemove(QTabBar::SelectPreviousTab);

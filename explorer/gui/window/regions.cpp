@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window/regions.hpp"
 
+#include "widgets/reading_order.hpp"
+
 #include <QAbstractButton>
 #include <QApplication>
 #include <QWidget>
@@ -9,58 +11,30 @@
 
 namespace cortex::gui {
 
-namespace {
-
-constexpr int oneLine = 32, sameLine = 14;  // px
-
-bool takesFocus(const QWidget& widget) {
-    return widget.isVisible() && widget.isEnabled() && (widget.focusPolicy() & Qt::TabFocus) != 0 &&
-           widget.focusProxy() == nullptr;
-}
-
-QPoint placeOf(const QWidget& widget) {
-    const QPoint at = widget.mapTo(widget.window(), QPoint{});
-    return {at.x(), at.y() + std::min(widget.height(), oneLine) / 2};
-}
-
-// Line by line, and from left to right.
-std::vector<QWidget*> readingOrder(QWidget& region) {
-    std::vector<QWidget*> all;
-    for (QWidget* each : region.findChildren<QWidget*>())
-        if (takesFocus(*each)) all.push_back(each);
-    if (takesFocus(region)) all.push_back(&region);
-    std::ranges::sort(all, {}, [](const QWidget* each) { return placeOf(*each).y(); });
-    for (auto line = all.begin(); line != all.end();) {
-        const int top = placeOf(**line).y();
-        const auto next = std::find_if(line, all.end(), [&](const QWidget* each) {
-            return placeOf(*each).y() > top + sameLine;
-        });
-        std::sort(line, next, [](const QWidget* left, const QWidget* right) {
-            return placeOf(*left).x() < placeOf(*right).x();
-        });
-        line = next;
-    }
-    return all;
-}
-
-}  // namespace
-
 void Regions::walk(bool back) const {
-    const QWidget* now = QApplication::focusWidget();
-    const auto count = static_cast<int>(regions_.size());
-    int at = back ? count : -1;
-    for (int i = 0; i < count; ++i) {
-        const QWidget* region = regions_[static_cast<std::size_t>(i)];
-        if (now != nullptr && (region == now || region->isAncestorOf(now))) at = i;
+    std::vector<QWidget*> all, stops;  // in reading order
+    for (QWidget* region : regions_) {
+        for (bool first = true; QWidget * each : readingOrder(*region)) {
+            all.push_back(each);
+            if (first || isTable(*each)) stops.push_back(each);
+            first = false;
+        }
     }
-    for (int tried = 0; tried < count; ++tried) {
-        at = (at + (back ? -1 : 1) + count) % count;
-        const auto widgets = readingOrder(*regions_[static_cast<std::size_t>(at)]);
-        if (widgets.empty()) continue;
-        widgets.front()->window()->setAttribute(Qt::WA_KeyboardFocusChange);
-        widgets.front()->setFocus(Qt::TabFocusReason);
-        return;
+    if (stops.empty()) return;
+    const auto placeIn = [&](const QWidget* widget) { return std::ranges::find(all, widget); };
+    const auto now = placeIn(QApplication::focusWidget());
+    const auto isAfter = [&](const QWidget* each) { return placeIn(each) > now; };
+    const auto isBefore = [&](const QWidget* each) { return placeIn(each) < now; };
+    QWidget* next = back ? stops.back() : stops.front();
+    if (now != all.end() && back) {
+        const auto found = std::find_if(stops.rbegin(), stops.rend(), isBefore);
+        if (found != stops.rend()) next = *found;
+    } else if (now != all.end()) {
+        const auto found = std::ranges::find_if(stops, isAfter);
+        if (found != stops.end()) next = *found;
     }
+    next->window()->setAttribute(Qt::WA_KeyboardFocusChange);
+    next->setFocus(Qt::TabFocusReason);
 }
 
 // Of `all`, in which `gone` is not.
@@ -73,7 +47,7 @@ QWidget* Regions::nearest(const std::vector<QWidget*>& all, const QWidget& gone)
     return *std::ranges::min_element(all, {}, [&](const QWidget* each) {
         return std::tuple{regionOf(*each) != regionOf(gone),
                           qobject_cast<const QAbstractButton*>(each) != nullptr,
-                          (placeOf(*each) - placeOf(gone)).manhattanLength()};
+                          (readingPlace(*each) - readingPlace(gone)).manhattanLength()};
     });
 }
 

@@ -31,6 +31,7 @@ public:
     QString leftText() const;  // what is still in Standby, until it was closed
     QString offer() const;     // "Start these 9 again"; empty where there is nothing to start
     QString whyNot() const;    // then
+    int left() const { return offer().isEmpty() ? 0 : left_; }  // that can be started
     const std::vector<SimplexOf>& stopped() const { return stopped_; }
 
 Q_SIGNALS:

@@ -3,6 +3,9 @@
 
 #include "cortex/core/path.hpp"
 
+#include "session/lease.hpp"
+#include "widgets/question.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -22,11 +25,28 @@ void StartAll::begin(const std::string& prefix, const std::string& agent) {
     Q_EMIT begun();
     forget();
     const auto frame = session_.frame();
-    const auto parts = permitted({prefix}, frame->control.rights);
-    waits_ = parts.size() == 1 ? parts.front() : prefix;
+    waits_ = permittedPart(*frame, prefix);
     agent_ = agent;
     waiting_.start();
-    if (!holds(*frame)) Q_EMIT controlWanted(waits_);
+    if (!holds(*frame, waits_)) Q_EMIT controlWanted(waits_);
+}
+
+// Taking control asks as well.
+void StartAll::ask(QWidget& window) {
+    const auto frame = session_.frame();
+    const std::string prefix = permittedPart(*frame, "/");
+    agent_.clear();
+    if (!holds(*frame, prefix)) return begin("/");
+    const QString title =
+        prefix == "/" ? tr("Start everything?") : tr("Start all of %1?").arg(scopeWord({prefix}));
+    const QString line = tr("%n simplexes are in Standby.", nullptr, inStandby(*frame, prefix));
+    if (question_) question_->close();
+    question_ = new Question{{title, {line}, tr("Start all"), tr("Cancel")}, &window};
+    connect(question_, &Question::pressed, this, [this] {
+        question_->close();
+        begin("/");
+    });
+    question_->openAmid(window);
 }
 
 void StartAll::forget() {
@@ -37,8 +57,8 @@ void StartAll::forget() {
 void StartAll::refresh(const Frame& frame, const std::vector<CommandOutcome>& outcomes) {
     order_.refresh(frame, outcomes);
     if (waits_.empty()) return;
-    if (holds(frame)) {
-        order_.begin({std::exchange(waits_, {})}, {}, agent_);
+    if (holds(frame, waits_)) {
+        order_.begin({std::exchange(waits_, {})}, Order::Whom::Held, agent_);
     } else if (waiting_.hasExpired(longestQuestion)) {
         waits_.clear();
     }
@@ -52,10 +72,20 @@ QString StartAll::text() const {
     return tr("Starting %1: needs control").arg(scope);
 }
 
-bool StartAll::holds(const Frame& frame) const {
-    if (!agent_.empty()) return frame.control.covers(agent_, waits_);
-    return std::ranges::any_of(frame.control.prefixes(),
-                               [&](const std::string& held) { return isAtOrBelow(waits_, held); });
+std::string StartAll::permittedPart(const Frame& frame, const std::string& prefix) {
+    const auto parts = permitted({prefix}, frame.control.rights);
+    return parts.size() == 1 ? parts.front() : prefix;
+}
+
+bool StartAll::holds(const Frame& frame, const std::string& prefix) const {
+    if (!agent_.empty()) return frame.control.covers(agent_, prefix);
+    const auto isHeld = [&](const std::string& held) { return isAtOrBelow(prefix, held); };
+    if (std::ranges::none_of(frame.control.prefixes(), isHeld)) return false;
+    // One that is silent is not started, and cannot be taken.
+    return std::ranges::all_of(frame.agents, [&](const AgentFrame& agent) {
+        const bool has = prefix == "/" || hasBelow(agent, prefix);
+        return !has || agent.lost() || frame.control.covers(agent.status.name, prefix);
+    });
 }
 
 }  // namespace cortex::gui

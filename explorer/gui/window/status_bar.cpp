@@ -4,6 +4,7 @@
 #include "model/agent_text.hpp"
 #include "model/value_text.hpp"
 #include "style/shapes.hpp"
+#include "widgets/link.hpp"
 #include "widgets/text_label.hpp"
 
 #include <QAbstractButton>
@@ -27,16 +28,6 @@ QString shortText(const AgentFrame& agent) {
     if (!s.standstill.empty()) return name + ' ' + QString::fromStdString(s.standstill);
     if (s.missing > 0) return StatusBar::tr("%1 incomplete: %2").arg(name, cameText(s));
     return name + ' ' + (s.overloaded ? overloadText(s) : rateText(s));
-}
-
-// Where it stands in the order of the worst first.
-int trouble(const AgentFrame& agent) {
-    const comms::AgentStatus& s = agent.status;
-    if (s.ended) return 4;
-    if (agent.lost()) return 0;
-    if (!s.standstill.empty()) return 1;
-    if (s.overloaded) return 2;
-    return s.missing > 0 ? 3 : 5;
 }
 
 }  // namespace
@@ -111,7 +102,8 @@ StatusBar::StatusBar(QWidget* parent)
           new Counter{{Shape::Lost, &Tokens::dataBg, &Tokens::dataText, &Tokens::data}}},
       domain_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
       agents_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
-      security_{new TextLabel{TextSize::Note, false, &Tokens::ink2}} {
+      security_{new TextLabel{TextSize::Note, false, &Tokens::ink2}},
+      more_{new Link{{}, TextSize::Note}} {
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
     auto* row = new QHBoxLayout{this};
     row->setContentsMargins(Look::units(3), Look::units(0.75), Look::units(3), Look::units(0.75));
@@ -123,6 +115,9 @@ StatusBar::StatusBar(QWidget* parent)
     }
     row->addWidget(domain_);
     row->addWidget(agents_);
+    row->addWidget(more_);
+    more_->setToolTip(tr("Opens the table of all agents"));
+    connect(more_, &Link::clicked, this, &StatusBar::agentsWanted);
     row->addWidget(security_);
     row->addStretch(1);
 }
@@ -132,19 +127,29 @@ void StatusBar::refresh(const Frame& frame, const Abnormal& abnormal) {
               lost = abnormal.count(Abnormal::Lost);
     counters_[Abnormal::Fault]->show(faults, tr("%n faults", nullptr, faults),
                                      tr("%n faults", nullptr, threeDigits));
-    counters_[Abnormal::Outside]->show(outside, tr("%1 outside").arg(outside),
-                                       tr("%1 outside").arg(threeDigits));
+    counters_[Abnormal::Outside]->show(outside, tr("%1 outside limits").arg(outside),
+                                       tr("%1 outside limits").arg(threeDigits));
     counters_[Abnormal::Lost]->show(lost, tr("%1 lost").arg(lost), tr("%1 lost").arg(threeDigits));
     domain_->show(tr("Domain %1").arg(frame.domain));
     security_->show(frame.security.empty() ? tr("Security: none") : tr("Security: on"));
     std::vector<const AgentFrame*> agents;
     for (const AgentFrame& each : frame.agents) agents.push_back(&each);
     std::ranges::sort(agents, {}, [](const AgentFrame* each) {
-        return std::make_pair(trouble(*each), std::string_view{each->status.name});
+        return std::make_pair(troubleRank(*each), std::string_view{each->status.name});
     });
     QStringList texts;
     for (const AgentFrame* each : agents) texts << shortText(*each);
     fit(texts);
+}
+
+// "+3", or "3 agents" where none is named and there is room. Returns the room that it needs.
+int StatusBar::showMore(int left, bool brief) {
+    const QString words = left == 0 ? QString{} : tr("%n agents", nullptr, left);
+    more_->setText(left == 0 || !brief ? words : tr("+%1").arg(left));
+    more_->setAccessibleName(words);
+    more_->setFixedHeight(counters_[Abnormal::Fault]->sizeHint().height());
+    more_->updateGeometry();
+    return left == 0 ? 0 : more_->sizeHint().width() + layout()->spacing();
 }
 
 // What has no room is left out, not cut: security first, then the agents that are well, then how
@@ -159,19 +164,20 @@ void StatusBar::fit(const QStringList& agents) {
     room -= domain + gap;
     const auto all = static_cast<int>(agents.size());
     const auto textOf = [&](int count) {
-        QStringList shown = agents.mid(0, count);
-        if (all > count) shown << QStringLiteral("+%1").arg(all - count);
-        return shown.join(QStringLiteral("   "));
+        return QStringList{agents.mid(0, count)}.join(QStringLiteral("   "));
     };
     const QFontMetrics metrics{agents_->font()};
     const auto fits = [&](int count, int left) {
-        return metrics.horizontalAdvance(textOf(count)) + 2 <= left;
+        return metrics.horizontalAdvance(textOf(count)) + 2 + showMore(all - count, count > 0) <=
+               left;
     };
     int count = std::min(all, agentsShown);
     const bool withSecurity = fits(count, room - security);
     while (!withSecurity && count > 0 && !fits(count, room)) --count;
     agents_->show(textOf(count));
-    agents_->setVisible(fits(count, room));
+    const bool seen = fits(count, room) || (count == 0 && showMore(all, true) <= room);
+    agents_->setVisible(seen && count > 0);
+    more_->setVisible(seen && count < all);
     security_->setVisible(withSecurity);
 }
 

@@ -8,6 +8,7 @@
 
 namespace cortex::gui {
 
+class Link;
 class TextLabel;
 
 // The line at the bottom of every window: how much is in Fault, beyond its limits and lost of
@@ -20,6 +21,7 @@ public:
 
 Q_SIGNALS:
     void nextWanted(Abnormal::Kind kind);  // a counter was pressed
+    void agentsWanted();                   // those that have no room were pressed
 
 protected:
     void paintEvent(QPaintEvent* event) override;
@@ -27,9 +29,11 @@ protected:
 private:
     class Counter;
     void fit(const QStringList& agents);
+    int showMore(int left, bool brief);
 
     std::array<Counter*, Abnormal::KindCount> counters_;
     TextLabel *domain_, *agents_, *security_;
+    Link* more_;
 };
 
 }  // namespace cortex::gui

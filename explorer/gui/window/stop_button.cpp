@@ -3,8 +3,8 @@
 
 #include "cortex/core/path.hpp"
 
+#include "model/holders.hpp"
 #include "model/plain_text.hpp"
-#include "session/lease.hpp"
 #include "style/look.hpp"
 
 #include <QApplication>
@@ -21,16 +21,16 @@ namespace {
 constexpr int secondPress = 3000;  // ms
 const std::string everything{"/"};
 
-// A lost one is told all the same: it may come back.
-std::vector<std::string> heldByOthers(const Frame& frame, const std::vector<std::string>& scope) {
-    std::vector<std::string> names;
-    for (const AgentFrame& agent : frame.agents) {
-        const bool theirs = std::ranges::any_of(scope, [&](const std::string& each) {
-            return !agent.lost() && hasBelow(agent, each) &&
-                   leaseOfOthers(agent, each, frame.control.self);
-        });
-        if (theirs) names.push_back(agent.status.name);
+// Where a narrower part of such an agent is held, that part is stopped, too.
+QStringList leftOut(const Frame& frame, const std::vector<std::string>& scope) {
+    QStringList names;
+    for (const std::string& each : scope) {
+        for (const QString& name : uncontrolled(frame, each)) {
+            const auto parts = overlap({each}, frame.control.prefixesOf(name.toStdString()));
+            names << (parts.empty() ? name : StopButton::tr("a part of %1").arg(name));
+        }
     }
+    names.removeDuplicates();
     return names;
 }
 
@@ -78,7 +78,7 @@ void StopButton::press() {
         return;
     }
     disarm();
-    order_.begin(wanted_, others_);
+    order_.begin(wanted_, isHeld_ ? Order::Whom::Held : Order::Whom::All);
     Q_EMIT begun();
 }
 
@@ -94,10 +94,11 @@ void StopButton::showScope() {
     const QString presses = isHeld_ ? tr("One press does it, as all of it is controlled here.")
                                     : tr("It takes a second press, as it is more than is "
                                          "controlled here.");
-    setToolTip(tipText(tr("Stop %1 (F12): shuts down every simplex there, of every agent that is "
-                          "known. %2 It is no emergency stop: the network, and the agents, must "
-                          "work.")
-                           .arg(whole, presses)));
+    setToolTip(
+        tipText(tr("Stop %1 (F12): shuts down every simplex there, of every agent that is "
+                   "known. It needs no control. %2 It is no emergency stop: the network, and "
+                   "the agents, must work.")
+                    .arg(whole, presses)));
     update();
 }
 
@@ -106,12 +107,11 @@ QString StopButton::saying(const QString& scope) const {
     return (chosen_ ? tr("Stop always %1") : tr("Stop %1")).arg(scope);
 }
 
-// " but robot": who is not told.
+// " but robot": what is not stopped.
 QString StopButton::but() const {
-    if (others_.empty()) return {};
-    const auto count = static_cast<int>(others_.size());
-    return tr(" but %1").arg(count == 1 ? QString::fromStdString(others_.front())
-                                        : tr("%n agents", nullptr, count));
+    if (others_.isEmpty()) return {};
+    const int count = others_.size();
+    return tr(" but %1").arg(count == 1 ? others_.front() : tr("%n agents", nullptr, count));
 }
 
 // All paths, and that the signed rights end there.
@@ -122,7 +122,7 @@ QString StopButton::whole() const {
 
 void StopButton::stop(const std::string& prefix, const std::string& agent) {
     disarm();
-    order_.begin({prefix}, {}, agent);
+    order_.begin({prefix}, Order::Whom::All, agent);
     Q_EMIT begun();
 }
 
@@ -140,12 +140,14 @@ void StopButton::refresh(const Frame& frame, const std::vector<CommandOutcome>& 
     std::vector<std::string> wanted = held.empty() ? std::vector{everything} : held;
     if (chosen_) wanted = {*chosen_};
     std::vector<std::string> scope = permitted(wanted, frame.control.rights);
-    const bool isHeld = std::ranges::all_of(scope, [&](const std::string& each) {
+    QStringList others = leftOut(frame, scope);
+    const bool isCovered = std::ranges::all_of(scope, [&](const std::string& each) {
         return std::ranges::any_of(held,
                                    [&](const std::string& own) { return isAtOrBelow(each, own); });
     });
-    std::vector<std::string> others;
-    if (isHeld) others = heldByOthers(frame, scope);
+    // What a person chose is stopped as a whole.
+    const bool isHeld = isCovered && (!chosen_ || others.isEmpty());
+    if (!isHeld) others.clear();
     if (scope != scope_ || isHeld != isHeld_ || others != others_ || wanted != wanted_) {
         scope_ = std::move(scope);
         wanted_ = std::move(wanted);

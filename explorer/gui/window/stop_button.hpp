@@ -13,11 +13,11 @@
 
 namespace cortex::gui {
 
-// Stops exactly what this window controls, at once, otherwise everything that is known: every agent
-// is told to shut down its simplexes there, but those of which somebody else holds a part. What
-// signed rights do not cover is left out, and that is said. What is more than it controls takes a
-// second press within three seconds, and the button names it: neither an elbow nor a hand that
-// reaches for its own part may stop a plant. F12 presses it wherever the focus is, in dialogs,
+// Stops exactly what this window controls, at once, otherwise everything that is known. At one
+// press only what is held of an agent is stopped, and agents that are not controlled are named.
+// What signed rights do not cover is left out, and that is said. What is more than it controls
+// takes a second press within three seconds, and the button names it: neither an elbow nor a hand
+// that reaches for its own part may stop a plant. F12 presses it wherever the focus is, in dialogs,
 // menus and fields too. It needs no control, asks nothing, and is no emergency stop.
 class StopButton : public QAbstractButton {
     Q_OBJECT
@@ -60,8 +60,8 @@ private:
     std::vector<std::string> scope_{"/"};   // paths, at and below which it stops
     std::vector<std::string> wanted_{"/"};  // the same, if signed rights were no matter
     std::optional<std::string> chosen_;
-    std::vector<std::string> others_;  // agents of which somebody else holds a part of it
-    bool isHeld_ = false;              // all of the scope
+    QStringList others_;   // agents that have some of it, and are not controlled
+    bool isHeld_ = false;  // one press does it
 };
 
 }  // namespace cortex::gui

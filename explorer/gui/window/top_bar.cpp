@@ -70,6 +70,8 @@ void TopBar::fit() {
     };
     const QMargins margins = row_->contentsMargins();
     const int room = width() - margins.left() - margins.right() - wide(*menu_) - wide(stop_);
+    control_.setRoom(room);
+    row_->activate();
     const int control = control_.sizeHint().width();
     const int kept = std::max(control, Look::units(narrow_ ? controlNarrow : controlUsual));
     const bool finds = kept + wide(*find_) <= room;

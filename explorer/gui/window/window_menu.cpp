@@ -5,6 +5,7 @@
 #include "model/shown_time.hpp"
 #include "session/utc_now.hpp"
 #include "window/control_bar.hpp"
+#include "window/find_actions.hpp"
 #include "window/layout_menu.hpp"
 #include "window/orders.hpp"
 #include "window/pages.hpp"
@@ -59,7 +60,10 @@ void addStarts(QMenu& menu, Orders& orders) {
         choice->setText(why.isEmpty() ? entry("Start again what Stop stopped")
                                       : entry("Start again: %1").arg(why));
     });
-    menu.addAction(entry("Start all…"), &orders, [&orders] { orders.startAll().begin("/"); });
+    QAction* all = menu.addAction(entry("Start all…"), &orders, [&orders, &menu] {
+        orders.startAll().ask(*menu.parentWidget()->window());
+    });
+    all->setProperty(onlyInMenu, true);
 }
 
 }  // namespace
@@ -76,7 +80,9 @@ QMenu* makeWindowMenu(const WindowActions& actions, QWidget* parent) {
     menu->addAction(entry("Plot what is chosen  Ctrl+G"), menu, actions.plot);
     menu->addAction(entry("Side by side  Ctrl+\\"), menu, actions.split);
     menu->addAction(entry("Open the closed tab again  Ctrl+Shift+W"), menu, actions.reopen);
-    addLayout(*menu->addMenu(entry("Layout")), actions.layout);
+    QMenu* layouts = menu->addMenu(entry("Layout"));
+    layouts->setProperty(foundToo, true);
+    addLayout(*layouts, actions.layout);
     menu->addSeparator();
     menu->addAction(entry("Next theme"), menu, actions.nextTheme);
     for (const double scale : scales) {

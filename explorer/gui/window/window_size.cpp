@@ -22,6 +22,11 @@ QJsonObject savedSize(const QWidget& window) {
             {sizeField("maximised"), window.isMaximized()}};
 }
 
+void fitToScreen(QWidget& window) {
+    const QSize most = window.screen()->availableSize();
+    window.resize(window.size().boundedTo(most).expandedTo(window.minimumSize()));
+}
+
 void restoreSize(QWidget& window, const QJsonObject& saved) {
     if (saved.isEmpty()) return;
     const QSize wanted{saved[sizeField("width")].toInt(), saved[sizeField("height")].toInt()};

@@ -37,6 +37,11 @@ Workspace::Workspace(PageParts parts, QWidget* parent)
       sides_{new QSplitter{Qt::Horizontal}},
       panes_{new Pane{tr("Views")}, new Pane{tr("Views on the right")}} {
     parts_.open = [this](const std::string& path) { open(path); };
+    parts_.item = [this](const std::string& path, const std::string& item) {
+        open(path);
+        if (auto* view = qobject_cast<BaseView*>(current())) view->enter("data", item);
+    };
+    parts_.kind = [this](const QString& kind) { return openKind(kind); };
     parts_.plot = [this](const std::vector<RecordedItem>& items) { openPlot(items); };
     parts_.places = [this](QMenu* menu, const std::vector<RecordedItem>& items) {
         addPlaces(*menu, items);
@@ -56,6 +61,7 @@ Workspace::Workspace(PageParts parts, QWidget* parent)
     rows->addWidget(sides_);
     for (std::size_t i = 0; i < panes_.size(); ++i) connectPane(i);
     clear();
+    addOverview();
     for (const char* kind : {"system", "agents", "events"}) {
         auto [page, title] = makePage(parts_, key(kind), {});
         panes_[0]->add(std::move(page), title, panes_[0]->count());
@@ -101,11 +107,22 @@ void Workspace::clear() {
     panes_[0]->add(std::move(first), tr("Simplex"), 0);
 }
 
+// Leftmost.
+void Workspace::addOverview() {
+    auto [page, title] = makePage(parts_, key(overviewKind), {});
+    panes_[0]->add(std::move(page), title, 0);
+}
+
 // Before the views that are there from the start.
 int Workspace::place(const Pane& pane) const {
     int at = pane.count();
     while (at > 0 && !pane.page(at - 1).closable && !pane.page(at - 1).stays) --at;
     return at;
+}
+
+int Workspace::placeOf(const Page& page, const Pane& pane) const {
+    if (page.closable) return place(pane);
+    return page.kind == key(overviewKind) ? 0 : pane.count();
 }
 
 // The tab that shows what is chosen: the one in front, otherwise the first; -1: all are pinned.
@@ -120,15 +137,21 @@ int Workspace::follower(const Pane& pane) const {
     return -1;
 }
 
+// A pinned tab that shows it is gone to: there are no two tabs of one simplex in a pane.
 void Workspace::open(const std::string& path) {
+    const int tab = showing(pane(), path);
+    tab >= 0 ? pane().choose(tab) : follow(path);
+    Q_EMIT chosen(path);
+}
+
+void Workspace::follow(const std::string& path) {
     if (follower(pane()) < 0) active_ = 0;
-    const int tab = follower(pane());
-    if (tab < 0) return openTab(path);
+    int tab = follower(pane());
+    if (tab < 0) tab = addSimplex(path, false);
     pane().choose(tab);
     auto* view = qobject_cast<BaseView*>(pane().page(tab).widget);
     if (view->path() != path) view->show(path);
     pane().setTitle(tab, QString::fromStdString(path));
-    Q_EMIT chosen(path);
 }
 
 bool Workspace::select(const std::string& path) {
@@ -139,11 +162,28 @@ bool Workspace::select(const std::string& path) {
 
 void Workspace::openTab(const std::string& path, bool beside) {
     if (beside) active_ = 1 - active_;
-    Page page = makeSimplexPage(parts_, path);
-    page.pinned = true;
-    const int tab = pane().add(std::move(page), QString::fromStdString(path), place(pane()));
+    int tab = showing(pane(), path);
+    if (tab < 0) tab = addSimplex(path, true);
+    if (!pane().page(tab).pinned) pane().setPinned(tab, true);
     pane().choose(tab);
     Q_EMIT chosen(path);
+}
+
+// The tab of this simplex, a pinned one rather than the one that follows; -1: there is none.
+int Workspace::showing(const Pane& pane, const std::string& path) const {
+    int found = -1;
+    for (int tab = 0; tab < pane.count(); ++tab) {
+        if (path.empty() || pathOf(pane.page(tab)) != path) continue;
+        if (pane.page(tab).pinned) return tab;
+        if (found < 0) found = tab;
+    }
+    return found;
+}
+
+int Workspace::addSimplex(const std::string& path, bool pinned) {
+    Page page = makeSimplexPage(parts_, path);
+    page.pinned = pinned;
+    return pane().add(std::move(page), QString::fromStdString(path), place(pane()));
 }
 
 QWidget* Workspace::openKind(const QString& kind) {
@@ -155,7 +195,7 @@ QWidget* Workspace::openKind(const QString& kind) {
         return current();
     }
     auto [page, title] = makePage(parts_, kind, {});
-    const int at = page.closable ? place(pane()) : pane().count();
+    const int at = placeOf(page, pane());
     pane().choose(pane().add(std::move(page), title, at));
     return current();
 }
@@ -166,6 +206,8 @@ std::vector<RecordedItem> Workspace::chosenItems() const {
 }
 
 void Workspace::openPart(const std::string& name) {
+    if (qobject_cast<BaseView*>(current()) == nullptr && follower(pane()) >= 0)
+        pane().choose(follower(pane()));
     if (auto* view = qobject_cast<BaseView*>(current())) view->openPart(name);
 }
 
@@ -181,24 +223,25 @@ void Workspace::reopenTab() {
     const Closed last = std::move(closed_.back());
     closed_.pop_back();
     active_ = last.pane;
-    addPages(pane(), {last.page});
+    const int open = isOpen(pane(), last.page);
+    if (open < 0) return addPages(pane(), {last.page}, false);
+    if (last.page[key("pinned")].toBool()) pane().setPinned(open, true);
+    pane().choose(open);
 }
 
-void Workspace::split() {
-    const int tab = pane().chosen();
-    if (tab < 0) return;
-    if (pane().page(tab).stays) {
-        openTab(pathOf(pane().page(tab)), true);
-    } else {
-        move(active_, tab);
+// Of kinds with one tab it is that one, whatever it shows.
+int Workspace::isOpen(const Pane& pane, const QJsonObject& saved) const {
+    const QString kind = saved[key("kind")].toString();
+    if (kind == key("simplex")) {
+        const QString path = saved[key("state")].toObject()[key("path")].toString();
+        return showing(pane, path.toStdString());
     }
-}
-
-void Workspace::move(std::size_t from, int tab) {
-    const QString title = panes_[from]->title(tab);
-    Page page = panes_[from]->take(tab);
-    active_ = 1 - from;
-    pane().choose(pane().add(std::move(page), title, place(pane())));
+    if (kind == key("plot")) return -1;
+    if (kind != key(beforeKind)) return pane.find(kind);
+    for (int tab = 0; tab < pane.count(); ++tab) {
+        if (savedPage(pane.page(tab)) == saved) return tab;
+    }
+    return -1;
 }
 
 void Workspace::chooseTab(int number) {
@@ -278,25 +321,29 @@ QJsonObject Workspace::saved() const {
     }
     QJsonArray sizes;
     for (const int each : sides_->sizes()) sizes.append(each);
-    return {{key("panes"), panes}, {key("sizes"), sizes}};
+    return {{key("panes"), panes}, {key("sizes"), sizes}, {key(overviewKind), true}};
 }
 
-void Workspace::addPages(Pane& pane, const QJsonArray& pages) {
+// The first simplex of all is the tab that is there already, which then stands where it stood.
+void Workspace::addPages(Pane& pane, const QJsonArray& pages, bool all) {
+    bool taken = !all || &pane != panes_[0];
     for (const QJsonValue each : pages) {
         const QJsonObject saved = each.toObject();
         auto [page, title] =
             makePage(parts_, saved[key("kind")].toString(), saved[key("state")].toObject());
         page.pinned = saved[key("pinned")].toBool();
-        const bool first = &pane == panes_[0] && pane.count() == 1 && page.kind == key("simplex") &&
-                           !page.pinned && pathOf(pane.page(0)).empty();
-        if (first) {  // it is there already
+        if (!taken && page.kind == key("simplex")) {
+            taken = true;
+            Page first = pane.take(0);
+            const int tab = pane.add(std::move(first), title, pane.count());
             const std::string path = pathOf(page);
-            pane.page(0).units.choose(page.units.now());
+            pane.page(tab).units.choose(page.units.now());
             page.widget->deleteLater();
-            if (!path.empty()) open(path);
+            if (!path.empty()) follow(path);
+            pane.setPinned(tab, page.pinned);
             continue;
         }
-        const int at = page.closable ? place(pane) : pane.count();
+        const int at = all && !page.closable ? pane.count() : placeOf(page, pane);
         const bool plot = page.kind == key("plot");
         pane.choose(pane.add(std::move(page), plot ? freeTitle(title) : title, at));
     }
@@ -322,10 +369,11 @@ void Workspace::restore(const QJsonObject& saved) {
     for (std::size_t i = 0; i < panes_.size(); ++i) {
         const QJsonObject pane = panes.at(static_cast<int>(i)).toObject();
         active_ = i;
-        addPages(*panes_[i], pane[key("tabs")].toArray());
+        addPages(*panes_[i], pane[key("tabs")].toArray(), true);
         panes_[i]->choose(
             std::clamp(pane[key("front")].toInt(), 0, std::max(panes_[i]->count() - 1, 0)));
     }
+    if (!saved.contains(key(overviewKind))) addOverview();  // an earlier build saved it
     active_ = 0;
     hideEmpty();
     QList<int> sizes;

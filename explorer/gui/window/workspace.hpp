@@ -27,7 +27,8 @@ public:
 
     void open(const std::string& path);    // where what is chosen is shown
     bool select(const std::string& path);  // whether the view in front shows it itself
-    // In a pinned tab of its own; beside: in the pane in which the user is not.
+    // In a pinned tab of its own, which there may be already; beside: in the pane in which the user
+    // is not.
     void openTab(const std::string& path, bool beside = false);
     QWidget* openKind(const QString& kind);  // in its tab; makes one if there is none
     void openPlot(const std::vector<RecordedItem>& items);  // in the last plot, or a new one
@@ -64,13 +65,19 @@ Q_SIGNALS:
 private:
     Pane& pane() const { return *panes_[active_]; }
     int place(const Pane& pane) const;  // of a new tab
+    int placeOf(const Page& page, const Pane& pane) const;
     int follower(const Pane& pane) const;
+    int showing(const Pane& pane, const std::string& path) const;
+    void follow(const std::string& path);  // in the tab that shows what is chosen
+    int addSimplex(const std::string& path, bool pinned);
+    int isOpen(const Pane& pane, const QJsonObject& saved) const;
     QString freeTitle(const QString& title) const;
     std::vector<OpenPlot> plots() const;
     void plotIn(PlotView& plot, const std::vector<RecordedItem>& items, int panel);
-    void addPages(Pane& pane, const QJsonArray& pages);
+    void addPages(Pane& pane, const QJsonArray& pages, bool all);
     void keepRecording();
     void clear();
+    void addOverview();
     void connectPane(std::size_t index);
     void hideEmpty();
     void remember(std::size_t index, int tab);

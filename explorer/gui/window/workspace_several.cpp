@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tabs of which there may be several of one kind: plots, and what was before faults.
+// Tabs of which there may be several of one kind: plots, and what was before faults. Two panes.
 #include "plots/plot_view.hpp"
 #include "views/fault_history_view.hpp"
 #include "window/workspace.hpp"
@@ -89,6 +89,23 @@ void Workspace::addPlaces(QMenu& menu, const std::vector<RecordedItem>& items) {
     fillPlotMenu(menu, plots(), [this, items](PlotView* plot, int panel) {
         plot == nullptr ? newPlot(items) : plotIn(*plot, items, panel);
     });
+}
+
+void Workspace::split() {
+    const int tab = pane().chosen();
+    if (tab < 0) return;
+    if (pane().page(tab).stays) {
+        openTab(pathOf(pane().page(tab)), true);
+    } else {
+        move(active_, tab);
+    }
+}
+
+void Workspace::move(std::size_t from, int tab) {
+    const QString title = panes_[from]->title(tab);
+    Page page = panes_[from]->take(tab);
+    active_ = 1 - from;
+    pane().choose(pane().add(std::move(page), title, place(pane())));
 }
 
 }  // namespace cortex::gui

@@ -138,9 +138,8 @@ public:
     // Once: everything has come, or PastEvents::trouble says why not. An agent has 5 s for each
     // part of it.
     bool pollPast(std::uint64_t number, PastEvents& past);
-    void abandonPast(std::uint64_t number);  // nobody will fetch the answer
-    // The same of all agents that are known, within `limit`: also of those that cannot say it.
-    std::vector<PastEvents> past(std::int64_t from, std::int64_t until, Milliseconds limit);
+    // What has come of it, the oldest first; nobody will fetch the rest.
+    PastEvents abandonPast(std::uint64_t number);
 
     std::uint64_t refused() const;  // samples that were malformed or impossible
     // What this mirror's own gate has not let in, by the reason: "datagrams: a submessage …".

@@ -116,9 +116,11 @@ struct PastEvents {
     };
 
     std::string agent;
-    std::vector<AgentEvent> events;  // as they came; the number of a value that changed is 0
-    std::vector<Since> since;        // of each kind
-    std::string trouble;             // why it is not all that the agent has; empty: it is
+    // As they came. Their number is 0 where no event was published, such as a value that changed or
+    // the end of an agent that crashed.
+    std::vector<AgentEvent> events;
+    std::vector<Since> since;  // of each kind
+    std::string trouble;       // why it is not all that the agent has; empty: it is
 };
 
 // The answer to a command, with the time that it took.

@@ -14,11 +14,12 @@
 
 namespace cortex {
 
-// An event that an agent keeps, or a value that changed its state.
+// An event that an agent keeps, or what it did not publish: a value that changed its state, or that
+// an earlier start ended in a crash.
 struct KeptEvent {
     std::uint64_t place = 0;   // in the memory, from 1; it grows with each that is kept
     std::int64_t epoch = 0;    // the start of the agent that wrote it, UTC microseconds
-    std::uint64_t number = 0;  // of the event, as others know it; 0: a value that changed
+    std::uint64_t number = 0;  // of the event, as others know it; 0: none was published
     std::int64_t cycle = 0, wallClock = 0;  // UTC ns
     Severity severity = Severity::Info;
     EventKind kind = EventKind::Message;

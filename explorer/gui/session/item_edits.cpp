@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/item_edits.hpp"
+#include "session/item_edits.hpp"
+
+#include "session/item_meaning.hpp"
 
 #include <type_traits>
 
@@ -37,23 +39,43 @@ DataItem elementItem(const DataItem& item, std::size_t element) {
     return one;
 }
 
-void ItemEdits::enter(const std::string& item, Value value) {
-    edits_[item] = {std::move(value), {}, ++count_};
+void ItemEdits::enter(const DataItem& item, Value value) {
+    edits_[item.name] = {std::move(value), item, {}, ++count_};
 }
 
-void ItemEdits::clear(std::uint64_t count) {
-    std::erase_if(edits_, [count](const auto& each) { return each.second.count <= count; });
+void ItemEdits::clear(All& edits, const Values& sent, std::uint64_t count) {
+    std::erase_if(edits, [&](const auto& each) {
+        return each.second.count <= count && sent.contains(each.first);
+    });
 }
 
-bool ItemEdits::enter(const std::string& item, std::size_t element, const Value& value) {
-    auto found = edits_.find(item);
+void ItemEdits::put(All edits) {
+    edits_ = std::move(edits);
+    for (auto& [item, edit] : edits_) edit.isFresh = false;
+}
+
+std::vector<std::string> ItemEdits::dropChanged(
+    const std::function<const DataItem*(const std::string& item)>& now) {
+    std::vector<std::string> dropped;
+    std::erase_if(edits_, [&](const auto& each) {
+        const DataItem* item = now(each.first);
+        const bool changed = item != nullptr && !meansTheSame(*item, each.second.item);
+        if (changed) dropped.push_back(each.first);
+        return changed;
+    });
+    return dropped;
+}
+
+bool ItemEdits::enter(const DataItem& item, std::size_t element, const Value& value) {
+    auto found = edits_.find(item.name);
     if (found == edits_.end()) {
-        auto now = now_(item);
+        auto now = now_(item.name);
         if (!now) return false;
-        found = edits_.emplace(item, Edit{std::move(*now), {element}}).first;
+        found = edits_.emplace(item.name, Edit{std::move(*now), item, {element}}).first;
     }
     Edit& edit = found->second;
     edit.count = ++count_;
+    edit.isFresh = true;
     setElement(edit.value, element, value);
     if (!edit.elements.empty()) edit.elements.insert(element);
     return true;
@@ -74,6 +96,14 @@ ItemEdits::Values ItemEdits::all() const {
     return all;
 }
 
+ItemEdits::Values ItemEdits::fresh(const std::string& also) const {
+    Values all;
+    for (const auto& [item, edit] : edits_) {
+        if (edit.isFresh || item == also) all[item] = merged(item, edit);
+    }
+    return all;
+}
+
 std::optional<Value> ItemEdits::of(const std::string& item) const {
     const auto found = edits_.find(item);
     if (found == edits_.end()) return std::nullopt;
@@ -86,6 +116,22 @@ std::optional<Value> ItemEdits::of(const std::string& item, std::size_t element)
     const Edit& edit = found->second;
     if (!edit.elements.empty() && !edit.elements.contains(element)) return std::nullopt;
     return elementOf(edit.value, element);
+}
+
+void KeptEdits::put(const std::string& path, ItemEdits::All edits) {
+    if (edits.empty()) return;
+    for (auto& [item, edit] : edits) byPath[path].insert_or_assign(item, std::move(edit));
+}
+
+ItemEdits::All KeptEdits::take(const std::string& path) {
+    auto found = byPath.extract(path);
+    return found.empty() ? ItemEdits::All{} : std::move(found.mapped());
+}
+
+std::size_t KeptEdits::size() const {
+    std::size_t count = 0;
+    for (const auto& [path, edits] : byPath) count += edits.size();
+    return count;
 }
 
 }  // namespace cortex::gui

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QString>
+#include <functional>
+#include <vector>
+
+class QMenu;
+
+namespace cortex::gui {
+
+// Something that Ctrl+K does.
+struct FindAction {
+    QString text, keys;
+    std::function<void()> run;
+};
+
+// A property of an action that Ctrl+K leaves out: a word that is completed must not start a plant.
+inline constexpr const char* onlyInMenu = "onlyInMenu";
+
+// A menu within one that has this property is offered, too.
+inline constexpr const char* foundToo = "foundToo";
+
+// What a menu offers now.
+std::vector<FindAction> actionsOf(QMenu& menu);
+
+}  // namespace cortex::gui
